@@ -1,0 +1,10 @@
+#include "app/options.h"
+
+namespace culet {
+
+void add_command_info(CLI::App& program, int& exit_code) {
+    (void)program;
+    (void)exit_code;
+}
+
+}  // namespace culet

@@ -1,0 +1,43 @@
+#pragma once
+// Options that mean the same for every command, and the exit codes.
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace culet {
+
+/// Exit codes that outsiders rely on.
+enum ExitCode : int {
+    exit_good = 0,
+    exit_untrusted = 1,   ///< done, but the answer should not be trusted; outputs are written
+    exit_impossible = 2,  ///< usage or input: nothing written
+    exit_internal = 3,    ///< our own fault
+    exit_interrupted = 130
+};
+
+struct CommonOptions {
+    int threads = 0;  ///< 0: all processors
+    std::uint64_t seed = 1;
+    bool quiet = false, verbose = false;
+    std::vector<std::string> set;  ///< `key.path=value`
+};
+
+/// Adds -q, -v, --threads, --seed and, for commands that read TOML, --set.
+void add_common(CLI::App& command, CommonOptions& options, bool reads_toml = false);
+
+/// Each registers one subcommand; its callback stores the exit code in `exit_code` and throws
+/// InputError, InternalError or Interrupted. Parsing, calling and writing only: no formula.
+void add_command_fit(CLI::App& program, int& exit_code);
+void add_command_render(CLI::App& program, int& exit_code);
+void add_command_compare(CLI::App& program, int& exit_code);
+void add_command_cut(CLI::App& program, int& exit_code);
+void add_command_convert(CLI::App& program, int& exit_code);
+void add_command_info(CLI::App& program, int& exit_code);
+void add_command_probe(CLI::App& program, int& exit_code);
+void add_command_run(CLI::App& program, int& exit_code);
+
+}  // namespace culet

@@ -1,0 +1,21 @@
+#pragma once
+// What a person at a terminal sees while culet works. All of it goes to stderr.
+
+#include <string>
+
+#include "stone/progress.h"
+
+namespace culet {
+
+/// Ctrl-C asks long work to stop through Progress instead of killing the program.
+void catch_interrupts();
+bool interrupted();
+
+/// A progress line for `what`: drawn only when stderr is a terminal, `quiet` is off and the work
+/// has lasted over a second. It always answers Ctrl-C, terminal or not.
+Progress progress_line(std::string what, bool quiet);
+
+/// One line for people, unless `quiet`.
+void say(const std::string& line, bool quiet);
+
+}  // namespace culet

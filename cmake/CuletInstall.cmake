@@ -1,0 +1,1 @@
+# install and find_package(culet): see below

@@ -1,0 +1,25 @@
+# culet_room(stone SOURCES a.cpp ... PUBLIC lower rooms ... PRIVATE heavy libraries ...)
+# One library a room. PUBLIC shows only lower rooms and GLM; everything heavy stays PRIVATE.
+
+add_library(culet_flags INTERFACE)
+target_compile_options(culet_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
+  # One result on every machine: no fused multiply-add that the source does not ask for.
+  -ffp-contract=off)
+if(CULET_SANITIZE)
+  target_compile_options(culet_flags INTERFACE -fsanitize=address,undefined
+    -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(culet_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
+function(culet_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(culet_${name} STATIC ${ROOM_SOURCES})
+  add_library(culet::${name} ALIAS culet_${name})
+  set_target_properties(culet_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_compile_features(culet_${name} PUBLIC cxx_std_20)
+  target_include_directories(culet_${name} PUBLIC
+    $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/culet>)
+  target_link_libraries(culet_${name} PUBLIC ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE}
+    $<BUILD_INTERFACE:culet_flags>)
+endfunction()

@@ -1,0 +1,2 @@
+#include "stone/checks.h"
+namespace culet {}

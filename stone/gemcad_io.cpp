@@ -1,0 +1,2 @@
+#include "stone/gemcad_io.h"
+namespace culet {}

@@ -1,0 +1,2 @@
+#include "stone/half_edges.h"
+namespace culet {}

@@ -1,0 +1,2 @@
+#include "stone/solid.h"
+namespace culet {}

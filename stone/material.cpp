@@ -1,0 +1,179 @@
+#include "stone/material.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace embedded {
+extern const char* const materials_json;
+}
+
+int ray_count(OpticCharacter optic) {
+    switch (optic) {
+        case OpticCharacter::isotropic:
+            return 1;
+        case OpticCharacter::uniaxial:
+            return 2;
+        case OpticCharacter::biaxial:
+            return 3;
+    }
+    return 1;
+}
+
+const char* ray_name(OpticCharacter optic, int ray) {
+    static const char* const uniaxial[] = {"o", "e"};
+    static const char* const biaxial[] = {"alpha", "beta", "gamma"};
+    switch (optic) {
+        case OpticCharacter::isotropic:
+            return "n";
+        case OpticCharacter::uniaxial:
+            return uniaxial[ray];
+        case OpticCharacter::biaxial:
+            return biaxial[ray];
+    }
+    return "n";
+}
+
+double RefractiveIndex::at(double wavelength_nm) const {
+    const double um = wavelength_nm * 1e-3;
+    const double square = um * um;
+    switch (form) {
+        case Form::constant:
+            return n;
+        case Form::cauchy:
+            return cauchy[0] + (cauchy[1] + cauchy[2] / square) / square;
+        case Form::sellmeier: {
+            double n_squared = a0 + d * square;
+            for (std::size_t i = 0; i < B.size(); ++i) n_squared += B[i] * square / (square - C[i]);
+            return std::sqrt(n_squared);
+        }
+        case Form::table:
+            return table.at(wavelength_nm);
+    }
+    return n;
+}
+
+namespace {
+
+using Json = nlohmann::json;
+
+const Json& catalogue() {
+    static const Json data = Json::parse(embedded::materials_json);
+    return data;
+}
+
+OpticCharacter optic_of(const std::string& word) {
+    if (word == "uniaxial") return OpticCharacter::uniaxial;
+    if (word == "biaxial") return OpticCharacter::biaxial;
+    return OpticCharacter::isotropic;
+}
+
+std::string text_of(const Json& object, const char* key) {
+    const auto found = object.find(key);
+    return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+RefractiveIndex index_of(const Json& ray) {
+    RefractiveIndex index;
+    if (ray.at("form") == "sellmeier") {
+        index.form = RefractiveIndex::Form::sellmeier;
+        index.a0 = ray.at("a0");
+        index.d = ray.at("d");
+        index.B = ray.at("B").get<std::vector<double>>();
+        index.C = ray.at("C").get<std::vector<double>>();
+    } else {
+        index.form = RefractiveIndex::Form::cauchy;
+        index.cauchy = {ray.at("A"), ray.at("B"), ray.at("C")};
+    }
+    return index;
+}
+
+Material pure_material(const std::string& id, const Json& entry) {
+    Material material;
+    material.id = id;
+    material.name = text_of(entry, "name");
+    material.optic = optic_of(entry.at("optic"));
+    for (int ray = 0; ray < ray_count(material.optic); ++ray) {
+        material.index[ray] = index_of(entry.at("rays").at(ray_name(material.optic, ray)));
+    }
+    if (entry.at("density_g_cm3").is_number()) material.density_g_cm3 = entry.at("density_g_cm3");
+    material.valid_from_nm = 1e3 * entry.at("valid_um").at(0).get<double>();
+    material.valid_to_nm = 1e3 * entry.at("valid_um").at(1).get<double>();
+    material.orientation = text_of(entry, "orientation");
+    material.confidence = text_of(entry, "confidence");
+    material.source = text_of(entry, "source");
+    return material;
+}
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t above = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
+            diagonal = above;
+        }
+    }
+    return row[b.size()];
+}
+
+}  // namespace
+
+std::vector<std::string> catalogue_names() {
+    std::vector<std::string> names;
+    for (const auto& [id, entry] : catalogue().at("materials").items()) names.push_back(id);
+    for (const auto& [id, entry] : catalogue().at("absorption").items()) {
+        if (std::find(names.begin(), names.end(), id) == names.end()) names.push_back(id);
+    }
+    return names;
+}
+
+Material catalogue_material(const std::string& name) {
+    const Json& materials = catalogue().at("materials");
+    const Json& absorptions = catalogue().at("absorption");
+    const auto colour = absorptions.find(name);
+    const auto plain = materials.find(name);
+    if (plain != materials.end() && colour == absorptions.end()) return pure_material(name, *plain);
+    if (colour != absorptions.end()) {
+        // A coloured variety: the host's indices and the absorption of one stone of its kind. A
+        // name that is both (emerald, peridot) means the coloured stone, which is what people own.
+        const std::string host = colour->at("material");
+        Material material = pure_material(host, materials.at(host));
+        material.id = name;
+        material.absorption_source = text_of(*colour, "source");
+        const auto nm = colour->at("wavelength_nm").get<std::vector<double>>();
+        const Json& rays = colour->at("rays");
+        for (int ray = 0; ray < ray_count(material.optic); ++ray) {
+            const auto found = rays.find(ray_name(material.optic, ray));
+            if (found == rays.end()) continue;
+            // The catalogue's unit is 1/cm.
+            material.absorption_per_mm[ray] =
+                Spectrum(nm, found->get<std::vector<double>>()).scaled(0.1);
+        }
+        return material;
+    }
+    std::multimap<std::size_t, std::string> near;
+    for (const std::string& known : catalogue_names())
+        near.emplace(edit_distance(name, known), known);
+    std::string nearest;
+    int shown = 0;
+    for (const auto& [distance, known] : near) {
+        if (shown++ == 3) break;
+        nearest += (nearest.empty() ? "" : ", ") + known;
+    }
+    throw InputError(fmt::format(
+        "no material \"{}\" in the catalogue (nearest: {}); or describe it in a [material] table",
+        name, nearest));
+}
+
+}  // namespace culet

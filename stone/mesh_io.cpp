@@ -1,0 +1,2 @@
+#include "stone/mesh_io.h"
+namespace culet {}

@@ -1,0 +1,100 @@
+#pragma once
+// The geometry of a cut stone: planar facets with names that bound a solid.
+// Frame: right-handed, z up through the table, x to azimuth 0.
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace culet {
+
+using Vec3 = glm::dvec3;
+
+/// The plane normal . x = offset; the normal has unit length and points out of the stone.
+struct Plane {
+    Vec3 normal{0, 0, 1};
+    double offset = 0;
+};
+
+/// Signed distance of a point: positive outside.
+double height_above(const Plane& plane, const Vec3& point);
+
+/// One polished face. The plane is the truth; the corners are the meets of planes, so that a
+/// corner of a design with near-miss meets may lie off the plane by as much as the meet misses.
+struct Facet {
+    std::string name;
+    Plane plane;
+    std::vector<int> corners;  ///< indices into Solid::vertices, counter-clockwise from outside
+};
+
+/// A closed polyhedron of named facets. Plain data: any function may be given a broken one, and
+/// `find_faults` (checks.h) says what is wrong with it.
+struct Solid {
+    std::vector<Vec3> vertices;
+    std::vector<Facet> facets;
+};
+
+/// Index of the facet of that name, or -1.
+int find_facet(const Solid& solid, std::string_view name);
+
+/// Largest distance from the middle of the bounding box to a vertex, twice. 0 without vertices.
+double diameter(const Solid& solid);
+
+/// Extent along a direction (need not be unit): distance between caliper jaws.
+double width_along(const Solid& solid, const Vec3& direction);
+
+/// Volume by the divergence theorem over the facets' corner fans; negative when inside-out.
+double volume(const Solid& solid);
+
+/// Middle of the solid's volume.
+Vec3 centroid(const Solid& solid);
+
+double area(const Solid& solid, const Facet& facet);
+
+/// The mean of a facet's corners.
+Vec3 corner_mean(const Solid& solid, const Facet& facet);
+
+/// Best-fitting plane through a loop of points by Newell's method (Newell 1972): the normal follows
+/// the loop counter-clockwise and the offset is that of the mean point. The normal is (0,0,0) when
+/// the loop has no area.
+Plane plane_through(std::span<const Vec3> loop);
+
+/// Largest distance of a corner from its facet's plane.
+double planarity(const Solid& solid);
+
+/// Number of edges: half the sum of the facets' corner counts (each edge has two facets).
+int edge_count(const Solid& solid);
+
+struct NamedPlane {
+    std::string name;
+    Plane plane;
+};
+
+/// What became of the planes that `intersect_half_spaces` was given.
+struct HalfSpaceSolid {
+    Solid solid;                       ///< facets in the order of the planes that have one
+    std::vector<int> repeated_planes;  ///< planes equal to an earlier one
+    std::vector<int> unused_planes;    ///< planes that touch nothing, or only a corner or an edge
+    bool bounded = true;               ///< false: the planes leave the solid open; solid is empty
+    bool empty = false;                ///< true: no point satisfies all of them; solid is empty
+};
+
+/// The convex solid normal . x <= offset of all planes. All decisions are exact for the given
+/// doubles (CGAL's exact kernel), so meets that miss by rounding come out as short edges; see
+/// `contract_near_meets`. Cost about planes x vertices exact side tests.
+HalfSpaceSolid intersect_half_spaces(std::span<const NamedPlane> planes);
+
+/// Contracts edges shorter than `tolerance` (a length), shortest first, so that meets that miss by
+/// no more become one corner. A merged corner lies at the least-squares meet of its planes, and the
+/// facets keep their planes. A facet that shrinks to nothing is left out and named in `vanished`.
+struct ContractedSolid {
+    Solid solid;
+    int contracted_edges = 0;
+    std::vector<std::string> vanished;
+};
+ContractedSolid contract_near_meets(const Solid& solid, double tolerance);
+
+}  // namespace culet

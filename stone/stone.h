@@ -1,0 +1,54 @@
+#pragma once
+// Front door of the room: what a stone is. One model, used by the fit, the renderer and the
+// comparison.
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stone/material.h"
+#include "stone/solid.h"
+#include "stone/units.h"
+
+namespace culet {
+
+/// Orientation of the crystal in the stone's frame: the unit directions along which the principal
+/// rays vibrate. Uniaxial: [0] is the optic axis and the others are any two normal to it. Biaxial:
+/// alpha, beta, gamma. Isotropic: unused.
+struct CrystalFrame {
+    std::array<Vec3, 3> axes{Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};
+};
+
+struct Stone {
+    std::string name;
+    Solid solid;                       ///< in `unit`
+    LengthUnit unit = LengthUnit::mm;  ///< of the solid and of every length about it
+    Material material;
+    CrystalFrame crystal;
+    std::string up_facet;  ///< facet whose normal is up; empty: `up` is given as a vector
+    Vec3 up{0, 0, 1};      ///< unit; inclinations are measured from it
+    bool azimuth_from_mesh =
+        false;  ///< azimuths count from the mesh's +x (else their zero is free)
+    bool convex = true;
+};
+
+/// Inclination of a facet, radians, 0 (table or culet) .. pi/2 (girdle), from an up direction.
+double inclination(const Vec3& normal, const Vec3& up);
+
+/// Azimuth of a normal about +z, radians in [0, 2 pi), counter-clockwise from +x seen from above.
+double azimuth(const Vec3& normal);
+
+/// The mesh or cut file IN FILE's format (.obj .off .ply .stl .asc .gem), without any check.
+/// Throws InputError for an unknown extension.
+struct SolidFile {
+    Solid solid;
+    std::vector<std::string> notes;
+};
+SolidFile read_solid(const std::filesystem::path& file);
+
+/// Writes by extension: .obj .off .ply .stl .asc
+void write_solid(const Solid& solid, const std::filesystem::path& file);
+
+}  // namespace culet

@@ -1,0 +1,2 @@
+#include "stone/stone_io.h"
+namespace culet {}
