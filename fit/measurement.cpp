@@ -205,6 +205,41 @@ WrittenReading reading_of_table(const std::filesystem::path& file, const toml::t
     return reading;
 }
 
+// `reading.2.sigma=0.1` and `stone.readings="other.csv"`; other keys are not ours.
+void apply_overrides(toml::table& root, const std::vector<std::string>& overrides) {
+    for (const std::string& set : overrides) {
+        const std::size_t equals = set.find('=');
+        if (equals == std::string::npos) throw InputError("--set " + set + ": expected KEY=VALUE");
+        const std::string path = set.substr(0, equals);
+        toml::table value;
+        try {
+            value = toml::parse("value = " + set.substr(equals + 1));
+        } catch (const toml::parse_error&) {
+            value.insert_or_assign("value", set.substr(equals + 1));  // a bare word is a text
+        }
+        if (path == "stone.readings") {
+            if (auto* stone = root["stone"].as_table()) {
+                stone->insert_or_assign("readings", *value.get("value"));
+            }
+        } else if (path.rfind("reading.", 0) == 0) {
+            const std::size_t dot = path.find('.', 8);
+            auto* list = root["reading"].as_array();
+            std::size_t index = 0;
+            const char* begin = path.data() + 8;
+            const char* end = path.data() + (dot == std::string::npos ? path.size() : dot);
+            const auto parsed = std::from_chars(begin, end, index);
+            auto* table = list != nullptr && parsed.ec == std::errc() && parsed.ptr == end &&
+                                  dot != std::string::npos && index < list->size()
+                              ? (*list)[index].as_table()
+                              : nullptr;
+            if (table == nullptr) {
+                throw InputError("--set " + set + ": there is no such [[reading]] (counted from 0)");
+            }
+            table->insert_or_assign(path.substr(dot + 1), *value.get("value"));
+        }
+    }
+}
+
 }  // namespace
 
 const char* name_of(ReadingKind kind) {
@@ -310,6 +345,7 @@ std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_fil
         throw InputError(stone_file, static_cast<long>(error.source().begin.line),
                          std::string(error.description()));
     }
+    apply_overrides(root, overrides);
     std::vector<WrittenReading> readings;
     if (const toml::node* node = root.get("reading")) {
         const auto* list = node->as_array();
@@ -332,13 +368,6 @@ std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_fil
     std::string csv;
     if (const toml::node* node = root["stone"]["readings"].node()) {
         csv = toml_text(stone_file, "readings", *node);
-    }
-    for (const std::string& set : overrides) {
-        if (set.rfind("stone.readings=", 0) != 0) continue;
-        csv = trimmed(set.substr(15));
-        if (csv.size() >= 2 && csv.front() == '"' && csv.back() == '"') {
-            csv = csv.substr(1, csv.size() - 2);
-        }
     }
     if (!csv.empty()) {
         for (WrittenReading& reading : read_readings_csv(stone_file.parent_path() / csv)) {
