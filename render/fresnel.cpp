@@ -15,8 +15,15 @@ FaceAmplitudes fresnel(double n1, double n2, double q1) {
     if (q2_squared > 0) {
         const double q2 = std::sqrt(q2_squared);
         const double s = q1 + q2, p = e2 * q1 + e1 * q2;
-        face.r_s = (e1 - e2) / (s * s);
-        face.r_p = (e2 - e1) * (e1 * e2 - k_squared * (e1 + e2)) / (p * p);
+        // The plain differences keep r^2 + t^2 = 1 next to the critical angle, where q2 has few
+        // digits; the rationalised ones keep the digits of a small r, next to Brewster's angle and
+        // for n1 ~ n2.
+        constexpr double k_small = 0.1;
+        const double s_difference = q1 - q2, p_difference = e2 * q1 - e1 * q2;
+        face.r_s = std::abs(s_difference) > k_small * s ? s_difference / s : (e1 - e2) / (s * s);
+        face.r_p = std::abs(p_difference) > k_small * p
+                       ? p_difference / p
+                       : (e2 - e1) * (e1 * e2 - k_squared * (e1 + e2)) / (p * p);
         const double root = 2 * std::sqrt(q1 * q2);
         face.t_s = root / s;
         face.t_p = n1 * n2 * root / p;
