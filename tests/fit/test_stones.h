@@ -1,6 +1,8 @@
 #pragma once
 // Stones for the tests of the fit, made from planes.
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -16,8 +18,7 @@ namespace culet::test {
 
 inline Vec3 direction(double inclination_deg, double azimuth_deg, bool below = false) {
     const double i = radians(inclination_deg), a = radians(azimuth_deg);
-    return {std::sin(i) * std::cos(a), std::sin(i) * std::sin(a),
-            (below ? -1 : 1) * std::cos(i)};
+    return {std::sin(i) * std::cos(a), std::sin(i) * std::sin(a), (below ? -1 : 1) * std::cos(i)};
 }
 
 inline NamedPlane through(const std::string& name, const Vec3& normal, const Vec3& point) {
@@ -67,14 +68,13 @@ inline Solid brilliant(const BrilliantSize& size = {}) {
     const double tip_r = apothem + size.star * (r * std::cos(step / 2) - apothem) * 1.05;
     for (int k = 0; k < 8; ++k) {
         const double a = k * step, between = a + step / 2;
-        c.push_back({"C" + std::to_string(k + 1),
-                     {direction(size.crown_deg, 360 * k / 8.0),
-                      std::sin(radians(size.crown_deg)) * r}});
+        c.push_back(
+            {fmt::format("C{}", k + 1),
+             {direction(size.crown_deg, 360 * k / 8.0), std::sin(radians(size.crown_deg)) * r}});
         // On bezel k: z = (r - x) tan_c with x the reach along its azimuth.
         const Vec3 tip = at(tip_r, between, (r - tip_r * std::cos(step / 2)) * tan_c);
         const Vec3 left = at(t, a, table_z), right = at(t, a + step, table_z);
-        s.push_back(through("S" + std::to_string(k + 1),
-                            glm::cross(right - left, tip - left), tip));
+        s.push_back(through(fmt::format("S{}", k + 1), glm::cross(right - left, tip - left), tip));
         if (s.back().plane.normal.z < 0) {
             s.back().plane.normal = -s.back().plane.normal;
             s.back().plane.offset = -s.back().plane.offset;
@@ -92,9 +92,9 @@ inline Solid brilliant(const BrilliantSize& size = {}) {
         const Vec3 inside{0, 0, -0.1 * r};
         const auto half = [&](const char* name, int number, const Vec3& a1, const Vec3& a2,
                               const Vec3& a3) {
-            return facing_out(through(name + std::to_string(number),
-                                      glm::cross(a2 - a1, a3 - a1), a1),
-                              inside);
+            return facing_out(
+                through(fmt::format("{}{}", name, number), glm::cross(a2 - a1, a3 - a1), a1),
+                inside);
         };
         u.push_back(half("U", 2 * k + 1, girdle_left, girdle_middle, tip));
         u.push_back(half("U", 2 * k + 2, girdle_middle, girdle_right, tip));
@@ -102,17 +102,15 @@ inline Solid brilliant(const BrilliantSize& size = {}) {
             const Vec3 from = h == 0 ? girdle_left : girdle_middle,
                        to = h == 0 ? girdle_middle : girdle_right;
             const Vec3 middle = 0.5 * (from + to);
-            g.push_back(through("G" + std::to_string(2 * k + 1 + h),
-                                Vec3{middle.x, middle.y, 0}, middle));
+            g.push_back(
+                through(fmt::format("G{}", 2 * k + 1 + h), Vec3{middle.x, middle.y, 0}, middle));
         }
         // Pavilion mains at the bezels' azimuths, lower halves up to a point on the mains' edge.
-        p.push_back({"P" + std::to_string(k + 1),
+        p.push_back({fmt::format("P{}", k + 1),
                      {direction(size.pavilion_deg, 360 * k / 8.0, true),
-                      glm::dot(direction(size.pavilion_deg, 360 * k / 8.0, true),
-                               at(r, a, low))}});
+                      glm::dot(direction(size.pavilion_deg, 360 * k / 8.0, true), at(r, a, low))}});
         const double tip_p = (1 - size.lower) * r;
-        const Vec3 lower_tip =
-            at(tip_p, between, low - (r - tip_p * std::cos(step / 2)) * tan_p);
+        const Vec3 lower_tip = at(tip_p, between, low - (r - tip_p * std::cos(step / 2)) * tan_p);
         const Vec3 down{0, 0, low};
         l.push_back(half("L", 2 * k + 1, girdle_left + down, girdle_middle + down, lower_tip));
         l.push_back(half("L", 2 * k + 2, girdle_middle + down, girdle_right + down, lower_tip));
@@ -147,7 +145,7 @@ inline Solid shaken(Solid solid, double sigma, unsigned seed) {
 inline Reading reading(ReadingKind kind, std::vector<int> facets, double value, double sigma) {
     Reading r;
     r.id = std::string(name_of(kind));
-    for (int f : facets) r.id += "." + std::to_string(f);
+    for (int f : facets) r.id += fmt::format(".{}", f);
     r.kind = kind;
     r.facets = std::move(facets);
     r.value = value;
@@ -162,8 +160,8 @@ inline std::vector<Reading> all_angles(const Solid& solid, double sigma, const s
         if (solid.facets[f].name == up) continue;
         const Vec3& n = solid.facets[f].plane.normal;
         const int facet = static_cast<int>(f);
-        readings.push_back(reading(ReadingKind::inclination, {facet},
-                                   inclination(n, Vec3{0, 0, 1}), sigma));
+        readings.push_back(
+            reading(ReadingKind::inclination, {facet}, inclination(n, Vec3{0, 0, 1}), sigma));
         if (std::hypot(n.x, n.y) > 1e-6) {
             readings.push_back(reading(ReadingKind::azimuth, {facet}, azimuth(n), sigma));
         }
@@ -174,7 +172,7 @@ inline std::vector<Reading> all_angles(const Solid& solid, double sigma, const s
 inline Reading width(const Solid& solid, double azimuth_deg, double sigma) {
     Reading r = reading(ReadingKind::width, {}, 0, sigma);
     r.azimuth = radians(azimuth_deg);
-    r.id += "@" + std::to_string(azimuth_deg);
+    r.id += fmt::format("@{}", azimuth_deg);
     r.value = width_along(solid, direction(90, azimuth_deg));
     return r;
 }
@@ -187,9 +185,9 @@ inline Reading depth(const Solid& solid, double sigma) {
 inline std::vector<Reading> all_edges(const Solid& solid, double sigma) {
     std::vector<Reading> readings;
     for (const Edge& e : half_edges(solid).edges) {
-        readings.push_back(
-            reading(ReadingKind::edge, {e.left, e.right},
-                    glm::length(solid.vertices[e.from] - solid.vertices[e.to]), sigma));
+        readings.push_back(reading(ReadingKind::edge, {e.left, e.right},
+                                   glm::length(solid.vertices[e.from] - solid.vertices[e.to]),
+                                   sigma));
     }
     return readings;
 }
