@@ -46,6 +46,7 @@ inline Solid cube() {
 struct BrilliantSize {
     double radius = 3, table = 0.57, crown_deg = 34.5, pavilion_deg = 40.8, star = 0.5,
            lower = 0.77, girdle = 0.1;
+    int girdle_facets = 16;  ///< a multiple of 16, so that the girdle's corners stand at the tips
 };
 
 inline Solid brilliant(const BrilliantSize& size = {}) {
@@ -98,13 +99,6 @@ inline Solid brilliant(const BrilliantSize& size = {}) {
         };
         u.push_back(half("U", 2 * k + 1, girdle_left, girdle_middle, tip));
         u.push_back(half("U", 2 * k + 2, girdle_middle, girdle_right, tip));
-        for (int h = 0; h < 2; ++h) {
-            const Vec3 from = h == 0 ? girdle_left : girdle_middle,
-                       to = h == 0 ? girdle_middle : girdle_right;
-            const Vec3 middle = 0.5 * (from + to);
-            g.push_back(
-                through(fmt::format("G{}", 2 * k + 1 + h), Vec3{middle.x, middle.y, 0}, middle));
-        }
         // Pavilion mains at the bezels' azimuths, lower halves up to a point on the mains' edge.
         p.push_back({fmt::format("P{}", k + 1),
                      {direction(size.pavilion_deg, 360 * k / 8.0, true),
@@ -114,6 +108,11 @@ inline Solid brilliant(const BrilliantSize& size = {}) {
         const Vec3 down{0, 0, low};
         l.push_back(half("L", 2 * k + 1, girdle_left + down, girdle_middle + down, lower_tip));
         l.push_back(half("L", 2 * k + 2, girdle_middle + down, girdle_right + down, lower_tip));
+    }
+    for (int k = 0; k < size.girdle_facets; ++k) {
+        const double width = 2 * pi / size.girdle_facets, a = (k + 0.5) * width;
+        g.push_back(
+            {fmt::format("G{}", k + 1), {direction(90, degrees(a)), r * std::cos(0.5 * width)}});
     }
     for (const auto* tier : {&s, &c, &u, &g, &l, &p}) {
         planes.insert(planes.end(), tier->begin(), tier->end());
