@@ -170,6 +170,8 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     diagnosis.chi2 = linear.chi2();
     diagnosis.readings.resize(system.readings().size());
     diagnosis.facets.resize(shape.normals.size());
+    diagnosis.group_squares.assign(system.group_sigmas().size(), 0);
+    diagnosis.group_redundancy.assign(system.group_sigmas().size(), 0);
     if (layout.size() > k_most_dense) return diagnosis;
     const Modes modes = modes_of(linear);
 
@@ -189,10 +191,10 @@ Diagnosis diagnose(const System& system, const Shape& shape,
         redundancy[i] = std::max(0.0, 1 - seen.row(Eigen::Index(i)).squaredNorm());
         diagnosis.dof += redundancy[i];
         const Equation& e = linear.soft[std::size_t(counted[i])];
-        if (e.incidence >= 0 && system.incidences()[std::size_t(e.incidence)].sigma == 0) {
+        if (e.group >= 0) {
             const double miss = linear.soft_residuals(counted[i]) * e.sigma;
-            diagnosis.common_meet_squares += miss * miss;
-            diagnosis.common_meet_redundancy += redundancy[i];
+            diagnosis.group_squares[std::size_t(e.group)] += miss * miss;
+            diagnosis.group_redundancy[std::size_t(e.group)] += redundancy[i];
         }
     }
     if (!options.full) return diagnosis;

@@ -31,8 +31,9 @@ struct Diagnosis {
     double suspect_limit = 0;
     std::vector<Undetermined> undetermined;
     int undetermined_freedoms = 0;
-    /// Of soft meets with the common sigma: sum of squared misses (half diameters) and redundancy.
-    double common_meet_squares = 0, common_meet_redundancy = 0;
+    /// Of each group of estimated uncertainty (`System::group_sigmas`): sum of squared residuals
+    /// and redundancy.
+    std::vector<double> group_squares, group_redundancy;
 };
 
 struct DiagnosisOptions {

@@ -90,7 +90,11 @@ std::vector<Equation> System::equations(const Shape& shape,
         e.exact = incidence.how == MeetTreatment::exact;
         e.sigma = incidence.how == MeetTreatment::released ? k_released_sigma
                   : incidence.sigma > 0                    ? incidence.sigma
-                                                           : common_meet_sigma_;
+                                                           : group_sigmas_[0];
+        if (e.role == Equation::Role::incidence && !e.exact && incidence.sigma == 0 &&
+            estimates_meets_) {
+            e.group = 0;
+        }
         e.formula = height(incidence.facet, Corner{incidence.point, {-1, -1, -1}});
         all.push_back(std::move(e));
     }
@@ -274,10 +278,26 @@ std::vector<Equation> System::equations(const Shape& shape,
             case ReadingKind::rotation:
             case ReadingKind::mirror: {
                 base.role = Equation::Role::relation;
+                if (!reading.exact && reading.sigma == 0) {
+                    base.group = 1 + static_cast<int>(r);
+                    base.sigma = group_sigmas_[1 + r];
+                }
                 const double angle = reading.order > 0 ? radians(360.0 / reading.order) : 0;
                 const int extra = first_extra_[r];
                 const MirrorPlane plane{reading.has_direction ? -1 : extra + 1, extra,
                                         reading.azimuth};
+                for (const auto& [p, q] : point_pairs_[r]) {
+                    for (int k = 0; k < 3; ++k) {
+                        // A meet on the axis or in the mirror plane is its own partner.
+                        if (p == q && (k == 2 || reading.kind == ReadingKind::mirror)) continue;
+                        Vec3 axis(0);
+                        axis[k] = 1;
+                        put(reading.kind == ReadingKind::rotation
+                                ? turned_point(p, q, angle, extra, axis)
+                                : mirrored_point(p, q, plane, axis),
+                            0);
+                    }
+                }
                 for (const auto& [f, g] : pairs_[r]) {
                     if (reading.kind == ReadingKind::mirror && f == g) {
                         if (f != up_facet_) put(across_mirror(f, plane), 0);

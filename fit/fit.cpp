@@ -64,23 +64,27 @@ Candidate from_start(const System& system, const GradedStart& start, const FitOp
     return candidate;
 }
 
-// Foerstner (1979): the uncertainty that soft meets show among themselves, until it agrees with
-// the one they were weighted by.
-void estimate_meet_sigma(System& system, Finished& finished, const FitOptions& options,
-                         const Progress& progress) {
+// Foerstner (1979): each group's uncertainty is the one that its residuals show, sum of squares /
+// redundancy, repeated until it agrees with the one they were weighted by.
+void estimate_sigmas(System& system, Finished& finished, const FitOptions& options,
+                     const Progress& progress) {
     for (int round = 0; round < 30; ++round) {
         if (progress && !progress(0.7 + 0.008 * round)) throw Interrupted();
         const Diagnosis d = diagnose(system, finished.shape, finished.outline, {.full = false});
-        if (!(d.common_meet_redundancy > 0.5)) return;
-        const double before = system.common_meet_sigma();
-        // Rounding is the least that any meet can miss by.
-        const double after =
-            std::max(1e-9, std::sqrt(d.common_meet_squares / d.common_meet_redundancy));
-        system.set_common_meet_sigma(after);
+        double change = 0;
+        for (std::size_t g = 0; g < d.group_squares.size(); ++g) {
+            if (!(d.group_redundancy[g] > 0.5)) continue;
+            const double before = system.group_sigmas()[g];
+            // Rounding is the least that anything can miss by.
+            const double after =
+                std::max(1e-9, std::sqrt(d.group_squares[g] / d.group_redundancy[g]));
+            system.set_group_sigma(static_cast<int>(g), after);
+            change = std::max(change, std::abs(std::log(after / before)));
+        }
         const int steps = finished.iterations;
         finished = finish(system, finished.shape, options.iterations);
         finished.iterations += steps;
-        if (std::abs(after - before) < 1e-3 * before) return;
+        if (change < 1e-3) return;
     }
 }
 
@@ -222,7 +226,7 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     Candidate best = from_start(system, {system.mesh_shape(), false}, options, progress);
     const auto passes = [&](const Candidate& c) {
         if (!c.sound || !c.finished.converged) return false;
-        if (system.has_common_meets() && !options.meet_sigma) return true;
+        if (system.has_estimated_groups()) return true;
         const Diagnosis d = diagnose(system, c.finished.shape, c.finished.outline, {.full = false});
         return chi2_tail(d.chi2, d.dof) > options.significance;
     };
@@ -235,8 +239,8 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
         if (rank(other) < rank(best)) best = std::move(other);
     }
     if (progress && !progress(0.7)) throw Interrupted();
-    if (system.has_common_meets() && !options.meet_sigma) {
-        estimate_meet_sigma(system, best.finished, options, progress);
+    if (system.has_estimated_groups()) {
+        estimate_sigmas(system, best.finished, options, progress);
     }
     if (progress && !progress(0.95)) throw Interrupted();
 
@@ -287,6 +291,12 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
         fitted.of = reading.of;
         fitted.value = reading.value;
         fitted.sigma = reading.sigma;
+        if (is_relation(reading.kind) && reading.sigma == 0 && !reading.exact) {
+            fitted.sigma = reading.released ? 0
+                           : reading.kind == ReadingKind::meet
+                               ? system.group_sigmas()[0] * system.scale()
+                               : system.group_sigmas()[1 + r];
+        }
         fitted.fitted = reading.value + c.residual;
         fitted.residual = c.residual;
         fitted.normalized = c.normalized;

@@ -233,7 +233,8 @@ void apply_overrides(toml::table& root, const std::vector<std::string>& override
                               ? (*list)[index].as_table()
                               : nullptr;
             if (table == nullptr) {
-                throw InputError("--set " + set + ": there is no such [[reading]] (counted from 0)");
+                throw InputError("--set " + set +
+                                 ": there is no such [[reading]] (counted from 0)");
             }
             table->insert_or_assign(path.substr(dot + 1), *value.get("value"));
         }

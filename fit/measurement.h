@@ -91,7 +91,9 @@ struct Reading {
     int order = 0;       ///< rotation
     Datum datum;
     double value = 0;  ///< radians, length, mm3 or carat; 0 for relations
-    double sigma = 0;  ///< in the same unit; relations: length (meet, coplanar) or radians
+    /// In the same unit; relations: length (meet, coplanar) or radians. 0 of a meet, rotation or
+    /// mirror that is neither exact nor released: estimated from the data.
+    double sigma = 0;
     bool exact = false, released = false;
     std::string note;
     std::filesystem::path file;

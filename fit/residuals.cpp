@@ -407,6 +407,39 @@ Formula across_mirror(int f, const MirrorPlane& plane) {
     };
 }
 
+Formula turned_point(int p, int q, double angle, int centre, const Vec3& direction) {
+    return [=](const Shape& shape) {
+        const Vec3 c{shape.extras[centre], shape.extras[centre + 1], 0};
+        Quantity quantity{
+            glm::dot(direction, turned(shape.points[p] - c, angle) + c - shape.points[q]), {}};
+        const Vec3 back = turned(direction, -angle);
+        quantity.add(By::point, p, back);
+        quantity.add(By::point, q, -direction);
+        quantity.add(By::extra, centre, direction.x - back.x);
+        quantity.add(By::extra, centre + 1, direction.y - back.y);
+        return quantity;
+    };
+}
+
+Formula mirrored_point(int p, int q, const MirrorPlane& plane, const Vec3& direction) {
+    return [=](const Shape& shape) {
+        const double a = mirror_azimuth(shape, plane), e = shape.extras[plane.offset];
+        const Vec3 m{std::cos(a), std::sin(a), 0}, dm{-std::sin(a), std::cos(a), 0};
+        const Vec3& x = shape.points[p];
+        const double above = glm::dot(m, x) - e;
+        Quantity quantity{glm::dot(direction, x - 2 * above * m - shape.points[q]), {}};
+        quantity.add(By::point, p, direction - 2 * glm::dot(m, direction) * m);
+        quantity.add(By::point, q, -direction);
+        quantity.add(By::extra, plane.offset, 2 * glm::dot(m, direction));
+        if (plane.azimuth >= 0) {
+            quantity.add(
+                By::extra, plane.azimuth,
+                -2 * (glm::dot(dm, x) * glm::dot(m, direction) + above * glm::dot(dm, direction)));
+        }
+        return quantity;
+    };
+}
+
 Formula normal_difference(int f, int g, double sign, const Vec3& direction) {
     return [=](const Shape& shape) {
         Quantity q{glm::dot(direction, shape.normals[f] - sign * shape.normals[g]), {}};

@@ -98,6 +98,11 @@ Formula mirrored_normal(int f, int g, const MirrorPlane& plane, const Vec3& dire
 Formula mirrored_offset(int f, int g, const MirrorPlane& plane);
 /// m . normal: zero for a facet that is its own mirror image.
 Formula across_mirror(int f, const MirrorPlane& plane);
+/// A constant unit direction . (point p turned by `angle` about the axis at extras (c, c + 1), less
+/// point q).
+Formula turned_point(int p, int q, double angle, int centre, const Vec3& direction);
+/// A constant unit direction . (mirrored point p, less point q).
+Formula mirrored_point(int p, int q, const MirrorPlane& plane, const Vec3& direction);
 /// direction . (normal f - sign * normal g)
 Formula normal_difference(int f, int g, double sign, const Vec3& direction);
 /// offset f - sign * offset g

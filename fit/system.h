@@ -25,6 +25,7 @@ struct Equation {
     Role role = Role::reading;
     int reading = -1;  ///< index, or -1
     int incidence = -1;
+    int group = -1;  ///< of estimated uncertainty, or -1
     bool exact = false;
     double value = 0, sigma = 1;
     double size = 1;  ///< of the quantity, by which early stages soften it
@@ -62,8 +63,12 @@ public:
     bool splits() const { return splits_; }
     bool has_common_meets() const;
 
-    double common_meet_sigma() const { return common_meet_sigma_; }
-    void set_common_meet_sigma(double sigma) { common_meet_sigma_ = sigma; }
+    /// Groups of equations whose common uncertainty is not given but estimated: group 0 is the
+    /// meets, group 1 + r the relation of reading r.
+    const std::vector<double>& group_sigmas() const { return group_sigmas_; }
+    void set_group_sigma(int group, double sigma) { group_sigmas_[std::size_t(group)] = sigma; }
+    bool has_estimated_groups() const;
+    double common_meet_sigma() const { return group_sigmas_[0]; }
 
     /// All equations but prior and hinges, for the corners that carry them at this shape.
     std::vector<Equation> equations(const Shape& shape,
@@ -121,10 +126,12 @@ private:
     std::shared_ptr<const Outline> mesh_outline_;
     std::vector<Incidence> incidences_;
     std::vector<int> first_extra_;
-    std::vector<std::vector<std::pair<int, int>>> pairs_;  // of symmetry readings
+    std::vector<std::vector<std::pair<int, int>>> pairs_;        // facets, of symmetry readings
+    std::vector<std::vector<std::pair<int, int>>> point_pairs_;  // meets, of soft ones
     int up_facet_ = -1;
     bool splits_ = false;
-    double common_meet_sigma_ = 0;
+    std::vector<double> group_sigmas_;
+    bool estimates_meets_ = false;
     double scale_ = 1;
     double mesh_scale_ = 1;  // the mesh was made this much larger to suit the lengths
     double turn_ = 0;        // about up, from the mesh to the inside

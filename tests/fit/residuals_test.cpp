@@ -127,6 +127,8 @@ TEST(Residuals, SlopesMatchDifferences) {
     expect_slopes(mirrored_offset(c1, f("C2"), free), "mirrored offset");
     expect_slopes(mirrored_offset(c1, f("C2"), fixed), "mirrored offset, fixed plane");
     expect_slopes(across_mirror(c1, free), "across the mirror");
+    expect_slopes(turned_point(3, 12, 0.7, 0, Vec3{0.6, 0.8, 0}), "turned corner");
+    expect_slopes(mirrored_point(3, 12, free, Vec3{0.6, 0, 0.8}), "mirrored corner");
     expect_slopes(normal_difference(c1, f("P5"), -1, Vec3{0.6, 0.8, 0}), "parallel");
     expect_slopes(offset_difference(c1, f("P5"), -1), "coplanar");
     expect_slopes(point_component(3, Vec3{0, 1, 0}, 0.2), "prior");
