@@ -15,8 +15,6 @@ namespace {
 constexpr double k_released_sigma = 0.2;
 // A hand-made mesh is off by as much as 20 % of its width.
 constexpr double k_mesh_sigma = 0.4;
-// Normals within this of the horizontal are girdle facets.
-constexpr double k_girdle_inclination = 80;
 
 std::vector<Corner> corners_of(const Outline& outline, int facet) {
     std::vector<Corner> corners;
@@ -90,10 +88,10 @@ std::vector<Equation> System::equations(const Shape& shape,
         e.exact = incidence.how == MeetTreatment::exact;
         e.sigma = incidence.how == MeetTreatment::released ? k_released_sigma
                   : incidence.sigma > 0                    ? incidence.sigma
-                                                           : group_sigmas_[0];
+                                        : group_sigmas_[is_girdle(incidence.facet)];
         if (e.role == Equation::Role::incidence && !e.exact && incidence.sigma == 0 &&
             estimates_meets_) {
-            e.group = 0;
+            e.group = is_girdle(incidence.facet);
         }
         e.formula = height(incidence.facet, Corner{incidence.point, {-1, -1, -1}});
         all.push_back(std::move(e));
@@ -113,8 +111,7 @@ std::vector<Equation> System::equations(const Shape& shape,
     {
         std::vector<bool> girdle_point(solid_.vertices.size(), false);
         for (std::size_t f = 0; f < solid_.facets.size(); ++f) {
-            const Vec3& n = solid_.facets[f].plane.normal;
-            if (std::abs(n.z) < std::cos(radians(k_girdle_inclination))) {
+            if (is_girdle(static_cast<int>(f))) {
                 girdle.push_back(static_cast<int>(f));
                 for (int corner : solid_.facets[f].corners) girdle_point[corner] = true;
             }
@@ -279,8 +276,8 @@ std::vector<Equation> System::equations(const Shape& shape,
             case ReadingKind::mirror: {
                 base.role = Equation::Role::relation;
                 if (!reading.exact && reading.sigma == 0) {
-                    base.group = 1 + static_cast<int>(r);
-                    base.sigma = group_sigmas_[1 + r];
+                    base.group = 2 + static_cast<int>(r);
+                    base.sigma = group_sigmas_[2 + r];
                 }
                 const double angle = reading.order > 0 ? radians(360.0 / reading.order) : 0;
                 const int extra = first_extra_[r];

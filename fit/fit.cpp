@@ -108,7 +108,8 @@ void describe_meets(const System& system, const Shape& shape, FitResult& result)
     }
     if (count > 0) result.meets.miss_rms = std::sqrt(squares / count);
     if (system.has_common_meets()) {
-        result.meets.sigma = system.common_meet_sigma() * system.scale();
+        result.meets.sigma = system.group_sigmas()[0] * system.scale();
+        result.meets.girdle_sigma = system.group_sigmas()[1] * system.scale();
         result.meets.estimated = !result.options.meet_sigma;
     }
 }
@@ -295,7 +296,7 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
             fitted.sigma = reading.released ? 0
                            : reading.kind == ReadingKind::meet
                                ? system.group_sigmas()[0] * system.scale()
-                               : system.group_sigmas()[1 + r];
+                               : system.group_sigmas()[2 + r];
         }
         fitted.fitted = reading.value + c.residual;
         fitted.residual = c.residual;

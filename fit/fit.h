@@ -78,6 +78,7 @@ struct Undetermined {
 struct MeetReport {
     int exact = 0, soft = 0, released = 0;
     double sigma = 0;                   ///< of soft meets
+    double girdle_sigma = 0;            ///< of girdle facets in soft meets
     bool estimated = false;             ///< sigma comes from the data
     double miss_rms = 0, miss_max = 0;  ///< distance of planes from their meets
 };

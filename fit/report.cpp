@@ -90,6 +90,7 @@ std::string fit_report(const FitResult& result) {
                        {"soft", result.meets.soft},
                        {"released", result.meets.released},
                        {"sigma", result.meets.sigma},
+                       {"girdle_sigma", result.meets.girdle_sigma},
                        {"sigma_estimated", result.meets.estimated},
                        {"miss_rms", result.meets.miss_rms},
                        {"miss_max", result.meets.miss_max}};

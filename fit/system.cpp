@@ -39,6 +39,8 @@ Vec3 about_z(const Vec3& v, double angle) {
 
 // A stone is drawn standing on an axis of its file; within this of one, the tilt is a slip of hand.
 constexpr double k_snap = 20;
+// Facets within this of upright are the girdle's; no crown or pavilion facet comes near.
+constexpr double k_girdle_tilt = 10;
 
 }  // namespace
 
@@ -141,8 +143,8 @@ void System::bring_upright() {
 void System::list_incidences(const FitOptions& options) {
     // Where an estimate starts is of no matter for where it ends: a hundredth of the half diameter
     // for misses of meets, a degree for symmetry.
-    group_sigmas_.assign(1 + readings_.size(), radians(1));
-    group_sigmas_[0] = options.meet_sigma ? *options.meet_sigma / scale_ : 0.01;
+    group_sigmas_.assign(2 + readings_.size(), radians(1));
+    group_sigmas_[0] = group_sigmas_[1] = options.meet_sigma ? *options.meet_sigma / scale_ : 0.01;
     estimates_meets_ = !options.meet_sigma;
     for (std::size_t v = 0; v < edges_.facets_of_vertex.size(); ++v) {
         const std::vector<int>& facets = edges_.facets_of_vertex[v];
@@ -387,6 +389,10 @@ void System::pair_facets() {
             }
         }
     }
+}
+
+bool System::is_girdle(int facet) const {
+    return std::abs(solid_.facets[facet].plane.normal.z) < std::sin(radians(k_girdle_tilt));
 }
 
 double System::unit_of(const Reading& reading) const {

@@ -63,12 +63,12 @@ public:
     bool splits() const { return splits_; }
     bool has_common_meets() const;
 
-    /// Groups of equations whose common uncertainty is not given but estimated: group 0 is the
-    /// meets, group 1 + r the relation of reading r.
+    /// Groups of equations whose common uncertainty is not given but estimated: group 0 is how
+    /// polished facets miss their meets, group 1 how girdle facets do (the girdle is shaped before
+    /// the facets and by other means), group 2 + r the relation of reading r.
     const std::vector<double>& group_sigmas() const { return group_sigmas_; }
     void set_group_sigma(int group, double sigma) { group_sigmas_[std::size_t(group)] = sigma; }
     bool has_estimated_groups() const;
-    double common_meet_sigma() const { return group_sigmas_[0]; }
 
     /// All equations but prior and hinges, for the corners that carry them at this shape.
     std::vector<Equation> equations(const Shape& shape,
@@ -91,6 +91,8 @@ public:
 
     /// Length of the stone's unit that is 1 inside.
     double scale() const { return scale_; }
+    /// Within 10 degrees of upright in the mesh.
+    bool is_girdle(int facet) const;
     /// What a quantity of a reading is multiplied by to be in the reading's unit.
     double unit_of(const Reading& reading) const;
     /// Turns inside positions back into the stone's unit and the mesh's pose; the rest of the
