@@ -151,12 +151,6 @@ private:
             fmt::format("unknown kind of reading '{}'; known are {}", written_->kind, known));
     }
 
-    // Relations that leave their uncertainty to the data.
-    static bool may_be_estimated(ReadingKind kind) {
-        return kind == ReadingKind::meet || kind == ReadingKind::rotation ||
-               kind == ReadingKind::mirror;
-    }
-
     void set_value(Reading& reading) const {
         const WrittenReading& w = *written_;
         if (w.released && reading.kind != ReadingKind::meet) fail("only a meet can be released");
@@ -177,7 +171,7 @@ private:
                                 *w.sigma));
             }
             reading.sigma = *w.sigma;
-        } else if (!w.exact && !w.released && !may_be_estimated(reading.kind)) {
+        } else if (!w.exact && !w.released && reading.kind != ReadingKind::meet) {
             fail("sigma is missing (one standard uncertainty), or give exact = true");
         }
         if (w.exact && w.released) fail("cannot be exact and released");

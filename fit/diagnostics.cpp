@@ -170,8 +170,6 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     diagnosis.chi2 = linear.chi2();
     diagnosis.readings.resize(system.readings().size());
     diagnosis.facets.resize(shape.normals.size());
-    diagnosis.group_squares.assign(system.group_sigmas().size(), 0);
-    diagnosis.group_redundancy.assign(system.group_sigmas().size(), 0);
     if (layout.size() > k_most_dense) return diagnosis;
     const Modes modes = modes_of(linear);
 

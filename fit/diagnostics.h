@@ -33,7 +33,7 @@ struct Diagnosis {
     int undetermined_freedoms = 0;
     /// Of each group of estimated uncertainty (`System::group_sigmas`): sum of squared residuals
     /// and redundancy.
-    std::vector<double> group_squares, group_redundancy;
+    std::array<double, 2> group_squares{}, group_redundancy{};
 };
 
 struct DiagnosisOptions {

@@ -275,26 +275,10 @@ std::vector<Equation> System::equations(const Shape& shape,
             case ReadingKind::rotation:
             case ReadingKind::mirror: {
                 base.role = Equation::Role::relation;
-                if (!reading.exact && reading.sigma == 0) {
-                    base.group = 2 + static_cast<int>(r);
-                    base.sigma = group_sigmas_[2 + r];
-                }
                 const double angle = reading.order > 0 ? radians(360.0 / reading.order) : 0;
                 const int extra = first_extra_[r];
                 const MirrorPlane plane{reading.has_direction ? -1 : extra + 1, extra,
                                         reading.azimuth};
-                for (const auto& [p, q] : point_pairs_[r]) {
-                    for (int k = 0; k < 3; ++k) {
-                        // A meet on the axis or in the mirror plane is its own partner.
-                        if (p == q && (k == 2 || reading.kind == ReadingKind::mirror)) continue;
-                        Vec3 axis(0);
-                        axis[k] = 1;
-                        put(reading.kind == ReadingKind::rotation
-                                ? turned_point(p, q, angle, extra, axis)
-                                : mirrored_point(p, q, plane, axis),
-                            0);
-                    }
-                }
                 for (const auto& [f, g] : pairs_[r]) {
                     if (reading.kind == ReadingKind::mirror && f == g) {
                         if (f != up_facet_) put(across_mirror(f, plane), 0);
@@ -305,8 +289,9 @@ std::vector<Equation> System::equations(const Shape& shape,
                                                                   : mirrored_normal(f, g, plane, t),
                             0);
                     }
-                    put(reading.kind == ReadingKind::rotation ? turned_offset(f, g, extra)
-                                                              : mirrored_offset(f, g, plane),
+                    put(reading.kind == ReadingKind::rotation
+                            ? turned_height(corners_of(*mesh_outline_, f), g, angle, extra)
+                            : mirrored_height(corners_of(*mesh_outline_, f), g, plane),
                         0);
                 }
                 break;

@@ -293,10 +293,7 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
         fitted.value = reading.value;
         fitted.sigma = reading.sigma;
         if (is_relation(reading.kind) && reading.sigma == 0 && !reading.exact) {
-            fitted.sigma = reading.released ? 0
-                           : reading.kind == ReadingKind::meet
-                               ? system.group_sigmas()[0] * system.scale()
-                               : system.group_sigmas()[2 + r];
+            fitted.sigma = reading.released ? 0 : system.group_sigmas()[0] * system.scale();
         }
         fitted.fitted = reading.value + c.residual;
         fitted.residual = c.residual;

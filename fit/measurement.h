@@ -91,8 +91,8 @@ struct Reading {
     int order = 0;       ///< rotation
     Datum datum;
     double value = 0;  ///< radians, length, mm3 or carat; 0 for relations
-    /// In the same unit; relations: length (meet, coplanar) or radians. 0 of a meet, rotation or
-    /// mirror that is neither exact nor released: estimated from the data.
+    /// In the same unit; relations: length (meet, coplanar) or radians. 0 of a meet
+    /// that is neither exact nor released: estimated from the data.
     double sigma = 0;
     bool exact = false, released = false;
     std::string note;

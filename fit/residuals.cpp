@@ -45,6 +45,14 @@ Vec3 turned(const Vec3& v, double angle) {
     return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
 }
 
+Vec3 mean_place(const Shape& shape, const std::vector<Corner>& corners) {
+    Vec3 mean(0);
+    for (const Corner& c : corners) {
+        mean += place_of(shape, c) / static_cast<double>(corners.size());
+    }
+    return mean;
+}
+
 double mirror_azimuth(const Shape& shape, const MirrorPlane& plane) {
     return plane.azimuth < 0 ? plane.fixed_azimuth : shape.extras[plane.azimuth];
 }
@@ -349,17 +357,20 @@ Formula turned_normal(int f, int g, double angle, const Vec3& direction) {
     };
 }
 
-Formula turned_offset(int f, int g, int centre) {
-    return [=](const Shape& shape) {
+Formula turned_height(std::vector<Corner> corners, int g, double angle, int centre) {
+    return [=, corners = std::move(corners)](const Shape& shape) {
         const Vec3 c{shape.extras[centre], shape.extras[centre + 1], 0};
-        const Vec3 &m = shape.normals[f], &n = shape.normals[g];
-        Quantity q{shape.offsets[f] - glm::dot(m, c) - shape.offsets[g] + glm::dot(n, c), {}};
-        q.add(By::offset, f, 1.0);
+        const Vec3 image = turned(mean_place(shape, corners) - c, angle) + c;
+        const Vec3& n = shape.normals[g];
+        Quantity q{glm::dot(n, image) - shape.offsets[g], {}};
+        q.add(By::normal, g, image);
         q.add(By::offset, g, -1.0);
-        q.add(By::normal, f, -c);
-        q.add(By::normal, g, c);
-        q.add(By::extra, centre, n.x - m.x);
-        q.add(By::extra, centre + 1, n.y - m.y);
+        const Vec3 back = turned(n, -angle);
+        for (const Corner& corner : corners) {
+            add_corner(q, shape, corner, back / static_cast<double>(corners.size()));
+        }
+        q.add(By::extra, centre, n.x - back.x);
+        q.add(By::extra, centre + 1, n.y - back.y);
         return q;
     };
 }
@@ -381,17 +392,26 @@ Formula mirrored_normal(int f, int g, const MirrorPlane& plane, const Vec3& dire
     };
 }
 
-Formula mirrored_offset(int f, int g, const MirrorPlane& plane) {
-    return [=](const Shape& shape) {
+Formula mirrored_height(std::vector<Corner> corners, int g, const MirrorPlane& plane) {
+    return [=, corners = std::move(corners)](const Shape& shape) {
         const double a = mirror_azimuth(shape, plane), e = shape.extras[plane.offset];
         const Vec3 m{std::cos(a), std::sin(a), 0}, dm{-std::sin(a), std::cos(a), 0};
-        const Vec3& n = shape.normals[f];
-        Quantity q{shape.offsets[f] - 2 * e * glm::dot(m, n) - shape.offsets[g], {}};
-        q.add(By::offset, f, 1.0);
+        const Vec3 x = mean_place(shape, corners);
+        const Vec3& n = shape.normals[g];
+        const double above = glm::dot(m, x) - e;
+        const Vec3 image = x - 2 * above * m;
+        Quantity q{glm::dot(n, image) - shape.offsets[g], {}};
+        q.add(By::normal, g, image);
         q.add(By::offset, g, -1.0);
-        q.add(By::normal, f, -2 * e * m);
-        q.add(By::extra, plane.offset, -2 * glm::dot(m, n));
-        if (plane.azimuth >= 0) q.add(By::extra, plane.azimuth, -2 * e * glm::dot(dm, n));
+        const Vec3 back = n - 2 * glm::dot(m, n) * m;
+        for (const Corner& corner : corners) {
+            add_corner(q, shape, corner, back / static_cast<double>(corners.size()));
+        }
+        q.add(By::extra, plane.offset, 2 * glm::dot(m, n));
+        if (plane.azimuth >= 0) {
+            q.add(By::extra, plane.azimuth,
+                  -2 * (glm::dot(dm, x) * glm::dot(m, n) + above * glm::dot(dm, n)));
+        }
         return q;
     };
 }
@@ -404,39 +424,6 @@ Formula across_mirror(int f, const MirrorPlane& plane) {
         q.add(By::normal, f, m);
         if (plane.azimuth >= 0) q.add(By::extra, plane.azimuth, glm::dot(dm, shape.normals[f]));
         return q;
-    };
-}
-
-Formula turned_point(int p, int q, double angle, int centre, const Vec3& direction) {
-    return [=](const Shape& shape) {
-        const Vec3 c{shape.extras[centre], shape.extras[centre + 1], 0};
-        Quantity quantity{
-            glm::dot(direction, turned(shape.points[p] - c, angle) + c - shape.points[q]), {}};
-        const Vec3 back = turned(direction, -angle);
-        quantity.add(By::point, p, back);
-        quantity.add(By::point, q, -direction);
-        quantity.add(By::extra, centre, direction.x - back.x);
-        quantity.add(By::extra, centre + 1, direction.y - back.y);
-        return quantity;
-    };
-}
-
-Formula mirrored_point(int p, int q, const MirrorPlane& plane, const Vec3& direction) {
-    return [=](const Shape& shape) {
-        const double a = mirror_azimuth(shape, plane), e = shape.extras[plane.offset];
-        const Vec3 m{std::cos(a), std::sin(a), 0}, dm{-std::sin(a), std::cos(a), 0};
-        const Vec3& x = shape.points[p];
-        const double above = glm::dot(m, x) - e;
-        Quantity quantity{glm::dot(direction, x - 2 * above * m - shape.points[q]), {}};
-        quantity.add(By::point, p, direction - 2 * glm::dot(m, direction) * m);
-        quantity.add(By::point, q, -direction);
-        quantity.add(By::extra, plane.offset, 2 * glm::dot(m, direction));
-        if (plane.azimuth >= 0) {
-            quantity.add(
-                By::extra, plane.azimuth,
-                -2 * (glm::dot(dm, x) * glm::dot(m, direction) + above * glm::dot(dm, direction)));
-        }
-        return quantity;
     };
 }
 

@@ -85,8 +85,9 @@ Formula enclosed_volume(std::shared_ptr<const Outline> outline);
 Formula mean_of(std::vector<Formula> terms);
 /// A constant unit direction . (rotation by `angle` about +z of normal f, less normal g).
 Formula turned_normal(int f, int g, double angle, const Vec3& direction);
-/// Offset of plane f about the axis at extras (c, c + 1), less that of plane g.
-Formula turned_offset(int f, int g, int centre);
+/// Height over plane g of the mean of corners, turned by `angle` about the axis at extras
+/// (centre, centre + 1).
+Formula turned_height(std::vector<Corner> corners, int g, double angle, int centre);
 /// The mirror plane m . x = e has its azimuth in extra `azimuth` and e in extra `offset`, where an
 /// `azimuth` of -1 means the fixed angle.
 struct MirrorPlane {
@@ -95,14 +96,10 @@ struct MirrorPlane {
 };
 /// A constant direction . (mirrored normal f, less normal g).
 Formula mirrored_normal(int f, int g, const MirrorPlane& plane, const Vec3& direction);
-Formula mirrored_offset(int f, int g, const MirrorPlane& plane);
+/// Height over plane g of the mirrored mean of corners.
+Formula mirrored_height(std::vector<Corner> corners, int g, const MirrorPlane& plane);
 /// m . normal: zero for a facet that is its own mirror image.
 Formula across_mirror(int f, const MirrorPlane& plane);
-/// A constant unit direction . (point p turned by `angle` about the axis at extras (c, c + 1), less
-/// point q).
-Formula turned_point(int p, int q, double angle, int centre, const Vec3& direction);
-/// A constant unit direction . (mirrored point p, less point q).
-Formula mirrored_point(int p, int q, const MirrorPlane& plane, const Vec3& direction);
 /// direction . (normal f - sign * normal g)
 Formula normal_difference(int f, int g, double sign, const Vec3& direction);
 /// offset f - sign * offset g

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <set>
@@ -141,10 +140,8 @@ void System::bring_upright() {
 }
 
 void System::list_incidences(const FitOptions& options) {
-    // Where an estimate starts is of no matter for where it ends: a hundredth of the half diameter
-    // for misses of meets, a degree for symmetry.
-    group_sigmas_.assign(2 + readings_.size(), radians(1));
-    group_sigmas_[0] = group_sigmas_[1] = options.meet_sigma ? *options.meet_sigma / scale_ : 0.01;
+    // Where an estimate starts is of no matter for where it ends.
+    group_sigmas_.fill(options.meet_sigma ? *options.meet_sigma / scale_ : 0.01);
     estimates_meets_ = !options.meet_sigma;
     for (std::size_t v = 0; v < edges_.facets_of_vertex.size(); ++v) {
         const std::vector<int>& facets = edges_.facets_of_vertex[v];
@@ -209,11 +206,7 @@ bool System::has_common_meets() const {
 }
 
 bool System::has_estimated_groups() const {
-    if (estimates_meets_ && has_common_meets()) return true;
-    return std::any_of(readings_.begin(), readings_.end(), [](const Reading& r) {
-        return (r.kind == ReadingKind::rotation || r.kind == ReadingKind::mirror) && !r.exact &&
-               r.sigma == 0;
-    });
+    return estimates_meets_ && has_common_meets();
 }
 
 void System::add_extras() {
@@ -323,44 +316,11 @@ std::vector<int> System::mirror_partners(const Reading& reading) const {
                     reading.id));
 }
 
-// Partners of all meets under a map of places, nearest first; empty when two share one.
-static std::vector<std::pair<int, int>> paired_points(const std::vector<Vec3>& points,
-                                                      const std::function<Vec3(const Vec3&)>& map) {
-    std::vector<std::pair<int, int>> pairs;
-    std::set<int> taken;
-    for (std::size_t p = 0; p < points.size(); ++p) {
-        const Vec3 image = map(points[p]);
-        std::size_t best = 0;
-        for (std::size_t q = 1; q < points.size(); ++q) {
-            if (glm::length(points[q] - image) < glm::length(points[best] - image)) best = q;
-        }
-        if (!taken.insert(static_cast<int>(best)).second) return {};
-        pairs.emplace_back(static_cast<int>(p), static_cast<int>(best));
-    }
-    return pairs;
-}
-
 void System::pair_facets() {
     pairs_.resize(readings_.size());
-    point_pairs_.resize(readings_.size());
     for (std::size_t r = 0; r < readings_.size(); ++r) {
         const Reading& reading = readings_[r];
         Pairs& pairs = pairs_[r];
-        // Approximate symmetry of the whole stone is one of its meets.
-        if (!reading.exact && reading.facets.empty() && reading.order > 0) {
-            const double angle = 2 * std::numbers::pi / reading.order;
-            point_pairs_[r] =
-                paired_points(solid_.vertices, [&](const Vec3& x) { return about_z(x, angle); });
-            if (!point_pairs_[r].empty()) continue;
-        } else if (!reading.exact && reading.facets.empty() &&
-                   reading.kind == ReadingKind::mirror) {
-            const Vec3 m{std::cos(reading.azimuth), std::sin(reading.azimuth), 0};
-            point_pairs_[r] = paired_points(
-                solid_.vertices, [&](const Vec3& x) { return x - 2 * glm::dot(m, x) * m; });
-            std::erase_if(point_pairs_[r],
-                          [](const auto& pair) { return pair.first > pair.second; });
-            if (!point_pairs_[r].empty()) continue;
-        }
         const std::vector<int> facets =
             reading.facets.empty() ? all_facets(mesh_shape_) : reading.facets;
         if (reading.kind == ReadingKind::mirror && !reading.has_direction) {

@@ -63,10 +63,9 @@ public:
     bool splits() const { return splits_; }
     bool has_common_meets() const;
 
-    /// Groups of equations whose common uncertainty is not given but estimated: group 0 is how
-    /// polished facets miss their meets, group 1 how girdle facets do (the girdle is shaped before
-    /// the facets and by other means), group 2 + r the relation of reading r.
-    const std::vector<double>& group_sigmas() const { return group_sigmas_; }
+    /// How soft meets miss, where no uncertainty is given: group 0 by polished facets, group 1 by
+    /// girdle facets (the girdle is shaped before the facets and by other means).
+    const std::array<double, 2>& group_sigmas() const { return group_sigmas_; }
     void set_group_sigma(int group, double sigma) { group_sigmas_[std::size_t(group)] = sigma; }
     bool has_estimated_groups() const;
 
@@ -128,11 +127,10 @@ private:
     std::shared_ptr<const Outline> mesh_outline_;
     std::vector<Incidence> incidences_;
     std::vector<int> first_extra_;
-    std::vector<std::vector<std::pair<int, int>>> pairs_;        // facets, of symmetry readings
-    std::vector<std::vector<std::pair<int, int>>> point_pairs_;  // meets, of soft ones
+    std::vector<std::vector<std::pair<int, int>>> pairs_;  // facets, of symmetry readings
     int up_facet_ = -1;
     bool splits_ = false;
-    std::vector<double> group_sigmas_;
+    std::array<double, 2> group_sigmas_{};
     bool estimates_meets_ = false;
     double scale_ = 1;
     double mesh_scale_ = 1;  // the mesh was made this much larger to suit the lengths

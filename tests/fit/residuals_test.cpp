@@ -121,14 +121,12 @@ TEST(Residuals, SlopesMatchDifferences) {
     expect_slopes(mean_of({tilt_from_up(c1), tilt_from_up(s1)}), "mean");
     expect_slopes(horizontal_component(c1, 1), "horizontal component");
     expect_slopes(turned_normal(c1, f("C2"), 0.7, Vec3{0.6, 0, 0.8}), "turned normal");
-    expect_slopes(turned_offset(c1, f("C2"), 0), "turned offset");
+    expect_slopes(turned_height({at(3), at(9), at(12)}, c1, 0.7, 0), "turned height");
     const MirrorPlane free{2, 0, 0}, fixed{-1, 1, 0.3};
     expect_slopes(mirrored_normal(c1, f("C2"), free, Vec3{0.6, 0, 0.8}), "mirrored normal");
-    expect_slopes(mirrored_offset(c1, f("C2"), free), "mirrored offset");
-    expect_slopes(mirrored_offset(c1, f("C2"), fixed), "mirrored offset, fixed plane");
+    expect_slopes(mirrored_height({at(3), at(9)}, c1, free), "mirrored height");
+    expect_slopes(mirrored_height({at(3), at(9)}, c1, fixed), "mirrored height, fixed plane");
     expect_slopes(across_mirror(c1, free), "across the mirror");
-    expect_slopes(turned_point(3, 12, 0.7, 0, Vec3{0.6, 0.8, 0}), "turned corner");
-    expect_slopes(mirrored_point(3, 12, free, Vec3{0.6, 0, 0.8}), "mirrored corner");
     expect_slopes(normal_difference(c1, f("P5"), -1, Vec3{0.6, 0.8, 0}), "parallel");
     expect_slopes(offset_difference(c1, f("P5"), -1), "coplanar");
     expect_slopes(point_component(3, Vec3{0, 1, 0}, 0.2), "prior");
@@ -195,14 +193,15 @@ TEST_F(CubeReadings, Symmetry) {
         EXPECT_NEAR(value(turned_normal(facet("X+"), facet("Y+"), k_pi / 2, axis)), 0, 1e-15);
         EXPECT_NEAR(value(mirrored_normal(facet("X+"), facet("X-"), {-1, 0, 0}, axis)), 0, 1e-15);
     }
-    EXPECT_EQ(value(turned_offset(facet("X+"), facet("Y+"), 0)), 0);
-    EXPECT_EQ(value(mirrored_offset(facet("X+"), facet("X-"), {-1, 0, 0})), 0);
+    const std::vector<Corner> edge{vertex(1, 1, 1), vertex(1, -1, 1)};
+    EXPECT_NEAR(value(turned_height(edge, facet("Y+"), k_pi / 2, 0)), 0, 1e-15);
+    EXPECT_EQ(value(mirrored_height(edge, facet("X-"), {-1, 0, 0})), 0);
     EXPECT_EQ(value(across_mirror(facet("Y+"), {-1, 0, 0})), 0);
     // An axis through (0.25, 0): X+ lies 0.75 from it and Y+ 1.
     shape_.extras = {0.25, 0, 0};
-    EXPECT_NEAR(value(turned_offset(facet("X+"), facet("Y+"), 0)), -0.25, 1e-15);
+    EXPECT_NEAR(value(turned_height(edge, facet("Y+"), k_pi / 2, 0)), -0.25, 1e-15);
     // A mirror at x = 0.25 sends X+ (x = 1) to x = -0.5, which X- misses by half.
-    EXPECT_NEAR(value(mirrored_offset(facet("X+"), facet("X-"), {-1, 0, 0})), -0.5, 1e-15);
+    EXPECT_NEAR(value(mirrored_height(edge, facet("X-"), {-1, 0, 0})), -0.5, 1e-15);
 }
 
 }  // namespace
