@@ -1,6 +1,8 @@
 #include "compare/compare.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
@@ -173,26 +175,20 @@ void add_null(const MatchedPictures& pictures, const cv::Mat& usable, const cv::
     const std::vector<TurnedDraw> draws =
         draw_turns(pictures, outline, std::max(20, options.null_draws), options.seed);
     std::vector<std::vector<std::optional<double>>> rows(draws.size());
-    const std::size_t batch = 4;
+    const auto measure_draw = [&](std::size_t k) {
+        MatchedPictures other = turned(pictures, draws[k]);
+        const cv::Mat other_usable = other.mask & usable;
+        multiply_channels(other.render, solve_gain(other.photo, other.render, other_usable));
+        for (const Score& s : measure(other).scores) rows[k].push_back(s.value);
+    };
+    tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
+    // Some at a time, so that progress is told from this thread.
+    const std::size_t batch = 8;
     for (std::size_t first = 0; first < draws.size(); first += batch) {
         const std::size_t last = std::min(draws.size(), first + batch);
-        cv::parallel_for_(cv::Range(static_cast<int>(first), static_cast<int>(last)),
-                          [&](const cv::Range& range) {
-                              for (int i = range.start; i < range.end; ++i) {
-                                  const auto k = static_cast<std::size_t>(i);
-                                  MatchedPictures other = turned(pictures, draws[k]);
-                                  multiply_channels(
-                                      other.render,
-                                      solve_gain(other.photo, other.render, other.mask & usable));
-                                  for (const Score& s : measure(other).scores) {
-                                      rows[k].push_back(s.value);
-                                  }
-                              }
-                          });
-        if (progress &&
-            !progress(0.2 + 0.8 * static_cast<double>(last) / static_cast<double>(draws.size()))) {
-            throw Interrupted();
-        }
+        arena.execute([&] { tbb::parallel_for(first, last, measure_draw); });
+        const double done = static_cast<double>(last) / static_cast<double>(draws.size());
+        if (progress && !progress(0.2 + 0.8 * done)) throw Interrupted();
     }
     for (std::size_t s = 0; s < result.scores.size(); ++s) {
         for (const auto& row : rows) {

@@ -93,6 +93,7 @@ struct CompareOptions {
     bool simulated = false;   ///< the photograph is itself computed: said wherever it appears
     std::uint64_t seed = 1;   ///< of the null's draws
     int null_draws = 24;      ///< at least 20
+    int threads = 0;          ///< 0: all processors; the result does not depend on it
 };
 
 /// Registers by the outlines, solves one gain for each channel, scores, and draws the null.
