@@ -1,10 +1,75 @@
+// culet convert IN OUT
+
+#include <fmt/format.h>
+
 #include "app/options.h"
+#include "app/solid_input.h"
+#include "app/terminal.h"
+#include "stone/checks.h"
+#include "stone/errors.h"
+#include "stone/mesh_io.h"
 
 namespace culet {
 
+namespace {
+
+struct ConvertOptions {
+    CommonOptions common;
+    std::filesystem::path in, out;
+    CutReading cut;
+};
+
+int convert(const ConvertOptions& options) {
+    if (!mesh_format(options.out) && extension_of(options.out) != "asc") {
+        throw InputError(options.out,
+                         "cannot be written: the name must end in .obj, .off, .ply, .stl or .asc");
+    }
+    const SolidInput input = load_solid(options.in, options.cut);
+    for (const std::string& note : input.notes) {
+        say(fmt::format("{}: {}", options.in.string(), note), options.common.quiet);
+    }
+    // A mesh may be bent or dented and still be worth converting: it is written as it is.
+    const std::vector<Fault> faults =
+        find_faults(input.solid, {.planarity = k_largest_miss, .must_be_convex = false});
+    for (const Fault& fault : faults) {
+        say(fmt::format("culet: warning: {}: {}: {}", options.in.string(), name_of(fault.kind),
+                        fault.what),
+            options.common.quiet);
+    }
+    if (mesh_format(options.out)) {
+        write_mesh(input.solid, options.out);
+    } else {
+        for (const std::string& note :
+             write_gemcad_asc(input.solid, input.sheet.value_or(CutSheet{}), options.out)) {
+            say(fmt::format("{}: {}", options.out.string(), note), options.common.quiet);
+        }
+    }
+    return faults.empty() ? exit_good : exit_untrusted;
+}
+
+}  // namespace
+
 void add_command_convert(CLI::App& program, int& exit_code) {
-    (void)program;
-    (void)exit_code;
+    auto options = std::make_shared<ConvertOptions>();
+    CLI::App* command = program.add_subcommand("convert", "between mesh and cut formats");
+    command->add_option("IN", options->in, "mesh (.obj .off .ply .stl) or cut (.asc .gem)")
+        ->required();
+    command->add_option("OUT", options->out, ".obj, .off, .ply, .stl or .asc")->required();
+    command
+        ->add_option("--meet-tolerance", options->cut.meet_tolerance,
+                     "meets of a cut that miss by less than this fraction of its width become one "
+                     "corner (0: none)")
+        ->check(CLI::Range(0.0, 0.1))
+        ->type_name("FRACTION")
+        ->capture_default_str();
+    add_common(*command, options->common);
+    command->footer(
+        "Names, planes and all digits are kept as far as the format can hold them. A mesh with "
+        "faults is converted as it is, with a warning and exit code 1.\n"
+        "Examples:\n"
+        "  culet convert design.asc design.obj\n"
+        "  culet convert scan.stl scan.ply");
+    command->callback([options, &exit_code] { exit_code = convert(*options); });
 }
 
 }  // namespace culet

@@ -1,10 +1,124 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <memory>
+
 #include "app/options.h"
+#include "render/probe.h"
+#include "render/scene_io.h"
+#include "stone/errors.h"
+#include "stone/output_file.h"
 
 namespace culet {
 
+namespace {
+
+struct ProbeOptions {
+    CommonOptions common;
+    std::string scene, pixel, ray, json;
+    int most = 20;
+};
+
+std::vector<double> numbers_of(const std::string& option, const std::string& text,
+                               std::size_t count) {
+    std::vector<double> numbers;
+    std::size_t at = 0;
+    while (at <= text.size()) {
+        const std::size_t end = std::min(text.find(',', at), text.size());
+        double value = 0;
+        const auto [stop, problem] = std::from_chars(text.data() + at, text.data() + end, value);
+        if (problem != std::errc() || stop != text.data() + end || !std::isfinite(value)) break;
+        numbers.push_back(value);
+        at = end + 1;
+    }
+    if (at <= text.size() || numbers.size() != count) {
+        throw InputError(
+            fmt::format("{} {}: expected {} numbers separated by commas", option, text, count));
+    }
+    return numbers;
+}
+
+EyeRay ray_of(const ProbeOptions& options, const Scene& scene) {
+    if (!options.pixel.empty()) {
+        const auto xy = numbers_of("--pixel", options.pixel, 2);
+        if (xy[0] < 0 || xy[1] < 0 || xy[0] >= scene.camera.width || xy[1] >= scene.camera.height) {
+            throw InputError(
+                fmt::format("--pixel {}: the picture has {} x {} pixels, counted from 0",
+                            options.pixel, scene.camera.width, scene.camera.height));
+        }
+        // Whole numbers mean the middle of that pixel.
+        const auto middle = [](double v) { return v == std::floor(v) ? v + 0.5 : v; };
+        return EyeRays(scene.camera).through(middle(xy[0]), middle(xy[1]));
+    }
+    const auto r = numbers_of("--ray", options.ray, 6);
+    const Vec3 direction{r[3], r[4], r[5]};
+    if (!(glm::length(direction) > 0)) throw InputError("--ray: the direction must not be zero");
+    return {{r[0], r[1], r[2]}, glm::normalize(direction)};
+}
+
+int run_probe(const ProbeOptions& options) {
+    if (options.pixel.empty() == options.ray.empty()) {
+        throw InputError("probe needs one of --pixel X,Y and --ray OX,OY,OZ,DX,DY,DZ");
+    }
+    Scene scene = read_scene(options.scene, options.common.set);
+    const ProbeResult result = probe(scene, ray_of(options, scene));
+    if (!options.json.empty()) {
+        write_text(options.json, probe_json(result));
+        if (options.json == "-") return exit_good;
+    }
+    if (!result.hit) {
+        fmt::print("the ray misses the stone\n");
+        return exit_good;
+    }
+    fmt::print("{:>9}  {:<22} {}\n", "weight", "sees", "facets (o, e: the wave between them)");
+    int shown = 0;
+    for (const ProbedPath& path : result.paths) {
+        if (shown++ == options.most) break;
+        double weight = 0;
+        for (double w : path.weight) weight += w / static_cast<double>(path.weight.size());
+        std::string facets;
+        for (std::size_t i = 0; i < path.facets.size(); ++i) {
+            if (i > 0)
+                facets += path.modes[i - 1] == 'i' ? " " : fmt::format(" -{}- ", path.modes[i - 1]);
+            facets += path.facets[i];
+        }
+        fmt::print("{:>9.6f}  {:<22} {}\n", weight, path.light, facets);
+    }
+    const auto mean = [](const std::vector<double>& values) {
+        double sum = 0;
+        for (double value : values) sum += value;
+        return sum / static_cast<double>(values.size());
+    };
+    fmt::print("{} paths; radiance {:.6g}, not followed {:.3g}, absorbed {:.3g}, cut {:.3g}\n",
+               result.paths.size(), mean(result.radiance), mean(result.remainder),
+               mean(result.absorbed), mean(result.cut));
+    return exit_good;
+}
+
+}  // namespace
+
 void add_command_probe(CLI::App& program, int& exit_code) {
-    (void)program;
-    (void)exit_code;
+    auto options = std::make_shared<ProbeOptions>();
+    CLI::App* command = program.add_subcommand(
+        "probe", "the light paths behind one pixel: which facets make this flash");
+    command->add_option("scene", options->scene, "scene file (TOML)")
+        ->required()
+        ->type_name("SCENE.toml");
+    command->add_option("--pixel", options->pixel, "pixel, from the top left")->type_name("X,Y");
+    command->add_option("--ray", options->ray, "origin and direction")
+        ->type_name("OX,OY,OZ,DX,DY,DZ");
+    command->add_option("--json", options->json, "all of it, unrounded (- is stdout)")
+        ->type_name("FILE");
+    command->add_option("--most", options->most, "paths shown, heaviest first")->type_name("N");
+    add_common(*command, options->common, true);
+    command->footer(
+        "Examples:\n"
+        "  culet probe scene.toml --pixel 200,180\n"
+        "  culet probe scene.toml --ray 0,0,40,0,0,-1 --json - --set render.depth=8 --set "
+        "render.tolerance=0");
+    command->callback([options, &exit_code] { exit_code = run_probe(*options); });
 }
 
 }  // namespace culet

@@ -1,1 +1,20 @@
-# install and find_package(culet): see below
+# `cmake --install build` and, from another project, find_package(culet) with the targets
+# culet::stone, culet::fit, culet::render and culet::compare.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS culet RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS culet_stone culet_fit culet_render culet_compare EXPORT culetTargets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+foreach(room stone fit render compare)
+  install(DIRECTORY ${CMAKE_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/culet
+    FILES_MATCHING PATTERN "*.h")
+endforeach()
+install(EXPORT culetTargets NAMESPACE culet:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/culet)
+configure_package_config_file(cmake/culetConfig.cmake.in ${CMAKE_BINARY_DIR}/culetConfig.cmake
+  INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/culet)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/culetConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/culetConfig.cmake ${CMAKE_BINARY_DIR}/culetConfigVersion.cmake
+  ${CMAKE_SOURCE_DIR}/cmake/CuletDependencies.cmake
+  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/culet)
+install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})

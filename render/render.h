@@ -1,1 +1,43 @@
 #pragma once
+// Front door of the room: a scene in, a picture out, and what was left out of it.
+
+#include <string>
+#include <vector>
+
+#include "render/picture.h"
+#include "render/plan.h"
+#include "render/scene.h"
+#include "stone/progress.h"
+
+namespace culet {
+
+struct RenderStats {
+    std::string engine = "reference";
+    int depth = 0;  ///< deepest path followed at most
+    std::vector<EffectDecision> effects;
+    std::vector<double> wavelengths_nm;
+    double mean_radiance = 0;  ///< of the stone's pixels, luminance
+    /// Mean weight over the stone's pixels of what paths were left at the depth limit, and of paths
+    /// cut for their small weight.
+    double remainder = 0, cut = 0, absorbed = 0;
+    /// (remainder + cut) x brightest light / mean radiance: the picture's relative error is below
+    /// this on average over the stone, beside sampling and effects switched off.
+    double error_bound = 0;
+    long long rays = 0;  ///< eye rays x bands that met the stone
+    double seconds_setup = 0, seconds_shade = 0;
+};
+
+struct RenderResult {
+    Picture picture;
+    RenderStats stats;
+};
+
+/// The exact reference renderer. Same scene and seed, same bytes, whatever the number of threads.
+/// Throws InputError (stone not closed and convex, camera inside the stone, biaxial) and
+/// Interrupted.
+RenderResult render(const Scene& scene, const Progress& progress = {});
+
+/// Contract keys of STATS.json, as text.
+std::string stats_json(const RenderStats& stats);
+
+}  // namespace culet

@@ -37,13 +37,25 @@ struct CheckLimits {
     bool must_be_convex = true;
 };
 
-/// Faults, the worst kind first; empty for a sound solid.
+/// Faults, the worst kind first; empty for a sound solid. Of one kind only the first twenty are
+/// listed, then one line says how many more there are. Kinds that mean nothing for so broken a
+/// solid are left out (whether an open surface is convex, say).
 std::vector<Fault> find_faults(const Solid& solid, const CheckLimits& limits = {});
 
-/// Every facet outline is a simple convex polygon, the surface is closed, and every corner lies on
-/// or below every facet's plane: decided by exact orientation of corners, so independent of scale.
+/// Each edge has two facets that run along it in opposite ways, and round each vertex there is one
+/// fan of facets. Says nothing of pieces or of inside and outside.
 bool is_closed(const Solid& solid);
+
+/// Closed, every outline a convex polygon, and no corner above a facet's plane: decided by exact
+/// orientation of corners, so independent of scale. A corner is forgiven when it is off by no more
+/// than the corners of this solid are off their own facets' planes (`planarity`), and never by more
+/// than `k_largest_miss` of the diameter: a design with near-miss meets is convex, a fitted stone
+/// (planar to rounding) with a flipped edge is not.
 bool is_convex(const Solid& solid);
+
+/// As far as the meets of a real cut design miss, as a fraction of the diameter (the published
+/// files that we know miss by up to 3e-4 of the width).
+inline constexpr double k_largest_miss = 3e-4;
 
 const char* name_of(FaultKind kind);
 

@@ -4,16 +4,16 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "stone/mesh_io.h"
 #include "stone/solid.h"
 
 namespace culet {
 
 /// What a cut file says beside its facets.
 struct CutSheet {
-    double gear = 96;  ///< index teeth; negative counts clockwise
+    double gear = 96;  ///< index teeth; negative counts the other way round
     double gear_offset = 0;
     int symmetry = 1;
     bool mirror = false;
@@ -25,6 +25,10 @@ struct ReadCut {
     Solid solid;
     CutSheet sheet;
     std::vector<std::string> notes;
+    /// Planes of the file that bound nothing, and planes equal to an earlier one; each as
+    /// `tier 3 (-42.5 degrees), index 24`.
+    std::vector<std::string> unused_planes, repeated_planes;
+    int contracted_edges = 0;  ///< short edges at meets that miss
 };
 
 struct CutReading {
@@ -33,10 +37,24 @@ struct CutReading {
     double meet_tolerance = 3e-4;
 };
 
+/// Reads a design: the convex solid of its planes, near-miss meets contracted. Names are those
+/// after `n`; facets without one are f0, f1, ... in file order, and a repeated name gets .1, .2.
+/// Throws InputError when the planes leave the stone open or nothing inside.
 ReadCut read_gemcad_asc(const std::filesystem::path& file, const CutReading& how = {});
 ReadCut read_gemcad_gem(const std::filesystem::path& file, const CutReading& how = {});
 
-/// Writes angle, distance and index of every facet so that its plane reads back to 1e-12.
-void write_gemcad_asc(const Solid& solid, const CutSheet& sheet, const std::filesystem::path& file);
+/// The same from memory; `file` is for messages.
+ReadCut parse_gemcad_asc(std::string_view text, const CutReading& how = {},
+                         const std::filesystem::path& file = "design.asc");
+ReadCut parse_gemcad_gem(std::string_view bytes, const CutReading& how = {},
+                         const std::filesystem::path& file = "design.gem");
+
+/// Writes angle, distance and index of every facet so that its plane reads back to 1e-12. Facets of
+/// one angle and distance share a line. Blanks in names become `_`. The format measures distances
+/// from a point inside the stone: if the origin is not inside, the stone is moved to put its
+/// centroid there. Returns notes on what was changed. Throws InputError when the solid is not
+/// convex, for the format cannot hold it.
+std::vector<std::string> write_gemcad_asc(const Solid& solid, const CutSheet& sheet,
+                                          const std::filesystem::path& file);
 
 }  // namespace culet

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "stone/errors.h"
+#include "stone/toml_file.h"
 
 namespace culet {
 
@@ -112,21 +112,6 @@ Material pure_material(const std::string& id, const Json& entry) {
     return material;
 }
 
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t above = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-            diagonal = above;
-        }
-    }
-    return row[b.size()];
-}
-
 }  // namespace
 
 std::vector<std::string> catalogue_names() {
@@ -162,18 +147,12 @@ Material catalogue_material(const std::string& name) {
         }
         return material;
     }
-    std::multimap<std::size_t, std::string> near;
-    for (const std::string& known : catalogue_names())
-        near.emplace(edit_distance(name, known), known);
-    std::string nearest;
-    int shown = 0;
-    for (const auto& [distance, known] : near) {
-        if (shown++ == 3) break;
-        nearest += (nearest.empty() ? "" : ", ") + known;
-    }
-    throw InputError(fmt::format(
-        "no material \"{}\" in the catalogue (nearest: {}); or describe it in a [material] table",
-        name, nearest));
+    const auto near = nearest_name(name, catalogue_names());
+    throw InputError(
+        fmt::format("no material \"{}\" in the catalogue{}; culet info --materials lists them, or "
+                    "describe yours in a "
+                    "[material] table",
+                    name, near ? fmt::format(" (did you mean \"{}\"?)", *near) : std::string()));
 }
 
 }  // namespace culet

@@ -87,7 +87,8 @@ struct HalfSpaceSolid {
 /// `contract_near_meets`. Cost about planes x vertices exact side tests.
 HalfSpaceSolid intersect_half_spaces(std::span<const NamedPlane> planes);
 
-/// Contracts edges shorter than `tolerance` (a length), shortest first, so that meets that miss by
+/// Contracts edges no longer than `tolerance` (a length; 0 joins corners that coincide), shortest
+/// first, so that meets that miss by
 /// no more become one corner. A merged corner lies at the least-squares meet of its planes, and the
 /// facets keep their planes. A facet that shrinks to nothing is left out and named in `vanished`.
 struct ContractedSolid {

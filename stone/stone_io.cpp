@@ -1,2 +1,185 @@
 #include "stone/stone_io.h"
-namespace culet {}
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "stone/errors.h"
+#include "stone/material_io.h"
+
+namespace culet {
+
+namespace {
+
+// Any unit vector normal to `axis`, from the coordinate axis that is most nearly normal to it.
+Vec3 normal_to(const Vec3& axis) {
+    const Vec3 size = glm::abs(axis);
+    Vec3 other{1, 0, 0};
+    if (size.y <= size.x && size.y <= size.z) other = {0, 1, 0};
+    if (size.z < size.x && size.z < size.y) other = {0, 0, 1};
+    return glm::normalize(glm::cross(axis, other));
+}
+
+// The largest of the facets that look up more than sideways, or -1: what `up = "table"` means in a mesh
+// whose facets have no names.
+int table_of(const Solid& solid) {
+    int best = -1;
+    double best_area = 0;
+    for (std::size_t i = 0; i < solid.facets.size(); ++i) {
+        if (solid.facets[i].plane.normal.z < std::sqrt(0.5)) continue;
+        const double size = area(solid, solid.facets[i]);
+        if (size > best_area) {
+            best_area = size;
+            best = static_cast<int>(i);
+        }
+    }
+    return best;
+}
+
+Vec3 unit_vector(const TomlTable& table, const char* key, const Vec3& value) {
+    const double length = glm::length(value);
+    if (!(length > 0) || !std::isfinite(length)) {
+        table.fail(key, fmt::format("{} must not be the zero vector", key));
+    }
+    return value / length;
+}
+
+}  // namespace
+
+CrystalFrame crystal_frame_in(const TomlTable& table, OpticCharacter optic) {
+    CrystalFrame frame;
+    const auto axis = table.vector("optic_axis");
+    const auto axes = table.vectors("principal_axes");
+    if (axis && axes)
+        table.fail("optic_axis",
+                   "give optic_axis (uniaxial) or principal_axes (biaxial), not both");
+    if (axis) {
+        if (optic == OpticCharacter::biaxial) {
+            table.fail("optic_axis",
+                       "the material is biaxial: give principal_axes for alpha, beta, gamma");
+        }
+        const Vec3 a = unit_vector(table, "optic_axis", *axis);
+        const Vec3 b = normal_to(a);
+        frame.axes = {a, b, glm::cross(a, b)};
+    }
+    if (axes) {
+        if (axes->size() != 3) {
+            table.fail(
+                "principal_axes",
+                fmt::format("needs three vectors, for alpha, beta, gamma; found {}", axes->size()));
+        }
+        std::array<Vec3, 3> given;
+        for (int i = 0; i < 3; ++i) given[i] = unit_vector(table, "principal_axes", (*axes)[i]);
+        // Axes typed with a few digits are made orthonormal; axes that are not meant to be are
+        // refused.
+        for (int i = 0; i < 3; ++i) {
+            const double cosine = glm::dot(given[i], given[(i + 1) % 3]);
+            if (std::abs(cosine) > std::sin(radians(1.0))) {
+                table.fail("principal_axes",
+                           fmt::format("axes {} and {} are {:.2f} degrees apart; principal axes "
+                                       "are at right angles",
+                                       i + 1, (i + 1) % 3 + 1, degrees(std::acos(cosine))));
+            }
+        }
+        const Vec3 a = given[0];
+        const Vec3 b = glm::normalize(given[1] - glm::dot(given[1], a) * a);
+        Vec3 c = glm::cross(a, b);
+        if (glm::dot(c, given[2]) < 0) c = -c;
+        frame.axes = {a, b, c};
+    }
+    return frame;
+}
+
+Material material_named_in(const TomlTable& table, const TomlTable& root) {
+    if (const auto name = table.text("material")) {
+        if (std::filesystem::path(*name).extension() == ".toml")
+            return read_material(*table.path("material"));
+        try {
+            return catalogue_material(*name);
+        } catch (const InputError& error) {
+            table.fail("material", error.what());
+        }
+    }
+    if (const auto own = root.table("material")) return material_of(*own);
+    table.fail("",
+               "has no material: name one of the catalogue (material = \"diamond\") or add a "
+               "[material] table");
+}
+
+StoneFile stone_of(const TomlTable& root) {
+    root.refuse_unknown({"stone", "material", "reading", "fit"});
+    const auto table = root.table("stone");
+    if (!table) root.fail("", "there is no [stone] table");
+    table->refuse_unknown({"name", "mesh", "unit", "material", "density", "optic_axis",
+                           "principal_axes", "up", "azimuth_zero", "readings", "convex"});
+    StoneFile result;
+    Stone& stone = result.stone;
+    stone.name = table->text("name").value_or(root.file().stem().string());
+
+    const std::string unit = table->text("unit").value_or("mm");
+    if (const auto known = length_unit(unit)) {
+        stone.unit = *known;
+    } else {
+        table->fail("unit", fmt::format("unit is \"{}\"; expected mm, cm, m or in", unit));
+    }
+
+    stone.material = material_named_in(*table, root);
+    result.density_g_cm3 = table->number("density");
+    if (result.density_g_cm3 && !(*result.density_g_cm3 > 0.1 && *result.density_g_cm3 < 30)) {
+        table->fail("density", fmt::format("density is {}; expected g/cm3 between 0.1 and 30",
+                                           *result.density_g_cm3));
+    }
+    if (!result.density_g_cm3) result.density_g_cm3 = stone.material.density_g_cm3;
+    stone.crystal = crystal_frame_in(*table, stone.material.optic);
+    stone.convex = table->boolean("convex").value_or(true);
+
+    const std::string zero = table->text("azimuth_zero").value_or("free");
+    if (zero != "free" && zero != "mesh") {
+        table->fail("azimuth_zero",
+                    fmt::format("azimuth_zero is \"{}\"; expected free or mesh", zero));
+    }
+    stone.azimuth_from_mesh = zero == "mesh";
+
+    const auto mesh = table->path("mesh");
+    if (!mesh) table->fail("", "[stone] has no mesh: name the hand-made mesh, mesh = \"hand.obj\"");
+    result.mesh_file = *mesh;
+    SolidFile file = read_solid(result.mesh_file);
+    stone.solid = std::move(file.solid);
+    result.notes = std::move(file.notes);
+
+    switch (table->kind("up")) {
+        case TomlTable::Kind::missing:
+            break;
+        case TomlTable::Kind::text: {
+            const std::string name = *table->text("up");
+            int facet = find_facet(stone.solid, name);
+            if (facet < 0 && name == "table") facet = table_of(stone.solid);
+            if (facet < 0) {
+                std::vector<std::string> names;
+                for (const Facet& f : stone.solid.facets) names.push_back(f.name);
+                const auto near = nearest_name(name, names);
+                table->fail(
+                    "up",
+                    fmt::format(
+                        "the mesh {} has no facet \"{}\"{}; culet info -v lists its facets",
+                        mesh->filename().string(), name,
+                        near ? fmt::format(" (did you mean \"{}\"?)", *near) : std::string()));
+            }
+            stone.up_facet = stone.solid.facets[facet].name;
+            stone.up = stone.solid.facets[facet].plane.normal;
+            break;
+        }
+        default:
+            stone.up = unit_vector(*table, "up", *table->vector("up"));
+    }
+
+    if (const auto readings = table->path("readings")) result.readings_file = *readings;
+    return result;
+}
+
+StoneFile read_stone(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    return stone_of(read_toml(file, overrides));
+}
+
+}  // namespace culet

@@ -1,11 +1,14 @@
 #pragma once
-// The stone file (TOML): [stone] and [material]. Readings in the same file belong to the fit.
+// The stone file (TOML): [stone] and [material]. Readings and [fit] in the same file belong to the
+// fit.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "stone/stone.h"
+#include "stone/toml_file.h"
 
 namespace culet {
 
@@ -13,16 +16,22 @@ struct StoneFile {
     Stone stone;
     std::filesystem::path mesh_file;
     std::filesystem::path readings_file;  ///< empty: none named
-    std::optional<double> density_g_cm3;  ///< of the stone, when the file gives it
+    std::optional<double> density_g_cm3;  ///< the stone's own when given, else its material's
     std::vector<std::string> notes;       ///< from reading the mesh
 };
 
-/// `overrides` are `key.path=value` settings from the command line. Throws InputError. The mesh is
-/// read but not judged: run `find_faults`.
+/// Throws InputError. The mesh is read but not judged: run `find_faults`.
 StoneFile read_stone(const std::filesystem::path& file,
                      const std::vector<std::string>& overrides = {});
 
-/// A material file of its own, or the [material] table of a stone or scene file.
-Material read_material(const std::filesystem::path& file);
+/// The same of a parsed file: [stone] and, beside it, [material].
+StoneFile stone_of(const TomlTable& root);
+
+/// `material` of a table that may name one of the catalogue or a material file (*.toml), or else
+/// the [material] table beside it. Throws InputError when there is neither.
+Material material_named_in(const TomlTable& table, const TomlTable& root);
+
+/// `optic_axis` or `principal_axes`, made orthonormal; identity when neither is given.
+CrystalFrame crystal_frame_in(const TomlTable& table, OpticCharacter optic);
 
 }  // namespace culet

@@ -1,0 +1,46 @@
+#include "app/solid_input.h"
+
+#include <cctype>
+
+#include "stone/errors.h"
+#include "stone/mesh_io.h"
+
+namespace culet {
+
+std::string extension_of(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    if (!extension.empty()) extension.erase(0, 1);
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
+bool is_solid_file(const std::filesystem::path& file) {
+    const std::string extension = extension_of(file);
+    return mesh_format(file).has_value() || extension == "asc" || extension == "gem";
+}
+
+SolidInput load_solid(const std::filesystem::path& file, const CutReading& how) {
+    SolidInput input;
+    input.format = extension_of(file);
+    if (input.format == "asc" || input.format == "gem") {
+        ReadCut cut =
+            input.format == "asc" ? read_gemcad_asc(file, how) : read_gemcad_gem(file, how);
+        input.solid = std::move(cut.solid);
+        input.notes = std::move(cut.notes);
+        input.sheet = std::move(cut.sheet);
+        input.unused_planes = std::move(cut.unused_planes);
+        input.repeated_planes = std::move(cut.repeated_planes);
+        return input;
+    }
+    if (!is_solid_file(file)) {
+        throw InputError(file,
+                         "is of an unknown kind: a mesh or cut ends in .obj, .off, .ply, "
+                         ".stl, .asc or .gem");
+    }
+    ReadSolid mesh = read_mesh(file);
+    input.solid = std::move(mesh.solid);
+    input.notes = std::move(mesh.notes);
+    return input;
+}
+
+}  // namespace culet

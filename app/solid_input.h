@@ -1,0 +1,31 @@
+#pragma once
+// Meshes and cut designs as the commands take them.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stone/gemcad_io.h"
+#include "stone/solid.h"
+
+namespace culet {
+
+struct SolidInput {
+    Solid solid;
+    std::string format;  ///< obj, off, ply, stl, asc, gem
+    std::vector<std::string> notes;
+    std::optional<CutSheet> sheet;  ///< of a cut design
+    std::vector<std::string> unused_planes, repeated_planes;
+};
+
+/// True for the extensions that `load_solid` reads.
+bool is_solid_file(const std::filesystem::path& file);
+
+/// Throws InputError for an extension that it does not know, naming those that it does.
+SolidInput load_solid(const std::filesystem::path& file, const CutReading& how = {});
+
+/// The extension without its point, in small letters.
+std::string extension_of(const std::filesystem::path& file);
+
+}  // namespace culet

@@ -1,0 +1,28 @@
+#pragma once
+// A picture in linear light.
+
+#include <cstddef>
+#include <vector>
+
+namespace culet {
+
+/// Rows run from the top, columns from the left. Linear scene radiance in sRGB primaries (white
+/// D65).
+struct Picture {
+    int width = 0, height = 0;
+    std::vector<float> rgb;  ///< 3 a pixel
+    std::vector<float>
+        coverage;  ///< share of the pixel that the stone fills, 0..1; empty: not known
+    std::vector<double> wavelengths_nm;        ///< of `spectral`; empty: no spectral planes
+    std::vector<std::vector<float>> spectral;  ///< radiance relative to D65, a plane a wavelength
+
+    std::size_t pixels() const {
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
+    const float* at(int x, int y) const {
+        return rgb.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                 static_cast<std::size_t>(x));
+    }
+};
+
+}  // namespace culet

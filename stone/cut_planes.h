@@ -1,0 +1,43 @@
+#pragma once
+// The cutter's coordinates of a facet, and the solid of a design's facets.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "stone/gemcad_io.h"
+#include "stone/solid.h"
+
+namespace culet {
+
+/// Where a facet is cut. Angle from the horizontal: 0 table, 90 girdle, both sides positive.
+struct CutSetting {
+    double angle_deg = 0;
+    bool pavilion = false;
+    double distance = 0;  ///< from the origin, >= 0
+    double index = 0;     ///< on the gear; may be fractional
+};
+
+/// n = (sin a sin t, sin a cos t, +-cos a) with t = 2 pi (index - offset) / gear. Exact at whole
+/// quarters, so that a girdle stands upright and a table lies flat.
+Plane plane_of(const CutSetting& setting, const CutSheet& sheet);
+
+/// The inverse; the index lies in (0, |gear|].
+CutSetting setting_of(const Plane& plane, const CutSheet& sheet);
+
+/// A plane of a file: `name` may be empty; `place` tells people where it stands.
+struct CutPlane {
+    Plane plane;
+    std::string name, place;
+};
+
+/// Fills in solid, notes and lists of planes. Throws InputError.
+void build_solid(ReadCut& cut, const std::vector<CutPlane>& planes, const CutReading& how,
+                 const std::filesystem::path& file);
+
+/// Text of GemCad files is Windows-1252; ours is UTF-8. Text that is UTF-8 already stays.
+std::string utf8_from_windows1252(std::string_view text);
+/// Characters that Windows-1252 lacks become `_`.
+std::string windows1252_from_utf8(std::string_view text);
+
+}  // namespace culet

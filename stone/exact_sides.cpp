@@ -1,0 +1,44 @@
+#include "stone/exact_sides.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+
+namespace culet {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+Kernel::Point_3 point(const Vec3& p) {
+    return {p.x, p.y, p.z};
+}
+Kernel::Point_2 point(const Vec2& p) {
+    return {p[0], p[1]};
+}
+
+// For p on the line through a and b.
+bool lies_between(const Vec2& a, const Vec2& b, const Vec2& p) {
+    return p[0] >= std::min(a[0], b[0]) && p[0] <= std::max(a[0], b[0]) &&
+           p[1] >= std::min(a[1], b[1]) && p[1] <= std::max(a[1], b[1]);
+}
+
+}  // namespace
+
+int side_of_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+    return CGAL::orientation(point(a), point(b), point(c), point(d));
+}
+
+int turn(const Vec2& a, const Vec2& b, const Vec2& c) {
+    return CGAL::orientation(point(a), point(b), point(c));
+}
+
+bool segments_touch(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+    const int abc = turn(a, b, c), abd = turn(a, b, d);
+    const int cda = turn(c, d, a), cdb = turn(c, d, b);
+    if (abc * abd < 0 && cda * cdb < 0) return true;
+    return (abc == 0 && lies_between(a, b, c)) || (abd == 0 && lies_between(a, b, d)) ||
+           (cda == 0 && lies_between(c, d, a)) || (cdb == 0 && lies_between(c, d, b));
+}
+
+}  // namespace culet

@@ -1,2 +1,0 @@
-#include "stone/gemcad_io.h"
-namespace culet {}

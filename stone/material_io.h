@@ -1,0 +1,16 @@
+#pragma once
+// Materials written by the user: the [material] table.
+
+#include "stone/material.h"
+#include "stone/toml_file.h"
+
+namespace culet {
+
+/// The material of a [material] table. Throws InputError at the line that is wrong.
+Material material_of(const TomlTable& table);
+
+/// A material file of its own: one [material] table.
+Material read_material(const std::filesystem::path& file,
+                       const std::vector<std::string>& overrides = {});
+
+}  // namespace culet

@@ -1,0 +1,23 @@
+#pragma once
+// One reader and one writer a format; all read from memory. `file` is for messages only.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "stone/face_soup.h"
+#include "stone/solid.h"
+
+namespace culet {
+
+FaceSoup parse_obj(std::string_view text, const std::filesystem::path& file);
+FaceSoup parse_off(std::string_view text, const std::filesystem::path& file);
+FaceSoup parse_ply(std::string_view bytes, const std::filesystem::path& file);
+FaceSoup parse_stl(std::string_view bytes, const std::filesystem::path& file);
+
+std::string obj_text(const Solid& solid);
+std::string off_text(const Solid& solid);
+std::string ply_text(const Solid& solid);
+std::string stl_text(const Solid& solid);
+
+}  // namespace culet

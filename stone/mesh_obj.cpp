@@ -1,0 +1,153 @@
+// Wavefront OBJ: vertices, faces and group names; all else (normals, textures, materials, lines,
+// curves) is passed over.
+
+#include <fmt/format.h>
+
+#include <unordered_map>
+
+#include "stone/errors.h"
+#include "stone/mesh_formats.h"
+
+namespace culet {
+
+namespace {
+
+class ObjParser {
+public:
+    ObjParser(std::string_view text, const std::filesystem::path& file)
+        : lines_(text), file_(file) {}
+
+    FaceSoup parse() {
+        while (const auto line = whole_line()) read(*line);
+        for (std::size_t f = 0; f < soup_.faces.size(); ++f) {
+            for (const int corner : soup_.faces[f].corners) {
+                if (corner < static_cast<int>(soup_.vertices.size())) continue;
+                throw InputError(file_, line_of_face_[f],
+                                 fmt::format("the face uses vertex {} but the file has only {}",
+                                             corner + 1, soup_.vertices.size()));
+            }
+        }
+        if (soup_.vertices.empty() || soup_.faces.empty()) {
+            throw InputError(file_, fmt::format("holds no mesh: found {} vertices (v) and {} faces "
+                                                "(f)",
+                                                soup_.vertices.size(), soup_.faces.size()));
+        }
+        return std::move(soup_);
+    }
+
+private:
+    /// A line with those that it is continued on by a backslash.
+    std::optional<std::string_view> whole_line() {
+        auto line = lines_.next();
+        first_line_ = lines_.line();
+        if (!line || !line->ends_with('\\')) return line;
+        joined_.clear();
+        while (line && line->ends_with('\\')) {
+            joined_.append(line->substr(0, line->size() - 1)).push_back(' ');
+            line = lines_.next();
+        }
+        if (line) joined_.append(*line);
+        return joined_;
+    }
+
+    void read(std::string_view line) {
+        line = trimmed(line);
+        if (line.starts_with('#')) {
+            read_comment(soup_, line.substr(1));
+            return;
+        }
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            if (line[i] == '#' && (line[i - 1] == ' ' || line[i - 1] == '\t')) {
+                line = trimmed(line.substr(0, i));
+            }
+        }
+        if (line.size() == 1 ? line != "g" : line[1] != ' ' && line[1] != '\t') return;
+        if (line.empty()) return;
+        if (line[0] == 'v') {
+            read_vertex(words_of(line));
+        } else if (line[0] == 'f') {
+            read_face(words_of(line));
+        } else if (line[0] == 'g') {
+            read_group(trimmed(line.substr(1)));
+        }
+    }
+
+    void read_vertex(const std::vector<std::string_view>& words) {
+        if (words.size() < 4) {
+            throw InputError(file_, first_line_, "a vertex needs three coordinates after v");
+        }
+        Vec3 vertex;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto number = number_in(words[axis + 1]);
+            if (!number) {
+                throw InputError(file_, first_line_,
+                                 fmt::format("'{}' is not a finite number: a vertex needs three "
+                                             "coordinates after v",
+                                             shown(words[axis + 1])));
+            }
+            vertex[axis] = *number;
+            soup_.precision.add(words[axis + 1], *number);
+        }
+        soup_.vertices.push_back(vertex);
+    }
+
+    void read_face(const std::vector<std::string_view>& words) {
+        SoupFace face;
+        face.name = group_;
+        for (std::size_t i = 1; i < words.size(); ++i) {
+            // v, v/vt, v//vn, v/vt/vn
+            const auto index = integer_in(words[i].substr(0, words[i].find('/')));
+            const auto count = static_cast<std::int64_t>(soup_.vertices.size());
+            const std::int64_t corner = index ? (*index > 0 ? *index - 1 : count + *index) : -1;
+            if (!index || *index == 0 || corner < 0 || corner >= INT32_MAX) {
+                throw InputError(file_, first_line_,
+                                 fmt::format("'{}' is no corner of a face: vertices count from 1, "
+                                             "or from -1 backwards, and there are {} so far",
+                                             shown(words[i]), count));
+            }
+            face.corners.push_back(static_cast<int>(corner));
+        }
+        if (face.corners.size() < 3) {
+            throw InputError(file_, first_line_, "a face needs at least three corners after f");
+        }
+        soup_.faces.push_back(std::move(face));
+        line_of_face_.push_back(first_line_);
+    }
+
+    void read_group(std::string_view name) {
+        group_ = -1;
+        if (name.empty()) return;
+        const auto [at, is_new] =
+            groups_.try_emplace(std::string(name), static_cast<int>(soup_.names.size()));
+        if (is_new) soup_.names.emplace_back(name);
+        group_ = at->second;
+    }
+
+    LineReader lines_;
+    const std::filesystem::path& file_;
+    std::string joined_;
+    long first_line_ = 0;
+    FaceSoup soup_;
+    std::vector<long> line_of_face_;
+    std::unordered_map<std::string, int> groups_;
+    int group_ = -1;
+};
+
+}  // namespace
+
+FaceSoup parse_obj(std::string_view text, const std::filesystem::path& file) {
+    return ObjParser(text, file).parse();
+}
+
+std::string obj_text(const Solid& solid) {
+    std::string text = plane_comments(solid, "# ");
+    for (const Vec3& v : solid.vertices) text += fmt::format("v {} {} {}\n", v.x, v.y, v.z);
+    for (const Facet& facet : solid.facets) {
+        text += fmt::format("g {}\nf", writable_name(facet.name));
+        for (const int corner : facet.corners) text += fmt::format(" {}", corner + 1);
+        text += '\n';
+    }
+    return text;
+}
+
+}  // namespace culet

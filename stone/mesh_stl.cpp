@@ -1,0 +1,223 @@
+// STL (3D Systems 1989): triangles without connectivity, as text or in binary single precision.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+
+#include "stone/errors.h"
+#include "stone/mesh_formats.h"
+
+namespace culet {
+
+namespace {
+
+constexpr std::size_t k_binary_header = 84, k_binary_triangle = 50;
+
+std::uint32_t little_endian_word(std::string_view bytes, std::size_t at) {
+    std::uint32_t word = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        word |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
+    }
+    return word;
+}
+
+FaceSoup parse_binary(std::string_view bytes, std::size_t count,
+                      const std::filesystem::path& file) {
+    FaceSoup soup;
+    soup.vertices.reserve(3 * count);
+    soup.faces.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t at = k_binary_header + i * k_binary_triangle;
+        Vec3 rows[4];
+        for (std::size_t k = 0; k < 12; ++k) {
+            const float value = std::bit_cast<float>(little_endian_word(bytes, at + 4 * k));
+            rows[k / 3][static_cast<int>(k % 3)] = static_cast<double>(value);
+            if (k >= 3 && !std::isfinite(value)) {
+                throw InputError(
+                    file,
+                    fmt::format("triangle {} of {} has a coordinate that is not finite", i, count));
+            }
+            if (k >= 3) soup.precision.add_single(static_cast<double>(value));
+        }
+        SoupFace face;
+        for (int k = 1; k <= 3; ++k) {
+            face.corners.push_back(static_cast<int>(soup.vertices.size()));
+            soup.vertices.push_back(rows[k]);
+        }
+        const double length = glm::length(rows[0]);
+        if (std::isfinite(length) && length > 0) {
+            face.given_normal = rows[0];
+            for (int axis = 0; axis < 3; ++axis) soup.normal_precision.add_single(rows[0][axis]);
+        }
+        soup.faces.push_back(std::move(face));
+    }
+    return soup;
+}
+
+class AsciiStlParser {
+public:
+    AsciiStlParser(std::string_view text, const std::filesystem::path& file)
+        : text_(text), lines_(text), file_(file) {}
+
+    // Words without regard to lines or to small and capital letters, as writers differ in both. A
+    // solid's name is the rest of its line and is passed over.
+    FaceSoup parse() {
+        while (next_word()) {
+            if (is("solid") || is("endsolid")) {
+                words_.clear();
+                at_ = 0;
+            } else if (is("facet")) {
+                read_facet();
+            } else {
+                fail("facet, endsolid or solid");
+            }
+        }
+        return std::move(soup_);
+    }
+
+private:
+    bool next_word() {
+        while (at_ >= words_.size()) {
+            const auto line = lines_.next();
+            if (!line) return false;
+            words_ = words_of(*line);
+            at_ = 0;
+        }
+        word_ = words_[at_++];
+        return true;
+    }
+
+    bool is(std::string_view keyword) const {
+        return std::equal(
+            word_.begin(), word_.end(), keyword.begin(), keyword.end(), [](char a, char b) {
+                return std::tolower(static_cast<unsigned char>(a)) == static_cast<unsigned char>(b);
+            });
+    }
+
+    [[noreturn]] void fail(std::string_view expected) const {
+        throw InputError(file_, lines_.line(),
+                         fmt::format("expected {}, found '{}'", expected, shown(word_)));
+    }
+
+    void expect(std::string_view keyword) {
+        if (!next_word()) {
+            throw InputError(
+                file_, lines_.line() + 1,
+                fmt::format("the file ends where '{}' should be: is it cut short?", keyword));
+        }
+        if (!is(keyword)) fail(fmt::format("'{}'", keyword));
+    }
+
+    double number(const char* of) {
+        if (!next_word()) {
+            throw InputError(file_, lines_.line() + 1,
+                             fmt::format("the file ends within {}: is it cut short?", of));
+        }
+        const auto value = number_in(word_);
+        if (!value) fail(fmt::format("a finite number of {}", of));
+        return *value;
+    }
+
+    void read_facet() {
+        SoupFace face;
+        expect("normal");
+        Vec3 normal{0, 0, 0};
+        bool finite = true;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!next_word()) fail("three numbers of a normal");
+            // Some writers leave `nan` for a triangle without area.
+            const auto value = number_in(word_);
+            finite &= value.has_value();
+            normal[axis] = value.value_or(0);
+            if (value) soup_.normal_precision.add(word_, *value);
+        }
+        if (finite) face.given_normal = normal;
+        expect("outer");
+        expect("loop");
+        while (next_word() && is("vertex")) {
+            Vec3 vertex;
+            for (int axis = 0; axis < 3; ++axis) {
+                vertex[axis] = number("a vertex");
+                soup_.precision.add(word_, vertex[axis]);
+            }
+            face.corners.push_back(static_cast<int>(soup_.vertices.size()));
+            soup_.vertices.push_back(vertex);
+        }
+        if (!is("endloop")) fail("'vertex' or 'endloop'");
+        expect("endfacet");
+        if (face.corners.size() < 3) fail("at least three vertices in a loop");
+        soup_.faces.push_back(std::move(face));
+    }
+
+    std::string_view text_;
+    LineReader lines_;
+    const std::filesystem::path& file_;
+    std::vector<std::string_view> words_;
+    std::size_t at_ = 0;
+    std::string_view word_;
+    FaceSoup soup_;
+};
+
+/// By content, for many a binary file begins with the word `solid` too.
+bool looks_like_text(std::string_view bytes) {
+    const std::string_view start = trimmed(bytes.substr(0, 1024));
+    if (start.size() < 5) return false;
+    std::string word(start.substr(0, 5));
+    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return word == "solid" && start.find('\0') == std::string_view::npos;
+}
+
+}  // namespace
+
+FaceSoup parse_stl(std::string_view bytes, const std::filesystem::path& file) {
+    const std::size_t count =
+        bytes.size() >= k_binary_header ? little_endian_word(bytes, 80) : std::size_t{0};
+    const std::size_t size = k_binary_header + count * k_binary_triangle;
+    FaceSoup soup;
+    if (bytes.size() >= k_binary_header && bytes.size() == size) {
+        soup = parse_binary(bytes, count, file);
+    } else if (looks_like_text(bytes)) {
+        soup = AsciiStlParser(bytes, file).parse();
+    } else if (bytes.size() < k_binary_header) {
+        throw InputError(file,
+                         "is no STL: neither text that begins with 'solid' nor long enough "
+                         "for a binary header");
+    } else if (bytes.size() < size) {
+        throw InputError(file,
+                         fmt::format("promises {} triangles ({} bytes) but has {} bytes: is it cut "
+                                     "short, or no STL at all?",
+                                     count, size, bytes.size()));
+    } else {
+        soup = parse_binary(bytes, count, file);
+        soup.notes.push_back(
+            fmt::format("{} bytes after the last triangle were passed over", bytes.size() - size));
+    }
+    if (soup.faces.empty()) throw InputError(file, "holds no triangles");
+    return soup;
+}
+
+std::string stl_text(const Solid& solid) {
+    // Every triangle carries its facet's normal to all digits, so that readers can tell which
+    // triangles are one facet.
+    std::string text = "solid culet\n";
+    for (const Facet& facet : solid.facets) {
+        const Vec3& n = facet.plane.normal;
+        for (std::size_t i = 1; i + 1 < facet.corners.size(); ++i) {
+            text +=
+                fmt::format("facet normal {:.16e} {:.16e} {:.16e}\n outer loop\n", n.x, n.y, n.z);
+            for (const std::size_t k : {std::size_t{0}, i, i + 1}) {
+                const Vec3& v = solid.vertices[facet.corners[k]];
+                text += fmt::format("  vertex {:.16e} {:.16e} {:.16e}\n", v.x, v.y, v.z);
+            }
+            text += " endloop\nendfacet\n";
+        }
+    }
+    return text + "endsolid culet\n";
+}
+
+}  // namespace culet

@@ -1,0 +1,66 @@
+#include "stone/stone.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "stone/errors.h"
+#include "stone/gemcad_io.h"
+#include "stone/mesh_io.h"
+
+namespace culet {
+
+double inclination(const Vec3& normal, const Vec3& up) {
+    // By both legs: the arc cosine alone loses half its digits near the table.
+    return std::atan2(glm::length(glm::cross(normal, up)), std::abs(glm::dot(normal, up)));
+}
+
+double azimuth(const Vec3& normal) {
+    const double angle = std::atan2(normal.y, normal.x);
+    if (angle >= 0) return angle;
+    // A tiny negative angle plus a full turn rounds to the full turn itself.
+    const double turned = angle + 2 * std::numbers::pi;
+    return turned < 2 * std::numbers::pi ? turned : 0.0;
+}
+
+namespace {
+
+std::string extension_of(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return extension;
+}
+
+}  // namespace
+
+SolidFile read_solid(const std::filesystem::path& file) {
+    const std::string extension = extension_of(file);
+    if (extension == ".asc" || extension == ".gem") {
+        ReadCut cut = extension == ".asc" ? read_gemcad_asc(file) : read_gemcad_gem(file);
+        return {std::move(cut.solid), std::move(cut.notes)};
+    }
+    if (extension == ".obj" || extension == ".off" || extension == ".ply" || extension == ".stl") {
+        ReadSolid mesh = read_mesh(file);
+        return {std::move(mesh.solid), std::move(mesh.notes)};
+    }
+    throw InputError(
+        file, "is of an unknown kind: a mesh or cut ends in .obj, .off, .ply, .stl, .asc or .gem");
+}
+
+void write_solid(const Solid& solid, const std::filesystem::path& file) {
+    const std::string extension = extension_of(file);
+    if (extension == ".asc") {
+        write_gemcad_asc(solid, {}, file);
+    } else if (extension == ".obj" || extension == ".off" || extension == ".ply" ||
+               extension == ".stl") {
+        write_mesh(solid, file);
+    } else {
+        throw InputError(file,
+                         "cannot be written: the name must end in .obj, .off, .ply, .stl or .asc");
+    }
+}
+
+}  // namespace culet

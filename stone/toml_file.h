@@ -1,0 +1,65 @@
+#pragma once
+// A TOML file as culet reads it: typed values, and errors that name the file, the line and the key.
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stone/solid.h"
+
+namespace culet {
+
+/// One table of a file. A missing key gives nothing; a value of the wrong type, NaN or Inf throws
+/// InputError with file, line, what was found and what was expected.
+class TomlTable {
+public:
+    bool has(std::string_view key) const;
+    std::optional<double> number(std::string_view key) const;
+    std::optional<std::int64_t> integer(std::string_view key) const;
+    std::optional<bool> boolean(std::string_view key) const;
+    std::optional<std::string> text(std::string_view key) const;
+    std::optional<Vec3> vector(std::string_view key) const;  ///< three numbers
+    std::optional<std::vector<double>> numbers(std::string_view key) const;
+    std::optional<std::vector<std::string>> texts(std::string_view key) const;
+    std::optional<std::vector<Vec3>> vectors(std::string_view key) const;
+    std::optional<TomlTable> table(std::string_view key) const;
+    std::vector<TomlTable> tables(std::string_view key) const;  ///< `[[key]]`; empty when missing
+
+    enum class Kind { missing, number, boolean, text, list, table, other };
+    Kind kind(std::string_view key) const;
+
+    /// A path given in the file, seen from the file's folder.
+    std::optional<std::filesystem::path> path(std::string_view key) const;
+
+    /// Throws InputError for the first key that is none of `known`, with the nearest known one.
+    void refuse_unknown(std::initializer_list<std::string_view> known) const;
+    /// Throws InputError at the line of `key` (or of the table when the key is missing).
+    [[noreturn]] void fail(std::string_view key, const std::string& message) const;
+
+    const std::filesystem::path& file() const;
+    long line() const;  ///< of the table, 0 when it came from the command line
+
+private:
+    struct Content;
+    std::shared_ptr<const Content> content_;
+    const void* node_ = nullptr;  // a toml::table inside content_
+    std::string name_;
+    friend TomlTable read_toml(const std::filesystem::path&, const std::vector<std::string>&);
+};
+
+/// Parses a file and applies `key.path=value` overrides: the value is TOML (a number, "text",
+/// [list]) or, when it is none, taken as text. `reading.2.sigma=0.1` reaches into a list, counted
+/// from 0. Throws InputError.
+TomlTable read_toml(const std::filesystem::path& file,
+                    const std::vector<std::string>& overrides = {});
+
+/// The name among `known` that is nearest to `word` by edit distance, or nothing when none is near.
+std::optional<std::string> nearest_name(std::string_view word,
+                                        const std::vector<std::string>& known);
+
+}  // namespace culet

@@ -1,0 +1,10 @@
+// A stranger's program: culet's installed headers and libraries are enough to build it.
+#include <cstdio>
+
+#include "stone/material.h"
+
+int main() {
+    const culet::Material diamond = culet::catalogue_material("diamond");
+    std::printf("%.4f\n", diamond.index[0].at(589.3));
+    return 0;
+}

@@ -1,0 +1,57 @@
+#pragma once
+// Small solids with known figures.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "stone/solid.h"
+
+namespace culet::test {
+
+/// Edge length 2 about the origin.
+std::vector<NamedPlane> cube_planes();
+/// Facets at distance 1 / sqrt(3); corners at the unit vectors.
+std::vector<NamedPlane> octahedron_planes();
+/// Planes about the unit sphere in random directions, with distances of 1 to 1.2; more than
+/// twenty or so make a bounded solid.
+std::vector<NamedPlane> random_planes(int count, std::uint64_t seed);
+
+Solid cube();
+Solid random_solid(int count, std::uint64_t seed);
+
+/// Rotation by a fixed general angle, scaling, then shift: of vertices and planes alike.
+Solid moved(const Solid& solid, double scale, const Vec3& shift, bool turn = true);
+
+/// Each facet as a fan of triangles that carry its name.
+Solid triangulated(const Solid& solid);
+/// All facets run the other way round.
+Solid turned_inside_out(const Solid& solid);
+/// Corner outlines and planes alike without names.
+Solid without_names(Solid solid);
+
+/// The largest difference of unit normals, and of offsets over the diameter, between facets of the
+/// same name; infinite when the names differ.
+double plane_difference(const Solid& a, const Solid& b);
+
+/// A folder of its own for a test's files, removed at the end.
+class ScratchFolder {
+public:
+    ScratchFolder();
+    ~ScratchFolder();
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// `.asc` designs of the repository, and those beside it where they are.
+std::vector<std::filesystem::path> committed_designs();
+std::vector<std::filesystem::path> shared_designs();
+
+void write_bytes(const std::filesystem::path& file, const std::string& bytes);
+
+}  // namespace culet::test
