@@ -11,6 +11,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "compare/frame.h"
+#include "compare/html.h"
 #include "compare/metrics.h"
 #include "compare/pixels.h"
 #include "compare/turned_null.h"
@@ -217,8 +218,9 @@ void judge(Comparison& result) {
         return;
     }
     const double z = *zncc.z;
-    const std::string figures = fmt::format("correlation {:.2f}, chance level {:.2f} ± {:.2f}",
-                                            *zncc.value, zncc.null_mean, zncc.null_sd);
+    const std::string figures =
+        fmt::format("correlation {}, chance level {} ± {}", decimals(*zncc.value, 2),
+                    decimals(zncc.null_mean, 2), decimals(zncc.null_sd, 2));
     if (z >= k_match_z && *zncc.value >= k_match_zncc) {
         result.verdict = Verdict::match;
         result.reason = fmt::format(

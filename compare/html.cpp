@@ -115,6 +115,10 @@ std::string decimals(const std::optional<double>& value, int count) {
     return with_true_minus(fmt::format("{:.{}f}", *value, count));
 }
 
+std::string whole(const std::optional<double>& value) {
+    return decimals(value, 0);
+}
+
 std::string significant(const std::optional<double>& value, int count) {
     if (!value || !std::isfinite(*value)) return k_dash;
     if (*value == 0) return "0";

@@ -22,6 +22,9 @@ std::string png_uri(std::string_view png);
 /// With that many decimals and a true minus sign; a dash for nothing, NaN and infinity.
 std::string decimals(const std::optional<double>& value, int count);
 
+/// A count: no decimals.
+std::string whole(const std::optional<double>& value);
+
 /// To that many significant digits, without trailing noise: 0.00123, 12.3, 1230.
 std::string significant(const std::optional<double>& value, int count = 3);
 

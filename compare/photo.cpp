@@ -1,10 +1,14 @@
 #include "compare/photo.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -17,6 +21,30 @@ namespace culet {
 namespace {
 
 constexpr std::size_t k_max_file_bytes = std::size_t{1} << 30;
+
+// The decoders under OpenCV complain on stderr by themselves; the one line that the user gets is
+// ours. Nothing else of culet writes while a picture is read.
+class SilentStderr {
+public:
+    SilentStderr() {
+        std::fflush(stderr);
+        kept_ = ::dup(STDERR_FILENO);
+        const int nowhere = ::open("/dev/null", O_WRONLY);
+        if (kept_ >= 0 && nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
+        if (nowhere >= 0) ::close(nowhere);
+    }
+    ~SilentStderr() {
+        std::fflush(stderr);
+        if (kept_ < 0) return;
+        ::dup2(kept_, STDERR_FILENO);
+        ::close(kept_);
+    }
+    SilentStderr(const SilentStderr&) = delete;
+    SilentStderr& operator=(const SilentStderr&) = delete;
+
+private:
+    int kept_ = -1;
+};
 
 struct Decoded {
     cv::Mat pixels;
@@ -44,6 +72,7 @@ Decoded decode(const std::filesystem::path& file) {
     const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
     cv::Mat pixels;
     try {
+        const SilentStderr silent;
         pixels = cv::imdecode(buffer, mode);
     } catch (const cv::Exception& error) {
         throw InputError(file, fmt::format("is a broken {} file ({})", header.format, error.err));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "compare/html.h"
@@ -51,10 +52,12 @@ std::string section(const std::string& id, const std::string& heading, const std
 }
 
 std::string table(const std::string& caption, const std::string& head, const std::string& body) {
+    // More than a screenful scrolls under its heading.
+    const bool tall = std::count(body.begin(), body.end(), '\n') > 24;
     return fmt::format(
-        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table>"
-        "<caption>{0}</caption><thead><tr>{1}</tr></thead><tbody>\n{2}</tbody></table></div>\n",
-        escaped(caption), head, body);
+        "<div class=\"scroll{2}\" tabindex=\"0\" role=\"region\" aria-label=\"{0}\"><table>"
+        "<caption>{0}</caption><thead><tr>{1}</tr></thead><tbody>\n{3}</tbody></table></div>\n",
+        escaped(caption), head, tall ? " tall" : "", body);
 }
 
 std::string colour_bar(ColourMap map, const std::string& what, const std::string& from,
@@ -73,10 +76,8 @@ std::string slider(const std::string& id, const SliderSide& left, const SliderSi
         "<figure class=\"under\"><img src=\"{1}\" alt=\"{2}\"><figcaption>{3}</figcaption></figure>"
         "<figure class=\"over\"><img src=\"{4}\" alt=\"{5}\"><figcaption>{6}</figcaption></figure>"
         "<div class=\"slider-line\" aria-hidden=\"true\"></div></div>\n"
-        "<label class=\"slider-control\"><span>{6}</span>"
         "<input type=\"range\" min=\"0\" max=\"100\" step=\"1\" value=\"50\" "
-        "aria-label=\"Divide between {6} on the left and {3} on the right\">"
-        "<span>{3}</span></label></div>\n",
+        "aria-label=\"Divide between {6} on the left and {3} on the right\"></div>\n",
         id, right.uri, escaped(right.alternative), escaped(right.label), left.uri,
         escaped(left.alternative), escaped(left.label));
 }

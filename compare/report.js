@@ -25,8 +25,8 @@ for (const slider of document.querySelectorAll(".slider")) {
   pictures.style.cursor = "ew-resize";
   move(control.value);
 }
-const line = document.querySelector(".facet-line");
-if (line) {
+for (const drawings of document.querySelectorAll(".drawings")) {
+  const line = drawings.querySelector(".facet-line");
   let chosen = null;
   const choose = (facet) => {
     if (chosen) chosen.classList.remove("chosen");
@@ -34,7 +34,7 @@ if (line) {
     facet.classList.add("chosen");
     line.textContent = facet.getAttribute("aria-label");
   };
-  for (const facet of document.querySelectorAll(".facet")) {
+  for (const facet of drawings.querySelectorAll(".facet")) {
     facet.addEventListener("pointerenter", () => choose(facet));
     facet.addEventListener("click", () => choose(facet));
     facet.addEventListener("focus", () => choose(facet));

@@ -36,9 +36,10 @@ Verdicts verdict_shown(Verdict verdict) {
     return {"", "", ""};
 }
 
-std::string tile(const std::string& name, const std::string& value, const std::string& about) {
-    return fmt::format("<div class=\"tile\"><dt>{}</dt><dd><b>{}</b><span>{}</span></dd></div>",
-                       escaped(name), value, escaped(about));
+std::string tile(const std::string& name, const std::string& value, const std::string& about,
+                 const char* style = "") {
+    return fmt::format("<div class=\"tile {}\"><dt>{}</dt><dd><b>{}</b><span>{}</span></dd></div>",
+                       style, escaped(name), value, escaped(about));
 }
 
 const Score* score_of(const Comparison& comparison, const char* key) {
@@ -80,14 +81,14 @@ std::string fit_tiles(const Json& fit) {
     const auto count = [&](const char* key) {
         return fit.contains(key) && fit[key].is_array() ? fit[key].size() : 0;
     };
-    std::string tiles =
-        tile("Fit", escaped(status.empty() ? "–" : status),
-             fmt::format("{} facets, {} readings", count("facets"), count("readings")));
-    tiles += tile("χ² / degrees of freedom",
-                  significant(number_at(fit, "chi2")) + " / " + significant(number_at(fit, "dof")),
-                  count("suspects") == 0 ? "no suspect reading"
-                                         : fmt::format("{} suspect", count("suspects")));
-    return tiles;
+    const bool trusted = status == "converged";
+    return tile("Fit", escaped(status.empty() ? "–" : status),
+                fmt::format("χ² {} of {} degrees of freedom; {}, {} readings",
+                            significant(number_at(fit, "chi2")), whole(number_at(fit, "dof")),
+                            count("suspects") == 0 ? "no suspects"
+                                                   : fmt::format("{} suspect", count("suspects")),
+                            count("readings")),
+                trusted ? "" : "bad");
 }
 
 // What the page's reader must know before believing the verdict.
@@ -233,6 +234,16 @@ std::string picture_uri(const Photo& picture, double white) {
     return png_uri(png_bytes(shown_now));
 }
 
+namespace {
+
+std::string sentence(std::string text) {
+    if (!text.empty())
+        text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    return text.empty() || text.back() == '.' ? text : text + ".";
+}
+
+}  // namespace
+
 std::string headline_section(const Report& report, const Json& scores, const Json& fit) {
     (void)scores;
     std::string body =
@@ -248,7 +259,8 @@ std::string headline_section(const Report& report, const Json& scores, const Jso
         body += fmt::format(
             "<div class=\"verdict {}\"><span class=\"symbol\" aria-hidden=\"true\">{}</span>"
             "<div><p class=\"word\">{}</p><p>{}</p></div></div>\n",
-            shown_verdict.style, shown_verdict.symbol, shown_verdict.word, escaped(c.reason));
+            shown_verdict.style, shown_verdict.symbol, shown_verdict.word,
+            escaped(sentence(c.reason)));
     }
     std::string tiles;
     if (report.comparison) tiles += comparison_tiles(*report.comparison);
@@ -371,7 +383,7 @@ std::string registration_section(const Report& report) {
     row("Stone in the render", decimals(r.render_diameter_px, 0) + " px across");
     row("Outlines taken from", escaped(r.photo_outline + ", " + r.render_outline));
     body += "<div>" + table("Registration by the outlines",
-                            "<th scope=\"col\">From photograph to render</th>"
+                            "<th scope=\"col\">Quantity</th>"
                             "<th scope=\"col\" class=\"n\">Value</th>",
                             rows);
     for (const std::string& warning : r.warnings) {

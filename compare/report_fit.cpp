@@ -121,6 +121,21 @@ const Json* facet_in(const Json& fit, const std::string& name) {
     return nullptr;
 }
 
+std::string both_views(const Solid& solid, const std::vector<FacetPaint>& paint) {
+    std::string views;
+    for (const auto& [side, name] :
+         {std::pair(ViewSide::crown, "Crown, from above"),
+          std::pair(ViewSide::pavilion, "Pavilion, turned over about the vertical")}) {
+        const std::string svg = draw_facets_svg(solid, side, paint);
+        if (svg.empty()) continue;
+        views += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", svg, name);
+    }
+    if (views.empty()) return {};
+    return "<div class=\"drawings\"><div class=\"stones\">\n" + views +
+           "</div>\n<p class=\"facet-line\" role=\"status\">Point at a facet, tap it, or step "
+           "through with the Tab key.</p></div>\n";
+}
+
 std::string drawings(const Report& report, const Json& fit) {
     if (!report.fitted) return {};
     std::vector<std::string> names;
@@ -148,17 +163,7 @@ std::string drawings(const Report& report, const Json& fit) {
         }
         paint[f].about = about;
     }
-    std::string body = "<div class=\"stones\">\n";
-    for (const auto& [side, name] :
-         {std::pair(ViewSide::crown, "Crown, from above"),
-          std::pair(ViewSide::pavilion, "Pavilion, turned over about the vertical")}) {
-        const std::string svg = draw_facets_svg(*report.fitted, side, paint);
-        if (svg.empty()) continue;
-        body += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", svg, name);
-    }
-    body +=
-        "</div>\n<p class=\"facet-line\" role=\"status\">Point at a facet, tap it, or step "
-        "through with the Tab key.</p>\n";
+    const std::string body = both_views(*report.fitted, paint);
     return body + colour_bar(ColourMap::residual,
                              "each facet's worst reading, in standard uncertainties; plain: no "
                              "reading of its own",
@@ -281,8 +286,8 @@ std::string fit_facts(const Json& fit) {
     body += fmt::format(
         "<p class=\"note\">χ² {} with {} degrees of freedom; {} iterations in {} s; closed: {}, "
         "convex: {}, largest distance of a corner from its plane {}.</p>\n",
-        significant(number_at(fit, "chi2")), significant(number_at(fit, "dof")),
-        significant(number_at(fit, "iterations")), significant(number_at(fit, "seconds")),
+        significant(number_at(fit, "chi2")), whole(number_at(fit, "dof")),
+        whole(number_at(fit, "iterations")), significant(number_at(fit, "seconds")),
         yes_no("closed"), yes_no("convex"), significant(number_at(fit, "planarity_max")));
     return body;
 }
@@ -364,6 +369,40 @@ std::string changes_table(const Report& report) {
                         rows);
 }
 
+/// Each facet coloured by how much steeper (red) or flatter (blue) it became.
+std::string change_drawings(const Report& report) {
+    if (!report.starting || !report.fitted) return {};
+    std::vector<FacetPaint> paint;
+    std::vector<double> steeper;
+    double worst = 0;
+    for (const Facet& facet : report.fitted->facets) {
+        const int old_index = find_facet(*report.starting, facet.name);
+        FacetPaint own{"var(--unread)", "not in the starting mesh"};
+        steeper.push_back(0);
+        if (old_index >= 0) {
+            const Facet& before = report.starting->facets[static_cast<std::size_t>(old_index)];
+            const double from = angles_of(before.plane.normal).inclination_deg;
+            const double to = angles_of(facet.plane.normal).inclination_deg;
+            steeper.back() = to - from;
+            worst = std::max(worst, std::abs(to - from));
+            own = {"",
+                   fmt::format("inclination {}° in place of {}°, {}{}°", decimals(to, 2),
+                               decimals(from, 2), to > from ? "+" : "", decimals(to - from, 2))};
+        }
+        paint.push_back(own);
+    }
+    // Never finer than a tenth of a degree: equal stones look equal.
+    const double range = std::max(0.1, std::ceil(10 * worst) / 10);
+    for (std::size_t f = 0; f < paint.size(); ++f) {
+        if (!paint[f].colour.empty()) continue;
+        paint[f].colour = css_colour(ColourMap::difference, 0.5 + 0.5 * steeper[f] / range);
+    }
+    const std::string both = both_views(*report.fitted, paint);
+    if (both.empty()) return {};
+    return both + colour_bar(ColourMap::difference, "blue: flatter than designed, red: steeper",
+                             decimals(-range, 1) + "°", "0", "+" + decimals(range, 1) + "°");
+}
+
 double white_of(const Report& report) {
     if (report.renders_white > 0) return report.renders_white;
     // The same for both pictures: brightness is part of what is compared.
@@ -406,6 +445,7 @@ std::string changes_section(const Report& report) {
             "<p class=\"note\">The same scene with the starting mesh and with the fitted one; "
             "nothing else differs.</p>\n";
     }
+    body += change_drawings(report);
     body += changes_table(report);
     return section("changes", "Catalogue against fitted", body);
 }
