@@ -130,7 +130,9 @@ TEST(Render, constant_light_of_one_gives_exactly_what_paths_bring_home) {
         const RenderResult result = render(scene);
         for (std::size_t i = 0; i < result.picture.pixels(); ++i) {
             const float covered = result.picture.coverage[i];
-            if (covered == 0) EXPECT_EQ(result.picture.rgb[3 * i], 1.0f) << "background";
+            if (covered == 0) {
+                EXPECT_EQ(result.picture.rgb[3 * i], 1.0f) << "background";
+            }
         }
         EXPECT_NEAR(result.stats.mean_radiance + result.stats.remainder, 1, 1e-6) << material;
         scene.settings.depth = 0;
