@@ -243,9 +243,8 @@ private:
             if (!has_distinct_corners(facet)) continue;
             std::vector<Vec3> loop;
             for (const int corner : facet.corners) loop.push_back(solid_.vertices[corner]);
-            const Plane own = plane_through(loop);
-            // Twice the area over the reach is the facet's width: one of rounding is none.
-            if (!(2 * area(solid_, facet) > 1e-15 * size * size)) {
+            const CornerTriple corners = spread_corners(solid_, facet);
+            if (!(corners.width > 1e-15 * size)) {
                 add(FaultKind::degenerate_facet, fmt::format("facet {} has no area", facet.name));
                 continue;
             }
@@ -259,7 +258,9 @@ private:
                                 "diameter; {:.2g} is allowed)",
                                 facet.name, worst, worst / size, limits_.planarity));
             }
-            if (crosses_itself(flat_outline(solid_, facet, own.normal))) {
+            // Not by the area vector, which is zero for a figure of eight.
+            const Vec3 across = glm::cross(corners.b - corners.a, corners.c - corners.a);
+            if (crosses_itself(flat_outline(solid_, facet, across))) {
                 add(FaultKind::self_crossing,
                     fmt::format("the outline of facet {} crosses itself", facet.name));
             }

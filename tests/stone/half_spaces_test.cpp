@@ -155,7 +155,7 @@ TEST(HalfSpaces, NearlyParallelPlanesAreStillBounded) {
     for (int i = 0; i < 4; ++i) {
         const double t = i * std::numbers::pi / 2;
         planes.push_back(
-            {"side" + std::to_string(i),
+            {numbered("side", i),
              {{std::cos(tilt) * std::cos(t), std::cos(tilt) * std::sin(t), std::sin(tilt)},
               std::cos(tilt)}});
     }

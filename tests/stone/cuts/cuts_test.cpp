@@ -1,0 +1,183 @@
+// Expectations: the trade's facet counts, Euler's formula, exact convexity, and the closed forms
+// between angles and heights (crown height = (1 - table)/2 tan(crown angle), pavilion depth =
+// tan(angle)/2).
+
+#include "stone/cuts/cuts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "stone/checks.h"
+#include "stone/errors.h"
+#include "stone/units.h"
+
+namespace {
+
+using namespace culet;
+
+std::string faults_of(const Solid& solid, bool convex) {
+    CheckLimits limits;
+    limits.planarity = 1e-12;
+    limits.must_be_convex = convex;
+    std::string text;
+    for (const Fault& fault : find_faults(solid, limits)) text += fault.what + "\n";
+    return text;
+}
+
+int count_of(const Solid& solid, char letter) {
+    int count = 0;
+    for (const Facet& facet : solid.facets) count += facet.name[0] == letter;
+    return count;
+}
+
+TEST(Cuts, every_cut_is_closed_planar_and_right_side_out_at_its_defaults) {
+    for (const CutKind& kind : cut_kinds()) {
+        const Solid solid = make_cut(kind.name);
+        EXPECT_EQ(faults_of(solid, kind.convex), "") << kind.name;
+        const int euler = static_cast<int>(solid.vertices.size()) - edge_count(solid) +
+                          static_cast<int>(solid.facets.size());
+        EXPECT_EQ(euler, 2) << kind.name;
+        EXPECT_GT(volume(solid), 0) << kind.name;
+        EXPECT_GE(find_facet(solid, "T"), 0) << kind.name;
+        EXPECT_EQ(is_convex(solid), kind.convex) << kind.name;
+    }
+}
+
+TEST(Cuts, facet_counts_are_the_trades) {
+    const auto facets = [](const char* name) { return make_cut(name).facets.size(); };
+    // 33 crown and 24 pavilion facets, and the girdle's own (Tolkowsky's brilliant without a culet
+    // facet).
+    const Solid round = make_cut("round-brilliant");
+    EXPECT_EQ(round.facets.size(), 57u + 16u);
+    EXPECT_EQ(round.vertices.size(), 57u) << "8 table, 8 star, 16 + 16 girdle, 8 lower, 1 culet";
+    EXPECT_EQ(count_of(round, 'S'), 8);
+    EXPECT_EQ(count_of(round, 'C'), 8);
+    EXPECT_EQ(count_of(round, 'U'), 16);
+    EXPECT_EQ(count_of(round, 'L'), 16);
+    EXPECT_EQ(count_of(round, 'P'), 8);
+    EXPECT_EQ(facets("oval"), 73u);
+    EXPECT_EQ(facets("marquise"), 73u);
+    EXPECT_EQ(facets("pear"), 73u);
+    EXPECT_EQ(facets("cushion"), 73u);
+    EXPECT_EQ(facets("trillion"), 1u + 6 + 6 + 12 + 12 + 12 + 6);
+    EXPECT_EQ(facets("heart"), 1u + 6 + 7 + 14 + 14 + 14 + 7)
+        << "seven mains, no star over the notch";
+    EXPECT_EQ(facets("step"), 1u + 24 + 8 + 24);
+    EXPECT_EQ(facets("emerald"), 57u);
+    EXPECT_EQ(facets("princess"), 1u + 8 + 4 + 4 + 2 * 8);
+}
+
+TEST(Cuts, round_brilliant_has_the_published_proportions) {
+    const Solid solid = make_cut("round-brilliant", {{"diameter", 10},
+                                                     {"table", 57},
+                                                     {"crown-angle", 34.5},
+                                                     {"pavilion-angle", 40.75},
+                                                     {"girdle", 3.5}});
+    const auto facet = [&](const char* name) { return solid.facets[find_facet(solid, name)]; };
+    EXPECT_NEAR(degrees(std::acos(facet("C3").plane.normal.z)), 34.5, 1e-10);
+    EXPECT_NEAR(degrees(std::acos(-facet("P3").plane.normal.z)), 40.75, 1e-10);
+    // Crown height 14.78 %, pavilion depth 43.08 %, girdle 3.5 %: total depth 61.4 %.
+    const double depth = 100 * width_along(solid, {0, 0, 1}) / 10;
+    EXPECT_NEAR(depth, 50 * 0.43 * std::tan(radians(34.5)) + 50 * std::tan(radians(40.75)) + 3.5,
+                1e-10);
+    EXPECT_NEAR(depth, 61.4, 0.05);
+    // Halves stand steeper than the mains between them: they fall from the same meets to a polygon that lies
+    // inside the mains' lines.
+    EXPECT_GT(degrees(std::acos(facet("U1").plane.normal.z)), 34.5);
+    EXPECT_LT(degrees(std::acos(facet("U1").plane.normal.z)), 34.5 + 10);
+    EXPECT_GT(degrees(std::acos(-facet("L1").plane.normal.z)), 40.75);
+    EXPECT_LT(degrees(std::acos(-facet("L1").plane.normal.z)), 40.75 + 3);
+}
+
+TEST(Cuts, turning_a_round_brilliant_by_an_eighth_maps_facets_to_facets) {
+    const Solid solid = make_cut("round-brilliant");
+    const double c = std::sqrt(0.5);
+    for (const Facet& facet : solid.facets) {
+        const Vec3& n = facet.plane.normal;
+        const Vec3 turned{c * (n.x - n.y), c * (n.x + n.y), n.z};
+        double nearest = 1;
+        for (const Facet& other : solid.facets) {
+            nearest = std::min(nearest, glm::length(other.plane.normal - turned) +
+                                            std::abs(other.plane.offset - facet.plane.offset));
+        }
+        EXPECT_LT(nearest, 1e-13) << facet.name;
+    }
+}
+
+TEST(Cuts, a_culet_facet_is_as_wide_as_asked) {
+    const Solid solid = make_cut("round-brilliant", {{"culet", 2}, {"diameter", 10}});
+    EXPECT_EQ(faults_of(solid, true), "");
+    EXPECT_EQ(solid.facets.size(), 74u);
+    Solid culet;
+    for (int corner : solid.facets[find_facet(solid, "CU")].corners)
+        culet.vertices.push_back(solid.vertices[corner]);
+    // Mains stand at 0 and 180 degrees: across flats, the width of the culet along x.
+    EXPECT_NEAR(width_along(culet, {1, 0, 0}), 0.2, 1e-12);
+}
+
+TEST(Cuts, random_proportions_give_a_sound_stone_or_a_clear_error) {
+    const unsigned seed = 1919;
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (const CutKind& kind : cut_kinds()) {
+        int made = 0;
+        for (int draw = 0; draw < 60; ++draw) {
+            std::map<std::string, double> values;
+            for (const CutParameter& p : kind.parameters) {
+                // Within 30 % of the way from the default to either limit.
+                const double t = 0.6 * uniform(random) - 0.3;
+                double value = p.value + t * (t > 0 ? p.most - p.value : p.value - p.least);
+                if (p.name == "mains" || p.name == "chevrons") value = std::round(value);
+                if (p.name == "culet") value = 0;
+                values[p.name] = value;
+            }
+            try {
+                const Solid solid = make_cut(kind.name, values);
+                ++made;
+                EXPECT_EQ(faults_of(solid, kind.convex), "")
+                    << kind.name << " seed " << seed << " draw " << draw;
+            } catch (const InputError& error) {
+                EXPECT_GT(std::string(error.what()).size(), 20u);
+            }
+        }
+        EXPECT_GT(made, 10) << kind.name;
+    }
+}
+
+TEST(Cuts, wrong_names_and_values_are_answered_with_what_to_do) {
+    const auto message = [](const auto& call) {
+        try {
+            call();
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("no error");
+    };
+    EXPECT_NE(message([] { make_cut("round-briliant"); }).find("round-brilliant"),
+              std::string::npos);
+    EXPECT_NE(message([] {
+                  make_cut("oval", {{"tabel", 50}});
+              }).find("\"table\""),
+              std::string::npos);
+    EXPECT_NE(message([] {
+                  make_cut("oval", {{"table", 100}});
+              }).find("20 to 90"),
+              std::string::npos);
+    EXPECT_NE(message([] {
+                  make_cut("oval", {{"table", std::nan("")}});
+              }).find("20 to 90"),
+              std::string::npos);
+    EXPECT_NE(message([] {
+                  make_cut("round-brilliant", {{"mains", 8.5}});
+              }).find("whole"),
+              std::string::npos);
+    EXPECT_NE(message([] {
+                  make_cut("round-brilliant", {{"culet", 15}, {"lower-half", 94}});
+              }).find("culet"),
+              std::string::npos);
+}
+
+}  // namespace
