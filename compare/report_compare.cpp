@@ -67,8 +67,8 @@ std::string comparison_tiles(const Comparison& c) {
     }
     if (!c.scores.empty()) {
         tiles += tile("Gain R G B",
-                      significant(c.gain[0]) + " · " + significant(c.gain[1]) + " · " +
-                          significant(c.gain[2]),
+                      significant(c.gain[0], 2) + " · " + significant(c.gain[1], 2) + " · " +
+                          significant(c.gain[2], 2),
                       "factors on the render");
     }
     return tiles;
@@ -351,9 +351,11 @@ std::string scores_section(const Report& report, const Json& scores) {
             c.reflexes.displacement ? decimals(100 * *c.reflexes.displacement, 2) : "–");
     }
     body += fmt::format(
-        "<p class=\"note\">{} pixels compared; {} % of them clipped by the camera "
-        "and left out of the gain.</p>\n",
-        c.compared_pixels, decimals(100 * c.saturated, 1));
+        "<p class=\"note\">{} pixels compared; {} % of them clipped by the camera and left out of "
+        "the "
+        "gain. Gain on the render: red {}, green {}, blue {}.</p>\n",
+        c.compared_pixels, decimals(100 * c.saturated, 1), significant(c.gain[0], 4),
+        significant(c.gain[1], 4), significant(c.gain[2], 4));
     return section("scores", "Scores", body);
 }
 
