@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "stone/errors.h"
 
@@ -19,6 +20,14 @@ double cross(const Vec2& a, const Vec2& b) {
 // Where the lines of two neighbouring mains cross.
 Vec2 crossing(const Vec2& p, const Vec2& u, const Vec2& q, const Vec2& v) {
     return p + (cross(q - p, v) / cross(u, v)) * u;
+}
+
+// How far the ray from the axis through `y` runs inside the girdle p - q - r.
+double radius_at(const Vec2& y, const Vec2& p, const Vec2& q, const Vec2& r) {
+    const Vec2 ray = glm::normalize(y);
+    const bool before = cross(ray, q) > 0;  // the ray meets p - q, else q - r
+    const Vec2 &from = before ? p : q, &to = before ? q : r;
+    return cross(from, to - from) / cross(ray, to - from);
 }
 
 struct Builder {
@@ -50,6 +59,20 @@ Solid cut_culet(const Solid& solid, double level) {
 
 }  // namespace
 
+double star_of_length(double star_length, double table, int mains) {
+    const double c = std::cos(std::numbers::pi / mains);
+    const double edge = table * c, meeting = table / c;
+    const double star = (edge + star_length * (1 - edge) - meeting) / (1 - meeting);
+    if (!(meeting < 1 && star > 0)) {
+        throw InputError(
+            fmt::format("star length {:.0f} % with table {:.0f} % leaves no room for the crown "
+                        "mains: make the star longer or "
+                        "the table smaller",
+                        100 * star_length, 100 * table));
+    }
+    return star;
+}
+
 Solid brilliant(const Outline& outline, const BrilliantProportions& p) {
     const std::size_t k = outline.mains.size();
     const double z_up = p.girdle / 2, z_low = -z_up;
@@ -65,22 +88,19 @@ Solid brilliant(const Outline& outline, const BrilliantProportions& p) {
         // which is its enlargement; seen from above both lie on a ray from the axis.
         const Vec2 y = crossing(outline.mains[i], outline.tangents[i], outline.mains[next],
                                 outline.tangents[next]);
-        const double y_radius = glm::length(y), girdle_radius = glm::length(outline.breaks[i]);
-        const double table_radius =
-            notch ? p.table * y_radius
-                  : p.table * glm::length(0.5 * (outline.mains[i] + outline.mains[next]));
+        const double y_radius = glm::length(y);
+        const double girdle_radius =
+            radius_at(y, outline.mains[i], outline.breaks[i], outline.mains[next]);
+        const double table_radius = p.table * y_radius;
         const double star_radius = table_radius + p.star * (girdle_radius - table_radius);
         const double along = (star_radius / y_radius - p.table) / (1 - p.table);
         const double low_radius = (1 - p.lower_half) * girdle_radius;
-        if (!(along > 0 && along < 1) || !(star_radius < girdle_radius)) {
+        if (!(girdle_radius > table_radius && along > 0 && star_radius < girdle_radius)) {
             throw InputError(
-                fmt::format("star length {:.0f} % with table {:.0f} % leaves no room for the upper "
-                            "halves: make the star shorter",
-                            100 * p.star, 100 * p.table));
-        }
-        if (!(low_radius > 0 && low_radius < y_radius)) {
-            throw InputError(
-                fmt::format("lower half length {:.0f} % does not fit", 100 * p.lower_half));
+                fmt::format("stars and a table of {:.0f} % leave no room for the upper halves: "
+                            "make the table smaller or the "
+                            "star longer",
+                            100 * p.table));
         }
         table[i] = b.corner(p.table * outline.mains[i], z_table);
         if (notch) notch_table = b.corner(p.table * y, z_table);

@@ -29,7 +29,7 @@ std::vector<CutParameter> brilliant_parameters(std::vector<CutParameter> first, 
         {"table", table, 20, 90, "%", "table, corner to corner over the mains, of the outline"},
         {"crown-angle", crown_deg, 5, 70, "deg", "crown mains, across the width"},
         {"pavilion-angle", pavilion_deg, 10, 75, "deg", "pavilion mains, across the width"},
-        {"star", star, 10, 90, "%", "star length, of the way from table edge to girdle"},
+        {"star", star, 1, 99, "%", "star length, of the way from the table to the girdle"},
         {"lower-half", lower_half, 10, 95, "%",
          "lower half length, of the way from girdle to culet"},
         k_girdle,
@@ -77,11 +77,11 @@ Solid step_of(const Values& v) {
     double inset = 0;
     for (const StepTier& tier : unit) inset += tier.height / std::tan(tier.angle);
     p.crown = crown_tiers(v, 0.5 * p.width * (1 - v.at("table") / 100) / inset);
-    // Three tiers that take a third of the way to the keel each.
-    const double step = 0.5 * p.width / 3;
+    // Of the way to the keel the steps take 30, 30 and 40 %.
+    const double share[] = {0.3, 0.3, 0.4};
     for (int t = 0; t < 3; ++t) {
         const double angle = radians(v.at("pavilion-angle") + (1 - t) * v.at("pavilion-spread"));
-        p.pavilion.push_back({angle, step * std::tan(angle)});
+        p.pavilion.push_back({angle, 0.5 * p.width * share[t] * std::tan(angle)});
     }
     return step_cut(p);
 }
@@ -123,7 +123,7 @@ const std::vector<Recipe>& recipes() {
           "emerald cut: eight sides, three crown and three pavilion steps, a keel",
           {width_parameter(),
            length_width(1.4),
-           {"corner", 18, 1, 45, "%", "what each corner takes of its sides, of the width"},
+           {"corner", 25, 1, 45, "%", "what each corner takes of its sides, of the width"},
            {"table", 60, 20, 90, "%", "table, across the width"},
            {"crown-angle", 37, 10, 65, "deg", "of the middle crown step"},
            {"crown-spread", 9, 0.5, 20, "deg", "between crown steps"},
@@ -147,17 +147,19 @@ const std::vector<Recipe>& recipes() {
           brilliant_parameters({width_parameter(), length_width(1.35)}, 57, 35, 41, 50, 77)},
          [](const Values& v) {
              const double w = v.at("width");
-             return brilliant(ellipse_outline(w * v.at("ratio"), w, 8), proportions_of(v, w));
+             BrilliantProportions p = proportions_of(v, w);
+             p.star = star_of_length(p.star, p.table, 8);
+             return brilliant(ellipse_outline(w * v.at("ratio"), w, 8), p);
          }},
         {{"marquise", "two arcs that meet in points",
-          brilliant_parameters({width_parameter(), length_width(2)}, 57, 35, 41, 45, 77)},
+          brilliant_parameters({width_parameter(), length_width(2)}, 57, 35, 41, 35, 77)},
          [](const Values& v) {
              const double w = v.at("width");
              return brilliant(marquise_outline(w * std::max(v.at("ratio"), 1.02), w),
                               proportions_of(v, w));
          }},
         {{"pear", "a half circle and a point",
-          brilliant_parameters({width_parameter(), length_width(1.5)}, 57, 35, 41, 45, 77)},
+          brilliant_parameters({width_parameter(), length_width(1.5)}, 57, 35, 41, 35, 77)},
          [](const Values& v) {
              const double w = v.at("width");
              return brilliant(pear_outline(w * std::max(v.at("ratio"), 1.05), w),
@@ -178,7 +180,7 @@ const std::vector<Recipe>& recipes() {
               {width_parameter(),
                length_width(1.1),
                {"squareness", 2.8, 2.05, 4, "", "exponent of the outline; 2 is an oval"}},
-              60, 36, 41, 45, 77)},
+              60, 36, 41, 35, 77)},
          [](const Values& v) {
              const double w = v.at("width");
              return brilliant(cushion_outline(w * v.at("ratio"), w, v.at("squareness")),

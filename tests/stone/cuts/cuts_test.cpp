@@ -52,8 +52,7 @@ TEST(Cuts, facet_counts_are_the_trades) {
     // facet).
     const Solid round = make_cut("round-brilliant");
     EXPECT_EQ(round.facets.size(), 57u + 16u);
-    EXPECT_EQ(round.vertices.size(), 57u + 24u - 24u + 0u + 0u)
-        << "8 table, 8 star, 16 + 16 girdle, 8 lower, 1 culet";
+    EXPECT_EQ(round.vertices.size(), 57u) << "8 table, 8 star, 16 + 16 girdle, 8 lower, 1 culet";
     EXPECT_EQ(count_of(round, 'S'), 8);
     EXPECT_EQ(count_of(round, 'C'), 8);
     EXPECT_EQ(count_of(round, 'U'), 16);
@@ -85,9 +84,12 @@ TEST(Cuts, round_brilliant_has_the_published_proportions) {
     EXPECT_NEAR(depth, 50 * 0.43 * std::tan(radians(34.5)) + 50 * std::tan(radians(40.75)) + 3.5,
                 1e-10);
     EXPECT_NEAR(depth, 61.4, 0.05);
-    // Handbooks give upper and lower girdle facets near 40 to 42 degrees for such a stone.
-    EXPECT_NEAR(degrees(std::acos(facet("U1").plane.normal.z)), 41, 1.5);
-    EXPECT_NEAR(degrees(std::acos(-facet("L1").plane.normal.z)), 42, 1.5);
+    // Halves stand steeper than the mains between them: they fall from the same meets to a polygon that lies
+    // inside the mains' lines.
+    EXPECT_GT(degrees(std::acos(facet("U1").plane.normal.z)), 34.5);
+    EXPECT_LT(degrees(std::acos(facet("U1").plane.normal.z)), 34.5 + 10);
+    EXPECT_GT(degrees(std::acos(-facet("L1").plane.normal.z)), 40.75);
+    EXPECT_LT(degrees(std::acos(-facet("L1").plane.normal.z)), 40.75 + 3);
 }
 
 TEST(Cuts, turning_a_round_brilliant_by_an_eighth_maps_facets_to_facets) {
