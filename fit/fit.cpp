@@ -82,10 +82,13 @@ void estimate_sigmas(System& system, Finished& finished, const FitOptions& optio
             change = std::max(change, std::abs(std::log(after / before)));
         }
         const int steps = finished.iterations;
-        finished = finish(system, finished.shape, options.iterations);
+        // The weights move again before these steps would end.
+        const bool settled = change < 1e-3;
+        finished = finish(system, finished.shape, settled ? options.iterations : 3);
         finished.iterations += steps;
-        if (change < 1e-3) return;
+        if (settled) return;
     }
+    finished = finish(system, finished.shape, options.iterations);
 }
 
 void describe_meets(const System& system, const Shape& shape, FitResult& result) {
