@@ -128,7 +128,8 @@ double Linearised::worst_hard() const {
 }
 
 Linearised linearise(const System& system, const Shape& shape,
-                     const std::shared_ptr<const Outline>& outline, bool with_hinges) {
+                     const std::shared_ptr<const Outline>& outline, bool with_hinges,
+                     const std::vector<Equation>& held) {
     Linearised linear;
     linear.layout = layout_of(shape);
     const RowWriter writer(shape);
@@ -152,6 +153,7 @@ Linearised linearise(const System& system, const Shape& shape,
         }
     };
     for (Equation& e : system.equations(shape, outline)) put(std::move(e));
+    for (const Equation& e : held) put(Equation(e));
     if (with_hinges) {
         for (Equation& e : system.hinges()) put(std::move(e));
     }

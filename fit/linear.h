@@ -27,9 +27,10 @@ struct Linearised {
     double worst_hard() const;
 };
 
-/// Hinges that are not positive are left out.
+/// Hinges that are not positive are left out; `held` are further hard equations.
 Linearised linearise(const System& system, const Shape& shape,
-                     const std::shared_ptr<const Outline>& outline, bool with_hinges);
+                     const std::shared_ptr<const Outline>& outline, bool with_hinges,
+                     const std::vector<Equation>& held = {});
 
 /// [J'J + damping M, A'; A, -e] factored. The tiny e lets hard equations repeat each other.
 class ConstrainedSolver {
