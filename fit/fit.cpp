@@ -66,12 +66,9 @@ Candidate from_start(const System& system, const GradedStart& start, const FitOp
 }
 
 // Foerstner (1979): each group's uncertainty is the one that its residuals show, sum of squares /
-// redundancy, repeated until it agrees with the one they were weighted by. The rounds shrink the
-// error of log sigma by a nearly constant factor, so every other one is followed to its limit
-// (Aitken).
+// redundancy, repeated until it agrees with the one they were weighted by.
 void estimate_sigmas(System& system, Finished& finished, const FitOptions& options,
                      const Progress& progress) {
-    std::array<double, 2> last_change{};
     for (int round = 0; round < 60; ++round) {
         if (progress && !progress(0.7 + 0.004 * round)) throw Interrupted();
         const Diagnosis d = diagnose(system, finished.shape, finished.outline, {.full = false});
@@ -79,16 +76,10 @@ void estimate_sigmas(System& system, Finished& finished, const FitOptions& optio
         for (std::size_t g = 0; g < d.group_squares.size(); ++g) {
             if (!(d.group_redundancy[g] > 0.5)) continue;
             const double before = system.group_sigmas()[g];
-            double change =
+            const double change =
                 0.5 * std::log(std::max(1e-30, d.group_squares[g]) / d.group_redundancy[g]) -
                 std::log(before);
             largest = std::max(largest, std::abs(change));
-            const double ratio = last_change[g] == 0 ? 0 : change / last_change[g];
-            last_change[g] = change;
-            if (round % 2 == 1 && ratio > 0) {
-                change /= 1 - std::min(ratio, 0.8);
-                last_change[g] = 0;
-            }
             // Rounding is the least that anything can miss by.
             system.set_group_sigma(
                 static_cast<int>(g),
@@ -300,6 +291,7 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
         facet.sigma_offset = sigma.offset * system.scale();
         const int there = find_facet(result.solid, facet.name);
         if (there >= 0) facet.area = area(result.solid, result.solid.facets[there]);
+        facet.sigma_area = sigma.area * system.scale() * system.scale();
         result.facets.push_back(std::move(facet));
     }
     for (std::size_t r = 0; r < readings.size(); ++r) {

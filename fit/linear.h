@@ -11,6 +11,19 @@
 
 namespace culet {
 
+/// Turns slopes into entries of a row of small steps.
+class RowWriter {
+public:
+    using Triplets = std::vector<Eigen::Triplet<double>>;
+    explicit RowWriter(const Shape& shape);
+    void write(const Quantity& quantity, int row, double factor, Triplets& to) const;
+    Eigen::RowVectorXd row(const Quantity& quantity) const;
+
+private:
+    Layout layout_;
+    std::vector<std::array<Vec3, 2>> tangents_;
+};
+
 struct Linearised {
     Layout layout;
     std::vector<Equation> soft, hard;
