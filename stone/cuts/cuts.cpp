@@ -22,6 +22,11 @@ const CutParameter k_azimuth{"azimuth", 0,     -360,
                              360,       "deg", "turns the stone about its axis, counter-clockwise"};
 const CutParameter k_girdle{"girdle", 3.5, 0.1, 20, "%", "girdle thickness, of the width"};
 
+// With one girdle facet a half the girdle is a polygon of even thickness; with more it follows the
+// circle and shows the trade's scallops, and `girdle` is its thickness at the mains.
+const CutParameter k_girdle_segments{
+    "girdle-segments", 1, 1, 16, "", "girdle facets under each upper half; 2 and more: scallops"};
+
 std::vector<CutParameter> brilliant_parameters(std::vector<CutParameter> first, double table,
                                                double crown_deg, double pavilion_deg, double star,
                                                double lower_half) {
@@ -107,6 +112,7 @@ std::vector<CutParameter> round_parameters() {
     auto list = brilliant_parameters({{"diameter", 6.5, 1e-3, 1e4, "mm", "over opposite mains"}},
                                      57, 34.5, 40.75, 50, 77);
     list.push_back({"mains", 8, 4, 24, "", "mains on crown and pavilion"});
+    list.push_back(k_girdle_segments);
     return list;
 }
 
@@ -116,8 +122,11 @@ const std::vector<Recipe>& recipes() {
           round_parameters()},
          [](const Values& v) {
              const double d = v.at("diameter");
-             return brilliant(ellipse_outline(d, d, static_cast<int>(v.at("mains"))),
-                              proportions_of(v, d));
+             const int mains = static_cast<int>(v.at("mains"));
+             BrilliantProportions p = proportions_of(v, d);
+             p.star = star_of_length(p.star, p.table, mains);
+             return brilliant(
+                 ellipse_outline(d, d, mains, static_cast<int>(v.at("girdle-segments"))), p);
          }},
         {{"step",
           "emerald cut: eight sides, three crown and three pavilion steps, a keel",
@@ -144,12 +153,15 @@ const std::vector<Recipe>& recipes() {
            k_azimuth}},
          princess_of},
         {{"oval", "a round brilliant stretched along its length",
-          brilliant_parameters({width_parameter(), length_width(1.35)}, 57, 35, 41, 50, 77)},
+          brilliant_parameters({width_parameter(), length_width(1.35), k_girdle_segments}, 57, 35,
+                               41, 50, 77)},
          [](const Values& v) {
              const double w = v.at("width");
              BrilliantProportions p = proportions_of(v, w);
              p.star = star_of_length(p.star, p.table, 8);
-             return brilliant(ellipse_outline(w * v.at("ratio"), w, 8), p);
+             return brilliant(ellipse_outline(w * v.at("ratio"), w, 8,
+                                              static_cast<int>(v.at("girdle-segments"))),
+                              p);
          }},
         {{"marquise", "two arcs that meet in points",
           brilliant_parameters({width_parameter(), length_width(2)}, 57, 35, 41, 35, 77)},
@@ -259,7 +271,8 @@ Solid make_cut(const std::string& name, const std::map<std::string, double>& val
             throw InputError(fmt::format("--{} {}: expected {} to {} {}", parameter.name, value,
                                          parameter.least, parameter.most, parameter.unit));
         }
-        const bool whole = parameter.name == "mains" || parameter.name == "chevrons";
+        const bool whole = parameter.name == "mains" || parameter.name == "chevrons" ||
+                           parameter.name == "girdle-segments";
         if (whole && value != std::floor(value)) {
             throw InputError(
                 fmt::format("--{} {}: expected a whole number", parameter.name, value));

@@ -84,12 +84,68 @@ TEST(Cuts, round_brilliant_has_the_published_proportions) {
     EXPECT_NEAR(depth, 50 * 0.43 * std::tan(radians(34.5)) + 50 * std::tan(radians(40.75)) + 3.5,
                 1e-10);
     EXPECT_NEAR(depth, 61.4, 0.05);
-    // Halves stand steeper than the mains between them: they fall from the same meets to a polygon that lies
-    // inside the mains' lines.
-    EXPECT_GT(degrees(std::acos(facet("U1").plane.normal.z)), 34.5);
-    EXPECT_LT(degrees(std::acos(facet("U1").plane.normal.z)), 34.5 + 10);
-    EXPECT_GT(degrees(std::acos(-facet("L1").plane.normal.z)), 40.75);
-    EXPECT_LT(degrees(std::acos(-facet("L1").plane.normal.z)), 40.75 + 3);
+    // Handbooks give halves of about 41 and 42 degrees. In closed form: a half falls from its meet
+    // on the ray at 22.5 degrees to the chord whose middle stands at 11.25 degrees. The star meet
+    // is half-way from the table's edge to the girdle, the lower meet at 1 - 77 %.
+    const double a = radians(22.5), h = radians(11.25);
+    const auto half_deg = [&](double meet, double main_deg) {
+        const double climb = (1 - meet * std::cos(a)) * std::tan(radians(main_deg));
+        return degrees(std::atan(climb / (std::cos(h) - meet * std::cos(h))));
+    };
+    const double edge = 0.57 * std::cos(a);
+    const double upper = degrees(std::acos(facet("U1").plane.normal.z));
+    const double lower = degrees(std::acos(-facet("L1").plane.normal.z));
+    EXPECT_NEAR(upper, half_deg(edge + 0.5 * (1 - edge), 34.5), 1e-9);
+    EXPECT_NEAR(lower, half_deg(0.23, 40.75), 1e-9);
+    EXPECT_NEAR(upper, 41.1, 0.1);
+    EXPECT_NEAR(lower, 41.9, 0.1);
+}
+
+TEST(Cuts, a_round_girdle_has_scallops_and_touches_the_mains_at_its_hills) {
+    for (const int segments : {2, 4, 7}) {
+        const Solid solid = make_cut(
+            "round-brilliant",
+            {{"diameter", 10}, {"girdle", 4}, {"girdle-segments", segments}, {"culet", 1}});
+        EXPECT_EQ(faults_of(solid, true), "") << segments;
+        EXPECT_EQ(count_of(solid, 'G'), 16 * segments);
+        EXPECT_EQ(solid.facets.size(), 58u + 16u * segments);
+        EXPECT_LT(planarity(solid), 1e-12 * diameter(solid));
+        // Every girdle corner stands on the circle; the thickness is 4 % at most and less between.
+        double thickest = 0, thinnest = 10;
+        for (const Facet& facet : solid.facets) {
+            if (facet.name[0] != 'G') continue;
+            for (int corner : facet.corners) {
+                const Vec3& v = solid.vertices[corner];
+                EXPECT_NEAR(std::hypot(v.x, v.y), 5, 1e-12);
+                thickest = std::max(thickest, std::abs(v.z));
+                thinnest = std::min(thinnest, std::abs(v.z));
+            }
+        }
+        EXPECT_NEAR(thickest, 0.2, 1e-12);
+        EXPECT_LT(thinnest, 0.2 - 0.05);
+    }
+}
+
+TEST(Cuts, a_round_girdle_that_closes_in_its_valleys_is_refused) {
+    EXPECT_THROW(make_cut("round-brilliant", {{"girdle", 0.5}, {"girdle-segments", 4}}),
+                 InputError);
+    EXPECT_NO_THROW(make_cut("round-brilliant", {{"girdle", 0.5}}));
+}
+
+TEST(Cuts, an_oval_with_scallops_is_the_stretched_round_brilliant) {
+    const std::map<std::string, double> shape{{"table", 56},          {"crown-angle", 33},
+                                              {"pavilion-angle", 41}, {"star", 52},
+                                              {"lower-half", 75},     {"girdle-segments", 4}};
+    auto round = shape, oval = shape;
+    round["diameter"] = oval["width"] = 5;
+    oval["ratio"] = 1.4;
+    const Solid a = make_cut("round-brilliant", round), b = make_cut("oval", oval);
+    ASSERT_EQ(a.vertices.size(), b.vertices.size());
+    for (std::size_t i = 0; i < a.vertices.size(); ++i) {
+        EXPECT_LT(glm::length(Vec3{1.4 * a.vertices[i].x, a.vertices[i].y, a.vertices[i].z} -
+                              b.vertices[i]),
+                  1e-13);
+    }
 }
 
 TEST(Cuts, turning_a_round_brilliant_by_an_eighth_maps_facets_to_facets) {
@@ -130,7 +186,8 @@ TEST(Cuts, random_proportions_give_a_sound_stone_or_a_clear_error) {
                 // Within 30 % of the way from the default to either limit.
                 const double t = 0.6 * uniform(random) - 0.3;
                 double value = p.value + t * (t > 0 ? p.most - p.value : p.value - p.least);
-                if (p.name == "mains" || p.name == "chevrons") value = std::round(value);
+                if (p.name == "mains" || p.name == "chevrons" || p.name == "girdle-segments")
+                    value = std::round(value);
                 if (p.name == "culet") value = 0;
                 values[p.name] = value;
             }
