@@ -64,6 +64,17 @@ BrilliantProportions proportions_of(const Values& v, double width) {
     return p;
 }
 
+// The flattest step of a tier must still climb.
+void require_rising_steps(const Values& v, const std::string& part) {
+    const double angle = v.at(part + "-angle"), spread = v.at(part + "-spread");
+    if (!(angle - spread >= 1)) {
+        throw InputError(fmt::format(
+            "--{0}-spread {1}: the flattest step would stand at {2:.4g} degrees; with --{0}-angle "
+            "{3} expected at most {4:.4g} deg",
+            part, spread, angle - spread, angle, angle - 1));
+    }
+}
+
 std::vector<StepTier> crown_tiers(const Values& v, double height) {
     const double angle = v.at("crown-angle"), spread = v.at("crown-spread");
     return {{radians(angle + spread), 0.45 * height},
@@ -72,6 +83,8 @@ std::vector<StepTier> crown_tiers(const Values& v, double height) {
 }
 
 Solid step_of(const Values& v) {
+    require_rising_steps(v, "crown");
+    require_rising_steps(v, "pavilion");
     StepProportions p;
     p.width = v.at("width");
     p.length = p.width * v.at("ratio");

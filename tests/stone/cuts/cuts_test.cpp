@@ -5,13 +5,16 @@
 #include "stone/cuts/cuts.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <glm/geometric.hpp>
 #include <random>
 
 #include "stone/checks.h"
 #include "stone/errors.h"
+#include "stone/mesh_io.h"
 #include "stone/units.h"
 
 namespace {
@@ -202,6 +205,78 @@ TEST(Cuts, random_proportions_give_a_sound_stone_or_a_clear_error) {
         }
         EXPECT_GT(made, 10) << kind.name;
     }
+}
+
+TEST(Cuts, extreme_proportions_give_a_sound_stone_or_a_clear_error) {
+    // Half of the parameters at their defaults, the others anywhere in their ranges.
+    const unsigned seed = 2718;
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    for (const CutKind& kind : cut_kinds()) {
+        int made = 0;
+        for (int draw = 0; draw < 40; ++draw) {
+            std::map<std::string, double> values;
+            for (const CutParameter& p : kind.parameters) {
+                double value = p.least + uniform(random) * (p.most - p.least);
+                const bool whole =
+                    p.name == "mains" || p.name == "chevrons" || p.name == "girdle-segments";
+                if (whole) value = std::round(value);
+                if (uniform(random) < 0.5 && !(p.name == "culet" && kind.name == "heart"))
+                    values[p.name] = value;
+            }
+            try {
+                const Solid solid = make_cut(kind.name, values);
+                ++made;
+                EXPECT_EQ(faults_of(solid, kind.convex), "")
+                    << kind.name << " seed " << seed << " draw " << draw;
+            } catch (const InputError& error) {
+                EXPECT_GT(std::string(error.what()).size(), 20u);
+            }
+        }
+        EXPECT_GT(made, 5) << kind.name;
+    }
+}
+
+TEST(Cuts, steps_that_cannot_be_cut_are_answered_with_the_range) {
+    const auto message = [](const std::map<std::string, double>& values) {
+        try {
+            make_cut("step", values);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("no error");
+    };
+    // The last pavilion step starts 0.3 widths inside the girdle, where a corner has lost
+    // 0.3 * 2 tan(22.5 deg) of its length: 0.3 (2 - sqrt 2) = 17.57 % of the width.
+    EXPECT_NE(message({{"corner", 17.5}}).find("17.57 %"), std::string::npos);
+    EXPECT_EQ(message({{"corner", 17.65}}), "no error");
+    EXPECT_EQ(message({{"corner", 37.5}}), "no error");
+    EXPECT_NE(message({{"corner", 37.6}}).find("37.57 %"), std::string::npos);
+    EXPECT_NE(message({{"crown-angle", 15}, {"crown-spread", 15}}).find("at most 14 deg"),
+              std::string::npos);
+    EXPECT_NE(message({{"pavilion-angle", 15}, {"pavilion-spread", 15}}).find("at most 14 deg"),
+              std::string::npos);
+}
+
+TEST(Cuts, every_cut_comes_back_from_a_mesh_file) {
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("culet_cuts_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder);
+    for (const CutKind& kind : cut_kinds()) {
+        const Solid solid = make_cut(kind.name);
+        const auto file = folder / (kind.name + ".obj");
+        write_mesh(solid, file);
+        const Solid back = read_mesh(file).solid;
+        EXPECT_EQ(faults_of(back, kind.convex), "") << kind.name;
+        ASSERT_EQ(back.facets.size(), solid.facets.size()) << kind.name;
+        EXPECT_EQ(back.vertices.size(), solid.vertices.size()) << kind.name;
+        for (std::size_t i = 0; i < solid.facets.size(); ++i) {
+            EXPECT_EQ(back.facets[i].name, solid.facets[i].name);
+            EXPECT_LT(glm::length(back.facets[i].plane.normal - solid.facets[i].plane.normal),
+                      1e-12);
+        }
+    }
+    std::filesystem::remove_all(folder);
 }
 
 TEST(Cuts, wrong_names_and_values_are_answered_with_what_to_do) {
