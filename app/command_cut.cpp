@@ -52,11 +52,13 @@ std::string proportions_json(const std::string& name, const Solid& solid,
         table.vertices.push_back(solid.vertices[corner]);
     const double table_width =
         width_along(table, along_x <= along_y ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
+    std::map<std::string, double> parameters = options.values;
+    for (const CutParameter& p : cut_kind(name).parameters) parameters.emplace(p.name, p.value);
     const double depth = width_along(solid, {0, 0, 1});
     const double crown = height_of(solid, true), pavilion = height_of(solid, false);
     nlohmann::ordered_json json = {{"schema", 1},
                                    {"cut", name},
-                                   {"parameters", options.values},
+                                   {"parameters", parameters},
                                    {"length_mm", length},
                                    {"width_mm", width},
                                    {"depth_mm", depth},
@@ -103,15 +105,20 @@ void list_cuts() {
 int run_cut(const std::string& name, const CutOptions& options) {
     const Solid solid = make_cut(name, options.values);
     std::string proportions;
-    if (!options.json.empty()) proportions = proportions_json(name, solid, options);
+    if (!options.json.empty()) {
+        // Length and width are those of the stone before it is turned.
+        auto unturned = options.values;
+        unturned["azimuth"] = 0;
+        proportions = proportions_json(name, make_cut(name, unturned), options);
+    }
     if (options.out.empty() && options.json.empty())
         throw InputError("name the mesh to write: -o MESH");
+    if (!options.out.empty()) write_solid(solid, options.out);
+    if (!options.json.empty()) write_text(options.json, proportions);
     say(fmt::format("{}: {} facets, {} vertices, total depth {:.4g} mm, volume {:.4g} mm3", name,
                     solid.facets.size(), solid.vertices.size(), width_along(solid, {0, 0, 1}),
                     volume(solid)),
         options.common.quiet || options.json == "-");
-    if (!options.out.empty()) write_solid(solid, options.out);
-    if (!options.json.empty()) write_text(options.json, proportions);
     return exit_good;
 }
 

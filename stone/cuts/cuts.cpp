@@ -34,7 +34,8 @@ std::vector<CutParameter> brilliant_parameters(std::vector<CutParameter> first, 
         {"table", table, 20, 90, "%", "table, corner to corner over the mains, of the outline"},
         {"crown-angle", crown_deg, 5, 70, "deg", "crown mains, across the width"},
         {"pavilion-angle", pavilion_deg, 10, 75, "deg", "pavilion mains, across the width"},
-        {"star", star, 1, 99, "%", "star length, of the way from the table to the girdle"},
+        {"star", star, 1, 99, "%",
+         "star's end, from where the crown mains meet (0) to the girdle (100), seen from above"},
         {"lower-half", lower_half, 10, 95, "%",
          "lower half length, of the way from girdle to culet"},
         k_girdle,
@@ -116,14 +117,23 @@ Solid princess_of(const Values& v) {
     return princess_cut(p);
 }
 
+// Round stones and their stretched images count the star as the trade does (star_of_length).
+std::vector<CutParameter> with_star_length(std::vector<CutParameter> parameters) {
+    for (CutParameter& p : parameters) {
+        if (p.name == "star")
+            p.what = "star length, of the way from the table's edge to the girdle";
+    }
+    return parameters;
+}
+
 struct Recipe {
     CutKind kind;
     std::function<Solid(const Values&)> make;
 };
 
 std::vector<CutParameter> round_parameters() {
-    auto list = brilliant_parameters({{"diameter", 6.5, 1e-3, 1e4, "mm", "over opposite mains"}},
-                                     57, 34.5, 40.75, 50, 77);
+    auto list = with_star_length(brilliant_parameters(
+        {{"diameter", 6.5, 1e-3, 1e4, "mm", "over opposite mains"}}, 57, 34.5, 40.75, 50, 77));
     list.push_back({"mains", 8, 4, 24, "", "mains on crown and pavilion"});
     list.push_back(k_girdle_segments);
     return list;
@@ -166,8 +176,8 @@ const std::vector<Recipe>& recipes() {
            k_azimuth}},
          princess_of},
         {{"oval", "a round brilliant stretched along its length",
-          brilliant_parameters({width_parameter(), length_width(1.35), k_girdle_segments}, 57, 35,
-                               41, 50, 77)},
+          with_star_length(brilliant_parameters(
+              {width_parameter(), length_width(1.35), k_girdle_segments}, 57, 35, 41, 50, 77))},
          [](const Values& v) {
              const double w = v.at("width");
              BrilliantProportions p = proportions_of(v, w);

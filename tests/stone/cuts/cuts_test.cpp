@@ -151,6 +151,41 @@ TEST(Cuts, an_oval_with_scallops_is_the_stretched_round_brilliant) {
     }
 }
 
+TEST(Cuts, a_published_design_follows_from_its_proportions) {
+    // "Choosing the Best Angles for Your SRB" (usfacetersguild.org): mains 28 and 41 degrees,
+    // halves 32 and 43, stars 13, table at 0.13317 over the girdle's middle, girdle facets 0.5 from
+    // the axis. Table, star and lower half lengths follow from the mains, the halves and the
+    // table's level; the star angle and the halves must then come out as printed.
+    const double a = radians(22.5), h = radians(11.25), radius = 0.5 / std::cos(h);
+    const double t28 = std::tan(radians(28)), t41 = std::tan(radians(41));
+    const double girdle_up = (0.248164 - std::sin(radians(28)) * radius) / std::cos(radians(28));
+    const double girdle_low = (std::sin(radians(41)) * radius - 0.34200309) / std::cos(radians(41));
+    const double table = 1 - (0.13317327 - girdle_up) / t28 / radius;
+    const auto meet = [&](double main_slope, double half_deg) {
+        const double half_slope = std::tan(radians(half_deg)) * std::cos(h);
+        return (half_slope - main_slope) / (half_slope - main_slope * std::cos(a));
+    };
+    const double edge = table * std::cos(a);
+    const Solid solid =
+        make_cut("round-brilliant", {{"diameter", 2 * radius},
+                                     {"table", 100 * table},
+                                     {"crown-angle", 28},
+                                     {"pavilion-angle", 41},
+                                     {"star", 100 * (meet(t28, 32) - edge) / (1 - edge)},
+                                     {"lower-half", 100 * (1 - meet(t41, 43))},
+                                     {"girdle", 100 * (girdle_up - girdle_low) / (2 * radius)}});
+    EXPECT_EQ(faults_of(solid, true), "");
+    const auto angle = [&](const char* name) {
+        return degrees(std::acos(std::abs(solid.facets[find_facet(solid, name)].plane.normal.z)));
+    };
+    EXPECT_NEAR(angle("S1"), 13, 0.01);
+    EXPECT_NEAR(angle("U1"), 32, 1e-9);
+    EXPECT_NEAR(angle("L1"), 43, 1e-9);
+    EXPECT_NEAR(solid.facets[find_facet(solid, "U1")].plane.offset, 0.27344011, 1e-5);
+    EXPECT_NEAR(solid.facets[find_facet(solid, "L1")].plane.offset, 0.34831272, 1e-5);
+    EXPECT_NEAR(solid.facets[find_facet(solid, "S1")].plane.offset, 0.18756531, 1e-4);
+}
+
 TEST(Cuts, turning_a_round_brilliant_by_an_eighth_maps_facets_to_facets) {
     const Solid solid = make_cut("round-brilliant");
     const double c = std::sqrt(0.5);
