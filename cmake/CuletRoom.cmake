@@ -8,8 +8,16 @@ target_compile_options(culet_flags INTERFACE
   -ffp-contract=off)
 if(CULET_SANITIZE)
   target_compile_options(culet_flags INTERFACE -fsanitize=address,undefined
-    -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+    -fno-sanitize-recover=undefined -fno-omit-frame-pointer
+    # The checks that the sanitizers add make g++ warn of values that are never read.
+    -Wno-maybe-uninitialized)
   target_link_options(culet_flags INTERFACE -fsanitize=address,undefined)
+endif()
+
+if(CULET_FUZZ)
+  # Coverage for the fuzzers in tests/fuzz.
+  target_compile_options(culet_flags INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+    -fno-sanitize-recover=undefined -Wno-error)
 endif()
 
 function(culet_room name)

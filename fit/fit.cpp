@@ -1,1 +1,315 @@
 #include "fit/fit.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "fit/diagnostics.h"
+#include "fit/finish.h"
+#include "fit/solver.h"
+#include "fit/statistics.h"
+#include "fit/system.h"
+#include "stone/checks.h"
+#include "stone/errors.h"
+
+namespace culet {
+
+const char* name_of(FitStatus status) {
+    switch (status) {
+        case FitStatus::converged:
+            return "converged";
+        case FitStatus::not_converged:
+            return "not_converged";
+        case FitStatus::contradictory:
+            return "contradictory";
+        case FitStatus::undetermined:
+            return "undetermined";
+    }
+    return "not_converged";
+}
+
+namespace {
+
+// What is left of hard equations after the last stage is rounding; an exact reading that misses by
+// more than this part of the half diameter contradicts another.
+constexpr double k_hard_limit = 1e-9;
+// Contract with the user: corners lie on their planes to this part of the diameter.
+constexpr double k_planarity = 1e-9;
+
+struct Candidate {
+    Finished finished;
+    bool sound = false;
+};
+
+bool is_sound(const System& system, const Finished& finished) {
+    if (system.splits()) {
+        const System::Enclosed enclosed = system.enclosed(finished.shape);
+        return enclosed.closed && enclosed.missing.empty();
+    }
+    for (const Equation& e : system.hinges()) {
+        if (e.formula(finished.shape).value > 0) return false;
+    }
+    return true;
+}
+
+Candidate from_start(const System& system, const GradedStart& start, const FitOptions& options,
+                     const Progress& progress) {
+    const Graded graded = graded_fit(system, start, progress);
+    Candidate candidate;
+    candidate.finished = finish(system, graded.shape, options.iterations);
+    candidate.sound = is_sound(system, candidate.finished);
+    return candidate;
+}
+
+// Foerstner (1979): each group's uncertainty is the one that its residuals show, sum of squares /
+// redundancy, repeated until it agrees with the one they were weighted by.
+void estimate_sigmas(System& system, Finished& finished, const FitOptions& options,
+                     const Progress& progress) {
+    for (int round = 0; round < 30; ++round) {
+        if (progress && !progress(0.7 + 0.008 * round)) throw Interrupted();
+        const Diagnosis d = diagnose(system, finished.shape, finished.outline, {.full = false});
+        double change = 0;
+        for (std::size_t g = 0; g < d.group_squares.size(); ++g) {
+            if (!(d.group_redundancy[g] > 0.5)) continue;
+            const double before = system.group_sigmas()[g];
+            // Rounding is the least that anything can miss by.
+            const double after =
+                std::max(1e-9, std::sqrt(d.group_squares[g] / d.group_redundancy[g]));
+            system.set_group_sigma(static_cast<int>(g), after);
+            change = std::max(change, std::abs(std::log(after / before)));
+        }
+        const int steps = finished.iterations;
+        finished = finish(system, finished.shape, options.iterations);
+        finished.iterations += steps;
+        if (change < 1e-3) return;
+    }
+}
+
+void describe_meets(const System& system, const Shape& shape, FitResult& result) {
+    std::vector<int> how(shape.points.size(), 0);
+    double squares = 0;
+    int count = 0;
+    for (const Incidence& incidence : system.incidences()) {
+        int& worst = how[incidence.point];
+        worst = std::max(worst, static_cast<int>(incidence.how));
+        if (incidence.how != MeetTreatment::soft) continue;
+        const double miss = system.scale() * std::abs(glm::dot(shape.normals[incidence.facet],
+                                                               shape.points[incidence.point]) -
+                                                      shape.offsets[incidence.facet]);
+        squares += miss * miss;
+        ++count;
+        result.meets.miss_max = std::max(result.meets.miss_max, miss);
+    }
+    for (int h : how) {
+        ++(h == 0 ? result.meets.exact : h == 1 ? result.meets.soft : result.meets.released);
+    }
+    if (count > 0) result.meets.miss_rms = std::sqrt(squares / count);
+    if (system.has_common_meets()) {
+        result.meets.sigma = system.group_sigmas()[0] * system.scale();
+        result.meets.girdle_sigma = system.group_sigmas()[1] * system.scale();
+        result.meets.estimated = !result.options.meet_sigma;
+    }
+}
+
+// The solid that is written: corners from the fit, or what the planes enclose.
+std::vector<std::string> make_solid(const System& system, const Shape& shape,
+                                    const System::Pose& pose, FitResult& result) {
+    std::vector<std::string> missing;
+    Solid solid;
+    if (system.splits()) {
+        System::Enclosed enclosed = system.enclosed(shape);
+        missing = enclosed.missing;
+        solid = enclosed.closed ? std::move(enclosed.solid) : system.met_solid(shape);
+    } else {
+        solid = system.met_solid(shape);
+    }
+    for (Vec3& v : solid.vertices) v = system.outside_point(v, pose);
+    for (Facet& facet : solid.facets) facet.plane = system.outside_plane(facet.plane, pose);
+    result.solid = std::move(solid);
+    return missing;
+}
+
+std::string names(const std::vector<std::string>& list) {
+    std::string text;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        if (i == 8) return text + fmt::format(" and {} more", list.size() - i);
+        text += (i == 0 ? "" : ", ") + list[i];
+    }
+    return text;
+}
+
+void judge(const System& system, const Finished& finished, const Diagnosis& diagnosis,
+           FitResult& result) {
+    std::vector<std::string> broken;
+    for (std::size_t r = 0; r < system.readings().size(); ++r) {
+        const Reading& reading = system.readings()[r];
+        const double unit = system.unit_of(reading);
+        if (reading.exact && std::abs(diagnosis.readings[r].residual) > 10 * k_hard_limit * unit) {
+            broken.push_back(reading.id);
+        }
+    }
+    const auto end = [&](FitStatus status, std::string message) {
+        result.status = status;
+        result.message = std::move(message);
+    };
+    if (!broken.empty()) {
+        return end(FitStatus::contradictory,
+                   fmt::format("exact readings contradict each other: {}", names(broken)));
+    }
+    if (!result.missing_facets.empty()) {
+        return end(FitStatus::not_converged,
+                   fmt::format("the fitted planes leave no room for facet {}",
+                               names(result.missing_facets)));
+    }
+    if (finished.worst_hard > k_hard_limit) {
+        return end(FitStatus::not_converged, "the facets and meets could not be brought together");
+    }
+    if (!result.closed || (!result.convex && system.stone().convex)) {
+        const std::vector<Fault> faults = find_faults(
+            result.solid, {.planarity = k_planarity, .must_be_convex = system.stone().convex});
+        return end(FitStatus::not_converged,
+                   fmt::format("the fitted stone is not {}{}", result.closed ? "convex" : "closed",
+                               faults.empty() ? "" : ": " + faults.front().what));
+    }
+    if (result.planarity_max > k_planarity * diameter(result.solid)) {
+        return end(FitStatus::not_converged,
+                   fmt::format("corners lie up to {:.2g} {} off their facets' planes",
+                               result.planarity_max, name_of(result.unit)));
+    }
+    if (!finished.converged) {
+        return end(FitStatus::not_converged,
+                   fmt::format("no end after {} steps; raise the limit, or look at the suspects",
+                               finished.iterations));
+    }
+    if (result.dof > 0 && result.chi2_p < result.options.significance) {
+        return end(
+            FitStatus::contradictory,
+            fmt::format("the readings do not agree within their uncertainties: chi2 {:.1f} "
+                        "for {:.1f} degrees of freedom (limit {:.1f} at the {:g} level){}",
+                        result.chi2, result.dof, result.chi2_limit, result.options.significance,
+                        result.suspects.empty() ? "" : "; look at " + names(result.suspects)));
+    }
+    if (!result.suspects.empty()) {
+        return end(
+            FitStatus::contradictory,
+            fmt::format("readings that cannot belong to the others: {}", names(result.suspects)));
+    }
+    if (result.undetermined_freedoms > 0) {
+        std::vector<std::string> facets;
+        for (const Undetermined& u : result.undetermined) {
+            if (facets.empty() || facets.back() != u.facet) facets.push_back(u.facet);
+        }
+        return end(FitStatus::undetermined,
+                   fmt::format("{} freedom{} of the stone left as in the mesh, for want of "
+                               "readings{}",
+                               result.undetermined_freedoms,
+                               result.undetermined_freedoms == 1 ? " is" : "s are",
+                               facets.empty() ? "" : " (facets " + names(facets) + ")"));
+    }
+    end(FitStatus::converged,
+        fmt::format("chi2 {:.1f} for {:.1f} degrees of freedom", result.chi2, result.dof));
+}
+
+}  // namespace
+
+FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
+                    const FitOptions& options, const Progress& progress) {
+    const auto begin = std::chrono::steady_clock::now();
+    System system(stone, readings, options);
+    FitResult result;
+    result.options = options;
+    result.unit = stone.unit;
+
+    // Starts in the order of trust: the mesh as it is, then the angles that were read.
+    Candidate best = from_start(system, {system.mesh_shape(), false}, options, progress);
+    const auto passes = [&](const Candidate& c) {
+        if (!c.sound || !c.finished.converged) return false;
+        if (system.has_estimated_groups()) return true;
+        const Diagnosis d = diagnose(system, c.finished.shape, c.finished.outline, {.full = false});
+        return chi2_tail(d.chi2, d.dof) > options.significance;
+    };
+    if (!passes(best)) {
+        Candidate other = from_start(system, start_from_angles(system), options, progress);
+        const auto rank = [](const Candidate& c) {
+            return std::make_tuple(!c.sound, !(c.finished.worst_hard < k_hard_limit),
+                                   !c.finished.converged, c.finished.chi2);
+        };
+        if (rank(other) < rank(best)) best = std::move(other);
+    }
+    if (progress && !progress(0.7)) throw Interrupted();
+    if (system.has_estimated_groups()) {
+        estimate_sigmas(system, best.finished, options, progress);
+    }
+    if (progress && !progress(0.95)) throw Interrupted();
+
+    const Finished& finished = best.finished;
+    const Diagnosis diagnosis =
+        diagnose(system, finished.shape, finished.outline, {.significance = options.significance});
+    const System::Pose pose = system.pose_of(finished.shape);
+    result.missing_facets = make_solid(system, finished.shape, pose, result);
+    result.planarity_max = planarity(result.solid);
+    result.closed = is_closed(result.solid);
+    result.convex = is_convex(result.solid);
+    result.azimuth_zero = system.azimuth_zero(pose);
+    result.iterations = finished.iterations;
+    result.chi2 = diagnosis.chi2;
+    result.dof = diagnosis.dof;
+    result.chi2_p = chi2_tail(diagnosis.chi2, diagnosis.dof);
+    result.chi2_limit = chi2_quantile(options.significance, diagnosis.dof);
+    result.suspect_limit = diagnosis.suspect_limit;
+    result.undetermined = diagnosis.undetermined;
+    result.undetermined_freedoms = diagnosis.undetermined_freedoms;
+    describe_meets(system, finished.shape, result);
+
+    for (std::size_t f = 0; f < stone.solid.facets.size(); ++f) {
+        FittedFacet facet;
+        facet.name = stone.solid.facets[f].name;
+        const Vec3& n = finished.shape.normals[f];
+        facet.plane = system.outside_plane({n, finished.shape.offsets[f]}, pose);
+        facet.inclination = inclination(n, Vec3{0, 0, 1});
+        const double level = std::hypot(n.x, n.y);
+        facet.azimuth =
+            level > 1e-9 ? azimuth(Vec3{std::cos(pose.turn) * n.x - std::sin(pose.turn) * n.y,
+                                        std::sin(pose.turn) * n.x + std::cos(pose.turn) * n.y, 0})
+                         : 0;
+        const FacetSigma& sigma = diagnosis.facets[f];
+        facet.sigma_inclination = sigma.inclination;
+        facet.sigma_azimuth = sigma.azimuth;
+        facet.sigma_offset = sigma.offset * system.scale();
+        const int there = find_facet(result.solid, facet.name);
+        if (there >= 0) facet.area = area(result.solid, result.solid.facets[there]);
+        result.facets.push_back(std::move(facet));
+    }
+    for (std::size_t r = 0; r < readings.size(); ++r) {
+        const Reading& reading = readings[r];
+        const ReadingCheck& c = diagnosis.readings[r];
+        FittedReading fitted;
+        fitted.id = reading.id;
+        fitted.kind = reading.kind;
+        fitted.of = reading.of;
+        fitted.value = reading.value;
+        fitted.sigma = reading.sigma;
+        if (is_relation(reading.kind) && reading.sigma == 0 && !reading.exact) {
+            fitted.sigma = reading.released ? 0 : system.group_sigmas()[0] * system.scale();
+        }
+        fitted.fitted = reading.value + c.residual;
+        fitted.residual = c.residual;
+        fitted.normalized = c.normalized;
+        fitted.redundancy = c.redundancy;
+        fitted.detectable = c.detectable;
+        fitted.suspect = c.suspect;
+        fitted.exact = reading.exact;
+        result.readings.push_back(std::move(fitted));
+    }
+    for (int s : diagnosis.suspects) result.suspects.push_back(readings[s].id);
+    judge(system, finished, diagnosis, result);
+    result.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (progress) progress(1);
+    return result;
+}
+
+}  // namespace culet

@@ -1,1 +1,120 @@
 #pragma once
+// Front door of the room: which stone explains the measurements.
+//
+// The mesh gives the facets, which of them meet where, and a start; the readings move it. Facet
+// planes and meets are fitted together by least squares, each reading weighted by 1/sigma^2, under
+// hard constraints: every facet is planar, exact readings hold exactly, and so do the meets of the
+// mesh unless they are told to be soft or released.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fit/measurement.h"
+#include "stone/progress.h"
+#include "stone/stone.h"
+
+namespace culet {
+
+enum class MeetTreatment {
+    exact,    ///< all planes of a meet pass through one point
+    soft,     ///< each plane of a meet passes the common point within a standard uncertainty
+    released  ///< meets of more than three planes come apart freely
+};
+
+struct FitOptions {
+    /// Of meets of more than three facets that no `meet` reading speaks of.
+    MeetTreatment meets = MeetTreatment::exact;
+    /// Of soft meets, in the stone's unit; nothing: estimated from the data by variance components
+    /// (Foerstner 1979): sigma^2 = sum of squared misses / their redundancy.
+    std::optional<double> meet_sigma;
+    /// Largest number of steps of the last stage.
+    int iterations = 100;
+    /// Family level of both tests: the chi-square test of all readings, and (shared out among them
+    /// by Bonferroni) the test of each.
+    double significance = 0.001;
+};
+
+/// The [fit] table of a stone file: `meets` = "exact" | "soft" | "released", `meet_sigma`,
+/// `iterations`, `significance`. Throws InputError.
+FitOptions read_fit_options(const std::filesystem::path& stone_file,
+                            const std::vector<std::string>& overrides = {});
+
+enum class FitStatus {
+    converged,
+    not_converged,  ///< no stone was found, or not one that could be cut
+    contradictory,  ///< the readings do not agree within their uncertainties
+    undetermined    ///< the readings leave parts of the stone open: those are as in the mesh
+};
+const char* name_of(FitStatus status);
+
+struct FittedFacet {
+    std::string name;
+    Plane plane;
+    double inclination = 0, azimuth = 0;  ///< radians; azimuth in the frame of the fitted solid
+    double sigma_inclination = 0, sigma_azimuth = 0;  ///< radians; azimuth: NaN for level facets
+    double sigma_offset = 0;  ///< of the plane's distance from the middle of the stone
+    double area = 0;          ///< of the facet in the result; 0: not there
+};
+
+struct FittedReading {
+    std::string id;
+    ReadingKind kind = ReadingKind::inclination;
+    std::vector<std::string> of;
+    double value = 0, sigma = 0, fitted = 0, residual = 0;  ///< radians, length, mm3 or carat
+    double normalized = 0;  ///< residual / its own standard uncertainty (Baarda's w)
+    double redundancy = 0;  ///< 0: nothing checks this reading; 1: it adds nothing
+    double detectable = 0;  ///< smallest error that the test would find, 80 times in 100; 0: none
+    bool suspect = false, exact = false;
+};
+
+struct Undetermined {
+    std::string facet;
+    std::string freedom;  ///< `inclination`, `azimuth` or `offset`
+};
+
+/// How the meets of more than three facets were treated, and by how much they miss.
+struct MeetReport {
+    int exact = 0, soft = 0, released = 0;
+    double sigma = 0;                   ///< of soft meets
+    double girdle_sigma = 0;            ///< of girdle facets in soft meets
+    bool estimated = false;             ///< sigma comes from the data
+    double miss_rms = 0, miss_max = 0;  ///< distance of planes from their meets
+};
+
+struct FitResult {
+    FitStatus status = FitStatus::not_converged;
+    std::string message;  ///< why, in one line
+    Solid solid;          ///< in the stone's unit
+    LengthUnit unit = LengthUnit::mm;
+    std::vector<FittedFacet> facets;  ///< in the mesh's order
+    std::vector<FittedReading> readings;
+    std::vector<Undetermined> undetermined;
+    std::vector<std::string> suspects;  ///< ids, the worst first
+    std::vector<std::string> missing_facets;
+    MeetReport meets;
+    double planarity_max = 0;
+    bool closed = false, convex = false;
+    double chi2 = 0, dof = 0, chi2_limit = 0, chi2_p = 1;
+    double suspect_limit = 0;  ///< of |normalized|
+    double azimuth_zero = 0;   ///< where in the solid's frame the readings' azimuths begin; radians
+    int undetermined_freedoms = 0;
+    int iterations = 0;
+    double seconds = 0;
+    FitOptions options;
+
+    /// Good enough to go on with.
+    bool usable() const { return status == FitStatus::converged; }
+};
+
+/// Fits the stone to its readings. The result keeps the mesh's facet names and its pose, but for
+/// one turn: an up direction within 20 degrees of a coordinate axis comes to lie on it exactly.
+/// Throws InputError when the mesh is not a closed solid or a relation cannot be found on it.
+FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
+                    const FitOptions& options = {}, const Progress& progress = {});
+
+/// One JSON object, degrees and the stone's unit (`schema` 1).
+std::string fit_report(const FitResult& result);
+
+}  // namespace culet

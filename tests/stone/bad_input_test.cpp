@@ -199,6 +199,22 @@ TEST(BadInput, ExtremeCoordinates) {
     }
 }
 
+// Files that once brought a reader down, kept by the fuzzers (tests/fuzz). The name is free; the
+// extension says which reader.
+TEST(BadInput, FilesThatFuzzersFound) {
+    std::size_t count = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(CULET_SOURCE_DIR "/tests/fuzz/found")) {
+        for (const Format& format : formats()) {
+            if (entry.path().extension() != std::string(".").append(format.extension)) continue;
+            SCOPED_TRACE(entry.path().filename());
+            expect_survives(format, read_text(entry.path()));
+            ++count;
+        }
+    }
+    EXPECT_GT(count, 0u);
+}
+
 class BadFile : public testing::TestWithParam<const char*> {
 protected:
     ScratchFolder folder_;

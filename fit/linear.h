@@ -1,0 +1,50 @@
+#pragma once
+// The equations of a fit made linear about a shape, and their solution under hard constraints.
+// Private to the room: shows Eigen.
+
+#include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
+#include <memory>
+#include <vector>
+
+#include "fit/system.h"
+
+namespace culet {
+
+struct Linearised {
+    Layout layout;
+    std::vector<Equation> soft, hard;
+    Eigen::SparseMatrix<double, Eigen::RowMajor> soft_rows;  ///< slopes / sigma
+    Eigen::VectorXd soft_residuals;                          ///< (formula - value) / sigma
+    Eigen::SparseMatrix<double, Eigen::RowMajor> hard_rows;
+    Eigen::VectorXd hard_residuals;
+    /// Motions that no equation sees (shifts, turns), weighted: held at zero.
+    std::vector<Eigen::VectorXd> gauge_rows;
+    Eigen::VectorXd metric;  ///< diagonal: what counts as a step of one, for each unknown
+
+    double chi2() const;   ///< of the counted equations
+    double merit() const;  ///< of all soft equations
+    double worst_hard() const;
+};
+
+/// Hinges that are not positive are left out.
+Linearised linearise(const System& system, const Shape& shape,
+                     const std::shared_ptr<const Outline>& outline, bool with_hinges);
+
+/// [J'J + damping M, A'; A, -e] factored. The tiny e lets hard equations repeat each other.
+class ConstrainedSolver {
+public:
+    /// `with_soft` false: only the metric (smallest steps that meet the hard equations).
+    ConstrainedSolver(const Linearised& linear, double damping, bool with_soft = true);
+    bool usable() const { return usable_; }
+    /// Solves for the unknowns with right-hand sides for unknowns and hard equations.
+    Eigen::VectorXd solve(const Eigen::VectorXd& unknowns, const Eigen::VectorXd& hard) const;
+
+private:
+    Eigen::Index unknowns_ = 0, hard_ = 0, gauges_ = 0;
+    bool usable_ = false;
+    Eigen::SparseMatrix<double> matrix_;
+    std::unique_ptr<Eigen::SparseLU<Eigen::SparseMatrix<double>>> factors_;
+};
+
+}  // namespace culet

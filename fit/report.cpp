@@ -1,0 +1,115 @@
+// The fit report: the contract's keys, and a few more.
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "fit/fit.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// JSON has no infinity and no NaN.
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+bool in_degrees(ReadingKind kind) {
+    return is_angle(kind) || kind == ReadingKind::parallel || kind == ReadingKind::rotation ||
+           kind == ReadingKind::mirror;
+}
+
+const char* name_of(MeetTreatment treatment) {
+    switch (treatment) {
+        case MeetTreatment::exact:
+            return "exact";
+        case MeetTreatment::soft:
+            return "soft";
+        case MeetTreatment::released:
+            return "released";
+    }
+    return "exact";
+}
+
+}  // namespace
+
+std::string fit_report(const FitResult& result) {
+    Json report;
+    report["schema"] = 1;
+    report["status"] = name_of(result.status);
+    report["message"] = result.message;
+    report["unit"] = std::string(name_of(result.unit));
+    Json facets = Json::array();
+    for (const FittedFacet& f : result.facets) {
+        const Vec3& n = f.plane.normal;
+        facets.push_back({{"name", f.name},
+                          {"normal", {n.x, n.y, n.z}},
+                          {"offset", f.plane.offset},
+                          {"inclination", degrees(f.inclination)},
+                          {"azimuth", degrees(f.azimuth)},
+                          {"sigma_inclination", number(degrees(f.sigma_inclination))},
+                          {"sigma_azimuth", number(degrees(f.sigma_azimuth))},
+                          {"sigma_offset", number(f.sigma_offset)},
+                          {"area", f.area}});
+    }
+    report["facets"] = facets;
+    Json areas = Json::object();
+    for (const FittedFacet& f : result.facets) areas[f.name] = f.area;
+    report["areas"] = areas;
+    Json readings = Json::array();
+    for (const FittedReading& r : result.readings) {
+        const double unit = in_degrees(r.kind) ? degrees(1) : 1;
+        readings.push_back(
+            {{"id", r.id},
+             {"kind", name_of(r.kind)},
+             {"of", r.of},
+             {"value", is_relation(r.kind) ? Json(nullptr) : number(unit * r.value)},
+             {"sigma", number(unit * r.sigma)},
+             {"exact", r.exact},
+             {"fitted", number(unit * r.fitted)},
+             {"residual", number(unit * r.residual)},
+             {"normalized", number(r.normalized)},
+             {"redundancy", number(r.redundancy)},
+             {"detectable", r.detectable > 0 ? number(unit * r.detectable) : Json(nullptr)},
+             {"suspect", r.suspect}});
+    }
+    report["readings"] = readings;
+    Json undetermined = Json::array();
+    for (const Undetermined& u : result.undetermined) {
+        undetermined.push_back({{"facet", u.facet}, {"freedom", u.freedom}});
+    }
+    report["undetermined"] = undetermined;
+    report["undetermined_freedoms"] = result.undetermined_freedoms;
+    report["suspects"] = result.suspects;
+    report["suspect_limit"] = result.suspect_limit;
+    report["missing_facets"] = result.missing_facets;
+    report["meets"] = {{"exact", result.meets.exact},
+                       {"soft", result.meets.soft},
+                       {"released", result.meets.released},
+                       {"sigma", result.meets.sigma},
+                       {"girdle_sigma", result.meets.girdle_sigma},
+                       {"sigma_estimated", result.meets.estimated},
+                       {"miss_rms", result.meets.miss_rms},
+                       {"miss_max", result.meets.miss_max}};
+    report["planarity_max"] = result.planarity_max;
+    report["closed"] = result.closed;
+    report["convex"] = result.convex;
+    report["chi2"] = number(result.chi2);
+    report["dof"] = number(result.dof);
+    report["chi2_limit"] = number(result.chi2_limit);
+    report["chi2_p"] = number(result.chi2_p);
+    report["azimuth_zero"] = degrees(result.azimuth_zero);
+    report["iterations"] = result.iterations;
+    report["seconds"] = result.seconds;
+    report["options"] = {
+        {"meets", name_of(result.options.meets)},
+        {"meet_sigma", result.options.meet_sigma ? Json(*result.options.meet_sigma) : Json("auto")},
+        {"iterations", result.options.iterations},
+        {"significance", result.options.significance}};
+    return report.dump(1) + "\n";
+}
+
+}  // namespace culet

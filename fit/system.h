@@ -1,0 +1,143 @@
+#pragma once
+// The equations of one fit: which readings, meets and relations bind which unknowns.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "fit/fit.h"
+#include "fit/measurement.h"
+#include "fit/residuals.h"
+#include "stone/half_edges.h"
+
+namespace culet {
+
+/// formula = value, within sigma or exactly. In the scale of the fit (half diameter 1).
+struct Equation {
+    enum class Role {
+        reading,
+        relation,   ///< of symmetry, parallel and coplanar readings
+        incidence,  ///< a plane passes through a meet
+        released,   ///< likewise, held only so far that the meet has a place at all
+        prior,      ///< the mesh says so
+        hinge       ///< counts only when positive: a corner above a facet
+    };
+    Role role = Role::reading;
+    int reading = -1;  ///< index, or -1
+    int incidence = -1;
+    int group = -1;  ///< of estimated uncertainty, or -1
+    bool exact = false;
+    double value = 0, sigma = 1;
+    double size = 1;  ///< of the quantity, by which early stages soften it
+    Formula formula;
+
+    /// Takes part in chi-square and in the count of redundancy.
+    bool is_counted() const {
+        return !exact && role != Role::released && role != Role::prior && role != Role::hinge;
+    }
+};
+
+struct Incidence {
+    int point = -1, facet = -1;
+    MeetTreatment how = MeetTreatment::exact;
+    double sigma = 0;  ///< soft; 0: the common one
+    int reading = -1;  ///< that asks for it
+};
+
+class System {
+public:
+    /// Brings the mesh upright, to half diameter 1 and, when lengths were read, to their scale;
+    /// with azimuths of free zero it is turned until they fit best.
+    System(const Stone& stone, const std::vector<Reading>& readings, const FitOptions& options);
+
+    const Stone& stone() const { return stone_; }
+    const std::vector<Reading>& readings() const { return readings_; }
+    const std::vector<Incidence>& incidences() const { return incidences_; }
+    /// The mesh as it starts.
+    const Shape& mesh_shape() const { return mesh_shape_; }
+    const std::shared_ptr<const Outline>& mesh_outline() const { return mesh_outline_; }
+    const HalfEdges& edges() const { return edges_; }
+    Layout layout() const { return layout_of(mesh_shape_); }
+    int up_facet() const { return up_facet_; }
+    /// Some meet may come apart: the stone is what its planes enclose.
+    bool splits() const { return splits_; }
+    bool has_common_meets() const;
+
+    /// How soft meets miss, where no uncertainty is given: group 0 by polished facets, group 1 by
+    /// girdle facets (the girdle is shaped before the facets and by other means).
+    const std::array<double, 2>& group_sigmas() const { return group_sigmas_; }
+    void set_group_sigma(int group, double sigma) { group_sigmas_[std::size_t(group)] = sigma; }
+    bool has_estimated_groups() const;
+
+    /// All equations but prior and hinges, for the corners that carry them at this shape.
+    std::vector<Equation> equations(const Shape& shape,
+                                    const std::shared_ptr<const Outline>& outline) const;
+    /// Every corner of a neighbour stays below every facet (mesh outline, points).
+    std::vector<Equation> hinges() const;
+    /// The mesh's points, as far as a hand-made mesh may be off.
+    std::vector<Equation> priors() const;
+    /// What the planes of the shape enclose. `enclosed` is the solid itself; false in `whole` when
+    /// a facet is missing or the planes do not close.
+    struct Enclosed {
+        Solid solid;
+        std::shared_ptr<const Outline> outline;
+        bool closed = false;
+        std::vector<std::string> missing;
+    };
+    Enclosed enclosed(const Shape& shape) const;
+    /// The solid of the mesh's own facets and the shape's points.
+    Solid met_solid(const Shape& shape) const;
+
+    /// Length of the stone's unit that is 1 inside.
+    double scale() const { return scale_; }
+    /// Within 10 degrees of upright in the mesh.
+    bool is_girdle(int facet) const;
+    /// What a quantity of a reading is multiplied by to be in the reading's unit.
+    double unit_of(const Reading& reading) const;
+    /// Turns inside positions back into the stone's unit and the mesh's pose; the rest of the
+    /// motion (a free azimuth, a drift) is chosen so that the points lie nearest to the mesh's.
+    struct Pose {
+        double turn = 0;  ///< about up, from inside to outside
+        Vec3 shift{0, 0, 0};
+    };
+    Pose pose_of(const Shape& shape) const;
+    Vec3 outside_point(const Vec3& p, const Pose& pose) const;
+    Plane outside_plane(const Plane& plane, const Pose& pose) const;
+    /// Where azimuth 0 of the readings lies in the outside frame.
+    double azimuth_zero(const Pose& pose) const;
+    /// A direction of the mesh's frame, inside.
+    Vec3 inside_direction(const Vec3& direction) const;
+
+    /// Index of the first extra unknown of a reading, or -1.
+    int first_extra(int reading) const { return first_extra_[static_cast<std::size_t>(reading)]; }
+
+private:
+    void bring_upright();
+    void list_incidences(const FitOptions& options);
+    void add_extras();
+    void pair_facets();
+    std::vector<int> rotation_partners(const Reading& reading) const;
+    std::vector<int> mirror_partners(const Reading& reading) const;
+
+    const Stone& stone_;
+    std::vector<Reading> readings_;
+    Solid solid_;  // the mesh, inside
+    HalfEdges edges_;
+    Shape mesh_shape_;
+    std::shared_ptr<const Outline> mesh_outline_;
+    std::vector<Incidence> incidences_;
+    std::vector<int> first_extra_;
+    std::vector<std::vector<std::pair<int, int>>> pairs_;  // facets, of symmetry readings
+    int up_facet_ = -1;
+    bool splits_ = false;
+    std::array<double, 2> group_sigmas_{};
+    bool estimates_meets_ = false;
+    double scale_ = 1;
+    double mesh_scale_ = 1;  // the mesh was made this much larger to suit the lengths
+    double turn_ = 0;        // about up, from the mesh to the inside
+    Vec3 middle_{0, 0, 0};   // of the mesh, in the stone's unit
+    std::array<Vec3, 3> upright_{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  // rows
+    std::array<Vec3, 3> outward_{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  // rows
+};
+
+}  // namespace culet
