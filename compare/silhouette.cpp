@@ -140,7 +140,7 @@ Background background_of(const cv::Mat& shown) {
     return background;
 }
 
-float threshold_for(const Background& background) {
+float least_difference(const Background& background) {
     float least = k_least_difference_dark;
     if (background.level > 0.25) {
         // A third of Otsu's level keeps soft shadows out and pale facets in.
@@ -149,7 +149,26 @@ float threshold_for(const Background& background) {
         const double otsu = cv::threshold(bytes, ignored, 0, 255, cv::THRESH_OTSU) / 255;
         least = std::max(k_least_difference_light, static_cast<float>(otsu / 3));
     }
-    return std::max(least, 6 * background.noise);
+    return least;
+}
+
+// The largest of three channels' differences lies about 1.8 sigma of one channel's noise from zero
+// (its median times 1.4826), so that four of these are seven sigma.
+float noise_limit(const Background& background) {
+    return 4 * background.noise;
+}
+
+// What differs from the background. A noisy picture is blurred until its noise lies below the
+// differences that matter; a clean one is not touched, for a blur moves the outline.
+cv::Mat differing(const cv::Mat& shown_picture) {
+    Background background = background_of(shown_picture);
+    for (const double sigma : {1.0, 2.0, 4.0}) {
+        if (noise_limit(background) <= least_difference(background)) break;
+        cv::Mat calmer;
+        cv::GaussianBlur(shown_picture, calmer, {0, 0}, sigma, sigma, cv::BORDER_REPLICATE);
+        background = background_of(calmer);
+    }
+    return background.difference > std::max(least_difference(background), noise_limit(background));
 }
 
 // The largest connected part, with every part of at least 1/200 of its area that lies within a
@@ -227,8 +246,7 @@ Silhouette silhouette_from_background(const cv::Mat& colour) {
         return silhouette;
     }
     const cv::Mat scaled = colour * (1.0 / bright);
-    const Background background = background_of(encoded(scaled));
-    cv::Mat differs = background.difference > threshold_for(background);
+    cv::Mat differs = differing(encoded(scaled));
     // Drop single hot pixels, then close gaps of up to 3 % of the picture.
     const int reach = std::max(1, std::min(colour.cols, colour.rows) * 3 / 200);
     const auto disc = [](int radius) {
