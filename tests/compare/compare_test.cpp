@@ -96,7 +96,7 @@ TEST(Compare, a_known_move_is_recovered_from_the_background) {
 }
 
 // A disc's outline is a disc: its centre is where it was drawn to a tenth of a pixel, its diameter
-// to the pixel at either end that counts as stone when a sliver of it is covered.
+// to a pixel.
 TEST(Compare, the_outline_from_the_background_is_where_the_stone_is) {
     StonePicture round = small();
     round.flatness = 1;
@@ -106,7 +106,7 @@ TEST(Compare, the_outline_from_the_background_is_where_the_stone_is) {
     const Registration r = compare(draw(round), draw(round)).registration;
     EXPECT_NEAR(r.centre_px[0], 73.5, 0.1);
     EXPECT_NEAR(r.centre_px[1], 67.3, 0.1);
-    EXPECT_NEAR(r.photo_diameter_px, 90 * std::sqrt(1.1), 2);
+    EXPECT_NEAR(r.photo_diameter_px, 90 * std::sqrt(1.1), 1);
 }
 
 TEST(Compare, a_photo_of_four_times_the_pixels_is_compared_at_the_renders_size) {
@@ -156,7 +156,7 @@ TEST(Compare, noise_and_blur_of_a_camera_do_not_upset_it) {
     cv::GaussianBlur(pixels, pixels, {0, 0}, 0.7);
     cv::RNG random(1);
     for (float& v : photo.rgb) {
-        const double noisy = v + random.gaussian(std::sqrt(1e-5 + 5e-4 * static_cast<double>(v)));
+        const double noisy = v + random.gaussian(std::sqrt(2e-6 + 2e-4 * static_cast<double>(v)));
         const double bits = std::round(255 * srgb_encoded(std::clamp(noisy, 0.0, 1.0)));
         v = static_cast<float>(srgb_decoded(bits / 255));
     }
@@ -164,7 +164,9 @@ TEST(Compare, noise_and_blur_of_a_camera_do_not_upset_it) {
     EXPECT_EQ(c.verdict, Verdict::match);
     EXPECT_GT(c.registration.iou, 0.96);
     EXPECT_NEAR(radians(c.registration.turn_deg), -0.05, 0.03);
-    EXPECT_GT(*score(c, "zncc").value, 0.97);
+    // The outline is then good to about a pixel, half of the blur of this score.
+    EXPECT_GT(*score(c, "zncc").value, 0.85);
+    EXPECT_NEAR(c.registration.scale, 1, 0.02);
 }
 
 TEST(Compare, another_pattern_in_the_same_outline_is_no_evidence) {
