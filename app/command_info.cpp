@@ -40,6 +40,10 @@ int info(InfoOptions options) {
     for (const Fault& fault : about.faults) {
         object["faults"].push_back({{"kind", name_of(fault.kind)}, {"what", fault.what}});
     }
+    if (!options.json.empty()) {
+        // Names in a file need not be UTF-8; JSON must be.
+        write_text(options.json, object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    }
     if (options.json != "-") {
         for (const std::string& line : about.lines) fmt::print("{}\n", printable(line));
         for (const std::string& note : about.notes) fmt::print("note: {}\n", printable(note));
@@ -47,10 +51,6 @@ int info(InfoOptions options) {
             fmt::print("fault: {}: {}\n", name_of(fault.kind), printable(fault.what));
         }
         std::fflush(stdout);
-    }
-    if (!options.json.empty()) {
-        // Names in a file need not be UTF-8; JSON must be.
-        write_text(options.json, object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     }
     return about.faults.empty() ? exit_good : exit_untrusted;
 }

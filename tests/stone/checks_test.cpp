@@ -56,6 +56,7 @@ TEST(Checks, MissingFacetIsAnOpenSurface) {
     solid.facets.pop_back();
     const auto faults = find_faults(solid);
     EXPECT_EQ(faults.size(), 4u);  // one an edge
+    EXPECT_EQ(edge_count(solid), 12);
     EXPECT_TRUE(has(faults, FaultKind::open));
     EXPECT_FALSE(is_closed(solid));
     EXPECT_FALSE(is_convex(solid));

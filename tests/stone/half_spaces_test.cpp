@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <set>
 
 #include "stone/checks.h"
 #include "stone/errors.h"
@@ -99,6 +102,58 @@ TEST(HalfSpaces, OrderOfThePlanesDoesNotChangeTheSolid) {
     EXPECT_EQ(a.vertices.size(), b.vertices.size());
     EXPECT_NEAR(volume(a), volume(b), 1e-13);
     EXPECT_EQ(plane_difference(a, b), 0);
+}
+
+/// Planes n . x <= d for all signs and orders of n, as whole numbers: meets of many planes are
+/// exact.
+void add_family(std::vector<NamedPlane>& planes, int a, int b, int c, double d) {
+    std::set<std::array<int, 3>> normals;
+    std::array<int, 3> n{a, b, c};
+    std::sort(n.begin(), n.end());
+    do {
+        for (int signs = 0; signs < 8; ++signs) {
+            normals.insert(
+                {signs & 1 ? -n[0] : n[0], signs & 2 ? -n[1] : n[1], signs & 4 ? -n[2] : n[2]});
+        }
+    } while (std::next_permutation(n.begin(), n.end()));
+    for (const auto& v : normals) {
+        planes.push_back(
+            {numbered("n", static_cast<int>(planes.size())), {Vec3(v[0], v[1], v[2]), d}});
+    }
+}
+
+// Counts of the Archimedean and Catalan solids with the symmetry of the cube (Coxeter, Regular
+// Polytopes).
+TEST(HalfSpaces, CubicSolidsWithExactMeetsOfManyPlanes) {
+    struct Case {
+        const char* name;
+        std::vector<std::array<int, 4>> families;  // normal and offset
+        std::size_t vertices, facets;
+        int edges;
+    };
+    for (const Case& c : {Case{"cuboctahedron", {{1, 0, 0, 1}, {1, 1, 1, 2}}, 12, 14, 24},
+                          Case{"rhombic dodecahedron", {{1, 1, 0, 2}}, 14, 12, 24},
+                          Case{"truncated octahedron", {{1, 0, 0, 2}, {1, 1, 1, 3}}, 24, 14, 36},
+                          Case{"octahedron", {{1, 1, 1, 1}}, 6, 8, 12}}) {
+        SCOPED_TRACE(c.name);
+        std::vector<NamedPlane> planes;
+        for (const auto& f : c.families) add_family(planes, f[0], f[1], f[2], f[3]);
+        const HalfSpaceSolid result = intersect_half_spaces(planes);
+        EXPECT_EQ(result.solid.vertices.size(), c.vertices);
+        EXPECT_EQ(result.solid.facets.size(), c.facets);
+        EXPECT_EQ(edge_count(result.solid), c.edges);
+        EXPECT_TRUE(find_faults(result.solid).empty());
+        // The same from the other end.
+        std::reverse(planes.begin(), planes.end());
+        EXPECT_EQ(intersect_half_spaces(planes).solid.vertices.size(), c.vertices);
+        // Planes through vertices and edges only bound nothing.
+        const std::size_t before = planes.size();
+        add_family(planes, 9, 0, 0, 9 * width_along(result.solid, {1, 0, 0}) / 2);
+        const HalfSpaceSolid touched = intersect_half_spaces(planes);
+        EXPECT_EQ(touched.solid.vertices.size(), c.vertices);
+        EXPECT_EQ(touched.unused_planes.size() + touched.repeated_planes.size(),
+                  planes.size() - before);
+    }
 }
 
 TEST(HalfSpaces, RepeatedPlanesAreToldAndChangeNothing) {
