@@ -286,7 +286,8 @@ std::string pictures_section(const Report& report) {
     body += usable ? fmt::format(
                          "<p class=\"note\">The render is moved onto the {} by its outline "
                          "and brought to its exposure and white balance by one factor a "
-                         "colour channel. Drag, or use the arrow keys.</p>\n",
+                         "colour channel. <span class=\"screen\">Drag, or use the arrow "
+                         "keys.</span></p>\n",
                          word)
                    : "<p class=\"note\">The render is laid over as well as its outline allows; "
                      "its exposure is its own.</p>\n";
@@ -380,7 +381,7 @@ std::string registration_section(const Report& report) {
         word);
     const Registration& r = c.registration;
     std::string rows;
-    const auto row = [&](const char* name, const std::string& value) {
+    const auto row = [&](const std::string& name, const std::string& value) {
         rows +=
             fmt::format("<tr><th scope=\"row\">{}</th><td class=\"n\">{}</td></tr>\n", name, value);
     };
@@ -390,8 +391,8 @@ std::string registration_section(const Report& report) {
     row("Shift", decimals(r.shift_px[0], 2) + ", " + decimals(r.shift_px[1], 2) + " px");
     row("Turn, clockwise",
         r.turn_known ? decimals(r.turn_deg, 3) + "°" : "not seen in the outline");
-    row("Scale, render over photograph", decimals(r.scale, 5));
-    row("Stone in the photograph", decimals(r.photo_diameter_px, 0) + " px across");
+    row("Scale, render over " + word, decimals(r.scale, 5));
+    row("Stone in the " + word, decimals(r.photo_diameter_px, 0) + " px across");
     row("Stone in the render", decimals(r.render_diameter_px, 0) + " px across");
     row("Outlines taken from", escaped(r.photo_outline + ", " + r.render_outline));
     body += "<div>" + table("Registration by the outlines",

@@ -20,6 +20,7 @@ constexpr double k_smallest_diameter_px = 32;
 
 // Differences from the background in sRGB-encoded units (0..1). 0.02 is 5 of 255: above the
 // rounding and JPEG noise of a dark box. On a light ground a soft shadow reaches some 0.06.
+constexpr double k_dark_ground = 0.25;  // encoded luminance of the background
 constexpr float k_least_difference_dark = 0.02f, k_least_difference_light = 0.06f;
 
 void measure(Silhouette& silhouette) {
@@ -140,16 +141,94 @@ Background background_of(const cv::Mat& shown) {
     return background;
 }
 
-float threshold_for(const Background& background) {
+float least_difference(const Background& background) {
     float least = k_least_difference_dark;
-    if (background.level > 0.25) {
+    if (background.level > k_dark_ground) {
         // A third of Otsu's level keeps soft shadows out and pale facets in.
         cv::Mat bytes, ignored;
         background.difference.convertTo(bytes, CV_8U, 255);
         const double otsu = cv::threshold(bytes, ignored, 0, 255, cv::THRESH_OTSU) / 255;
         least = std::max(k_least_difference_light, static_cast<float>(otsu / 3));
     }
-    return std::max(least, 6 * background.noise);
+    return least;
+}
+
+// The largest of three channels' differences lies about 1.8 sigma of one channel's noise from zero
+// (its median times 1.4826), so that four of these are seven sigma.
+float noise_limit(const Background& background) {
+    return 4 * background.noise;
+}
+
+struct Differing {
+    cv::Mat mask;
+    cv::Mat difference;  // CV_32F, perhaps blurred
+    double blur = 0;     // sigma, pixels
+    float threshold = 0;
+};
+
+// What differs from the background. A noisy picture is blurred until its noise lies below the
+// differences that matter; a clean one is not touched.
+Differing differing(const cv::Mat& shown_picture) {
+    Differing result;
+    Background background = background_of(shown_picture);
+    for (const double sigma : {1.0, 2.0, 4.0}) {
+        if (noise_limit(background) <= least_difference(background)) break;
+        cv::Mat calmer;
+        cv::GaussianBlur(shown_picture, calmer, {0, 0}, sigma, sigma, cv::BORDER_REPLICATE);
+        background = background_of(calmer);
+        result.blur = sigma;
+    }
+    result.threshold = std::max(least_difference(background), noise_limit(background));
+    result.mask = background.difference > result.threshold;
+    result.difference = background.difference;
+    return result;
+}
+
+float bilinear(const cv::Mat& plane, double x, double y) {
+    const double column = std::clamp(x, 0.0, plane.cols - 1.001);
+    const double row = std::clamp(y, 0.0, plane.rows - 1.001);
+    const int c = static_cast<int>(column), r = static_cast<int>(row);
+    const float u = static_cast<float>(column - c), v = static_cast<float>(row - r);
+    return (1 - v) * ((1 - u) * plane.at<float>(r, c) + u * plane.at<float>(r, c + 1)) +
+           v * ((1 - u) * plane.at<float>(r + 1, c) + u * plane.at<float>(r + 1, c + 1));
+}
+
+// A low threshold finds the foot of the outline's slope, not its middle. Looks along the normals
+// for the steepest place, and moves the whole outline by the median of what it finds: one offset
+// for all, so that dark facets along the girdle cannot dent it.
+cv::Mat settled(const cv::Mat& mask, const Differing& found) {
+    const cv::Mat distance = signed_distance(mask);
+    // The foot of a blurred edge lies up to two sigma outside it.
+    const double outward = 1.5, inward = 2 * found.blur + 1.5;
+    std::vector<double> offsets;
+    for (int y = 1; y + 1 < mask.rows; ++y) {
+        for (int x = 1; x + 1 < mask.cols; ++x) {
+            if (std::abs(distance.at<float>(y, x)) > 0.5f) continue;
+            cv::Point2d normal(distance.at<float>(y, x + 1) - distance.at<float>(y, x - 1),
+                               distance.at<float>(y + 1, x) - distance.at<float>(y - 1, x));
+            const double length = cv::norm(normal);
+            if (!(length > 0.5)) continue;
+            normal *= 1 / length;
+            const auto at = [&](double step) {
+                return bilinear(found.difference, x + step * normal.x, y + step * normal.y);
+            };
+            float steepest = 0;
+            double where = 0;
+            for (double step = outward; step >= -inward; step -= 0.25) {
+                const float slope = at(step - 0.5) - at(step + 0.5);
+                if (slope <= steepest) continue;
+                steepest = slope;
+                where = step;
+            }
+            // Facets as dark as the ground have no edge to find.
+            if (steepest < found.threshold / 2) continue;
+            offsets.push_back(where + static_cast<double>(distance.at<float>(y, x)));
+        }
+    }
+    if (offsets.size() < 32) return mask;
+    const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
+    std::nth_element(offsets.begin(), middle, offsets.end());
+    return distance < *middle;
 }
 
 // The largest connected part, with every part of at least 1/200 of its area that lies within a
@@ -227,8 +306,8 @@ Silhouette silhouette_from_background(const cv::Mat& colour) {
         return silhouette;
     }
     const cv::Mat scaled = colour * (1.0 / bright);
-    const Background background = background_of(encoded(scaled));
-    cv::Mat differs = background.difference > threshold_for(background);
+    const Differing found = differing(encoded(scaled));
+    cv::Mat differs = found.mask;
     // Drop single hot pixels, then close gaps of up to 3 % of the picture.
     const int reach = std::max(1, std::min(colour.cols, colour.rows) * 3 / 200);
     const auto disc = [](int radius) {
@@ -245,6 +324,7 @@ Silhouette silhouette_from_background(const cv::Mat& colour) {
     std::vector<cv::Point> hull;
     cv::convexHull(parts, hull);
     cv::fillConvexPoly(silhouette.mask, hull, cv::Scalar(255));
+    silhouette.mask = settled(silhouette.mask, found);
     measure(silhouette);
     judge(silhouette, none);
     const double filled =
