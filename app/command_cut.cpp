@@ -8,10 +8,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/options.h"
+#include "app/terminal.h"
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 #include "stone/stone.h"
+#include "stone/toml_file.h"
 
 namespace culet {
 
@@ -50,11 +52,13 @@ std::string proportions_json(const std::string& name, const Solid& solid,
         table.vertices.push_back(solid.vertices[corner]);
     const double table_width =
         width_along(table, along_x <= along_y ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
+    std::map<std::string, double> parameters = options.values;
+    for (const CutParameter& p : cut_kind(name).parameters) parameters.emplace(p.name, p.value);
     const double depth = width_along(solid, {0, 0, 1});
     const double crown = height_of(solid, true), pavilion = height_of(solid, false);
     nlohmann::ordered_json json = {{"schema", 1},
                                    {"cut", name},
-                                   {"parameters", options.values},
+                                   {"parameters", parameters},
                                    {"length_mm", length},
                                    {"width_mm", width},
                                    {"depth_mm", depth},
@@ -87,14 +91,34 @@ void list_cuts() {
     }
 }
 
+// `words` are what no option of the cut took.
+[[noreturn]] void refuse(const CutKind& kind, const std::vector<std::string>& words) {
+    std::vector<std::string> names;
+    for (const CutParameter& p : kind.parameters) names.push_back("--" + p.name);
+    const std::string word = words.front().substr(0, words.front().find('='));
+    const auto near = nearest_name(word, names);
+    throw InputError(fmt::format(
+        "the cut {} has no \"{}\"{}; culet cut {} --help lists its parameters", kind.name, word,
+        near ? fmt::format(", did you mean {}?", *near) : std::string(), kind.name));
+}
+
 int run_cut(const std::string& name, const CutOptions& options) {
     const Solid solid = make_cut(name, options.values);
     std::string proportions;
-    if (!options.json.empty()) proportions = proportions_json(name, solid, options);
+    if (!options.json.empty()) {
+        // Length and width are those of the stone before it is turned.
+        auto unturned = options.values;
+        unturned["azimuth"] = 0;
+        proportions = proportions_json(name, make_cut(name, unturned), options);
+    }
     if (options.out.empty() && options.json.empty())
         throw InputError("name the mesh to write: -o MESH");
     if (!options.out.empty()) write_solid(solid, options.out);
     if (!options.json.empty()) write_text(options.json, proportions);
+    say(fmt::format("{}: {} facets, {} vertices, total depth {:.4g} mm, volume {:.4g} mm3", name,
+                    solid.facets.size(), solid.vertices.size(), width_along(solid, {0, 0, 1}),
+                    volume(solid)),
+        options.common.quiet || options.json == "-");
     return exit_good;
 }
 
@@ -139,8 +163,11 @@ void add_command_cut(CLI::App& program, int& exit_code) {
             fmt::format("Examples:\n  culet cut {0} -o {0}.obj\n  culet cut {0} --{1} {2} --girdle "
                         "3 -o {0}.asc --json proportions.json",
                         kind.name, first.name, first.value));
-        cut->callback(
-            [name = kind.name, options, &exit_code] { exit_code = run_cut(name, *options); });
+        cut->allow_extras();  // so that a misspelt parameter is answered with the nearest
+        cut->callback([kind, cut, options, &exit_code] {
+            if (const auto words = cut->remaining(); !words.empty()) refuse(kind, words);
+            exit_code = run_cut(kind.name, *options);
+        });
     }
     command->callback([command, list, unknown] {
         if (!command->get_subcommands().empty()) return;

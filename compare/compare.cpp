@@ -10,11 +10,14 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "compare/flip.h"
 #include "compare/frame.h"
 #include "compare/html.h"
 #include "compare/metrics.h"
 #include "compare/pixels.h"
+#include "compare/reflexes.h"
 #include "compare/turned_null.h"
+#include "compare/wavelet_similarity.h"
 #include "stone/errors.h"
 #include "stone/units.h"
 
@@ -108,7 +111,8 @@ Registration registration_of(const Frame& frame) {
 
 struct Measured {
     std::vector<Score> scores;
-    cv::Mat ssim_map, colour_map;
+    std::optional<ReflexMatch> reflexes;
+    cv::Mat ssim_map, colour_map, flip_map;
 };
 
 Score score(std::string key, std::optional<double> value, bool higher_is_better = true,
@@ -122,14 +126,22 @@ Score score(std::string key, std::optional<double> value, bool higher_is_better 
 }
 
 // The order here is the order in the table of the report.
-Measured measure(const MatchedPictures& pictures) {
+Measured measure(const MatchedPictures& pictures, const WaveletBank& wavelets) {
     const std::string flat = "one of the pictures has one brightness everywhere";
     Measured result;
     auto& scores = result.scores;
     scores.push_back(score("zncc", zncc(pictures, 0.02), true, flat));
     scores.push_back(score("zncc_1pct", zncc(pictures, 0.01), true, flat));
     scores.push_back(score("zncc_4pct", zncc(pictures, 0.04), true, flat));
+    result.reflexes = match_reflexes(pictures);
+    const std::string none = "the photo has no reflex that stands out";
+    const auto& reflexes = result.reflexes;
+    scores.push_back(
+        score("reflex_f1", reflexes ? std::optional(reflexes->f1) : std::nullopt, true, none));
+    scores.push_back(score("reflex_area_f1",
+                           reflexes ? std::optional(reflexes->area_f1) : std::nullopt, true, none));
     const ShownPictures pair = shown(pictures);
+    scores.push_back(score("cw_ssim", cw_ssim(pair, pictures.mask, wavelets)));
     const ScoreMap structure = ssim(pair, pictures.mask);
     scores.push_back(score("ssim", structure.mean));
     scores.push_back(score("psnr", psnr(pair, pictures.mask), true,
@@ -138,6 +150,9 @@ Measured measure(const MatchedPictures& pictures) {
     scores.push_back(score("deltaE00_mean", colour.mean, false));
     scores.push_back(score("deltaE00_p95", colour.percentile_95, false));
     for (Score& s : scores) s.is_correlation = s.key.starts_with("zncc");
+    const ScoreMap visible = flip(pictures);
+    scores.push_back(score("flip_mean", visible.mean, false));
+    result.flip_map = visible.map;
     result.ssim_map = structure.map;
     result.colour_map = colour.map;
     return result;
@@ -171,8 +186,9 @@ void fill_null(Score& score) {
 }
 
 // One row of scores a draw; the gain is solved anew, as it was for the render itself.
-void add_null(const MatchedPictures& pictures, const cv::Mat& usable, const cv::Mat& outline,
-              const CompareOptions& options, const Progress& progress, Comparison& result) {
+void add_null(const MatchedPictures& pictures, const WaveletBank& wavelets, const cv::Mat& usable,
+              const cv::Mat& outline, const CompareOptions& options, const Progress& progress,
+              Comparison& result) {
     const std::vector<TurnedDraw> draws =
         draw_turns(pictures, outline, std::max(20, options.null_draws), options.seed);
     std::vector<std::vector<std::optional<double>>> rows(draws.size());
@@ -180,7 +196,7 @@ void add_null(const MatchedPictures& pictures, const cv::Mat& usable, const cv::
         MatchedPictures other = turned(pictures, draws[k]);
         const cv::Mat other_usable = other.mask & usable;
         multiply_channels(other.render, solve_gain(other.photo, other.render, other_usable));
-        for (const Score& s : measure(other).scores) rows[k].push_back(s.value);
+        for (const Score& s : measure(other, wavelets).scores) rows[k].push_back(s.value);
     };
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
     // Some at a time, so that progress is told from this thread.
@@ -313,10 +329,15 @@ Comparison compare(const Photo& photo, const Photo& render, const CompareOptions
     result.gain = solve_gain(pictures.photo, pictures.render, usable);
     multiply_channels(pictures.render, result.gain);
 
-    const Measured measured = measure(pictures);
+    const WaveletBank wavelets = wavelet_bank(pictures.mask.size(), pictures.diameter);
+    const Measured measured = measure(pictures, wavelets);
     result.scores = measured.scores;
+    if (measured.reflexes) {
+        result.reflexes = {measured.reflexes->in_photo, measured.reflexes->in_render,
+                           measured.reflexes->matched, measured.reflexes->displacement};
+    }
     if (progress && !progress(0.2)) throw Interrupted();
-    add_null(pictures, usable, frame.render_mask, options, progress, result);
+    add_null(pictures, wavelets, usable, frame.render_mask, options, progress, result);
     judge(result);
 
     const ShownPictures pair = shown(pictures);
@@ -326,6 +347,7 @@ Comparison compare(const Photo& photo, const Photo& render, const CompareOptions
     result.pictures.luminance_difference =
         map_of(pair.render_luma - pair.photo_luma, pictures.mask);
     result.pictures.colour_difference = map_of(measured.colour_map, pictures.mask);
+    result.pictures.visible_difference = map_of(measured.flip_map, pictures.mask);
     result.pictures.similarity = map_of(measured.ssim_map, pictures.mask);
     return result;
 }

@@ -66,7 +66,14 @@ struct ComparedPictures {
     PixelMap photo_outline, render_outline;  ///< 1 inside, NaN outside
     PixelMap luminance_difference;           ///< render - photo, encoded luminance, -1..1
     PixelMap colour_difference;              ///< CIEDE2000
+    PixelMap visible_difference;             ///< FLIP, 0..1
     PixelMap similarity;                     ///< local SSIM
+};
+
+/// The bright reflexes as things, see reflexes.h.
+struct ReflexCount {
+    int in_photo = 0, in_render = 0, matched = 0;
+    std::optional<double> displacement;  ///< median, in diameters
 };
 
 struct Comparison {
@@ -77,6 +84,7 @@ struct Comparison {
     double saturated = 0;                 ///< share of compared pixels that the camera clipped
     int compared_pixels = 0;
     std::vector<Score> scores;
+    ReflexCount reflexes;
     int null_draws = 0;
     std::string null_note;
     std::vector<std::string> notes;

@@ -13,6 +13,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "compare/picture_header.h"
+#include "render/colour.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 
@@ -91,7 +92,7 @@ Decoded decode(const std::filesystem::path& file) {
 std::array<float, 65536> decoding_table(double top) {
     std::array<float, 65536> table{};
     for (std::size_t i = 0; i < table.size(); ++i) {
-        table[i] = static_cast<float>(srgb_linear(std::min(1.0, static_cast<double>(i) / top)));
+        table[i] = static_cast<float>(srgb_decoded(std::min(1.0, static_cast<double>(i) / top)));
     }
     return table;
 }
@@ -164,16 +165,6 @@ void unpack_floats(const cv::Mat& pixels, const std::string& format, Photo& phot
 
 }  // namespace
 
-double srgb_encoded(double linear) {
-    if (linear <= 0.0031308) return 12.92 * linear;
-    return 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-}
-
-double srgb_linear(double encoded) {
-    if (encoded <= 0.04045) return encoded / 12.92;
-    return std::pow((encoded + 0.055) / 1.055, 2.4);
-}
-
 Photo read_photo(const std::filesystem::path& file) {
     const Decoded decoded = decode(file);
     Photo photo;
@@ -202,7 +193,7 @@ std::vector<float> read_mask(const std::filesystem::path& file, int width, int h
                                            mask.width, mask.height, width, height));
     }
     std::vector<float> stone(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    const float half = static_cast<float>(mask.saturation > 0 ? srgb_linear(0.5) : 0.5);
+    const float half = static_cast<float>(mask.saturation > 0 ? srgb_decoded(0.5) : 0.5);
     for (std::size_t i = 0; i < stone.size(); ++i) {
         const float brightest =
             std::max({mask.rgb[3 * i], mask.rgb[3 * i + 1], mask.rgb[3 * i + 2]});

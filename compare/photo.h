@@ -31,8 +31,4 @@ constexpr double k_max_photo_pixels = 2e8;
 /// Throws InputError when its size is not `width` x `height`.
 std::vector<float> read_mask(const std::filesystem::path& file, int width, int height);
 
-/// sRGB transfer function (IEC 61966-2-1): linear 0..1 to encoded 0..1, and back.
-double srgb_encoded(double linear);
-double srgb_linear(double encoded);
-
 }  // namespace culet

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "render/colour.h"
 #include "stone/errors.h"
 
 namespace culet {

@@ -67,8 +67,8 @@ std::string comparison_tiles(const Comparison& c) {
     }
     if (!c.scores.empty()) {
         tiles += tile("Gain R G B",
-                      significant(c.gain[0]) + " · " + significant(c.gain[1]) + " · " +
-                          significant(c.gain[2]),
+                      significant(c.gain[0], 2) + " · " + significant(c.gain[1], 2) + " · " +
+                          significant(c.gain[2], 2),
                       "factors on the render");
     }
     return tiles;
@@ -307,6 +307,9 @@ std::string maps_section(const Report& report) {
     figures += map_figure(
         p.colour_difference, ColourMap::error, 0, 30, "Colour", "CIEDE2000 of each pixel.",
         colour_bar(ColourMap::error, "1 is just visible, 10 is plain", "0", "15", "≥ 30"));
+    figures += map_figure(p.visible_difference, ColourMap::error, 0, 1, "To the eye",
+                          "FLIP: what shows when the two are flicked between.",
+                          colour_bar(ColourMap::error, "bright: plain to see", "0", "0.5", "1"));
     figures += map_figure(p.similarity, ColourMap::likeness, 0, 1, "Structure",
                           "SSIM of each pixel's neighbourhood.",
                           colour_bar(ColourMap::likeness, "dark: alike", "≤ 0", "0.5", "1"));
@@ -340,10 +343,19 @@ std::string scores_section(const Report& report, const Json& scores) {
         "deviation of {} draws (seed {}): {}. z counts standard deviations from it, of atanh for "
         "correlations; the smallest share that {} draws can show is 1/{}.</p>\n",
         c.null_draws, c.seed, escaped(c.null_note), c.null_draws, c.null_draws + 1);
+    if (c.reflexes.in_photo > 0) {
+        body += fmt::format(
+            "<p>{} of the {}'s {} bright reflexes are found in the render, which "
+            "has {}; they lie {} % of the diameter apart (median).</p>\n",
+            c.reflexes.matched, photo_word(report), c.reflexes.in_photo, c.reflexes.in_render,
+            c.reflexes.displacement ? decimals(100 * *c.reflexes.displacement, 2) : "–");
+    }
     body += fmt::format(
-        "<p class=\"note\">{} pixels compared; {} % of them clipped by the camera "
-        "and left out of the gain.</p>\n",
-        c.compared_pixels, decimals(100 * c.saturated, 1));
+        "<p class=\"note\">{} pixels compared; {} % of them clipped by the camera and left out of "
+        "the "
+        "gain. Gain on the render: red {}, green {}, blue {}.</p>\n",
+        c.compared_pixels, decimals(100 * c.saturated, 1), significant(c.gain[0], 4),
+        significant(c.gain[1], 4), significant(c.gain[2], 4));
     return section("scores", "Scores", body);
 }
 

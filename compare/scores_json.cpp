@@ -83,6 +83,10 @@ std::string scores_json(const Comparison& comparison, const CompareSources& sour
         json["scores"][score.key] = number(score.value);
         if (!score.note.empty()) json["score_notes"][score.key] = score.note;
     }
+    json["reflexes"] = {{"photo", comparison.reflexes.in_photo},
+                        {"render", comparison.reflexes.in_render},
+                        {"matched", comparison.reflexes.matched},
+                        {"displacement", number(comparison.reflexes.displacement)}};
     json["null"] = null_json(comparison);
     json["sensitivity"] = Json::array();
     json["verdict_rule"] = fmt::format(

@@ -247,6 +247,15 @@ Diagnosis diagnose(const System& system, const Shape& shape,
         const double flat = std::hypot(shape.normals[f].x, shape.normals[f].y);
         sigma.azimuth = flat > 1e-9 ? total(1) : std::numeric_limits<double>::quiet_NaN();
     }
+    const RowWriter writer(shape);
+    for (int f = 0; f < layout.facets; ++f) {
+        if (outline->loops[f].size() < 3) continue;
+        std::vector<Corner> loop;
+        for (int c : outline->loops[f]) loop.push_back(outline->corners[c]);
+        const Eigen::RowVectorXd row = writer.row(enclosed_area(loop)(shape));
+        diagnosis.facets[std::size_t(f)].area =
+            std::hypot(size_of(modes.held, row), size_of(modes.open, row));
+    }
     find_open_freedoms(system, shape, modes, middle, diagnosis);
     return diagnosis;
 }

@@ -10,9 +10,9 @@
 
 namespace culet {
 
-/// Standard uncertainties of one facet's freedoms, radians and half diameters.
+/// Standard uncertainties of one facet's freedoms and area, radians and half diameters.
 struct FacetSigma {
-    double inclination = 0, azimuth = 0, offset = 0;
+    double inclination = 0, azimuth = 0, offset = 0, area = 0;
 };
 
 struct ReadingCheck {

@@ -13,6 +13,9 @@ namespace {
 // their way in each step; those that no reading holds do not move.
 constexpr double k_first_damping = 1e-2;
 constexpr double k_least_damping = 1e-6;
+// Corners that want to stand above a neighbour facet are held this far below it, in half diameters:
+// far above rounding, far below anything one could measure.
+constexpr double k_hold_below = 1e-7;
 
 std::span<const double> steps(const Eigen::VectorXd& step) {
     return {step.data(), static_cast<std::size_t>(step.size())};
@@ -20,10 +23,11 @@ std::span<const double> steps(const Eigen::VectorXd& step) {
 
 // Smallest steps onto the hard equations, until rounding is all that is left.
 Shape onto_constraints(const System& system, Shape shape,
-                       const std::shared_ptr<const Outline>& outline, int rounds) {
+                       const std::shared_ptr<const Outline>& outline,
+                       const std::vector<Equation>& held, int rounds) {
     double before = 1e300;
     for (int i = 0; i < rounds; ++i) {
-        const Linearised linear = linearise(system, shape, outline, false);
+        const Linearised linear = linearise(system, shape, outline, false, held);
         const double worst = linear.worst_hard();
         if (worst < 1e-16 || worst > 0.5 * before) break;
         before = worst;
@@ -32,15 +36,15 @@ Shape onto_constraints(const System& system, Shape shape,
         const Shape next =
             moved(shape, steps(solver.solve(Eigen::VectorXd::Zero(linear.layout.size()),
                                             -linear.hard_residuals)));
-        if (linearise(system, next, outline, false).worst_hard() >= worst) break;
+        if (linearise(system, next, outline, false, held).worst_hard() >= worst) break;
         shape = next;
     }
     return shape;
 }
 
-}  // namespace
-
-Finished finish(const System& system, const Shape& start, int iterations) {
+// Gauss-Newton under the system's hard equations and `held` ones.
+Finished settle(const System& system, const Shape& start, const std::vector<Equation>& held,
+                int iterations) {
     Finished result;
     const bool splits = system.splits();
     const auto outline_of = [&](const Shape& shape) -> std::shared_ptr<const Outline> {
@@ -56,7 +60,7 @@ Finished finish(const System& system, const Shape& start, int iterations) {
         result.enclosed = false;
         return result;
     }
-    Linearised linear = linearise(system, shape, outline, !splits);
+    Linearised linear = linearise(system, shape, outline, !splits, held);
     double damping = k_first_damping;
     int quiet = 0;
     for (int i = 0; i < iterations; ++i) {
@@ -70,19 +74,21 @@ Finished finish(const System& system, const Shape& start, int iterations) {
         if (length > 0.2) step *= 0.2 / length;
 
         Shape next = moved(shape, steps(step));
-        // Second-order correction: back onto the curved constraints with the same factors.
-        const std::shared_ptr<const Outline> first_outline = outline_of(next);
-        if (first_outline) {
-            const Linearised off = linearise(system, next, first_outline, false);
-            if (off.hard_residuals.size() > 0) {
-                next = moved(next, steps(solver.solve(Eigen::VectorXd::Zero(linear.layout.size()),
-                                                      -off.hard_residuals)));
-            }
+        // Second-order correction: back onto the curved constraints with the same factors. Hard
+        // equations stand between points and planes, so the corners' outline does not matter.
+        double off_before = 1e300;
+        for (int k = 0; k < 6; ++k) {
+            const Linearised off = linearise(system, next, outline, false, held);
+            const double worst = off.worst_hard();
+            if (worst < 1e-13 || !(worst < 0.7 * off_before)) break;
+            off_before = worst;
+            next = moved(next, steps(solver.solve(Eigen::VectorXd::Zero(linear.layout.size()),
+                                                  -off.hard_residuals)));
         }
         const std::shared_ptr<const Outline> next_outline = outline_of(next);
         bool better = false;
         if (next_outline) {
-            Linearised there = linearise(system, next, next_outline, !splits);
+            Linearised there = linearise(system, next, next_outline, !splits, held);
             // The hard equations first: their size is the size of what they leave undone.
             const double hard_before = linear.hard_residuals.lpNorm<1>(),
                          hard_after = there.hard_residuals.lpNorm<1>();
@@ -106,8 +112,8 @@ Finished finish(const System& system, const Shape& start, int iterations) {
             }
             damping *= 10;
             if (damping > 1e8) {
-                // Corners that change places make a kink; at its bottom no step is better.
-                result.converged = splits;
+                // Widths pass from corner to corner with a kink; at its bottom no step is better.
+                result.converged = true;
                 break;
             }
         }
@@ -116,7 +122,7 @@ Finished finish(const System& system, const Shape& start, int iterations) {
             break;
         }
     }
-    shape = onto_constraints(system, std::move(shape), outline, 10);
+    shape = onto_constraints(system, std::move(shape), outline, held, 10);
     result.outline = outline_of(shape);
     if (!result.outline) {
         result.outline = outline;
@@ -126,6 +132,32 @@ Finished finish(const System& system, const Shape& start, int iterations) {
     result.chi2 = linear.chi2();
     result.worst_hard = linear.worst_hard();
     result.shape = std::move(shape);
+    return result;
+}
+
+}  // namespace
+
+Finished finish(const System& system, const Shape& start, int iterations) {
+    std::vector<Equation> held;
+    Finished result = settle(system, start, held, iterations);
+    if (system.splits()) return result;
+    // Penalties let corners stand a hair above their neighbours. Those are held just below from now
+    // on: an active set that only grows, since a corner that readings push out will be pushed
+    // again.
+    for (int round = 0; round < 8; ++round) {
+        const std::size_t before = held.size();
+        for (Equation& e : system.hinges()) {
+            if (!(e.formula(result.shape).value > 0)) continue;
+            e.role = Equation::Role::relation;
+            e.exact = true;
+            e.value = -k_hold_below;
+            held.push_back(std::move(e));
+        }
+        if (held.size() == before) break;
+        const int steps = result.iterations;
+        result = settle(system, result.shape, held, iterations);
+        result.iterations += steps;
+    }
     return result;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -68,24 +69,33 @@ Candidate from_start(const System& system, const GradedStart& start, const FitOp
 // redundancy, repeated until it agrees with the one they were weighted by.
 void estimate_sigmas(System& system, Finished& finished, const FitOptions& options,
                      const Progress& progress) {
-    for (int round = 0; round < 30; ++round) {
-        if (progress && !progress(0.7 + 0.008 * round)) throw Interrupted();
+    for (int round = 0; round < 60; ++round) {
+        if (progress && !progress(0.7 + 0.004 * round)) throw Interrupted();
         const Diagnosis d = diagnose(system, finished.shape, finished.outline, {.full = false});
-        double change = 0;
+        double largest = 0;
         for (std::size_t g = 0; g < d.group_squares.size(); ++g) {
             if (!(d.group_redundancy[g] > 0.5)) continue;
             const double before = system.group_sigmas()[g];
+            const double change =
+                0.5 * std::log(std::max(1e-30, d.group_squares[g]) / d.group_redundancy[g]) -
+                std::log(before);
+            largest = std::max(largest, std::abs(change));
             // Rounding is the least that anything can miss by.
-            const double after =
-                std::max(1e-9, std::sqrt(d.group_squares[g] / d.group_redundancy[g]));
-            system.set_group_sigma(static_cast<int>(g), after);
-            change = std::max(change, std::abs(std::log(after / before)));
+            system.set_group_sigma(
+                static_cast<int>(g),
+                std::max(1e-9, before * std::exp(std::clamp(change, -2.0, 2.0))));
         }
+        // One per cent of an uncertainty is more than its estimate is worth. Before that, the
+        // weights move again before the steps would end.
+        const bool settled = largest < 1e-2;
         const int steps = finished.iterations;
-        finished = finish(system, finished.shape, options.iterations);
+        finished = finish(system, finished.shape, settled ? options.iterations : 3);
         finished.iterations += steps;
-        if (change < 1e-3) return;
+        if (settled) return;
     }
+    const int steps = finished.iterations;
+    finished = finish(system, finished.shape, options.iterations);
+    finished.iterations += steps;
 }
 
 void describe_meets(const System& system, const Shape& shape, FitResult& result) {
@@ -281,6 +291,7 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
         facet.sigma_offset = sigma.offset * system.scale();
         const int there = find_facet(result.solid, facet.name);
         if (there >= 0) facet.area = area(result.solid, result.solid.facets[there]);
+        facet.sigma_area = sigma.area * system.scale() * system.scale();
         result.facets.push_back(std::move(facet));
     }
     for (std::size_t r = 0; r < readings.size(); ++r) {

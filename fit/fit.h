@@ -56,6 +56,7 @@ struct FittedFacet {
     double sigma_inclination = 0, sigma_azimuth = 0;  ///< radians; azimuth: NaN for level facets
     double sigma_offset = 0;  ///< of the plane's distance from the middle of the stone
     double area = 0;          ///< of the facet in the result; 0: not there
+    double sigma_area = 0;
 };
 
 struct FittedReading {

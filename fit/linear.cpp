@@ -8,48 +8,13 @@ namespace culet {
 
 namespace {
 
-using Triplets = std::vector<Eigen::Triplet<double>>;
+using Triplets = RowWriter::Triplets;
 
 // What a step of one means for each unknown: a mesh may be off by 20 % of its width in its points;
 // tilts, offsets and extras are of the order of one.
 constexpr double k_point_weight = 1 / (0.4 * 0.4);
 constexpr double k_repeat = 1e-13;
 constexpr double k_hinge_sigma = 1e-4;
-
-class RowWriter {
-public:
-    explicit RowWriter(const Shape& shape) : layout_(layout_of(shape)) {
-        for (const Vec3& n : shape.normals) tangents_.push_back(tangents(n));
-    }
-
-    void write(const Quantity& quantity, int row, double factor, Triplets& to) const {
-        for (const Quantity::Slope& s : quantity.slopes) {
-            switch (s.by) {
-                case Quantity::By::normal:
-                    for (int k = 0; k < 2; ++k) {
-                        to.emplace_back(row, layout_.tilt(s.index) + k,
-                                        factor * glm::dot(tangents_[s.index][k], s.slope));
-                    }
-                    break;
-                case Quantity::By::offset:
-                    to.emplace_back(row, layout_.offset(s.index), factor * s.slope.x);
-                    break;
-                case Quantity::By::point:
-                    for (int k = 0; k < 3; ++k) {
-                        to.emplace_back(row, layout_.point(s.index) + k, factor * s.slope[k]);
-                    }
-                    break;
-                case Quantity::By::extra:
-                    to.emplace_back(row, layout_.extra(s.index), factor * s.slope.x);
-                    break;
-            }
-        }
-    }
-
-private:
-    Layout layout_;
-    std::vector<std::array<Vec3, 2>> tangents_;
-};
 
 // The six rigid motions as steps of the unknowns.
 std::vector<Eigen::VectorXd> rigid_motions(const System& system, const Shape& shape) {
@@ -127,8 +92,45 @@ double Linearised::worst_hard() const {
     return hard_residuals.size() == 0 ? 0 : hard_residuals.cwiseAbs().maxCoeff();
 }
 
+RowWriter::RowWriter(const Shape& shape) : layout_(layout_of(shape)) {
+    for (const Vec3& n : shape.normals) tangents_.push_back(tangents(n));
+}
+
+void RowWriter::write(const Quantity& quantity, int row, double factor, Triplets& to) const {
+    for (const Quantity::Slope& s : quantity.slopes) {
+        switch (s.by) {
+            case Quantity::By::normal:
+                for (int k = 0; k < 2; ++k) {
+                    to.emplace_back(row, layout_.tilt(s.index) + k,
+                                    factor * glm::dot(tangents_[s.index][k], s.slope));
+                }
+                break;
+            case Quantity::By::offset:
+                to.emplace_back(row, layout_.offset(s.index), factor * s.slope.x);
+                break;
+            case Quantity::By::point:
+                for (int k = 0; k < 3; ++k) {
+                    to.emplace_back(row, layout_.point(s.index) + k, factor * s.slope[k]);
+                }
+                break;
+            case Quantity::By::extra:
+                to.emplace_back(row, layout_.extra(s.index), factor * s.slope.x);
+                break;
+        }
+    }
+}
+
+Eigen::RowVectorXd RowWriter::row(const Quantity& quantity) const {
+    Triplets entries;
+    write(quantity, 0, 1, entries);
+    Eigen::RowVectorXd dense = Eigen::RowVectorXd::Zero(layout_.size());
+    for (const auto& entry : entries) dense(entry.col()) += entry.value();
+    return dense;
+}
+
 Linearised linearise(const System& system, const Shape& shape,
-                     const std::shared_ptr<const Outline>& outline, bool with_hinges) {
+                     const std::shared_ptr<const Outline>& outline, bool with_hinges,
+                     const std::vector<Equation>& held) {
     Linearised linear;
     linear.layout = layout_of(shape);
     const RowWriter writer(shape);
@@ -152,6 +154,7 @@ Linearised linearise(const System& system, const Shape& shape,
         }
     };
     for (Equation& e : system.equations(shape, outline)) put(std::move(e));
+    for (const Equation& e : held) put(Equation(e));
     if (with_hinges) {
         for (Equation& e : system.hinges()) put(std::move(e));
     }

@@ -11,6 +11,19 @@
 
 namespace culet {
 
+/// Turns slopes into entries of a row of small steps.
+class RowWriter {
+public:
+    using Triplets = std::vector<Eigen::Triplet<double>>;
+    explicit RowWriter(const Shape& shape);
+    void write(const Quantity& quantity, int row, double factor, Triplets& to) const;
+    Eigen::RowVectorXd row(const Quantity& quantity) const;
+
+private:
+    Layout layout_;
+    std::vector<std::array<Vec3, 2>> tangents_;
+};
+
 struct Linearised {
     Layout layout;
     std::vector<Equation> soft, hard;
@@ -27,9 +40,10 @@ struct Linearised {
     double worst_hard() const;
 };
 
-/// Hinges that are not positive are left out.
+/// Hinges that are not positive are left out; `held` are further hard equations.
 Linearised linearise(const System& system, const Shape& shape,
-                     const std::shared_ptr<const Outline>& outline, bool with_hinges);
+                     const std::shared_ptr<const Outline>& outline, bool with_hinges,
+                     const std::vector<Equation>& held = {});
 
 /// [J'J + damping M, A'; A, -e] factored. The tiny e lets hard equations repeat each other.
 class ConstrainedSolver {

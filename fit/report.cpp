@@ -53,7 +53,8 @@ std::string fit_report(const FitResult& result) {
                           {"sigma_inclination", number(degrees(f.sigma_inclination))},
                           {"sigma_azimuth", number(degrees(f.sigma_azimuth))},
                           {"sigma_offset", number(f.sigma_offset)},
-                          {"area", f.area}});
+                          {"area", f.area},
+                          {"sigma_area", number(f.sigma_area)}});
     }
     report["facets"] = facets;
     Json areas = Json::object();

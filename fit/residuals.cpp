@@ -338,6 +338,28 @@ Formula enclosed_volume(std::shared_ptr<const Outline> outline) {
     };
 }
 
+Formula enclosed_area(std::vector<Corner> loop) {
+    return [loop = std::move(loop)](const Shape& shape) {
+        // Twice the area as a vector: sum of p_i x p_(i+1) about the first corner.
+        const std::size_t count = loop.size();
+        std::vector<Vec3> place;
+        for (const Corner& c : loop) place.push_back(place_of(shape, c));
+        Vec3 twice(0);
+        for (std::size_t i = 1; i + 1 < count; ++i) {
+            twice += glm::cross(place[i] - place[0], place[i + 1] - place[0]);
+        }
+        const double length = glm::length(twice);
+        Quantity q{0.5 * length, {}};
+        if (!(length > 0)) return q;
+        const Vec3 unit = twice / length;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec3 chord = place[(i + 1) % count] - place[(i + count - 1) % count];
+            add_corner(q, shape, loop[i], 0.5 * glm::cross(chord, unit));
+        }
+        return q;
+    };
+}
+
 Formula mean_of(std::vector<Formula> terms) {
     return [terms = std::move(terms)](const Shape& shape) {
         Quantity q;

@@ -82,6 +82,8 @@ Formula spacing(int facet, int other, std::vector<Corner> corners,
                 std::vector<Corner> other_corners);
 /// By the divergence theorem over the fans of all loops.
 Formula enclosed_volume(std::shared_ptr<const Outline> outline);
+/// Area of a planar loop of corners.
+Formula enclosed_area(std::vector<Corner> loop);
 Formula mean_of(std::vector<Formula> terms);
 /// A constant unit direction . (rotation by `angle` about +z of normal f, less normal g).
 Formula turned_normal(int f, int g, double angle, const Vec3& direction);

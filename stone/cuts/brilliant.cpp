@@ -44,6 +44,41 @@ struct Builder {
     }
 };
 
+// The upper and the lower corners of the girdle from a main to a break or on to the next main.
+struct GirdleStretch {
+    std::vector<int> up, low;
+    GirdleStretch(int up_from, int up_to, int low_from, int low_to)
+        : up{up_from, up_to}, low{low_from, low_to} {}
+};
+
+// Beyond the chord of a stretch the halves run on towards each other: the girdle is thinnest in
+// the middle of a stretch ("valley") and has its full height at mains and breaks ("hills").
+void add_scallops(Builder& b, GirdleStretch& stretch, const std::vector<Vec2>& arc, int star_meet,
+                  int lower_meet) {
+    const auto height_on = [&b](int from, int to, int meet, const Vec2& at) {
+        const Vec3 p = b.solid.vertices[from];
+        const Vec3 n = glm::cross(b.solid.vertices[to] - p, b.solid.vertices[meet] - p);
+        return p.z - (n.x * (at.x - p.x) + n.y * (at.y - p.y)) / n.z;
+    };
+    const int up_from = stretch.up.front(), up_to = stretch.up.back();
+    const int low_from = stretch.low.front(), low_to = stretch.low.back();
+    const double thickness = b.solid.vertices[up_from].z - b.solid.vertices[low_from].z;
+    double thinnest = thickness;
+    for (const Vec2& at : arc) {
+        const double z_up = height_on(up_from, up_to, star_meet, at);
+        const double z_low = height_on(low_from, low_to, lower_meet, at);
+        thinnest = std::min(thinnest, z_up - z_low);
+        stretch.up.insert(stretch.up.end() - 1, b.corner(at, z_up));
+        stretch.low.insert(stretch.low.end() - 1, b.corner(at, z_low));
+    }
+    if (!(thinnest > 1e-3 * thickness)) {
+        throw InputError(fmt::format(
+            "a round girdle {:.3g} mm thick at the mains closes between them: make it thicker than "
+            "{:.3g} mm, or leave it one facet under each half",
+            thickness, thickness - thinnest));
+    }
+}
+
 std::string numbered(const char* letter, std::size_t i) {
     return fmt::format("{}{}", letter, i + 1);
 }
@@ -63,12 +98,18 @@ double star_of_length(double star_length, double table, int mains) {
     const double c = std::cos(std::numbers::pi / mains);
     const double edge = table * c, meeting = table / c;
     const double star = (edge + star_length * (1 - edge) - meeting) / (1 - meeting);
-    if (!(meeting < 1 && star > 0)) {
+    const double shortest = (meeting - edge) / (1 - edge);
+    if (!(meeting < 1)) {
         throw InputError(
-            fmt::format("star length {:.0f} % with table {:.0f} % leaves no room for the crown "
-                        "mains: make the star longer or "
-                        "the table smaller",
-                        100 * star_length, 100 * table));
+            fmt::format("a table of {:.4g} % swallows the crown mains: expected less "
+                        "than {:.4g} %",
+                        100 * table, 100 * c));
+    }
+    if (!(star > 0)) {
+        throw InputError(
+            fmt::format("star length {:.4g} % with table {:.4g} % leaves no room for "
+                        "the crown mains: expected {:.4g} to 100 %",
+                        100 * star_length, 100 * table, 100 * shortest));
     }
     return star;
 }
@@ -120,6 +161,15 @@ Solid brilliant(const Outline& outline, const BrilliantProportions& p) {
         if (static_cast<int>(i) == outline.notch) table_loop.push_back(notch_table);
     }
     b.facet("T", table_loop);
+    std::vector<GirdleStretch> stretches;
+    for (std::size_t i = 0; i < k; ++i) {
+        const std::size_t next = (i + 1) % k;
+        stretches.push_back({main_up[i], break_up[i], main_low[i], break_low[i]});
+        stretches.push_back({break_up[i], main_up[next], break_low[i], main_low[next]});
+    }
+    for (std::size_t j = 0; j < outline.arcs.size(); ++j) {
+        add_scallops(b, stretches[j], outline.arcs[j], star_meet[j / 2], lower_meet[j / 2]);
+    }
     for (std::size_t i = 0; i < k; ++i) {
         if (static_cast<int>(i) == outline.notch) continue;  // two mains meet in a valley: no star
         b.facet(numbered("S", i), {table[i], star_meet[i], table[(i + 1) % k]});
@@ -133,20 +183,25 @@ Solid brilliant(const Outline& outline, const BrilliantProportions& p) {
         b.facet(numbered("C", i), loop);
     }
     for (std::size_t i = 0; i < k; ++i) {
-        const std::size_t next = (i + 1) % k;
-        b.facet(numbered("U", 2 * i), {star_meet[i], main_up[i], break_up[i]});
-        b.facet(numbered("U", 2 * i + 1), {star_meet[i], break_up[i], main_up[next]});
+        for (const std::size_t j : {2 * i, 2 * i + 1}) {
+            std::vector<int> loop = stretches[j].up;
+            loop.insert(loop.begin(), star_meet[i]);
+            b.facet(numbered("U", j), loop);
+        }
+    }
+    std::size_t girdle_facets = 0;
+    for (const GirdleStretch& stretch : stretches) {
+        for (std::size_t s = 0; s + 1 < stretch.up.size(); ++s) {
+            b.facet(numbered("G", girdle_facets++),
+                    {stretch.up[s], stretch.low[s], stretch.low[s + 1], stretch.up[s + 1]});
+        }
     }
     for (std::size_t i = 0; i < k; ++i) {
-        const std::size_t next = (i + 1) % k;
-        b.facet(numbered("G", 2 * i), {main_up[i], main_low[i], break_low[i], break_up[i]});
-        b.facet(numbered("G", 2 * i + 1),
-                {break_up[i], break_low[i], main_low[next], main_up[next]});
-    }
-    for (std::size_t i = 0; i < k; ++i) {
-        const std::size_t next = (i + 1) % k;
-        b.facet(numbered("L", 2 * i), {main_low[i], lower_meet[i], break_low[i]});
-        b.facet(numbered("L", 2 * i + 1), {break_low[i], lower_meet[i], main_low[next]});
+        for (const std::size_t j : {2 * i, 2 * i + 1}) {
+            std::vector<int> loop(stretches[j].low.rbegin(), stretches[j].low.rend());
+            loop.push_back(lower_meet[i]);
+            b.facet(numbered("L", j), loop);
+        }
     }
     for (std::size_t i = 0; i < k; ++i) {
         b.facet(numbered("P", i), {main_low[i], lower_meet[(i + k - 1) % k], culet, lower_meet[i]});

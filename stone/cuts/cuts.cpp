@@ -22,6 +22,11 @@ const CutParameter k_azimuth{"azimuth", 0,     -360,
                              360,       "deg", "turns the stone about its axis, counter-clockwise"};
 const CutParameter k_girdle{"girdle", 3.5, 0.1, 20, "%", "girdle thickness, of the width"};
 
+// With one girdle facet a half the girdle is a polygon of even thickness; with more it follows the
+// circle and shows the trade's scallops, and `girdle` is its thickness at the mains.
+const CutParameter k_girdle_segments{
+    "girdle-segments", 1, 1, 16, "", "girdle facets under each upper half; 2 and more: scallops"};
+
 std::vector<CutParameter> brilliant_parameters(std::vector<CutParameter> first, double table,
                                                double crown_deg, double pavilion_deg, double star,
                                                double lower_half) {
@@ -29,7 +34,8 @@ std::vector<CutParameter> brilliant_parameters(std::vector<CutParameter> first, 
         {"table", table, 20, 90, "%", "table, corner to corner over the mains, of the outline"},
         {"crown-angle", crown_deg, 5, 70, "deg", "crown mains, across the width"},
         {"pavilion-angle", pavilion_deg, 10, 75, "deg", "pavilion mains, across the width"},
-        {"star", star, 1, 99, "%", "star length, of the way from the table to the girdle"},
+        {"star", star, 1, 99, "%",
+         "star's end, from where the crown mains meet (0) to the girdle (100), seen from above"},
         {"lower-half", lower_half, 10, 95, "%",
          "lower half length, of the way from girdle to culet"},
         k_girdle,
@@ -59,6 +65,17 @@ BrilliantProportions proportions_of(const Values& v, double width) {
     return p;
 }
 
+// The flattest step of a tier must still climb.
+void require_rising_steps(const Values& v, const std::string& part) {
+    const double angle = v.at(part + "-angle"), spread = v.at(part + "-spread");
+    if (!(angle - spread >= 1)) {
+        throw InputError(fmt::format(
+            "--{0}-spread {1}: the flattest step would stand at {2:.4g} degrees; with --{0}-angle "
+            "{3} expected at most {4:.4g} deg",
+            part, spread, angle - spread, angle, angle - 1));
+    }
+}
+
 std::vector<StepTier> crown_tiers(const Values& v, double height) {
     const double angle = v.at("crown-angle"), spread = v.at("crown-spread");
     return {{radians(angle + spread), 0.45 * height},
@@ -67,6 +84,8 @@ std::vector<StepTier> crown_tiers(const Values& v, double height) {
 }
 
 Solid step_of(const Values& v) {
+    require_rising_steps(v, "crown");
+    require_rising_steps(v, "pavilion");
     StepProportions p;
     p.width = v.at("width");
     p.length = p.width * v.at("ratio");
@@ -98,15 +117,25 @@ Solid princess_of(const Values& v) {
     return princess_cut(p);
 }
 
+// Round stones and their stretched images count the star as the trade does (star_of_length).
+std::vector<CutParameter> with_star_length(std::vector<CutParameter> parameters) {
+    for (CutParameter& p : parameters) {
+        if (p.name == "star")
+            p.what = "star length, of the way from the table's edge to the girdle";
+    }
+    return parameters;
+}
+
 struct Recipe {
     CutKind kind;
     std::function<Solid(const Values&)> make;
 };
 
 std::vector<CutParameter> round_parameters() {
-    auto list = brilliant_parameters({{"diameter", 6.5, 1e-3, 1e4, "mm", "over opposite mains"}},
-                                     57, 34.5, 40.75, 50, 77);
+    auto list = with_star_length(brilliant_parameters(
+        {{"diameter", 6.5, 1e-3, 1e4, "mm", "over opposite mains"}}, 57, 34.5, 40.75, 50, 77));
     list.push_back({"mains", 8, 4, 24, "", "mains on crown and pavilion"});
+    list.push_back(k_girdle_segments);
     return list;
 }
 
@@ -116,8 +145,11 @@ const std::vector<Recipe>& recipes() {
           round_parameters()},
          [](const Values& v) {
              const double d = v.at("diameter");
-             return brilliant(ellipse_outline(d, d, static_cast<int>(v.at("mains"))),
-                              proportions_of(v, d));
+             const int mains = static_cast<int>(v.at("mains"));
+             BrilliantProportions p = proportions_of(v, d);
+             p.star = star_of_length(p.star, p.table, mains);
+             return brilliant(
+                 ellipse_outline(d, d, mains, static_cast<int>(v.at("girdle-segments"))), p);
          }},
         {{"step",
           "emerald cut: eight sides, three crown and three pavilion steps, a keel",
@@ -144,12 +176,15 @@ const std::vector<Recipe>& recipes() {
            k_azimuth}},
          princess_of},
         {{"oval", "a round brilliant stretched along its length",
-          brilliant_parameters({width_parameter(), length_width(1.35)}, 57, 35, 41, 50, 77)},
+          with_star_length(brilliant_parameters(
+              {width_parameter(), length_width(1.35), k_girdle_segments}, 57, 35, 41, 50, 77))},
          [](const Values& v) {
              const double w = v.at("width");
              BrilliantProportions p = proportions_of(v, w);
              p.star = star_of_length(p.star, p.table, 8);
-             return brilliant(ellipse_outline(w * v.at("ratio"), w, 8), p);
+             return brilliant(ellipse_outline(w * v.at("ratio"), w, 8,
+                                              static_cast<int>(v.at("girdle-segments"))),
+                              p);
          }},
         {{"marquise", "two arcs that meet in points",
           brilliant_parameters({width_parameter(), length_width(2)}, 57, 35, 41, 35, 77)},
@@ -259,7 +294,8 @@ Solid make_cut(const std::string& name, const std::map<std::string, double>& val
             throw InputError(fmt::format("--{} {}: expected {} to {} {}", parameter.name, value,
                                          parameter.least, parameter.most, parameter.unit));
         }
-        const bool whole = parameter.name == "mains" || parameter.name == "chevrons";
+        const bool whole = parameter.name == "mains" || parameter.name == "chevrons" ||
+                           parameter.name == "girdle-segments";
         if (whole && value != std::floor(value)) {
             throw InputError(
                 fmt::format("--{} {}: expected a whole number", parameter.name, value));

@@ -6,6 +6,9 @@
 // Facet names: T table, S stars, C crown mains (bezels), U upper halves, G girdle, L lower halves,
 // P pavilion mains, CU culet; numbered counter-clockwise from azimuth 0. Step cuts: C1E is the
 // first crown tier (next to the girdle) on the side that looks to +x; E, NE, N, NW, W, SW, S, SE.
+// Princess: the same with E, N, W, S; P2Ea and P2Eb are the two halves of the second chevron below
+// the girdle, a towards the next side counter-clockwise, b towards the one before. A turned stone
+// (azimuth) keeps the names it had before it was turned.
 
 #include <map>
 #include <string>

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -34,6 +35,28 @@ std::vector<Side> sides_of(const StepProportions& p) {
     return sides;
 }
 
+// Tiers offset the outline inwards: each of the eight sides shortens by 2 tan(22.5 deg) times the
+// inset, so that the last tier that starts with eight sides sets how large a corner may be.
+void require_eight_sides(const StepProportions& p) {
+    double inset = 0;
+    for (const std::vector<StepTier>* tiers : {&p.crown, &p.pavilion}) {
+        double start = 0;
+        for (std::size_t t = 0; t + 1 < tiers->size(); ++t) {
+            start += (*tiers)[t].height / std::tan((*tiers)[t].angle);
+        }
+        inset = std::max(inset, start);
+    }
+    const double shorter = 2 * std::tan(radians(22.5)) * inset;
+    const double least = shorter / std::sqrt(2.0);
+    const double most = (std::min(p.length, p.width) - shorter) / 2;
+    if (!(p.corner > least && p.corner < most)) {
+        throw InputError(fmt::format(
+            "corners that take {:.4g} % of the width do not last through all steps: expected more "
+            "than {:.4g} % and less than {:.4g} %",
+            100 * p.corner / p.width, 100 * least / p.width, 100 * most / p.width));
+    }
+}
+
 // Planes -> solid, with every plane in it.
 Solid solid_of(const std::vector<NamedPlane>& planes, const char* what) {
     const HalfSpaceSolid raw = intersect_half_spaces(planes);
@@ -52,6 +75,7 @@ Solid solid_of(const std::vector<NamedPlane>& planes, const char* what) {
 }  // namespace
 
 Solid step_cut(const StepProportions& p) {
+    if (p.corner > 0) require_eight_sides(p);
     std::vector<NamedPlane> planes;
     double inset = 0, height = p.girdle / 2;
     const std::vector<Side> sides = sides_of(p);

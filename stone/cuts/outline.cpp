@@ -41,13 +41,22 @@ Vec2 tail_point(double tip, double half, double t) {
 
 }  // namespace
 
-Outline ellipse_outline(double length, double width, int mains) {
+Outline ellipse_outline(double length, double width, int mains, int segments) {
+    const auto at = [=](double t) {
+        return Vec2{0.5 * length * std::cos(t), 0.5 * width * std::sin(t)};
+    };
     std::vector<Vec2> points;
+    std::vector<std::vector<Vec2>> arcs;
     for (int j = 0; j < 2 * mains; ++j) {
-        const double t = k_pi * j / mains;
-        points.push_back({0.5 * length * std::cos(t), 0.5 * width * std::sin(t)});
+        points.push_back(at(k_pi * j / mains));
+        arcs.emplace_back();
+        for (int s = 1; s < segments; ++s) {
+            arcs.back().push_back(at(k_pi * (j + static_cast<double>(s) / segments) / mains));
+        }
     }
-    return outline_of(points);
+    Outline outline = outline_of(points);
+    outline.arcs = std::move(arcs);
+    return outline;
 }
 
 Outline marquise_outline(double length, double width) {

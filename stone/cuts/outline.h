@@ -12,10 +12,14 @@ using Vec2 = glm::dvec2;
 /// `tangents[i]` is the direction in which main i runs along the girdle.
 struct Outline {
     std::vector<Vec2> mains, breaks, tangents;
+    /// Further girdle corners from mains[i] to breaks[i] (arcs[2 i]) and on to mains[i + 1]
+    /// (arcs[2 i + 1]). Empty: the girdle runs straight there.
+    std::vector<std::vector<Vec2>> arcs;
     int notch = -1;  ///< the break that is a notch (heart); -1: the outline is convex
 };
 
-Outline ellipse_outline(double length, double width, int mains);
+/// Each stretch between a main and a break gets `segments` (at least 1) girdle facets.
+Outline ellipse_outline(double length, double width, int mains, int segments = 1);
 /// Two circular arcs that meet in points at +x and -x.
 Outline marquise_outline(double length, double width);
 /// A half circle at -x, and two arcs that run from it without a break to a point at +x.

@@ -118,6 +118,7 @@ TEST(Residuals, SlopesMatchDifferences) {
     expect_slopes(line_to_line(at(1), at(12), at(40), at(29)), "line to line");
     expect_slopes(spacing(t, p1, {at(0), at(1), at(2)}, {at(30), at(31), at(35)}), "spacing");
     expect_slopes(enclosed_volume(outline_of(solid)), "volume");
+    expect_slopes(enclosed_area({at(0), at(7), at(30), crossing(t, c1, s1)}), "area");
     expect_slopes(mean_of({tilt_from_up(c1), tilt_from_up(s1)}), "mean");
     expect_slopes(horizontal_component(c1, 1), "horizontal component");
     expect_slopes(turned_normal(c1, f("C2"), 0.7, Vec3{0.6, 0, 0.8}), "turned normal");
@@ -185,6 +186,9 @@ TEST_F(CubeReadings, Lengths) {
 
 TEST_F(CubeReadings, Volume) {
     EXPECT_NEAR(value(enclosed_volume(outline_of(solid_))), 8, 1e-14);
+    EXPECT_NEAR(value(enclosed_area(
+                    {vertex(1, 1, 1), vertex(-1, 1, 1), vertex(-1, -1, 1), vertex(1, -1, 1)})),
+                4, 1e-14);
 }
 
 TEST_F(CubeReadings, Symmetry) {
