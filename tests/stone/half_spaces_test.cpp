@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <set>
+#include <sstream>
 
 #include "stone/checks.h"
 #include "stone/errors.h"
@@ -225,6 +228,56 @@ TEST(HalfSpaces, BadPlanesAreRefused) {
     EXPECT_THROW(intersect_half_spaces(planes), InputError);
     planes[3].plane = {{0, 0, 0}, 1};
     EXPECT_THROW(intersect_half_spaces(planes), InputError);
+}
+
+// Two polished diamonds as a scanner's own program found their polyhedra: from its planes the same
+// counts of vertices, edges and facets must come, and the vertices that it states to 1e-12.
+TEST(HalfSpaces, PolyhedraOfAScanner) {
+    const std::filesystem::path folder = CULET_SHARED_DATA "/scans";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no shared data at " << folder;
+    for (const char* name : {"1_GIA", "Pear63"}) {
+        SCOPED_TRACE(name);
+        std::ifstream file(folder / name / "polyhedron.dat");
+        std::stringstream text;
+        for (std::string line; std::getline(file, line);) {
+            if (line.empty() || line[0] != '#') text << line << '\n';
+        }
+        std::size_t vertex_count = 0, facet_count = 0, sides = 0;
+        text >> vertex_count >> facet_count >> sides;
+        std::vector<Vec3> vertices(vertex_count);
+        for (Vec3& v : vertices) {
+            int index = 0;
+            text >> index >> v.x >> v.y >> v.z;
+        }
+        std::vector<NamedPlane> planes;
+        for (std::size_t f = 0; f < facet_count; ++f) {
+            int index = 0, corners = 0;
+            double d = 0;
+            NamedPlane plane;
+            Vec3& n = plane.plane.normal;
+            text >> index >> corners >> n.x >> n.y >> n.z >> d;
+            plane.name = numbered("s", index);
+            plane.plane.offset = -d;
+            planes.push_back(plane);
+            // The corners, and the first one again in brackets.
+            std::string word;
+            for (int k = 0; k <= corners; ++k) text >> word;
+        }
+        ASSERT_TRUE(text);
+        const HalfSpaceSolid result = intersect_half_spaces(planes);
+        EXPECT_EQ(result.solid.vertices.size(), vertex_count);
+        EXPECT_EQ(result.solid.facets.size(), facet_count);
+        EXPECT_EQ(edge_count(result.solid), static_cast<int>(sides / 2));
+        EXPECT_TRUE(is_convex(result.solid));
+        for (const Vec3& v : result.solid.vertices) {
+            double nearest = 1;
+            for (const Vec3& stated : vertices) {
+                nearest = std::min(nearest, glm::length(v - stated));
+            }
+            // Nearly parallel planes spread the rounding of their coefficients (1e-12).
+            EXPECT_LT(nearest, 1e-7);
+        }
+    }
 }
 
 TEST(HalfSpaces, ManyPlanes) {
