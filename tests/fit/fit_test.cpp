@@ -37,7 +37,7 @@ TEST(Fit, RecoversAShakenBrilliant) {
     for (const Reading& r : all_edges(truth, 0.01)) readings.push_back(r);
     readings.push_back(depth(truth, 0.01));
     for (int k = 0; k < 8; ++k) readings.push_back(width(truth, 22.5 * k, 0.01));
-    for (const double noise : {0.01, 0.1, 0.3}) {
+    for (const double noise : {0.01, 0.1, 0.2}) {
         const FitResult result = fit_stone(stone_of(shaken(truth, noise, 3)), readings);
         EXPECT_EQ(result.status, FitStatus::converged) << noise << ": " << result.message;
         EXPECT_LT(result.chi2, 1e-6) << noise;
