@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "fit/system.h"
 
@@ -47,6 +48,19 @@ Corner farthest(const Shape& shape, const std::vector<Corner>& corners, const Ve
         }
     }
     return best;
+}
+
+// Whether an inclination counts from above or from below. A reading of a nearly upright facet does
+// not say on which side of upright it is: the nearer one is meant.
+int side_of(const Vec3& normal, double inclination_read) {
+    const int side = normal.z < 0 ? -1 : 1;
+    const double from_up = std::atan2(std::hypot(normal.x, normal.y), side * normal.z);
+    const double from_down = std::numbers::pi - from_up;
+    const bool near_upright = std::abs(from_up - std::numbers::pi / 2) < radians(5);
+    return near_upright &&
+                   std::abs(from_down - inclination_read) < std::abs(from_up - inclination_read)
+               ? -side
+               : side;
 }
 
 // Formulas of one reading's terms under its aggregate.
@@ -161,7 +175,8 @@ std::vector<Equation> System::equations(const Shape& shape,
                 for (int f : reading.facets) {
                     switch (reading.datum.kind) {
                         case Datum::Kind::up:
-                            terms.push_back(tilt_from_up(f));
+                            terms.push_back(
+                                tilt_from_side(f, side_of(shape.normals[f], base.value)));
                             break;
                         case Datum::Kind::facet:
                             terms.push_back(tilt_between(f, reading.datum.facet));

@@ -101,6 +101,20 @@ Formula tilt_from_up(int facet) {
     };
 }
 
+Formula tilt_from_side(int facet, int side) {
+    return [=](const Shape& shape) {
+        const Vec3& n = shape.normals[facet];
+        const double flat = std::hypot(n.x, n.y);
+        Quantity q{std::atan2(flat, side * n.z), {}};
+        // d(angle) = (side z d(flat) - side flat dz) on the unit circle of (flat, z)
+        if (flat > 0) {
+            q.add(By::normal, facet,
+                  Vec3{side * n.z * n.x / flat, side * n.z * n.y / flat, -side * flat});
+        }
+        return q;
+    };
+}
+
 Formula horizontal_component(int facet, int component) {
     return [=](const Shape& shape) {
         Vec3 direction(0);

@@ -51,6 +51,9 @@ void add_corner(Quantity& quantity, const Shape& shape, const Corner& corner, co
 
 /// Angle from the horizontal, 0..pi/2; `up` is +z.
 Formula tilt_from_up(int facet);
+/// The same, counted from up (side 1) or down (side -1) all the way, 0..pi: smooth where a girdle
+/// facet passes through the upright, at which the folded angle has a kink.
+Formula tilt_from_side(int facet, int side);
 /// The x or y component (0, 1) of a normal: two of them together say that a facet lies horizontal,
 /// where the angle itself has no derivative.
 Formula horizontal_component(int facet, int component);

@@ -128,7 +128,13 @@ double sigma_at(const Equation& e, const Stage& stage) {
     }
 }
 
-void solve_stage(const System& system, Shape& shape, const Stage& stage, bool keep_normals,
+// What a stage solves for.
+struct StageScope {
+    bool keep_normals = false;
+    bool with_readings = true;  ///< false: only a convex stone of these meets, near the mesh
+};
+
+void solve_stage(const System& system, Shape& shape, const Stage& stage, const StageScope& scope,
                  const Progress& progress, double fraction) {
     Shape scratch = shape;
     ceres::Problem::Options problem_options;
@@ -160,14 +166,16 @@ void solve_stage(const System& system, Shape& shape, const Stage& stage, bool ke
             if (block.first != By::normal) continue;
             problem.SetManifold(p, sphere);
             sphere_used = true;
-            if (keep_normals || block.second == system.up_facet()) {
+            if (scope.keep_normals || block.second == system.up_facet()) {
                 problem.SetParameterBlockConstant(p);
             }
         }
         problem.AddResidualBlock(new EquationCost(std::move(e), sigma, blocks, &scratch), nullptr,
                                  pointers);
     };
-    for (Equation& e : system.equations(shape, system.mesh_outline())) put(std::move(e));
+    for (Equation& e : system.equations(shape, system.mesh_outline())) {
+        if (scope.with_readings || e.incidence >= 0) put(std::move(e));
+    }
     for (Equation& e : system.hinges()) put(std::move(e));
     for (Equation& e : system.priors()) put(std::move(e));
     if (!sphere_used) delete sphere;
@@ -192,9 +200,14 @@ void solve_stage(const System& system, Shape& shape, const Stage& stage, bool ke
 Graded graded_fit(const System& system, const GradedStart& start, const Progress& progress) {
     Graded result;
     result.shape = start.shape;
+    // First a convex stone with planar facets, whatever its size: lengths of edges that a rough
+    // mesh has inside out would hold it there.
+    const bool keep = start.keep_normals_at_first;
+    solve_stage(system, result.shape, {0.03, 0.0}, {keep, false}, progress, 0.05);
+    if (keep) solve_stage(system, result.shape, {0.03, 0.02}, {true, true}, progress, 0.08);
     for (std::size_t s = 0; s < k_stages.size(); ++s) {
-        solve_stage(system, result.shape, k_stages[s], s == 0 && start.keep_normals_at_first,
-                    progress, 0.1 + 0.1 * static_cast<double>(s));
+        solve_stage(system, result.shape, k_stages[s], {}, progress,
+                    0.1 + 0.1 * static_cast<double>(s));
     }
     result.convex = true;
     for (const Equation& e : system.hinges()) {
@@ -225,9 +238,14 @@ GradedStart start_from_angles(const System& system) {
         const double inclination = tilt[f] >= 0 ? tilt[f] : std::atan2(flat, std::abs(n.z));
         const double azimuth = turned[f] ? turn[f] : std::atan2(n.y, n.x);
         n = {std::sin(inclination) * std::cos(azimuth), std::sin(inclination) * std::sin(azimuth),
-             std::copysign(std::cos(inclination), n.z)};
-        start.shape.offsets[f] =
-            glm::dot(n, system.mesh_shape().normals[f] * system.mesh_shape().offsets[f]);
+             std::cos(inclination)};
+        // Inclinations do not say whether a facet looks up or down; where it lies does, better than
+        // the normal of a rough mesh.
+        Vec3 mean(0);
+        const std::vector<int>& loop = system.mesh_outline()->loops[f];
+        for (int corner : loop) mean += start.shape.points[corner] / double(loop.size());
+        if (glm::dot(n, mean) < glm::dot(Vec3{n.x, n.y, -n.z}, mean)) n.z = -n.z;
+        start.shape.offsets[f] = glm::dot(n, mean);
     }
     return start;
 }

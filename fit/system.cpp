@@ -131,6 +131,12 @@ void System::bring_upright() {
     }
     for (Facet& facet : solid_.facets) {
         facet.plane = plane_of(facet);
+        // A rough mesh may have facets that look inwards; the middle is inside any convex stone.
+        const Vec3 away = corner_mean(solid_, facet);
+        if (stone_.convex && glm::dot(facet.plane.normal, away) < 0) {
+            facet.plane.normal = glm::normalize(away);
+            facet.plane.offset = glm::length(away);
+        }
         mesh_shape_.normals.push_back(facet.plane.normal);
         mesh_shape_.offsets.push_back(facet.plane.offset);
         outline->loops.push_back(facet.corners);

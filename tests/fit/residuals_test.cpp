@@ -101,6 +101,8 @@ TEST(Residuals, SlopesMatchDifferences) {
     const int c1 = f("C1"), u1 = f("U1"), p1 = f("P1"), s1 = f("S1"), l1 = f("L1"), t = f("T");
     expect_slopes(tilt_from_up(c1), "inclination of a crown facet");
     expect_slopes(tilt_from_up(p1), "inclination of a pavilion facet");
+    expect_slopes(tilt_from_side(c1, 1), "inclination from above");
+    expect_slopes(tilt_from_side(p1, -1), "inclination from below");
     expect_slopes(tilt_between(c1, s1), "inclination from a facet");
     expect_slopes(tilt_between(p1, t), "inclination of a pavilion facet from the table");
     expect_slopes(tilt_from_axis(c1, {f("G1"), f("G5"), f("G9"), f("G14")}), "from the axis");

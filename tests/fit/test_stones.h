@@ -198,7 +198,11 @@ inline std::vector<Reading> noisy(std::vector<Reading> readings, unsigned seed) 
     for (Reading& r : readings) {
         const double e = normal(random);
         if (!r.exact && !is_relation(r.kind)) r.value += r.sigma * e;
-        if (r.kind == ReadingKind::inclination) r.value = std::abs(r.value);
+        // Instruments do not say more than 90 degrees.
+        if (r.kind == ReadingKind::inclination) {
+            const double right = std::numbers::pi / 2;
+            r.value = right - std::abs(right - std::abs(r.value));
+        }
     }
     return readings;
 }
