@@ -25,24 +25,28 @@ int convert(const ConvertOptions& options) {
                          "cannot be written: the name must end in .obj, .off, .ply, .stl or .asc");
     }
     const SolidInput input = load_solid(options.in, options.cut);
-    for (const std::string& note : input.notes) {
-        say(fmt::format("{}: {}", options.in.string(), note), options.common.quiet);
-    }
     // A mesh may be bent or dented and still be worth converting: it is written as it is.
     const std::vector<Fault> faults =
         find_faults(input.solid, {.planarity = k_largest_miss, .must_be_convex = false});
-    for (const Fault& fault : faults) {
-        say(fmt::format("culet: warning: {}: {}: {}", options.in.string(), name_of(fault.kind),
-                        fault.what),
-            options.common.quiet);
-    }
+    std::vector<std::string> notes_on_writing;
     if (mesh_format(options.out)) {
         write_mesh(input.solid, options.out);
     } else {
-        for (const std::string& note :
-             write_gemcad_asc(input.solid, input.sheet.value_or(CutSheet{}), options.out)) {
-            say(fmt::format("{}: {}", options.out.string(), note), options.common.quiet);
-        }
+        notes_on_writing =
+            write_gemcad_asc(input.solid, input.sheet.value_or(CutSheet{}), options.out);
+    }
+    // Only now: when nothing could be written, the error is all there is to say.
+    const bool quiet = options.common.quiet;
+    for (const std::string& note : input.notes) {
+        say(fmt::format("{}: {}", options.in.string(), note), quiet);
+    }
+    for (const Fault& fault : faults) {
+        say(fmt::format("culet: warning: {}: {}: {}", options.in.string(), name_of(fault.kind),
+                        fault.what),
+            quiet);
+    }
+    for (const std::string& note : notes_on_writing) {
+        say(fmt::format("{}: {}", options.out.string(), note), quiet);
     }
     return faults.empty() ? exit_good : exit_untrusted;
 }

@@ -1,10 +1,180 @@
+// culet cut NAME [--param VALUE...] -o MESH: every cut is a command of its own, made from its
+// table.
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
 #include "app/options.h"
+#include "app/terminal.h"
+#include "stone/cuts/cuts.h"
+#include "stone/errors.h"
+#include "stone/output_file.h"
+#include "stone/stone.h"
+#include "stone/toml_file.h"
 
 namespace culet {
 
+namespace {
+
+struct CutOptions {
+    CommonOptions common;
+    std::string out, json, material;
+    std::map<std::string, double> values;
+};
+
+double height_of(const Solid& solid, bool crown) {
+    // Crown: table over the highest girdle corner; pavilion: the lowest girdle corner over the
+    // culet.
+    double top = -1e300, bottom = 1e300, girdle_top = -1e300, girdle_bottom = 1e300;
+    for (const Vec3& v : solid.vertices) {
+        top = std::max(top, v.z);
+        bottom = std::min(bottom, v.z);
+    }
+    for (const Facet& facet : solid.facets) {
+        if (facet.name[0] != 'G') continue;
+        for (int corner : facet.corners) {
+            girdle_top = std::max(girdle_top, solid.vertices[corner].z);
+            girdle_bottom = std::min(girdle_bottom, solid.vertices[corner].z);
+        }
+    }
+    return crown ? top - girdle_top : girdle_bottom - bottom;
+}
+
+std::string proportions_json(const std::string& name, const Solid& solid,
+                             const CutOptions& options) {
+    const double along_x = width_along(solid, {1, 0, 0}), along_y = width_along(solid, {0, 1, 0});
+    const double width = std::min(along_x, along_y), length = std::max(along_x, along_y);
+    Solid table;
+    for (int corner : solid.facets[find_facet(solid, "T")].corners)
+        table.vertices.push_back(solid.vertices[corner]);
+    const double table_width =
+        width_along(table, along_x <= along_y ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
+    std::map<std::string, double> parameters = options.values;
+    for (const CutParameter& p : cut_kind(name).parameters) parameters.emplace(p.name, p.value);
+    const double depth = width_along(solid, {0, 0, 1});
+    const double crown = height_of(solid, true), pavilion = height_of(solid, false);
+    nlohmann::ordered_json json = {{"schema", 1},
+                                   {"cut", name},
+                                   {"parameters", parameters},
+                                   {"length_mm", length},
+                                   {"width_mm", width},
+                                   {"depth_mm", depth},
+                                   {"length_over_width", length / width},
+                                   {"table_percent", 100 * table_width / width},
+                                   {"crown_height_percent", 100 * crown / width},
+                                   {"girdle_percent", 100 * (depth - crown - pavilion) / width},
+                                   {"pavilion_depth_percent", 100 * pavilion / width},
+                                   {"total_depth_percent", 100 * depth / width},
+                                   {"facets", solid.facets.size()},
+                                   {"vertices", solid.vertices.size()},
+                                   {"edges", edge_count(solid)},
+                                   {"volume_mm3", volume(solid)}};
+    if (!options.material.empty()) {
+        const Material material = catalogue_material(options.material);
+        json["material"] = material.id;
+        if (material.density_g_cm3)
+            json["weight_ct"] = carat(volume(solid), *material.density_g_cm3);
+    }
+    return json.dump(2) + "\n";
+}
+
+void list_cuts() {
+    for (const CutKind& kind : cut_kinds()) {
+        fmt::print("{}: {}\n", kind.name, kind.summary);
+        for (const CutParameter& p : kind.parameters) {
+            fmt::print("  --{:<18} {:>7} {:<4} {} ({} to {})\n", p.name, p.value, p.unit, p.what,
+                       p.least, p.most);
+        }
+    }
+}
+
+// `words` are what no option of the cut took.
+[[noreturn]] void refuse(const CutKind& kind, const std::vector<std::string>& words) {
+    std::vector<std::string> names;
+    for (const CutParameter& p : kind.parameters) names.push_back("--" + p.name);
+    const std::string word = words.front().substr(0, words.front().find('='));
+    const auto near = nearest_name(word, names);
+    throw InputError(fmt::format(
+        "the cut {} has no \"{}\"{}; culet cut {} --help lists its parameters", kind.name, word,
+        near ? fmt::format(", did you mean {}?", *near) : std::string(), kind.name));
+}
+
+int run_cut(const std::string& name, const CutOptions& options) {
+    const Solid solid = make_cut(name, options.values);
+    std::string proportions;
+    if (!options.json.empty()) {
+        // Length and width are those of the stone before it is turned.
+        auto unturned = options.values;
+        unturned["azimuth"] = 0;
+        proportions = proportions_json(name, make_cut(name, unturned), options);
+    }
+    if (options.out.empty() && options.json.empty())
+        throw InputError("name the mesh to write: -o MESH");
+    if (!options.out.empty()) write_solid(solid, options.out);
+    if (!options.json.empty()) write_text(options.json, proportions);
+    say(fmt::format("{}: {} facets, {} vertices, total depth {:.4g} mm, volume {:.4g} mm3", name,
+                    solid.facets.size(), solid.vertices.size(), width_along(solid, {0, 0, 1}),
+                    volume(solid)),
+        options.common.quiet || options.json == "-");
+    return exit_good;
+}
+
+}  // namespace
+
 void add_command_cut(CLI::App& program, int& exit_code) {
-    (void)program;
-    (void)exit_code;
+    CLI::App* command =
+        program.add_subcommand("cut", "a standard cut by its proportions, as a starting mesh");
+    auto list = std::make_shared<bool>(false);
+    auto unknown = std::make_shared<std::vector<std::string>>();
+    command->add_flag("--list", *list, "the cuts, their parameters, defaults and ranges");
+    command->require_subcommand(0, 1);
+    // A word that is no cut is answered with the nearest cut.
+    command->add_option("name", *unknown, "round-brilliant, step (emerald), princess, oval, ...")
+        ->type_name("NAME");
+    command->footer(
+        "Examples:\n"
+        "  culet cut round-brilliant --table 57 --crown-angle 34.5 -o brilliant.obj\n"
+        "  culet cut emerald --ratio 1.5 -o emerald.asc --json proportions.json --material "
+        "emerald");
+    for (const CutKind& kind : cut_kinds()) {
+        auto options = std::make_shared<CutOptions>();
+        CLI::App* cut = command->add_subcommand(kind.name, kind.summary);
+        if (kind.name == "step") cut->alias("emerald");
+        cut->add_option("-o,--output", options->out, "mesh: .obj .off .ply .stl .asc")
+            ->type_name("MESH");
+        cut->add_option("--json", options->json, "the resulting proportions (- is stdout)")
+            ->type_name("FILE");
+        cut->add_option("--material", options->material, "for the weight in the proportions")
+            ->type_name("NAME");
+        for (const CutParameter& p : kind.parameters) {
+            cut->add_option_function<double>(
+                   "--" + p.name,
+                   [options, key = p.name](double value) { options->values[key] = value; },
+                   fmt::format("{}, {} to {} {}, default {}", p.what, p.least, p.most, p.unit,
+                               p.value))
+                ->type_name(p.unit.empty() ? "X" : p.unit);
+        }
+        add_common(*cut, options->common);
+        const CutParameter& first = kind.parameters.front();
+        cut->footer(
+            fmt::format("Examples:\n  culet cut {0} -o {0}.obj\n  culet cut {0} --{1} {2} --girdle "
+                        "3 -o {0}.asc --json proportions.json",
+                        kind.name, first.name, first.value));
+        cut->allow_extras();  // so that a misspelt parameter is answered with the nearest
+        cut->callback([kind, cut, options, &exit_code] {
+            if (const auto words = cut->remaining(); !words.empty()) refuse(kind, words);
+            exit_code = run_cut(kind.name, *options);
+        });
+    }
+    command->callback([command, list, unknown] {
+        if (!command->get_subcommands().empty()) return;
+        if (*list) return list_cuts();
+        if (unknown->empty()) throw InputError("name a cut; culet cut --list shows them");
+        cut_kind(unknown->front());  // throws with the nearest name
+    });
 }
 
 }  // namespace culet

@@ -1,1 +1,129 @@
 #pragma once
+// How far a render is from a photograph. The front door of this room: pictures in, plain data out.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/photo.h"
+#include "stone/progress.h"
+
+namespace culet {
+
+enum class Verdict {
+    match,        ///< far better than the same render turned
+    partial,      ///< better than the same render turned, but not by much
+    no_evidence,  ///< no better than the same render turned
+    refused       ///< the outlines do not fit: nothing was compared
+};
+const char* name_of(Verdict verdict);
+
+/// One score beside what it is worth. The null is the same score for the same render, turned or
+/// mirrored in the picture's plane: what the stone's outline and its general brightness reach
+/// without any agreement of its pattern.
+struct Score {
+    std::string key;              ///< as in the JSON: "zncc", "ssim", ...
+    std::optional<double> value;  ///< nothing: not defined for these pictures, see `note`
+    bool higher_is_better = true;
+    bool is_correlation = false;  ///< z is then taken of atanh (Fisher 1915)
+    std::vector<double> null;     ///< one value a draw, in the order drawn
+    double null_mean = 0, null_sd = 0;
+    /// (value - null_mean) / null_sd, positive when the value is better than the null.
+    std::optional<double> z;
+    /// Share of draws at least as good as the value, (count + 1) / (draws + 1).
+    std::optional<double> p;
+    std::string note;
+};
+
+/// Positions are pixels of the given pictures, centre of the first pixel at (0, 0), y down.
+struct Registration {
+    double residual_px = 0;  ///< root mean square distance between the outlines, photo pixels
+    double worst_px = 0;     ///< 95 % of the outline is closer than this
+    double iou = 0;          ///< overlap of the silhouettes: area of both over area of either
+    double scale = 1;        ///< render pixels per photo pixel
+    double turn_deg = 0;     ///< from photo to render, clockwise as seen
+    bool turn_known = true;  ///< false: the outlines are round and the turn was left at 0
+    std::array<double, 2> shift_px{};  ///< from the stone's centre in the photo to it in the render
+    std::array<double, 2> centre_px{};                     ///< of the stone in the photo
+    double photo_diameter_px = 0, render_diameter_px = 0;  ///< of the circles of equal area
+    std::string photo_outline, render_outline;  ///< where from: "mask", "coverage", "background"
+    std::vector<std::string> warnings;
+};
+
+/// A value a pixel, rows from the top; NaN where there is none.
+struct PixelMap {
+    int width = 0, height = 0;
+    std::vector<float> values;
+};
+
+/// For the report: everything in the frame of the photo's close-up.
+struct ComparedPictures {
+    Photo photo, render;  ///< render with the gain applied; empty when refused early
+    double white = 1;     ///< linear value to be shown as white
+    PixelMap mask;        ///< 1 where compared, NaN elsewhere
+    PixelMap photo_outline, render_outline;  ///< 1 inside, NaN outside
+    PixelMap luminance_difference;           ///< render - photo, encoded luminance, -1..1
+    PixelMap colour_difference;              ///< CIEDE2000
+    PixelMap visible_difference;             ///< FLIP, 0..1
+    PixelMap similarity;                     ///< local SSIM
+};
+
+/// The bright reflexes as things, see reflexes.h.
+struct ReflexCount {
+    int in_photo = 0, in_render = 0, matched = 0;
+    std::optional<double> displacement;  ///< median, in diameters
+};
+
+struct Comparison {
+    Verdict verdict = Verdict::refused;
+    std::string reason;  ///< the verdict in one plain sentence
+    Registration registration;
+    std::array<double, 3> gain{1, 1, 1};  ///< factors on the render, R G B
+    double saturated = 0;                 ///< share of compared pixels that the camera clipped
+    int compared_pixels = 0;
+    std::vector<Score> scores;
+    ReflexCount reflexes;
+    int null_draws = 0;
+    std::string null_note;
+    std::vector<std::string> notes;
+    bool simulated = false;
+    std::uint64_t seed = 1;
+    ComparedPictures pictures;
+
+    /// False when the answer should not be trusted: the registration was refused.
+    bool usable() const { return verdict != Verdict::refused; }
+};
+
+struct CompareOptions {
+    std::vector<float> mask;  ///< of the photo, from `read_mask`; empty: found in the picture
+    bool simulated = false;   ///< the photograph is itself computed: said wherever it appears
+    std::uint64_t seed = 1;   ///< of the null's draws
+    int null_draws = 24;      ///< at least 20
+    int threads = 0;          ///< 0: all processors; the result does not depend on it
+};
+
+/// Registers by the outlines, solves one gain for each channel, scores, and draws the null.
+/// Bad pictures are no exception: they end as `refused` or as scores without a value. Throws
+/// Interrupted when `progress` says so.
+///
+/// The verdict is a proposal, not validated: `match` when zncc lies at least `k_match_z` standard
+/// deviations above its null and reaches `k_match_zncc`, which is about what random facet errors of
+/// half a degree leave of a brilliant's pattern; `partial` from `k_partial_z` on, if
+/// no draw was as good. It tells a
+/// pattern from the same pattern turned; it cannot tell a stone from another of the same cut.
+Comparison compare(const Photo& photo, const Photo& render, const CompareOptions& options = {},
+                   const Progress& progress = {});
+
+constexpr double k_match_z = 5, k_partial_z = 2, k_match_zncc = 0.8;
+
+/// What a program would want to know beside the scores themselves.
+struct CompareSources {
+    std::string photo_file, render_file, mask_file;
+};
+
+/// The scores as one JSON object (schema 1).
+std::string scores_json(const Comparison& comparison, const CompareSources& sources = {});
+
+}  // namespace culet

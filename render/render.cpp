@@ -1,7 +1,7 @@
 #include "render/render.h"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range2d.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -87,19 +87,25 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 struct PixelSums {
-    double hit = 0;  // share of samples that meet the stone
+    double hit = 0;        // share of samples that meet the stone
+    double luminance = 0;  // that they bring, as a share of the pixel
     double remainder = 0, absorbed = 0, cut = 0;
     long long rays = 0;
 };
 
+double luminance(const Rgb& rgb) {
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
 class PixelShader {
 public:
     PixelShader(const Scene& scene, const Plan& plan, const LightField& lights,
-                const PathLimits& limits, int samples)
+                const WavelengthSet& colours, const PathLimits& limits, int samples)
         : body_(scene.stone.solid),
           eyes_(scene.camera),
           plan_(plan),
           lights_(lights),
+          colours_(colours),
           limits_(limits),
           pattern_(sample_pattern(samples, plan.on(Effects::aperture))) {}
 
@@ -107,6 +113,7 @@ public:
     PixelSums shade(double x, double y, double size, std::uint64_t pixel, double* radiance) const {
         const int nodes = static_cast<int>(plan_.wavelengths_nm.size());
         std::fill(radiance, radiance + nodes, 0.0);
+        std::vector<double> background(static_cast<std::size_t>(nodes), 0.0);
         PixelSums sums;
         const double share = 1.0 / static_cast<double>(pattern_.size());
         for (std::size_t i = 0; i < pattern_.size(); ++i) {
@@ -114,7 +121,7 @@ public:
             const EyeRay ray = eyes_.through(x + size * p.x, y + size * p.y, p.pupil_x, p.pupil_y);
             const auto entry = body_.entry(ray.origin, ray.direction);
             if (!entry) {
-                lights_.add_radiance(ray.origin, ray.direction, 1.0, 0, nodes, radiance);
+                lights_.add_radiance(ray.origin, ray.direction, 1.0, 0, nodes, background.data());
                 continue;
             }
             sums.hit += share;
@@ -132,7 +139,8 @@ public:
                 ++sums.rays;
             }
         }
-        for (int i = 0; i < nodes; ++i) radiance[i] *= share;
+        sums.luminance = share * luminance(colours_.rgb_of(radiance));
+        for (int i = 0; i < nodes; ++i) radiance[i] = share * (radiance[i] + background[i]);
         return sums;
     }
 
@@ -141,13 +149,10 @@ private:
     EyeRays eyes_;
     const Plan& plan_;
     const LightField& lights_;
+    const WavelengthSet& colours_;
     PathLimits limits_;
     std::vector<SamplePoint> pattern_;
 };
-
-double luminance(const Rgb& rgb) {
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
 
 // Mean luminance of the stone at low resolution: what a tolerance is relative to.
 double pilot_mean(const Scene& scene, const Plan& plan, const LightField& lights,
@@ -155,7 +160,7 @@ double pilot_mean(const Scene& scene, const Plan& plan, const LightField& lights
     limits.depth = 16;
     limits.cut_weight = 1e-3;
     limits.split_weight = 1;
-    const PixelShader shader(scene, plan, lights, limits, 1);
+    const PixelShader shader(scene, plan, lights, colours, limits, 1);
     const int longer = std::max(scene.camera.width, scene.camera.height);
     const double step = std::max(1.0, static_cast<double>(longer) / k_pilot_pixels);
     std::vector<double> radiance(plan.wavelengths_nm.size());
@@ -163,9 +168,8 @@ double pilot_mean(const Scene& scene, const Plan& plan, const LightField& lights
     for (double y = 0; y < scene.camera.height; y += step) {
         for (double x = 0; x < scene.camera.width; x += step) {
             const PixelSums pixel = shader.shade(x, y, step, 0, radiance.data());
-            if (pixel.hit == 0) continue;
-            hits += 1;
-            sum += luminance(colours.rgb_of(radiance.data()));
+            hits += pixel.hit;
+            sum += pixel.luminance;
         }
     }
     return hits > 0 ? sum / hits : 0;
@@ -207,7 +211,7 @@ RenderResult render(const Scene& scene, const Progress& progress) {
         picture.wavelengths_nm = plan.wavelengths_nm;
         picture.spectral.assign(nodes, std::vector<float>(picture.pixels()));
     }
-    const PixelShader shader(scene, plan, lights, limits, settings.samples);
+    const PixelShader shader(scene, plan, lights, colours, limits, settings.samples);
     std::vector<PixelSums> sums(picture.pixels());
     result.stats.seconds_setup = seconds_since(start);
 
@@ -244,6 +248,12 @@ RenderResult render(const Scene& scene, const Progress& progress) {
             stop.store(true, std::memory_order_relaxed);
         }
     };
+    // More threads than processors are allowed when asked for, and without TBB's warning on stderr.
+    const int most = static_cast<int>(
+        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    const tbb::global_control allow(
+        tbb::global_control::max_allowed_parallelism,
+        static_cast<std::size_t>(std::max({most, settings.threads, 1})));
     tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
     arena.execute([&] {
         tbb::parallel_for(0LL, tiles_wide * tiles_high, shade_tile, tbb::simple_partitioner());
@@ -259,8 +269,7 @@ RenderResult render(const Scene& scene, const Progress& progress) {
         stats.cut += sums[i].cut;
         stats.absorbed += sums[i].absorbed;
         stats.rays += sums[i].rays;
-        seen += sums[i].hit *
-                luminance({picture.rgb[3 * i], picture.rgb[3 * i + 1], picture.rgb[3 * i + 2]});
+        seen += sums[i].luminance;
     }
     if (weight > 0) {
         stats.remainder /= weight;

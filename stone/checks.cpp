@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "stone/outline.h"
+#include "stone/surface_edges.h"
 
 namespace culet {
 
@@ -22,100 +23,8 @@ constexpr int k_most_told = 20;
 // rounding of doubles is far below, any facet that a cutter could tell apart far above.
 constexpr double k_same_plane = 1e-9;
 
-struct HalfEdge {
-    int low = -1, high = -1;  // corners in order of index
-    bool forward = true;      // the facet runs from low to high
-    int facet = -1;
-};
-
-bool same_edge(const HalfEdge& a, const HalfEdge& b) {
-    return a.low == b.low && a.high == b.high;
-}
-
-/// All half-edges, those of one edge together.
-std::vector<HalfEdge> sorted_half_edges(const Solid& solid) {
-    std::vector<HalfEdge> edges;
-    for (std::size_t f = 0; f < solid.facets.size(); ++f) {
-        const std::vector<int>& corners = solid.facets[f].corners;
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const int a = corners[i], b = corners[(i + 1) % corners.size()];
-            edges.push_back({std::min(a, b), std::max(a, b), a < b, static_cast<int>(f)});
-        }
-    }
-    std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-        return std::tie(a.low, a.high, a.forward, a.facet) <
-               std::tie(b.low, b.high, b.forward, b.facet);
-    });
-    return edges;
-}
-
-/// Sets that grow together.
-class Groups {
-public:
-    explicit Groups(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), 0);
-    }
-    int find(int i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void join(int i, int j) { parent_[find(i)] = find(j); }
-
-private:
-    std::vector<int> parent_;
-};
-
-bool has_valid_corners(const Solid& solid) {
-    const int count = static_cast<int>(solid.vertices.size());
-    return std::all_of(solid.facets.begin(), solid.facets.end(), [&](const Facet& facet) {
-        return std::all_of(facet.corners.begin(), facet.corners.end(),
-                           [&](int c) { return c >= 0 && c < count; });
-    });
-}
-
-bool has_distinct_corners(const Facet& facet) {
-    std::vector<int> corners = facet.corners;
-    std::sort(corners.begin(), corners.end());
-    return corners.size() >= 3 &&
-           std::adjacent_find(corners.begin(), corners.end()) == corners.end();
-}
-
 bool is_finite(const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-/// Vertices at which the facets form more than one fan: facets are in one fan when they share an
-/// edge that ends there.
-std::vector<int> pinched_vertices(const Solid& solid, const std::vector<HalfEdge>& edges) {
-    // A facet's corner is a pair (vertex, facet); an edge joins the corners at both its ends.
-    std::vector<std::pair<int, int>> wedges;
-    for (std::size_t f = 0; f < solid.facets.size(); ++f) {
-        for (const int corner : solid.facets[f].corners) {
-            wedges.emplace_back(corner, static_cast<int>(f));
-        }
-    }
-    std::sort(wedges.begin(), wedges.end());
-    const auto wedge = [&](int vertex, int facet) {
-        return static_cast<int>(
-            std::lower_bound(wedges.begin(), wedges.end(), std::pair(vertex, facet)) -
-            wedges.begin());
-    };
-    Groups fans(wedges.size());
-    for (std::size_t i = 1; i < edges.size(); ++i) {
-        if (!same_edge(edges[i - 1], edges[i])) continue;
-        for (const int end : {edges[i].low, edges[i].high}) {
-            fans.join(wedge(end, edges[i - 1].facet), wedge(end, edges[i].facet));
-        }
-    }
-    std::vector<int> pinched;
-    for (std::size_t i = 1; i < wedges.size(); ++i) {
-        if (wedges[i - 1].first == wedges[i].first &&
-            fans.find(static_cast<int>(i) - 1) != fans.find(static_cast<int>(i)) &&
-            (pinched.empty() || pinched.back() != wedges[i].first)) {
-            pinched.push_back(wedges[i].first);
-        }
-    }
-    return pinched;
 }
 
 class FaultFinder {
@@ -171,10 +80,10 @@ private:
                             "none may come twice",
                             facet.name, facet.corners.size()));
         }
-        const std::vector<HalfEdge> edges = sorted_half_edges(solid_);
+        const std::vector<EdgeSide> edges = sorted_sides(solid_);
         Groups pieces(solid_.facets.size());
         for (std::size_t i = 0, end = 0; i < edges.size(); i = end) {
-            for (end = i; end < edges.size() && same_edge(edges[i], edges[end]); ++end) {
+            for (end = i; end < edges.size() && edges[i].same_edge(edges[end]); ++end) {
                 pieces.join(edges[i].facet, edges[end].facet);
             }
             const std::string where = fmt::format("edge v{}-v{}", edges[i].low, edges[i].high);
@@ -243,9 +152,8 @@ private:
             if (!has_distinct_corners(facet)) continue;
             std::vector<Vec3> loop;
             for (const int corner : facet.corners) loop.push_back(solid_.vertices[corner]);
-            const Plane own = plane_through(loop);
-            // Twice the area over the reach is the facet's width: one of rounding is none.
-            if (!(2 * area(solid_, facet) > 1e-15 * size * size)) {
+            const CornerTriple corners = spread_corners(solid_, facet);
+            if (!(corners.width > 1e-15 * size)) {
                 add(FaultKind::degenerate_facet, fmt::format("facet {} has no area", facet.name));
                 continue;
             }
@@ -259,7 +167,9 @@ private:
                                 "diameter; {:.2g} is allowed)",
                                 facet.name, worst, worst / size, limits_.planarity));
             }
-            if (crosses_itself(flat_outline(solid_, facet, own.normal))) {
+            // Not by the area vector, which is zero for a figure of eight.
+            const Vec3 across = glm::cross(corners.b - corners.a, corners.c - corners.a);
+            if (crosses_itself(flat_outline(solid_, facet, across))) {
                 add(FaultKind::self_crossing,
                     fmt::format("the outline of facet {} crosses itself", facet.name));
             }
@@ -275,11 +185,11 @@ private:
 
     void tell_concave_edges() {
         // The edges are named by the stored planes; the verdict itself is the exact one.
-        const std::vector<HalfEdge> edges = sorted_half_edges(solid_);
+        const std::vector<EdgeSide> edges = sorted_sides(solid_);
         const double forgiven = std::min(planarity(solid_), k_largest_miss * diameter(solid_));
         bool told = false;
         for (std::size_t i = 1; i < edges.size(); ++i) {
-            if (!same_edge(edges[i - 1], edges[i])) continue;
+            if (!edges[i - 1].same_edge(edges[i])) continue;
             const Facet& left = solid_.facets[edges[i - 1].facet];
             const Facet& right = solid_.facets[edges[i].facet];
             double highest = 0;
@@ -361,11 +271,11 @@ bool is_closed(const Solid& solid) {
         !std::all_of(solid.facets.begin(), solid.facets.end(), has_distinct_corners)) {
         return false;
     }
-    const std::vector<HalfEdge> edges = sorted_half_edges(solid);
+    const std::vector<EdgeSide> edges = sorted_sides(solid);
     for (std::size_t i = 0; i < edges.size(); i += 2) {
-        if (i + 1 == edges.size() || !same_edge(edges[i], edges[i + 1]) ||
+        if (i + 1 == edges.size() || !edges[i].same_edge(edges[i + 1]) ||
             edges[i].forward == edges[i + 1].forward ||
-            (i + 2 < edges.size() && same_edge(edges[i], edges[i + 2]))) {
+            (i + 2 < edges.size() && edges[i].same_edge(edges[i + 2]))) {
             return false;
         }
     }

@@ -14,37 +14,6 @@ namespace culet {
 
 namespace {
 
-/// Three corners of a facet that fix its plane well: the two furthest apart along the outline's
-/// longest reach and the one furthest from their line, in the facet's sense of rotation.
-struct Triple {
-    Vec3 a, b, c;
-};
-
-Triple spread_corners(const Solid& solid, const Facet& facet) {
-    const auto at = [&](std::size_t i) -> const Vec3& { return solid.vertices[facet.corners[i]]; };
-    const std::size_t n = facet.corners.size();
-    const auto furthest = [&](auto measure) {
-        std::size_t best = 0;
-        double largest = -1;
-        for (std::size_t i = 0; i < n; ++i) {
-            const double value = measure(at(i));
-            if (value > largest) {
-                largest = value;
-                best = i;
-            }
-        }
-        return best;
-    };
-    const std::size_t i = furthest([&](const Vec3& p) { return glm::length(p - at(0)); });
-    const std::size_t j = furthest([&](const Vec3& p) { return glm::length(p - at(i)); });
-    const Vec3 line = glm::normalize(at(j) - at(i));
-    const std::size_t k =
-        furthest([&](const Vec3& p) { return glm::length(glm::cross(p - at(i), line)); });
-    std::size_t order[3] = {i, j, k};
-    std::sort(order, order + 3);
-    return {at(order[0]), at(order[1]), at(order[2])};
-}
-
 /// Solid angle of a facet's corner fan seen from a point, positive when it faces away (Van Oosterom
 /// and Strackee 1983).
 double solid_angle(const Solid& solid, const Facet& facet, const Vec3& eye) {
@@ -100,7 +69,7 @@ bool is_convex(const Solid& solid) {
         if (own.normal == Vec3{0, 0, 0}) return false;
         if (!is_convex_outline(flat_outline(solid, facet, own.normal), allowance)) return false;
 
-        const Triple corners = spread_corners(solid, facet);
+        const CornerTriple corners = spread_corners(solid, facet);
         for (const int corner : facet.corners) on_facet[corner] = true;
         const auto lies_above = [&](std::size_t v) {
             const Vec3& vertex = solid.vertices[v];

@@ -26,14 +26,16 @@ struct SinCos {
     double sin = 0, cos = 1;
 };
 
-/// Of a fraction of a full turn. Reduced to an eighth of a turn about the nearest quarter, so that
-/// settings that mirror each other give values that mirror each other exactly.
-SinCos of_turn(double turn) {
-    const double quarters = 4 * (turn - std::floor(turn));
-    const double nearest = std::round(quarters);
-    const double rest = (quarters - nearest) * (std::numbers::pi / 2);
-    const double s = std::sin(rest), c = std::cos(rest);
-    switch (static_cast<int>(nearest) % 4) {
+/// Of part / whole of a full turn. Reduced to an eighth of a turn about the nearest quarter,
+/// without rounding, so that settings that mirror each other give values that mirror each other
+/// exactly.
+SinCos of_turn(double part, double whole) {
+    part = std::fmod(part, whole);
+    const double rest = std::remainder(4 * part, whole);
+    const int quarter = static_cast<int>(std::lround((4 * part - rest) / whole));
+    const double s = std::sin(rest / whole * (std::numbers::pi / 2));
+    const double c = std::cos(rest / whole * (std::numbers::pi / 2));
+    switch (((quarter % 4) + 4) % 4) {
         case 0:
             return {s, c};
         case 1:
@@ -48,8 +50,8 @@ SinCos of_turn(double turn) {
 }  // namespace
 
 Plane plane_of(const CutSetting& setting, const CutSheet& sheet) {
-    const SinCos around = of_turn((setting.index - sheet.gear_offset) / sheet.gear);
-    const SinCos tilt = of_turn(setting.angle_deg / 360);
+    const SinCos around = of_turn(setting.index - sheet.gear_offset, sheet.gear);
+    const SinCos tilt = of_turn(setting.angle_deg, 360);
     const double up = setting.pavilion ? -tilt.cos : tilt.cos;
     return {{tilt.sin * around.sin, tilt.sin * around.cos, up}, setting.distance};
 }

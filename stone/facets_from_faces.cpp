@@ -214,9 +214,21 @@ Plane facet_plane(const FaceSoup& soup, const Outline& outline, bool precise_nor
     return agrees ? given : own;
 }
 
+void tell_unused_vertices(FaceSoup& soup) {
+    std::vector<bool> used(soup.vertices.size(), false);
+    for (const SoupFace& face : soup.faces) {
+        for (const int corner : face.corners) used[corner] = true;
+    }
+    const auto unused = std::count(used.begin(), used.end(), false);
+    if (unused > 0) {
+        soup.notes.push_back(fmt::format("left out {} vertices that belong to no face", unused));
+    }
+}
+
 }  // namespace
 
 ReadSolid solid_from_faces(FaceSoup soup) {
+    tell_unused_vertices(soup);
     const StatedPlanes stated = judge_stated_planes(soup);
     if (stated != StatedPlanes::none) name_faces_by_planes(soup);
     const double size = size_of(soup);

@@ -227,16 +227,17 @@ std::vector<int> find_repeated(std::span<const NamedPlane> planes,
                            static_cast<int>(i));
     }
     std::sort(order.begin(), order.end());
-    std::vector<int> repeated;
+    std::vector<bool> is_repeated(planes.size(), false);
     for (std::size_t i = 0; i < order.size(); ++i) {
         for (std::size_t j = i; j-- > 0 && order[i].first - order[j].first < 1e-14;) {
-            if (exact[order[i].second] == exact[order[j].second]) {
-                repeated.push_back(std::max(order[i].second, order[j].second));
-            }
+            const int a = order[i].second, b = order[j].second;
+            if (!is_repeated[b] && exact[a] == exact[b]) is_repeated[std::max(a, b)] = true;
         }
     }
-    std::sort(repeated.begin(), repeated.end());
-    repeated.erase(std::unique(repeated.begin(), repeated.end()), repeated.end());
+    std::vector<int> repeated;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        if (is_repeated[i]) repeated.push_back(static_cast<int>(i));
+    }
     return repeated;
 }
 

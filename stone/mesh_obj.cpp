@@ -61,8 +61,9 @@ private:
                 line = trimmed(line.substr(0, i));
             }
         }
-        if (line.size() == 1 ? line != "g" : line[1] != ' ' && line[1] != '\t') return;
+        // Keywords of one letter only; `g` may stand alone.
         if (line.empty()) return;
+        if (line.size() == 1 ? line != "g" : line[1] != ' ' && line[1] != '\t') return;
         if (line[0] == 'v') {
             read_vertex(words_of(line));
         } else if (line[0] == 'f') {

@@ -3,10 +3,34 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <numbers>
 #include <numeric>
 
 namespace culet {
+
+CornerTriple spread_corners(const Solid& solid, const Facet& facet) {
+    const std::size_t n = facet.corners.size();
+    if (n < 3) return {};
+    const auto at = [&](std::size_t i) -> const Vec3& { return solid.vertices[facet.corners[i]]; };
+    const auto furthest = [&](auto measure) {
+        std::size_t best = 0;
+        for (std::size_t i = 1; i < n; ++i) {
+            if (measure(at(i)) > measure(at(best))) best = i;
+        }
+        return best;
+    };
+    const std::size_t i = furthest([&](const Vec3& p) { return glm::length(p - at(0)); });
+    const std::size_t j = furthest([&](const Vec3& p) { return glm::length(p - at(i)); });
+    const double reach = glm::length(at(j) - at(i));
+    if (!(reach > 0)) return {};
+    const Vec3 line = (at(j) - at(i)) / reach;
+    const auto distance = [&](const Vec3& p) { return glm::length(glm::cross(p - at(i), line)); };
+    const std::size_t k = furthest(distance);
+    std::size_t order[3] = {i, j, k};
+    std::sort(order, order + 3);
+    return {at(order[0]), at(order[1]), at(order[2]), distance(at(k))};
+}
 
 std::vector<Vec2> flat_outline(const Solid& solid, const Facet& facet, const Vec3& normal) {
     const Vec3 size = glm::abs(normal);

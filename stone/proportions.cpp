@@ -41,7 +41,7 @@ Proportions proportions(const Solid& solid) {
     result.height = extent[2].extent();
 
     const Facet* table = nullptr;
-    double table_tilt = table_up_to;
+    double table_area = 0;
     for (const Facet& facet : solid.facets) {
         const double tilt = inclination(facet.plane.normal, {0, 0, 1});
         if (tilt >= girdle_from) continue;
@@ -51,10 +51,11 @@ Proportions proportions(const Solid& solid) {
             continue;
         }
         result.crown = std::max(result.crown, extent[2].high - z.low);
-        if (tilt <= table_tilt && (table == nullptr || tilt < table_tilt) &&
+        const double size = area(solid, facet);
+        if (tilt <= table_up_to && size > table_area &&
             z.high > extent[2].high - 1e-3 * result.height) {
             table = &facet;
-            table_tilt = tilt;
+            table_area = size;
         }
     }
     if (table != nullptr) {

@@ -18,9 +18,9 @@ struct Proportions {
     std::optional<double> table_length, table_width;
 };
 
-/// A facet is a girdle facet from 89 degrees on; the table is the flattest facet that looks up, if
-/// it lies within 5 degrees of the horizontal and reaches the top (the tables of real designs are
-/// tilted by up to a few degrees).
+/// A facet is a girdle facet from 89 degrees on; the table is the largest facet that looks up
+/// within 5 degrees of the vertical and reaches the top (the tables of real designs are tilted by
+/// up to a few degrees).
 Proportions proportions(const Solid& solid);
 
 }  // namespace culet

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 namespace culet {
 
@@ -123,9 +124,15 @@ double planarity(const Solid& solid) {
 }
 
 int edge_count(const Solid& solid) {
-    std::size_t corners = 0;
-    for (const Facet& facet : solid.facets) corners += facet.corners.size();
-    return static_cast<int>(corners / 2);
+    std::vector<std::pair<int, int>> edges;
+    for (const Facet& facet : solid.facets) {
+        for (std::size_t i = 0; i < facet.corners.size(); ++i) {
+            edges.push_back(
+                std::minmax({facet.corners[i], facet.corners[(i + 1) % facet.corners.size()]}));
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    return static_cast<int>(std::unique(edges.begin(), edges.end()) - edges.begin());
 }
 
 }  // namespace culet

@@ -65,7 +65,7 @@ Plane plane_through(std::span<const Vec3> loop);
 /// Largest distance of a corner from its facet's plane.
 double planarity(const Solid& solid);
 
-/// Number of edges: half the sum of the facets' corner counts (each edge has two facets).
+/// Number of distinct edges, open ones included.
 int edge_count(const Solid& solid);
 
 struct NamedPlane {

@@ -116,9 +116,9 @@ double WrittenPrecision::rounding() const {
     const bool is_single = any_single_ || all_near_single_;
     double rounding = largest_ * (is_single ? FLT_EPSILON / 2 : DBL_EPSILON / 2);
     if (count_ == 0) return rounding;
-    // Digits speak of rounding only when most numbers spend as many as any: `%.6f` ends all at one
-    // place, `%.6e` and `%g` give all (or most) the same count of digits. In a file of short exact
-    // numbers (0.5, 2, 1.25) they differ.
+    // Digits speak of rounding only when most numbers spend as many as any. `%.6f` ends all at one
+    // place; `%.6e` and `%g` give all, or most, the same count of digits. In a file of short exact
+    // numbers (0.5, 2, 1.25) neither holds.
     long most = 0;
     int last_place = 0;
     for (int i = 0; i < static_cast<int>(with_last_place_.size()); ++i) {
@@ -127,7 +127,7 @@ double WrittenPrecision::rounding() const {
             last_place = 16 - i;
         }
     }
-    if (2 * most > count_) return std::max(rounding, 0.5 * std::pow(10.0, last_place));
+    if (10 * most > 9 * count_) return std::max(rounding, 0.5 * std::pow(10.0, last_place));
     int digits = static_cast<int>(with_digits_.size()) - 1;
     while (digits > 1 && with_digits_[digits] == 0) --digits;
     if (2 * (with_digits_[digits] + with_digits_[digits - 1]) > count_) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <glm/geometric.hpp>
 
 #include "stone/errors.h"
 #include "tests/stone/synthetic_solids.h"
@@ -35,17 +34,23 @@ TEST(HalfEdges, EdgesAreSortedAndRunWithTheirLeftFacet) {
     }
 }
 
-// Seen from outside, the normals of the facets round a vertex turn counter-clockwise about it.
+// A facet that runs p, v, n covers the angle at v from the edge to n counter-clockwise to the edge
+// to p; the next one round v must begin there.
 TEST(HalfEdges, FacetsRoundAVertexRunCounterClockwise) {
     const Solid solid = random_solid(60, 4);
     const HalfEdges table = half_edges(solid);
-    for (std::size_t v = 0; v < solid.vertices.size(); ++v) {
+    const auto beside = [&](int facet, int vertex, bool after) {
+        const std::vector<int>& corners = solid.facets[facet].corners;
+        const std::size_t n = corners.size();
+        const std::size_t at = std::find(corners.begin(), corners.end(), vertex) - corners.begin();
+        return corners[(at + (after ? 1 : n - 1)) % n];
+    };
+    for (int v = 0; v < static_cast<int>(solid.vertices.size()); ++v) {
         const std::vector<int>& facets = table.facets_of_vertex[v];
         ASSERT_GE(facets.size(), 3u);
         for (std::size_t i = 0; i < facets.size(); ++i) {
-            const Vec3& a = solid.facets[facets[i]].plane.normal;
-            const Vec3& b = solid.facets[facets[(i + 1) % facets.size()]].plane.normal;
-            EXPECT_GT(glm::dot(glm::cross(a, b), solid.vertices[v]), 0);
+            EXPECT_EQ(beside(facets[i], v, false),
+                      beside(facets[(i + 1) % facets.size()], v, true));
         }
     }
 }

@@ -1,8 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <set>
+#include <sstream>
 
 #include "stone/checks.h"
 #include "stone/errors.h"
@@ -101,6 +107,58 @@ TEST(HalfSpaces, OrderOfThePlanesDoesNotChangeTheSolid) {
     EXPECT_EQ(plane_difference(a, b), 0);
 }
 
+/// Planes n . x <= d for all signs and orders of n, as whole numbers: meets of many planes are
+/// exact.
+void add_family(std::vector<NamedPlane>& planes, int a, int b, int c, double d) {
+    std::set<std::array<int, 3>> normals;
+    std::array<int, 3> n{a, b, c};
+    std::sort(n.begin(), n.end());
+    do {
+        for (int signs = 0; signs < 8; ++signs) {
+            normals.insert(
+                {signs & 1 ? -n[0] : n[0], signs & 2 ? -n[1] : n[1], signs & 4 ? -n[2] : n[2]});
+        }
+    } while (std::next_permutation(n.begin(), n.end()));
+    for (const auto& v : normals) {
+        planes.push_back(
+            {numbered("n", static_cast<int>(planes.size())), {Vec3(v[0], v[1], v[2]), d}});
+    }
+}
+
+// Counts of the Archimedean and Catalan solids with the symmetry of the cube (Coxeter, Regular
+// Polytopes).
+TEST(HalfSpaces, CubicSolidsWithExactMeetsOfManyPlanes) {
+    struct Case {
+        const char* name;
+        std::vector<std::array<int, 4>> families;  // normal and offset
+        std::size_t vertices, facets;
+        int edges;
+    };
+    for (const Case& c : {Case{"cuboctahedron", {{1, 0, 0, 1}, {1, 1, 1, 2}}, 12, 14, 24},
+                          Case{"rhombic dodecahedron", {{1, 1, 0, 2}}, 14, 12, 24},
+                          Case{"truncated octahedron", {{1, 0, 0, 2}, {1, 1, 1, 3}}, 24, 14, 36},
+                          Case{"octahedron", {{1, 1, 1, 1}}, 6, 8, 12}}) {
+        SCOPED_TRACE(c.name);
+        std::vector<NamedPlane> planes;
+        for (const auto& f : c.families) add_family(planes, f[0], f[1], f[2], f[3]);
+        const HalfSpaceSolid result = intersect_half_spaces(planes);
+        EXPECT_EQ(result.solid.vertices.size(), c.vertices);
+        EXPECT_EQ(result.solid.facets.size(), c.facets);
+        EXPECT_EQ(edge_count(result.solid), c.edges);
+        EXPECT_TRUE(find_faults(result.solid).empty());
+        // The same from the other end.
+        std::reverse(planes.begin(), planes.end());
+        EXPECT_EQ(intersect_half_spaces(planes).solid.vertices.size(), c.vertices);
+        // Planes through vertices and edges only bound nothing.
+        const std::size_t before = planes.size();
+        add_family(planes, 9, 0, 0, 9 * width_along(result.solid, {1, 0, 0}) / 2);
+        const HalfSpaceSolid touched = intersect_half_spaces(planes);
+        EXPECT_EQ(touched.solid.vertices.size(), c.vertices);
+        EXPECT_EQ(touched.unused_planes.size() + touched.repeated_planes.size(),
+                  planes.size() - before);
+    }
+}
+
 TEST(HalfSpaces, RepeatedPlanesAreToldAndChangeNothing) {
     auto planes = cube_planes();
     planes.push_back({"again", planes[2].plane});
@@ -155,7 +213,7 @@ TEST(HalfSpaces, NearlyParallelPlanesAreStillBounded) {
     for (int i = 0; i < 4; ++i) {
         const double t = i * std::numbers::pi / 2;
         planes.push_back(
-            {"side" + std::to_string(i),
+            {numbered("side", i),
              {{std::cos(tilt) * std::cos(t), std::cos(tilt) * std::sin(t), std::sin(tilt)},
               std::cos(tilt)}});
     }
@@ -170,6 +228,56 @@ TEST(HalfSpaces, BadPlanesAreRefused) {
     EXPECT_THROW(intersect_half_spaces(planes), InputError);
     planes[3].plane = {{0, 0, 0}, 1};
     EXPECT_THROW(intersect_half_spaces(planes), InputError);
+}
+
+// Two polished diamonds as a scanner's own program found their polyhedra: from its planes the same
+// counts of vertices, edges and facets must come, and the vertices that it states to 1e-12.
+TEST(HalfSpaces, PolyhedraOfAScanner) {
+    const std::filesystem::path folder = CULET_SHARED_DATA "/scans";
+    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no shared data at " << folder;
+    for (const char* name : {"1_GIA", "Pear63"}) {
+        SCOPED_TRACE(name);
+        std::ifstream file(folder / name / "polyhedron.dat");
+        std::stringstream text;
+        for (std::string line; std::getline(file, line);) {
+            if (line.empty() || line[0] != '#') text << line << '\n';
+        }
+        std::size_t vertex_count = 0, facet_count = 0, sides = 0;
+        text >> vertex_count >> facet_count >> sides;
+        std::vector<Vec3> vertices(vertex_count);
+        for (Vec3& v : vertices) {
+            int index = 0;
+            text >> index >> v.x >> v.y >> v.z;
+        }
+        std::vector<NamedPlane> planes;
+        for (std::size_t f = 0; f < facet_count; ++f) {
+            int index = 0, corners = 0;
+            double d = 0;
+            NamedPlane plane;
+            Vec3& n = plane.plane.normal;
+            text >> index >> corners >> n.x >> n.y >> n.z >> d;
+            plane.name = numbered("s", index);
+            plane.plane.offset = -d;
+            planes.push_back(plane);
+            // The corners, and the first one again in brackets.
+            std::string word;
+            for (int k = 0; k <= corners; ++k) text >> word;
+        }
+        ASSERT_TRUE(text);
+        const HalfSpaceSolid result = intersect_half_spaces(planes);
+        EXPECT_EQ(result.solid.vertices.size(), vertex_count);
+        EXPECT_EQ(result.solid.facets.size(), facet_count);
+        EXPECT_EQ(edge_count(result.solid), static_cast<int>(sides / 2));
+        EXPECT_TRUE(is_convex(result.solid));
+        for (const Vec3& v : result.solid.vertices) {
+            double nearest = 1;
+            for (const Vec3& stated : vertices) {
+                nearest = std::min(nearest, glm::length(v - stated));
+            }
+            // Nearly parallel planes spread the rounding of their coefficients (1e-12).
+            EXPECT_LT(nearest, 1e-7);
+        }
+    }
 }
 
 TEST(HalfSpaces, ManyPlanes) {

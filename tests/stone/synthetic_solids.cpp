@@ -14,12 +14,6 @@ namespace culet::test {
 
 namespace {
 
-// Not by operator+, of which g++ 12 warns without cause (its bug 105329).
-std::string numbered(const char* letter, int number) {
-    std::string name = letter;
-    return name.append(std::to_string(number));
-}
-
 std::vector<std::filesystem::path> designs_in(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
     std::error_code error;
@@ -31,6 +25,11 @@ std::vector<std::filesystem::path> designs_in(const std::filesystem::path& folde
 }
 
 }  // namespace
+
+std::string numbered(const char* word, int number) {
+    std::string name = word;
+    return name.append(std::to_string(number));
+}
 
 std::vector<NamedPlane> cube_planes() {
     return {{"px", {{1, 0, 0}, 1}},  {"mx", {{-1, 0, 0}, 1}}, {"py", {{0, 1, 0}, 1}},
@@ -53,8 +52,7 @@ std::vector<NamedPlane> random_planes(int count, std::uint64_t seed) {
     std::vector<NamedPlane> planes;
     for (int i = 0; i < count; ++i) {
         const double x = normal(generator), y = normal(generator), z = normal(generator);
-        planes.push_back(
-            {numbered("p", i), {glm::normalize(Vec3(x, y, z)), distance(generator)}});
+        planes.push_back({numbered("p", i), {glm::normalize(Vec3(x, y, z)), distance(generator)}});
     }
     return planes;
 }
@@ -105,11 +103,6 @@ Solid turned_inside_out(const Solid& solid) {
         facet.plane.offset = -facet.plane.offset;
     }
     return result;
-}
-
-Solid without_names(Solid solid) {
-    for (Facet& facet : solid.facets) facet.name.clear();
-    return solid;
 }
 
 double plane_difference(const Solid& a, const Solid& b) {

@@ -10,6 +10,9 @@
 
 namespace culet::test {
 
+/// `word` and a number. Not by operator+, of which g++ 12 warns without cause (its bug 105329).
+std::string numbered(const char* word, int number);
+
 /// Edge length 2 about the origin.
 std::vector<NamedPlane> cube_planes();
 /// Facets at distance 1 / sqrt(3); corners at the unit vectors.
@@ -28,8 +31,6 @@ Solid moved(const Solid& solid, double scale, const Vec3& shift, bool turn = tru
 Solid triangulated(const Solid& solid);
 /// All facets run the other way round.
 Solid turned_inside_out(const Solid& solid);
-/// Corner outlines and planes alike without names.
-Solid without_names(Solid solid);
 
 /// The largest difference of unit normals, and of offsets over the diameter, between facets of the
 /// same name; infinite when the names differ.

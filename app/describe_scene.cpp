@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/describe.h"
+#include "app/solid_input.h"
+#include "render/image_io.h"
+#include "render/scene_io.h"
+
+namespace culet {
+
+Description describe_scene_file(const DescribeOptions& options) {
+    const Scene scene = read_scene(options.file, options.overrides);
+    Description about;
+    about.notes = scene.notes;
+    auto& object = about.object;
+    object["format"] = "scene";
+    object["stone"] = scene.stone.name;
+    const Camera& camera = scene.camera;
+    object["camera"] = {{"position", {camera.position.x, camera.position.y, camera.position.z}},
+                        {"look_at", {camera.look_at.x, camera.look_at.y, camera.look_at.z}},
+                        {"size", {camera.width, camera.height}}};
+    const Lights& lights = scene.lights;
+    object["lights"] = {{"environment", lights.environment != nullptr},
+                        {"constant", lights.constant},
+                        {"spheres", lights.spheres.size()},
+                        {"lobes", lights.lobes.size()},
+                        {"hemispheres", lights.hemispheres.size()},
+                        {"caps", lights.caps.size()},
+                        {"planes", lights.planes.size()}};
+    object["engine"] = scene.settings.engine;
+    object["depth"] = scene.settings.depth;
+    object["tolerance"] = scene.settings.tolerance;
+    about.lines.push_back(fmt::format("{}: scene, {} x {} pixels, stone \"{}\"",
+                                      options.file.string(), camera.width, camera.height,
+                                      scene.stone.name));
+    about.lines.push_back(
+        fmt::format("lights: {}{} spheres, {} lobes, {} hemispheres, {} caps, {} planes",
+                    lights.environment ? "an environment, "
+                                       : (lights.constant > 0 ? "a constant environment, " : ""),
+                    lights.spheres.size(), lights.lobes.size(), lights.hemispheres.size(),
+                    lights.caps.size(), lights.planes.size()));
+    describe_material(scene.stone.material, about);
+    describe_solid(scene.stone.solid, scene.stone.convex && !options.may_be_concave,
+                   options.facet_table, about);
+    return about;
+}
+
+Description describe_image_file(const DescribeOptions& options) {
+    const ReadPicture read = read_picture(options.file);
+    const Picture& picture = read.picture;
+    Description about;
+    double low = INFINITY, high = -INFINITY;
+    Rgb sum{0, 0, 0};
+    std::size_t not_finite = 0;
+    for (std::size_t p = 0; p < picture.pixels(); ++p) {
+        bool finite = true;
+        for (std::size_t c = 0; c < 3; ++c) finite &= std::isfinite(picture.rgb[3 * p + c]);
+        if (!finite) {
+            ++not_finite;
+            continue;
+        }
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double value = static_cast<double>(picture.rgb[3 * p + c]);
+            low = std::min(low, value);
+            high = std::max(high, value);
+            sum[c] += value;
+        }
+    }
+    const std::size_t counted = picture.pixels() - not_finite;
+    if (counted == 0) low = high = 0;
+    for (std::size_t c = 0; c < 3 && counted > 0; ++c) sum[c] /= static_cast<double>(counted);
+    auto& object = about.object;
+    object["format"] = extension_of(options.file);
+    object["size"] = {picture.width, picture.height};
+    object["srgb_encoded"] = read.was_encoded;
+    object["alpha"] = read.had_alpha;
+    object["min"] = low;
+    object["max"] = high;
+    object["mean"] = {sum[0], sum[1], sum[2]};
+    object["wavelengths_nm"] = picture.wavelengths_nm;
+    about.lines.push_back(fmt::format(
+        "{}: picture, {} x {} pixels, {}{}", options.file.string(), picture.width, picture.height,
+        read.was_encoded ? "sRGB encoded" : "linear", read.had_alpha ? ", with alpha" : ""));
+    about.lines.push_back(fmt::format("linear values {:.4g} to {:.4g}, mean {:.4g} {:.4g} {:.4g}",
+                                      low, high, sum[0], sum[1], sum[2]));
+    if (!picture.wavelengths_nm.empty()) {
+        about.lines.push_back(
+            fmt::format("{} spectral planes, {:g} to {:g} nm", picture.wavelengths_nm.size(),
+                        picture.wavelengths_nm.front(), picture.wavelengths_nm.back()));
+    }
+    if (not_finite > 0) {
+        about.faults.push_back(
+            {FaultKind::not_finite,
+             fmt::format("{} pixels hold values that are not finite", not_finite)});
+    }
+    return about;
+}
+
+}  // namespace culet

@@ -1,0 +1,139 @@
+#include <fmt/format.h>
+
+#include "app/describe.h"
+#include "app/solid_input.h"
+#include "stone/proportions.h"
+#include "stone/stone.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void describe_facets(const Solid& solid, bool table, Description& about) {
+    Json list = Json::array();
+    if (table) {
+        about.lines.push_back(fmt::format("{:<12} {:>8} {:>12} {:>10} {:>14} {:>12}", "facet",
+                                          "corners", "inclination", "azimuth", "offset", "area"));
+    }
+    for (const Facet& facet : solid.facets) {
+        const Vec3& n = facet.plane.normal;
+        const double tilt = degrees(inclination(n, {0, 0, 1})), turn = degrees(azimuth(n));
+        const double size = area(solid, facet);
+        list.push_back({{"name", facet.name},
+                        {"normal", {n.x, n.y, n.z}},
+                        {"offset", facet.plane.offset},
+                        {"inclination", tilt},
+                        {"azimuth", turn},
+                        {"area", size},
+                        {"corners", facet.corners.size()}});
+        if (table) {
+            about.lines.push_back(
+                fmt::format("{:<12} {:>8} {:>12.4f} {:>10.4f} {:>14.8g} {:>12.6g}", facet.name,
+                            facet.corners.size(), tilt, turn, facet.plane.offset, size));
+        }
+    }
+    about.object["facet_list"] = std::move(list);
+}
+
+void describe_proportions(const Solid& solid, Description& about) {
+    const Proportions p = proportions(solid);
+    if (!(p.width > 0)) return;
+    Json& object = about.object;
+    object["w"] = p.width;
+    object["l"] = p.length;
+    object["l_w"] = p.length / p.width;
+    object["t_w"] = p.table_length ? Json(*p.table_length / p.width) : Json();
+    object["u_w"] = p.table_width ? Json(*p.table_width / p.width) : Json();
+    object["p_w"] = p.pavilion / p.width;
+    object["c_w"] = p.crown / p.width;
+    object["h_w"] = p.height / p.width;
+    std::string line = fmt::format("W {:.6g}, L/W {:.4f}", p.width, p.length / p.width);
+    if (p.table_length && p.table_width) {
+        line += fmt::format(", T/W {:.4f}, U/W {:.4f}", *p.table_length / p.width,
+                            *p.table_width / p.width);
+    }
+    line += fmt::format(", P/W {:.4f}, C/W {:.4f}, H/W {:.4f}", p.pavilion / p.width,
+                        p.crown / p.width, p.height / p.width);
+    about.lines.push_back(line);
+}
+
+void describe_sheet(const CutSheet& sheet, Description& about) {
+    Json& object = about.object;
+    object["gear"] = sheet.gear;
+    object["gear_offset"] = sheet.gear_offset;
+    object["symmetry"] = sheet.symmetry;
+    object["mirror"] = sheet.mirror;
+    object["refractive_index"] = sheet.refractive_index ? Json(*sheet.refractive_index) : Json();
+    object["headings"] = sheet.headings;
+    object["footnotes"] = sheet.footnotes;
+    for (const std::string& line : sheet.headings) {
+        if (!line.empty()) about.lines.push_back(line);
+    }
+    about.lines.push_back(fmt::format(
+        "gear {:g}, index {:g} at azimuth zero, {}-fold{}{}", sheet.gear, sheet.gear_offset,
+        sheet.symmetry, sheet.mirror ? ", mirrored" : "",
+        sheet.refractive_index ? fmt::format(", refractive index {:g}", *sheet.refractive_index)
+                               : ""));
+}
+
+}  // namespace
+
+void describe_solid(const Solid& solid, bool must_be_convex, bool facet_table, Description& about) {
+    Json& object = about.object;
+    const int facets = static_cast<int>(solid.facets.size());
+    const int vertices = static_cast<int>(solid.vertices.size());
+    const int edges = edge_count(solid), euler = vertices - edges + facets;
+    const bool closed = is_closed(solid), convex = is_convex(solid);
+    const Vec3 size(width_along(solid, {1, 0, 0}), width_along(solid, {0, 1, 0}),
+                    width_along(solid, {0, 0, 1}));
+    double whole_area = 0;
+    for (const Facet& facet : solid.facets) whole_area += area(solid, facet);
+    object["facets"] = facets;
+    object["vertices"] = vertices;
+    object["edges"] = edges;
+    object["euler"] = euler;
+    object["size"] = {size.x, size.y, size.z};
+    object["diameter"] = diameter(solid);
+    object["volume"] = volume(solid);
+    object["area"] = whole_area;
+    object["closed"] = closed;
+    object["convex"] = convex;
+    object["planarity_max"] = planarity(solid);
+
+    about.lines.push_back(fmt::format("{} facets, {} vertices, {} edges (Euler number {})", facets,
+                                      vertices, edges, euler));
+    about.lines.push_back(fmt::format("size {:.8g} x {:.8g} x {:.8g}, volume {:.8g}, area {:.8g}",
+                                      size.x, size.y, size.z, volume(solid), whole_area));
+    about.lines.push_back(fmt::format("{}, {}, corners up to {:.2g} off their planes",
+                                      closed ? "closed" : "not closed",
+                                      convex ? "convex" : "not convex", planarity(solid)));
+    describe_proportions(solid, about);
+    describe_facets(solid, facet_table, about);
+    // The meets of real designs miss, and foreign meshes are rounded to a few digits: neither is a
+    // fault of the file.
+    const std::vector<Fault> faults =
+        find_faults(solid, {.planarity = k_largest_miss, .must_be_convex = must_be_convex});
+    about.faults.insert(about.faults.end(), faults.begin(), faults.end());
+}
+
+Description describe_solid_file(const DescribeOptions& options) {
+    const SolidInput input = load_solid(options.file, options.cut);
+    Description about;
+    about.notes = input.notes;
+    about.object["format"] = input.format;
+    about.lines.push_back(fmt::format("{}: {}", options.file.string(), input.format));
+    if (input.sheet) describe_sheet(*input.sheet, about);
+    describe_solid(input.solid, !options.may_be_concave, options.facet_table, about);
+    for (const std::string& place : input.unused_planes) {
+        about.faults.push_back({FaultKind::missing_facet, place + " bounds nothing"});
+    }
+    for (const std::string& place : input.repeated_planes) {
+        about.faults.push_back({FaultKind::repeated_plane, place + " repeats an earlier plane"});
+    }
+    return about;
+}
+
+}  // namespace culet

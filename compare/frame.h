@@ -1,0 +1,41 @@
+#pragma once
+// Cuts the stone out of both pictures at one size and lays the render onto the photo.
+
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+#include "compare/photo.h"
+#include "compare/registration.h"
+
+namespace culet {
+
+/// The part of a picture around its stone, perhaps reduced. A point p of the close-up lies at
+/// (p + 0.5) / scale - 0.5 + corner in the picture.
+struct CloseUp {
+    cv::Mat colour;  ///< CV_32FC3, linear
+    Silhouette silhouette;
+    double scale = 1;
+    cv::Point2d corner;
+    cv::Point2d in_picture(const cv::Point2d& p) const;
+};
+
+/// Both pictures in the frame of the photo's close-up.
+struct Frame {
+    CloseUp photo;
+    cv::Mat render;       ///< CV_32FC3 on the photo's pixels, black where the render ends
+    cv::Mat render_mask;  ///< CV_8U, its outline, likewise
+    OutlineMatch match;   ///< in pixels of the pictures as they were given
+    /// Positions in the given pictures; `about` is the stone's centre in the photo.
+    Similarity render_from_photo;
+    double photo_diameter_px = 0, render_diameter_px = 0;
+    std::string render_outline, render_warning;  ///< as in Silhouette: source and warning
+};
+
+/// `mask` may be empty, else one value a pixel of the photo (1: stone). The stone is compared at
+/// the smaller of its two sizes, and at `largest` pixels across at most: sizes within 15 % are left
+/// alone, so that pictures of one size are not resampled but for the registration.
+Frame align(const Photo& photo, const std::vector<float>& mask, const Photo& render,
+            double largest = 640);
+
+}  // namespace culet

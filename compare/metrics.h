@@ -1,0 +1,56 @@
+#pragma once
+// Scores of two pictures that lie on one another. Each looks only at pixels under the mask.
+
+#include <array>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+
+namespace culet {
+
+/// Photo and render in one frame. Colours are linear, CV_32FC3, R G B.
+struct MatchedPictures {
+    cv::Mat photo, render;
+    cv::Mat mask;         ///< CV_8U: inside both outlines, by a margin
+    double diameter = 0;  ///< of the stone, pixels
+    double white = 1;     ///< linear value that is shown as white; both are clipped there
+};
+
+/// Factor for each of the render's channels that brings it onto the photo's: exposure and white
+/// balance. Weighted least squares in linear light through zero, with Huber weights (1964) so that
+/// single reflexes do not decide. `usable` marks the pixels that may be used (not saturated).
+/// 1 for a channel in which either picture is black. Misplaced reflexes pull the factor towards 0:
+/// it is the factor of least error, not a photometric measurement, unless the pictures match.
+std::array<double, 3> solve_gain(const cv::Mat& photo, const cv::Mat& render,
+                                 const cv::Mat& usable);
+
+/// Both encoded (sRGB, clipped at white) once for all scores that need it.
+struct ShownPictures {
+    cv::Mat photo, render;            ///< CV_32FC3, 0..1
+    cv::Mat photo_luma, render_luma;  ///< CV_32F, 0..1: encoded luminance
+};
+ShownPictures shown(const MatchedPictures& pictures);
+
+/// Correlation coefficient of the square roots of luminance, each blurred by a Gaussian of
+/// `blur` diameters inside the mask: are the same places bright and dark? -1..1; blind to gain.
+/// Nothing when either is of one brightness.
+std::optional<double> zncc(const MatchedPictures& pictures, double blur);
+
+/// Structural similarity (Wang, Bovik, Sheikh, Simoncelli 2004) of encoded luminance on the scale
+/// 0..255, Gaussian window of 1.5 pixels, K1 = 0.01, K2 = 0.03.
+struct ScoreMap {
+    double mean = 0;
+    cv::Mat map;  ///< CV_32F, the frame's size
+};
+ScoreMap ssim(const ShownPictures& pictures, const cv::Mat& mask);
+
+/// Peak signal to noise of the encoded colours, decibel, peak 1. Nothing for equal pictures, whose
+/// noise is zero.
+std::optional<double> psnr(const ShownPictures& pictures, const cv::Mat& mask);
+
+struct ColourScore {
+    double mean = 0, percentile_95 = 0;
+    cv::Mat map;  ///< CIEDE2000 of each pixel
+};
+ColourScore deltaE00(const MatchedPictures& pictures);
+
+}  // namespace culet

@@ -1,0 +1,34 @@
+#pragma once
+// A picture as it comes from a camera or from the renderer, in linear light.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace culet {
+
+/// Rows from the top, pixels from the left, three floats (R, G, B in sRGB primaries) a pixel.
+struct Photo {
+    int width = 0, height = 0;
+    std::vector<float> rgb;  ///< linear light; finite, not negative
+    /// 0..1 for each pixel: how much of it the stone covers; empty when the file has no alpha.
+    std::vector<float> coverage;
+    /// Linear value at which the camera clips: 1 for integer files; 0: it does not (EXR, HDR).
+    double saturation = 0;
+    std::string encoding;            ///< for the record: "8-bit sRGB", "linear EXR", ...
+    std::vector<std::string> notes;  ///< what was repaired on reading, one line each
+};
+
+/// Reads PNG, JPEG, TIFF, EXR, HDR or PFM. Integer files are taken as sRGB (IEC 61966-2-1) and
+/// decoded; float files are taken as linear. JPEGs are turned upright as their EXIF tag says.
+/// Colour profiles are not applied. Throws InputError for a file that is missing, broken, or of
+/// more than `k_max_photo_pixels`.
+Photo read_photo(const std::filesystem::path& file);
+
+constexpr double k_max_photo_pixels = 2e8;
+
+/// A hand-painted mask: white (over half) is stone. One value 0 or 1 a pixel.
+/// Throws InputError when its size is not `width` x `height`.
+std::vector<float> read_mask(const std::filesystem::path& file, int width, int height);
+
+}  // namespace culet

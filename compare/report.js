@@ -1,0 +1,42 @@
+"use strict";
+// Without this script the page still shows everything; it only moves the dividers and repeats a
+// facet's title in a line that touch screens can see.
+for (const slider of document.querySelectorAll(".slider")) {
+  const control = slider.querySelector("input");
+  const pictures = slider.querySelector(".slider-pictures");
+  const move = (percent) => slider.style.setProperty("--cut", percent + "%");
+  control.addEventListener("input", () => move(control.value));
+  const follow = (event) => {
+    const box = pictures.getBoundingClientRect();
+    const percent = Math.round(Math.min(100, Math.max(0, 100 * (event.clientX - box.left) / box.width)));
+    control.value = percent;
+    move(percent);
+  };
+  pictures.addEventListener("pointerdown", (event) => {
+    pictures.setPointerCapture(event.pointerId);
+    follow(event);
+  });
+  pictures.addEventListener("pointermove", (event) => {
+    if (event.buttons & 1) follow(event);
+  });
+  pictures.addEventListener("dragstart", (event) => event.preventDefault());
+  // Up and down scroll the page; a sideways drag on a touch screen moves the divider.
+  pictures.style.touchAction = "pan-y";
+  pictures.style.cursor = "ew-resize";
+  move(control.value);
+}
+for (const drawings of document.querySelectorAll(".drawings")) {
+  const line = drawings.querySelector(".facet-line");
+  let chosen = null;
+  const choose = (facet) => {
+    if (chosen) chosen.classList.remove("chosen");
+    chosen = facet;
+    facet.classList.add("chosen");
+    line.textContent = facet.getAttribute("aria-label");
+  };
+  for (const facet of drawings.querySelectorAll(".facet")) {
+    facet.addEventListener("pointerenter", () => choose(facet));
+    facet.addEventListener("click", () => choose(facet));
+    facet.addEventListener("focus", () => choose(facet));
+  }
+}

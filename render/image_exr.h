@@ -1,0 +1,19 @@
+#pragma once
+// OpenEXR files, which OpenCV reads without names of channels.
+
+#include <filesystem>
+#include <string>
+
+#include "render/picture.h"
+
+namespace culet {
+
+/// R, G, B (or Y) and A of the file's bytes. Throws InputError naming `file`.
+Picture read_exr(const std::string& bytes, const std::filesystem::path& file, bool& had_alpha);
+
+/// Channels R, G, B, A when coverage is known, and S0.<nm>nm for spectral planes (Fichet et al.
+/// 2021).
+void write_exr(const Picture& picture, const std::filesystem::path& file,
+               const std::vector<std::pair<std::string, std::string>>& text);
+
+}  // namespace culet

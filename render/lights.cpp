@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "render/light_paths.h"
+#include "render/scene.h"
+
+namespace culet {
+
+Rgb EnvironmentMap::at(const Vec3& direction) const {
+    // Top row +z; the middle column +x; azimuth grows to the left as seen from inside, which is to
+    // smaller columns.
+    const double azimuth = std::atan2(direction.y, direction.x);
+    const double polar = std::acos(std::clamp(direction.z, -1.0, 1.0));
+    const double column = (0.5 - azimuth / (2 * std::numbers::pi)) * width - 0.5;
+    const double row = std::clamp(polar / std::numbers::pi * height - 0.5, 0.0, height - 1.0);
+    const double x0 = std::floor(column), y0 = std::floor(row);
+    const double u = column - x0, v = row - y0;
+    const auto texel = [&](double x, double y) {
+        const int i = ((static_cast<int>(x) % width) + width) % width;
+        const int j = std::min(static_cast<int>(y), height - 1);
+        return rgb.data() + 3 * (static_cast<std::size_t>(j) * static_cast<std::size_t>(width) +
+                                 static_cast<std::size_t>(i));
+    };
+    const float *a = texel(x0, y0), *b = texel(x0 + 1, y0), *c = texel(x0, y0 + 1),
+                *d = texel(x0 + 1, y0 + 1);
+    Rgb result;
+    for (int k = 0; k < 3; ++k) {
+        result[k] = (1 - v) * ((1 - u) * a[k] + u * b[k]) + v * ((1 - u) * c[k] + u * d[k]);
+    }
+    return result;
+}
+
+namespace {
+
+std::vector<double> nodes_of(const LightColour& colour, const WavelengthSet& wavelengths) {
+    if (const double* number = std::get_if<double>(&colour.value)) {
+        return std::vector<double>(wavelengths.wavelengths_nm().size(), *number);
+    }
+    if (const Rgb* rgb = std::get_if<Rgb>(&colour.value)) return wavelengths.spectrum_of(*rgb);
+    return wavelengths.illuminant_relative(std::get<std::string>(colour.value).c_str());
+}
+
+bool neutral(const LightColour& colour) {
+    return std::holds_alternative<double>(colour.value);
+}
+
+// Distance along a ray to a sphere's outside, or infinity.
+double distance_to(const SphereLight& sphere, const Vec3& origin, const Vec3& direction) {
+    const Vec3 to = sphere.center - origin;
+    const double along = glm::dot(to, direction);
+    const Vec3 beside = to - along * direction;
+    const double half_squared = sphere.radius * sphere.radius - glm::dot(beside, beside);
+    if (half_squared < 0) return std::numeric_limits<double>::infinity();
+    const double distance = along - std::sqrt(half_squared);
+    return distance > 0 ? distance : std::numeric_limits<double>::infinity();
+}
+
+// The lit side only: from behind, a plane is not there.
+double distance_to(const PlaneLight& plane, const Vec3& origin, const Vec3& direction) {
+    const double towards = glm::dot(direction, plane.normal);
+    const double height = glm::dot(origin - plane.point, plane.normal);
+    if (!(towards < 0) || !(height > 0)) return std::numeric_limits<double>::infinity();
+    const double distance = -height / towards;
+    if (plane.u && plane.v) {
+        // The two half-extents need not be at right angles: coordinates in their own frame.
+        const Vec3 at = origin + distance * direction - plane.point;
+        const double uu = glm::dot(*plane.u, *plane.u), vv = glm::dot(*plane.v, *plane.v);
+        const double uv = glm::dot(*plane.u, *plane.v), au = glm::dot(at, *plane.u),
+                     av = glm::dot(at, *plane.v);
+        const double determinant = uu * vv - uv * uv;
+        const double s = (au * vv - av * uv) / determinant, t = (av * uu - au * uv) / determinant;
+        if (std::abs(s) > 1 || std::abs(t) > 1) return std::numeric_limits<double>::infinity();
+    }
+    return distance;
+}
+
+}  // namespace
+
+struct LightField::Ready {
+    Lights lights;
+    std::array<std::vector<double>, 3> primaries;
+    std::vector<std::vector<double>> spheres, lobes, hemispheres, caps, planes;
+    std::vector<std::pair<double, double>> cap_cosines;
+    double brightest = 0;
+    bool neutral = true;
+    int nodes = 1;
+
+    // Nearest near light: spheres count from 0, planes after them; -1 for none.
+    int nearest(const Vec3& origin, const Vec3& direction) const {
+        int best = -1;
+        double distance = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < lights.spheres.size(); ++i) {
+            const double d = distance_to(lights.spheres[i], origin, direction);
+            if (d < distance) {
+                distance = d;
+                best = static_cast<int>(i);
+            }
+        }
+        for (std::size_t i = 0; i < lights.planes.size(); ++i) {
+            const double d = distance_to(lights.planes[i], origin, direction);
+            if (d < distance) {
+                distance = d;
+                best = static_cast<int>(lights.spheres.size() + i);
+            }
+        }
+        return best;
+    }
+};
+
+LightField::LightField(const Lights& lights, const WavelengthSet& wavelengths) : ready_(new Ready) {
+    Ready& r = *ready_;
+    r.lights = lights;
+    r.primaries = wavelengths.primaries();
+    r.nodes = wavelengths.size();
+    double far = lights.constant, near = 0;
+    const auto take = [&](const auto& list, std::vector<std::vector<double>>& nodes, bool is_near) {
+        for (const auto& light : list) {
+            nodes.push_back(nodes_of(light.radiance, wavelengths));
+            r.neutral = r.neutral && neutral(light.radiance);
+            const double most = *std::max_element(nodes.back().begin(), nodes.back().end());
+            if (is_near) {
+                near = std::max(near, most);
+            } else {
+                far += most;
+            }
+        }
+    };
+    take(lights.spheres, r.spheres, true);
+    take(lights.planes, r.planes, true);
+    take(lights.lobes, r.lobes, false);
+    take(lights.hemispheres, r.hemispheres, false);
+    take(lights.caps, r.caps, false);
+    for (const CapLight& cap : lights.caps) {
+        // Whole discs and half spaces include their limits: a cap of 180 degrees is everywhere.
+        r.cap_cosines.emplace_back(cap.from <= 0 ? 2.0 : std::cos(cap.from),
+                                   cap.to >= std::numbers::pi ? -2.0 : std::cos(cap.to));
+    }
+    if (lights.environment) {
+        r.neutral = false;
+        float most = 0;
+        for (float v : lights.environment->rgb) most = std::max(most, v);
+        far += most;
+    }
+    r.brightest = std::max(far, near);
+}
+
+LightField::~LightField() = default;
+LightField::LightField(LightField&&) noexcept = default;
+
+void LightField::add_radiance(const Vec3& origin, const Vec3& direction, double weight, int first,
+                              int count, double* radiance) const {
+    const Ready& r = *ready_;
+    const auto add = [&](const std::vector<double>& nodes, double factor) {
+        for (int i = 0; i < count; ++i) radiance[i] += weight * factor * nodes[first + i];
+    };
+    const int near = r.nearest(origin, direction);
+    if (near >= 0) {
+        const int spheres = static_cast<int>(r.spheres.size());
+        add(near < spheres ? r.spheres[near] : r.planes[near - spheres], 1);
+        return;
+    }
+    for (int i = 0; i < count; ++i) radiance[i] += weight * r.lights.constant;
+    if (r.lights.environment) {
+        const Rgb rgb = r.lights.environment->at(direction);
+        for (int i = 0; i < count; ++i) {
+            radiance[i] += weight * (rgb[1] + (rgb[0] - rgb[1]) * r.primaries[0][first + i] +
+                                     (rgb[2] - rgb[1]) * r.primaries[2][first + i]);
+        }
+    }
+    for (std::size_t l = 0; l < r.lobes.size(); ++l) {
+        const double cosine = glm::dot(direction, r.lights.lobes[l].direction);
+        if (cosine > 0) add(r.lobes[l], std::pow(cosine, r.lights.lobes[l].exponent));
+    }
+    for (std::size_t l = 0; l < r.hemispheres.size(); ++l) {
+        if (glm::dot(direction, r.lights.hemispheres[l].direction) > 0) add(r.hemispheres[l], 1);
+    }
+    for (std::size_t l = 0; l < r.caps.size(); ++l) {
+        const double cosine = glm::dot(direction, r.lights.caps[l].direction);
+        if (cosine <= r.cap_cosines[l].first && cosine > r.cap_cosines[l].second) add(r.caps[l], 1);
+    }
+}
+
+std::string LightField::name_at(const Vec3& origin, const Vec3& direction) const {
+    const Ready& r = *ready_;
+    const int near = r.nearest(origin, direction);
+    const int spheres = static_cast<int>(r.spheres.size());
+    if (near >= spheres) return "plane " + std::to_string(near - spheres);
+    if (near >= 0) return "sphere " + std::to_string(near);
+    std::string names;
+    const auto name = [&names](const std::string& word) {
+        names += (names.empty() ? "" : " + ") + word;
+    };
+    if (r.lights.environment) name("environment");
+    if (r.lights.constant > 0) name("constant");
+    const auto lit = [&](const auto& list, const char* word, const auto& meets) {
+        for (std::size_t l = 0; l < list.size(); ++l) {
+            if (meets(l)) name(word + std::to_string(l));
+        }
+    };
+    lit(r.lobes, "lobe ",
+        [&](std::size_t l) { return glm::dot(direction, r.lights.lobes[l].direction) > 0; });
+    lit(r.hemispheres, "hemisphere ",
+        [&](std::size_t l) { return glm::dot(direction, r.lights.hemispheres[l].direction) > 0; });
+    lit(r.caps, "cap ", [&](std::size_t l) {
+        const double cosine = glm::dot(direction, r.lights.caps[l].direction);
+        return cosine <= r.cap_cosines[l].first && cosine > r.cap_cosines[l].second;
+    });
+    return names.empty() ? "dark" : names;
+}
+
+double LightField::max_radiance() const {
+    return ready_->brightest;
+}
+bool LightField::is_neutral() const {
+    return ready_->neutral;
+}
+
+}  // namespace culet

@@ -1,0 +1,159 @@
+// culet convert and culet info as a user runs them: exit codes, streams, files.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/run_program.h"
+
+namespace culet {
+namespace {
+
+using test::ProgramRun;
+using test::run_culet;
+
+const std::string k_design = CULET_SOURCE_DIR "/tests/stone/designs/srb_class_angles.asc";
+
+class ConvertInfo : public testing::Test {
+protected:
+    ConvertInfo() {
+        std::string pattern =
+            (std::filesystem::temp_directory_path() / "culet-app-XXXXXX").string();
+        folder_ = ::mkdtemp(pattern.data());
+    }
+    ~ConvertInfo() override {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    static std::string text(const std::string& name) {
+        std::ifstream stream(name, std::ios::binary);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+    void write(const std::string& name, const std::string& content) const {
+        std::ofstream(file(name), std::ios::binary) << content;
+    }
+    static void expect_one_error_line(const ProgramRun& run) {
+        EXPECT_EQ(run.exit_code, 2);
+        EXPECT_TRUE(run.out.empty()) << run.out;
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_EQ(run.err.rfind("culet: error: ", 0), 0u) << run.err;
+    }
+
+    std::filesystem::path folder_;
+};
+
+TEST_F(ConvertInfo, DesignGoesThroughEveryFormatAndBack) {
+    std::string from = k_design;
+    for (const char* extension : {"obj", "off", "ply", "stl", "asc"}) {
+        const std::string to = file(std::string("stone.").append(extension));
+        const ProgramRun run = run_culet({"convert", from, to, "-q"});
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_TRUE(run.out.empty() && run.err.empty()) << run.out << run.err;
+        const ProgramRun info = run_culet({"info", to, "--json", "-"});
+        EXPECT_EQ(info.exit_code, 0) << info.err << info.out;
+        const auto object = nlohmann::json::parse(info.out);
+        EXPECT_EQ(object.at("schema"), 1);
+        EXPECT_EQ(object.at("format"), extension);
+        // Counts of a standard round brilliant of 16 girdle facets.
+        EXPECT_EQ(object.at("facets"), 73);
+        EXPECT_EQ(object.at("vertices"), 57);
+        EXPECT_EQ(object.at("edges"), 128);
+        EXPECT_EQ(object.at("euler"), 2);
+        EXPECT_TRUE(object.at("closed"));
+        EXPECT_TRUE(object.at("convex"));
+        EXPECT_TRUE(object.at("faults").empty());
+        EXPECT_EQ(object.at("facet_list").size(), 73u);
+        from = to;
+    }
+}
+
+TEST_F(ConvertInfo, MessagesGoToStderrAndResultsToStdout) {
+    const ProgramRun run = run_culet({"convert", k_design, file("a.obj")});
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_TRUE(run.out.empty());
+    EXPECT_NE(run.err.find("joined meets that miss"), std::string::npos);
+    const ProgramRun info = run_culet({"info", k_design, "--json", file("a.json")});
+    EXPECT_EQ(info.exit_code, 0);
+    EXPECT_TRUE(info.err.empty()) << info.err;
+    EXPECT_NE(info.out.find("73 facets"), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(text(file("a.json"))).at("gear"), 96);
+    // -v lists the facets.
+    const ProgramRun table = run_culet({"info", k_design, "-v"});
+    EXPECT_NE(table.out.find("inclination"), std::string::npos);
+}
+
+TEST_F(ConvertInfo, BrokenMeshIsConvertedWithAWarning) {
+    write("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\n");
+    const ProgramRun run = run_culet({"convert", file("open.obj"), file("open.ply")});
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_NE(run.err.find("warning"), std::string::npos);
+    EXPECT_TRUE(std::filesystem::exists(file("open.ply")));
+    const ProgramRun info = run_culet({"info", file("open.ply"), "--json", "-"});
+    EXPECT_EQ(info.exit_code, 1);
+    const auto object = nlohmann::json::parse(info.out);
+    EXPECT_EQ(object.at("faults").size(), 3u);
+    EXPECT_EQ(object.at("faults")[0].at("kind"), "open");
+    // A cut design cannot hold it.
+    expect_one_error_line(run_culet({"convert", file("open.obj"), file("open.asc")}));
+    EXPECT_FALSE(std::filesystem::exists(file("open.asc")));
+}
+
+TEST_F(ConvertInfo, WhatCannotBeDoneIsOneLine) {
+    expect_one_error_line(run_culet({"convert", k_design, file("a.3mf")}));
+    expect_one_error_line(run_culet({"convert", k_design, file("a.gem")}));
+    expect_one_error_line(run_culet({"convert", file("missing.obj"), file("a.obj")}));
+    expect_one_error_line(run_culet({"convert", k_design, file("no/such/folder.obj")}));
+    expect_one_error_line(run_culet({"convert", k_design}));
+    expect_one_error_line(run_culet({"convert", k_design, file("a.obj"), "--meet-tolerance", "7"}));
+    expect_one_error_line(run_culet({"info", file("missing.asc")}));
+    expect_one_error_line(run_culet({"info", folder_.string()}));
+    expect_one_error_line(run_culet({"info", k_design, "--json", folder_.string()}));
+    write("a.xyz", "1 2 3\n");
+    expect_one_error_line(run_culet({"info", file("a.xyz")}));
+    write("bad\n\033[31m.obj", "v 0 0\n");
+    expect_one_error_line(run_culet({"info", file("bad\n\033[31m.obj")}));
+    EXPECT_FALSE(std::filesystem::exists(file("a.obj")));
+}
+
+TEST_F(ConvertInfo, ToleranceOfMeets) {
+    const ProgramRun run = run_culet({"info", k_design, "--meet-tolerance", "0", "--json", "-"});
+    // Joined it has 57; if each raw vertex joined three facets only there were 2 F - 4 = 142.
+    const int vertices = nlohmann::json::parse(run.out).at("vertices");
+    EXPECT_GT(vertices, 57);
+    EXPECT_LE(vertices, 142);
+}
+
+TEST_F(ConvertInfo, StoneAndMaterialFiles) {
+    EXPECT_EQ(run_culet({"convert", k_design, file("stone.obj"), "-q"}).exit_code, 0);
+    write("stone.toml",
+          "[stone]\nname = \"Test\"\nmesh = \"stone.obj\"\nmaterial = \"diamond\"\nunit = \"cm\"\n"
+          "up = [0, 0, 1]\n");
+    const ProgramRun stone = run_culet({"info", file("stone.toml"), "--json", "-"});
+    ASSERT_EQ(stone.exit_code, 0) << stone.err;
+    const auto object = nlohmann::json::parse(stone.out);
+    EXPECT_EQ(object.at("format"), "stone");
+    // 1 cm3 is 1000 mm3; diamond has 3.51 to 3.53 g/cm3, and 5 ct are a gram.
+    const double mm3 = object.at("volume_mm3");
+    EXPECT_NEAR(mm3, 1000 * object.at("volume").get<double>(), 1e-9 * mm3);
+    EXPECT_NEAR(object.at("carat").get<double>(), mm3 * 3.52 / 200, 0.01 * mm3 / 200);
+    write("glass.toml", "[material]\noptic = \"isotropic\"\nindex = 1.5\ndensity = 2.5\n");
+    const ProgramRun glass = run_culet({"info", file("glass.toml"), "--json", "-"});
+    ASSERT_EQ(glass.exit_code, 0) << glass.err;
+    EXPECT_EQ(nlohmann::json::parse(glass.out).at("material").at("optic"), "isotropic");
+}
+
+TEST_F(ConvertInfo, HelpHasExamples) {
+    for (const char* command : {"convert", "info"}) {
+        const ProgramRun run = run_culet({command, "--help"});
+        EXPECT_EQ(run.exit_code, 0);
+        EXPECT_NE(run.out.find("Examples:"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace culet

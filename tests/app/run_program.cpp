@@ -1,0 +1,54 @@
+#include "tests/app/run_program.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+
+extern char** environ;
+
+namespace culet::test {
+
+namespace {
+
+std::string content(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+ProgramRun run_culet(const std::vector<std::string>& arguments) {
+    std::string pattern = (std::filesystem::temp_directory_path() / "culet-run-XXXXXX").string();
+    if (::mkdtemp(pattern.data()) == nullptr) return {};
+    const std::filesystem::path folder = pattern, out = folder / "out", err = folder / "err";
+    std::vector<std::string> words{CULET_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_CREAT | O_WRONLY, 0600);
+    posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_CREAT | O_WRONLY, 0600);
+    ProgramRun run;
+    pid_t child = 0;
+    int status = 0;
+    if (::posix_spawn(&child, argv[0], &actions, nullptr, argv.data(), environ) == 0 &&
+        ::waitpid(child, &status, 0) == child && WIFEXITED(status)) {
+        run.exit_code = WEXITSTATUS(status);
+    }
+    posix_spawn_file_actions_destroy(&actions);
+    run.out = content(out);
+    run.err = content(err);
+    std::error_code ignored;
+    std::filesystem::remove_all(folder, ignored);
+    return run;
+}
+
+}  // namespace culet::test

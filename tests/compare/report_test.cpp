@@ -1,0 +1,319 @@
+#include "compare/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "compare/drawing.h"
+#include "compare/html.h"
+#include "stone/errors.h"
+#include "tests/compare/synthetic_pictures.h"
+
+namespace culet {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const char* const k_hostile = "<script>alert('x')</script>&\"\xff";
+
+Solid cube(const std::string& top = "T") {
+    const NamedPlane planes[] = {{top, {Vec3(0, 0, 1), 1}},      {"B", {Vec3(0, 0, -1), 1}},
+                                 {"E", {Vec3(1, 0, 0), 1}},      {"W", {Vec3(-1, 0, 0), 1}},
+                                 {"N", {Vec3(0, 1, 0), 1}},      {"S", {Vec3(0, -1, 0), 1}},
+                                 {"C", {Vec3(0.6, 0, 0.8), 1.2}}};
+    return intersect_half_spaces(planes).solid;
+}
+
+std::string fit_json(const std::string& name) {
+    nlohmann::json fit = {{"schema", 1},
+                          {"status", "contradictory"},
+                          {"facets",
+                           {{{"name", name}, {"inclination", 0.0}, {"sigma_inclination", 0.01}},
+                            {{"name", "C"}, {"inclination", 36.87}, {"azimuth", 0.0}}}},
+                          {"readings",
+                           {{{"id", "r0"},
+                             {"kind", "inclination"},
+                             {"of", {"C"}},
+                             {"value", 37.1},
+                             {"sigma", 0.1},
+                             {"fitted", 36.87},
+                             {"residual", -0.23},
+                             {"normalized", -2.3},
+                             {"redundancy", 0.4},
+                             {"detectable", 0.7},
+                             {"suspect", true}},
+                            {{"id", "r1"},
+                             {"kind", "depth"},
+                             {"of", nlohmann::json::array()},
+                             {"value", 2},
+                             {"normalized", nullptr}}}},
+                          {"undetermined", {{{"facet", "B"}, {"freedom", "offset"}}}},
+                          {"suspects", {"r0"}},
+                          {"chi2", 5.3},
+                          {"dof", 2},
+                          {"closed", true},
+                          {"convex", true}};
+    return fit.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+synthetic::StonePicture small() {
+    synthetic::StonePicture picture;
+    picture.width = 120;
+    picture.height = 110;
+    picture.centre_x = 60;
+    picture.centre_y = 55;
+    picture.diameter = 80;
+    picture.samples = 2;
+    return picture;
+}
+
+Report full_report(const std::string& name = "T") {
+    Report report;
+    report.title = "Stone " + name;
+    report.version = "1.2.3";
+    report.command = "culet run " + name;
+    report.files = {{"photograph", name}};
+    CompareOptions options;
+    options.simulated = true;
+    auto moved = small();
+    moved.cell_shift = 0.05;
+    report.comparison = compare(draw(moved), draw(small()), options);
+    report.scores_json = scores_json(*report.comparison, {name, name, ""});
+    report.fit_json = fit_json(name);
+    report.fitted = cube(name);
+    report.starting = cube(name);
+    report.starting_render = draw(small());
+    report.fitted_render = draw(moved);
+    report.stats_json =
+        R"({"engine": "reference", "depth": 12, "effects": [{"name": "dispersion", "on": true,
+            "why": "large", "error_bound": 0.01}], "seconds": {"total": 1.5}})";
+    report.settings = "name = \"" + name + "\"";
+    return report;
+}
+
+/// Tags opened and not closed, or closed in the wrong order; void elements and the inside of
+/// script and style are left out. Empty when the page is well formed.
+std::string nesting_fault(const std::string& page) {
+    static const std::set<std::string> void_elements{"meta", "link", "img", "input", "br"};
+    std::vector<std::string> open;
+    for (std::size_t at = page.find('<'); at != std::string::npos; at = page.find('<', at)) {
+        if (page.compare(at, 2, "<!") == 0) {
+            ++at;
+            continue;
+        }
+        const std::size_t end = page.find('>', at);
+        if (end == std::string::npos) return "a tag that never ends";
+        std::string tag = page.substr(at + 1, end - at - 1);
+        at = end;
+        const bool closes = tag.starts_with('/'), self_closed = tag.ends_with('/');
+        tag = tag.substr(closes ? 1 : 0);
+        tag = tag.substr(0, tag.find_first_of(" \n/"));
+        if (void_elements.contains(tag) || self_closed) continue;
+        if (closes) {
+            if (open.empty() || open.back() != tag) return "</" + tag + "> closes nothing";
+            open.pop_back();
+        } else {
+            open.push_back(tag);
+            if (tag == "script" || tag == "style") at = page.find("</" + tag, at);
+        }
+    }
+    return open.empty() ? "" : "<" + open.back() + "> is never closed";
+}
+
+TEST(Report, has_every_section_when_all_data_is_there) {
+    const std::string page = report_page(full_report());
+    for (const char* id :
+         {"pictures", "maps", "scores", "registration", "changes", "fit", "plan", "provenance"}) {
+        EXPECT_THAT(page, HasSubstr(std::string("<section id=\"") + id + "\"")) << id;
+    }
+    EXPECT_EQ(nesting_fault(page), "");
+}
+
+TEST(Report, has_only_the_sections_whose_data_is_there) {
+    Report report;
+    report.fit_json = fit_json("T");
+    const std::string page = report_page(report);
+    EXPECT_THAT(page, HasSubstr("<section id=\"fit\""));
+    for (const char* id : {"pictures", "maps", "scores", "registration", "changes", "plan"}) {
+        EXPECT_THAT(page, Not(HasSubstr(std::string("<section id=\"") + id + "\""))) << id;
+    }
+    EXPECT_EQ(nesting_fault(page), "");
+}
+
+TEST(Report, of_nothing_is_still_a_page) {
+    EXPECT_EQ(nesting_fault(report_page({})), "");
+}
+
+TEST(Report, loads_nothing) {
+    const std::string page = report_page(full_report());
+    EXPECT_THAT(page, Not(HasSubstr("http:")));
+    EXPECT_THAT(page, Not(HasSubstr("https:")));
+    EXPECT_THAT(page, Not(HasSubstr("@import")));
+    EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+    // Whatever a source names is inline.
+    const std::regex source("(src|href)=\"([^\"]{0,5})");
+    for (auto it = std::sregex_iterator(page.begin(), page.end(), source);
+         it != std::sregex_iterator(); ++it) {
+        EXPECT_EQ((*it)[2].str(), "data:");
+    }
+}
+
+TEST(Report, escapes_hostile_names_everywhere) {
+    const std::string page = report_page(full_report(k_hostile));
+    EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
+    EXPECT_THAT(page, HasSubstr("&lt;script&gt;alert(&#39;x&#39;)"));
+    EXPECT_THAT(page, Not(HasSubstr("\xff")));
+    EXPECT_EQ(nesting_fault(page), "");
+}
+
+TEST(Report, holds_the_json_that_json_writes) {
+    const Report report = full_report(k_hostile);
+    const std::string page = report_page(report);
+    const std::string mark = "<script type=\"application/json\" id=\"culet-data\">";
+    const std::size_t from = page.find(mark) + mark.size();
+    const auto data = nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+    EXPECT_EQ(data["scores"], nlohmann::json::parse(report.scores_json));
+    EXPECT_EQ(data["fit"], nlohmann::json::parse(report.fit_json));
+}
+
+TEST(Report, says_that_a_photograph_is_simulated_wherever_it_appears) {
+    Report report = full_report();
+    const auto count = [](const std::string& page, const std::string& what) {
+        int found = 0;
+        for (std::size_t at = page.find(what); at != std::string::npos;
+             at = page.find(what, at + 1)) {
+            ++found;
+        }
+        return found;
+    };
+    const std::string page = report_page(report);
+    EXPECT_THAT(page, HasSubstr("<h2 id=\"pictures-heading\">Simulated photograph"));
+    EXPECT_GE(count(page, "simulated photograph"), 5);
+    EXPECT_EQ(count(page, "The stone in the photograph"), 0);
+    report.comparison->simulated = false;
+    report.scores_json.clear();
+    EXPECT_EQ(count(report_page(report), "imulated photograph"), 0);
+}
+
+TEST(Report, marks_suspects_in_words) {
+    EXPECT_THAT(report_page(full_report()), HasSubstr("<span class=\"badge\">suspect</span>"));
+}
+
+TEST(Report, of_a_refused_comparison_shows_both_outlines_and_the_reason) {
+    auto narrow = small();
+    narrow.flatness = 0.45;
+    Report report;
+    report.comparison = compare(draw(narrow), draw(small()));
+    ASSERT_EQ(report.comparison->verdict, Verdict::refused);
+    const std::string page = report_page(report);
+    EXPECT_THAT(page, HasSubstr("Comparison refused"));
+    EXPECT_THAT(page, HasSubstr("outline-photo\" d=\"M"));
+    EXPECT_THAT(page, HasSubstr("outline-render\" d=\"M"));
+    EXPECT_THAT(page, Not(HasSubstr("<section id=\"maps\"")));
+    EXPECT_EQ(nesting_fault(page), "");
+}
+
+TEST(Report, of_a_black_photograph_is_a_page) {
+    Report report;
+    report.comparison = compare(synthetic::flat(64, 64, 0), draw(small()));
+    EXPECT_EQ(nesting_fault(report_page(report)), "");
+}
+
+TEST(Report, refuses_text_that_is_no_json) {
+    Report report;
+    report.fit_json = "{\"status\": ";
+    EXPECT_THROW(report_page(report), InputError);
+    report.fit_json = "[1, 2]";
+    EXPECT_THROW(report_page(report), InputError);
+}
+
+TEST(Report, survives_json_of_unexpected_shape) {
+    Report report;
+    report.fit_json =
+        R"({"status": 7, "facets": {"a": 1}, "readings": [1, null, {"of": 3}, {"id": []}],
+            "suspects": [{}, 4], "closed": "yes", "undetermined": [7]})";
+    report.stats_json = R"({"effects": [1, {"on": 3}], "seconds": [1], "depth": "x"})";
+    EXPECT_EQ(nesting_fault(report_page(report)), "");
+}
+
+TEST(Report, is_the_same_bytes_each_time) {
+    EXPECT_EQ(report_page(full_report()), report_page(full_report()));
+}
+
+// A cube with a bevelled edge: from above one sees its top and the bevel, from below its base.
+TEST(Drawing, shows_the_facets_that_face_the_viewer) {
+    const Solid solid = cube();
+    const std::string crown = draw_facets_svg(solid, ViewSide::crown);
+    const std::string pavilion = draw_facets_svg(solid, ViewSide::pavilion);
+    EXPECT_THAT(crown, HasSubstr("aria-label=\"T\""));
+    EXPECT_THAT(crown, HasSubstr("aria-label=\"C\""));
+    EXPECT_THAT(crown, Not(HasSubstr("aria-label=\"B\"")));
+    EXPECT_THAT(crown, Not(HasSubstr("aria-label=\"E\"")));  // on edge
+    EXPECT_THAT(pavilion, HasSubstr("aria-label=\"B\""));
+    EXPECT_THAT(pavilion, Not(HasSubstr("aria-label=\"T\"")));
+}
+
+// The bevel lies at +x: right of the top as seen from above, and a square fills the drawing.
+TEST(Drawing, has_x_to_the_right_seen_from_above) {
+    const std::string crown = draw_facets_svg(cube(), ViewSide::crown);
+    EXPECT_THAT(crown, HasSubstr("viewBox=\"0 0 1000 1000\""));
+    const std::size_t at = crown.find("points=\"", crown.find("aria-label=\"C\""));
+    std::istringstream points(crown.substr(at + 8, 60));
+    double x = 0;
+    points >> x;
+    EXPECT_GT(x, 500);
+}
+
+TEST(Drawing, of_a_broken_solid_is_empty_or_whole) {
+    Solid solid = cube();
+    EXPECT_EQ(draw_facets_svg(Solid{}, ViewSide::crown), "");
+    solid.vertices[0].x = std::nan("");
+    solid.facets[0].corners.push_back(999);
+    solid.facets[0].corners.push_back(-4);
+    EXPECT_EQ(nesting_fault(draw_facets_svg(solid, ViewSide::crown)), "");
+    for (Vec3& v : solid.vertices) v = Vec3(1, 1, 1);
+    EXPECT_EQ(draw_facets_svg(solid, ViewSide::crown), "");
+}
+
+// RFC 4648, section 10.
+TEST(Html, base64_of_the_published_vectors) {
+    EXPECT_EQ(base64(""), "");
+    EXPECT_EQ(base64("f"), "Zg==");
+    EXPECT_EQ(base64("fo"), "Zm8=");
+    EXPECT_EQ(base64("foo"), "Zm9v");
+    EXPECT_EQ(base64("foob"), "Zm9vYg==");
+    EXPECT_EQ(base64("fooba"), "Zm9vYmE=");
+    EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+}
+
+TEST(Html, numbers_are_written_for_readers) {
+    EXPECT_EQ(decimals(-0.001, 2), "0.00");
+    EXPECT_EQ(decimals(-1.5, 1),
+              "\xe2\x88\x92"
+              "1.5");
+    EXPECT_EQ(decimals(std::nullopt, 1), "\xe2\x80\x93");
+    EXPECT_EQ(decimals(std::nan(""), 1), "\xe2\x80\x93");
+    EXPECT_EQ(significant(0.00123456), "0.00123");
+    EXPECT_EQ(significant(1234.5), "1234");
+    EXPECT_EQ(significant(0.0), "0");
+    EXPECT_EQ(significant(1e-13),
+              "1.00e\xe2\x88\x92"
+              "13");
+}
+
+TEST(Html, escapes_text_and_replaces_what_is_not_utf8) {
+    EXPECT_EQ(escaped("a<b>&\"'"), "a&lt;b&gt;&amp;&quot;&#39;");
+    EXPECT_EQ(escaped("\xc3\xa9\xe2\x82\xac"), "\xc3\xa9\xe2\x82\xac");
+    EXPECT_EQ(escaped("\xc3"), "\xef\xbf\xbd");
+    EXPECT_EQ(escaped("\xed\xa0\x80"), "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd");  // a surrogate
+    EXPECT_EQ(escaped(std::string("\x1b[2J")), "\xef\xbf\xbd[2J");
+}
+
+}  // namespace
+}  // namespace culet

@@ -1,0 +1,181 @@
+// Expectations: exact round trips, the sRGB standard's anchors (IEC 61966-2-1), CIE 15's
+// chromaticities.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "render/colour.h"
+#include "render/image_io.h"
+#include "stone/errors.h"
+
+namespace {
+
+using namespace culet;
+namespace fs = std::filesystem;
+
+class Pictures : public testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = fs::path(testing::TempDir()) /
+                  ("culet_pictures_" +
+                   std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+        fs::create_directories(folder_);
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+    fs::path folder_;
+};
+
+Picture gradient(int width, int height) {
+    Picture picture;
+    picture.width = width;
+    picture.height = height;
+    for (std::size_t i = 0; i < picture.pixels(); ++i) {
+        for (int c = 0; c < 3; ++c) picture.rgb.push_back(static_cast<float>(i * 3 + c) / 37.0f);
+        picture.coverage.push_back(static_cast<float>(i % 5) / 4.0f);
+    }
+    return picture;
+}
+
+TEST_F(Pictures, exr_keeps_every_bit_and_the_spectral_planes) {
+    Picture picture = gradient(7, 5);
+    picture.wavelengths_nm = {410, 589.3};
+    picture.spectral = {std::vector<float>(35, 0.25f), std::vector<float>(35, 1.5f)};
+    write_picture(picture, folder_ / "a.exr");
+    const ReadPicture back = read_picture(folder_ / "a.exr");
+    EXPECT_EQ(back.picture.rgb, picture.rgb);
+    EXPECT_EQ(back.picture.coverage, picture.coverage);
+    std::ifstream file(folder_ / "a.exr", std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    EXPECT_NE(bytes.find("S0.589,3nm"), std::string::npos);
+    EXPECT_NE(bytes.find("S0.410,0nm"), std::string::npos);
+}
+
+TEST_F(Pictures, png_is_srgb_with_its_exposure_in_a_text_chunk) {
+    Picture picture;
+    picture.width = 3;
+    picture.height = 1;
+    picture.rgb = {0, 0, 0, 0.25f, 0.25f, 0.25f, 4, 4, 4};
+    PngLook look;
+    look.exposure = 2;
+    write_picture(picture, folder_ / "a.png", look);
+    const ReadPicture back = read_picture(folder_ / "a.png");
+    EXPECT_TRUE(back.was_encoded);
+    // Linear 0.5 is 188/255 in sRGB (0.7354).
+    EXPECT_NEAR(back.picture.rgb[3], srgb_decoded(188.0 / 255), 1e-6);
+    EXPECT_EQ(back.picture.rgb[6], 1.0f);
+    std::ifstream file(folder_ / "a.png", std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    EXPECT_NE(bytes.find(std::string("culet:exposure\0", 15) + "2"), std::string::npos);
+}
+
+TEST_F(Pictures, hdr_is_within_its_one_per_cent) {
+    const Picture picture = gradient(16, 9);
+    write_picture(picture, folder_ / "a.hdr");
+    const ReadPicture back = read_picture(folder_ / "a.hdr");
+    for (std::size_t i = 0; i < picture.pixels(); ++i) {
+        // RGBE shares the exponent of the brightest channel: 1/256 of it.
+        EXPECT_NEAR(back.picture.rgb[3 * i], picture.rgb[3 * i],
+                    picture.rgb[3 * i + 2] / 128 + 1e-6);
+    }
+}
+
+TEST_F(Pictures, what_is_no_picture_ends_in_one_clear_line) {
+    const auto message = [](const fs::path& file) {
+        try {
+            read_picture(file);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const auto write = [&](const char* name, const std::string& bytes) {
+        std::ofstream(folder_ / name, std::ios::binary) << bytes;
+        return folder_ / name;
+    };
+    write_picture(gradient(40, 30), folder_ / "whole.exr");
+    std::ifstream file(folder_ / "whole.exr", std::ios::binary);
+    const std::string whole((std::istreambuf_iterator<char>(file)), {});
+    std::vector<fs::path> bad{folder_,
+                              folder_ / "missing.exr",
+                              write("empty.exr", ""),
+                              write("text.png", "hello"),
+                              write("half.exr", whole.substr(0, whole.size() / 2)),
+                              write("magic.exr", whole.substr(0, 4)),
+                              write("magic.png", "\x89PNG\r\n\x1a\n")};
+    // A header that claims 2^31 pixels a side.
+    std::string huge = whole;
+    const std::size_t window = huge.find("dataWindow");
+    ASSERT_NE(window, std::string::npos);
+    const std::size_t value = window + 11 + 6 + 4;  // name, type "box2i", size
+    for (std::size_t i = 8; i < 16; ++i) huge[value + i] = i % 4 == 3 ? '\x3f' : '\xff';
+    bad.push_back(write("huge.exr", huge));
+    for (const fs::path& path : bad) {
+        const std::string line = message(path);
+        EXPECT_NE(line, "") << path;
+        EXPECT_EQ(line.find('\n'), std::string::npos) << path;
+    }
+    EXPECT_THROW(write_picture(gradient(2, 2), folder_ / "a.gif"), InputError);
+    EXPECT_THROW(write_picture(gradient(2, 2), folder_ / "no" / "a.exr"), InputError);
+    EXPECT_FALSE(fs::exists(folder_ / "a.gif"));
+}
+
+TEST(Colour, flat_light_is_white_to_the_bit) {
+    for (const int count : {1, 2, 3, 7, 15, 31}) {
+        std::vector<double> nm;
+        for (int i = 0; i < count; ++i) nm.push_back(420 + 250.0 * i / std::max(1, count - 1));
+        const WavelengthSet set(nm);
+        const std::vector<double> ones(count, 1.0);
+        EXPECT_EQ(set.rgb_of(ones.data()), (Rgb{1, 1, 1})) << count;
+        for (double v : set.spectrum_of({0.7, 0.7, 0.7}))
+            EXPECT_NEAR(v, count == 1 ? 0.7 : 0.7, 1e-15);
+    }
+}
+
+TEST(Colour, rgb_lights_come_back_through_every_wavelength_set) {
+    const unsigned seed = 1931;
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> uniform(0, 2);
+    for (const int count : {3, 4, 8, 15, 31}) {
+        std::vector<double> nm;
+        for (int i = 0; i < count; ++i) nm.push_back(410 + 280.0 * i / (count - 1));
+        const WavelengthSet set(nm);
+        for (int draw = 0; draw < 20; ++draw) {
+            const Rgb rgb{uniform(random), uniform(random), uniform(random)};
+            const Rgb back = set.rgb_of(set.spectrum_of(rgb).data());
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(back[c], rgb[c], 1e-11) << count << " seed " << seed;
+        }
+        for (std::size_t i = 0; i < nm.size(); ++i) {
+            EXPECT_NEAR(set.primaries()[0][i] + set.primaries()[1][i] + set.primaries()[2][i], 1,
+                        1e-12);
+        }
+    }
+}
+
+TEST(Colour, illuminants_have_their_published_chromaticity) {
+    // CIE 15: A at x, y = 0.44757, 0.40745; D65 is this program's white.
+    std::vector<double> nm;
+    for (int i = 0; i <= 80; ++i) nm.push_back(380 + 5 * i);
+    const WavelengthSet set(nm);
+    const auto xyz = xyz_of_rgb(set.rgb_of(set.illuminant_relative("A").data()));
+    const double sum = xyz[0] + xyz[1] + xyz[2];
+    // White is sRGB's D65 in four digits here, which moves A's place by as much.
+    EXPECT_NEAR(xyz[0] / sum, 0.44757, 3e-4);
+    EXPECT_NEAR(xyz[1] / sum, 0.40745, 3e-4);
+    EXPECT_NEAR(xyz[1], 1, 2e-3) << "luminance 1";
+    for (double v : set.illuminant_relative("D65")) EXPECT_NEAR(v, 1, 1e-15);
+}
+
+TEST(Colour, srgb_encoding_has_the_standards_anchors) {
+    EXPECT_EQ(srgb_encoded(0), 0);
+    EXPECT_NEAR(srgb_encoded(1), 1, 1e-15);
+    EXPECT_NEAR(srgb_encoded(0.0031308), 0.04045, 1e-5);
+    EXPECT_NEAR(srgb_encoded(0.214041), 0.5, 1e-6);
+    for (double v = 0; v <= 1; v += 0.01) EXPECT_NEAR(srgb_decoded(srgb_encoded(v)), v, 1e-7);
+}
+
+}  // namespace
