@@ -50,6 +50,10 @@ struct Modes {
 // Splits the free directions by how tightly the readings hold them, relative to the mesh's metric.
 Modes modes_of(const Linearised& linear) {
     const Eigen::MatrixXd z = free_directions(linear);
+    if (z.cols() == 0) {
+        // Exact readings leave nothing free.
+        return {Eigen::MatrixXd(linear.layout.size(), 0), Eigen::MatrixXd(linear.layout.size(), 0)};
+    }
     // Whitening by the metric first turns the generalised eigenproblem into a plain one.
     const Eigen::MatrixXd metric = z.transpose() * linear.metric.asDiagonal() * z;
     const Eigen::LLT<Eigen::MatrixXd> chol(metric);
@@ -186,7 +190,8 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     }
     std::vector<double> redundancy(counted.size());
     for (std::size_t i = 0; i < counted.size(); ++i) {
-        redundancy[i] = std::max(0.0, 1 - seen.row(Eigen::Index(i)).squaredNorm());
+        redundancy[i] = 1 - seen.row(Eigen::Index(i)).squaredNorm();
+        if (redundancy[i] < k_no_redundancy) redundancy[i] = 0;
         diagnosis.dof += redundancy[i];
         const Equation& e = linear.soft[std::size_t(counted[i])];
         if (e.group >= 0) {

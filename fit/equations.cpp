@@ -299,6 +299,13 @@ std::vector<Equation> System::equations(const Shape& shape,
                         if (f != up_facet_) put(across_mirror(f, plane), 0);
                         continue;
                     }
+                    if (f == g) {
+                        // Only a level facet is its own image in a turn.
+                        for (int k = 0; k < 2 && f != up_facet_; ++k) {
+                            put(horizontal_component(f, k), 0);
+                        }
+                        continue;
+                    }
                     for (const Vec3& t : tangents(shape.normals[g])) {
                         put(reading.kind == ReadingKind::rotation ? turned_normal(f, g, angle, t)
                                                                   : mirrored_normal(f, g, plane, t),

@@ -346,8 +346,8 @@ void System::pair_facets() {
                 int at = static_cast<int>(i);
                 while (seen.insert(facets[at]).second) {
                     const int image = images[at];
-                    if (seen.count(image) == 0 || !reading.exact) {
-                        if (image != facets[at]) pairs.emplace_back(facets[at], image);
+                    if (seen.count(image) == 0 || image == facets[at] || !reading.exact) {
+                        pairs.emplace_back(facets[at], image);
                     }
                     at = static_cast<int>(std::find(facets.begin(), facets.end(), image) -
                                           facets.begin());
