@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -152,6 +153,46 @@ TEST(Colour, rgb_lights_come_back_through_every_wavelength_set) {
         for (std::size_t i = 0; i < nm.size(); ++i) {
             EXPECT_NEAR(set.primaries()[0][i] + set.primaries()[1][i] + set.primaries()[2][i], 1,
                         1e-12);
+        }
+    }
+}
+
+TEST(Colour, spectra_of_lights_are_no_darker_than_black) {
+    // Light cannot be negative; with fewer nodes than about ten the exact inverse is (-1 for
+    // three).
+    for (const int count : {15, 31, 81, 400}) {
+        std::vector<double> nm;
+        for (int i = 0; i < count; ++i) nm.push_back(400 + 300.0 * i / (count - 1));
+        const WavelengthSet set(nm);
+        for (const auto& primary : set.primaries()) {
+            EXPECT_GE(*std::min_element(primary.begin(), primary.end()), -1e-12) << count;
+            EXPECT_LE(*std::max_element(primary.begin(), primary.end()), 1 + 1e-12) << count;
+        }
+        const Rgb back = set.rgb_of(set.spectrum_of({1, 0.5, 0.25}).data());
+        EXPECT_NEAR(back[0], 1, 1e-11);
+        EXPECT_NEAR(back[1], 0.5, 1e-11);
+        EXPECT_NEAR(back[2], 0.25, 1e-11);
+    }
+}
+
+TEST(Colour, two_wavelengths_tell_red_from_blue) {
+    // Three numbers do not fit in two; the order of the colours does.
+    const WavelengthSet set({460, 610});
+    const std::vector<double> red = set.spectrum_of({1, 0, 0}), blue = set.spectrum_of({0, 0, 1});
+    EXPECT_GT(red[1], 2 * std::abs(red[0]));
+    EXPECT_GT(blue[0], 2 * std::abs(blue[1]));
+    for (double v : set.spectrum_of({0.3, 0.3, 0.3})) EXPECT_NEAR(v, 0.3, 1e-15);
+}
+
+TEST(Colour, wavelengths_that_nobody_sees_give_grey_not_garbage) {
+    for (const std::vector<double>& nm :
+         {std::vector<double>{1000, 1100}, std::vector<double>{900, 1000, 1100, 1200}}) {
+        const WavelengthSet set(nm);
+        for (const Rgb& rgb : {Rgb{1, 0, 0}, Rgb{0.2, 0.4, 0.8}}) {
+            for (double v : set.spectrum_of(rgb)) {
+                EXPECT_GE(v, -1e-9);
+                EXPECT_LE(v, 1 + 1e-9);
+            }
         }
     }
 }
