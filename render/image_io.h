@@ -28,7 +28,7 @@ struct PngLook {
 };
 
 /// By extension: .exr (linear float, half the file's channels named R, G, B, A when coverage is
-/// known, and S0.<nm with comma>nm for spectral planes), .hdr, .png (8 bit sRGB, exposure and tone
+/// known, and S0.589,300nm for spectral planes), .hdr, .png (8 bit sRGB, exposure and tone
 /// map in a text chunk). Whole or not at all. `text`: key/value pairs stored in the file where it
 /// can hold them.
 void write_picture(const Picture& picture, const std::filesystem::path& file,

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -49,10 +51,12 @@ TEST_F(Pictures, exr_keeps_every_bit_and_the_spectral_planes) {
     const ReadPicture back = read_picture(folder_ / "a.exr");
     EXPECT_EQ(back.picture.rgb, picture.rgb);
     EXPECT_EQ(back.picture.coverage, picture.coverage);
+    EXPECT_EQ(back.picture.wavelengths_nm, picture.wavelengths_nm);
+    EXPECT_EQ(back.picture.spectral, picture.spectral);
     std::ifstream file(folder_ / "a.exr", std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-    EXPECT_NE(bytes.find("S0.589,3nm"), std::string::npos);
-    EXPECT_NE(bytes.find("S0.410,0nm"), std::string::npos);
+    EXPECT_NE(bytes.find("S0.589,300nm"), std::string::npos);
+    EXPECT_NE(bytes.find("S0.410,000nm"), std::string::npos);
 }
 
 TEST_F(Pictures, png_is_srgb_with_its_exposure_in_a_text_chunk) {
@@ -114,6 +118,26 @@ TEST_F(Pictures, what_is_no_picture_ends_in_one_clear_line) {
     const std::size_t value = window + 11 + 6 + 4;  // name, type "box2i", size
     for (std::size_t i = 8; i < 16; ++i) huge[value + i] = i % 4 == 3 ? '\x3f' : '\xff';
     bad.push_back(write("huge.exr", huge));
+    // A single tile of 2^30 pixels a side.
+    std::string tile = whole;
+    const std::size_t tiles = tile.find("compression");
+    const std::string attribute("tiles\0tiledesc\0\x09\0\0\0\0\0\0\x40\0\0\0\x40\0", 28);
+    tile.insert(tiles, attribute);
+    tile[5] = 2;  // the flag of tiled files
+    bad.push_back(write("tile.exr", tile));
+    // An offset table whose first entry lies 3 bytes before the end of all numbers: the two blocks
+    // of 16 rows begin right behind the table.
+    std::string wild = whole;
+    for (std::size_t at = 8; at + 16 < whole.size(); ++at) {
+        std::uint64_t offset = 0;
+        std::memcpy(&offset, whole.data() + at, 8);
+        if (offset == at + 16) {
+            wild.replace(at, 8, "\xfd" + std::string(7, '\xff'));
+            break;
+        }
+    }
+    ASSERT_NE(wild, whole);
+    bad.push_back(write("wild.exr", wild));
     for (const fs::path& path : bad) {
         const std::string line = message(path);
         EXPECT_NE(line, "") << path;
