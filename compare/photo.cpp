@@ -12,7 +12,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "compare/picture_header.h"
+#include "render/picture_header.h"
 #include "render/colour.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"

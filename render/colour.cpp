@@ -50,65 +50,111 @@ Eigen::MatrixXd xyz_weights(const std::vector<double>& nm) {
     return weights;
 }
 
-// The smoothest three spectra that add up to 1 and integrate to red, green and blue: least squares
-// of first differences under linear constraints, with values held at 0 where they would fall below.
-std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& weight) {
-    const Eigen::Index n = weight.cols(), all = 3 * n;
-    std::vector<bool> held(static_cast<std::size_t>(all), false);
-    Eigen::VectorXd values = Eigen::VectorXd::Constant(all, 1.0 / 3);
-    for (int round = 0; round < 3 * n; ++round) {
-        Eigen::MatrixXd roughness = Eigen::MatrixXd::Zero(all, all);
-        for (int p = 0; p < 3; ++p) {
-            for (Eigen::Index i = 0; i + 1 < n; ++i) {
-                const Eigen::Index a = p * n + i, b = a + 1;
-                roughness(a, a) += 1;
-                roughness(b, b) += 1;
-                roughness(a, b) -= 1;
-                roughness(b, a) -= 1;
-            }
+// Nodes whose values are free: all of a short list, an even choice of a long one, with linear
+// interpolation between them. Keeps the solve small, and the spectra as smooth as a light's are.
+constexpr Eigen::Index k_most_free = 33;
+
+// Row i: the shares of the free values in node i; every row sums to 1.
+Eigen::MatrixXd interpolation(const std::vector<double>& nm) {
+    const Eigen::Index n = static_cast<Eigen::Index>(nm.size());
+    const Eigen::Index free = std::min(n, k_most_free);
+    Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(n, free);
+    for (Eigen::Index f = 0; f + 1 < free; ++f) {
+        const Eigen::Index from = f * (n - 1) / (free - 1), to = (f + 1) * (n - 1) / (free - 1);
+        for (Eigen::Index i = from; i <= to; ++i) {
+            const double t = (nm[i] - nm[from]) / (nm[to] - nm[from]);
+            shares.row(i).setZero();
+            shares(i, f) = 1 - t;
+            shares(i, f + 1) = t;
         }
-        Eigen::Index holds = std::count(held.begin(), held.end(), true);
-        // Rows: sum of the three at each node is 1; red's and green's integrals (blue's follows);
-        // holds.
-        const Eigen::Index rows = n + 6 + holds;
+    }
+    return shares;
+}
+
+// Minimises s'N s / 2 - pull's under A s = b, by Lagrange multipliers in one system.
+Eigen::VectorXd least_squares_under(const Eigen::MatrixXd& normal, const Eigen::VectorXd& pull,
+                                    const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+    const Eigen::Index all = normal.rows(), rows = A.rows();
+    Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(all + rows, all + rows);
+    kkt.topLeftCorner(all, all) = normal;
+    kkt.topRightCorner(all, rows) = A.transpose();
+    kkt.bottomLeftCorner(rows, all) = A;
+    Eigen::VectorXd right(all + rows);
+    right << pull, b;
+    return kkt.completeOrthogonalDecomposition().solve(right).head(all);
+}
+
+// The smoothest three spectra that add up to 1 and integrate to red, green and blue: least squares
+// of first differences under linear constraints, with values held at 0 where they would fall below
+// as long as the integrals stay exact. Where they cannot be (two nodes, or all of them where the
+// eye sees nothing), the sum stays 1 and the integrals are met as nearly as may be.
+std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_weight,
+                                                    const std::vector<double>& nm) {
+    const Eigen::MatrixXd shares = interpolation(nm);
+    const Eigen::MatrixXd weight = rgb_weight * shares;
+    const Eigen::Index n = weight.cols(), all = 3 * n;
+    Eigen::MatrixXd roughness = Eigen::MatrixXd::Zero(all, all);
+    for (Eigen::Index a = 0; a + 1 < all; ++a) {
+        if ((a + 1) % n == 0) continue;
+        roughness(a, a) += 1;
+        roughness(a + 1, a + 1) += 1;
+        roughness(a, a + 1) -= 1;
+        roughness(a + 1, a) -= 1;
+    }
+    Eigen::MatrixXd sum_to_one = Eigen::MatrixXd::Zero(n, all);
+    for (Eigen::Index i = 0; i < n; ++i) {
+        for (int p = 0; p < 3; ++p) sum_to_one(i, p * n + i) = 1;
+    }
+    // Red's and blue's integrals; green's follow from the sum.
+    Eigen::MatrixXd integrals = Eigen::MatrixXd::Zero(6, all);
+    Eigen::VectorXd wanted = Eigen::VectorXd::Zero(6);
+    for (int p : {0, 2}) {
+        for (int c = 0; c < 3; ++c) {
+            const int row = (p == 0 ? 0 : 3) + c;
+            integrals.row(row).segment(p * n, n) = weight.row(c);
+            wanted(row) = p == c ? 1 : 0;
+        }
+    }
+
+    std::vector<Eigen::Index> held;
+    Eigen::VectorXd best;
+    while (true) {
+        const Eigen::Index rows = n + 6 + static_cast<Eigen::Index>(held.size());
         Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows, all);
         Eigen::VectorXd b = Eigen::VectorXd::Zero(rows);
-        for (Eigen::Index i = 0; i < n; ++i) {
-            for (int p = 0; p < 3; ++p) A(i, p * n + i) = 1;
-            b(i) = 1;
+        A.topRows(n) = sum_to_one;
+        A.middleRows(n, 6) = integrals;
+        b.head(n).setOnes();
+        b.segment(n, 6) = wanted;
+        for (std::size_t h = 0; h < held.size(); ++h)
+            A(n + 6 + static_cast<Eigen::Index>(h), held[h]) = 1;
+        const Eigen::VectorXd values =
+            least_squares_under(roughness, Eigen::VectorXd::Zero(all), A, b);
+        if ((A * values - b).cwiseAbs().maxCoeff() > 1e-11) break;
+        // With few nodes a hold can push another value further below 0: the mildest one is kept.
+        if (best.size() == 0 || values.minCoeff() > best.minCoeff()) best = values;
+        Eigen::Index worst = 0;
+        if (values.minCoeff(&worst) >= -1e-12) break;
+        if (std::find(held.begin(), held.end(), worst) != held.end()) break;
+        held.push_back(worst);
+    }
+    if (best.size() == 0) {
+        // The integrals weigh so much more than smoothness that it only settles what they leave
+        // open.
+        constexpr double k_smoothness = 1e-6;
+        Eigen::MatrixXd normal = k_smoothness * roughness;
+        Eigen::VectorXd pull = Eigen::VectorXd::Zero(all);
+        for (int p = 0; p < 3; ++p) {
+            normal.block(p * n, p * n, n, n) += weight.transpose() * weight;
+            pull.segment(p * n, n) = weight.row(p).transpose();
         }
-        Eigen::Index row = n;
-        for (int p = 0; p < 2; ++p) {
-            for (int c = 0; c < 3; ++c, ++row) {
-                A.row(row).segment(p * n, n) = weight.row(c);
-                b(row) = p == c ? 1 : 0;
-            }
-        }
-        for (Eigen::Index i = 0; i < all; ++i) {
-            if (held[static_cast<std::size_t>(i)]) A(row++, i) = 1;
-        }
-        Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(all + rows, all + rows);
-        kkt.topLeftCorner(all, all) = roughness;
-        kkt.topRightCorner(all, rows) = A.transpose();
-        kkt.bottomLeftCorner(rows, all) = A;
-        Eigen::VectorXd right = Eigen::VectorXd::Zero(all + rows);
-        right.tail(rows) = b;
-        const Eigen::VectorXd solved = kkt.completeOrthogonalDecomposition().solve(right).head(all);
-        // Too many holds leave no exact solution: then the last exact one stands.
-        if ((A * solved - b).cwiseAbs().maxCoeff() > 1e-11) break;
-        values = solved;
-        Eigen::Index worst = -1;
-        for (Eigen::Index i = 0; i < all; ++i) {
-            if (!held[static_cast<std::size_t>(i)] && values(i) < -1e-12 &&
-                (worst < 0 || values(i) < values(worst)))
-                worst = i;
-        }
-        if (worst < 0) break;
-        held[static_cast<std::size_t>(worst)] = true;
+        best = least_squares_under(normal, pull, sum_to_one, Eigen::VectorXd::Ones(n));
     }
     std::array<std::vector<double>, 3> primaries;
-    for (int p = 0; p < 3; ++p)
-        primaries[p].assign(values.data() + p * n, values.data() + (p + 1) * n);
+    for (int p = 0; p < 3; ++p) {
+        const Eigen::VectorXd at_nodes = shares * best.segment(p * n, n);
+        primaries[p].assign(at_nodes.data(), at_nodes.data() + at_nodes.size());
+    }
     return primaries;
 }
 
@@ -129,7 +175,7 @@ WavelengthSet::WavelengthSet(std::vector<double> wavelengths_nm)
     for (int c = 0; c < 3; ++c) rgb.row(c) /= rgb.row(c).sum();
     for (Eigen::Index i = 0; i < count; ++i)
         rgb_weight_.push_back({rgb(0, i), rgb(1, i), rgb(2, i)});
-    primaries_ = smooth_primaries(rgb);
+    primaries_ = smooth_primaries(rgb, wavelengths_nm_);
 }
 
 Rgb WavelengthSet::rgb_of(const double* radiance) const {

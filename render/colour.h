@@ -30,6 +30,8 @@ public:
     /// Radiances at the nodes for a light of that colour: r s_r + g s_g + b s_b with s_r + s_g +
     /// s_b = 1 at each node, the smoothest such spectra that integrate back to (r, g, b) exactly
     /// for three and more nodes (in the spirit of Mallett & Yuksel 2019, for the nodes at hand).
+    /// From about ten nodes over the visible range they lie in 0..1; fewer cannot be exact without
+    /// values below 0. Two nodes: as near to (r, g, b) as they can; one: its luminance.
     std::vector<double> spectrum_of(const Rgb& rgb) const;
     /// s_r, s_g, s_b at each node.
     const std::array<std::vector<double>, 3>& primaries() const { return primaries_; }

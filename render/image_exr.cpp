@@ -12,7 +12,12 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <map>
+#include <optional>
 
 #include "stone/errors.h"
 
@@ -21,6 +26,9 @@ namespace culet {
 namespace {
 
 constexpr long long k_most_pixels = 1LL << 28;
+constexpr long long k_most_samples = 1LL << 31;  // over all channels
+constexpr long long k_tightest = 20000;          // pixels a byte
+constexpr unsigned k_most_tile_side = 8192;
 
 // The library reads from files or from a stream of ours; bytes in memory are checked before they
 // are read.
@@ -28,7 +36,9 @@ class MemoryStream : public Imf::IStream {
 public:
     MemoryStream(const std::string& bytes, const char* name) : Imf::IStream(name), bytes_(bytes) {}
     bool read(char c[], int n) override {
-        if (n < 0 || at_ + static_cast<std::uint64_t>(n) > bytes_.size()) {
+        // Compared without adding: a place near 2^64, as a broken offset table gives, must not
+        // wrap.
+        if (n < 0 || at_ > bytes_.size() || static_cast<std::uint64_t>(n) > bytes_.size() - at_) {
             throw std::runtime_error("the file ends too early");
         }
         std::memcpy(c, bytes_.data() + at_, static_cast<std::size_t>(n));
@@ -49,68 +59,142 @@ std::string one_line(const char* what) {
     return text;
 }
 
+// The size a header states is checked before the library makes room for it: pictures, tiles and
+// offset tables of a hostile header would take gigabytes.
+void check_header(const Imf::Header& header, std::size_t bytes, const std::filesystem::path& file) {
+    const Imath::Box2i window = header.dataWindow();
+    const long long width = static_cast<long long>(window.max.x) - window.min.x + 1;
+    const long long height = static_cast<long long>(window.max.y) - window.min.y + 1;
+    if (width < 1 || height < 1 || width > k_most_pixels || height > k_most_pixels ||
+        width * height > k_most_pixels) {
+        throw InputError(file, fmt::format("is an EXR of {} x {} pixels; up to 2^28 pixels are "
+                                           "read",
+                                           width, height));
+    }
+    long long channels = 0;
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) ++channels;
+    if (channels > k_most_samples / (width * height)) {
+        throw InputError(file, fmt::format("is an EXR of {} x {} pixels with {} channels, more "
+                                           "than are read",
+                                           width, height, channels));
+    }
+    // No codec packs a picture this tightly: the file is cut off.
+    if (width * height / k_tightest > static_cast<long long>(bytes)) {
+        throw InputError(file, fmt::format("is an EXR of {} x {} pixels in {} bytes: it is cut off",
+                                           width, height, bytes));
+    }
+    if (header.hasTileDescription() && (header.tileDescription().xSize > k_most_tile_side ||
+                                        header.tileDescription().ySize > k_most_tile_side)) {
+        throw InputError(
+            file, fmt::format("is an EXR with tiles of {} x {} pixels, more than are "
+                              "read",
+                              header.tileDescription().xSize, header.tileDescription().ySize));
+    }
+}
+
+// `S0.589,300nm` (Fichet et al. 2021): the wavelength, or nothing for any other channel.
+std::optional<double> wavelength_of(std::string name) {
+    if (!name.starts_with("S0.") || !name.ends_with("nm")) return std::nullopt;
+    name = name.substr(3, name.size() - 5);
+    std::replace(name.begin(), name.end(), ',', '.');
+    double nm = 0;
+    const auto [end, problem] = std::from_chars(name.data(), name.data() + name.size(), nm);
+    if (problem != std::errc() || end != name.data() + name.size() || !std::isfinite(nm))
+        return std::nullopt;
+    return nm;
+}
+
+// The layout writes the decimal point as a comma: a point would start a layer.
+std::string channel_of(double nm) {
+    std::string text = fmt::format("{:.3f}", nm);
+    std::replace(text.begin(), text.end(), '.', ',');
+    return "S0." + text + "nm";
+}
+
+std::string names_of(const Imf::ChannelList& channels) {
+    std::string names;
+    int count = 0;
+    for (auto c = channels.begin(); c != channels.end() && count < 8; ++c, ++count)
+        names += (names.empty() ? "" : ", ") + std::string(c.name());
+    return names.empty() ? "none" : names;
+}
+
 }  // namespace
 
 Picture read_exr(const std::string& bytes, const std::filesystem::path& file, bool& had_alpha) {
     try {
+        {
+            MemoryStream stream(bytes, file.c_str());
+            Imf::Header header;
+            int version = 0;
+            char magic[4];
+            stream.read(magic, 4);
+            stream.read(magic, 4);
+            for (int i = 3; i >= 0; --i)
+                version = version << 8 | static_cast<unsigned char>(magic[i]);
+            header.readFrom(stream, version);
+            check_header(header, bytes.size(), file);
+        }
         MemoryStream stream(bytes, file.c_str());
         Imf::InputFile input(stream, 0);
         const Imath::Box2i window = input.header().dataWindow();
-        const long long width = static_cast<long long>(window.max.x) - window.min.x + 1;
-        const long long height = static_cast<long long>(window.max.y) - window.min.y + 1;
-        if (width < 1 || height < 1 || width > k_most_pixels || height > k_most_pixels ||
-            width * height > k_most_pixels) {
-            throw InputError(
-                file, fmt::format("is an EXR of {} x {} pixels; up to 2^28 pixels are read", width,
-                                  height));
-        }
-        // No codec packs a picture this tightly: the file is cut off, and nothing is allocated for
-        // it.
-        constexpr long long k_tightest = 20000;  // pixels a byte
-        if (width * height / k_tightest > static_cast<long long>(bytes.size())) {
-            throw InputError(
-                file, fmt::format("is an EXR of {} x {} pixels in {} bytes: it is cut off", width,
-                                  height, bytes.size()));
-        }
         const Imf::ChannelList& channels = input.header().channels();
-        std::vector<std::string> names{"R", "G", "B"};
-        if (channels.findChannel("R") == nullptr || channels.findChannel("G") == nullptr ||
-            channels.findChannel("B") == nullptr) {
-            if (channels.findChannel("Y") == nullptr) {
-                throw InputError(file, "is an EXR without R, G, B or Y channels");
-            }
-            names = {"Y"};
-        }
+
         Picture picture;
-        picture.width = static_cast<int>(width);
-        picture.height = static_cast<int>(height);
-        had_alpha = channels.findChannel("A") != nullptr;
+        picture.width = window.max.x - window.min.x + 1;
+        picture.height = window.max.y - window.min.y + 1;
         const std::size_t pixels = picture.pixels();
-        std::vector<std::vector<float>> planes(names.size() + 1);
         Imf::FrameBuffer frame;
-        const auto slice = [&](const std::string& name, std::vector<float>& plane) {
-            plane.resize(pixels);
-            char* base = reinterpret_cast<char*>(plane.data()) -
-                         (static_cast<std::ptrdiff_t>(window.min.y) * width + window.min.x) *
-                             static_cast<std::ptrdiff_t>(sizeof(float));
+        const auto slice = [&](const std::string& name, float* plane, std::size_t stride) {
             const Imf::Channel* channel = channels.findChannel(name.c_str());
             if (channel->xSampling != 1 || channel->ySampling != 1) {
                 throw InputError(file,
                                  "is an EXR with subsampled channels, which are not read here");
             }
-            frame.insert(name, Imf::Slice(Imf::FLOAT, base, sizeof(float),
-                                          sizeof(float) * static_cast<std::size_t>(width)));
+            const std::ptrdiff_t before =
+                (static_cast<std::ptrdiff_t>(window.min.y) * picture.width + window.min.x) *
+                static_cast<std::ptrdiff_t>(stride * sizeof(float));
+            char* base = reinterpret_cast<char*>(reinterpret_cast<std::uintptr_t>(plane) -
+                                                 static_cast<std::uintptr_t>(before));
+            frame.insert(
+                name, Imf::Slice(Imf::FLOAT, base, stride * sizeof(float),
+                                 stride * sizeof(float) * static_cast<std::size_t>(picture.width)));
         };
-        for (std::size_t i = 0; i < names.size(); ++i) slice(names[i], planes[i]);
-        if (had_alpha) slice("A", planes.back());
+        const auto has = [&](const char* name) { return channels.findChannel(name) != nullptr; };
+        const bool coloured = has("R") && has("G") && has("B");
+        if (!coloured && !has("Y")) {
+            throw InputError(file, fmt::format("is an EXR without R, G, B or Y channels; it has {}",
+                                               names_of(channels)));
+        }
+        picture.rgb.resize(3 * pixels);
+        if (coloured) {
+            slice("R", picture.rgb.data(), 3);
+            slice("G", picture.rgb.data() + 1, 3);
+            slice("B", picture.rgb.data() + 2, 3);
+        } else {
+            slice("Y", picture.rgb.data(), 3);
+        }
+        had_alpha = has("A");
+        if (had_alpha) {
+            picture.coverage.resize(pixels);
+            slice("A", picture.coverage.data(), 1);
+        }
+        // Channels come sorted by name, wavelengths are wanted by number.
+        std::map<double, std::string> spectral;
+        for (auto c = channels.begin(); c != channels.end(); ++c) {
+            if (const auto nm = wavelength_of(c.name())) spectral.emplace(*nm, c.name());
+        }
+        for (const auto& [nm, name] : spectral) {
+            picture.wavelengths_nm.push_back(nm);
+            picture.spectral.emplace_back(pixels);
+            slice(name, picture.spectral.back().data(), 1);
+        }
         input.setFrameBuffer(frame);
         input.readPixels(window.min.y, window.max.y);
-        picture.rgb.resize(3 * pixels);
-        for (std::size_t i = 0; i < pixels; ++i) {
-            for (std::size_t c = 0; c < 3; ++c)
-                picture.rgb[3 * i + c] = planes[names.size() == 3 ? c : 0][i];
+        if (!coloured) {
+            for (std::size_t i = 0; i < pixels; ++i)
+                picture.rgb[3 * i + 1] = picture.rgb[3 * i + 2] = picture.rgb[3 * i];
         }
-        if (had_alpha) picture.coverage = std::move(planes.back());
         return picture;
     } catch (const InputError&) {
         throw;
@@ -145,14 +229,17 @@ void write_exr(const Picture& picture, const std::filesystem::path& file,
         slice("G", planes[1]);
         slice("B", planes[2]);
         if (!picture.coverage.empty()) slice("A", picture.coverage);
-        if (!picture.spectral.empty())
+        if (!picture.spectral.empty()) {
             header.insert("spectralLayoutVersion", Imf::StringAttribute("1.0"));
+            header.insert("emissiveUnits", Imf::StringAttribute("relative to CIE D65"));
+        }
         for (std::size_t i = 0; i < picture.spectral.size(); ++i) {
-            // The layout writes the decimal point as a comma: a point would start a layer.
-            std::string nm = fmt::format("{:.6g}", picture.wavelengths_nm[i]);
-            std::replace(nm.begin(), nm.end(), '.', ',');
-            if (nm.find(',') == std::string::npos) nm += ",0";
-            slice("S0." + nm + "nm", picture.spectral[i]);
+            const std::string name = channel_of(picture.wavelengths_nm[i]);
+            if (frame.findSlice(name) != nullptr) {
+                throw InputError(
+                    "two wavelengths are closer than 0.001 nm, which their names cannot tell");
+            }
+            slice(name, picture.spectral[i]);
         }
         Imf::OutputFile output(file.c_str(), header, 0);
         output.setFrameBuffer(frame);

@@ -8,10 +8,11 @@
 
 namespace culet {
 
-/// R, G, B (or Y) and A of the file's bytes. Throws InputError naming `file`.
+/// R, G, B (or Y), A and spectral planes of the file's bytes; 16-bit, 32-bit float and integer
+/// channels. Memory is taken only for what the file can hold. Throws InputError naming `file`.
 Picture read_exr(const std::string& bytes, const std::filesystem::path& file, bool& had_alpha);
 
-/// Channels R, G, B, A when coverage is known, and S0.<nm>nm for spectral planes (Fichet et al.
+/// Channels R, G, B, A when coverage is known, and S0.589,300nm for spectral planes (Fichet et al.
 /// 2021).
 void write_exr(const Picture& picture, const std::filesystem::path& file,
                const std::vector<std::pair<std::string, std::string>>& text);

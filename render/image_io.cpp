@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -13,6 +14,7 @@
 
 #include "render/colour.h"
 #include "render/image_exr.h"
+#include "render/picture_header.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 
@@ -21,15 +23,12 @@ namespace culet {
 namespace {
 
 constexpr double k_most_pixels = 268435456.0;  // 2^28
-constexpr std::size_t k_most_bytes = std::size_t{2} << 30;
+constexpr double k_tightest = 20000;           // pixels a byte, more than any codec packs
+constexpr std::size_t k_most_bytes = std::size_t{1} << 30;
 
 void silence_opencv() {
     static const auto once = cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
     (void)once;
-}
-
-bool starts_with(const std::string& bytes, const char* magic, std::size_t size) {
-    return bytes.size() >= size && std::memcmp(bytes.data(), magic, size) == 0;
 }
 
 std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
@@ -39,14 +38,77 @@ std::uint32_t big_endian(const std::string& bytes, std::size_t at) {
     return value;
 }
 
-// A PNG's size stands in its first chunk: an absurd one is refused before anything is allocated.
-void check_png_size(const std::string& bytes, const std::filesystem::path& file) {
-    if (bytes.size() < 24) throw InputError(file, "is a PNG that is cut off");
-    const double width = big_endian(bytes, 16), height = big_endian(bytes, 20);
-    if (width * height > k_most_pixels) {
-        throw InputError(
-            file, fmt::format("is a PNG of {:.0f} x {:.0f} pixels; up to 2^28 pixels are read",
-                              width, height));
+// PNG specification, annex D.
+std::uint32_t crc32(const char* bytes, std::size_t size) {
+    static const std::array<std::uint32_t, 256> table = [] {
+        std::array<std::uint32_t, 256> result{};
+        for (std::uint32_t i = 0; i < 256; ++i) {
+            result[i] = i;
+            for (int bit = 0; bit < 8; ++bit)
+                result[i] = result[i] >> 1 ^ (result[i] & 1 ? 0xedb88320u : 0);
+        }
+        return result;
+    }();
+    std::uint32_t crc = 0xffffffffu;
+    for (std::size_t i = 0; i < size; ++i)
+        crc = crc >> 8 ^ table[(crc ^ static_cast<unsigned char>(bytes[i])) & 0xff];
+    return ~crc;
+}
+
+// The decoders below show as much as there is of a file that was cut off, grey for the rest, and
+// complain on stderr. A photograph that is half there is no measurement: it is refused.
+void require_whole_png(const std::string& bytes, const std::filesystem::path& file) {
+    std::size_t at = 8;
+    while (bytes.size() - at >= 12) {
+        const std::size_t size = big_endian(bytes, at);
+        if (size > bytes.size() - at - 12) break;
+        if (crc32(bytes.data() + at + 4, size + 4) != big_endian(bytes, at + 8 + size))
+            throw InputError(file, "is a PNG with a damaged part (its checksum is wrong)");
+        if (bytes.compare(at + 4, 4, "IEND") == 0) return;
+        at += 12 + size;
+    }
+    throw InputError(file, "is a PNG that is cut off");
+}
+
+// ITU-T T.81, B.1.1: segments with a length (a thumbnail lies inside one), and after each start of
+// scan, coded data up to the next marker. Ends with the marker EOI.
+void require_whole_jpeg(const std::string& bytes, const std::filesystem::path& file) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
+    std::size_t at = 2;
+    while (at + 1 < bytes.size()) {
+        const int marker = byte(at + 1);
+        const bool coded = byte(at) != 0xff || marker == 0x00 || marker == 0xff;
+        const bool alone = marker == 0x01 || (marker >= 0xd0 && marker <= 0xd8);
+        if (coded) {
+            ++at;
+        } else if (marker == 0xd9) {
+            return;
+        } else if (alone) {
+            at += 2;
+        } else if (at + 3 < bytes.size()) {
+            at += 2 + static_cast<std::size_t>(byte(at + 2) << 8 | byte(at + 3));
+        } else {
+            break;
+        }
+    }
+    throw InputError(file, "is a JPEG that is cut off");
+}
+
+// A hostile header must not make the decoder take gigabytes for a file of a few bytes.
+void check_size(const PictureHeader& header, std::size_t bytes, const std::filesystem::path& file) {
+    const double pixels = static_cast<double>(header.width) * static_cast<double>(header.height);
+    if (pixels > k_most_pixels) {
+        throw InputError(file, fmt::format("is a {} of {} x {} pixels; up to 2^28 pixels are read",
+                                           header.format, header.width, header.height));
+    }
+    if (pixels == 0) {
+        throw InputError(file, fmt::format("is a {} that does not state its size: it is cut off "
+                                           "or of an unusual kind",
+                                           header.format));
+    }
+    if (pixels / k_tightest > static_cast<double>(bytes)) {
+        throw InputError(file, fmt::format("is a {} of {} x {} pixels in {} bytes: it is cut off",
+                                           header.format, header.width, header.height, bytes));
     }
 }
 
@@ -83,15 +145,6 @@ void take_pixels(const cv::Mat& image, Picture& picture, double scale, bool enco
     }
 }
 
-std::uint32_t crc32(const std::string& bytes) {
-    std::uint32_t crc = 0xffffffffu;
-    for (unsigned char byte : bytes) {
-        crc ^= byte;
-        for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
-    }
-    return ~crc;
-}
-
 std::string be32(std::uint32_t value) {
     return {static_cast<char>(value >> 24), static_cast<char>(value >> 16),
             static_cast<char>(value >> 8), static_cast<char>(value)};
@@ -100,7 +153,8 @@ std::string be32(std::uint32_t value) {
 // PNG specification 11.3.4.3: keyword, zero, Latin-1 text. OpenCV writes none.
 std::string text_chunk(const std::string& key, const std::string& value) {
     const std::string body = "tEXt" + key.substr(0, 79) + std::string(1, '\0') + value;
-    return be32(static_cast<std::uint32_t>(body.size() - 4)) + body + be32(crc32(body));
+    return be32(static_cast<std::uint32_t>(body.size() - 4)) + body +
+           be32(crc32(body.data(), body.size()));
 }
 
 std::string png_bytes(const Picture& picture, const PngLook& look,
@@ -111,7 +165,7 @@ std::string png_bytes(const Picture& picture, const PngLook& look,
             const float* rgb = picture.at(x, y);
             for (int c = 0; c < 3; ++c) {
                 double v = std::max(0.0, look.exposure * static_cast<double>(rgb[c]));
-                if (look.tone_map == ToneMap::reinhard)
+                if (look.tone_map == ToneMap::reinhard && std::isfinite(v))
                     v = v / (1 + v);  // Reinhard et al. 2002, eq. 3
                 const double encoded = srgb_encoded(std::min(v, 1.0));
                 image.at<cv::Vec3b>(y, x)[2 - c] =
@@ -135,7 +189,9 @@ std::string hdr_bytes(const Picture& picture) {
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
             const float* rgb = picture.at(x, y);
-            for (int c = 0; c < 3; ++c) image.at<cv::Vec3f>(y, x)[2 - c] = std::max(0.0f, rgb[c]);
+            // The format's shared exponent ends below 2^127; NaN and negative become 0.
+            for (int c = 0; c < 3; ++c)
+                image.at<cv::Vec3f>(y, x)[2 - c] = std::min(std::max(0.0f, rgb[c]), 1.6e38f);
         }
     }
     std::vector<unsigned char> encoded;
@@ -150,22 +206,33 @@ ReadPicture read_picture(const std::filesystem::path& file) {
     const std::string bytes = read_text(file, k_most_bytes);
     if (bytes.empty()) throw InputError(file, "is empty: expected a picture");
     ReadPicture result;
-    if (starts_with(bytes, "\x76\x2f\x31\x01", 4)) {
+    const PictureHeader header = picture_header(bytes);
+    if (header.format == "EXR") {
         result.picture = read_exr(bytes, file, result.had_alpha);
         return result;
     }
-    if (starts_with(bytes, "\x89PNG\r\n\x1a\n", 8)) check_png_size(bytes, file);
+    if (header.format.empty() || header.format == "PFM") {
+        throw InputError(file,
+                         "is no picture that can be read: expected EXR, HDR, PNG, JPEG or TIFF");
+    }
+    check_size(header, bytes.size(), file);
+    if (header.format == "PNG") require_whole_png(bytes, file);
+    if (header.format == "JPEG") require_whole_jpeg(bytes, file);
+    // As it is stored, with alpha; only a JPEG is also turned upright as its EXIF tag says.
+    const int mode =
+        header.format == "JPEG" ? cv::IMREAD_ANYCOLOR | cv::IMREAD_ANYDEPTH : cv::IMREAD_UNCHANGED;
     cv::Mat image;
     try {
-        const cv::Mat data(1, static_cast<int>(std::min<std::size_t>(bytes.size(), 0x7fffffff)),
-                           CV_8U, const_cast<char*>(bytes.data()));
-        image = cv::imdecode(data, cv::IMREAD_UNCHANGED);
+        const cv::Mat data(1, static_cast<int>(bytes.size()), CV_8U,
+                           const_cast<char*>(bytes.data()));
+        image = cv::imdecode(data, mode);
     } catch (const std::exception&) {
         image.release();
     }
     if (image.empty())
-        throw InputError(file,
-                         "is no picture that can be read: expected EXR, HDR, PNG, JPEG or TIFF");
+        throw InputError(file, fmt::format("is a broken or unusual {}: save it again with another "
+                                           "program",
+                                           header.format));
     if (static_cast<double>(image.rows) * image.cols > k_most_pixels) {
         throw InputError(file, fmt::format("is {} x {} pixels; up to 2^28 pixels are read",
                                            image.cols, image.rows));
@@ -204,7 +271,14 @@ ReadPicture read_picture(const std::filesystem::path& file) {
 void write_picture(const Picture& picture, const std::filesystem::path& file, const PngLook& look,
                    const std::vector<std::pair<std::string, std::string>>& text) {
     silence_opencv();
-    const std::string extension = file.extension().string();
+    const std::size_t pixels = picture.pixels();
+    check(picture.width > 0 && picture.height > 0 && picture.rgb.size() == 3 * pixels &&
+              (picture.coverage.empty() || picture.coverage.size() == pixels) &&
+              picture.spectral.size() == picture.wavelengths_nm.size(),
+          "a picture to be written has all its pixels");
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     if (extension == ".exr") {
         OutputFile output(file);
         write_exr(picture, output.path(), text);

@@ -16,8 +16,9 @@ struct ReadPicture {
     float white = 0;  ///< linear value at which the file saturates (1 when encoded); 0: none
 };
 
-/// By content. Throws InputError: missing, a folder, empty, no picture, absurd size (over 2^28
-/// pixels).
+/// By content: EXR, HDR, PNG, JPEG, TIFF. JPEGs are turned upright as their EXIF tag says; colour
+/// profiles are not applied. Throws InputError: missing, a folder, empty, no picture, cut off,
+/// damaged, absurd size (over 2^28 pixels, or more than a file of its length can hold).
 ReadPicture read_picture(const std::filesystem::path& file);
 
 enum class ToneMap { none, reinhard };
@@ -28,7 +29,7 @@ struct PngLook {
 };
 
 /// By extension: .exr (linear float, half the file's channels named R, G, B, A when coverage is
-/// known, and S0.<nm with comma>nm for spectral planes), .hdr, .png (8 bit sRGB, exposure and tone
+/// known, and S0.589,300nm for spectral planes), .hdr, .png (8 bit sRGB, exposure and tone
 /// map in a text chunk). Whole or not at all. `text`: key/value pairs stored in the file where it
 /// can hold them.
 void write_picture(const Picture& picture, const std::filesystem::path& file,

@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "compare/picture_header.h"
+#include "render/picture_header.h"
 #include "render/colour.h"
 #include "stone/errors.h"
 

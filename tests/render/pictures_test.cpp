@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -48,10 +51,12 @@ TEST_F(Pictures, exr_keeps_every_bit_and_the_spectral_planes) {
     const ReadPicture back = read_picture(folder_ / "a.exr");
     EXPECT_EQ(back.picture.rgb, picture.rgb);
     EXPECT_EQ(back.picture.coverage, picture.coverage);
+    EXPECT_EQ(back.picture.wavelengths_nm, picture.wavelengths_nm);
+    EXPECT_EQ(back.picture.spectral, picture.spectral);
     std::ifstream file(folder_ / "a.exr", std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-    EXPECT_NE(bytes.find("S0.589,3nm"), std::string::npos);
-    EXPECT_NE(bytes.find("S0.410,0nm"), std::string::npos);
+    EXPECT_NE(bytes.find("S0.589,300nm"), std::string::npos);
+    EXPECT_NE(bytes.find("S0.410,000nm"), std::string::npos);
 }
 
 TEST_F(Pictures, png_is_srgb_with_its_exposure_in_a_text_chunk) {
@@ -113,6 +118,26 @@ TEST_F(Pictures, what_is_no_picture_ends_in_one_clear_line) {
     const std::size_t value = window + 11 + 6 + 4;  // name, type "box2i", size
     for (std::size_t i = 8; i < 16; ++i) huge[value + i] = i % 4 == 3 ? '\x3f' : '\xff';
     bad.push_back(write("huge.exr", huge));
+    // A single tile of 2^30 pixels a side.
+    std::string tile = whole;
+    const std::size_t tiles = tile.find("compression");
+    const std::string attribute("tiles\0tiledesc\0\x09\0\0\0\0\0\0\x40\0\0\0\x40\0", 28);
+    tile.insert(tiles, attribute);
+    tile[5] = 2;  // the flag of tiled files
+    bad.push_back(write("tile.exr", tile));
+    // An offset table whose first entry lies 3 bytes before the end of all numbers: the two blocks
+    // of 16 rows begin right behind the table.
+    std::string wild = whole;
+    for (std::size_t at = 8; at + 16 < whole.size(); ++at) {
+        std::uint64_t offset = 0;
+        std::memcpy(&offset, whole.data() + at, 8);
+        if (offset == at + 16) {
+            wild.replace(at, 8, "\xfd" + std::string(7, '\xff'));
+            break;
+        }
+    }
+    ASSERT_NE(wild, whole);
+    bad.push_back(write("wild.exr", wild));
     for (const fs::path& path : bad) {
         const std::string line = message(path);
         EXPECT_NE(line, "") << path;
@@ -152,6 +177,46 @@ TEST(Colour, rgb_lights_come_back_through_every_wavelength_set) {
         for (std::size_t i = 0; i < nm.size(); ++i) {
             EXPECT_NEAR(set.primaries()[0][i] + set.primaries()[1][i] + set.primaries()[2][i], 1,
                         1e-12);
+        }
+    }
+}
+
+TEST(Colour, spectra_of_lights_are_no_darker_than_black) {
+    // Light cannot be negative; with fewer nodes than about ten the exact inverse is (-1 for
+    // three).
+    for (const int count : {15, 31, 81, 400}) {
+        std::vector<double> nm;
+        for (int i = 0; i < count; ++i) nm.push_back(400 + 300.0 * i / (count - 1));
+        const WavelengthSet set(nm);
+        for (const auto& primary : set.primaries()) {
+            EXPECT_GE(*std::min_element(primary.begin(), primary.end()), -1e-12) << count;
+            EXPECT_LE(*std::max_element(primary.begin(), primary.end()), 1 + 1e-12) << count;
+        }
+        const Rgb back = set.rgb_of(set.spectrum_of({1, 0.5, 0.25}).data());
+        EXPECT_NEAR(back[0], 1, 1e-11);
+        EXPECT_NEAR(back[1], 0.5, 1e-11);
+        EXPECT_NEAR(back[2], 0.25, 1e-11);
+    }
+}
+
+TEST(Colour, two_wavelengths_tell_red_from_blue) {
+    // Three numbers do not fit in two; the order of the colours does.
+    const WavelengthSet set({460, 610});
+    const std::vector<double> red = set.spectrum_of({1, 0, 0}), blue = set.spectrum_of({0, 0, 1});
+    EXPECT_GT(red[1], 2 * std::abs(red[0]));
+    EXPECT_GT(blue[0], 2 * std::abs(blue[1]));
+    for (double v : set.spectrum_of({0.3, 0.3, 0.3})) EXPECT_NEAR(v, 0.3, 1e-15);
+}
+
+TEST(Colour, wavelengths_that_nobody_sees_give_grey_not_garbage) {
+    for (const std::vector<double>& nm :
+         {std::vector<double>{1000, 1100}, std::vector<double>{900, 1000, 1100, 1200}}) {
+        const WavelengthSet set(nm);
+        for (const Rgb& rgb : {Rgb{1, 0, 0}, Rgb{0.2, 0.4, 0.8}}) {
+            for (double v : set.spectrum_of(rgb)) {
+                EXPECT_GE(v, -1e-9);
+                EXPECT_LE(v, 1 + 1e-9);
+            }
         }
     }
 }

@@ -1,4 +1,4 @@
-#include "compare/picture_header.h"
+#include "render/picture_header.h"
 
 #include <charconv>
 
