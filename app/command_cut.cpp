@@ -103,6 +103,8 @@ void list_cuts() {
 }
 
 int run_cut(const std::string& name, const CutOptions& options) {
+    require_writable(options.out);
+    require_writable(options.json);
     const Solid solid = make_cut(name, options.values);
     std::string proportions;
     if (!options.json.empty()) {

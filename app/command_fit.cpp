@@ -22,6 +22,8 @@ struct FitCommand {
 };
 
 int run_fit(const FitCommand& command) {
+    require_writable(command.output);
+    require_writable(command.report);
     StoneFile file = read_stone(command.stone, command.common.set);
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;

@@ -55,6 +55,37 @@ int info(InfoOptions options) {
     return about.faults.empty() ? exit_good : exit_untrusted;
 }
 
+Description describe_job_file(const TomlTable& root) {
+    Description about;
+    about.object["format"] = "job";
+    about.lines.push_back(fmt::format("{}: a job, for culet run", root.file().string()));
+    for (const auto& [part, key] :
+         {std::pair("fit", "stone"), std::pair("render", "scene"), std::pair("compare", "photo")}) {
+        const auto table = root.table(part);
+        if (!table || !table->has(key)) continue;
+        const std::filesystem::path path = *table->path(key);
+        if (!std::filesystem::exists(path))
+            table->fail(key, fmt::format("no such file: {}", path.string()));
+        about.object[part] = path.string();
+        about.lines.push_back(fmt::format("{:<8} {}", part, path.string()));
+    }
+    return about;
+}
+
+void list_materials() {
+    for (const std::string& name : catalogue_names()) {
+        const Material material = catalogue_material(name);
+        std::string indices;
+        for (int ray = 0; ray < ray_count(material.optic); ++ray) {
+            indices += fmt::format("{}{} {:.3f}", ray == 0 ? "" : ", ",
+                                   ray_name(material.optic, ray), material.index[ray].at(589.3));
+        }
+        const bool coloured = material.absorption_per_mm[0].max() > 0;
+        fmt::print("{:<22} {:<38} {}{}\n", name, indices, material.name,
+                   coloured ? ", coloured" : "");
+    }
+}
+
 }  // namespace
 
 Description describe_file(const DescribeOptions& options) {
@@ -62,6 +93,7 @@ Description describe_file(const DescribeOptions& options) {
     const std::string extension = extension_of(options.file);
     if (extension == "toml") {
         const TomlTable root = read_toml(options.file, options.overrides);
+        if (root.has("fit") && !root.has("stone")) return describe_job_file(root);
         if (root.has("camera") || root.has("light") || root.has("render")) {
             return describe_scene_file(options);
         }
@@ -84,9 +116,10 @@ void add_command_info(CLI::App& program, int& exit_code) {
     auto options = std::make_shared<InfoOptions>();
     CLI::App* command =
         program.add_subcommand("info", "what a file holds, and what is wrong with it");
-    command
-        ->add_option("FILE", options->describe.file, "mesh, cut, stone, scene, material or picture")
-        ->required();
+    auto materials = std::make_shared<bool>(false);
+    command->add_option("FILE", options->describe.file,
+                        "mesh, cut, stone, scene, job, material or picture");
+    command->add_flag("--materials", *materials, "list the catalogue of materials");
     command->add_option("--json", options->json, "write one object there (-: stdout)")
         ->type_name("FILE");
     command
@@ -104,7 +137,11 @@ void add_command_info(CLI::App& program, int& exit_code) {
         "Examples:\n"
         "  culet info design.asc\n"
         "  culet info hand.obj -v --json hand.json");
-    command->callback([options, &exit_code] { exit_code = info(*options); });
+    command->callback([options, materials, &exit_code] {
+        if (*materials) return list_materials();
+        if (options->describe.file.empty()) throw InputError("name a file, or use --materials");
+        exit_code = info(*options);
+    });
 }
 
 }  // namespace culet

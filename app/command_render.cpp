@@ -45,6 +45,8 @@ int run_render(const RenderOptions& options) {
     if (options.spectral && extension != ".exr") {
         throw InputError(options.out, "spectral planes need an .exr file");
     }
+    require_writable(options.out);
+    require_writable(options.stats);
     Scene scene = read_scene(options.scene, settings);
     scene.settings.threads = options.common.threads;
     scene.settings.seed = options.common.seed;
@@ -56,9 +58,6 @@ int run_render(const RenderOptions& options) {
     look.exposure = options.exposure;
     look.tone_map = options.tonemap == "reinhard" ? ToneMap::reinhard : ToneMap::none;
     const std::string stats = stats_json(result.stats);
-    if (!options.stats.empty() && options.stats != "-") {
-        OutputFile probe_writable(options.stats);  // refuses before the picture is written
-    }
     write_picture(result.picture, options.out, look,
                   {{"culet:scene", std::filesystem::path(options.scene).filename().string()},
                    {"culet:seed", std::to_string(options.common.seed)}});
@@ -90,7 +89,7 @@ void add_command_render(CLI::App& program, int& exit_code) {
         ->required()
         ->type_name("IMAGE");
     command
-        ->add_option("--stats", options->stats,
+        ->add_option("--stats,--json", options->stats,
                      "what was simulated, left out and how long it took (JSON; - is stdout)")
         ->type_name("STATS.json");
     command->add_option("--engine", options->engine, "auto or reference");

@@ -74,7 +74,8 @@ Photo photo_of(const Picture& picture) {
     return photo;
 }
 
-// A hand-made mesh has corners a little off their facets' planes: what its planes bound can be rendered.
+// A hand-made mesh has corners a little off their facets' planes: what its planes bound can be
+// rendered.
 Solid drawn_by_its_planes(const Solid& mesh) {
     std::vector<NamedPlane> planes;
     for (const Facet& facet : mesh.facets) planes.push_back({facet.name, facet.plane});
@@ -108,6 +109,10 @@ int run_job(const RunOptions& options) {
         throw InputError(folder, "is a file: -o names the folder for the results");
     }
 
+    fs::create_directories(folder, problem);
+    if (problem) throw InputError(folder, fmt::format("cannot be made: {}", problem.message()));
+    require_writable(folder / "report.html");
+
     const FitResult fit =
         fit_stone(file.stone, readings, fit_options, progress_line("fitting", quiet));
     say(fmt::format("fit: {}: {}", name_of(fit.status), fit.message), quiet);
@@ -135,8 +140,6 @@ int run_job(const RunOptions& options) {
             quiet);
     }
 
-    fs::create_directories(folder, problem);
-    if (problem) throw InputError(folder, fmt::format("cannot be made: {}", problem.message()));
     const std::string fit_text = fit_report(fit), stats_text = stats_json(rendered.stats);
     write_solid(fit.solid, folder / "fitted.obj");
     write_text(folder / "fit.json", fit_text);

@@ -59,6 +59,10 @@ void OutputFile::commit() {
     committed_ = true;
 }
 
+void require_writable(const fs::path& target) {
+    if (!target.empty() && target != "-") OutputFile attempt(target);
+}
+
 void write_text(const fs::path& target, std::string_view text) {
     if (target == "-") {
         if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||

@@ -25,6 +25,10 @@ private:
     bool committed_ = false;
 };
 
+/// Throws InputError when `target` could not be written; nothing for an empty name or `-`. Asked before long
+/// work, and before the first of several outputs, so that a failure leaves none of them.
+void require_writable(const std::filesystem::path& target);
+
 /// Writes `text` to `target` whole or not at all; `-` is stdout.
 void write_text(const std::filesystem::path& target, std::string_view text);
 
