@@ -150,9 +150,13 @@ std::string be32(std::uint32_t value) {
             static_cast<char>(value >> 8), static_cast<char>(value)};
 }
 
-// PNG specification 11.3.4.3: keyword, zero, Latin-1 text. OpenCV writes none.
+// PNG specification 11.3.4.3 and 11.3.4.5: keyword, zero, text in Latin-1; or, for text beyond
+// ASCII, without compression, language and translated keyword, in UTF-8. OpenCV writes none.
 std::string text_chunk(const std::string& key, const std::string& value) {
-    const std::string body = "tEXt" + key.substr(0, 79) + std::string(1, '\0') + value;
+    const bool ascii = std::all_of(value.begin(), value.end(),
+                                   [](char c) { return static_cast<unsigned char>(c) < 128; });
+    const std::string body =
+        (ascii ? "tEXt" : "iTXt") + key.substr(0, 79) + std::string(ascii ? 1 : 5, '\0') + value;
     return be32(static_cast<std::uint32_t>(body.size() - 4)) + body +
            be32(crc32(body.data(), body.size()));
 }

@@ -47,14 +47,16 @@ bool neutral(const LightColour& colour) {
     return std::holds_alternative<double>(colour.value);
 }
 
-// Distance along a ray to a sphere's outside, or infinity.
+// Distance along a ray to a sphere, or infinity; from inside, to the far side: a dome shines
+// inwards.
 double distance_to(const SphereLight& sphere, const Vec3& origin, const Vec3& direction) {
     const Vec3 to = sphere.center - origin;
     const double along = glm::dot(to, direction);
     const Vec3 beside = to - along * direction;
     const double half_squared = sphere.radius * sphere.radius - glm::dot(beside, beside);
     if (half_squared < 0) return std::numeric_limits<double>::infinity();
-    const double distance = along - std::sqrt(half_squared);
+    const double half = std::sqrt(half_squared);
+    const double distance = along - half > 0 ? along - half : along + half;
     return distance > 0 ? distance : std::numeric_limits<double>::infinity();
 }
 
@@ -142,7 +144,14 @@ LightField::LightField(const Lights& lights, const WavelengthSet& wavelengths) :
         r.neutral = false;
         float most = 0;
         for (float v : lights.environment->rgb) most = std::max(most, v);
-        far += most;
+        // A texel's spectrum is at most its brightest channel times the primaries above 0.
+        double gain = 0;
+        for (int i = 0; i < r.nodes; ++i) {
+            double sum = 0;
+            for (const auto& primary : r.primaries) sum += std::max(primary[i], 0.0);
+            gain = std::max(gain, sum);
+        }
+        far += most * gain;
     }
     r.brightest = std::max(far, near);
 }

@@ -56,6 +56,7 @@ struct EnvironmentMap {
     Rgb at(const Vec3& direction) const;
 };
 
+/// Shines outwards, and inwards on what stands inside it (a dome).
 struct SphereLight {
     Vec3 center;
     double radius = 1;
@@ -76,8 +77,8 @@ struct CapLight {
     double from = 0, to = 0.0047;
     LightColour radiance;
 };
-/// Emits on the side of its normal. `u`, `v` empty: infinite; else the half-extents as vectors in
-/// it.
+/// Emits on the side of its normal; from the other side it is not there. `u`, `v` empty: infinite;
+/// else the half-extents as vectors in it.
 struct PlaneLight {
     Vec3 point, normal;
     std::optional<Vec3> u, v;

@@ -174,6 +174,19 @@ TEST_F(PictureFormats, every_pixel_that_is_no_number_is_written_as_a_colour) {
     for (float v : read_picture(folder_ / "a.hdr").picture.rgb) EXPECT_TRUE(std::isfinite(v));
 }
 
+TEST_F(PictureFormats, text_beyond_ascii_is_stored_as_utf8) {
+    Picture picture;
+    picture.width = picture.height = 1;
+    picture.rgb = {0, 0, 0};
+    write_picture(picture, folder_ / "a.png", {}, {{"culet:scene", "gr\u00fcn.toml"}});
+    std::ifstream stream(folder_ / "a.png", std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+    EXPECT_NE(bytes.find(std::string("iTXtculet:scene\0\0\0\0\0gr\u00fcn.toml", 30)),
+              std::string::npos);
+    // Reading checks the checksums of all chunks, ours among them.
+    EXPECT_EQ(read_picture(folder_ / "a.png").picture.width, 1);
+}
+
 TEST_F(PictureFormats, the_same_picture_gives_the_same_bytes) {
     Picture picture;
     picture.width = 5;

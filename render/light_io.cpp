@@ -1,0 +1,222 @@
+#include "render/light_io.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "render/image_io.h"
+#include "render/light_presets.h"
+#include "stone/errors.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+// Directions typed with a few digits: a plane's half-extents lie in it to within this sine.
+constexpr double k_in_plane = 0.01;
+
+Vec3 direction_in(const TomlTable& table, const char* key) {
+    const auto value = table.vector(key);
+    if (!value) table.fail("", fmt::format("{} is missing", key));
+    const double length = glm::length(*value);
+    if (!(length > 0) || !std::isfinite(length))
+        table.fail(key, fmt::format("{} must not be the zero vector", key));
+    return *value / length;
+}
+
+Vec3 point_in(const TomlTable& table, const char* key) {
+    const auto value = table.vector(key);
+    if (!value) table.fail("", fmt::format("{} is missing", key));
+    return *value;
+}
+
+double positive_in(const TomlTable& table, const char* key) {
+    const auto value = table.number(key);
+    if (!value) table.fail("", fmt::format("{} is missing", key));
+    if (!(*value > 0)) table.fail(key, fmt::format("{} must be positive, found {}", key, *value));
+    return *value;
+}
+
+LightColour radiance_in(const TomlTable& table) {
+    switch (table.kind("radiance")) {
+        case TomlTable::Kind::missing:
+            return {1.0};
+        case TomlTable::Kind::number: {
+            const double value = *table.number("radiance");
+            if (value < 0)
+                table.fail("radiance",
+                           fmt::format("radiance must not be negative, found {}", value));
+            return {value};
+        }
+        case TomlTable::Kind::list: {
+            const auto list = *table.numbers("radiance");
+            if (list.size() != 3)
+                table.fail("radiance",
+                           fmt::format("a colour has three numbers, found {}", list.size()));
+            for (double v : list) {
+                if (v < 0)
+                    table.fail("radiance",
+                               fmt::format("radiance must not be negative, found {}", v));
+            }
+            return {Rgb{list[0], list[1], list[2]}};
+        }
+        case TomlTable::Kind::text: {
+            const std::string name = *table.text("radiance");
+            if (illuminant(name.c_str()) == nullptr) {
+                table.fail("radiance", fmt::format("no spectrum \"{}\"; known: D65, A", name));
+            }
+            return {name};
+        }
+        default:
+            table.fail("radiance",
+                       "radiance is a number, [r, g, b], or a spectrum by name (D65, A)");
+    }
+}
+
+std::shared_ptr<const EnvironmentMap> read_environment(const TomlTable& table,
+                                                       std::vector<std::string>& notes) {
+    const auto path = *table.path("environment");
+    ReadPicture read = [&] {
+        try {
+            return read_picture(path);
+        } catch (const InputError& error) {
+            table.fail("environment", error.what());
+        }
+    }();
+    auto map = std::make_shared<EnvironmentMap>();
+    map->width = read.picture.width;
+    map->height = read.picture.height;
+    map->rgb = std::move(read.picture.rgb);
+    const auto shaped = [&](int across, int down) {
+        return map->width * static_cast<long long>(down) ==
+               map->height * static_cast<long long>(across);
+    };
+    if (shaped(6, 1) || shaped(1, 6) || shaped(4, 3) || shaped(3, 4)) {
+        table.fail("environment",
+                   fmt::format("{} is {} x {} pixels, a cube map by its shape; these are not read "
+                               "yet: convert it to a lat-long map, twice as wide as high",
+                               path.filename().string(), map->width, map->height));
+    }
+    if (!shaped(2, 1)) {
+        table.fail("environment",
+                   fmt::format("{} is {} x {} pixels; a lat-long map is twice as wide as high",
+                               path.filename().string(), map->width, map->height));
+    }
+    if (read.was_encoded) {
+        notes.push_back(fmt::format(
+            "{}: lights brighter than white are missing in a picture of 8 or 16 bits; an EXR or "
+            "HDR map holds them",
+            path.filename().string()));
+    }
+    std::size_t negative = 0;
+    for (std::size_t i = 0; i < map->rgb.size(); ++i) {
+        if (!std::isfinite(map->rgb[i])) {
+            const std::size_t pixel = i / 3;
+            table.fail("environment", fmt::format("{} holds {} at pixel {},{}: repair the map",
+                                                  path.filename().string(), map->rgb[i],
+                                                  pixel % static_cast<std::size_t>(map->width),
+                                                  pixel / static_cast<std::size_t>(map->width)));
+        }
+        if (map->rgb[i] < 0) {
+            map->rgb[i] = 0;
+            ++negative;
+        }
+    }
+    if (negative > 0) {
+        notes.push_back(
+            fmt::format("{}: {} negative values were taken as 0", path.string(), negative));
+    }
+    return map;
+}
+
+}  // namespace
+
+Lights lights_of(const TomlTable& table, double stone_diameter, std::vector<std::string>& notes) {
+    table.refuse_unknown(
+        {"environment", "constant", "preset", "sphere", "lobe", "hemisphere", "cap", "plane"});
+    Lights lights;
+    if (const auto preset = table.text("preset")) {
+        const auto known = light_preset(*preset, stone_diameter);
+        if (!known) {
+            table.fail(
+                "preset",
+                fmt::format("no light \"{}\"; known: aset, hearts, arrows, lightbox, daylight",
+                            *preset));
+        }
+        lights = *known;
+    }
+    if (table.has("environment")) {
+        if (table.has("constant"))
+            table.fail("constant", "give an environment or a constant, not both");
+        lights.environment = read_environment(table, notes);
+    }
+    if (const auto constant = table.number("constant")) {
+        if (*constant < 0)
+            table.fail("constant",
+                       fmt::format("constant must not be negative, found {}", *constant));
+        lights.constant = *constant;
+    }
+    for (const TomlTable& t : table.tables("sphere")) {
+        t.refuse_unknown({"center", "radius", "radiance"});
+        lights.spheres.push_back({point_in(t, "center"), positive_in(t, "radius"), radiance_in(t)});
+    }
+    for (const TomlTable& t : table.tables("lobe")) {
+        t.refuse_unknown({"direction", "exponent", "radiance"});
+        const double exponent = t.number("exponent").value_or(1);
+        if (exponent < 0)
+            t.fail("exponent", fmt::format("exponent must not be negative, found {}", exponent));
+        lights.lobes.push_back({direction_in(t, "direction"), exponent, radiance_in(t)});
+    }
+    for (const TomlTable& t : table.tables("hemisphere")) {
+        t.refuse_unknown({"direction", "radiance"});
+        lights.hemispheres.push_back({direction_in(t, "direction"), radiance_in(t)});
+    }
+    for (const TomlTable& t : table.tables("cap")) {
+        t.refuse_unknown({"direction", "half_angle", "from", "to", "radiance"});
+        if (t.has("half_angle") == t.has("to"))
+            t.fail("", "a cap needs half_angle, or a band from .. to, in degrees");
+        const double from = t.number("from").value_or(0);
+        const double to = t.has("to") ? *t.number("to") : *t.number("half_angle");
+        if (!(from >= 0 && from < to && to <= 180)) {
+            t.fail(t.has("to") ? "to" : "half_angle",
+                   fmt::format("a cap's angles are 0 <= from < to <= 180 degrees, found {} to {}",
+                               from, to));
+        }
+        lights.caps.push_back(
+            {direction_in(t, "direction"), radians(from), radians(to), radiance_in(t)});
+    }
+    for (const TomlTable& t : table.tables("plane")) {
+        t.refuse_unknown({"point", "normal", "u", "v", "radiance"});
+        PlaneLight plane;
+        plane.point = point_in(t, "point");
+        plane.normal = direction_in(t, "normal");
+        plane.u = t.vector("u");
+        plane.v = t.vector("v");
+        plane.radiance = radiance_in(t);
+        if (plane.u.has_value() != plane.v.has_value())
+            t.fail("", "a plane has both half-extents u and v, or none");
+        if (plane.u && !(glm::length(glm::cross(*plane.u, *plane.v)) >
+                         1e-12 * glm::length(*plane.u) * glm::length(*plane.v))) {
+            t.fail("u", "u and v must span the plane");
+        }
+        for (auto [key, extent] : {std::pair{"u", &plane.u}, std::pair{"v", &plane.v}}) {
+            if (!*extent) continue;
+            const double out = glm::dot(**extent, plane.normal);
+            if (std::abs(out) > k_in_plane * glm::length(**extent)) {
+                t.fail(key,
+                       fmt::format("{} must lie in the plane, at right angles to its normal", key));
+            }
+            **extent -= out * plane.normal;
+        }
+        lights.planes.push_back(plane);
+    }
+    const bool dark = !lights.environment && lights.constant == 0 && lights.spheres.empty() &&
+                      lights.lobes.empty() && lights.hemispheres.empty() && lights.caps.empty() &&
+                      lights.planes.empty();
+    if (dark && !table.has("constant")) table.fail("", "the scene is dark: [light] names no light");
+    return lights;
+}
+
+}  // namespace culet

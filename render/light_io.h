@@ -1,0 +1,16 @@
+#pragma once
+// The [light] table of a scene file, see the contract's "Scenes".
+
+#include <string>
+#include <vector>
+
+#include "render/scene.h"
+#include "stone/toml_file.h"
+
+namespace culet {
+
+/// Presets are sized by the stone's diameter. `notes` receives what was repaired or is doubtful.
+/// Throws InputError with file and line.
+Lights lights_of(const TomlTable& table, double stone_diameter, std::vector<std::string>& notes);
+
+}  // namespace culet

@@ -1,0 +1,245 @@
+// What a scene file may say about its stone and its lights. Expectations: the contract's "Scenes",
+// closed forms of where a light is seen.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "render/image_io.h"
+#include "render/light_presets.h"
+#include "render/scene_io.h"
+#include "stone/errors.h"
+
+namespace {
+
+using namespace culet;
+namespace fs = std::filesystem;
+
+const char* const k_tetrahedron =
+    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+class SceneStones : public testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = fs::path(testing::TempDir()) /
+                  ("culet_scene_stones_" +
+                   std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+        fs::create_directories(folder_);
+        write("mesh.obj", k_tetrahedron);
+        write("stone.toml",
+              "[stone]\nname = \"Red\"\nmesh = \"mesh.obj\"\nunit = \"cm\"\n"
+              "material = \"corundum\"\noptic_axis = [1, 0, 0]\n");
+    }
+    void TearDown() override { fs::remove_all(folder_); }
+    void write(const char* name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+    }
+    Scene read(const std::string& text) const {
+        write("scene.toml", text);
+        return read_scene(folder_ / "scene.toml");
+    }
+    std::string refusal(const std::string& text) const {
+        try {
+            read(text);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    }
+    Picture map(int width, int height, float value) const {
+        Picture picture;
+        picture.width = width;
+        picture.height = height;
+        picture.rgb.assign(3 * picture.pixels(), value);
+        return picture;
+    }
+    fs::path folder_;
+};
+
+const std::string k_light = "[light]\nconstant = 1\n";
+
+TEST_F(SceneStones, a_stone_file_brings_its_material_axis_and_unit) {
+    const Stone stone = read("stone = \"stone.toml\"\n" + k_light).stone;
+    EXPECT_EQ(stone.name, "Red");
+    EXPECT_EQ(stone.material.id, "corundum");
+    EXPECT_EQ(stone.unit, LengthUnit::cm);
+    EXPECT_EQ(stone.crystal.axes[0], (Vec3{1, 0, 0}));
+}
+
+TEST_F(SceneStones, the_scene_may_show_the_same_stone_in_another_material) {
+    const Stone named =
+        read("stone = \"stone.toml\"\nmaterial = \"diamond\"\nname = \"White\"\n" + k_light).stone;
+    EXPECT_EQ(named.material.id, "diamond");
+    EXPECT_EQ(named.name, "White");
+    EXPECT_EQ(named.unit, LengthUnit::cm);
+    const Stone own = read("stone = \"stone.toml\"\n" + k_light +
+                           "[material]\noptic = \"isotropic\"\nindex = 1.75\n")
+                          .stone;
+    EXPECT_EQ(own.material.index[0].at(550), 1.75);
+    const Stone turned = read("stone = \"stone.toml\"\noptic_axis = [0, 3, 0]\n" + k_light).stone;
+    EXPECT_EQ(turned.crystal.axes[0], (Vec3{0, 1, 0}));
+    EXPECT_EQ(turned.material.id, "corundum");
+}
+
+TEST_F(SceneStones, a_mesh_takes_a_material_table_unit_and_name) {
+    const Stone stone = read("mesh = \"mesh.obj\"\nunit = \"in\"\nname = \"Own\"\n" + k_light +
+                             "[material]\noptic = \"isotropic\"\nindex = 1.5\n")
+                            .stone;
+    EXPECT_EQ(stone.name, "Own");
+    EXPECT_EQ(stone.unit, LengthUnit::inch);
+    EXPECT_EQ(stone.material.index[0].at(550), 1.5);
+}
+
+TEST_F(SceneStones, keys_that_would_be_ignored_are_refused) {
+    EXPECT_NE(refusal("stone = \"stone.toml\"\nunit = \"mm\"\n" + k_light).find(":2:"),
+              std::string::npos);
+    EXPECT_NE(refusal("stone = \"stone.toml\"\nconvex = false\n" + k_light).find(":2:"),
+              std::string::npos);
+    EXPECT_NE(refusal("stone = \"stone.toml\"\nmesh = \"mesh.obj\"\n" + k_light), "");
+}
+
+TEST_F(SceneStones, notes_of_the_mesh_reach_the_reader) {
+    std::string inside_out = k_tetrahedron;  // turn every face
+    for (const auto& [from, to] :
+         {std::pair{"f 1 3 2", "f 1 2 3"}, std::pair{"f 1 2 4", "f 1 4 2"},
+          std::pair{"f 1 4 3", "f 1 3 4"}, std::pair{"f 2 3 4", "f 2 4 3"}})
+        inside_out.replace(inside_out.find(from), 7, to);
+    write("mesh.obj", inside_out);
+    const std::size_t from_mesh = read_solid(folder_ / "mesh.obj").notes.size();
+    EXPECT_EQ(read("mesh = \"mesh.obj\"\nmaterial = \"diamond\"\n" + k_light).notes.size(),
+              from_mesh);
+    EXPECT_EQ(read("stone = \"stone.toml\"\n" + k_light).notes.size(), from_mesh);
+}
+
+TEST_F(SceneStones, too_much_is_refused_before_it_is_begun) {
+    const std::string head = "stone = \"stone.toml\"\n" + k_light;
+    EXPECT_NE(refusal(head + "[camera]\nsize = [32768, 32768]\n").find("2^28"), std::string::npos);
+    std::string list = "[render]\nwavelengths = [300";
+    for (int i = 1; i <= 1000; ++i) list += ", " + std::to_string(300 + i);
+    EXPECT_NE(refusal(head + list + "]\n").find("1001"), std::string::npos);
+    EXPECT_NE(refusal(head + "[render]\nengine = \"referense\"\n").find("\"reference\""),
+              std::string::npos);
+}
+
+TEST_F(SceneStones, environments_of_every_kind) {
+    const std::string scene = "stone = \"stone.toml\"\n[light]\nenvironment = \"map.exr\"\n";
+    write_picture(map(8, 4, 0.5f), folder_ / "map.exr");
+    EXPECT_EQ(read(scene).lights.environment->width, 8);
+
+    Picture bad = map(8, 4, 0.5f);
+    bad.rgb[3 * (2 * 8 + 5) + 1] = std::numeric_limits<float>::infinity();
+    write_picture(bad, folder_ / "map.exr");
+    EXPECT_NE(refusal(scene).find("5,2"), std::string::npos) << "names the pixel";
+    EXPECT_NE(refusal(scene).find(":3:"), std::string::npos);
+
+    Picture negative = map(8, 4, 0.5f);
+    negative.rgb[7] = -1;
+    write_picture(negative, folder_ / "map.exr");
+    const Scene clamped = read(scene);
+    EXPECT_EQ(clamped.lights.environment->rgb[7], 0.0f);
+    ASSERT_EQ(clamped.notes.size(), 1u);
+
+    write_picture(map(6, 1, 1.0f), folder_ / "map.exr");
+    EXPECT_NE(refusal(scene).find("cube map"), std::string::npos);
+    write_picture(map(7, 4, 1.0f), folder_ / "map.exr");
+    EXPECT_NE(refusal(scene).find("twice as wide"), std::string::npos);
+
+    write_picture(map(8, 4, 1.0f), folder_ / "map.png");
+    const Scene encoded = read("stone = \"stone.toml\"\n[light]\nenvironment = \"map.png\"\n");
+    EXPECT_EQ(encoded.notes.size(), 1u) << "a picture of 8 bits holds no bright lights";
+}
+
+TEST_F(SceneStones, half_extents_lie_in_their_plane) {
+    const std::string head = "stone = \"stone.toml\"\n" + k_light +
+                             "[[light.plane]]\npoint = [0, 0, 9]\nnormal = [0, 0, -1]\n";
+    EXPECT_NE(refusal(head + "u = [1, 0, 1]\nv = [0, 1, 0]\n").find(":7:"), std::string::npos);
+    EXPECT_NE(refusal(head + "u = [1, 0, 0]\nv = [2, 0, 0]\n").find("span"), std::string::npos);
+    EXPECT_NE(refusal(head + "u = [1, 0, 0]\n").find("both"), std::string::npos);
+    const Lights lights = read(head + "u = [2, 0, 0.001]\nv = [0, 1, 0]\n").lights;
+    EXPECT_EQ(*lights.planes[0].u, (Vec3{2, 0, 0}));
+}
+
+TEST(Lights, a_dome_shines_on_what_stands_inside) {
+    Lights lights;
+    lights.constant = 0.1;
+    lights.spheres.push_back({{0, 0, 0}, 10, {2.0}});
+    lights.spheres.push_back({{0, 0, 5}, 1, {3.0}});
+    const LightField field(lights, WavelengthSet({550}));
+    const auto seen = [&](const Vec3& origin, const Vec3& direction) {
+        double radiance = 0;
+        field.add_radiance(origin, direction, 1, 0, 1, &radiance);
+        return radiance;
+    };
+    EXPECT_EQ(seen({0, 0, 0}, {1, 0, 0}), 2);
+    EXPECT_EQ(seen({0, 0, 0}, {0, 0, 1}), 3) << "the lamp inside the dome is nearer";
+    EXPECT_EQ(seen({0, 0, 20}, {0, 0, -1}), 2) << "from outside, the dome is a ball";
+    EXPECT_EQ(seen({0, 0, 20}, {0, 0, 1}), 0.1) << "behind the eye";
+    EXPECT_EQ(field.name_at({0, 0, 0}, {0, 0, 1}), "sphere 1");
+}
+
+TEST(Lights, no_ray_is_brighter_than_the_bound) {
+    // Fixed directions over the sphere; coloured lights and few nodes, whose spectra exceed 1.
+    auto map = std::make_shared<EnvironmentMap>();
+    map->width = 8;
+    map->height = 4;
+    for (int i = 0; i < 96; ++i) map->rgb.push_back(static_cast<float>((i * 37) % 19) / 19.0f);
+    Lights lights;
+    lights.environment = map;
+    lights.lobes.push_back({{0, 0, 1}, 2, {Rgb{1, 0, 0.2}}});
+    lights.hemispheres.push_back({{1, 0, 0}, {std::string("A")}});
+    for (const int count : {1, 2, 3, 5, 15}) {
+        std::vector<double> nm;
+        for (int i = 0; i < count; ++i) nm.push_back(430 + 60.0 * i / std::max(1, count - 1) * 4);
+        const LightField field(lights, WavelengthSet(nm));
+        for (int k = 0; k < 500; ++k) {
+            const double z = -1 + 2 * (k + 0.5) / 500, a = 2.399963 * k, r = std::sqrt(1 - z * z);
+            std::vector<double> radiance(nm.size(), 0.0);
+            field.add_radiance({0, 0, 0}, {r * std::cos(a), r * std::sin(a), z}, 1, 0, count,
+                               radiance.data());
+            for (double v : radiance) ASSERT_LE(v, field.max_radiance() * (1 + 1e-12)) << count;
+        }
+    }
+}
+
+TEST(Lights, aset_has_the_zones_of_the_ags) {
+    // AGS Laboratories, Angular Spectrum Evaluation Tool: by elevation, green to 45 degrees, red to
+    // 75, blue above.
+    const LightField field(*light_preset("aset", 1), WavelengthSet({450, 540, 620}));
+    const auto name = [&](double elevation_deg) {
+        return field.name_at(
+            {0, 0, 0}, {std::cos(radians(elevation_deg)), 0, std::sin(radians(elevation_deg))});
+    };
+    EXPECT_EQ(name(90), "cap 0");
+    EXPECT_EQ(name(75.1), "cap 0");
+    EXPECT_EQ(name(74.9), "cap 1");
+    EXPECT_EQ(name(45.1), "cap 1");
+    EXPECT_EQ(name(44.9), "cap 2");
+    EXPECT_EQ(name(0.1), "cap 2");
+    EXPECT_EQ(name(-0.1), "dark");
+    for (const char* preset : {"hearts", "arrows", "lightbox", "daylight"})
+        EXPECT_TRUE(light_preset(preset, 1).has_value()) << preset;
+    EXPECT_FALSE(light_preset("disco", 1).has_value());
+}
+
+TEST(Environment, a_bright_texel_is_seen_where_the_contract_puts_it) {
+    // One texel of an asymmetric map: column 6 of 8, row 1 of 4. Its middle lies at 6.5/8 of the
+    // width, 5/16 of a turn right of +x, azimuth -112.5 degrees, and 3/8 of the way down, 67.5
+    // degrees from +z.
+    EnvironmentMap map;
+    map.width = 8;
+    map.height = 4;
+    map.rgb.assign(96, 0.0f);
+    map.rgb[3 * (8 + 6)] = 1;
+    const double azimuth = radians(-112.5), polar = radians(67.5);
+    const Vec3 centre{std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
+                      std::cos(polar)};
+    EXPECT_NEAR(map.at(centre)[0], 1, 1e-12);
+    EXPECT_NEAR(map.at({centre.x, -centre.y, centre.z})[0], 0, 1e-12) << "not its mirror image";
+    EXPECT_NEAR(map.at({centre.x, centre.y, -centre.z})[0], 0, 1e-12);
+}
+
+}  // namespace
