@@ -133,6 +133,7 @@ void add_command_cut(CLI::App& program, int& exit_code) {
     auto unknown = std::make_shared<std::vector<std::string>>();
     command->add_flag("--list", *list, "the cuts, their parameters, defaults and ranges");
     command->require_subcommand(0, 1);
+    command->allow_extras();  // of a cut that does not exist: its name is answered first
     // A word that is no cut is answered with the nearest cut.
     command->add_option("name", *unknown, "round-brilliant, step (emerald), princess, oval, ...")
         ->type_name("NAME");
@@ -176,6 +177,8 @@ void add_command_cut(CLI::App& program, int& exit_code) {
         if (*list) return list_cuts();
         if (unknown->empty()) throw InputError("name a cut; culet cut --list shows them");
         cut_kind(unknown->front());  // throws with the nearest name
+        throw InputError(
+            fmt::format("write the cut before its options: culet cut {} ...", unknown->front()));
     });
 }
 

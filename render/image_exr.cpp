@@ -119,10 +119,44 @@ std::string names_of(const Imf::ChannelList& channels) {
     return names.empty() ? "none" : names;
 }
 
+// The library allocates what an attribute claims before it reads it: the claims of all headers are
+// held against the file first (OpenEXR file layout: name, type, size, value; an empty name ends a
+// header, and in a file of parts an empty header ends them).
+void check_attributes(const std::string& bytes, const std::filesystem::path& file) {
+    constexpr unsigned k_multi_part = 0x10, k_deep = 0x08;  // bits 12 and 11 of the version field
+    const InputError cut_off(file, "is an EXR whose header is cut off");
+    if (bytes.size() < 9) throw cut_off;
+    const auto flags = static_cast<unsigned char>(bytes[5]);
+    if ((flags & k_deep) != 0)
+        throw InputError(file, "is a deep EXR, which is not read here: flatten it");
+    std::size_t at = 8;
+    for (bool first = true;; first = false) {
+        const std::size_t start = at;
+        while (at < bytes.size() && bytes[at] != 0) {
+            for (int text = 0; text < 2; ++text) {
+                at = bytes.find('\0', at);
+                if (at == std::string::npos) throw cut_off;
+                ++at;
+            }
+            if (bytes.size() - at < 4) throw cut_off;
+            std::uint32_t size = 0;
+            for (std::size_t i = 4; i-- > 0;)
+                size = size << 8 | static_cast<unsigned char>(bytes[at + i]);
+            at += 4;
+            if (size > bytes.size() - at) throw cut_off;
+            at += size;
+        }
+        if (at >= bytes.size()) throw cut_off;
+        ++at;
+        if ((flags & k_multi_part) == 0 || (!first && at == start + 1)) return;
+    }
+}
+
 }  // namespace
 
 Picture read_exr(const std::string& bytes, const std::filesystem::path& file, bool& had_alpha) {
     try {
+        check_attributes(bytes, file);
         {
             MemoryStream stream(bytes, file.c_str());
             Imf::Header header;

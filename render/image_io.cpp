@@ -1,11 +1,14 @@
 #include "render/image_io.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <opencv2/core.hpp>
@@ -25,6 +28,30 @@ namespace {
 constexpr double k_most_pixels = 268435456.0;  // 2^28
 constexpr double k_tightest = 20000;           // pixels a byte, more than any codec packs
 constexpr std::size_t k_most_bytes = std::size_t{1} << 30;
+
+// The decoders under OpenCV complain on stderr by themselves; the one line that the user gets is
+// ours. Nothing else of culet writes while a picture is read.
+class SilentStderr {
+public:
+    SilentStderr() {
+        std::fflush(stderr);
+        kept_ = ::dup(STDERR_FILENO);
+        const int nowhere = ::open("/dev/null", O_WRONLY);
+        if (kept_ >= 0 && nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
+        if (nowhere >= 0) ::close(nowhere);
+    }
+    ~SilentStderr() {
+        std::fflush(stderr);
+        if (kept_ < 0) return;
+        ::dup2(kept_, STDERR_FILENO);
+        ::close(kept_);
+    }
+    SilentStderr(const SilentStderr&) = delete;
+    SilentStderr& operator=(const SilentStderr&) = delete;
+
+private:
+    int kept_ = -1;
+};
 
 void silence_opencv() {
     static const auto once = cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
@@ -213,11 +240,14 @@ ReadPicture read_picture(const std::filesystem::path& file) {
     const PictureHeader header = picture_header(bytes);
     if (header.format == "EXR") {
         result.picture = read_exr(bytes, file, result.had_alpha);
+        result.encoding = "linear EXR";
         return result;
     }
-    if (header.format.empty() || header.format == "PFM") {
-        throw InputError(file,
-                         "is no picture that can be read: expected EXR, HDR, PNG, JPEG or TIFF");
+    if (header.format.empty()) {
+        throw InputError(
+            file,
+            "is no picture that can be read here: EXR, HDR, PFM, PNG, JPEG and TIFF are (raw "
+            "files: convert them to 16-bit TIFF first)");
     }
     check_size(header, bytes.size(), file);
     if (header.format == "PNG") require_whole_png(bytes, file);
@@ -229,6 +259,7 @@ ReadPicture read_picture(const std::filesystem::path& file) {
     try {
         const cv::Mat data(1, static_cast<int>(bytes.size()), CV_8U,
                            const_cast<char*>(bytes.data()));
+        const SilentStderr silent;
         image = cv::imdecode(data, mode);
     } catch (const std::exception&) {
         image.release();
@@ -252,6 +283,9 @@ ReadPicture read_picture(const std::filesystem::path& file) {
     if (result.had_alpha) result.picture.coverage.resize(result.picture.pixels());
     result.was_encoded = image.depth() == CV_8U || image.depth() == CV_16U;
     result.white = result.was_encoded ? 1.0f : 0.0f;
+    result.encoding = image.depth() == CV_8U    ? "8-bit sRGB"
+                      : image.depth() == CV_16U ? "16-bit sRGB"
+                                                : "linear " + header.format;
     switch (image.depth()) {
         case CV_8U:
             take_pixels<unsigned char>(image, result.picture, 255, true);

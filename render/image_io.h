@@ -13,10 +13,11 @@ struct ReadPicture {
     Picture picture;           ///< linear; 8- and 16-bit files are decoded from sRGB
     bool was_encoded = false;  ///< true: the file held sRGB values (8 or 16 bit)
     bool had_alpha = false;    ///< alpha (EXR, PNG) is in picture.coverage
+    std::string encoding;      ///< for the record: "8-bit sRGB", "16-bit sRGB", "linear EXR", ...
     float white = 0;  ///< linear value at which the file saturates (1 when encoded); 0: none
 };
 
-/// By content: EXR, HDR, PNG, JPEG, TIFF. JPEGs are turned upright as their EXIF tag says; colour
+/// By content: EXR, HDR, PFM, PNG, JPEG, TIFF. JPEGs are turned upright as their EXIF tag says; colour
 /// profiles are not applied. Throws InputError: missing, a folder, empty, no picture, cut off,
 /// damaged, absurd size (over 2^28 pixels, or more than a file of its length can hold).
 ReadPicture read_picture(const std::filesystem::path& file);

@@ -45,8 +45,8 @@ std::vector<CutParameter> brilliant_parameters(std::vector<CutParameter> first, 
     return first;
 }
 
-CutParameter length_width(double ratio) {
-    return {"ratio", ratio, 1, 3, "", "length over width"};
+CutParameter length_width(double ratio, double least = 1) {
+    return {"ratio", ratio, least, 3, "", "length over width"};
 }
 CutParameter width_parameter() {
     return {"width", 5, 1e-3, 1e4, "mm", "width, along y"};
@@ -187,18 +187,16 @@ const std::vector<Recipe>& recipes() {
                               p);
          }},
         {{"marquise", "two arcs that meet in points",
-          brilliant_parameters({width_parameter(), length_width(2)}, 57, 35, 41, 35, 77)},
+          brilliant_parameters({width_parameter(), length_width(2, 1.05)}, 57, 35, 41, 35, 77)},
          [](const Values& v) {
              const double w = v.at("width");
-             return brilliant(marquise_outline(w * std::max(v.at("ratio"), 1.02), w),
-                              proportions_of(v, w));
+             return brilliant(marquise_outline(w * v.at("ratio"), w), proportions_of(v, w));
          }},
         {{"pear", "a half circle and a point",
-          brilliant_parameters({width_parameter(), length_width(1.5)}, 57, 35, 41, 35, 77)},
+          brilliant_parameters({width_parameter(), length_width(1.5, 1.05)}, 57, 35, 41, 35, 77)},
          [](const Values& v) {
              const double w = v.at("width");
-             return brilliant(pear_outline(w * std::max(v.at("ratio"), 1.05), w),
-                              proportions_of(v, w));
+             return brilliant(pear_outline(w * v.at("ratio"), w), proportions_of(v, w));
          }},
         {{"trillion", "a triangle with curved sides, six mains",
           brilliant_parameters(
