@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "app/options.h"
+#include "app/terminal.h"
 #include "render/probe.h"
 #include "render/scene_io.h"
 #include "stone/errors.h"
@@ -63,7 +64,9 @@ int run_probe(const ProbeOptions& options) {
         throw InputError("probe needs one of --pixel X,Y and --ray OX,OY,OZ,DX,DY,DZ");
     }
     Scene scene = read_scene(options.scene, options.common.set);
-    const ProbeResult result = probe(scene, ray_of(options, scene));
+    scene.settings.seed = options.common.seed;
+    const ProbeResult result =
+        probe(scene, ray_of(options, scene), progress_line("probing", options.common.quiet));
     if (!options.json.empty()) {
         write_text(options.json, probe_json(result));
         if (options.json == "-") return exit_good;

@@ -54,6 +54,7 @@ int run_render(const RenderOptions& options) {
     for (const std::string& note : scene.notes) say(note, options.common.quiet);
 
     const RenderResult result = render(scene, progress_line("rendering", options.common.quiet));
+    for (const std::string& note : result.stats.notes) say(note, options.common.quiet);
     PngLook look;
     look.exposure = options.exposure;
     look.tone_map = options.tonemap == "reinhard" ? ToneMap::reinhard : ToneMap::none;

@@ -74,14 +74,6 @@ Photo photo_of(const Picture& picture) {
     return photo;
 }
 
-// A hand-made mesh has corners a little off their facets' planes: what its planes bound can be
-// rendered.
-Solid drawn_by_its_planes(const Solid& mesh) {
-    std::vector<NamedPlane> planes;
-    for (const Facet& facet : mesh.facets) planes.push_back({facet.name, facet.plane});
-    return intersect_half_spaces(planes).solid;
-}
-
 int run_job(const RunOptions& options) {
     const bool quiet = options.common.quiet;
     const Job job = read_job(options.job, options.common.set);
@@ -120,10 +112,11 @@ int run_job(const RunOptions& options) {
     scene.stone.solid = fit.solid;
     for (const std::string& note : scene.notes) say(note, quiet);
     const RenderResult rendered = render(scene, progress_line("rendering", quiet));
+    for (const std::string& note : rendered.stats.notes) say(note, quiet);
     std::optional<RenderResult> started;
     if (job.start) {
         Scene before = scene;
-        before.stone.solid = drawn_by_its_planes(file.stone.solid);
+        before.stone.solid = file.stone.solid;
         started = render(before, progress_line("rendering the starting mesh", quiet));
     }
     say(fmt::format("render: {} x {} pixels in {:.1f} s, error bound {:.2g} of the mean",

@@ -4,6 +4,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "stone/errors.h"
+
 namespace culet {
 
 ConvexBody::ConvexBody(const Solid& solid) {
@@ -62,6 +64,7 @@ BodyHit ConvexBody::exit(const Vec3& origin, const Vec3& direction) const {
             }
         }
     }
+    check(hit.facet >= 0, "a ray inside the stone met no facet");
     hit.distance = best;
     return hit;
 }

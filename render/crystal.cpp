@@ -188,6 +188,12 @@ CrystalEntry enter_crystal(const UniaxialCrystal& crystal, double n_outside, con
         const Complex H1_reflected = t[0] * m[0].H1 + t[1] * m[1].H1 - H1;
         const double reflected = q * (std::norm(E1_reflected) + std::norm(H1_reflected) / e) / flux;
         sum += reflected;
+        entry.imbalance = std::max(entry.imbalance, std::abs(sum - 1));
+        if (!(sum > 0) || !std::isfinite(sum)) {  // grazing to the last digit: nothing enters
+            entry.reflected[incident] = 1;
+            entry.power[incident] = {0, 0};
+            continue;
+        }
         entry.reflected[incident] = reflected / sum;
         for (double& power : entry.power[incident]) power /= sum;
     }
@@ -228,7 +234,8 @@ CrystalHit hit_face(const UniaxialCrystal& crystal, double n_outside, const Crys
         sum += hit.transmitted;
         hit.exit_direction = glm::normalize(K + q.real() * n_out);
     }
-    hit.imbalance = std::abs(sum - 1);
+    // A ray in the face itself carries nothing across it: no balance to speak of.
+    hit.imbalance = std::isfinite(sum) ? std::abs(sum - 1) : 0;
     if (sum > 0 && std::isfinite(sum)) {
         for (double& power : hit.power) power /= sum;
         hit.transmitted /= sum;

@@ -46,6 +46,7 @@ struct CrystalEntry {
     std::array<CrystalMode, 2> modes;
     std::array<std::array<double, 2>, 2> power{};  ///< [incident s, p][mode]
     std::array<double, 2> reflected{};             ///< [incident s, p]
+    double imbalance = 0;  ///< |sum - 1| before the powers were renormalised
 };
 /// `n_into`: unit normal that points into the crystal; K: tangential wave vector, |K| <= n_outside.
 CrystalEntry enter_crystal(const UniaxialCrystal& crystal, double n_outside, const Vec3& K,

@@ -17,9 +17,9 @@ struct ReadPicture {
     float white = 0;  ///< linear value at which the file saturates (1 when encoded); 0: none
 };
 
-/// By content: EXR, HDR, PFM, PNG, JPEG, TIFF. JPEGs are turned upright as their EXIF tag says; colour
-/// profiles are not applied. Throws InputError: missing, a folder, empty, no picture, cut off,
-/// damaged, absurd size (over 2^28 pixels, or more than a file of its length can hold).
+/// By content: EXR, HDR, PFM, PNG, JPEG, TIFF. JPEGs are turned upright as their EXIF tag says;
+/// colour profiles are not applied. Throws InputError: missing, a folder, empty, no picture, cut
+/// off, damaged, absurd size (over 2^28 pixels, or more than a file of its length can hold).
 ReadPicture read_picture(const std::filesystem::path& file);
 
 enum class ToneMap { none, reinhard };

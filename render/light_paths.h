@@ -42,6 +42,9 @@ struct PathLimits {
     /// Crystals: below this weight one reflected wave is followed, chosen with the probability of
     /// its power, so that the sum stays unbiased (0: both always).
     double split_weight = 0;
+    /// Crystals: so many hits of one eye ray at most split in two; after them every path follows
+    /// one wave as above. Without it a tree of depth d has 2^d paths.
+    int most_splits = 1 << 14;
     std::uint64_t seed = 0;  ///< of those choices
     bool polarised = true;   ///< false: mean powers of s and p at every isotropic face
 };
@@ -65,6 +68,7 @@ public:
 
     /// Follows an eye ray that enters the stone at `entry`.
     void trace(const EyeRay& ray, const BodyHit& entry) {
+        splits_ = 0;
         trace_.length = 0;
         tau_full_.fill(1.0);
         const Vec3 at = body_.on_facet(entry.facet, ray.origin + entry.distance * ray.direction);
@@ -76,6 +80,11 @@ public:
             trace_scalar(at, ray.direction, entry.facet);
         }
     }
+
+    /// True when the last tree was larger than `most_splits`.
+    bool sampled() const { return splits_ > limits_.most_splits; }
+    /// Largest |sum of powers - 1| of a crystal's face before it was put right.
+    double worst_imbalance() const { return worst_imbalance_; }
 
 private:
     NodeWeights weighted(double weight, const NodeWeights& tau) const {
@@ -225,6 +234,7 @@ private:
         const Vec3 n_in = -body_.normal(facet);
         const Vec3 K = direction - glm::dot(direction, n_in) * n_in;
         const CrystalEntry entry = enter_crystal(band_.uniaxial, 1.0, K, n_in);
+        worst_imbalance_ = std::max(worst_imbalance_, entry.imbalance);
         push(facet, 'i');
         leaf(at, mirrored(direction, n_in), 0.5 * (entry.reflected[0] + entry.reflected[1]),
              tau_full_);
@@ -254,6 +264,7 @@ private:
                        absorption_along(band_.uniaxial, mode, 0, 1), tau);
             }
             const CrystalHit hit = hit_face(band_.uniaxial, 1.0, mode, body_.normal(found.facet));
+            worst_imbalance_ = std::max(worst_imbalance_, hit.imbalance);
             push(found.facet, 'i');
             if (hit.transmitted > 0) leaf(at, hit.exit_direction, weight * hit.transmitted, tau);
             const std::array<double, 2> child{weight * hit.power[0], weight * hit.power[1]};
@@ -261,7 +272,7 @@ private:
             if (!(sum > 0)) return;
             int next = child[0] >= child[1] ? 0 : 1;
             if (child[0] > 0 && child[1] > 0) {
-                if (largest(sum, tau) < limits_.split_weight) {
+                if (largest(sum, tau) < limits_.split_weight || ++splits_ > limits_.most_splits) {
                     next = uniform() * sum < child[0] ? 0 : 1;
                     weight = sum;
                 } else {
@@ -299,6 +310,8 @@ private:
     Sink& sink_;
     std::uint64_t random_;
     PathTrace trace_;
+    int splits_ = 0;
+    double worst_imbalance_ = 0;
     NodeWeights tau_full_{};
 };
 

@@ -38,17 +38,27 @@ constexpr double k_first_nm = 410, k_last_nm = 690;
 constexpr int k_nodes = 15;
 constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 
-bool coloured(const LightColour& light) {
-    return !std::holds_alternative<double>(light.value);
+// What of a scene's light depends on wavelength. D65 is flat here (colour.h).
+enum class LightNeeds { one_wavelength, three_for_rgb, a_spectrum };
+
+LightNeeds needs_of(const LightColour& light) {
+    if (std::holds_alternative<double>(light.value)) return LightNeeds::one_wavelength;
+    if (std::holds_alternative<Rgb>(light.value)) return LightNeeds::three_for_rgb;
+    return std::get<std::string>(light.value) == "D65" ? LightNeeds::one_wavelength
+                                                       : LightNeeds::a_spectrum;
 }
 
-bool coloured(const Lights& lights) {
-    const auto any = [](const auto& list) {
-        return std::any_of(list.begin(), list.end(),
-                           [](const auto& l) { return coloured(l.radiance); });
+LightNeeds needs_of(const Lights& lights) {
+    LightNeeds most = lights.environment ? LightNeeds::three_for_rgb : LightNeeds::one_wavelength;
+    const auto take = [&most](const auto& list) {
+        for (const auto& light : list) most = std::max(most, needs_of(light.radiance));
     };
-    return lights.environment != nullptr || any(lights.spheres) || any(lights.lobes) ||
-           any(lights.hemispheres) || any(lights.caps) || any(lights.planes);
+    take(lights.spheres);
+    take(lights.lobes);
+    take(lights.hemispheres);
+    take(lights.caps);
+    take(lights.planes);
+    return most;
 }
 
 std::vector<double> even_nodes(int count) {
@@ -133,11 +143,18 @@ Plan make_plan(const Scene& scene) {
     const bool dispersive = plan.on(Effects::dispersion);
     const bool crystal = plan.on(Effects::birefringence);
     plan.polarised = plan.on(Effects::polarization);
+    if (crystal && !plan.polarised) {
+        EffectDecision& decision = plan.effects[static_cast<std::size_t>(Effects::polarization)];
+        decision.on = true;
+        decision.why = "the split waves of a crystal always carry it";
+        decision.error_bound = 0;
+    }
     if (!given.empty()) {
         plan.wavelengths_nm = given;
-    } else if (dispersive || (plan.on(Effects::absorption) && spectral_absorption)) {
+    } else if (dispersive || (plan.on(Effects::absorption) && spectral_absorption) ||
+               needs_of(scene.lights) == LightNeeds::a_spectrum) {
         plan.wavelengths_nm = even_nodes(k_nodes);
-    } else if (coloured(scene.lights)) {
+    } else if (needs_of(scene.lights) == LightNeeds::three_for_rgb) {
         // Three nodes carry any RGB light exactly.
         plan.wavelengths_nm = {450, 550, 610};
     } else {

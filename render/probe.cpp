@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "render/scene_checks.h"
+#include "stone/errors.h"
 
 namespace culet {
 
@@ -16,12 +17,15 @@ constexpr int k_deepest = 64;
 // Keeps every leaf; paths of different wavelengths through the same facets and modes become one.
 class Record {
 public:
-    Record(const Scene& scene, const LightField& lights, int nodes, ProbeResult& result)
-        : scene_(scene), lights_(lights), nodes_(nodes), result_(result) {}
+    Record(const Scene& scene, const LightField& lights, int nodes, const Progress& progress,
+           ProbeResult& result)
+        : scene_(scene), lights_(lights), nodes_(nodes), progress_(progress), result_(result) {}
 
     void begin(const Band& band) { band_ = &band; }
     void leaf(const Vec3& at, const Vec3& direction, const NodeWeights& weight,
               const PathTrace& trace) {
+        // How many leaves there will be is not known: the fraction stays at 0, but a stop is heard.
+        if (progress_ && ++leaves_ % 4096 == 0 && !progress_(0)) throw Interrupted();
         std::vector<short> facets(trace.facets.begin(), trace.facets.begin() + trace.length);
         const std::string modes(trace.modes.begin(), trace.modes.begin() + trace.length - 1);
         const auto [found, is_new] = index_.try_emplace({facets, modes}, result_.paths.size());
@@ -52,6 +56,8 @@ private:
     const Scene& scene_;
     const LightField& lights_;
     int nodes_;
+    long long leaves_ = 0;
+    const Progress& progress_;
     ProbeResult& result_;
     const Band* band_ = nullptr;
     std::map<std::pair<std::vector<short>, std::string>, std::size_t> index_;
@@ -59,12 +65,16 @@ private:
 
 }  // namespace
 
-ProbeResult probe(const Scene& scene, const EyeRay& ray) {
+ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progress) {
     require_renderable(scene);
     const Plan plan = make_plan(scene);
     const WavelengthSet colours(plan.wavelengths_nm);
     const LightField lights(scene.lights, colours);
     const ConvexBody body(scene.stone.solid);
+    if (body.contains(ray.origin)) {
+        throw InputError(
+            "the ray starts inside the stone: rays are followed from the eye, outside");
+    }
     const int nodes = colours.size();
     ProbeResult result;
     result.wavelengths_nm = plan.wavelengths_nm;
@@ -80,11 +90,14 @@ ProbeResult probe(const Scene& scene, const EyeRay& ray) {
     limits.depth = scene.settings.depth > 0 ? scene.settings.depth : k_deepest;
     limits.cut_weight = scene.settings.tolerance;
     limits.polarised = plan.polarised;
+    limits.seed = scene.settings.seed;
     result.depth = limits.depth;
-    Record record(scene, lights, nodes, result);
+    Record record(scene, lights, nodes, progress, result);
     for (const Band& band : plan.bands) {
         record.begin(band);
-        LightPaths<Record>(body, band, limits, record).trace(ray, *entry);
+        LightPaths<Record> paths(body, band, limits, record);
+        paths.trace(ray, *entry);
+        result.sampled = result.sampled || paths.sampled();
     }
     const auto heaviest = [](const ProbedPath& path) {
         return *std::max_element(path.weight.begin(), path.weight.end());

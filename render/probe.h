@@ -6,6 +6,7 @@
 
 #include "render/plan.h"
 #include "render/scene.h"
+#include "stone/progress.h"
 
 namespace culet {
 
@@ -23,10 +24,13 @@ struct ProbeResult {
     std::vector<double> remainder, absorbed, cut;  ///< per wavelength
     int depth = 0;
     bool hit = false;
+    bool sampled = false;  ///< a crystal's tree grew too large: from there on one wave was followed
 };
 
-/// `tolerance` of the scene's settings cuts weights below it; depth as in the settings (0: 64).
-ProbeResult probe(const Scene& scene, const EyeRay& ray);
+/// Here `tolerance` of the scene's settings is a weight: paths below it are cut. Depth as in the
+/// settings (0: 64). Throws InputError (a ray that starts inside the stone, and as `render`) and
+/// Interrupted.
+ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progress = {});
 
 std::string probe_json(const ProbeResult& result);
 

@@ -90,7 +90,8 @@ struct PixelSums {
     double hit = 0;        // share of samples that meet the stone
     double luminance = 0;  // that they bring, as a share of the pixel
     double remainder = 0, absorbed = 0, cut = 0;
-    long long rays = 0;
+    double worst_imbalance = 0;
+    long long rays = 0, sampled = 0;
 };
 
 double luminance(const Rgb& rgb) {
@@ -133,6 +134,8 @@ public:
                               static_cast<std::uint64_t>(band.first);
                 LightPaths<Gather> paths(body_, band, limits, gather);
                 paths.trace(ray, *entry);
+                sums.worst_imbalance = std::max(sums.worst_imbalance, paths.worst_imbalance());
+                sums.sampled += paths.sampled();
                 sums.remainder += share * gather.remainder_ / nodes;
                 sums.absorbed += share * gather.absorbed_ / nodes;
                 sums.cut += share * gather.cut_ / nodes;
@@ -263,12 +266,15 @@ RenderResult render(const Scene& scene, const Progress& progress) {
     // Sums in the order of the pixels: the same bytes whatever the threads did.
     RenderStats& stats = result.stats;
     double weight = 0, seen = 0;
+    long long sampled = 0;
     for (std::size_t i = 0; i < sums.size(); ++i) {
         weight += sums[i].hit;
         stats.remainder += sums[i].remainder;
         stats.cut += sums[i].cut;
         stats.absorbed += sums[i].absorbed;
         stats.rays += sums[i].rays;
+        sampled += sums[i].sampled;
+        stats.worst_imbalance = std::max(stats.worst_imbalance, sums[i].worst_imbalance);
         seen += sums[i].luminance;
     }
     if (weight > 0) {
@@ -280,6 +286,17 @@ RenderResult render(const Scene& scene, const Progress& progress) {
     if (stats.mean_radiance > 0) {
         stats.error_bound =
             (stats.remainder + stats.cut) * lights.max_radiance() / stats.mean_radiance;
+    }
+    stats.notes = notes_on_drawing(scene);
+    if (sampled > 0) {
+        stats.notes.push_back(
+            fmt::format("the trees of {} of {} rays grew over {} splits: from there on one wave "
+                        "was followed, chosen by power",
+                        sampled, stats.rays, limits.most_splits));
+    }
+    if (settings.tolerance > 0 && stats.error_bound > settings.tolerance) {
+        stats.notes.push_back(fmt::format("the error bound {:.2g} is over the tolerance {:.2g}",
+                                          stats.error_bound, settings.tolerance));
     }
     stats.depth = limits.depth;
     stats.effects.assign(plan.effects.begin(), plan.effects.end());
@@ -314,6 +331,8 @@ std::string stats_json(const RenderStats& stats) {
                          {"build", 0.0},
                          {"shade", stats.seconds_shade},
                          {"total", stats.seconds_setup + stats.seconds_shade}}},
+                       {"worst_imbalance", stats.worst_imbalance},
+                       {"notes", stats.notes},
                        {"beams", 0},
                        {"rays", stats.rays}};
     return json.dump(2) + "\n";

@@ -23,7 +23,10 @@ struct RenderStats {
     /// (remainder + cut) x brightest light / mean radiance: the picture's relative error is below
     /// this on average over the stone, beside sampling and effects switched off.
     double error_bound = 0;
-    long long rays = 0;  ///< eye rays x bands that met the stone
+    /// Largest |sum of powers - 1| met at a crystal's face before it was put right.
+    double worst_imbalance = 0;
+    std::vector<std::string> notes;  ///< what a person should know about this picture
+    long long rays = 0;              ///< eye rays x bands that met the stone
     double seconds_setup = 0, seconds_shade = 0;
 };
 

@@ -9,26 +9,48 @@
 
 namespace culet {
 
+namespace {
+
+// A hand-made mesh whose corners lie so little off their planes, as a fraction of the diameter, is
+// drawn by its planes, and a note says so.
+constexpr double k_drawn_by_planes = 0.02;
+
+}  // namespace
+
 void require_renderable(const Scene& scene) {
     const Stone& stone = scene.stone;
     if (!stone.convex) {
         throw InputError(
             fmt::format("{}: stones that are not convex are not rendered yet", stone.name));
     }
-    CheckLimits limits;
-    // A hand-made mesh whose corners lie a little off their planes is drawn by its planes.
-    limits.planarity = 0.1;
-    for (const Fault& fault : find_faults(stone.solid, limits)) {
+    for (const Fault& fault : find_faults(stone.solid, {.planarity = k_drawn_by_planes})) {
         switch (fault.kind) {
             case FaultKind::unused_vertex:
             case FaultKind::repeated_name:
             case FaultKind::repeated_plane:
             case FaultKind::missing_facet:
                 break;
+            // Planes are what is drawn: outlines that rounding bent are no hindrance, see below.
+            case FaultKind::not_convex:
+            case FaultKind::self_crossing:
+                break;
             default:
                 throw InputError(
                     fmt::format("{}: {}; culet info lists all that is wrong with a mesh",
                                 stone.name.empty() ? "stone" : stone.name, fault.what));
+        }
+    }
+    const double size = diameter(stone.solid);
+    for (const Facet& facet : stone.solid.facets) {
+        for (const Vec3& corner : stone.solid.vertices) {
+            if (height_above(facet.plane, corner) > k_drawn_by_planes * size) {
+                throw InputError(
+                    fmt::format("{}: a corner stands {:.2g} above the plane of facet {}: the stone "
+                                "is not convex, and such stones "
+                                "are not rendered yet (a rough hand-made mesh: fit it first)",
+                                stone.name.empty() ? "stone" : stone.name,
+                                height_above(facet.plane, corner), facet.name));
+            }
         }
     }
     if (scene.settings.depth > PathTrace::k_longest) {
@@ -38,6 +60,15 @@ void require_renderable(const Scene& scene) {
     if (ConvexBody(stone.solid).contains(scene.camera.position)) {
         throw InputError("the camera is inside the stone: move camera.position out");
     }
+}
+
+std::vector<std::string> notes_on_drawing(const Scene& scene) {
+    const double off = planarity(scene.stone.solid) / diameter(scene.stone.solid);
+    if (!(off > k_largest_miss)) return {};
+    return {
+        fmt::format("{}: corners lie up to {:.2g} of the diameter off their facets' planes: what "
+                    "the planes bound is drawn",
+                    scene.stone.name, off)};
 }
 
 }  // namespace culet

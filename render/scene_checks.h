@@ -9,4 +9,7 @@ namespace culet {
 /// over the longest path.
 void require_renderable(const Scene& scene);
 
+/// What of the stone is not drawn as its mesh has it: corners that lie off their planes.
+std::vector<std::string> notes_on_drawing(const Scene& scene);
+
 }  // namespace culet

@@ -197,6 +197,33 @@ TEST(Render, effects_can_be_switched_off_and_say_so) {
     }
 }
 
+TEST(Render, a_crystals_tree_has_a_budget) {
+    // 2^40 paths would never end: from the budget on one wave is followed, and the balance still
+    // holds.
+    Scene scene = scene_with("calcite");
+    scene.settings.depth = 40;
+    scene.settings.wavelengths_nm = {589.3};
+    const ProbeResult result = probe(scene, {{3, 2, 12}, glm::normalize(Vec3{-3, -2, -12})});
+    EXPECT_TRUE(result.sampled);
+    double sum = result.remainder[0] + result.absorbed[0] + result.cut[0];
+    for (const ProbedPath& path : result.paths) sum += path.weight[0];
+    EXPECT_NEAR(sum, 1, 1e-11);
+    EXPECT_THROW(
+        probe(scene, {{3, 2, 12}, glm::normalize(Vec3{-3, -2, -12})}, [](double) { return false; }),
+        Interrupted);
+    EXPECT_THROW(probe(scene, {{0, 0, 0}, {0, 0, 1}}), InputError) << "starts inside";
+}
+
+TEST(Render, a_rough_mesh_is_drawn_by_its_planes_and_says_so) {
+    Scene scene = scene_with("diamond");
+    scene.stone.solid.vertices[0] *= 1.005;
+    const RenderResult result = render(scene);
+    ASSERT_EQ(result.stats.notes.size(), 1u);
+    EXPECT_NE(result.stats.notes[0].find("planes"), std::string::npos);
+    scene.stone.solid.vertices[0] *= 1.2;
+    EXPECT_THROW(render(scene), InputError);
+}
+
 TEST(Render, stopping_throws_and_returns_nothing) {
     EXPECT_THROW(render(scene_with("diamond"), [](double) { return false; }), Interrupted);
 }
