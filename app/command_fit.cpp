@@ -32,8 +32,14 @@ int run_fit(const FitCommand& command) {
     FitOptions options = read_fit_options(command.stone, command.common.set);
     if (command.iterations > 0) options.iterations = command.iterations;
 
-    const FitResult result =
-        fit_stone(file.stone, readings, options, progress_line("fit", command.common.quiet));
+    const FitResult result = [&] {
+        try {
+            return fit_stone(file.stone, readings, options,
+                             progress_line("fit", command.common.quiet));
+        } catch (const InputError& error) {
+            throw InputError(file.mesh_file, error.what());
+        }
+    }();
     write_solid(result.solid, command.output);
     if (!command.report.empty()) write_text(command.report, fit_report(result));
     say(fmt::format("{}: {}", name_of(result.status), result.message), command.common.quiet);

@@ -18,10 +18,6 @@
 #include "stone/stone_io.h"
 #include "stone/toml_file.h"
 
-#ifndef CULET_VERSION
-#define CULET_VERSION "0"
-#endif
-
 namespace culet {
 
 namespace {

@@ -3,17 +3,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
 #include "app/options.h"
 #include "app/terminal.h"
 #include "stone/errors.h"
-
-#ifndef CULET_VERSION
-#define CULET_VERSION "0"
-#endif
+#include "stone/toml_file.h"
 
 namespace {
 
@@ -56,6 +55,17 @@ int run(int argc, char** argv) {
     add_command_cut(program, exit_code);
     add_command_convert(program, exit_code);
     add_command_info(program, exit_code);
+    std::vector<std::string> commands;
+    for (const CLI::App* command : program.get_subcommands({})) {
+        commands.push_back(command->get_name());
+    }
+    const bool names_a_command = argc > 1 && argv[1][0] != '-';
+    if (names_a_command && std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
+        const auto near = nearest_name(argv[1], commands);
+        return complain(exit_impossible,
+                        fmt::format("no command \"{}\"{} (see culet --help)", argv[1],
+                                    near ? fmt::format(", did you mean \"{}\"?", *near) : ""));
+    }
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

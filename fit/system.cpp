@@ -52,6 +52,10 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
                          (faults.empty() ? std::string() : ": " + faults.front().what) +
                          "; `culet info` lists its faults");
     }
+    if (!(volume(solid_) > 0)) {
+        throw InputError(
+            "the mesh is inside out: its facets run clockwise seen from outside; turn them round");
+    }
     edges_ = half_edges(solid_);
     bring_upright();
     list_incidences(options);
