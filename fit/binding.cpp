@@ -13,31 +13,16 @@
 
 #include "fit/measurement.h"
 #include "stone/errors.h"
+#include "stone/toml_file.h"
 
 namespace culet {
 
 namespace {
 
-// Levenshtein (1966): fewest insertions, deletions and replacements from one word to the other.
-std::size_t edits_between(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t above = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-            diagonal = above;
-        }
-    }
-    return row[b.size()];
-}
-
 std::string near_names(const Solid& solid, const std::string& name) {
     std::vector<std::pair<std::size_t, std::string>> near;
     for (const Facet& facet : solid.facets) {
-        near.emplace_back(edits_between(name.substr(0, 64), facet.name.substr(0, 64)), facet.name);
+        near.emplace_back(edit_distance(name.substr(0, 64), facet.name.substr(0, 64)), facet.name);
     }
     std::stable_sort(near.begin(), near.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -1,12 +1,12 @@
 #include "fit/measurement.h"
 
-#include <toml++/toml.h>
 #include <array>
 #include <charconv>
 #include <cmath>
 
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "stone/toml_file.h"
 
 namespace culet {
 
@@ -122,123 +122,26 @@ bool truth(const std::filesystem::path& file, long line, const std::string& colu
     throw InputError(file, line, column + " is '" + text + "'; expected true or false");
 }
 
-long line_of(const toml::node& node) {
-    return static_cast<long>(node.source().begin.line);
-}
-
-double toml_number(const std::filesystem::path& file, const char* key, const toml::node& node) {
-    const auto value = node.value<double>();
-    if (!value || !std::isfinite(*value)) {
-        throw InputError(file, line_of(node),
-                         std::string("`") + key + "` of a reading must be a finite number");
-    }
-    return *value;
-}
-
-bool toml_truth(const std::filesystem::path& file, const char* key, const toml::node& node) {
-    if (!node.is_boolean()) {
-        throw InputError(file, line_of(node),
-                         std::string("`") + key + "` of a reading must be true or false");
-    }
-    return *node.value<bool>();
-}
-
-std::string toml_text(const std::filesystem::path& file, const char* key, const toml::node& node) {
-    if (const auto value = node.value_exact<std::string>()) return *value;
-    throw InputError(file, line_of(node), std::string("`") + key + "` of a reading must be a text");
-}
-
-// `of` may be one text with slashes, a number (an azimuth) or a list of either.
-std::vector<std::string> toml_names(const std::filesystem::path& file, const toml::node& node) {
-    const auto one = [&](const toml::node& item) -> std::vector<std::string> {
-        if (const auto text = item.value_exact<std::string>()) return split_names(*text);
-        if (item.is_number()) {
-            std::array<char, 32> digits{};
-            const auto end =
-                std::to_chars(digits.data(), digits.data() + digits.size(), *item.value<double>());
-            return {std::string(digits.data(), end.ptr)};
-        }
-        throw InputError(file, line_of(item),
-                         "`of` of a reading must be a name or a list of names");
-    };
-    if (const auto* list = node.as_array()) {
-        std::vector<std::string> names;
-        for (const toml::node& item : *list) {
-            for (std::string& name : one(item)) names.push_back(std::move(name));
-        }
-        return names;
-    }
-    return one(node);
-}
-
-WrittenReading reading_of_table(const std::filesystem::path& file, const toml::table& table) {
+WrittenReading reading_of_table(const TomlTable& table) {
+    table.refuse_unknown(
+        {"kind", "of", "value", "sigma", "exact", "released", "datum", "id", "note"});
     WrittenReading reading;
-    reading.file = file;
-    reading.line = line_of(table);
-    for (const auto& [key, node] : table) {
-        if (key == "kind") {
-            reading.kind = toml_text(file, "kind", node);
-        } else if (key == "of") {
-            reading.of = toml_names(file, node);
-        } else if (key == "value") {
-            reading.value = toml_number(file, "value", node);
-        } else if (key == "sigma") {
-            reading.sigma = toml_number(file, "sigma", node);
-        } else if (key == "exact") {
-            reading.exact = toml_truth(file, "exact", node);
-        } else if (key == "released") {
-            reading.released = toml_truth(file, "released", node);
-        } else if (key == "datum") {
-            reading.datum = toml_text(file, "datum", node);
-        } else if (key == "id") {
-            reading.id = toml_text(file, "id", node);
-        } else if (key == "note") {
-            reading.note = toml_text(file, "note", node);
-        } else {
-            throw InputError(file, line_of(node),
-                             "a reading has no key `" + std::string(key.str()) +
-                                 "`; known are kind, of, value, sigma, exact, released, datum, id "
-                                 "and note");
-        }
+    reading.file = table.file();
+    reading.line = table.line();
+    if (!table.has("kind")) table.fail("", "a reading without `kind`");
+    reading.kind = *table.text("kind");
+    // `of` may be one text with slashes, a number (an azimuth) or a list of either.
+    for (const std::string& word : table.words("of").value_or(std::vector<std::string>{})) {
+        for (std::string& name : split_names(word)) reading.of.push_back(std::move(name));
     }
-    if (reading.kind.empty()) throw InputError(file, reading.line, "a reading without `kind`");
+    reading.value = table.number("value");
+    reading.sigma = table.number("sigma");
+    reading.exact = table.boolean("exact").value_or(false);
+    reading.released = table.boolean("released").value_or(false);
+    reading.datum = table.text("datum").value_or(std::string());
+    reading.id = table.text("id").value_or(std::string());
+    reading.note = table.text("note").value_or(std::string());
     return reading;
-}
-
-// `reading.2.sigma=0.1` and `stone.readings="other.csv"`; other keys are not ours.
-void apply_overrides(toml::table& root, const std::vector<std::string>& overrides) {
-    for (const std::string& set : overrides) {
-        const std::size_t equals = set.find('=');
-        if (equals == std::string::npos) throw InputError("--set " + set + ": expected KEY=VALUE");
-        const std::string path = set.substr(0, equals);
-        toml::table value;
-        try {
-            value = toml::parse("value = " + set.substr(equals + 1));
-        } catch (const toml::parse_error&) {
-            value.insert_or_assign("value", set.substr(equals + 1));  // a bare word is a text
-        }
-        if (path == "stone.readings") {
-            if (auto* stone = root["stone"].as_table()) {
-                stone->insert_or_assign("readings", *value.get("value"));
-            }
-        } else if (path.rfind("reading.", 0) == 0) {
-            const std::size_t dot = path.find('.', 8);
-            auto* list = root["reading"].as_array();
-            std::size_t index = 0;
-            const char* begin = path.data() + 8;
-            const char* end = path.data() + (dot == std::string::npos ? path.size() : dot);
-            const auto parsed = std::from_chars(begin, end, index);
-            auto* table = list != nullptr && parsed.ec == std::errc() && parsed.ptr == end &&
-                                  dot != std::string::npos && index < list->size()
-                              ? (*list)[index].as_table()
-                              : nullptr;
-            if (table == nullptr) {
-                throw InputError("--set " + set +
-                                 ": there is no such [[reading]] (counted from 0)");
-            }
-            table->insert_or_assign(path.substr(dot + 1), *value.get("value"));
-        }
-    }
 }
 
 }  // namespace
@@ -338,40 +241,17 @@ std::vector<WrittenReading> read_readings_csv(const std::filesystem::path& file)
 
 std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_file,
                                           const std::vector<std::string>& overrides) {
-    const std::string text = read_text(stone_file, 64u << 20);
-    toml::table root;
-    try {
-        root = toml::parse(text, stone_file.string());
-    } catch (const toml::parse_error& error) {
-        throw InputError(stone_file, static_cast<long>(error.source().begin.line),
-                         std::string(error.description()));
-    }
-    apply_overrides(root, overrides);
+    const TomlTable root = read_toml(stone_file, overrides);
     std::vector<WrittenReading> readings;
-    if (const toml::node* node = root.get("reading")) {
-        const auto* list = node->as_array();
-        if (list == nullptr) {
-            throw InputError(stone_file, line_of(*node),
-                             "`reading` must be written as [[reading]] tables");
-        }
-        if (list->size() > k_most_readings) {
-            throw InputError(stone_file, "more than 100000 readings");
-        }
-        for (const toml::node& item : *list) {
-            const auto* table = item.as_table();
-            if (table == nullptr) {
-                throw InputError(stone_file, line_of(item),
-                                 "`reading` must be written as [[reading]] tables");
-            }
-            readings.push_back(reading_of_table(stone_file, *table));
-        }
+    const auto tables = root.tables("reading");
+    if (tables.size() > k_most_readings) {
+        throw InputError(stone_file, "more than 100000 readings");
     }
-    std::string csv;
-    if (const toml::node* node = root["stone"]["readings"].node()) {
-        csv = toml_text(stone_file, "readings", *node);
-    }
-    if (!csv.empty()) {
-        for (WrittenReading& reading : read_readings_csv(stone_file.parent_path() / csv)) {
+    for (const TomlTable& table : tables) readings.push_back(reading_of_table(table));
+    const auto stone = root.table("stone");
+    const auto csv = stone ? stone->path("readings") : std::nullopt;
+    if (csv) {
+        for (WrittenReading& reading : read_readings_csv(*csv)) {
             readings.push_back(std::move(reading));
         }
     }

@@ -1,4 +1,4 @@
-// The fit report: the contract's keys, and a few more.
+// The fit report: the keys of docs/stone-files.md, and a few more.
 
 #include <cmath>
 #include <nlohmann/json.hpp>

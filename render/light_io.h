@@ -1,5 +1,5 @@
 #pragma once
-// The [light] table of a scene file, see the contract's "Scenes".
+// The [light] table of a scene file, see docs/rendering.md.
 
 #include <string>
 #include <vector>

@@ -40,7 +40,7 @@ struct RenderResult {
 /// Interrupted.
 RenderResult render(const Scene& scene, const Progress& progress = {});
 
-/// Contract keys of STATS.json, as text.
+/// STATS.json (docs/rendering.md) as text.
 std::string stats_json(const RenderStats& stats);
 
 }  // namespace culet

@@ -1,5 +1,5 @@
 #pragma once
-// Scene files (TOML), see the contract's "Scenes".
+// Scene files (TOML), see docs/rendering.md.
 
 #include <filesystem>
 #include <string>

@@ -137,6 +137,8 @@ void apply_override(toml::table& root, const std::string& setting) {
     }
 }
 
+}  // namespace
+
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -152,8 +154,6 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     }
     return row[b.size()];
 }
-
-}  // namespace
 
 std::optional<std::string> nearest_name(std::string_view word,
                                         const std::vector<std::string>& known) {
@@ -283,6 +283,29 @@ std::optional<std::vector<std::string>> TomlTable::texts(std::string_view key) c
                     fmt::format("{} must be a list of texts, found {}", key, describe(entry)));
         }
         values.push_back(*entry.value<std::string>());
+    }
+    return values;
+}
+
+std::optional<std::vector<std::string>> TomlTable::words(std::string_view key) const {
+    const toml::node* node = as_table(node_).get(key);
+    if (node == nullptr) return std::nullopt;
+    std::vector<std::string> values;
+    const auto take = [&](const toml::node& entry) {
+        if (entry.is_string()) {
+            values.push_back(*entry.value<std::string>());
+        } else if (entry.is_number()) {
+            values.push_back(fmt::format("{}", finite_number(file(), entry, key)));
+        } else {
+            fail_at(file(), entry,
+                    fmt::format("{} must be a text, a number or a list of them, found {}", key,
+                                describe(entry)));
+        }
+    };
+    if (const toml::array* list = node->as_array()) {
+        for (const toml::node& entry : *list) take(entry);
+    } else {
+        take(*node);
     }
     return values;
 }

@@ -26,6 +26,8 @@ public:
     std::optional<Vec3> vector(std::string_view key) const;  ///< three numbers
     std::optional<std::vector<double>> numbers(std::string_view key) const;
     std::optional<std::vector<std::string>> texts(std::string_view key) const;
+    /// A text, a number or a list of either, as texts (numbers in their shortest form).
+    std::optional<std::vector<std::string>> words(std::string_view key) const;
     std::optional<std::vector<Vec3>> vectors(std::string_view key) const;
     std::optional<TomlTable> table(std::string_view key) const;
     std::vector<TomlTable> tables(std::string_view key) const;  ///< `[[key]]`; empty when missing
@@ -57,6 +59,9 @@ private:
 /// from 0. Throws InputError.
 TomlTable read_toml(const std::filesystem::path& file,
                     const std::vector<std::string>& overrides = {});
+
+/// Levenshtein (1966): fewest insertions, deletions and replacements from one word to the other.
+std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// The name among `known` that is nearest to `word` by edit distance, or nothing when none is near.
 std::optional<std::string> nearest_name(std::string_view word,

@@ -1,4 +1,4 @@
-// What a scene file may say about its stone and its lights. Expectations: the contract's "Scenes",
+// What a scene file may say about its stone and its lights. Expectations: docs/rendering.md,
 // closed forms of where a light is seen.
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Expectations: the contract's frames and conventions, closed forms, and conservation in whole
+// Expectations: the frames and conventions of docs/rendering.md, closed forms, and conservation in whole
 // pictures.
 
 #include <gtest/gtest.h>
