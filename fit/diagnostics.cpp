@@ -164,6 +164,36 @@ void snoop(const System& system, const Linearised& linear, const std::vector<Eig
     }
 }
 
+// A stone too large for dense algebra: what every reading came to, and nothing of how sure that is.
+void residuals_only(const System& system, const Linearised& linear,
+                    const std::vector<Eigen::Index>& counted, Diagnosis& diagnosis) {
+    constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
+    diagnosis.analysed = false;
+    for (ReadingCheck& c : diagnosis.readings) c.normalized = c.redundancy = k_unknown;
+    for (FacetSigma& s : diagnosis.facets) s = {k_unknown, k_unknown, k_unknown, k_unknown};
+    const auto note = [&](const Equation& e, double residual) {
+        if (e.reading < 0) return;
+        ReadingCheck& c = diagnosis.readings[std::size_t(e.reading)];
+        const double in_units =
+            residual * system.unit_of(system.readings()[std::size_t(e.reading)]);
+        if (std::abs(in_units) > std::abs(c.residual)) c.residual = in_units;
+    };
+    for (const Eigen::Index i : counted) {
+        const Equation& e = linear.soft[std::size_t(i)];
+        note(e, linear.soft_residuals(i) * e.sigma);
+    }
+    for (std::size_t i = 0; i < linear.hard.size(); ++i) {
+        note(linear.hard[i], linear.hard_residuals(Eigen::Index(i)));
+    }
+    // Bounds by counting: no more redundancy than readings, no fewer open freedoms than unknowns
+    // that outnumber all equations.
+    diagnosis.dof = double(counted.size());
+    const Eigen::Index equations = Eigen::Index(counted.size()) + linear.hard_rows.rows() +
+                                   Eigen::Index(linear.gauge_rows.size());
+    diagnosis.undetermined_freedoms =
+        static_cast<int>(std::max<Eigen::Index>(0, linear.layout.size() - equations));
+}
+
 }  // namespace
 
 Diagnosis diagnose(const System& system, const Shape& shape,
@@ -174,13 +204,15 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     diagnosis.chi2 = linear.chi2();
     diagnosis.readings.resize(system.readings().size());
     diagnosis.facets.resize(shape.normals.size());
-    if (layout.size() > k_most_dense) return diagnosis;
-    const Modes modes = modes_of(linear);
-
     std::vector<Eigen::Index> counted;
     for (std::size_t i = 0; i < linear.soft.size(); ++i) {
         if (linear.soft[i].is_counted()) counted.push_back(Eigen::Index(i));
     }
+    if (layout.size() > k_most_dense) {
+        residuals_only(system, linear, counted, diagnosis);
+        return diagnosis;
+    }
+    const Modes modes = modes_of(linear);
     Eigen::MatrixXd seen(Eigen::Index(counted.size()), modes.held.cols());
     {
         const Eigen::MatrixXd all = linear.soft_rows * modes.held;

@@ -27,6 +27,10 @@ struct Diagnosis {
     std::vector<FacetSigma> facets;
     std::vector<ReadingCheck> readings;
     std::vector<int> suspects;  ///< indices of readings, in the order of their removal
+    /// False for a stone too large for dense algebra: uncertainties, redundancies and normalized
+    /// residuals are then NaN, suspects are not looked for, and `dof` (at most) and
+    /// `undetermined_freedoms` (at least) are bounds by counting.
+    bool analysed = true;
     double chi2 = 0, dof = 0;
     double suspect_limit = 0;
     std::vector<Undetermined> undetermined;

@@ -164,6 +164,10 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
     const auto end = [&](FitStatus status, std::string message) {
         result.status = status;
         result.message = std::move(message);
+        if (!diagnosis.analysed) {
+            result.message +=
+                "; the stone is too large for uncertainties and suspects: none are given";
+        }
     };
     if (!broken.empty()) {
         return end(FitStatus::contradictory,

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "stone/checks.h"
+#include "stone/cuts/cuts.h"
 #include "stone/errors.h"
 #include "tests/fit/test_stones.h"
 
@@ -359,4 +360,22 @@ TEST(FitReport, HasTheKeysThatOutsidersRelyOn) {
 }
 
 }  // namespace
+// Beyond the size of dense algebra the report says what it cannot know, and the readings' residuals
+// stay true. Expectation: two depths 8 sigma apart meet in their mean, 4 sigma from each.
+TEST(Fit, AStoneTooLargeForUncertaintiesSaysSo) {
+    const Solid solid = make_cut("round-brilliant", {{"mains", 20}, {"girdle-segments", 6}});
+    std::vector<Reading> readings{test::reading(ReadingKind::depth, {}, 4.02, 0.01),
+                                  test::reading(ReadingKind::depth, {}, 4.10, 0.01)};
+    readings[0].id = "r0";
+    readings[1].id = "r1";
+    const FitResult result = fit_stone(test::stone_of(solid), readings);
+    EXPECT_EQ(result.status, FitStatus::contradictory);
+    EXPECT_NE(result.message.find("too large"), std::string::npos) << result.message;
+    EXPECT_NEAR(result.readings[0].residual, 0.04, 1e-4);
+    EXPECT_NEAR(result.readings[1].residual, -0.04, 1e-4);
+    EXPECT_TRUE(std::isnan(result.readings[0].redundancy));
+    EXPECT_TRUE(std::isnan(result.facets[0].sigma_offset));
+    EXPECT_GT(result.undetermined_freedoms, 0);
+}
+
 }  // namespace culet
