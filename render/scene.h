@@ -47,7 +47,7 @@ struct LightColour {
     std::variant<double, Rgb, std::string> value = 1.0;
 };
 
-/// Radiance from all directions, in one of two layouts. Frame (docs/rendering.md): lat-long with the
+/// Radiance from all directions as a lat-long map. Frame (docs/rendering.md): the
 /// top row +z, the middle column +x, azimuth growing to the left as seen from inside.
 struct EnvironmentMap {
     int width = 0, height = 0;

@@ -25,8 +25,9 @@ private:
     bool committed_ = false;
 };
 
-/// Throws InputError when `target` could not be written; nothing for an empty name or `-`. Asked before long
-/// work, and before the first of several outputs, so that a failure leaves none of them.
+/// Throws InputError when `target` could not be written; nothing for an empty name or `-`. Asked
+/// before long work, and before the first of several outputs, so that a failure leaves none of
+/// them.
 void require_writable(const std::filesystem::path& target);
 
 /// Writes `text` to `target` whole or not at all; `-` is stdout.

@@ -21,8 +21,8 @@ Vec3 normal_to(const Vec3& axis) {
     return glm::normalize(glm::cross(axis, other));
 }
 
-// The largest of the facets that look up more than sideways, or -1: what `up = "table"` means in a mesh
-// whose facets have no names.
+// The largest of the facets that look up more than sideways, or -1: what `up = "table"` means in a
+// mesh whose facets have no names.
 int table_of(const Solid& solid) {
     int best = -1;
     double best_area = 0;
