@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "stone/perpendicular.h"
+
 namespace culet {
 
 namespace {
@@ -55,11 +57,7 @@ void finish(CrystalMode& mode, const ComplexVec3& N, bool propagates) {
 Vec3 beside_axis(const Vec3& axis, const Vec3& n) {
     const Vec3 from_face = glm::cross(axis, n);
     if (glm::dot(from_face, from_face) > 1e-6) return glm::normalize(from_face);
-    const Vec3 size = glm::abs(axis);
-    Vec3 other{1, 0, 0};
-    if (size.y <= size.x && size.y <= size.z) other = {0, 1, 0};
-    if (size.z < size.x && size.z < size.y) other = {0, 0, 1};
-    return glm::normalize(glm::cross(axis, other));
+    return perpendicular_to(axis);
 }
 
 }  // namespace
@@ -126,11 +124,7 @@ struct FaceFrame {
         // Normal incidence has no plane of incidence: any tangent serves.
         t2 = length > 1e-14 ? K / length : Vec3(0);
         if (length <= 1e-14) {
-            const Vec3 size = glm::abs(n);
-            Vec3 other{1, 0, 0};
-            if (size.y <= size.x && size.y <= size.z) other = {0, 1, 0};
-            if (size.z < size.x && size.z < size.y) other = {0, 0, 1};
-            t2 = glm::normalize(glm::cross(n, other));
+            t2 = perpendicular_to(n);
         }
         t1 = glm::cross(t2, n);
     }

@@ -18,6 +18,7 @@
 #include "render/crystal.h"
 #include "render/fresnel.h"
 #include "render/scene.h"
+#include "stone/perpendicular.h"
 
 namespace culet {
 
@@ -123,11 +124,7 @@ private:
         const double squared = glm::dot(s, s);
         if (squared > 1e-28) return s / std::sqrt(squared);
         // Normal incidence: the face treats all directions alike (r_p = -r_s), any tangent serves.
-        const Vec3 size = glm::abs(n);
-        Vec3 other{1, 0, 0};
-        if (size.y <= size.x && size.y <= size.z) other = {0, 1, 0};
-        if (size.z < size.x && size.z < size.y) other = {0, 0, 1};
-        return glm::normalize(glm::cross(n, other));
+        return perpendicular_to(n);
     }
 
     static Vec3 mirrored(const Vec3& direction, const Vec3& n) {

@@ -43,10 +43,6 @@ std::vector<double> nodes_of(const LightColour& colour, const WavelengthSet& wav
     return wavelengths.illuminant_relative(std::get<std::string>(colour.value).c_str());
 }
 
-bool neutral(const LightColour& colour) {
-    return std::holds_alternative<double>(colour.value);
-}
-
 // Distance along a ray to a sphere, or infinity; from inside, to the far side: a dome shines
 // inwards.
 double distance_to(const SphereLight& sphere, const Vec3& origin, const Vec3& direction) {
@@ -87,7 +83,6 @@ struct LightField::Ready {
     std::vector<std::vector<double>> spheres, lobes, hemispheres, caps, planes;
     std::vector<std::pair<double, double>> cap_cosines;
     double brightest = 0;
-    bool neutral = true;
     int nodes = 1;
 
     // Nearest near light: spheres count from 0, planes after them; -1 for none.
@@ -121,7 +116,6 @@ LightField::LightField(const Lights& lights, const WavelengthSet& wavelengths) :
     const auto take = [&](const auto& list, std::vector<std::vector<double>>& nodes, bool is_near) {
         for (const auto& light : list) {
             nodes.push_back(nodes_of(light.radiance, wavelengths));
-            r.neutral = r.neutral && neutral(light.radiance);
             const double most = *std::max_element(nodes.back().begin(), nodes.back().end());
             if (is_near) {
                 near = std::max(near, most);
@@ -141,7 +135,6 @@ LightField::LightField(const Lights& lights, const WavelengthSet& wavelengths) :
                                    cap.to >= std::numbers::pi ? -2.0 : std::cos(cap.to));
     }
     if (lights.environment) {
-        r.neutral = false;
         float most = 0;
         for (float v : lights.environment->rgb) most = std::max(most, v);
         // A texel's spectrum is at most its brightest channel times the primaries above 0.
@@ -222,9 +215,6 @@ std::string LightField::name_at(const Vec3& origin, const Vec3& direction) const
 
 double LightField::max_radiance() const {
     return ready_->brightest;
-}
-bool LightField::is_neutral() const {
-    return ready_->neutral;
 }
 
 }  // namespace culet

@@ -111,8 +111,6 @@ public:
     std::string name_at(const Vec3& origin, const Vec3& direction) const;
     /// Largest radiance of any light at any node, for bounds.
     double max_radiance() const;
-    /// True when every light is a plain number (nothing about the light depends on wavelength).
-    bool is_neutral() const;
 
 private:
     struct Ready;

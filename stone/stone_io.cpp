@@ -7,19 +7,11 @@
 
 #include "stone/errors.h"
 #include "stone/material_io.h"
+#include "stone/perpendicular.h"
 
 namespace culet {
 
 namespace {
-
-// Any unit vector normal to `axis`, from the coordinate axis that is most nearly normal to it.
-Vec3 normal_to(const Vec3& axis) {
-    const Vec3 size = glm::abs(axis);
-    Vec3 other{1, 0, 0};
-    if (size.y <= size.x && size.y <= size.z) other = {0, 1, 0};
-    if (size.z < size.x && size.z < size.y) other = {0, 0, 1};
-    return glm::normalize(glm::cross(axis, other));
-}
 
 // The largest of the facets that look up more than sideways, or -1: what `up = "table"` means in a
 // mesh whose facets have no names.
@@ -60,7 +52,7 @@ CrystalFrame crystal_frame_in(const TomlTable& table, OpticCharacter optic) {
                        "the material is biaxial: give principal_axes for alpha, beta, gamma");
         }
         const Vec3 a = unit_vector(table, "optic_axis", *axis);
-        const Vec3 b = normal_to(a);
+        const Vec3 b = perpendicular_to(a);
         frame.axes = {a, b, glm::cross(a, b)};
     }
     if (axes) {
