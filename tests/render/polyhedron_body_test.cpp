@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
@@ -572,6 +573,70 @@ TEST(PolyhedronBody, thin_wedge_is_left_where_it_is_entered) {
         ASSERT_GE(out.distance, 0);
         ASSERT_LE(out.distance, std::sqrt(2.0) + 1e-7);
         ASSERT_NE(out.facet, 2) << "seed " << seed << " ray " << i;
+    }
+}
+
+TEST(PolyhedronBody, start_outside_by_rounding_in_the_middle_of_a_facet) {
+    // Above the top by one rounding and running upwards: out at once. Downwards: in and through.
+    const PolyhedronBody body(l_prism());
+    const Vec3 above{0.5, 0.75, std::nextafter(1.0, 2.0)};
+    for (const int from : {-1, 3}) {
+        const BodyHit up = body.exit(above, {0.6, 0, 0.8}, from);
+        EXPECT_EQ(up.facet, 0) << from;
+        EXPECT_EQ(up.distance, 0);
+        const BodyHit down = body.exit(above, {0, 0, -1}, from);
+        EXPECT_EQ(down.facet, 1) << from;
+        EXPECT_NEAR(down.distance, 1, 1e-15);
+    }
+}
+
+TEST(PolyhedronBody, start_off_its_plane_by_rounding_and_grazing_keeps_its_distance) {
+    // 1e-16 below y = 0 (facet 2) the ray rises by 1e-9 of its length: by the planes alone it would
+    // come to its own facet after 1e-7, twice as far as the end at x = 1.
+    const PolyhedronBody body(prism({{0, 0}, {1, 0}, {1, 1}}, 0, 1));
+    const BodyHit hit = body.exit({1 - 5e-8, -1e-16, 0.5}, {1, 1e-9, 1}, 2);
+    EXPECT_EQ(body.normal(hit.facet), (Vec3{1, 0, 0}));
+    EXPECT_NEAR(hit.distance, 5e-8, 1e-15);
+}
+
+TEST(PolyhedronBody, ray_that_only_touches_an_edge_or_corner_does_not_enter) {
+    const Solid cube = prism({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, -1, 1);
+    const PolyhedronBody body(cube);
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const int first : {-1, 1}) {
+            for (const int second : {-1, 1}) {
+                for (const double along : {-1.0, 0.25, 1.0}) {
+                    Vec3 touch{0, 0, 0}, direction{0, 0, 0};
+                    touch[axis] = along;
+                    touch[(axis + 1) % 3] = first;
+                    touch[(axis + 2) % 3] = second;
+                    direction[(axis + 1) % 3] = first;
+                    direction[(axis + 2) % 3] = -second;
+                    EXPECT_FALSE(body.entry(touch - 2.0 * direction, direction).has_value());
+                    EXPECT_FALSE(body.entry(touch + 2.0 * direction, -direction).has_value());
+                }
+            }
+        }
+    }
+}
+
+TEST(PolyhedronBody, side_of_an_edge_is_decided_exactly) {
+    // With e = 2^-52, the edge from a to b passes the axis at e^2 / 2 on its right or, mirrored, on
+    // its left; the two products of the side test are equal once rounded.
+    const double e = std::numeric_limits<double>::epsilon();
+    for (const double mirror : {1.0, -1.0}) {
+        // A pyramid upside down, its top split along a b.
+        std::vector<Vec3> vertices{
+            {-(1 + e), -1, 1}, {1, -1, 1}, {1 + 2 * e, 1 + e, 1}, {-1, 1, 1}, {0.125, 0.25, -1}};
+        Loops loops{{0, 1, 2}, {0, 2, 3}, {1, 0, 4}, {2, 1, 4}, {3, 2, 4}, {0, 3, 4}};
+        for (Vec3& vertex : vertices) vertex.x *= mirror;
+        if (mirror < 0) {
+            for (std::vector<int>& loop : loops) std::reverse(loop.begin(), loop.end());
+        }
+        // a.x b.y - a.y b.x = -mirror e^2: always on the side of vertex 1, in facet 0.
+        const auto hit = PolyhedronBody(solid_of(vertices, loops)).entry({0, 0, 2}, {0, 0, -1});
+        ASSERT_TRUE(hit.has_value());
+        EXPECT_EQ(hit->facet, 0) << mirror;
     }
 }
 
