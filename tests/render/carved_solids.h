@@ -1,9 +1,12 @@
 #pragma once
-// Closed solids that are not convex, most with small whole numbers as coordinates.
+// Closed solids that are not convex, most with small whole numbers as coordinates, and plain ways
+// to tell where a point is.
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <limits>
 #include <random>
 #include <string>
 #include <utility>
@@ -213,6 +216,72 @@ inline std::vector<NamedSolid> all() {
             {"cubes on one edge", cubes_on_one_edge()},
             {"crag", crag(7)},
             {"heart", make_cut("heart")}};
+}
+
+struct Ray {
+    Vec3 origin, direction;
+};
+
+inline Vec3 middle_of(const Solid& solid) {
+    Vec3 low = solid.vertices[0], high = low;
+    for (const Vec3& v : solid.vertices) {
+        low = glm::min(low, v);
+        high = glm::max(high, v);
+    }
+    return 0.5 * (low + high);
+}
+
+// From outside towards a random point near the solid.
+inline Ray random_ray(const Solid& solid, std::mt19937_64& random) {
+    std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+    const double size = diameter(solid);
+    const Vec3 middle = middle_of(solid);
+    const Vec3 to = middle + size * Vec3{uniform(random), uniform(random), uniform(random)};
+    const Vec3 from = middle + 2 * size * random_direction(random);
+    return {from, glm::normalize(to - from)};
+}
+
+// The solid angle of the stone's surface over 4 pi (van Oosterom & Strackee 1983): 1 inside.
+inline double winding_of(const Solid& solid, const Vec3& point) {
+    double sum = 0;
+    for (const Facet& facet : solid.facets) {
+        const auto arm = [&](std::size_t i) {
+            return solid.vertices[static_cast<std::size_t>(facet.corners[i])] - point;
+        };
+        const Vec3 a = arm(0);
+        for (std::size_t i = 1; i + 1 < facet.corners.size(); ++i) {
+            const Vec3 b = arm(i), c = arm(i + 1);
+            const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+            sum += 2 * std::atan2(glm::dot(a, glm::cross(b, c)),
+                                  la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la +
+                                      glm::dot(c, a) * lb);
+        }
+    }
+    return sum / (4 * std::acos(-1));
+}
+
+inline double distance_to_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const Vec3 edge = b - a;
+    const double part = std::clamp(glm::dot(p - a, edge) / glm::dot(edge, edge), 0.0, 1.0);
+    return glm::length(p - a - part * edge);
+}
+
+// How far a point is from a facet: 0 within its outline.
+inline double distance_to_facet(const Solid& solid, int index, const Vec3& point) {
+    const Facet& facet = solid.facets[static_cast<std::size_t>(index)];
+    const double height = height_above(facet.plane, point);
+    const Vec3 foot = point - height * facet.plane.normal;
+    double angle = 0, nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < facet.corners.size(); ++i) {
+        const auto at = [&](std::size_t k) {
+            return solid
+                .vertices[static_cast<std::size_t>(facet.corners[k % facet.corners.size()])];
+        };
+        const Vec3 a = at(i) - foot, b = at(i + 1) - foot;
+        nearest = std::min(nearest, distance_to_segment(foot, at(i), at(i + 1)));
+        angle += std::atan2(glm::dot(facet.plane.normal, glm::cross(a, b)), glm::dot(a, b));
+    }
+    return std::hypot(height, std::abs(angle) > std::acos(-1) ? 0 : nearest);
 }
 
 }  // namespace culet::carved
