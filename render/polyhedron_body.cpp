@@ -53,7 +53,8 @@ bool comes_before(const LineCrossing& a, const LineCrossing& b) {
     return a.facet < b.facet;
 }
 
-constexpr unsigned char k_above = 1, k_right = 2;
+// Bits of a projected vertex; `k_right_shift` brings one to the place of the other.
+constexpr unsigned k_above = 1, k_right = 2, k_right_shift = 1;
 
 }  // namespace
 
@@ -182,16 +183,19 @@ std::span<const LineCrossing> PolyhedronBody::trace(const Vec3& origin, const Ve
     }
     unsigned char* side = work.side.data();
     for (std::size_t v = 0; v < vertex_count; ++v) {
-        side[v] = static_cast<unsigned char>((y[v] >= 0 ? k_above : 0) | (x[v] > 0 ? k_right : 0));
+        side[v] =
+            static_cast<unsigned char>((y[v] >= 0 ? k_above : 0u) | (x[v] > 0 ? k_right : 0u));
     }
 
     // Edges that may cross the half-axis to the right.
     std::size_t candidate_count = 0;
     int* candidates = work.candidates.data();
-    for (std::size_t e = 0; e < edges_.size(); ++e) {
-        const unsigned char low = side[edges_[e].low], high = side[edges_[e].high];
+    const Edge* edges = edges_.data();
+    const std::size_t edge_count = edges_.size();
+    for (std::size_t e = 0; e < edge_count; ++e) {
+        const unsigned low = side[edges[e].low], high = side[edges[e].high];
         candidates[candidate_count] = static_cast<int>(e);
-        candidate_count += ((low ^ high) & k_above) && ((low | high) & k_right) ? 1 : 0;
+        candidate_count += (low ^ high) & ((low | high) >> k_right_shift) & k_above;
     }
 
     // What an edge adds to the winding of one facet it takes from the other's. Seen along the
