@@ -192,7 +192,8 @@ CrystalEntry enter_crystal(const Crystal& crystal, double n_outside, const Vec3&
     const double root_q = std::sqrt(q);
     for (int incident = 0; incident < 2; ++incident) {
         // Unit normal flux: E along s is 1/sqrt(q); H of p along s is -n E, E = 1/sqrt(q).
-        const double E1 = incident == 0 ? 1 / root_q : 0, H1 = incident == 0 ? 0 : -n_outside / root_q;
+        const double E1 = incident == 0 ? 1 / root_q : 0,
+                     H1 = incident == 0 ? 0 : -n_outside / root_q;
         const std::array<Complex, 2> t = solve({m[0].H2 + q * m[0].E1, q * m[0].H1 - e * m[0].E2},
                                                {m[1].H2 + q * m[1].E1, q * m[1].H1 - e * m[1].E2},
                                                {Complex(2 * q * E1), Complex(2 * q * H1)});
@@ -207,8 +208,7 @@ CrystalEntry enter_crystal(const Crystal& crystal, double n_outside, const Vec3&
             continue;
         }
         entry.imbalance = std::max(entry.imbalance, imbalance);
-        for (int j = 0; j < 2; ++j)
-            entry.power[incident][j] = std::norm(entry.into[incident][j]);
+        for (int j = 0; j < 2; ++j) entry.power[incident][j] = std::norm(entry.into[incident][j]);
         entry.reflected[incident] =
             std::norm(entry.back[incident][0]) + std::norm(entry.back[incident][1]);
     }

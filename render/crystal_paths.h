@@ -28,14 +28,6 @@
 
 namespace culet {
 
-/// A path that ends outside: light seen along `direction` from `at`, through two waves that vibrate
-/// along `u` and `v`.
-struct PathEnd {
-    Vec3 at, direction, u, v;
-    EyeCoherency coherency;
-    NodeWeights transmitted{};  ///< by absorption, at each node
-};
-
 // A Sink has
 //   void leaf(const PathEnd&, const PathTrace&);
 //   void remainder(const NodeWeights&), absorbed(const NodeWeights&), cut(const NodeWeights&);
@@ -75,8 +67,8 @@ private:
     struct Node {
         bool inside = true;
         Vec3 at{0, 0, 0};
-        int facet = -1;                    // that it starts from
-        std::array<CrystalMode, 2> modes;  // inside
+        int facet = -1;                                   // that it starts from
+        std::array<CrystalMode, 2> modes;                 // inside
         Vec3 direction{0, 0, 0}, u{0, 0, 0}, v{0, 0, 0};  // outside
         BodyHit again;                                    // outside: where it meets the stone
         EyeCoherency c;
@@ -96,7 +88,7 @@ private:
         return node.power() * most;
     }
     void push(int facet) {
-        trace_.facets[trace_.length] = static_cast<short>(facet);
+        trace_.facets[trace_.length] = facet;
         trace_.modes[trace_.length] = 'i';
         ++trace_.length;
     }
@@ -185,8 +177,7 @@ private:
             NodeWeights lost{};
             for (int i = 0; i < band_.count; ++i) {
                 double a = 0;
-                for (int axis = 0; axis < 3; ++axis)
-                    a += shares[axis] * band_.absorption[axis][i];
+                for (int axis = 0; axis < 3; ++axis) a += shares[axis] * band_.absorption[axis][i];
                 const double after = node.tau[i] * std::exp(-a * found.distance);
                 lost[i] = node.c.power(m) * (node.tau[i] - after);
                 node.tau[i] = after;
@@ -215,8 +206,8 @@ private:
         const std::array<double, 2> power{node.c.power(0), node.c.power(1)};
         const double share = power[1] / (power[0] + power[1]);
         const std::array<double, 2> length{first.distance, second.distance};
-        const Vec3 step = (1 - share) * length[0] * node.modes[0].ray +
-                          share * length[1] * node.modes[1].ray;
+        const Vec3 step =
+            (1 - share) * length[0] * node.modes[0].ray + share * length[1] * node.modes[1].ray;
         const Vec3 at = body_.on_facet(facet, node.at + step);
         const double retardation =
             isotropic ? 0 : glm::dot(node.modes[1].wave - node.modes[0].wave, at - node.at);
@@ -275,7 +266,7 @@ private:
     // The orthogonal matrix next to a 2x2 one (its polar factor).
     static Eigen::Matrix2d nearest_rotation(const Eigen::Matrix2d& m) {
         Eigen::Matrix2d nearest;
-        if (m.determinant() >= 0) {
+        if (m(0, 0) * m(1, 1) >= m(0, 1) * m(1, 0)) {
             const double c = m(0, 0) + m(1, 1), s = m(1, 0) - m(0, 1), r = std::hypot(c, s);
             nearest << c / r, -s / r, s / r, c / r;
         } else {

@@ -10,7 +10,8 @@
 // reflection in their places.
 
 #include <Eigen/Core>
-#include <array>
+
+#include "render/stokes.h"
 
 namespace culet {
 
@@ -48,15 +49,6 @@ struct EyeCoherency {
         xy *= factor;
     }
 };
-
-/// Stokes parameters as the eye sees them: S1 > 0 along the picture's x (to the right), S2 > 0 at
-/// 45 degrees (to the upper right), S3 > 0 turning clockwise for who looks towards the light (right
-/// circular: Born & Wolf, Principles of Optics, 1.4.2).
-using Stokes = std::array<double, 4>;
-
-inline Stokes stokes_of(double xx, double yy, std::complex<double> xy) {
-    return {xx + yy, xx - yy, 2 * xy.real(), 2 * xy.imag()};
-}
 
 /// At the eye, of unpolarised light of radiance 1 that arrives through the two waves.
 inline Stokes stokes_of_unpolarised(const EyeCoherency& c) {

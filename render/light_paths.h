@@ -55,7 +55,7 @@ private:
         return weight * most;
     }
     void push(int facet) {
-        trace_.facets[trace_.length] = static_cast<short>(facet);
+        trace_.facets[trace_.length] = facet;
         trace_.modes[trace_.length] = 'i';
         ++trace_.length;
     }

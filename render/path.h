@@ -1,33 +1,13 @@
 #pragma once
-// What the tracers of light paths share: wavelengths that go together, limits, and the way gone.
+// What the tracers of light paths share: limits, the way gone, and its end.
 
 #include <array>
 #include <cstdint>
 
-#include "render/crystal.h"
+#include "render/band.h"
+#include "render/eye_coherency.h"
 
 namespace culet {
-
-/// Most wavelengths that share one band; longer sets are split.
-constexpr int k_band_nodes = 32;
-using NodeWeights = std::array<double, k_band_nodes>;
-
-/// Wavelength nodes that share one geometry, and the optics of the stone for them.
-struct Band {
-    int first = 0, count = 1;  ///< of the wavelength set
-    double n = 1.5;            ///< of an isotropic stone, or the mean where the split is left out
-    bool two_waves = false;    ///< the stone splits light: `crystal`
-    Crystal crystal;
-    double n_outside = 1;
-    bool absorbs = false;
-    /// Per unit of length, by principal axis of the crystal. All equal for isotropic absorption.
-    std::array<NodeWeights, 3> absorption{};
-    /// Vacuum wavelength in the stone's unit of length.
-    double wavelength = 589.3e-6;
-    /// Retardation, in the stone's unit of length, from which the two waves of a crystal are
-    /// followed apart: wavelength^2 / bandwidth. 0: always; infinite: monochromatic light.
-    double coherence_length = 0;
-};
 
 struct PathLimits {
     int depth = 64;         ///< depth d has d - 1 inner segments
@@ -48,11 +28,19 @@ struct PathLimits {
 /// What the eye ray met on the way, by facet; depth-first, so one array serves.
 struct PathTrace {
     static constexpr int k_longest = 1024;
-    std::array<short, k_longest> facets{};
+    std::array<int, k_longest> facets{};
     /// Of the segment behind each facet: 'i' isotropic; 'o', 'e', 's', 'f' a mode of a crystal; 'c'
     /// both modes, coherent; 'a' outside the stone, on the way to meet it again.
     std::array<char, k_longest> modes{};
     int length = 0;
+};
+
+/// A path that ends outside: light seen along `direction` from `at`, through two waves that vibrate
+/// along `u` and `v`.
+struct PathEnd {
+    Vec3 at, direction, u, v;
+    EyeCoherency coherency;
+    NodeWeights transmitted{};  ///< by absorption, at each node
 };
 
 }  // namespace culet

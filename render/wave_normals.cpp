@@ -56,8 +56,7 @@ public:
     // Both roots for a complex N, in no order that means anything.
     std::array<Complex, 2> held(Complex q) const {
         const Complex x = K_.x + q * n_.x, y = K_.y + q * n_.y, z = K_.z + q * n_.z;
-        const Complex b =
-            c_.d3 * x * x + (c_.d1 + c_.d3) * y * y + c_.d1 * z * z + c_.d1 * c_.d3;
+        const Complex b = c_.d3 * x * x + (c_.d1 + c_.d3) * y * y + c_.d1 * z * z + c_.d1 * c_.d3;
         const Complex product = c_.d1 * c_.d3 * y * y;
         const Complex root = std::sqrt(b * b - 4 * a_ * product);
         const Complex larger = std::norm(b + root) >= std::norm(b - root) ? b + root : b - root;
@@ -82,10 +81,10 @@ public:
             const bool in_w = std::norm(root.q) > std::abs(root.w);
             const Number Nx = K_.x + root.q * n_.x, Ny = K_.y + root.q * n_.y,
                          Nz = K_.z + root.q * n_.z;
-            const Number b = c_.d3 * Nx * Nx + (c_.d1 + c_.d3) * Ny * Ny + c_.d1 * Nz * Nz +
-                             c_.d1 * c_.d3;
-            const Number b_q = 2.0 * (c_.d3 * Nx * n_.x + (c_.d1 + c_.d3) * Ny * n_.y +
-                                      c_.d1 * Nz * n_.z);
+            const Number b =
+                c_.d3 * Nx * Nx + (c_.d1 + c_.d3) * Ny * Ny + c_.d1 * Nz * Nz + c_.d1 * c_.d3;
+            const Number b_q =
+                2.0 * (c_.d3 * Nx * n_.x + (c_.d1 + c_.d3) * Ny * n_.y + c_.d1 * Nz * n_.z);
             const Number F = root.w * (a_ * root.w - b) + c_.d1 * c_.d3 * Ny * Ny;
             const Number F_w = 2.0 * a_ * root.w - b;
             const Number F_q = -root.w * b_q + 2.0 * c_.d1 * c_.d3 * Ny * n_.y;
@@ -123,8 +122,7 @@ public:
         const double b0 = b_of(K_);
         const double b1 =
             2 * (c_.d3 * K_.x * n_.x + (c_.d1 + c_.d3) * K_.y * n_.y + c_.d1 * K_.z * n_.z);
-        const double b2 =
-            c_.d3 * n_.x * n_.x + (c_.d1 + c_.d3) * n_.y * n_.y + c_.d1 * n_.z * n_.z;
+        const double b2 = c_.d3 * n_.x * n_.x + (c_.d1 + c_.d3) * n_.y * n_.y + c_.d1 * n_.z * n_.z;
         return {a_ - b2, -b1, -2 * a_ * Q2_ - b0 + b2 * Q2_ + d13 * n_.y * n_.y,
                 b1 * Q2_ + 2 * d13 * K_.y * n_.y, a_ * Q2_ * Q2_ + Q2_ * b0 + d13 * K_.y * K_.y};
     }
@@ -284,7 +282,8 @@ private:
     void of_all_four(std::array<CrystalMode, 2>& modes) const {
         const std::array<double, 5> c = equation_.quartic();
         double scale = 0;
-        for (int i = 1; i < 5; ++i) scale = std::max(scale, std::pow(std::abs(c[i] / c[0]), 1.0 / i));
+        for (int i = 1; i < 5; ++i)
+            scale = std::max(scale, std::pow(std::abs(c[i] / c[0]), 1.0 / i));
         if (scale == 0) scale = 1;
         Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();
         for (int i = 0; i < 4; ++i) companion(0, i) = -c[i + 1] / (c[0] * std::pow(scale, i + 1));

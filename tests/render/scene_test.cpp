@@ -1,5 +1,5 @@
-// Expectations: the frames and conventions of docs/rendering.md, closed forms, and conservation in whole
-// pictures.
+// Expectations: the frames and conventions of docs/rendering.md, closed forms, and conservation in
+// whole pictures.
 
 #include <gtest/gtest.h>
 
