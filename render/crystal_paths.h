@@ -11,7 +11,7 @@
 // where they part; and they go on from the power-weighted means of their points and of their K.
 // The mean is exact where the two K are one (isotropic stones, plates with parallel faces) and off
 // by the order of the birefringence otherwise. A face acts on amplitudes: unitary, so that
-//   leaves + remainder + absorbed + cut = 1
+//   leaves + remainder + absorbed + cut + gambled = 1
 // for every ray.
 
 #include <algorithm>
@@ -31,6 +31,7 @@ namespace culet {
 // A Sink has
 //   void leaf(const PathEnd&, const PathTrace&);
 //   void remainder(const NodeWeights&), absorbed(const NodeWeights&), cut(const NodeWeights&);
+//   void gambled(const NodeWeights&): lost to Russian roulette, less what was won: of mean 0.
 //   void choice_begins(), choice_ends(bool second): two independent estimates, each of half weight,
 //     of what a subtree brings; their difference tells the variance.
 template <class Sink>
@@ -188,8 +189,9 @@ private:
             hit_face(band_.crystal, band_.n_outside, mode, body_.normal(found.facet));
         worst_imbalance_ = std::max(worst_imbalance_, hit.imbalance);
         push(found.facet);
-        leave(hit, node, at, found.facet, node.c.through_one(m, column(hit.out)), outer);
-        stay(hit, node, at, found.facet, node.c.through_one(m, column(hit.amplitude)), inner);
+        leave(hit, node, at, found.facet, node.c.through_one(m, hit.out[0], hit.out[1]), outer);
+        stay(hit, node, at, found.facet, node.c.through_one(m, hit.amplitude[0], hit.amplitude[1]),
+             inner);
     }
 
     // Both modes of `node` as one, when they are coherent enough at the face where both arrive;
@@ -331,15 +333,24 @@ private:
             follow(b);
             return;
         }
-        choosing_ = true;
-        for (int estimate = 0; estimate < 2; ++estimate) {
+        twice([&] {
             Node half_a = a, half_b = b;
             half_a.c.scale(0.5);
             half_b.c.scale(0.5);
+            follow_chosen(half_a, half_b);
+        });
+    }
+
+    // Two independent estimates of half weight, from here to the end of what hangs on it.
+    template <class Estimate>
+    void twice(Estimate&& estimate) {
+        const int length = trace_.length;
+        choosing_ = true;
+        for (const bool second : {false, true}) {
             trace_.length = length;
             sink_.choice_begins();
-            follow_chosen(half_a, half_b);
-            sink_.choice_ends(estimate == 1);
+            estimate();
+            sink_.choice_ends(second);
         }
         choosing_ = false;
     }
@@ -408,14 +419,25 @@ private:
         }
         const double weight = largest(node);
         if (!(weight < limits_.cut_weight)) return false;
-        const bool plays = limits_.roulette && choosing_;
-        // Survives with the probability weight / cut_weight, and then weighs cut_weight.
-        if (!plays || uniform() * limits_.cut_weight >= weight) {
+        if (!limits_.roulette) {
             sink_.cut(weighted(node.power(), node.tau));
             return true;
         }
+        if (!choosing_) {
+            node.c.scale(0.5);
+            twice([&] {
+                Node half = node;
+                follow(half);
+            });
+            return true;
+        }
+        // Survives with the probability weight / cut_weight, and then weighs cut_weight.
+        if (uniform() * limits_.cut_weight >= weight) {
+            sink_.gambled(weighted(node.power(), node.tau));
+            return true;
+        }
         const double gain = limits_.cut_weight / weight;
-        sink_.cut(weighted(node.power() * (1 - gain), node.tau));
+        sink_.gambled(weighted(node.power() * (1 - gain), node.tau));
         node.c.scale(gain);
         return false;
     }

@@ -37,10 +37,17 @@ struct EyeCoherency {
         return {T * xx * back, T * yy * back, T * xy * back};
     }
 
-    /// Of wave m alone, entering two waves with amplitudes t.
-    EyeCoherency through_one(int m, const Eigen::Vector2cd& t) const {
-        const Eigen::Matrix2cd outer = t * t.adjoint();
-        return {xx(m, m) * outer, yy(m, m) * outer, xy(m, m) * outer};
+    /// Of wave m alone, entering two waves with amplitudes t0, t1.
+    EyeCoherency through_one(int m, std::complex<double> t0, std::complex<double> t1) const {
+        const double p0 = std::norm(t0), p1 = std::norm(t1);
+        const std::complex<double> mixed = t0 * std::conj(t1);
+        const double x = xx(m, m).real(), y = yy(m, m).real();
+        const std::complex<double> z = xy(m, m);
+        EyeCoherency c;
+        c.xx << x * p0, x * mixed, x * std::conj(mixed), x * p1;
+        c.yy << y * p0, y * mixed, y * std::conj(mixed), y * p1;
+        c.xy << z * p0, z * mixed, z * std::conj(mixed), z * p1;
+        return c;
     }
 
     void scale(double factor) {

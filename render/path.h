@@ -19,7 +19,7 @@ struct PathLimits {
     /// as above. Without it a tree of depth d has 2^d paths.
     int most_splits = 1 << 14;
     /// Chosen branches below `cut_weight` play Russian roulette instead of being cut: the sum stays
-    /// unbiased, and `cut` then counts the difference, of mean 0.
+    /// unbiased.
     bool roulette = false;
     std::uint64_t seed = 0;  ///< of those choices
     bool polarised = true;   ///< false: mean powers of s and p at every isotropic face

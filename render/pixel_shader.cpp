@@ -1,6 +1,7 @@
 #include "render/pixel_shader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "render/crystal_paths.h"
@@ -53,11 +54,12 @@ private:
 class GatherStokes : public Lost {
 public:
     GatherStokes(const LightField& lights, const Band& band, const std::vector<double>& luminance,
-                 int nodes, int planes, double* stokes)
+                 const std::vector<double>& usual, int nodes, int planes, double* stokes)
         : Lost(band.count),
           lights_(lights),
           band_(band),
           luminance_(luminance),
+          usual_(usual),
           nodes_(nodes),
           planes_(planes),
           stokes_(stokes) {}
@@ -72,6 +74,12 @@ public:
                              seen.data());
         for (int i = 0; i < band_.count; ++i)
             stokes_[band_.first + i] += end.transmitted[i] * seen[i];
+    }
+    // Weight of mean 0, so it may be given any radiance: the usual one makes up best for what was
+    // lost, and exactly in a constant light.
+    void gambled(const NodeWeights& weight) {
+        for (int i = 0; i < band_.count; ++i)
+            stokes_[band_.first + i] += weight[i] * usual_[band_.first + i];
     }
     // Half the estimate each: the squared difference of two such is an unbiased estimate of their
     // sum's variance.
@@ -97,7 +105,7 @@ private:
     }
     const LightField& lights_;
     const Band& band_;
-    const std::vector<double>& luminance_;
+    const std::vector<double>&luminance_, &usual_;
     int nodes_, planes_;
     double* stokes_;
     double start_ = 0, first_ = 0;
@@ -117,6 +125,19 @@ std::vector<double> luminance_weights(const WavelengthSet& colours, const EyeOpt
     return weights;
 }
 
+// Mean over directions evenly spread on the sphere (Fibonacci's spiral).
+std::vector<double> usual_radiance(const LightField& lights, const Vec3& at, int nodes) {
+    constexpr int k_directions = 256;
+    constexpr double k_golden_angle = 2.39996322972865332;
+    std::vector<double> mean(nodes, 0.0);
+    for (int i = 0; i < k_directions; ++i) {
+        const double z = 1 - (2 * i + 1.0) / k_directions, r = std::sqrt(1 - z * z);
+        const Vec3 direction{r * std::cos(k_golden_angle * i), r * std::sin(k_golden_angle * i), z};
+        lights.add_radiance(at, direction, 1.0 / k_directions, 0, nodes, mean.data());
+    }
+    return mean;
+}
+
 }  // namespace
 
 PixelShader::PixelShader(const Scene& scene, const Plan& plan, const LightField& lights,
@@ -129,7 +150,8 @@ PixelShader::PixelShader(const Scene& scene, const Plan& plan, const LightField&
       pattern_(sample_pattern(samples, plan.on(Effects::aperture), scene.settings.filter,
                               scene.settings.filter_radius)),
       nodes_(colours.size()),
-      luminance_(luminance_weights(colours, scene.camera.optics, plan.stokes ? 4 : 1)) {}
+      luminance_(luminance_weights(colours, scene.camera.optics, plan.stokes ? 4 : 1)),
+      usual_(usual_radiance(lights, scene.camera.look_at, nodes_)) {}
 
 void PixelShader::background(const EyeRay& ray, double* stokes) const {
     if (!plan_.stokes) {
@@ -170,7 +192,7 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
                 sums.cut += share * lost.cut_ / nodes_;
             };
             if (plan_.general) {
-                GatherStokes gather(lights_, band, luminance_, nodes_, planes(), stokes);
+                GatherStokes gather(lights_, band, luminance_, usual_, nodes_, planes(), stokes);
                 CrystalPaths<GatherStokes> paths(body_, band, limits, gather);
                 const EyeFrame frame = eyes_.frame(ray.direction);
                 paths.trace(ray, frame.x, frame.y, *entry);

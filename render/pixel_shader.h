@@ -43,6 +43,7 @@ private:
     std::vector<SamplePoint> pattern_;
     int nodes_;
     std::vector<double> luminance_;  // of S[plane] at each node, as seen behind the eye's optics
+    std::vector<double> usual_;      // mean radiance of the lights at each node
 };
 
 }  // namespace culet

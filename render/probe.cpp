@@ -56,6 +56,7 @@ public:
     void remainder(const NodeWeights& weight) { add(result_.remainder, weight); }
     void absorbed(const NodeWeights& weight) { add(result_.absorbed, weight); }
     void cut(const NodeWeights& weight) { add(result_.cut, weight); }
+    void gambled(const NodeWeights&) {}  // a probe cuts
     // Half the estimate each, see pixel_shader.cpp.
     void choice_begins() { start_ = seen(); }
     void choice_ends(bool second) {

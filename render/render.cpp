@@ -247,7 +247,7 @@ RenderResult render(const Scene& whole, const Progress& progress) {
     }
     if (stats.mean_radiance > 0) {
         stats.error_bound =
-            (stats.remainder + std::abs(stats.cut)) * lights.max_radiance() / stats.mean_radiance;
+            (stats.remainder + stats.cut) * lights.max_radiance() / stats.mean_radiance;
         stats.standard_error = std::sqrt(variance / weight) / stats.mean_radiance;
     }
     if (variance > 0) {

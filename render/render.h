@@ -18,7 +18,7 @@ struct RenderStats {
     std::vector<double> wavelengths_nm;
     double mean_radiance = 0;  ///< of the stone's pixels, luminance
     /// Mean weight over the stone's pixels of what paths were left at the depth limit, and of paths
-    /// cut for their small weight (crystals: less what others gained for them, of mean 0).
+    /// cut for their small weight.
     double remainder = 0, cut = 0, absorbed = 0;
     /// (remainder + cut) x brightest light / mean radiance: the picture's relative error is below
     /// this on average over the stone, beside sampling and effects switched off.

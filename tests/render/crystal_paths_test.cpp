@@ -36,6 +36,7 @@ struct Sums {
     void remainder(const NodeWeights& w) { left += w[0]; }
     void absorbed(const NodeWeights& w) { lost += w[0]; }
     void cut(const NodeWeights& w) { dropped += w[0]; }
+    void gambled(const NodeWeights& w) { dropped += w[0]; }
     void choice_begins() {}
     void choice_ends(bool) {}
     double total() const { return leaves + left + lost + dropped; }
@@ -235,7 +236,8 @@ TEST(CrystalPaths, waves_far_apart_are_followed_apart) {
     band.coherence_length = 0.015;
     PathLimits limits;
     limits.depth = 3;
-    const Sums sums = traced(body, band, limits, {{0.3, 0.2, 5}, glm::normalize(Vec3{0.1, 0.3, -1})});
+    const Sums sums =
+        traced(body, band, limits, {{0.3, 0.2, 5}, glm::normalize(Vec3{0.1, 0.3, -1})});
     for (const std::string& modes : sums.modes) {
         for (char m : modes) EXPECT_NE(m, 'c') << modes;
     }
