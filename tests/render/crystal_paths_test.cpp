@@ -10,7 +10,9 @@
 #include <random>
 
 #include "render/eye_optics.h"
+#include "render/least_rotation.h"
 #include "render/light_paths.h"
+#include "stone/perpendicular.h"
 #include "tests/render/ray_stones.h"
 
 namespace {
@@ -272,6 +274,207 @@ TEST(CrystalPaths, vanishing_birefringence_tends_to_the_isotropic_stone) {
                     << "seed " << seed;
         }
     }
+}
+
+// The facets and modes of every leaf beside its weight.
+struct Ways {
+    struct Way {
+        std::vector<int> facets;
+        std::string modes;
+        double weight;
+        Vec3 at, direction;
+    };
+    std::vector<Way> ways;
+    void leaf(const PathEnd& end, const PathTrace& trace) {
+        ways.push_back({{trace.facets.begin(), trace.facets.begin() + trace.length},
+                        {trace.modes.begin(), trace.modes.begin() + trace.length - 1},
+                        end.coherency.power(),
+                        end.at,
+                        end.direction});
+    }
+    void remainder(const NodeWeights&) {}
+    void absorbed(const NodeWeights&) {}
+    void cut(const NodeWeights&) {}
+    void gambled(const NodeWeights&) {}
+    void choice_begins() {}
+    void choice_ends(bool) {}
+};
+
+TEST(CrystalPaths, a_path_and_its_reverse_weigh_the_same) {
+    // Lorentz reciprocity: every leaf, sent back the way it came, finds the same facets and modes
+    // in the reverse order with the same weight.
+    const unsigned seed = 77;
+    std::mt19937_64 random(seed);
+    PathLimits limits;
+    limits.depth = 5;
+    int compared = 0;
+    double worst = 0;
+    for (int stone = 0; stone < 12; ++stone) {
+        const StoneBody body(random_stone(random, 14), true);
+        Band band;
+        const auto axes = random_axes(random);
+        band.crystal = stone % 2 == 0 ? Crystal(axes, {1.486, 1.658, 1.658})
+                                      : Crystal(axes, {1.53, 1.68, 1.69});
+        for (int i = 0; i < 6; ++i) {
+            const EyeRay ray = random_ray(random);
+            const auto entry = body.entry(ray.origin, ray.direction);
+            if (!entry) continue;
+            const EyeFrame any{perpendicular_to(ray.direction), {}};
+            Ways there;
+            CrystalPaths<Ways>(body, band, limits, there)
+                .trace(ray, any.x, glm::cross(any.x, ray.direction), *entry);
+            for (const Ways::Way& way : there.ways) {
+                const EyeRay back{way.at + 3.0 * way.direction, -way.direction};
+                const auto again = body.entry(back.origin, back.direction);
+                if (!again || again->facet != way.facets.back()) continue;  // grazing an edge
+                const Vec3 x = perpendicular_to(back.direction);
+                Ways reverse;
+                CrystalPaths<Ways>(body, band, limits, reverse)
+                    .trace(back, x, glm::cross(x, back.direction), *again);
+                const std::vector<int> facets(way.facets.rbegin(), way.facets.rend());
+                const std::string modes(way.modes.rbegin(), way.modes.rend());
+                for (const Ways::Way& other : reverse.ways) {
+                    if (other.facets != facets || other.modes != modes) continue;
+                    worst = std::max(worst, std::abs(other.weight - way.weight));
+                    ++compared;
+                }
+            }
+        }
+    }
+    EXPECT_GT(compared, 500);
+    EXPECT_LT(worst, 1e-13) << "seed " << seed;
+}
+
+TEST(CrystalPaths, biaxial_plate_is_dark_at_its_melatopes_and_along_the_isogyres) {
+    // Optic axes lie in the plane of alpha and gamma at V from gamma, tan^2 V = (1/a^2 - 1/b^2) /
+    // (1/b^2 - 1/c^2) with a, b, c the indices (Born & Wolf 15.3.3); light along one stays as it
+    // was polarised. Entering the plate normal to gamma at sin = n_beta sin V.
+    const double a = 1.6, b = 1.605, c = 1.62, thickness = 0.6;
+    const double V =
+        std::atan(std::sqrt((1 / (a * a) - 1 / (b * b)) / (1 / (b * b) - 1 / (c * c))));
+    const StoneBody body(slab(thickness), true);
+    Band band;
+    band.coherence_length = std::numeric_limits<double>::infinity();
+    band.wavelength = 550e-6;
+    PathLimits limits;
+    limits.depth = 2;
+    const auto crossed = [&](double sine, double polarizer) {
+        const Vec3 d{sine, 0, -std::sqrt(1 - sine * sine)};
+        Sums sums;
+        const EyeRay ray{Vec3{0.3, 0.2, 0} - 5.0 * d, d};
+        const Vec3 forward{0, 0, -1};
+        const Vec3 x = turned_with(forward, d, {1, 0, 0}), y = turned_with(forward, d, {0, 1, 0});
+        CrystalPaths<Sums>(body, band, limits, sums)
+            .trace(ray, x, y, *body.entry(ray.origin, ray.direction));
+        return between_polarisers(sums, 1, polarizer, polarizer + std::numbers::pi / 2);
+    };
+    // Axes at 45 degrees to the polariser: bright between, dark at the melatope; alpha along x.
+    band.crystal = Crystal({Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {a, b, c});
+    const double melatope = b * std::sin(V), at_45 = std::numbers::pi / 4;
+    // What the two faces themselves turn at this angle: the isotropic plate's crossed light.
+    Band isotropic = band;
+    isotropic.crystal = Crystal({Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {b, b, b});
+    std::swap(band, isotropic);
+    const double faces = crossed(melatope, at_45);
+    std::swap(band, isotropic);
+    // The faces of the crystal differ from those of index b by the order of c - a.
+    EXPECT_NEAR(crossed(melatope, at_45), faces, 0.1 * (c - a));
+    double brightest = 0;
+    for (double sine = 0; sine < melatope; sine += 0.002)
+        brightest = std::max(brightest, crossed(sine, at_45));
+    EXPECT_GT(brightest, 0.5);
+    // Vibrations along the polariser: the trace of the axial plane is an isogyre.
+    for (double sine = 0; sine < 0.9; sine += 0.1) EXPECT_LT(crossed(sine, 0), 1e-12) << sine;
+}
+
+TEST(CrystalPaths, uniaxial_rings_lie_where_the_retardation_is_a_whole_number_of_waves) {
+    // Plate normal to the axis: G = d (q_e - q_o), q_o^2 = n_o^2 - K^2, q_e^2 = n_o^2 (1 - K^2 /
+    // n_e^2) (Born & Wolf 15.3.2). Crossed polarisers at 45 degrees to the plane of incidence: dark
+    // (but for the faces' own part) where G is m waves.
+    const double n_o = 1.658, n_e = 1.486, thickness = 0.9, wavelength = 589e-6;
+    const StoneBody body(slab(thickness), true);
+    Band band;
+    band.crystal = uniaxial_crystal({0, 0, 1}, n_o, n_e);
+    band.coherence_length = std::numeric_limits<double>::infinity();
+    band.wavelength = wavelength;
+    PathLimits limits;
+    limits.depth = 2;
+    for (int m = 1; m <= 6; ++m) {
+        double low = 0, high = 0.6;
+        for (int step = 0; step < 60; ++step) {
+            const double K = 0.5 * (low + high);
+            const double G = thickness * (std::sqrt(n_o * n_o - K * K) -
+                                          n_o * std::sqrt(1 - K * K / (n_e * n_e)));
+            (G < m * wavelength ? low : high) = K;
+        }
+        const auto crossed = [&](double sine) {
+            const Vec3 d{sine * std::sqrt(0.5), sine * std::sqrt(0.5), -std::sqrt(1 - sine * sine)};
+            const EyeRay ray{Vec3{0.3, 0.2, 0} - 5.0 * d, d};
+            const Vec3 forward{0, 0, -1};
+            Sums sums;
+            CrystalPaths<Sums>(body, band, limits, sums)
+                .trace(ray, turned_with(forward, d, {1, 0, 0}), turned_with(forward, d, {0, 1, 0}),
+                       *body.entry(ray.origin, ray.direction));
+            return between_polarisers(sums, 1, 0, std::numbers::pi / 2);
+        };
+        // The two waves come through with T_s and T_p: what is left where they are in step is
+        // (sqrt T_s - sqrt T_p)^2 / 4, and halfway between rings they add.
+        const double q1 = std::sqrt(1 - low * low);
+        const double qo = std::sqrt(n_o * n_o - low * low);
+        const double t_s = 4 * q1 * qo / ((q1 + qo) * (q1 + qo));
+        const double qe = n_o * std::sqrt(1 - low * low / (n_e * n_e)), eo = n_o * n_o;
+        const double t_p = 4 * eo * q1 * qe / ((eo * q1 + qe) * (eo * q1 + qe));
+        EXPECT_NEAR(crossed(low), 0.25 * (t_s - t_p) * (t_s - t_p), 1e-10) << m;
+    }
+}
+
+TEST(CrystalPaths, choices_at_random_are_unbiased_and_know_their_error) {
+    // Against the whole tree: the estimate lies within its own standard error as often as a normal
+    // variable would; the sum over 400 rays of squared normalised errors is 400 +- 28 if the
+    // variances are right on average. Single variances are far from normal, so the bounds are wide:
+    // a factor 2 either way.
+    const unsigned seed = 5;
+    std::mt19937_64 random(seed);
+    struct Seen : Ways {
+        double sum = 0, start = 0, first = 0, variance = 0;
+        void leaf(const PathEnd& end, const PathTrace&) {
+            if (end.direction.z > 0) sum += end.coherency.power();
+        }
+        void gambled(const NodeWeights& w) { sum += 0.5 * w[0]; }
+        void choice_begins() { start = sum; }
+        void choice_ends(bool second) {
+            const double brought = sum - start;
+            if (second) variance += (brought - first) * (brought - first);
+            first = brought;
+        }
+    };
+    double errors = 0, variances = 0, bias = 0;
+    for (int i = 0; i < 400; ++i) {
+        const StoneBody body(random_stone(random, 12), true);
+        Band band;
+        band.crystal = Crystal(random_axes(random), {1.5, 1.6, 1.7});
+        const EyeRay ray = random_ray(random);
+        const auto entry = body.entry(ray.origin, ray.direction);
+        if (!entry) continue;
+        const Vec3 x = perpendicular_to(ray.direction), y = glm::cross(x, ray.direction);
+        PathLimits limits;
+        limits.depth = 9;
+        Seen exact, chosen;
+        CrystalPaths<Seen>(body, band, limits, exact).trace(ray, x, y, *entry);
+        limits.split_weight = 0.1;
+        limits.cut_weight = 0.02;
+        limits.roulette = true;
+        limits.seed = 1000 + i;
+        CrystalPaths<Seen>(body, band, limits, chosen).trace(ray, x, y, *entry);
+        const double error = chosen.sum - exact.sum;
+        errors += error * error;
+        bias += error;
+        variances += chosen.variance;
+    }
+    EXPECT_GT(variances, 0);
+    EXPECT_LT(errors, 2 * variances) << "seed " << seed;
+    EXPECT_GT(errors, 0.5 * variances) << "seed " << seed;
+    EXPECT_LT(std::abs(bias), 4 * std::sqrt(variances)) << "unbiased within 4 standard errors";
 }
 
 }  // namespace
