@@ -25,6 +25,7 @@ constexpr int k_tile = 16;          // pixels
 constexpr int k_pilot_pixels = 24;  // along the picture's longer side
 // Crystals: a path splits in two at every hit while it carries more than this.
 constexpr double k_split_weight = 0.02;
+constexpr double k_gambled_weight = 1e-3;
 constexpr int k_samples = 16, k_pupil_samples = 64;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -132,7 +133,10 @@ RenderResult render(const Scene& whole, const Progress& progress) {
                                                       : settings.tolerance;
         limits.cut_weight = std::min(limits.cut_weight, settings.tolerance);
         limits.split_weight = std::max(k_split_weight, limits.cut_weight);
-        limits.roulette = plan.splits;
+        // Trees that branch gamble instead of cutting: that costs no accuracy but noise, which a
+        // light of great radiance must not make as dear as it makes cutting.
+        limits.roulette = plan.splits || !scene.stone.convex;
+        if (limits.roulette) limits.cut_weight = std::max(limits.cut_weight, k_gambled_weight);
     }
 
     RenderResult result;
