@@ -18,6 +18,8 @@ namespace culet {
 namespace {
 
 constexpr int k_deepest = 64;
+// One ray may cost what a picture's may not: the whole tree of a crystal to depth 18.
+constexpr int k_most_splits = 1 << 18;
 
 // Keeps every leaf; paths of different wavelengths through the same facets and modes become one.
 class Record {
@@ -163,6 +165,7 @@ ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progres
     limits.cut_weight = scene.settings.tolerance;
     limits.polarised = plan.polarised;
     limits.seed = scene.settings.seed;
+    limits.most_splits = k_most_splits;
     result.depth = limits.depth;
     for (const Band& band : plan.bands) {
         record.begin(band);
