@@ -254,7 +254,10 @@ Plan make_plan(const Scene& scene, int nodes) {
         band.n = mean(n);
         // Without the split, light sees the mean over directions of its vibrations.
         if (!plan.splits) n = {band.n, band.n, band.n};
-        band.crystal = Crystal(scene.stone.crystal.axes, n);
+        // Of a uniaxial crystal the optic axis alone counts.
+        band.crystal = material.optic == OpticCharacter::uniaxial
+                           ? uniaxial_crystal(scene.stone.crystal.axes[0], n[1], n[0])
+                           : Crystal(scene.stone.crystal.axes, n);
         band.two_waves = !band.crystal.isotropic();
         band.n_outside = scene.immersion;
         band.absorbs = plan.on(Effects::absorption);
