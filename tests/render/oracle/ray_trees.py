@@ -227,8 +227,9 @@ def main():
         for material, indices in MATERIALS.items():
             for k in range(2):
                 axes = frames[(k + len(cases)) % 3]
-                origin = [rng.uniform(-0.7, 0.7), rng.uniform(-0.7, 0.7), 8.0]
-                direction = [rng.uniform(-0.1, 0.1), rng.uniform(-0.1, 0.1), -1.0]
+                # Towards a point well inside, so that no ray misses.
+                origin = [rng.uniform(-3, 3), rng.uniform(-3, 3), 8.0]
+                direction = [rng.uniform(-0.6, 0.6) - origin[0], rng.uniform(-0.6, 0.6) - origin[1], -8.0]
                 depth = 5 if stone == "brilliant" else 6
                 radiance, remainder, hits = trace(exact, permittivity(indices, axes), origin, direction, depth, light)
                 cases.append({"stone": stone, "material": material, "n": indices, "axes": axes, "origin": origin,
