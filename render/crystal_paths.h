@@ -175,7 +175,7 @@ private:
         const Vec3 at = body_.on_facet(found.facet, node.at + found.distance * mode.ray);
         if (band_.absorbs) {
             const std::array<double, 3> shares = absorption_shares(band_.crystal, mode);
-            NodeWeights lost;
+            NodeWeights lost{};
             for (int i = 0; i < band_.count; ++i) {
                 double a = 0;
                 for (int axis = 0; axis < 3; ++axis) a += shares[axis] * band_.absorption[axis][i];
@@ -282,7 +282,7 @@ private:
     // else on the coherency, of the band's one wavelength.
     void absorb_together(Node& node, const std::array<double, 2>& length) {
         if (!band_.absorbs) return;
-        NodeWeights lost;
+        NodeWeights lost{};
         if (band_.crystal.isotropic()) {
             for (int i = 0; i < band_.count; ++i) {
                 const double after = node.tau[i] * std::exp(-band_.absorption[0][i] * length[0]);
