@@ -173,6 +173,7 @@ ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progres
             CrystalPaths<Record> paths(body, band, limits, record);
             paths.trace(ray, frame.x, frame.y, *entry);
             result.sampled = result.sampled || paths.sampled();
+            result.worst_imbalance = std::max(result.worst_imbalance, paths.worst_imbalance());
         } else {
             LightPaths<Record>(body.planes(), band, limits, record).trace(ray, *entry);
         }
@@ -229,7 +230,8 @@ std::string probe_json(const ProbeResult& result) {
         {"per_wavelength",
          {{"remainder", result.remainder}, {"absorbed", result.absorbed}, {"cut", result.cut}}},
         {"depth", result.depth},
-        {"standard_error", result.standard_error}};
+        {"standard_error", result.standard_error},
+        {"worst_imbalance", result.worst_imbalance}};
     return json.dump(2) + "\n";
 }
 
