@@ -149,7 +149,7 @@ ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progres
     Record record(scene, lights, nodes, progress, result);
     const EyeFrame frame = EyeRays(scene.camera).frame(ray.direction);
     const auto entry = body.entry(ray.origin, ray.direction);
-    if (!entry) {
+    if (!entry || lights.nearest_distance(ray.origin, ray.direction) < entry->distance) {
         PathEnd end{ray.origin, ray.direction, frame.x, frame.y, EyeCoherency::of_eye(), {}};
         end.transmitted.fill(1.0);
         for (int first = 0; first < nodes; first += k_band_nodes) {

@@ -226,6 +226,16 @@ TEST_F(Views, a_heart_balances_and_needs_to_be_said_not_convex) {
     EXPECT_EQ(stats.cut, 0);
 }
 
+TEST_F(Views, a_light_before_the_stone_hides_it) {
+    const std::string text = plate("[material]\nindex = 1.5\n",
+                                   "wavelengths = [550]\n[[light.sphere]]\ncenter = [0, 0, 20]\n"
+                                   "radius = 2\nradiance = 3");
+    EXPECT_EQ(middle(scene(text)), 3);
+    const ProbeResult result = probe(scene(text), {{0, 0, 50}, {0, 0, -1}});
+    EXPECT_FALSE(result.hit);
+    EXPECT_EQ(result.radiance[0], 3);
+}
+
 TEST_F(Views, more_wavelengths_for_a_finer_tolerance) {
     std::size_t before = 0;
     for (const char* tolerance : {"0.5", "0.02", "0.0001"}) {
