@@ -17,7 +17,7 @@ namespace culet {
 
 namespace {
 
-constexpr int k_deepest = 64;
+constexpr int k_deepest = 1000;
 // One ray may cost what a picture's may not: the whole tree of a crystal to depth 18.
 constexpr int k_most_splits = 1 << 18;
 

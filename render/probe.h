@@ -38,7 +38,7 @@ struct ProbeResult {
 };
 
 /// Here `tolerance` of the scene's settings is a weight: paths below it are cut. Depth as in the
-/// settings (0: 64). Throws InputError (a ray that starts inside the stone, and as `render`) and
+/// settings (0: 1000). Throws InputError (a ray that starts inside the stone, and as `render`) and
 /// Interrupted.
 ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progress = {});
 

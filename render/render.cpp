@@ -20,7 +20,7 @@ namespace culet {
 
 namespace {
 
-constexpr int k_deepest = 64;       // by tolerance; what is left then is reported as remainder
+constexpr int k_deepest = 1000;     // by tolerance; what is left then is reported as remainder
 constexpr int k_tile = 16;          // pixels
 constexpr int k_pilot_pixels = 24;  // along the picture's longer side
 // Crystals: a path splits in two at every hit while it carries more than this.
@@ -241,6 +241,7 @@ RenderResult render(const Scene& whole, const Progress& progress) {
         stats.rays += sums[i].rays;
         sampled += sums[i].sampled;
         variance += sums[i].variance;
+        stats.depth = std::max(stats.depth, sums[i].deepest);
         stats.worst_imbalance = std::max(stats.worst_imbalance, sums[i].worst_imbalance);
         seen += sums[i].luminance;
     }
@@ -282,7 +283,6 @@ RenderResult render(const Scene& whole, const Progress& progress) {
         stats.notes.push_back(fmt::format("the error bound {:.3g} is over the tolerance {:.3g}",
                                           stats.error_bound, settings.tolerance));
     }
-    stats.depth = limits.depth;
     stats.effects.assign(plan.effects.begin(), plan.effects.end());
     stats.wavelengths_nm = plan.wavelengths_nm;
     stats.seconds_shade = seconds_since(shading);
