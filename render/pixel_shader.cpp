@@ -177,7 +177,7 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
         if (!eyes_.sees(x + size * p.x, y + size * p.y)) continue;
         const EyeRay ray = eyes_.through(x + size * p.x, y + size * p.y, p.pupil_x, p.pupil_y);
         const auto entry = body_.entry(ray.origin, ray.direction);
-        if (!entry) {
+        if (!entry || lights_.nearest_distance(ray.origin, ray.direction) < entry->distance) {
             background(ray, behind.data());
             continue;
         }

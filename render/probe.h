@@ -32,6 +32,8 @@ struct ProbeResult {
     Stokes stokes{};
     /// Standard error of the mean radiance from paths chosen at random; 0: none were.
     double standard_error = 0;
+    /// Largest |sum of powers - 1| met at a crystal's face before it was put right.
+    double worst_imbalance = 0;
     bool sampled = false;  ///< a crystal's tree grew too large: from there on one wave was followed
 };
 
