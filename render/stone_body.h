@@ -17,8 +17,9 @@ public:
     bool convex() const { return !any_; }
     const ConvexBody& planes() const { return convex_; }
 
-    std::optional<BodyHit> entry(const Vec3& origin, const Vec3& direction) const {
-        return any_ ? any_->entry(origin, direction) : convex_.entry(origin, direction);
+    /// `guess`: see convex_body.h.
+    std::optional<BodyHit> entry(const Vec3& origin, const Vec3& direction, int guess = -1) const {
+        return any_ ? any_->entry(origin, direction) : convex_.entry(origin, direction, guess);
     }
     /// From facet `from` inwards.
     BodyHit exit(const Vec3& origin, const Vec3& direction, int from) const {
