@@ -64,6 +64,7 @@ std::vector<Vec3> ConvexBody::outline(int facet, const Vec3& middle, double reac
 }
 
 void ConvexBody::find_near_planes(const Solid& solid) {
+    near_begin_.assign(offset_.size() + 1, 0);
     const double reach = 2 * diameter(solid);
     if (!(reach > 0)) return;
     double outermost = 0;
@@ -76,39 +77,35 @@ void ConvexBody::find_near_planes(const Solid& solid) {
     const double size = reach + outermost;
     margin_ = k_margin * size;
     far_ = k_far * size;
-    middle_ = 0.5 * (low + high);
-    double radius = 0;
-    bool whole = true;
+    const Vec3 middle = 0.5 * (low + high);
     for (std::size_t f = 0; f < offset_.size(); ++f) {
-        near_begin_.push_back(near_.size());
-        std::vector<Vec3> loop = outline(static_cast<int>(f), middle_, reach);
-        for (const Vec3& p : loop) whole = whole && glm::length(p - middle_) < reach;
-        if (!whole) loop.clear();
-        int count = 0;
+        near_begin_[f] = near_.size();
+        const std::vector<Vec3> loop = outline(static_cast<int>(f), middle, reach);
+        const bool whole = std::all_of(loop.begin(), loop.end(), [&](const Vec3& p) {
+            return glm::length(p - middle) < reach;
+        });
+        std::size_t count = 0;
         const auto add = [&](const Vec3& n, double offset, int facet) {
-            const int i = count++ % 4;
+            const std::size_t i = count++ % 4;
             if (i == 0) {
                 near_.emplace_back();
-                near_.back().offset.fill(k_infinite);
+                near_.back().offset.fill(Two{} + k_infinite);
                 near_.back().facet.fill(static_cast<int>(f));
             }
             NearPlanes& four = near_.back();
-            four.nx[i] = n.x;
-            four.ny[i] = n.y;
-            four.nz[i] = n.z;
-            four.offset[i] = offset;
+            four.nx[i / 2][i % 2] = n.x;
+            four.ny[i / 2][i % 2] = n.y;
+            four.nz[i / 2][i % 2] = n.z;
+            four.offset[i / 2][i % 2] = offset;
             four.facet[i] = facet;
         };
-        if (loop.empty()) {
+        if (loop.empty() || !whole) {
             // Never confirmed.
             add({0, 0, 0}, -k_infinite, static_cast<int>(f));
             continue;
         }
         double around = 0;
-        for (const Vec3& p : loop) {
-            radius = std::max(radius, glm::length(p - middle_));
-            around = std::max(around, glm::length(p - loop[0]));
-        }
+        for (const Vec3& p : loop) around = std::max(around, glm::length(p - loop[0]));
         for (std::size_t k = 0; k < offset_.size(); ++k) {
             if (k == f || glm::dot(normals_[k], loop[0]) - offset_[k] < -1.1 * around - 2 * margin_)
                 continue;
@@ -118,23 +115,19 @@ void ConvexBody::find_near_planes(const Solid& solid) {
             if (highest > -2 * margin_) add(normals_[k], offset_[k], static_cast<int>(k));
         }
     }
-    near_begin_.push_back(near_.size());
-    if (whole) radius_ = 1.000001 * radius;
+    near_begin_.back() = near_.size();
 }
 
 bool ConvexBody::surely_on_facet(int facet, const Vec3& point) const {
     const std::size_t f = static_cast<std::size_t>(facet);
-    std::array<double, 4> least;
-    least.fill(k_infinite);
+    Two least0 = Two{} + k_infinite, least1 = least0;
     for (std::size_t b = near_begin_[f]; b < near_begin_[f + 1]; ++b) {
-        const NearPlanes& four = near_[b];
-        for (std::size_t i = 0; i < 4; ++i) {
-            const double below = four.offset[i] - (four.nx[i] * point.x + four.ny[i] * point.y +
-                                                   four.nz[i] * point.z);
-            least[i] = below < least[i] ? below : least[i];
-        }
+        const Two below0 = near_[b].below(0, point), below1 = near_[b].below(1, point);
+        least0 = below0 < least0 ? below0 : least0;
+        least1 = below1 < least1 ? below1 : least1;
     }
-    return std::min(std::min(least[0], least[1]), std::min(least[2], least[3])) > margin_;
+    least0 = least1 < least0 ? least1 : least0;
+    return std::min(least0[0], least0[1]) > margin_;
 }
 
 // Of a facet and the planes that come near it, the one that a ray meets first.
@@ -146,17 +139,13 @@ int ConvexBody::nearest_about(int facet, const Vec3& origin, const Vec3& directi
     if (towards_own > 0) best = (offset_[f] - glm::dot(normals_[f], origin)) / towards_own;
     for (std::size_t b = near_begin_[f]; b < near_begin_[f + 1]; ++b) {
         const NearPlanes& four = near_[b];
-        std::array<double, 4> towards, below;
-        for (std::size_t i = 0; i < 4; ++i) {
-            towards[i] =
-                four.nx[i] * direction.x + four.ny[i] * direction.y + four.nz[i] * direction.z;
-            below[i] = four.offset[i] -
-                       (four.nx[i] * origin.x + four.ny[i] * origin.y + four.nz[i] * origin.z);
-        }
-        for (std::size_t i = 0; i < 4; ++i) {
-            if (towards[i] > 0 && below[i] < best * towards[i]) {
-                best = below[i] / towards[i];
-                nearest = four.facet[i];
+        for (std::size_t pair = 0; pair < 2; ++pair) {
+            const Two towards = four.towards(pair, direction), below = four.below(pair, origin);
+            for (std::size_t i = 0; i < 2; ++i) {
+                if (towards[i] > 0 && below[i] < best * towards[i]) {
+                    best = below[i] / towards[i];
+                    nearest = four.facet[2 * pair + i];
+                }
             }
         }
     }
@@ -175,55 +164,67 @@ void ConvexBody::measure(std::size_t start, std::size_t size, const Vec3& origin
     }
 }
 
+std::optional<BodyHit> ConvexBody::entry(const Vec3& origin, const Vec3& direction) const {
+    EntryGuess none;
+    return entry(origin, direction, none);
+}
+
 std::optional<BodyHit> ConvexBody::entry(const Vec3& origin, const Vec3& direction,
-                                         int guess) const {
-    BodyHit hit;
-    if (guess >= 0 && !near_.empty()) {
-        const std::size_t f = static_cast<std::size_t>(guess);
-        const double towards = glm::dot(normals_[f], direction);
-        const double below = offset_[f] - glm::dot(normals_[f], origin);
-        if (towards < 0 && below < 0) {
-            const double distance = below / towards;
-            if (distance < far_ && surely_on_facet(guess, origin + distance * direction))
-                return BodyHit{guess, distance};
-        }
+                                         EntryGuess& last) const {
+    const auto towards = [&](int facet) { return glm::dot(normal(facet), direction); };
+    const auto below = [&](int facet) {
+        return offset_[static_cast<std::size_t>(facet)] - glm::dot(normal(facet), origin);
+    };
+    if (last.facet >= 0) {
+        const double t = towards(last.facet), b = below(last.facet);
+        if (t < 0 && b < 0 && b / t < far_ &&
+            surely_on_facet(last.facet, origin + b / t * direction))
+            return BodyHit{last.facet, b / t};
     }
-    if (radius_) {
-        const Vec3 to = middle_ - origin;
-        const Vec3 beside = to - glm::dot(to, direction) * direction;
-        if (glm::dot(to, to) < far_ * far_ && glm::dot(beside, beside) > *radius_ * *radius_)
+    if (last.left >= 0) {
+        const double out = towards(last.left), in = towards(last.entered);
+        if (out > 0 && in < 0 && !(below(last.entered) / in < below(last.left) / out))
             return std::nullopt;
     }
-    double enter = -k_infinite, leave = -enter;
+    BodyHit hit;
+    int left = -1;
+    double enter = -k_infinite, leave = k_infinite;
     const std::size_t count = offset_.size();
     for (std::size_t start = 0; start < count; start += k_block) {
-        double towards[k_block], below[k_block], distance[k_block];
+        double t[k_block], b[k_block], distance[k_block];
         const std::size_t size = std::min(k_block, count - start);
-        measure(start, size, origin, direction, towards, below);
-        for (std::size_t i = 0; i < size; ++i) distance[i] = below[i] / towards[i];
+        measure(start, size, origin, direction, t, b);
+        for (std::size_t i = 0; i < size; ++i) distance[i] = b[i] / t[i];
         for (std::size_t i = 0; i < size; ++i) {
-            if (towards[i] < 0) {
+            if (t[i] < 0) {
                 if (distance[i] > enter) {
                     enter = distance[i];
                     hit.facet = static_cast<int>(start + i);
                 }
-            } else if (towards[i] > 0) {
-                leave = std::min(leave, distance[i]);
-            } else if (below[i] < 0) {
+            } else if (t[i] > 0) {
+                if (distance[i] < leave) {
+                    leave = distance[i];
+                    left = static_cast<int>(start + i);
+                }
+            } else if (b[i] < 0) {
                 return std::nullopt;
             }
         }
-        if (!(enter < leave)) return std::nullopt;
+        if (!(enter < leave)) {
+            last.left = left;
+            last.entered = hit.facet;
+            return std::nullopt;
+        }
     }
-    if (hit.facet < 0 || enter < 0 || !(enter < leave)) return std::nullopt;
+    if (hit.facet < 0 || enter < 0) return std::nullopt;
     hit.distance = enter;
+    last.facet = hit.facet;
     return hit;
 }
 
 BodyHit ConvexBody::exit(const Vec3& origin, const Vec3& direction, int guess) const {
     // From facet to facet towards the nearest; where that does not end soon, by looking at all.
     constexpr int k_most_steps = 8;
-    if (near_.empty()) guess = -1;
     for (int step = 0; guess >= 0 && step < k_most_steps; ++step) {
         const std::size_t f = static_cast<std::size_t>(guess);
         const double towards = glm::dot(normals_[f], direction);

@@ -178,7 +178,7 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
         const SamplePoint& p = pattern_[i];
         if (!eyes_.sees(x + size * p.x, y + size * p.y)) continue;
         const EyeRay ray = eyes_.through(x + size * p.x, y + size * p.y, p.pupil_x, p.pupil_y);
-        const auto entry = body_.entry(ray.origin, ray.direction, memory.trace.facets[0]);
+        const auto entry = body_.entry(ray.origin, ray.direction, memory.entry);
         if (!entry || lights_.nearest_distance(ray.origin, ray.direction) < entry->distance) {
             background(ray, behind.data());
             continue;

@@ -23,6 +23,7 @@ struct PixelSums {
 /// What one thread keeps from pixel to pixel: room, and what the last ray met.
 struct PixelMemory {
     std::vector<double> behind;
+    EntryGuess entry;
     PathTrace trace;
 };
 

@@ -98,9 +98,7 @@ public:
           plan_(make_plan(scene)),
           colours_(one_wavelength() ? scene.settings.wavelengths_nm
                                     : std::vector<double>{450, 500, 550, 610, 650}),
-          middle_(centroid(scene.stone.solid)),
-          size_(diameter(scene.stone.solid)),
-          scale_(std::exp2(std::ceil(std::log2(k_stone_size / size_)))) {}
+          scale_(std::exp2(std::ceil(std::log2(k_stone_size / diameter(scene.stone.solid))))) {}
 
     PovrayScene write() {
         header();
@@ -256,11 +254,6 @@ private:
             const bool inside = glm::length(scene_.camera.position - sphere.center) < sphere.radius;
             line("sphere {{ {}, {} {}{} }}", vector_text(scale_ * sphere.center),
                  scale_ * sphere.radius, glowing(sphere.radiance), inside ? " inverse" : "");
-            // A dome that holds both camera and stone hides nothing.
-            const bool dome =
-                inside && glm::length(middle_ - sphere.center) + size_ < sphere.radius;
-            if (!dome && distance_to_view(sphere.center) < sphere.radius + 0.5 * size_)
-                note("that a light between the camera and the stone does not hide it");
         }
         for (const PlaneLight& plane : scene_.lights.planes) near_plane(plane);
     }
@@ -284,9 +277,7 @@ private:
         std::string back;
         if (lowest < 0) {
             back = " interior_texture { pigment { rgbt 1 } finish { ambient 0 diffuse 0 } }";
-            note(
-                "that the back of a plane light is not there: rays through it lose a level, and a "
-                "light between the camera and the stone hides it");
+            note("that the back of a plane light is not there: rays through it lose a level");
         }
         if (!plane.u || !plane.v) {
             line("plane {{ {}, {} {}{} }}", vector_text(plane.normal),
@@ -312,14 +303,6 @@ private:
         return fmt::format("pigment {{ {} }} finish {{ ambient 0 diffuse 0 emission 1 }}",
                            colour_text(rgb_of(radiance)));
     }
-    // From the line of sight.
-    double distance_to_view(const Vec3& point) const {
-        const Vec3 along = middle_ - scene_.camera.position;
-        const double t = std::clamp(
-            glm::dot(point - scene_.camera.position, along) / glm::dot(along, along), 0.0, 1.0);
-        return glm::length(point - scene_.camera.position - t * along);
-    }
-
     void stone() {
         const Solid solid = drawn_solid(scene_.stone);
         line("mesh2 {{ vertex_vectors {{ {}", solid.vertices.size());
@@ -381,8 +364,7 @@ private:
     const Scene& scene_;
     Plan plan_;
     WavelengthSet colours_;
-    Vec3 middle_;
-    double size_, scale_;
+    double scale_;
     PovrayScene result_;
 };
 

@@ -28,7 +28,7 @@ struct PovrayScene {
 /// precision), the refractive index over that of the immersion, absorption, orthographic and
 /// perspective cameras, constant, lobe, hemisphere, cap, sphere and plane lights, colours as RGB.
 /// Left out with a note: polarisation by the faces, double refraction, dispersion, spectra beyond
-/// RGB, the lens, and where near lights behave differently.
+/// RGB, the lens, and the level that the back of a plane light takes up.
 /// Throws InputError where no picture of sense would be left: polarised lights, optics before the
 /// eye, conoscopes, environment maps, a plane light seen from behind, and what the renderer
 /// refuses.

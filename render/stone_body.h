@@ -17,9 +17,12 @@ public:
     bool convex() const { return !any_; }
     const ConvexBody& planes() const { return convex_; }
 
-    /// `guess`: see convex_body.h.
-    std::optional<BodyHit> entry(const Vec3& origin, const Vec3& direction, int guess = -1) const {
-        return any_ ? any_->entry(origin, direction) : convex_.entry(origin, direction, guess);
+    std::optional<BodyHit> entry(const Vec3& origin, const Vec3& direction) const {
+        return any_ ? any_->entry(origin, direction) : convex_.entry(origin, direction);
+    }
+    std::optional<BodyHit> entry(const Vec3& origin, const Vec3& direction,
+                                 EntryGuess& last) const {
+        return any_ ? any_->entry(origin, direction) : convex_.entry(origin, direction, last);
     }
     /// From facet `from` inwards.
     BodyHit exit(const Vec3& origin, const Vec3& direction, int from) const {
