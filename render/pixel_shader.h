@@ -21,6 +21,13 @@ struct PixelSums {
     long long rays = 0, sampled = 0;
 };
 
+/// What one thread keeps from pixel to pixel: room, and what the last ray met.
+struct PixelMemory {
+    std::vector<double> behind;
+    EntryGuess entry;
+    PathTrace trace;
+};
+
 class PixelShader {
 public:
     PixelShader(const Scene& scene, const Plan& plan, const LightField& lights,
@@ -31,7 +38,9 @@ public:
 
     /// Means over the pixel whose corner is (x, y) and whose side is `size` pixels, to
     /// `stokes[plane * nodes + node]`. `pixel`: its number, for the seed.
-    PixelSums shade(double x, double y, double size, std::uint64_t pixel, double* stokes) const;
+    /// `memory`: of this shader or new; it changes no result.
+    PixelSums shade(double x, double y, double size, std::uint64_t pixel, double* stokes,
+                    PixelMemory& memory) const;
 
 private:
     void background(const EyeRay& ray, double* stokes) const;

@@ -1,6 +1,7 @@
 #include "render/render.h"
 
 #include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -32,6 +33,19 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+void add(const PixelSums& more, PixelSums& sum) {
+    sum.hit += more.hit;
+    sum.luminance += more.luminance;
+    sum.remainder += more.remainder;
+    sum.absorbed += more.absorbed;
+    sum.cut += more.cut;
+    sum.variance += more.variance;
+    sum.worst_imbalance = std::max(sum.worst_imbalance, more.worst_imbalance);
+    sum.deepest = std::max(sum.deepest, more.deepest);
+    sum.rays += more.rays;
+    sum.sampled += more.sampled;
+}
+
 // Calls visit(x, y, size) for an even choice of pixels.
 template <class Visit>
 void each_pilot_pixel(const Camera& camera, int along, Visit&& visit) {
@@ -52,9 +66,10 @@ double pilot_mean(const Scene& scene, const Plan& plan, const LightField& lights
     const PixelShader shader(scene, plan, lights, colours, limits, 1);
     std::vector<double> stokes(plan.wavelengths_nm.size() *
                                static_cast<std::size_t>(shader.planes()));
+    PixelMemory memory;
     double sum = 0, hits = 0;
     each_pilot_pixel(scene.camera, k_pilot_pixels, [&](double x, double y, double size) {
-        const PixelSums pixel = shader.shade(x, y, size, 0, stokes.data());
+        const PixelSums pixel = shader.shade(x, y, size, 0, stokes.data(), memory);
         hits += pixel.hit;
         sum += pixel.luminance;
     });
@@ -81,9 +96,10 @@ Plan plan_for_tolerance(const Scene& scene) {
     const PixelShader shader(scene, finest, lights, colours, limits, k_spectral_samples);
     const std::size_t nodes = finest.wavelengths_nm.size();
     std::vector<double> stokes(nodes * static_cast<std::size_t>(shader.planes()));
+    PixelMemory memory;
     std::vector<std::vector<double>> spectra;
     each_pilot_pixel(scene.camera, k_spectral_pixels, [&](double x, double y, double) {
-        if (shader.shade(x, y, 1, 0, stokes.data()).hit > 0)
+        if (shader.shade(x, y, 1, 0, stokes.data(), memory).hit > 0)
             spectra.emplace_back(stokes.begin(), stokes.begin() + static_cast<long>(nodes));
     });
     for (int count : k_node_counts) {
@@ -164,14 +180,14 @@ RenderResult render(const Scene& whole, const Progress& progress) {
     for (int window = 0; window < windows; ++window) {
         for (double nm : plan.wavelengths_nm) rows.push_back(response(camera.optics, nm, window));
     }
-    const std::size_t seen_pixels =
-        static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
-    std::vector<PixelSums> sums(seen_pixels);
+    if (plan.general) picture.standard_error.resize(picture.pixels());
     result.stats.seconds_setup = seconds_since(start);
 
     const auto shading = std::chrono::steady_clock::now();
     const long long tiles_wide = (camera.width + k_tile - 1) / k_tile;
     const long long tiles_high = (camera.height + k_tile - 1) / k_tile;
+    std::vector<PixelSums> sums(static_cast<std::size_t>(tiles_wide * tiles_high));
+    tbb::enumerable_thread_specific<PixelMemory> memories;
     std::atomic<bool> stop{false};
     std::mutex reporting;
     long long done = 0;
@@ -179,14 +195,20 @@ RenderResult render(const Scene& whole, const Progress& progress) {
         if (stop.load(std::memory_order_relaxed)) return;
         std::vector<double> stokes(static_cast<std::size_t>(nodes * shader.planes()));
         std::vector<double> radiance(nodes);
+        PixelMemory& memory = memories.local();
+        PixelSums& sum = sums[static_cast<std::size_t>(tile)];
         const int x0 = static_cast<int>(tile % tiles_wide) * k_tile,
                   y0 = static_cast<int>(tile / tiles_wide) * k_tile;
         for (int y = y0; y < std::min(y0 + k_tile, camera.height); ++y) {
-            for (int x = x0; x < std::min(x0 + k_tile, camera.width); ++x) {
+            const int x1 = std::min(x0 + k_tile, camera.width);
+            for (int column = 0; column < x1 - x0; ++column) {
+                // To and fro, so that each pixel is next to the one before.
+                const int x = (y - y0) % 2 == 0 ? x0 + column : x1 - 1 - column;
                 const std::size_t number =
                     static_cast<std::size_t>(y) * static_cast<std::size_t>(camera.width) +
                     static_cast<std::size_t>(x);
-                sums[number] = shader.shade(x, y, 1.0, number, stokes.data());
+                const PixelSums seen = shader.shade(x, y, 1.0, number, stokes.data(), memory);
+                add(seen, sum);
                 for (int window = 0; window < windows; ++window) {
                     const std::size_t pixel =
                         static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
@@ -199,7 +221,10 @@ RenderResult render(const Scene& whole, const Progress& progress) {
                     const Rgb rgb = colours.rgb_of(radiance.data());
                     for (int c = 0; c < 3; ++c)
                         picture.rgb[3 * pixel + c] = static_cast<float>(rgb[c]);
-                    picture.coverage[pixel] = static_cast<float>(sums[number].hit);
+                    picture.coverage[pixel] = static_cast<float>(seen.hit);
+                    if (plan.general)
+                        picture.standard_error[pixel] =
+                            static_cast<float>(std::sqrt(seen.variance));
                     if (!settings.spectral) continue;
                     for (int i = 0; i < nodes; ++i) {
                         picture.spectral[i][pixel] = static_cast<float>(radiance[i]);
@@ -229,49 +254,35 @@ RenderResult render(const Scene& whole, const Progress& progress) {
     });
     if (stop.load()) throw Interrupted();
 
-    // Sums in the order of the pixels: the same bytes whatever the threads did.
+    // Sums in the order of the tiles: the same bytes whatever the threads did.
     RenderStats& stats = result.stats;
-    double weight = 0, seen = 0, variance = 0;
-    long long sampled = 0;
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-        weight += sums[i].hit;
-        stats.remainder += sums[i].remainder;
-        stats.cut += sums[i].cut;
-        stats.absorbed += sums[i].absorbed;
-        stats.rays += sums[i].rays;
-        sampled += sums[i].sampled;
-        variance += sums[i].variance;
-        stats.depth = std::max(stats.depth, sums[i].deepest);
-        stats.worst_imbalance = std::max(stats.worst_imbalance, sums[i].worst_imbalance);
-        seen += sums[i].luminance;
-    }
+    PixelSums whole_picture;
+    for (const PixelSums& sum : sums) add(sum, whole_picture);
+    const double weight = whole_picture.hit, variance = whole_picture.variance;
+    stats.remainder = whole_picture.remainder;
+    stats.cut = whole_picture.cut;
+    stats.absorbed = whole_picture.absorbed;
+    stats.rays = whole_picture.rays;
+    stats.depth = whole_picture.deepest;
+    stats.worst_imbalance = whole_picture.worst_imbalance;
     if (weight > 0) {
         stats.remainder /= weight;
         stats.cut /= weight;
         stats.absorbed /= weight;
-        stats.mean_radiance = seen / weight;
+        stats.mean_radiance = whole_picture.luminance / weight;
     }
     if (stats.mean_radiance > 0) {
         stats.error_bound =
             (stats.remainder + stats.cut) * lights.max_radiance() / stats.mean_radiance;
         stats.standard_error = std::sqrt(variance / weight) / stats.mean_radiance;
     }
-    if (variance > 0) {
-        picture.standard_error.resize(picture.pixels());
-        for (std::size_t pixel = 0; pixel < picture.pixels(); ++pixel) {
-            const std::size_t x = pixel % static_cast<std::size_t>(picture.width),
-                              y = pixel / static_cast<std::size_t>(picture.width),
-                              width = static_cast<std::size_t>(camera.width);
-            picture.standard_error[pixel] =
-                static_cast<float>(std::sqrt(sums[y * width + x % width].variance));
-        }
-    }
+    if (!(variance > 0)) picture.standard_error.clear();
     stats.notes = notes_on_drawing(scene);
-    if (sampled > 0) {
+    if (whole_picture.sampled > 0) {
         stats.notes.push_back(
             fmt::format("the trees of {} of {} rays grew over {} splits: from there on one wave "
                         "was followed, chosen by power",
-                        sampled, stats.rays, limits.most_splits));
+                        whole_picture.sampled, stats.rays, limits.most_splits));
     }
     if (settings.tolerance > 0 && stats.standard_error > settings.tolerance) {
         stats.notes.push_back(
