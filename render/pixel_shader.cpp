@@ -148,6 +148,20 @@ std::vector<double> usual_radiance(const LightField& lights, const Vec3& at, int
 
 }  // namespace
 
+PixelSums& PixelSums::operator+=(const PixelSums& more) {
+    hit += more.hit;
+    luminance += more.luminance;
+    remainder += more.remainder;
+    absorbed += more.absorbed;
+    cut += more.cut;
+    variance += more.variance;
+    worst_imbalance = std::max(worst_imbalance, more.worst_imbalance);
+    deepest = std::max(deepest, more.deepest);
+    rays += more.rays;
+    sampled += more.sampled;
+    return *this;
+}
+
 PixelShader::PixelShader(const Scene& scene, const Plan& plan, const LightField& lights,
                          const WavelengthSet& colours, const PathLimits& limits, int samples)
     : body_(scene.stone.solid, scene.stone.convex),

@@ -19,6 +19,8 @@ struct PixelSums {
     double worst_imbalance = 0;
     int deepest = 0;  ///< faces on the longest path that brought light
     long long rays = 0, sampled = 0;
+
+    PixelSums& operator+=(const PixelSums& more);
 };
 
 /// What one thread keeps from pixel to pixel: room, and what the last ray met.
