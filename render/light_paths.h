@@ -48,7 +48,7 @@ public:
     /// Follows an eye ray that enters the stone at `entry`.
     void trace(const EyeRay& ray, const BodyHit& entry) {
         trace_.length = 0;
-        std::fill_n(tau_full_.begin(), band_.count, 1.0);
+        std::fill_n(tau_.begin(), band_.count, 1.0);
         const Vec3 at = body_.on_facet(entry.facet, ray.origin + entry.distance * ray.direction);
         if (limits_.polarised) {
             trace_polarised(at, ray.direction, entry.facet);
@@ -149,11 +149,11 @@ private:
         Vec3 s = tangent(direction, n_in);
         push(facet);
         leaf(at, mirrored(direction, n_in), 0.5 * (std::norm(face.r_s) + std::norm(face.r_p)),
-             tau_full_);
+             tau_);
         const double Ts = face.t_s * face.t_s, Tp = face.t_p * face.t_p;
         Carried carried{0.5 * (Ts + Tp), 0.5 * (Ts - Tp), 0, 0};
         direction = refracted(direction, n_in, 1.0, q1, face.q2);
-        NodeWeights tau = tau_full_;
+        NodeWeights& tau = tau_;
         for (int event = 2; event <= limits_.depth; ++event) {
             if (too_small(carried.I, tau)) {
                 sink_.cut(weighted(carried.I, tau));
@@ -185,10 +185,10 @@ private:
         const FaceAmplitudes face = fresnel(1.0, band_.n, q1);
         push(facet);
         leaf(at, mirrored(direction, n_in), 0.5 * (std::norm(face.r_s) + std::norm(face.r_p)),
-             tau_full_);
+             tau_);
         double weight = 0.5 * (face.t_s * face.t_s + face.t_p * face.t_p);
         direction = refracted(direction, n_in, 1.0, q1, face.q2);
-        NodeWeights tau = tau_full_;
+        NodeWeights& tau = tau_;
         for (int event = 2; event <= limits_.depth; ++event) {
             if (too_small(weight, tau)) {
                 sink_.cut(weighted(weight, tau));
@@ -222,7 +222,7 @@ private:
     Sink& sink_;
     std::optional<PathTrace> own_;
     PathTrace& trace_;
-    NodeWeights tau_full_;
+    NodeWeights tau_;  // transmitted so far by absorption
 };
 
 }  // namespace culet

@@ -22,7 +22,7 @@ constexpr double k_single_precision = 1e-7;
 // POV-Ray does not take, are then nearer than single precision tells apart.
 constexpr double k_stone_size = 1024;
 constexpr int k_highest_level = 256;  // that POV-Ray accepts
-constexpr int k_deepest = 64;         // of a render whose depth is by tolerance
+constexpr int k_deepest = 64;         // written where the tolerance decides
 
 std::string vector_text(const Vec3& v) {
     return fmt::format("<{}, {}, {}>", v.x, v.z, v.y);
@@ -133,8 +133,10 @@ private:
         line("global_settings {{ assumed_gamma 1 max_trace_level {} adc_bailout 0 }}", level);
         if (level <= depth)
             note(fmt::format("paths deeper than {} faces (POV-Ray's highest level)", level - 1));
-        if (settings.depth == 0 || settings.tolerance > 0)
-            note("cutting by tolerance: every path is followed to the last level");
+        if (settings.depth == 0 || settings.tolerance > 0) {
+            note(fmt::format("the tolerance: every path is followed through {} faces, none farther",
+                             level - 1));
+        }
         if (plan_.polarised)
             note("polarisation by the faces: the picture is that of effects = \"none\"");
     }
