@@ -3,8 +3,10 @@
 //
 // Fields ~ exp(i k0 N.r - i w t), H = N x E, D = eps E, mu = 1. A mode has a wave normal along N,
 // which obeys Snell's law, and a ray along the Poynting vector S = Re(E x H*), which is where its
-// light goes. Formulas: Born & Wolf, Principles of Optics, chapter 15; Beyerle & McDermid 1998 for
-// the uniaxial face.
+// light goes. At a face of normal n every wave has the same tangential part K of N; s = K x n / |K|
+// and p = N/|N| x s. Amplitudes at a face are in units of the root of normal flux |S.n|, so that
+// powers are their squares and a face is a unitary matrix. Formulas: Born & Wolf, Principles of
+// Optics, chapter 15; Beyerle & McDermid 1998 for the uniaxial face.
 
 #include <array>
 #include <complex>
@@ -13,17 +15,50 @@
 
 namespace culet {
 
+using Complex = std::complex<double>;
+
 struct ComplexVec3 {
-    std::complex<double> x, y, z;
+    Complex x, y, z;
 };
 
-/// A uniaxial crystal at one wavelength.
-struct UniaxialCrystal {
-    Vec3 axis{0, 0, 1};           ///< unit optic axis
-    double n_o = 1.5, n_e = 1.5;  ///< principal indices
+enum class ModeKind : char { ordinary = 'o', extraordinary = 'e', slow = 's', fast = 'f' };
+
+/// A crystal of any optical class at one wavelength. Principal indices that are equal to the last
+/// bit make it uniaxial or isotropic; an isotropic one still has two modes, of one N.
+class Crystal {
+public:
+    /// `axes`: orthonormal; `n`: the index of light that vibrates along each.
+    Crystal(const std::array<Vec3, 3>& axes, const std::array<double, 3>& n);
+    Crystal() : Crystal({Vec3{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {1.5, 1.5, 1.5}) {}
+
+    bool biaxial() const { return biaxial_; }
+    bool isotropic() const { return !biaxial_ && n_o_ == n_e_; }
+    /// Uniaxial: the optic axis.
+    const Vec3& axis() const { return axis_; }
+    double n_o() const { return n_o_; }
+    double n_e() const { return n_e_; }
+    const std::array<Vec3, 3>& axes() const { return axes_; }
+    const std::array<double, 3>& n() const { return n_; }
+
+    /// Biaxial: principal axes by rising index, e2 = n2^2, d1 = n1^2 - n2^2 < 0, d3 = n3^2 - n2^2.
+    struct Rising {
+        std::array<Vec3, 3> axes;
+        std::array<double, 3> n;
+        double e1 = 0, e2 = 0, e3 = 0, d1 = 0, d3 = 0;
+    };
+    const Rising& rising() const { return rising_; }
+
+private:
+    std::array<Vec3, 3> axes_;
+    std::array<double, 3> n_;
+    bool biaxial_ = false;
+    Vec3 axis_{0, 0, 1};
+    double n_o_ = 1.5, n_e_ = 1.5;
+    Rising rising_;
 };
 
-enum class ModeKind { ordinary, extraordinary };
+/// Uniaxial, from its optic axis (unit).
+Crystal uniaxial_crystal(const Vec3& axis, double n_o, double n_e);
 
 /// One plane wave. The field's scale is arbitrary: powers are ratios of normal fluxes.
 struct CrystalMode {
@@ -35,38 +70,46 @@ struct CrystalMode {
     double flux = 0;     ///< |S|
 };
 
-/// The o and the e wave of tangential wave vector K at a face of unit normal n that carry energy
-/// (or decay) towards +n. Near N parallel to the axis the two have the same N and any two
-/// directions serve.
-std::array<CrystalMode, 2> modes_towards(const UniaxialCrystal& crystal, const Vec3& K,
-                                         const Vec3& n);
+/// The two waves of tangential wave vector K at a face of unit normal n that carry energy (or
+/// decay) towards +n: o and e, or slow and fast. Where both have the same N (along an optic axis,
+/// or in an isotropic medium) any two directions of vibration serve.
+std::array<CrystalMode, 2> modes_towards(const Crystal& crystal, const Vec3& K, const Vec3& n);
 
-/// Light from an isotropic medium enters: powers, as fractions of the incident normal flux.
+/// Light from an isotropic medium enters, s or p, with unit normal flux.
 struct CrystalEntry {
     std::array<CrystalMode, 2> modes;
-    std::array<std::array<double, 2>, 2> power{};  ///< [incident s, p][mode]
-    std::array<double, 2> reflected{};             ///< [incident s, p]
-    double imbalance = 0;  ///< |sum - 1| before the powers were renormalised
+    std::array<std::array<Complex, 2>, 2> into{};  ///< amplitudes [incident s, p][mode]
+    std::array<std::array<Complex, 2>, 2> back{};  ///< amplitudes [incident s, p][reflected s, p]
+    std::array<std::array<double, 2>, 2> power{};  ///< |into|^2
+    std::array<double, 2> reflected{};             ///< sum of |back|^2 over reflected s, p
+    Vec3 s{0, 0, 0};                               ///< of the face
+    double imbalance = 0;  ///< |sum of powers - 1| before they were put right
 };
 /// `n_into`: unit normal that points into the crystal; K: tangential wave vector, |K| <= n_outside.
-CrystalEntry enter_crystal(const UniaxialCrystal& crystal, double n_outside, const Vec3& K,
+CrystalEntry enter_crystal(const Crystal& crystal, double n_outside, const Vec3& K,
                            const Vec3& n_into);
 
-/// A mode meets a face from inside.
+/// A mode of unit normal flux meets a face from inside.
 struct CrystalHit {
-    std::array<CrystalMode, 2> modes;  ///< reflected
-    std::array<double, 2> power{};     ///< of them, fractions of the incident normal flux
-    double transmitted = 0;            ///< fraction that leaves
-    Vec3 exit_direction{0, 0, 0};      ///< unit; meaningful when transmitted > 0
-    double imbalance = 0;              ///< |sum - 1| before the powers were renormalised
+    std::array<CrystalMode, 2> modes;    ///< reflected
+    std::array<Complex, 2> amplitude{};  ///< of them
+    std::array<double, 2> power{};       ///< |amplitude|^2
+    std::array<Complex, 2> out{};        ///< amplitudes that leave, s and p
+    double transmitted = 0;              ///< sum of |out|^2
+    Vec3 exit_direction{0, 0, 0};        ///< unit; meaningful when transmitted > 0
+    Vec3 s{0, 0, 0};                     ///< of the face
+    double imbalance = 0;                ///< |sum of powers - 1| before they were put right
 };
-/// `n_out`: unit outward normal; the incident mode's ray must run towards it.
-CrystalHit hit_face(const UniaxialCrystal& crystal, double n_outside, const CrystalMode& incident,
+/// `n_out`: unit outward normal; the incident mode's ray must run towards it. `K`: the tangential
+/// part of its wave vector.
+CrystalHit hit_face(const Crystal& crystal, double n_outside, const CrystalMode& incident,
+                    const Vec3& K, const Vec3& n_out);
+CrystalHit hit_face(const Crystal& crystal, double n_outside, const CrystalMode& incident,
                     const Vec3& n_out);
 
-/// Napierian absorption of intensity per length along the ray, from the principal coefficients,
-/// exact to first order in absorption per wavelength: sum_i n_i K_i |E_i|^2 / |S|.
-double absorption_along(const UniaxialCrystal& crystal, const CrystalMode& mode, double k_o,
-                        double k_e);
+/// Share of each principal Napierian intensity coefficient K_i in the absorption per length along
+/// the ray, alpha = sum_i share_i K_i with share_i = n_i |E_i|^2 / |S|: exact to first order in
+/// absorption per wavelength.
+std::array<double, 3> absorption_shares(const Crystal& crystal, const CrystalMode& mode);
 
 }  // namespace culet
