@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "render/least_rotation.h"
 #include "render/scene.h"
 
 namespace culet {
@@ -9,16 +11,36 @@ EyeRays::EyeRays(const Camera& camera) : camera_(camera) {
     forward_ = glm::normalize(camera.look_at - camera.position);
     const Vec3 right = glm::normalize(glm::cross(forward_, camera.up));
     const Vec3 down = glm::cross(forward_, right);
-    // One pixel: a length for the orthographic camera, else a length at unit distance. Pixels are
-    // square.
-    const double pixel = camera.orthographic_width ? *camera.orthographic_width / camera.width
-                                                   : 2 * std::tan(camera.fov / 2) / camera.height;
+    // One pixel: a length for the orthographic camera, a sine for the conoscope, else a length at
+    // unit distance. Pixels are square.
+    double pixel = 0;
+    if (camera.cone) {
+        pixel = 2 * std::sin(*camera.cone) / std::min(camera.width, camera.height);
+    } else if (camera.orthographic_width) {
+        pixel = *camera.orthographic_width / camera.width;
+    } else {
+        pixel = 2 * std::tan(camera.fov / 2) / camera.height;
+    }
     right_ = pixel * right;
     down_ = pixel * down;
 }
 
+bool EyeRays::sees(double x, double y) const {
+    if (!camera_.cone) return true;
+    const Vec3 across = (x - 0.5 * camera_.width) * right_ + (y - 0.5 * camera_.height) * down_;
+    return glm::dot(across, across) < 1;
+}
+
 EyeRay EyeRays::through(double x, double y, double pupil_x, double pupil_y) const {
     const Vec3 across = (x - 0.5 * camera_.width) * right_ + (y - 0.5 * camera_.height) * down_;
+    if (camera_.cone) {
+        const double cosine = std::sqrt(std::max(0.0, 1 - glm::dot(across, across)));
+        const Vec3 direction = glm::normalize(cosine * forward_ + across);
+        const Vec3 beside = camera_.aperture_radius *
+                            (pupil_x * glm::normalize(right_) + pupil_y * glm::normalize(down_));
+        const double distance = glm::length(camera_.look_at - camera_.position);
+        return {camera_.look_at + beside - distance * direction, direction};
+    }
     EyeRay ray;
     if (camera_.orthographic_width) {
         ray = {camera_.position + across, forward_};
@@ -34,6 +56,11 @@ EyeRay EyeRays::through(double x, double y, double pupil_x, double pupil_y) cons
         ray.direction = glm::normalize(focus - ray.origin);
     }
     return ray;
+}
+
+EyeFrame EyeRays::frame(const Vec3& direction) const {
+    const Vec3 x = turned_with(forward_, direction, glm::normalize(right_));
+    return {x, glm::cross(x, direction)};
 }
 
 }  // namespace culet

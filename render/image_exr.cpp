@@ -105,10 +105,10 @@ std::optional<double> wavelength_of(std::string name) {
 }
 
 // The layout writes the decimal point as a comma: a point would start a layer.
-std::string channel_of(double nm) {
+std::string channel_of(std::size_t stokes, double nm) {
     std::string text = fmt::format("{:.3f}", nm);
     std::replace(text.begin(), text.end(), '.', ',');
-    return "S0." + text + "nm";
+    return fmt::format("S{}.{}nm", stokes, text);
 }
 
 std::string names_of(const Imf::ChannelList& channels) {
@@ -268,13 +268,20 @@ void write_exr(const Picture& picture, const std::filesystem::path& file,
             header.insert("emissiveUnits", Imf::StringAttribute("relative to CIE D65"));
         }
         for (std::size_t i = 0; i < picture.spectral.size(); ++i) {
-            const std::string name = channel_of(picture.wavelengths_nm[i]);
+            const std::string name = channel_of(0, picture.wavelengths_nm[i]);
             if (frame.findSlice(name) != nullptr) {
                 throw InputError(
                     "two wavelengths are closer than 0.001 nm, which their names cannot tell");
             }
             slice(name, picture.spectral[i]);
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (!picture.polarised[k].empty())
+                    slice(channel_of(k + 1, picture.wavelengths_nm[i]), picture.polarised[k][i]);
+            }
         }
+        if (!picture.polarised[0].empty())
+            header.insert("polarisationHandedness", Imf::StringAttribute("right"));
+        if (!picture.standard_error.empty()) slice("standard_error.Y", picture.standard_error);
         Imf::OutputFile output(file.c_str(), header, 0);
         output.setFrameBuffer(frame);
         output.writePixels(picture.height);

@@ -7,6 +7,7 @@
 
 #include "render/image_io.h"
 #include "render/light_presets.h"
+#include "render/view_presets.h"
 #include "stone/errors.h"
 #include "stone/units.h"
 
@@ -39,7 +40,31 @@ double positive_in(const TomlTable& table, const char* key) {
     return *value;
 }
 
-LightColour radiance_in(const TomlTable& table) {
+// `normal`: of the polariser's sheet where the light has one.
+std::optional<LinearPolarisation> polarisation_in(const TomlTable& table,
+                                                  const std::optional<Vec3>& normal) {
+    if (!table.has("polarization")) {
+        if (table.has("degree_of_polarization"))
+            table.fail("degree_of_polarization",
+                       "degree_of_polarization needs polarization, the direction of vibration");
+        return std::nullopt;
+    }
+    LinearPolarisation polarisation{direction_in(table, "polarization"), normal, 1};
+    if (const auto degree = table.number("degree_of_polarization")) {
+        if (!(*degree >= 0 && *degree <= 1))
+            table.fail("degree_of_polarization",
+                       fmt::format("degree_of_polarization is 0 to 1, found {}", *degree));
+        polarisation.degree = *degree;
+    }
+    if (normal && !(glm::length(glm::cross(*normal, polarisation.vibration)) > 1e-9)) {
+        table.fail("polarization",
+                   "light cannot vibrate along the way it goes: polarization must not be parallel "
+                   "to the light's direction or normal");
+    }
+    return polarisation;
+}
+
+LightColour radiance_alone_in(const TomlTable& table) {
     switch (table.kind("radiance")) {
         case TomlTable::Kind::missing:
             return {1.0};
@@ -73,6 +98,12 @@ LightColour radiance_in(const TomlTable& table) {
             table.fail("radiance",
                        "radiance is a number, [r, g, b], or a spectrum by name (D65, A)");
     }
+}
+
+LightColour radiance_in(const TomlTable& table, const std::optional<Vec3>& normal) {
+    LightColour colour = radiance_alone_in(table);
+    colour.polarisation = polarisation_in(table, normal);
+    return colour;
 }
 
 std::shared_ptr<const EnvironmentMap> read_environment(const TomlTable& table,
@@ -134,15 +165,21 @@ std::shared_ptr<const EnvironmentMap> read_environment(const TomlTable& table,
 }  // namespace
 
 Lights lights_of(const TomlTable& table, double stone_diameter, std::vector<std::string>& notes) {
-    table.refuse_unknown(
-        {"environment", "constant", "preset", "sphere", "lobe", "hemisphere", "cap", "plane"});
+    std::vector<std::string_view> keys{"environment", "constant",     "sphere",
+                                       "lobe",        "hemisphere",   "cap",
+                                       "plane",       "polarization", "degree_of_polarization"};
+    keys.insert(keys.end(), std::begin(k_view_keys), std::end(k_view_keys));
+    table.refuse_unknown(keys);
     Lights lights;
-    if (const auto preset = table.text("preset")) {
+    const auto preset = table.text("preset");
+    const bool is_view = preset && is_view_preset(*preset);
+    if (preset && !is_view) {
         const auto known = light_preset(*preset, stone_diameter);
         if (!known) {
             table.fail(
                 "preset",
-                fmt::format("no light \"{}\"; known: aset, hearts, arrows, lightbox, daylight",
+                fmt::format("no light \"{}\"; known: aset, hearts, arrows, lightbox, daylight, and "
+                            "the views polariscope, conoscope, dichroscope",
                             *preset));
         }
         lights = *known;
@@ -158,23 +195,30 @@ Lights lights_of(const TomlTable& table, double stone_diameter, std::vector<std:
                        fmt::format("constant must not be negative, found {}", *constant));
         lights.constant = *constant;
     }
+    lights.polarisation = polarisation_in(table, std::nullopt);
     for (const TomlTable& t : table.tables("sphere")) {
-        t.refuse_unknown({"center", "radius", "radiance"});
-        lights.spheres.push_back({point_in(t, "center"), positive_in(t, "radius"), radiance_in(t)});
+        t.refuse_unknown(
+            {"center", "radius", "radiance", "polarization", "degree_of_polarization"});
+        lights.spheres.push_back(
+            {point_in(t, "center"), positive_in(t, "radius"), radiance_in(t, std::nullopt)});
     }
     for (const TomlTable& t : table.tables("lobe")) {
-        t.refuse_unknown({"direction", "exponent", "radiance"});
+        t.refuse_unknown(
+            {"direction", "exponent", "radiance", "polarization", "degree_of_polarization"});
         const double exponent = t.number("exponent").value_or(1);
         if (exponent < 0)
             t.fail("exponent", fmt::format("exponent must not be negative, found {}", exponent));
-        lights.lobes.push_back({direction_in(t, "direction"), exponent, radiance_in(t)});
+        const Vec3 direction = direction_in(t, "direction");
+        lights.lobes.push_back({direction, exponent, radiance_in(t, direction)});
     }
     for (const TomlTable& t : table.tables("hemisphere")) {
-        t.refuse_unknown({"direction", "radiance"});
-        lights.hemispheres.push_back({direction_in(t, "direction"), radiance_in(t)});
+        t.refuse_unknown({"direction", "radiance", "polarization", "degree_of_polarization"});
+        const Vec3 direction = direction_in(t, "direction");
+        lights.hemispheres.push_back({direction, radiance_in(t, direction)});
     }
     for (const TomlTable& t : table.tables("cap")) {
-        t.refuse_unknown({"direction", "half_angle", "from", "to", "radiance"});
+        t.refuse_unknown({"direction", "half_angle", "from", "to", "radiance", "polarization",
+                          "degree_of_polarization"});
         if (t.has("half_angle") == t.has("to"))
             t.fail("", "a cap needs half_angle, or a band from .. to, in degrees");
         const double from = t.number("from").value_or(0);
@@ -184,17 +228,18 @@ Lights lights_of(const TomlTable& table, double stone_diameter, std::vector<std:
                    fmt::format("a cap's angles are 0 <= from < to <= 180 degrees, found {} to {}",
                                from, to));
         }
-        lights.caps.push_back(
-            {direction_in(t, "direction"), radians(from), radians(to), radiance_in(t)});
+        const Vec3 direction = direction_in(t, "direction");
+        lights.caps.push_back({direction, radians(from), radians(to), radiance_in(t, direction)});
     }
     for (const TomlTable& t : table.tables("plane")) {
-        t.refuse_unknown({"point", "normal", "u", "v", "radiance"});
+        t.refuse_unknown(
+            {"point", "normal", "u", "v", "radiance", "polarization", "degree_of_polarization"});
         PlaneLight plane;
         plane.point = point_in(t, "point");
         plane.normal = direction_in(t, "normal");
         plane.u = t.vector("u");
         plane.v = t.vector("v");
-        plane.radiance = radiance_in(t);
+        plane.radiance = radiance_in(t, plane.normal);
         if (plane.u.has_value() != plane.v.has_value())
             t.fail("", "a plane has both half-extents u and v, or none");
         if (plane.u && !(glm::length(glm::cross(*plane.u, *plane.v)) >
@@ -215,7 +260,8 @@ Lights lights_of(const TomlTable& table, double stone_diameter, std::vector<std:
     const bool dark = !lights.environment && lights.constant == 0 && lights.spheres.empty() &&
                       lights.lobes.empty() && lights.hemispheres.empty() && lights.caps.empty() &&
                       lights.planes.empty();
-    if (dark && !table.has("constant")) table.fail("", "the scene is dark: [light] names no light");
+    if (dark && !table.has("constant") && !is_view)
+        table.fail("", "the scene is dark: [light] names no light");
     return lights;
 }
 

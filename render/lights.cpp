@@ -4,8 +4,10 @@
 #include <limits>
 #include <numbers>
 
-#include "render/light_paths.h"
+#include "render/least_rotation.h"
+#include "render/path.h"
 #include "render/scene.h"
+#include "stone/perpendicular.h"
 
 namespace culet {
 
@@ -77,6 +79,28 @@ double distance_to(const PlaneLight& plane, const Vec3& origin, const Vec3& dire
 
 }  // namespace
 
+Vec3 LinearPolarisation::of_ray(const Vec3& direction) const {
+    if (!normal) {
+        const Vec3 across = vibration - glm::dot(vibration, direction) * direction;
+        const double length = glm::length(across);
+        return length > 0 ? across / length : perpendicular_to(direction);
+    }
+    const Vec3 from = glm::dot(*normal, direction) < 0 ? -*normal : *normal;
+    // A sheet's direction lies in it: what a scene's rounding left along the normal is dropped.
+    const Vec3 in_sheet = glm::normalize(vibration - glm::dot(vibration, from) * from);
+    return turned_with(from, direction, in_sheet);
+}
+
+bool polarised(const Lights& lights) {
+    const auto any = [](const auto& list) {
+        return std::any_of(list.begin(), list.end(), [](const auto& light) {
+            return light.radiance.polarisation.has_value();
+        });
+    };
+    return lights.polarisation || any(lights.spheres) || any(lights.lobes) ||
+           any(lights.hemispheres) || any(lights.caps) || any(lights.planes);
+}
+
 struct LightField::Ready {
     Lights lights;
     std::array<std::vector<double>, 3> primaries;
@@ -84,6 +108,10 @@ struct LightField::Ready {
     std::vector<std::pair<double, double>> cap_cosines;
     double brightest = 0;
     int nodes = 1;
+
+    // Calls visit(radiance at a node, polarisation) for every light that is seen.
+    template <class Visit>
+    void each_seen(const Vec3& origin, const Vec3& direction, Visit&& visit) const;
 
     // Nearest near light: spheres count from 0, planes after them; -1 for none.
     int nearest(const Vec3& origin, const Vec3& direction) const {
@@ -152,37 +180,74 @@ LightField::LightField(const Lights& lights, const WavelengthSet& wavelengths) :
 LightField::~LightField() = default;
 LightField::LightField(LightField&&) noexcept = default;
 
-void LightField::add_radiance(const Vec3& origin, const Vec3& direction, double weight, int first,
-                              int count, double* radiance) const {
-    const Ready& r = *ready_;
-    const auto add = [&](const std::vector<double>& nodes, double factor) {
-        for (int i = 0; i < count; ++i) radiance[i] += weight * factor * nodes[first + i];
+template <class Visit>
+void LightField::Ready::each_seen(const Vec3& origin, const Vec3& direction, Visit&& visit) const {
+    const auto pass = [&](const std::vector<double>& nodes_of_light, double factor,
+                          const std::optional<LinearPolarisation>& polarisation) {
+        visit([&nodes_of_light, factor](int node) { return factor * nodes_of_light[node]; },
+              polarisation);
     };
-    const int near = r.nearest(origin, direction);
+    const int near = nearest(origin, direction);
     if (near >= 0) {
-        const int spheres = static_cast<int>(r.spheres.size());
-        add(near < spheres ? r.spheres[near] : r.planes[near - spheres], 1);
+        const int count = static_cast<int>(spheres.size());
+        if (near < count) {
+            pass(spheres[near], 1, lights.spheres[near].radiance.polarisation);
+        } else {
+            pass(planes[near - count], 1, lights.planes[near - count].radiance.polarisation);
+        }
         return;
     }
-    for (int i = 0; i < count; ++i) radiance[i] += weight * r.lights.constant;
-    if (r.lights.environment) {
-        const Rgb rgb = r.lights.environment->at(direction);
-        for (int i = 0; i < count; ++i) {
-            radiance[i] += weight * (rgb[1] + (rgb[0] - rgb[1]) * r.primaries[0][first + i] +
-                                     (rgb[2] - rgb[1]) * r.primaries[2][first + i]);
+    if (lights.constant > 0) visit([this](int) { return lights.constant; }, lights.polarisation);
+    if (lights.environment) {
+        const Rgb rgb = lights.environment->at(direction);
+        visit(
+            [this, &rgb](int node) {
+                return rgb[1] + (rgb[0] - rgb[1]) * primaries[0][node] +
+                       (rgb[2] - rgb[1]) * primaries[2][node];
+            },
+            lights.polarisation);
+    }
+    for (std::size_t l = 0; l < lobes.size(); ++l) {
+        const LobeLight& lobe = lights.lobes[l];
+        const double cosine = glm::dot(direction, lobe.direction);
+        if (cosine > 0) pass(lobes[l], std::pow(cosine, lobe.exponent), lobe.radiance.polarisation);
+    }
+    for (std::size_t l = 0; l < hemispheres.size(); ++l) {
+        const HemisphereLight& half = lights.hemispheres[l];
+        if (glm::dot(direction, half.direction) > 0)
+            pass(hemispheres[l], 1, half.radiance.polarisation);
+    }
+    for (std::size_t l = 0; l < caps.size(); ++l) {
+        const double cosine = glm::dot(direction, lights.caps[l].direction);
+        if (cosine <= cap_cosines[l].first && cosine > cap_cosines[l].second)
+            pass(caps[l], 1, lights.caps[l].radiance.polarisation);
+    }
+}
+
+void LightField::add_radiance(const Vec3& origin, const Vec3& direction, double weight, int first,
+                              int count, double* radiance) const {
+    ready_->each_seen(origin, direction, [&](const auto& at_node, const auto&) {
+        for (int i = 0; i < count; ++i) radiance[i] += weight * at_node(first + i);
+    });
+}
+
+void LightField::add_stokes(const PathEnd& end, int first, int count, double* stokes,
+                            int stride) const {
+    const Stokes of_unpolarised = stokes_of_unpolarised(end.coherency);
+    ready_->each_seen(end.at, end.direction, [&](const auto& at_node, const auto& polarisation) {
+        Stokes seen = of_unpolarised;
+        if (polarisation) {
+            const Vec3 vibration = polarisation->of_ray(end.direction);
+            const Stokes linear = stokes_of_linear(end.coherency, glm::dot(vibration, end.u),
+                                                   glm::dot(vibration, end.v));
+            for (int k = 0; k < 4; ++k)
+                seen[k] += polarisation->degree * (linear[k] - of_unpolarised[k]);
         }
-    }
-    for (std::size_t l = 0; l < r.lobes.size(); ++l) {
-        const double cosine = glm::dot(direction, r.lights.lobes[l].direction);
-        if (cosine > 0) add(r.lobes[l], std::pow(cosine, r.lights.lobes[l].exponent));
-    }
-    for (std::size_t l = 0; l < r.hemispheres.size(); ++l) {
-        if (glm::dot(direction, r.lights.hemispheres[l].direction) > 0) add(r.hemispheres[l], 1);
-    }
-    for (std::size_t l = 0; l < r.caps.size(); ++l) {
-        const double cosine = glm::dot(direction, r.lights.caps[l].direction);
-        if (cosine <= r.cap_cosines[l].first && cosine > r.cap_cosines[l].second) add(r.caps[l], 1);
-    }
+        for (int i = 0; i < count; ++i) {
+            const double radiance = end.transmitted[i] * at_node(first + i);
+            for (int k = 0; k < 4; ++k) stokes[k * stride + first + i] += seen[k] * radiance;
+        }
+    });
 }
 
 std::string LightField::name_at(const Vec3& origin, const Vec3& direction) const {

@@ -1,6 +1,7 @@
 #pragma once
 // A picture in linear light.
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -15,6 +16,10 @@ struct Picture {
         coverage;  ///< share of the pixel that the stone fills, 0..1; empty: not known
     std::vector<double> wavelengths_nm;        ///< of `spectral`; empty: no spectral planes
     std::vector<std::vector<float>> spectral;  ///< radiance relative to D65, a plane a wavelength
+    /// Stokes S1, S2, S3 (eye_coherency.h), likewise; empty: not known.
+    std::array<std::vector<std::vector<float>>, 3> polarised;
+    /// One standard deviation of the luminance from paths chosen at random; empty: none were.
+    std::vector<float> standard_error;
 
     std::size_t pixels() const {
         return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

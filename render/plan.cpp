@@ -24,6 +24,8 @@ const char* name_of(Effects effect) {
             return "pleochroism";
         case Effects::aperture:
             return "aperture";
+        case Effects::coherence:
+            return "coherence";
     }
     return "";
 }
@@ -32,10 +34,11 @@ namespace {
 
 // The wavelength of refractive indices in handbooks: the sodium D line.
 constexpr double k_d_line_nm = 589.3;
-// Where the eye's response is, and how many nodes serve: see docs/rendering.md for the measured
-// errors.
+// Where the eye's response is.
 constexpr double k_first_nm = 410, k_last_nm = 690;
-constexpr int k_nodes = 15;
+// Interference colours need no fewer: their fringes over wavelength are 10 nm wide at 30 waves.
+constexpr int k_least_coherent_nodes = 29;
+constexpr int k_probes = 15;
 constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 
 // What of a scene's light depends on wavelength. D65 is flat here (colour.h).
@@ -88,72 +91,144 @@ struct Decider {
 
 }  // namespace
 
-Plan make_plan(const Scene& scene) {
-    const Material& material = scene.stone.material;
-    if (material.optic == OpticCharacter::biaxial) {
-        throw InputError(
-            fmt::format("{} is biaxial, and biaxial stones are not rendered yet; a uniaxial "
-                        "[material] with index o and e "
-                        "near its own would come close",
-                        material.name.empty() ? material.id : material.name));
-    }
-    Plan plan;
-    Decider decider{scene, plan};
-    const int rays = ray_count(material.optic);
-    const std::vector<double>& given = scene.settings.wavelengths_nm;
+namespace {
 
-    double span = 0, split = 0, strongest = 0;
+bool has_polariser(const Scene& scene) {
+    return scene.camera.optics.analyzer || polarised(scene.lights);
+}
+
+// What the stone's optics can do over the wavelengths in question.
+struct Optics {
+    double span = 0;       // of the indices over wavelength
+    double split = 0;      // largest difference of two indices
+    double strongest = 0;  // absorption per mm
     bool spectral_absorption = false, unequal_absorption = false;
-    const std::vector<double> probes = given.empty() ? even_nodes(k_nodes) : given;
+};
+
+Optics optics_of(const Material& material, const std::vector<double>& nm) {
+    Optics optics;
+    const int rays = ray_count(material.optic);
     for (int ray = 0; ray < rays; ++ray) {
         const RefractiveIndex& index = material.index[ray];
-        for (double nm : probes)
-            span = std::max(span, std::abs(index.at(nm) - index.at(probes.front())));
-        strongest = std::max(strongest, material.absorption_per_mm[ray].max());
-        spectral_absorption = spectral_absorption || !material.absorption_per_mm[ray].is_constant();
-    }
-    if (rays == 2) {
-        for (double nm : probes) {
-            split = std::max(split, std::abs(material.index[1].at(nm) - material.index[0].at(nm)));
-            unequal_absorption = unequal_absorption || material.absorption_per_mm[0].at(nm) !=
-                                                           material.absorption_per_mm[1].at(nm);
+        const Spectrum& absorption = material.absorption_per_mm[ray];
+        for (double at : nm) {
+            optics.span = std::max(optics.span, std::abs(index.at(at) - index.at(nm.front())));
+            optics.split =
+                std::max(optics.split, std::abs(index.at(at) - material.index[0].at(at)));
+            optics.unequal_absorption = optics.unequal_absorption ||
+                                        absorption.at(at) != material.absorption_per_mm[0].at(at);
         }
+        optics.strongest = std::max(optics.strongest, absorption.max());
+        optics.spectral_absorption = optics.spectral_absorption || !absorption.is_constant();
     }
+    if (rays == 3) {
+        for (double at : nm)
+            optics.split = std::max(optics.split,
+                                    std::abs(material.index[2].at(at) - material.index[1].at(at)));
+    }
+    return optics;
+}
+
+// Index and absorption along the crystal's three axes (uniaxial: axis 0 is the optic axis, e).
+template <class Value>
+std::array<double, 3> along_axes(OpticCharacter optic, const Value& value) {
+    switch (optic) {
+        case OpticCharacter::isotropic:
+            return {value(0), value(0), value(0)};
+        case OpticCharacter::uniaxial:
+            return {value(1), value(0), value(0)};
+        case OpticCharacter::biaxial:
+            return {value(0), value(1), value(2)};
+    }
+    return {};
+}
+
+double mean(const std::array<double, 3>& v) {
+    // Equal values stay what they are.
+    return v[0] == v[1] && v[1] == v[2] ? v[0] : (v[0] + v[1] + v[2]) / 3;
+}
+
+void decide_coherence(const Scene& scene, const Optics& optics, Decider& decider, Plan& plan) {
+    const double extent = diameter(scene.stone.solid) * mm_per(scene.stone.unit);
+    const double waves = optics.split * extent / (k_d_line_nm * 1e-6);
+    const bool crystal = plan.on(Effects::birefringence);
+    const bool weak = waves < 1, view = has_polariser(scene);
+    const bool asked = scene.settings.coherence.value_or(
+        (!scene.settings.effects_auto &&
+         scene.settings.effects[static_cast<std::size_t>(Effects::coherence)]) ||
+        weak || view);
+    decider.plan.effects[static_cast<std::size_t>(Effects::coherence)] = {
+        Effects::coherence, crystal && asked,
+        !crystal ? "there are no two waves"
+        : !asked ? "nothing polarises at the light or the eye: the two waves' powers are added"
+        : weak   ? fmt::format("the two waves stay within {:.2g} waves of each other", waves)
+                 : "the two waves interfere while their retardation is below the coherence length",
+        crystal && !asked ? k_unknown : 0};
+}
+
+}  // namespace
+
+bool chose_spectrum(const Scene& scene, const Plan& plan) {
+    return scene.settings.wavelengths_nm.empty() &&
+           plan.wavelengths_nm.size() >= static_cast<std::size_t>(k_node_counts[0]);
+}
+
+Plan make_plan(const Scene& scene, int nodes) {
+    const Material& material = scene.stone.material;
+    Plan plan;
+    Decider decider{scene, plan};
+    const bool anisotropic = material.optic != OpticCharacter::isotropic;
+    const std::vector<double>& given = scene.settings.wavelengths_nm;
+    const Optics optics = optics_of(material, given.empty() ? even_nodes(k_probes) : given);
 
     const bool one_wavelength = given.size() == 1;
-    decider.decide(Effects::dispersion, span > 0 && !one_wavelength,
-                   fmt::format("index changes by {:.4f} over the wavelengths", span),
+    decider.decide(Effects::dispersion, optics.span > 0 && !one_wavelength,
+                   fmt::format("index changes by {:.4f} over the wavelengths", optics.span),
                    one_wavelength ? "one wavelength only" : "index is the same at every wavelength",
                    k_unknown);
-    decider.decide(Effects::birefringence, split > 0,
-                   fmt::format("n_e - n_o reaches {:.4f}", split),
-                   rays == 1 ? "the stone is isotropic" : "n_e = n_o", k_unknown);
-    decider.decide(Effects::absorption, strongest > 0,
-                   fmt::format("up to {:.4f} per mm", strongest), "the stone is clear", 1.0);
-    decider.decide(Effects::pleochroism,
-                   unequal_absorption && decider.allowed(Effects::absorption) && split > 0,
-                   "the two rays are absorbed differently",
-                   rays == 1 ? "the stone is isotropic" : "both rays are absorbed alike", 1.0);
+    decider.decide(
+        Effects::birefringence, optics.split > 0,
+        fmt::format("{} reaches {:.4f}",
+                    material.optic == OpticCharacter::biaxial ? "n_gamma - n_alpha" : "n_e - n_o",
+                    optics.split),
+        anisotropic ? "the principal indices are equal" : "the stone is isotropic", k_unknown);
+    decider.decide(Effects::absorption, optics.strongest > 0,
+                   fmt::format("up to {:.4f} per mm", optics.strongest), "the stone is clear", 1.0);
+    decider.decide(
+        Effects::pleochroism,
+        optics.unequal_absorption && decider.allowed(Effects::absorption) && optics.split > 0,
+        "the two rays are absorbed differently",
+        anisotropic ? "both rays are absorbed alike" : "the stone is isotropic", 1.0);
     decider.decide(Effects::polarization, true, "faces polarise light, and later faces see it", "",
                    k_unknown);
     decider.decide(Effects::aperture, scene.camera.aperture_radius > 0,
                    fmt::format("pupil radius {:.4g}", scene.camera.aperture_radius),
                    "pinhole camera", k_unknown);
+    decide_coherence(scene, optics, decider, plan);
 
     const bool dispersive = plan.on(Effects::dispersion);
-    const bool crystal = plan.on(Effects::birefringence);
+    const bool coherent = plan.on(Effects::coherence);
+    plan.splits = plan.on(Effects::birefringence);
+    plan.stokes =
+        has_polariser(scene) || (scene.settings.spectral && plan.on(Effects::polarization));
+    plan.general = plan.splits || plan.stokes || !scene.stone.convex || scene.immersion != 1;
     plan.polarised = plan.on(Effects::polarization);
-    if (crystal && !plan.polarised) {
+    if (plan.general && !plan.polarised) {
         EffectDecision& decision = plan.effects[static_cast<std::size_t>(Effects::polarization)];
-        decision.on = true;
-        decision.why = "the split waves of a crystal always carry it";
+        decision.on = plan.polarised = true;
+        decision.why = plan.splits            ? "the split waves of a crystal always carry it"
+                       : plan.stokes          ? "polarised lights and analysers need it"
+                       : scene.immersion != 1 ? "always on for a stone in a liquid"
+                                              : "always on for stones that are not convex";
         decision.error_bound = 0;
     }
     if (!given.empty()) {
         plan.wavelengths_nm = given;
-    } else if (dispersive || (plan.on(Effects::absorption) && spectral_absorption) ||
+    } else if (dispersive || (plan.on(Effects::absorption) && optics.spectral_absorption) ||
+               (coherent && has_polariser(scene)) ||
                needs_of(scene.lights) == LightNeeds::a_spectrum) {
-        plan.wavelengths_nm = even_nodes(k_nodes);
+        plan.wavelengths_nm =
+            even_nodes(coherent ? std::max(nodes, k_least_coherent_nodes) : nodes);
     } else if (needs_of(scene.lights) == LightNeeds::three_for_rgb) {
         // Three nodes carry any RGB light exactly.
         plan.wavelengths_nm = {450, 550, 610};
@@ -163,7 +238,10 @@ Plan make_plan(const Scene& scene) {
 
     const double mm = mm_per(scene.stone.unit);
     const int count = static_cast<int>(plan.wavelengths_nm.size());
-    const int per_band = dispersive ? 1 : k_band_nodes;
+    const double spacing =
+        count > 1 ? (plan.wavelengths_nm.back() - plan.wavelengths_nm.front()) / (count - 1) : 0;
+    const double bandwidth = scene.settings.bandwidth_nm.value_or(spacing);
+    const int per_band = dispersive || coherent ? 1 : k_band_nodes;
     for (int first = 0; first < count; first += per_band) {
         Band band;
         band.first = first;
@@ -171,21 +249,28 @@ Plan make_plan(const Scene& scene) {
         const double nm = dispersive       ? plan.wavelengths_nm[first]
                           : one_wavelength ? given.front()
                                            : k_d_line_nm;
-        const double n_o = material.index[0].at(nm),
-                     n_e = rays == 2 ? material.index[1].at(nm) : n_o;
-        band.crystal = crystal && n_o != n_e;
-        // Without the split, light sees the mean over directions of the two vibrations.
-        band.n = rays == 2 ? (2 * n_o + n_e) / 3 : n_o;
-        band.uniaxial = {scene.stone.crystal.axes[0], n_o, n_e};
+        std::array<double, 3> n =
+            along_axes(material.optic, [&](int ray) { return material.index[ray].at(nm); });
+        band.n = mean(n);
+        // Without the split, light sees the mean over directions of its vibrations.
+        if (!plan.splits) n = {band.n, band.n, band.n};
+        band.crystal = Crystal(scene.stone.crystal.axes, n);
+        band.two_waves = !band.crystal.isotropic();
+        band.n_outside = scene.immersion;
         band.absorbs = plan.on(Effects::absorption);
         for (int i = 0; i < band.count; ++i) {
             const double at = plan.wavelengths_nm[first + i];
-            double k_o = material.absorption_per_mm[0].at(at) * mm;
-            double k_e = rays == 2 ? material.absorption_per_mm[1].at(at) * mm : k_o;
-            if (!plan.on(Effects::pleochroism) || !band.crystal)
-                k_o = k_e = rays == 2 ? (2 * k_o + k_e) / 3 : k_o;
-            band.absorption[0][i] = k_o;
-            band.absorption[1][i] = k_e;
+            std::array<double, 3> K = along_axes(material.optic, [&](int ray) {
+                return material.absorption_per_mm[ray].at(at) * mm;
+            });
+            if (!plan.on(Effects::pleochroism) || !band.two_waves) K.fill(mean(K));
+            for (int axis = 0; axis < 3; ++axis) band.absorption[axis][i] = K[axis];
+        }
+        const double here = plan.wavelengths_nm[first];
+        band.wavelength = here * 1e-6 / mm;
+        if (coherent) {
+            band.coherence_length = bandwidth > 0 ? band.wavelength * here / bandwidth
+                                                  : std::numeric_limits<double>::infinity();
         }
         plan.bands.push_back(band);
     }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/light_paths.h"
+#include "render/band.h"
 #include "render/scene.h"
 
 namespace culet {
@@ -24,11 +24,20 @@ struct Plan {
     std::vector<double> wavelengths_nm;
     std::vector<Band> bands;
     bool polarised = true;
+    bool stokes = false;   ///< all four Stokes parameters are needed: polarised lights, an analyser
+    bool general = false;  ///< crystal_paths.h; else light_paths.h suffices
+    bool splits = false;   ///< the stone has two waves, so that trees double
 
     bool on(Effects effect) const { return effects[static_cast<std::size_t>(effect)].on; }
 };
 
-/// Throws InputError for what cannot be rendered yet (biaxial stones).
-Plan make_plan(const Scene& scene);
+/// Wavelengths that can be chosen from, coarse to fine; each set holds the one before.
+constexpr std::array<int, 4> k_node_counts{8, 15, 29, 57};
+
+/// `nodes`: wavelengths where a spectrum is called for and the scene names none.
+Plan make_plan(const Scene& scene, int nodes = k_node_counts[1]);
+
+/// True when the plan's wavelengths were its own choice of a spectrum.
+bool chose_spectrum(const Scene& scene, const Plan& plan);
 
 }  // namespace culet

@@ -1,12 +1,17 @@
 #include "render/probe.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <tuple>
+#include <numbers>
 
+#include "render/crystal_paths.h"
+#include "render/eye_optics.h"
+#include "render/light_paths.h"
 #include "render/scene_checks.h"
 #include "stone/errors.h"
+#include "stone/units.h"
 
 namespace culet {
 
@@ -19,37 +24,83 @@ class Record {
 public:
     Record(const Scene& scene, const LightField& lights, int nodes, const Progress& progress,
            ProbeResult& result)
-        : scene_(scene), lights_(lights), nodes_(nodes), progress_(progress), result_(result) {}
+        : scene_(scene),
+          lights_(lights),
+          nodes_(nodes),
+          progress_(progress),
+          result_(result),
+          stokes_(static_cast<std::size_t>(4 * nodes), 0.0) {}
 
     void begin(const Band& band) { band_ = &band; }
+
     void leaf(const Vec3& at, const Vec3& direction, const NodeWeights& weight,
               const PathTrace& trace) {
+        ProbedPath& path = path_of(at, direction, trace);
+        NodeWeights seen{};
+        lights_.add_radiance(at, direction, 1.0, band_->first, band_->count, seen.data());
+        for (int i = 0; i < band_->count; ++i) {
+            path.weight[band_->first + i] += weight[i];
+            stokes_[band_->first + i] += weight[i] * seen[i];
+            path.stokes[0] += weight[i] / nodes_;
+        }
+    }
+    void leaf(const PathEnd& end, const PathTrace& trace) {
+        ProbedPath& path = path_of(end.at, end.direction, trace);
+        const Stokes through = stokes_of_unpolarised(end.coherency);
+        for (int i = 0; i < band_->count; ++i) {
+            path.weight[band_->first + i] += through[0] * end.transmitted[i];
+            for (int k = 0; k < 4; ++k) path.stokes[k] += through[k] * end.transmitted[i] / nodes_;
+        }
+        lights_.add_stokes(end, band_->first, band_->count, stokes_.data(), nodes_);
+    }
+    void remainder(const NodeWeights& weight) { add(result_.remainder, weight); }
+    void absorbed(const NodeWeights& weight) { add(result_.absorbed, weight); }
+    void cut(const NodeWeights& weight) { add(result_.cut, weight); }
+    void gambled(const NodeWeights&) {}  // a probe cuts
+    // Half the estimate each, see pixel_shader.cpp.
+    void choice_begins() { start_ = seen(); }
+    void choice_ends(bool second) {
+        const double brought = seen() - start_;
+        if (second) variance_ += (first_ - brought) * (first_ - brought);
+        first_ = brought;
+    }
+
+    // What the eye sees: behind its analyser, if there is one.
+    void finish(const EyeOptics& optics) {
+        for (int i = 0; i < nodes_; ++i) {
+            const Stokes row = response(optics, result_.wavelengths_nm[i]);
+            for (int k = 0; k < 4; ++k) {
+                result_.radiance[i] += row[k] * stokes_[k * nodes_ + i];
+                result_.stokes[k] += stokes_[k * nodes_ + i] / nodes_;
+            }
+        }
+        result_.standard_error = std::sqrt(variance_) / nodes_;
+    }
+    std::vector<double>& stokes() { return stokes_; }
+
+private:
+    ProbedPath& path_of(const Vec3& at, const Vec3& direction, const PathTrace& trace) {
         // How many leaves there will be is not known: the fraction stays at 0, but a stop is heard.
         if (progress_ && ++leaves_ % 4096 == 0 && !progress_(0)) throw Interrupted();
-        std::vector<short> facets(trace.facets.begin(), trace.facets.begin() + trace.length);
+        std::vector<int> facets(trace.facets.begin(), trace.facets.begin() + trace.length);
         const std::string modes(trace.modes.begin(), trace.modes.begin() + trace.length - 1);
         const auto [found, is_new] = index_.try_emplace({facets, modes}, result_.paths.size());
         if (is_new) {
             ProbedPath path;
-            for (short facet : facets) path.facets.push_back(scene_.stone.solid.facets[facet].name);
+            for (int facet : facets) path.facets.push_back(scene_.stone.solid.facets[facet].name);
             path.modes = modes;
             path.weight.assign(nodes_, 0.0);
             path.exit_direction = direction;
             path.light = lights_.name_at(at, direction);
             result_.paths.push_back(std::move(path));
         }
-        NodeWeights seen{};
-        lights_.add_radiance(at, direction, 1.0, band_->first, band_->count, seen.data());
-        for (int i = 0; i < band_->count; ++i) {
-            result_.paths[found->second].weight[band_->first + i] += weight[i];
-            result_.radiance[band_->first + i] += weight[i] * seen[i];
-        }
+        return result_.paths[found->second];
     }
-    void remainder(const NodeWeights& weight) { add(result_.remainder, weight); }
-    void absorbed(const NodeWeights& weight) { add(result_.absorbed, weight); }
-    void cut(const NodeWeights& weight) { add(result_.cut, weight); }
-
-private:
+    double seen() const {
+        double sum = 0;
+        for (int i = 0; i < nodes_; ++i) sum += stokes_[i];
+        return sum;
+    }
     void add(std::vector<double>& sums, const NodeWeights& weight) const {
         for (int i = 0; i < band_->count; ++i) sums[band_->first + i] += weight[i];
     }
@@ -59,18 +110,31 @@ private:
     long long leaves_ = 0;
     const Progress& progress_;
     ProbeResult& result_;
+    std::vector<double> stokes_;
     const Band* band_ = nullptr;
-    std::map<std::pair<std::vector<short>, std::string>, std::size_t> index_;
+    std::map<std::pair<std::vector<int>, std::string>, std::size_t> index_;
+    double start_ = 0, first_ = 0, variance_ = 0;
 };
 
 }  // namespace
+
+PolarisationEllipse ellipse_of(const Stokes& s) {
+    PolarisationEllipse ellipse;
+    const double polarised = std::hypot(s[1], s[2], s[3]);
+    if (!(s[0] > 0) || !(polarised > 0)) return ellipse;
+    ellipse.degree = std::min(1.0, polarised / s[0]);
+    ellipse.azimuth = 0.5 * std::atan2(s[2], s[1]);
+    if (ellipse.azimuth < 0) ellipse.azimuth += std::numbers::pi;
+    ellipse.ellipticity = 0.5 * std::asin(std::clamp(s[3] / polarised, -1.0, 1.0));
+    return ellipse;
+}
 
 ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progress) {
     require_renderable(scene);
     const Plan plan = make_plan(scene);
     const WavelengthSet colours(plan.wavelengths_nm);
     const LightField lights(scene.lights, colours);
-    const ConvexBody body(scene.stone.solid);
+    const StoneBody body(scene.stone.solid, scene.stone.convex);
     if (body.contains(ray.origin)) {
         throw InputError(
             "the ray starts inside the stone: rays are followed from the eye, outside");
@@ -80,9 +144,17 @@ ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progres
     result.wavelengths_nm = plan.wavelengths_nm;
     result.radiance.assign(nodes, 0.0);
     result.remainder = result.absorbed = result.cut = result.radiance;
+    Record record(scene, lights, nodes, progress, result);
+    const EyeFrame frame = EyeRays(scene.camera).frame(ray.direction);
     const auto entry = body.entry(ray.origin, ray.direction);
     if (!entry) {
-        lights.add_radiance(ray.origin, ray.direction, 1.0, 0, nodes, result.radiance.data());
+        PathEnd end{ray.origin, ray.direction, frame.x, frame.y, EyeCoherency::of_eye(), {}};
+        end.transmitted.fill(1.0);
+        for (int first = 0; first < nodes; first += k_band_nodes) {
+            lights.add_stokes(end, first, std::min(k_band_nodes, nodes - first),
+                              record.stokes().data(), nodes);
+        }
+        record.finish(scene.camera.optics);
         return result;
     }
     result.hit = true;
@@ -92,13 +164,17 @@ ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progres
     limits.polarised = plan.polarised;
     limits.seed = scene.settings.seed;
     result.depth = limits.depth;
-    Record record(scene, lights, nodes, progress, result);
     for (const Band& band : plan.bands) {
         record.begin(band);
-        LightPaths<Record> paths(body, band, limits, record);
-        paths.trace(ray, *entry);
-        result.sampled = result.sampled || paths.sampled();
+        if (plan.polarised) {
+            CrystalPaths<Record> paths(body, band, limits, record);
+            paths.trace(ray, frame.x, frame.y, *entry);
+            result.sampled = result.sampled || paths.sampled();
+        } else {
+            LightPaths<Record>(body.planes(), band, limits, record).trace(ray, *entry);
+        }
     }
+    record.finish(scene.camera.optics);
     const auto heaviest = [](const ProbedPath& path) {
         return *std::max_element(path.weight.begin(), path.weight.end());
     };
@@ -117,6 +193,12 @@ std::string probe_json(const ProbeResult& result) {
         for (double value : values) sum += value;
         return sum / static_cast<double>(values.size());
     };
+    const auto ellipse = [](const Stokes& stokes) {
+        const PolarisationEllipse e = ellipse_of(stokes);
+        return Json{{"degree", e.degree},
+                    {"azimuth", degrees(e.azimuth)},
+                    {"ellipticity", degrees(e.ellipticity)}};
+    };
     Json paths = Json::array();
     for (const ProbedPath& path : result.paths) {
         Json modes = Json::array();
@@ -125,6 +207,8 @@ std::string probe_json(const ProbeResult& result) {
                          {"modes", modes},
                          {"weight", mean(path.weight)},
                          {"weights", path.weight},
+                         {"stokes", path.stokes},
+                         {"ellipse", ellipse(path.stokes)},
                          {"exit_direction",
                           {path.exit_direction.x, path.exit_direction.y, path.exit_direction.z}},
                          {"light", path.light}});
@@ -133,13 +217,16 @@ std::string probe_json(const ProbeResult& result) {
         {"schema", 1},
         {"radiance", result.radiance},
         {"wavelengths", result.wavelengths_nm},
+        {"stokes", result.stokes},
+        {"ellipse", ellipse(result.stokes)},
         {"paths", paths},
         {"remainder", mean(result.remainder)},
         {"absorbed", mean(result.absorbed)},
         {"cut", mean(result.cut)},
         {"per_wavelength",
          {{"remainder", result.remainder}, {"absorbed", result.absorbed}, {"cut", result.cut}}},
-        {"depth", result.depth}};
+        {"depth", result.depth},
+        {"standard_error", result.standard_error}};
     return json.dump(2) + "\n";
 }
 

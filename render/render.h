@@ -23,6 +23,10 @@ struct RenderStats {
     /// (remainder + cut) x brightest light / mean radiance: the picture's relative error is below
     /// this on average over the stone, beside sampling and effects switched off.
     double error_bound = 0;
+    /// Crystals, whose smallest paths are chosen at random: root mean square over the stone's
+    /// pixels of the standard error of a pixel, relative to the mean. Each choice is made twice,
+    /// independently, and the differences tell it without bias.
+    double standard_error = 0;
     /// Largest |sum of powers - 1| met at a crystal's face before it was put right.
     double worst_imbalance = 0;
     std::vector<std::string> notes;  ///< what a person should know about this picture
@@ -36,7 +40,7 @@ struct RenderResult {
 };
 
 /// The exact reference renderer. Same scene and seed, same bytes, whatever the number of threads.
-/// Throws InputError (stone not closed and convex, camera inside the stone, biaxial) and
+/// Throws InputError (stone not closed, camera inside the stone) and
 /// Interrupted.
 RenderResult render(const Scene& scene, const Progress& progress = {});
 

@@ -15,6 +15,20 @@
 
 namespace culet {
 
+/// What stands between the stone and the eye. Angles are in the picture, counter-clockwise from its
+/// x (to the right).
+struct EyeOptics {
+    std::optional<double> analyzer;  ///< direction of vibration that passes, radians
+    /// A plate in front of the analyser: the wave along `slow_axis` falls behind by so much.
+    struct Retarder {
+        double retardation_nm = 0, slow_axis = 0;
+    };
+    std::optional<Retarder> retarder;
+    /// A dichroscope: two windows side by side, of the analyser's direction and of the one at right
+    /// angles to it.
+    bool two_windows = false;
+};
+
 struct Camera {
     Vec3 position{0, 0, 40};
     Vec3 look_at{0, 0, 0};
@@ -23,10 +37,22 @@ struct Camera {
     std::optional<double> orthographic_width;  ///< of the picture's width
     int width = 400, height = 400;
     double aperture_radius = 0, focus_distance = 0;  ///< 0: pinhole
+    /// A conoscope: every ray passes through `look_at`, and the picture shows directions, with the
+    /// sine of the angle to the view's axis proportional to the distance from the middle; this
+    /// angle (radians) is at the middle of the shorter edge. A pupil is then a disc around
+    /// `look_at`.
+    std::optional<double> cone;
+    EyeOptics optics;
 };
 
 struct EyeRay {
     Vec3 origin, direction;  ///< unit direction, from the eye into the scene
+};
+
+/// The picture's right and up as two directions of vibration of a ray: turned with the view's axis
+/// into the ray, by the least rotation, as a lens turns them.
+struct EyeFrame {
+    Vec3 x, y;
 };
 
 /// The ray through a point of the picture: x to the right 0..width, y down 0..height (pixel centres
@@ -35,16 +61,32 @@ class EyeRays {
 public:
     explicit EyeRays(const Camera& camera);
     EyeRay through(double x, double y, double pupil_x = 0, double pupil_y = 0) const;
+    /// False in the corners of a conoscope's picture that are no direction.
+    bool sees(double x, double y) const;
+    EyeFrame frame(const Vec3& direction) const;
 
 private:
     Camera camera_;
     Vec3 right_, down_,
-        forward_;  // right_ and down_ span one pixel at unit distance (or in length)
+        forward_;  // right_ and down_ span one pixel at unit distance (or in length, or in sine)
+};
+
+/// Light that vibrates along one direction, as behind a polariser.
+struct LinearPolarisation {
+    Vec3 vibration{1, 0, 0};  ///< unit
+    /// Normal of the polariser's sheet: rays at an angle to it vibrate along `vibration` turned
+    /// with the normal into the ray. None: along the projection of `vibration`.
+    std::optional<Vec3> normal;
+    double degree = 1;  ///< 0..1 of the radiance; the rest is unpolarised
+    /// Unit vibration of a ray that travels along or against the unit `direction`.
+    Vec3 of_ray(const Vec3& direction) const;
 };
 
 /// What a light sends out: a number (D65 white), a colour, or an illuminant by name ("D65", "A").
+/// The radiance is that behind the polariser, if there is one.
 struct LightColour {
     std::variant<double, Rgb, std::string> value = 1.0;
+    std::optional<LinearPolarisation> polarisation = {};
 };
 
 /// Radiance from all directions as a lat-long map. Frame (docs/rendering.md): the
@@ -88,12 +130,18 @@ struct PlaneLight {
 struct Lights {
     std::shared_ptr<const EnvironmentMap> environment;  ///< or
     double constant = 0;                                ///< radiance from everywhere
+    std::optional<LinearPolarisation> polarisation;     ///< of these two
     std::vector<SphereLight> spheres;
     std::vector<LobeLight> lobes;
     std::vector<HemisphereLight> hemispheres;
     std::vector<CapLight> caps;
     std::vector<PlaneLight> planes;
 };
+
+struct PathEnd;  // path.h
+
+/// True when any light is polarised.
+bool polarised(const Lights& lights);
 
 /// The lights made ready for one set of wavelengths. Near lights (spheres, planes) hide the distant
 /// ones behind them; the nearest wins. Distant ones add up.
@@ -108,6 +156,9 @@ public:
     /// Returns the light's name for people: "environment", "sphere 0", ...
     void add_radiance(const Vec3& origin, const Vec3& direction, double weight, int first,
                       int count, double* radiance) const;
+    /// The Stokes parameters that reach the eye through the two waves of a path's end, times its
+    /// transmission, are added to `stokes[k * stride + node]`, k = 0..3.
+    void add_stokes(const PathEnd& end, int first, int count, double* stokes, int stride) const;
     std::string name_at(const Vec3& origin, const Vec3& direction) const;
     /// Largest radiance of any light at any node, for bounds.
     double max_radiance() const;
@@ -123,19 +174,29 @@ enum class Effects : std::uint8_t {
     polarization,
     absorption,
     pleochroism,
-    aperture
+    aperture,
+    coherence  ///< of the two waves of a crystal
 };
-constexpr int k_effect_count = 6;
+constexpr int k_effect_count = 7;
 const char* name_of(Effects effect);
+
+enum class PixelFilter { box, tent, gaussian };
 
 struct RenderSettings {
     std::string engine = "auto";  ///< reference (auto means it, for now)
     int depth = 0;                ///< 0: by tolerance. Depth d has d - 1 inner segments
     double tolerance = 0.01;      ///< of the picture's mean radiance; 0: nothing is cut
     bool effects_auto = true;     ///< all that can matter; else `effects`
-    std::array<bool, k_effect_count> effects{true, true, true, true, true, true};
+    std::array<bool, k_effect_count> effects{true, true, true, true, true, true, true};
+    /// Coherence of a crystal's two waves: nothing: where the scene calls for it.
+    std::optional<bool> coherence;
+    /// Of the light at each wavelength; nothing: the distance of the wavelengths, 0 for a single
+    /// one.
+    std::optional<double> bandwidth_nm;
     std::vector<double> wavelengths_nm;  ///< empty: as many as the scene calls for
-    int samples = 16;                    ///< a pixel
+    int samples = 0;                     ///< a pixel; 0: 16, or 64 with an aperture
+    PixelFilter filter = PixelFilter::box;
+    double filter_radius = 0.5;  ///< pixels; the gaussian's is two standard deviations
     std::uint64_t seed = 1;
     int threads = 0;
     bool spectral = false;  ///< keep spectral planes
@@ -145,6 +206,7 @@ struct Scene {
     Stone stone;
     Camera camera;
     Lights lights;
+    double immersion = 1;  ///< refractive index of what surrounds the stone
     RenderSettings settings;
     std::vector<std::string> notes;  ///< said on reading: negative texels clamped, ...
 };

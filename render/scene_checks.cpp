@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "render/convex_body.h"
-#include "render/light_paths.h"
+#include "render/path.h"
+#include "render/stone_body.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
 
@@ -19,10 +19,6 @@ constexpr double k_drawn_by_planes = 0.02;
 
 void require_renderable(const Scene& scene) {
     const Stone& stone = scene.stone;
-    if (!stone.convex) {
-        throw InputError(
-            fmt::format("{}: stones that are not convex are not rendered yet", stone.name));
-    }
     for (const Fault& fault : find_faults(stone.solid, {.planarity = k_drawn_by_planes})) {
         switch (fault.kind) {
             case FaultKind::unused_vertex:
@@ -30,10 +26,13 @@ void require_renderable(const Scene& scene) {
             case FaultKind::repeated_plane:
             case FaultKind::missing_facet:
                 break;
-            // Planes are what is drawn: outlines that rounding bent are no hindrance, see below.
+            // Planes are what is drawn of a convex stone: outlines that rounding bent are no
+            // hindrance, see below.
             case FaultKind::not_convex:
-            case FaultKind::self_crossing:
                 break;
+            case FaultKind::self_crossing:
+                if (stone.convex) break;
+                [[fallthrough]];
             default:
                 throw InputError(
                     fmt::format("{}: {}; culet info lists all that is wrong with a mesh",
@@ -41,15 +40,17 @@ void require_renderable(const Scene& scene) {
         }
     }
     const double size = diameter(stone.solid);
-    for (const Facet& facet : stone.solid.facets) {
-        for (const Vec3& corner : stone.solid.vertices) {
-            if (height_above(facet.plane, corner) > k_drawn_by_planes * size) {
-                throw InputError(
-                    fmt::format("{}: a corner stands {:.2g} above the plane of facet {}: the stone "
-                                "is not convex, and such stones "
-                                "are not rendered yet (a rough hand-made mesh: fit it first)",
-                                stone.name.empty() ? "stone" : stone.name,
-                                height_above(facet.plane, corner), facet.name));
+    if (stone.convex) {
+        for (const Facet& facet : stone.solid.facets) {
+            for (const Vec3& corner : stone.solid.vertices) {
+                if (height_above(facet.plane, corner) > k_drawn_by_planes * size) {
+                    throw InputError(fmt::format(
+                        "{}: a corner stands {:.2g} above the plane of facet {}: the stone "
+                        "is not convex; say convex = false if that is meant (a rough "
+                        "hand-made mesh: fit it first)",
+                        stone.name.empty() ? "stone" : stone.name,
+                        height_above(facet.plane, corner), facet.name));
+                }
             }
         }
     }
@@ -57,7 +58,7 @@ void require_renderable(const Scene& scene) {
         throw InputError(fmt::format("depth {} is over the longest path, {}", scene.settings.depth,
                                      PathTrace::k_longest));
     }
-    if (ConvexBody(stone.solid).contains(scene.camera.position)) {
+    if (StoneBody(stone.solid, stone.convex).contains(scene.camera.position)) {
         throw InputError("the camera is inside the stone: move camera.position out");
     }
 }

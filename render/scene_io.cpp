@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/light_io.h"
+#include "render/view_presets.h"
 #include "stone/errors.h"
 #include "stone/material_io.h"
 #include "stone/stone_io.h"
@@ -19,10 +20,16 @@ constexpr int k_most_pixels_a_side = 32768;
 constexpr double k_most_pixels = 268435456;  // 2^28, as many as picture files are read with
 constexpr std::size_t k_most_wavelengths = 1000;
 
+std::vector<std::string_view> with_view_keys(std::vector<std::string_view> keys) {
+    keys.insert(keys.end(), std::begin(k_view_keys), std::end(k_view_keys));
+    return keys;
+}
+
 Camera read_camera(const TomlTable& table) {
-    table.refuse_unknown({"position", "look_at", "up", "fov", "orthographic_width", "size",
-                          "aperture_radius", "focus_distance"});
+    table.refuse_unknown(with_view_keys({"position", "look_at", "up", "fov", "orthographic_width",
+                                         "size", "aperture_radius", "focus_distance"}));
     Camera camera;
+    read_eye_optics(table, camera);
     if (const auto position = table.vector("position")) camera.position = *position;
     if (const auto look_at = table.vector("look_at")) camera.look_at = *look_at;
     if (const auto up = table.vector("up")) camera.up = *up;
@@ -70,16 +77,68 @@ Camera read_camera(const TomlTable& table) {
     if (camera.aperture_radius < 0)
         table.fail("aperture_radius", "aperture_radius must not be negative");
     camera.focus_distance = table.number("focus_distance").value_or(0);
-    if (camera.aperture_radius > 0 && !(camera.focus_distance > 0)) {
+    if (camera.aperture_radius > 0 && !(camera.focus_distance > 0) && !camera.cone) {
         table.fail("aperture_radius",
                    "an aperture needs focus_distance, the distance at which the picture is sharp");
     }
     return camera;
 }
 
+void read_coherence(const TomlTable& table, RenderSettings& settings) {
+    switch (table.kind("coherence")) {
+        case TomlTable::Kind::missing:
+            break;
+        case TomlTable::Kind::boolean:
+            settings.coherence = *table.boolean("coherence");
+            break;
+        default: {
+            const std::string word = *table.text("coherence");
+            if (word != "auto" && word != "on" && word != "off")
+                table.fail("coherence",
+                           fmt::format("coherence is auto, on or off, found \"{}\"", word));
+            if (word != "auto") settings.coherence = word == "on";
+        }
+    }
+    if (const auto bandwidth = table.number("bandwidth")) {
+        if (!(*bandwidth >= 0 && *bandwidth <= 1000)) {
+            table.fail("bandwidth",
+                       fmt::format("bandwidth is in nm, 0 to 1000, found {}", *bandwidth));
+        }
+        settings.bandwidth_nm = *bandwidth;
+    }
+}
+
+void read_filter(const TomlTable& table, RenderSettings& settings) {
+    const std::string name = table.text("filter").value_or("box");
+    if (name == "box") {
+        settings.filter = PixelFilter::box;
+        settings.filter_radius = 0.5;
+    } else if (name == "tent") {
+        settings.filter = PixelFilter::tent;
+        settings.filter_radius = 1;
+    } else if (name == "gaussian") {
+        settings.filter = PixelFilter::gaussian;
+        settings.filter_radius = 1;
+    } else {
+        table.fail("filter",
+                   fmt::format("no pixel filter \"{}\"; known: box, tent, gaussian", name));
+    }
+    if (const auto radius = table.number("filter_radius")) {
+        if (!(*radius > 0 && *radius <= 8)) {
+            table.fail("filter_radius",
+                       fmt::format("filter_radius is in pixels, 0 to 8, found {}", *radius));
+        }
+        settings.filter_radius = *radius;
+    }
+}
+
 RenderSettings read_settings(const TomlTable& table) {
-    table.refuse_unknown({"engine", "depth", "tolerance", "effects", "wavelengths", "samples"});
+    table.refuse_unknown(
+        with_view_keys({"engine", "depth", "tolerance", "effects", "wavelengths", "samples",
+                        "coherence", "bandwidth", "filter", "filter_radius"}));
     RenderSettings settings;
+    read_coherence(table, settings);
+    read_filter(table, settings);
     if (const auto engine = table.text("engine")) {
         const std::vector<std::string> known{"auto", "reference", "beams", "preview", "raytable"};
         if (std::find(known.begin(), known.end(), *engine) == known.end()) {
@@ -136,6 +195,8 @@ RenderSettings read_settings(const TomlTable& table) {
             set_effects({});
         } else if (word == "all") {
             settings.effects_auto = false;
+            // Coherence changes what "all" of the others mean: only where the scene calls for it.
+            settings.effects[static_cast<std::size_t>(Effects::coherence)] = false;
         } else if (word != "auto") {
             set_effects({word});
         }
@@ -204,13 +265,37 @@ Stone read_scene_stone(const TomlTable& root, std::vector<std::string>& notes) {
     return stone;
 }
 
+// The instrument that the scene is seen through, and the table that names it.
+std::optional<std::pair<std::string, TomlTable>> view_in(const TomlTable& root) {
+    std::optional<std::pair<std::string, TomlTable>> view;
+    const auto take = [&view](const TomlTable& table, bool may_be_light) {
+        const auto name = table.text("preset");
+        if (!name || (may_be_light && !is_view_preset(*name))) return;
+        if (!is_view_preset(*name)) {
+            table.fail("preset",
+                       fmt::format("no view \"{}\"; known: polariscope, conoscope, dichroscope "
+                                   "(presets of lights stand in [light])",
+                                   *name));
+        }
+        if (view) table.fail("preset", "the view is named twice");
+        view.emplace(*name, table);
+    };
+    take(root, false);
+    for (const char* key : {"camera", "light", "render"}) {
+        if (root.kind(key) == TomlTable::Kind::table)
+            take(*root.table(key), std::string(key) == "light");
+    }
+    return view;
+}
+
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                  const Stone* stone_instead) {
     const TomlTable root = read_toml(file, overrides);
-    root.refuse_unknown({"stone", "mesh", "material", "unit", "optic_axis", "principal_axes",
-                         "convex", "name", "camera", "light", "object", "render"});
+    root.refuse_unknown(
+        with_view_keys({"stone", "mesh", "material", "unit", "optic_axis", "principal_axes",
+                        "convex", "name", "camera", "light", "object", "render", "immersion"}));
     Scene scene;
     if (root.has("object")) root.fail("object", "objects around the stone are not rendered yet");
     if (stone_instead != nullptr) {
@@ -218,10 +303,27 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
     } else {
         scene.stone = read_scene_stone(root, scene.notes);
     }
-    if (const auto camera = root.table("camera")) scene.camera = read_camera(*camera);
+    if (const auto immersion = root.number("immersion")) {
+        if (!(*immersion >= 1 && *immersion <= 4)) {
+            root.fail("immersion",
+                      fmt::format("immersion is a refractive index, 1 to 4, found {}", *immersion));
+        }
+        scene.immersion = *immersion;
+    }
+    const auto view = view_in(root);
+    const auto camera = root.table("camera");
+    if (camera) {
+        scene.camera = read_camera(*camera);
+    } else if (view) {
+        scene.camera = camera_above(scene.stone.solid);
+    }
     const auto light = root.table("light");
-    if (!light) root.fail("", "the scene is dark: add a [light] table, e.g. constant = 1.0");
-    scene.lights = lights_of(*light, diameter(scene.stone.solid), scene.notes);
+    if (light) {
+        scene.lights = lights_of(*light, diameter(scene.stone.solid), scene.notes);
+    } else if (!view) {
+        root.fail("", "the scene is dark: add a [light] table, e.g. constant = 1.0");
+    }
+    if (view) apply_view_preset(view->first, view->second, scene);
     if (const auto settings = root.table("render")) scene.settings = read_settings(*settings);
     return scene;
 }

@@ -350,7 +350,7 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
     return result;
 }
 
-void TomlTable::refuse_unknown(std::initializer_list<std::string_view> known) const {
+void TomlTable::refuse_unknown(const std::vector<std::string_view>& known) const {
     for (const auto& [key, node] : as_table(node_)) {
         if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;
         const auto near =

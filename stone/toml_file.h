@@ -39,7 +39,7 @@ public:
     std::optional<std::filesystem::path> path(std::string_view key) const;
 
     /// Throws InputError for the first key that is none of `known`, with the nearest known one.
-    void refuse_unknown(std::initializer_list<std::string_view> known) const;
+    void refuse_unknown(const std::vector<std::string_view>& known) const;
     /// Throws InputError at the line of `key` (or of the table when the key is missing).
     [[noreturn]] void fail(std::string_view key, const std::string& message) const;
 

@@ -1,5 +1,5 @@
-// Expectations: conservation (leaves + remainder + absorbed + cut = 1), closed forms of a slab,
-// Beer and Lambert, and the limit of a vanishing birefringence.
+// Expectations: conservation (leaves + remainder + absorbed + cut = 1), closed forms of a slab, and
+// Beer and Lambert.
 
 #include "render/light_paths.h"
 
@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <random>
+
+#include "tests/render/ray_stones.h"
 
 namespace {
 
@@ -27,43 +29,6 @@ struct Sums {
     double total() const { return leaves + left + lost + dropped; }
 };
 
-// A random convex stone: planes tangent to an ellipsoid.
-Solid random_stone(std::mt19937_64& random, int planes) {
-    std::normal_distribution<double> normal;
-    std::vector<NamedPlane> list;
-    for (int axis = 0; axis < 3; ++axis) {
-        for (int sign : {-1, 1}) {
-            Vec3 n{0, 0, 0};
-            n[axis] = sign;
-            list.push_back({"box", {n, 1.3}});
-        }
-    }
-    for (int i = 0; i < planes; ++i) {
-        const Vec3 n = glm::normalize(Vec3{normal(random), normal(random), normal(random)});
-        list.push_back({"p", {n, 1.0}});
-    }
-    return intersect_half_spaces(list).solid;
-}
-
-EyeRay random_ray(std::mt19937_64& random) {
-    std::normal_distribution<double> normal;
-    const Vec3 from = 5.0 * glm::normalize(Vec3{normal(random), normal(random), normal(random)});
-    const Vec3 to = 0.5 * Vec3{normal(random), normal(random), normal(random)};
-    return {from, glm::normalize(to - from)};
-}
-
-Solid slab(double thickness) {
-    std::vector<NamedPlane> planes{{"top", {{0, 0, 1}, 0}}, {"bottom", {{0, 0, -1}, thickness}}};
-    for (int axis = 0; axis < 2; ++axis) {
-        for (int sign : {-1, 1}) {
-            Vec3 n{0, 0, 0};
-            n[axis] = sign;
-            planes.push_back({"side", {n, 1e4}});
-        }
-    }
-    return intersect_half_spaces(planes).solid;
-}
-
 TEST(LightPaths, isotropic_white_furnace_balances_at_every_depth) {
     const unsigned seed = 1829;
     std::mt19937_64 random(seed);
@@ -82,44 +47,6 @@ TEST(LightPaths, isotropic_white_furnace_balances_at_every_depth) {
                     PathLimits limits;
                     limits.depth = depth;
                     limits.polarised = polarised;
-                    LightPaths<Sums>(body, band, limits, sums).trace(ray, *entry);
-                    worst = std::max(worst, std::abs(sums.total() - 1));
-                }
-            }
-        }
-    }
-    EXPECT_LT(worst, 1e-12) << "seed " << seed;
-}
-
-TEST(LightPaths, uniaxial_white_furnace_balances_with_absorption_and_cuts) {
-    const unsigned seed = 2004;
-    std::mt19937_64 random(seed);
-    std::normal_distribution<double> normal;
-    double worst = 0;
-    for (int stone = 0; stone < 12; ++stone) {
-        const ConvexBody body(random_stone(random, 20));
-        Band band;
-        band.crystal = true;
-        const double n_o[] = {1.642, 1.768, 1.925, 1.658}, n_e[] = {1.619, 1.760, 1.984, 1.486};
-        band.uniaxial = {glm::normalize(Vec3{normal(random), normal(random), normal(random)}),
-                         n_o[stone % 4], n_e[stone % 4]};
-        if (stone % 3 == 0) band.uniaxial.axis = {0, 0, 1};
-        if (stone % 2 == 0) {
-            band.absorbs = true;
-            band.absorption[0][0] = 0.3;
-            band.absorption[1][0] = 1.1;
-        }
-        for (int i = 0; i < 20; ++i) {
-            const EyeRay ray = random_ray(random);
-            const auto entry = body.entry(ray.origin, ray.direction);
-            if (!entry) continue;
-            for (const int depth : {1, 2, 5, 9}) {
-                for (const double cut : {0.0, 1e-3}) {
-                    Sums sums;
-                    PathLimits limits;
-                    limits.depth = depth;
-                    limits.cut_weight = cut;
-                    limits.split_weight = cut > 0 ? 0.05 : 0;
                     LightPaths<Sums>(body, band, limits, sums).trace(ray, *entry);
                     worst = std::max(worst, std::abs(sums.total() - 1));
                 }
@@ -232,82 +159,6 @@ TEST(LightPaths, crossed_plane_reflections_polarise_as_the_product_of_jones_matr
     const auto b = weights({{start.y, start.x, start.z}, {direction.y, direction.x, direction.z}});
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-15);
-}
-
-TEST(LightPaths, uniaxial_of_equal_indices_sends_the_power_of_an_isotropic_face) {
-    // n_o = n_e: at the first face the entering power is Fresnel's, whatever the axis.
-    const double n = 1.76;
-    for (const double angle : {0.0, 0.3, 1.0, 1.5}) {
-        const Vec3 n_into{0, 0, -1};
-        const Vec3 K{std::sin(angle), 0, 0};
-        const FaceAmplitudes face = fresnel(1, n, std::cos(angle));
-        for (const Vec3& axis :
-             {Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, glm::normalize(Vec3{1, 2, 3})}) {
-            const CrystalEntry entry = enter_crystal({axis, n, n}, 1.0, K, n_into);
-            EXPECT_NEAR(entry.reflected[0], std::norm(face.r_s), 1e-13) << angle;
-            EXPECT_NEAR(entry.reflected[1], std::norm(face.r_p), 1e-13) << angle;
-        }
-    }
-}
-
-TEST(LightPaths, uniaxial_face_conserves_power_and_snell_in_every_orientation) {
-    const unsigned seed = 1998;
-    std::mt19937_64 random(seed);
-    std::normal_distribution<double> normal;
-    double worst = 0;
-    for (int i = 0; i < 4000; ++i) {
-        const auto unit = [&] {
-            return glm::normalize(Vec3{normal(random), normal(random), normal(random)});
-        };
-        const Vec3 n_out = unit();
-        Vec3 axis = unit();
-        if (i % 5 == 1) axis = n_out;                                    // axis along the normal
-        if (i % 5 == 2) axis = glm::normalize(glm::cross(n_out, axis));  // axis in the face
-        const UniaxialCrystal crystal{axis, 1.658, i % 3 == 0 ? 1.658 - 1e-9 : 1.486};
-        // Any mode that runs towards the face: made by a face turned the same way.
-        const Vec3 tangent = glm::normalize(glm::cross(n_out, unit()));
-        const Vec3 K = (i % 7 == 3 ? 0.0 : 1.4 * std::abs(normal(random)) / 2) * tangent;
-        for (const CrystalMode& mode : modes_towards(crystal, K, n_out)) {
-            if (!mode.propagates) continue;
-            const CrystalHit hit = hit_face(crystal, 1.0, mode, n_out);
-            worst = std::max(worst, hit.imbalance);
-            for (const CrystalMode& reflected : hit.modes) {
-                if (!reflected.propagates) continue;
-                EXPECT_LE(glm::dot(reflected.ray, n_out), 1e-12);
-                const Vec3 tangential = reflected.wave - glm::dot(reflected.wave, n_out) * n_out;
-                EXPECT_NEAR(glm::length(tangential - K), 0, 1e-13);
-            }
-        }
-    }
-    // Rounding over the incident normal flux, which reaches 1e-4 in these draws.
-    EXPECT_LT(worst, 1e-10) << "seed " << seed;
-}
-
-TEST(LightPaths, extraordinary_ray_follows_eps_times_the_wave_normal) {
-    // t = eps N / |eps N| (Born & Wolf 15.3) and n(th) = no ne / sqrt(ne^2 + (no^2 - ne^2) sin^2
-    // th).
-    const UniaxialCrystal crystal{glm::normalize(Vec3{0.2, 0.5, 0.8}), 1.658, 1.486};
-    const CrystalMode mode = modes_towards(crystal, {0.4, 0.2, 0}, {0, 0, 1})[1];
-    ASSERT_TRUE(mode.propagates);
-    const double eo = 1.658 * 1.658, ee = 1.486 * 1.486;
-    const Vec3 eps_n =
-        eo * mode.wave + (ee - eo) * glm::dot(crystal.axis, mode.wave) * crystal.axis;
-    EXPECT_NEAR(glm::length(mode.ray - glm::normalize(eps_n)), 0, 1e-14);
-    const double cosine = glm::dot(glm::normalize(mode.wave), crystal.axis),
-                 sin2 = 1 - cosine * cosine;
-    EXPECT_NEAR(glm::length(mode.wave), 1.658 * 1.486 / std::sqrt(ee + (eo - ee) * sin2), 1e-14);
-}
-
-TEST(LightPaths, pleochroic_absorption_has_its_closed_forms) {
-    // Ordinary: K_o in every direction. Extraordinary across the axis: K_e (notes of this house on
-    // Guy & Soler 2004, eq. 7, which gives K_e (n_o/n_e)^2 there).
-    const UniaxialCrystal crystal{{0, 0, 1}, 1.658, 1.486};
-    const auto across = modes_towards(crystal, {0, 0, 0}, {1, 0, 0});
-    EXPECT_NEAR(absorption_along(crystal, across[0], 0.3, 1.1), 0.3, 1e-15);
-    EXPECT_NEAR(absorption_along(crystal, across[1], 0.3, 1.1), 1.1, 1e-14);
-    const auto along = modes_towards(crystal, {0, 0, 0}, {0, 0, 1});
-    EXPECT_NEAR(absorption_along(crystal, along[0], 0.3, 1.1), 0.3, 1e-15);
-    EXPECT_NEAR(absorption_along(crystal, along[1], 0.3, 1.1), 0.3, 1e-14);
 }
 
 TEST(ConvexBody, ray_along_an_edge_or_through_a_corner_still_leaves) {

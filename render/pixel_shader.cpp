@@ -1,0 +1,217 @@
+#include "render/pixel_shader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "render/crystal_paths.h"
+#include "render/eye_optics.h"
+#include "render/light_paths.h"
+
+namespace culet {
+
+namespace {
+
+double luminance(const Rgb& rgb) {
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
+// What is not seen of one eye ray.
+class Lost {
+public:
+    explicit Lost(int count) : count_(count) {}
+    void remainder(const NodeWeights& weight) { remainder_ += sum(weight); }
+    void absorbed(const NodeWeights& weight) { absorbed_ += sum(weight); }
+    void cut(const NodeWeights& weight) { cut_ += sum(weight); }
+
+    double remainder_ = 0, absorbed_ = 0, cut_ = 0;
+
+private:
+    double sum(const NodeWeights& weight) const {
+        return std::accumulate(weight.begin(), weight.begin() + count_, 0.0);
+    }
+    int count_;
+};
+
+// Adds up what the leaves of one ray see.
+class Gather : public Lost {
+public:
+    Gather(const LightField& lights, const Band& band, double* radiance)
+        : Lost(band.count), lights_(lights), band_(band), radiance_(radiance) {}
+
+    void leaf(const Vec3& at, const Vec3& direction, const NodeWeights& weight, const PathTrace&) {
+        NodeWeights seen{};
+        lights_.add_radiance(at, direction, 1.0, band_.first, band_.count, seen.data());
+        for (int i = 0; i < band_.count; ++i) radiance_[band_.first + i] += weight[i] * seen[i];
+    }
+
+private:
+    const LightField& lights_;
+    const Band& band_;
+    double* radiance_;
+};
+
+class GatherStokes : public Lost {
+public:
+    GatherStokes(const LightField& lights, const Band& band, const std::vector<double>& luminance,
+                 const std::vector<double>& usual, int nodes, int planes, double* stokes)
+        : Lost(band.count),
+          lights_(lights),
+          band_(band),
+          luminance_(luminance),
+          usual_(usual),
+          nodes_(nodes),
+          planes_(planes),
+          stokes_(stokes) {}
+
+    void leaf(const PathEnd& end, const PathTrace&) {
+        if (planes_ == 4) {
+            lights_.add_stokes(end, band_.first, band_.count, stokes_, nodes_);
+            return;
+        }
+        NodeWeights seen{};
+        lights_.add_radiance(end.at, end.direction, end.coherency.power(), band_.first, band_.count,
+                             seen.data());
+        for (int i = 0; i < band_.count; ++i)
+            stokes_[band_.first + i] += end.transmitted[i] * seen[i];
+    }
+    // Weight of mean 0, so it may be given any radiance: the usual one makes up best for what was
+    // lost, and exactly in a constant light.
+    void gambled(const NodeWeights& weight) {
+        for (int i = 0; i < band_.count; ++i)
+            stokes_[band_.first + i] += weight[i] * usual_[band_.first + i];
+    }
+    // Half the estimate each: the squared difference of two such is an unbiased estimate of their
+    // sum's variance.
+    void choice_begins() { start_ = seen(); }
+    void choice_ends(bool second) {
+        const double brought = seen() - start_;
+        if (!second) {
+            first_ = brought;
+        } else {
+            variance_ += (first_ - brought) * (first_ - brought);
+        }
+    }
+    double variance_ = 0;
+
+private:
+    double seen() const {
+        double sum = 0;
+        for (int k = 0; k < planes_; ++k) {
+            for (int i = band_.first; i < band_.first + band_.count; ++i)
+                sum += luminance_[k * nodes_ + i] * stokes_[k * nodes_ + i];
+        }
+        return sum;
+    }
+    const LightField& lights_;
+    const Band& band_;
+    const std::vector<double>&luminance_, &usual_;
+    int nodes_, planes_;
+    double* stokes_;
+    double start_ = 0, first_ = 0;
+};
+
+std::vector<double> luminance_weights(const WavelengthSet& colours, const EyeOptics& optics,
+                                      int planes) {
+    const int nodes = colours.size();
+    std::vector<double> weights(static_cast<std::size_t>(planes * nodes)), one(nodes, 0.0);
+    for (int i = 0; i < nodes; ++i) {
+        one[i] = 1;
+        const double of_node = luminance(colours.rgb_of(one.data()));
+        one[i] = 0;
+        const Stokes row = response(optics, colours.wavelengths_nm()[i]);
+        for (int k = 0; k < planes; ++k) weights[k * nodes + i] = of_node * row[k];
+    }
+    return weights;
+}
+
+// Mean over directions evenly spread on the sphere (Fibonacci's spiral).
+std::vector<double> usual_radiance(const LightField& lights, const Vec3& at, int nodes) {
+    constexpr int k_directions = 256;
+    constexpr double k_golden_angle = 2.39996322972865332;
+    std::vector<double> mean(nodes, 0.0);
+    for (int i = 0; i < k_directions; ++i) {
+        const double z = 1 - (2 * i + 1.0) / k_directions, r = std::sqrt(1 - z * z);
+        const Vec3 direction{r * std::cos(k_golden_angle * i), r * std::sin(k_golden_angle * i), z};
+        lights.add_radiance(at, direction, 1.0 / k_directions, 0, nodes, mean.data());
+    }
+    return mean;
+}
+
+}  // namespace
+
+PixelShader::PixelShader(const Scene& scene, const Plan& plan, const LightField& lights,
+                         const WavelengthSet& colours, const PathLimits& limits, int samples)
+    : body_(scene.stone.solid, scene.stone.convex),
+      eyes_(scene.camera),
+      plan_(plan),
+      lights_(lights),
+      limits_(limits),
+      pattern_(sample_pattern(samples, plan.on(Effects::aperture), scene.settings.filter,
+                              scene.settings.filter_radius)),
+      nodes_(colours.size()),
+      luminance_(luminance_weights(colours, scene.camera.optics, plan.stokes ? 4 : 1)),
+      usual_(usual_radiance(lights, scene.camera.look_at, nodes_)) {}
+
+void PixelShader::background(const EyeRay& ray, double* stokes) const {
+    if (!plan_.stokes) {
+        lights_.add_radiance(ray.origin, ray.direction, 1.0, 0, nodes_, stokes);
+        return;
+    }
+    const EyeFrame frame = eyes_.frame(ray.direction);
+    PathEnd end{ray.origin, ray.direction, frame.x, frame.y, EyeCoherency::of_eye(), {}};
+    end.transmitted.fill(1.0);
+    for (int first = 0; first < nodes_; first += k_band_nodes)
+        lights_.add_stokes(end, first, std::min(k_band_nodes, nodes_ - first), stokes, nodes_);
+}
+
+PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixel,
+                             double* stokes) const {
+    const std::size_t values = static_cast<std::size_t>(planes() * nodes_);
+    std::fill(stokes, stokes + values, 0.0);
+    std::vector<double> behind(values, 0.0);
+    PixelSums sums;
+    const double share = 1.0 / static_cast<double>(pattern_.size());
+    for (std::size_t i = 0; i < pattern_.size(); ++i) {
+        const SamplePoint& p = pattern_[i];
+        if (!eyes_.sees(x + size * p.x, y + size * p.y)) continue;
+        const EyeRay ray = eyes_.through(x + size * p.x, y + size * p.y, p.pupil_x, p.pupil_y);
+        const auto entry = body_.entry(ray.origin, ray.direction);
+        if (!entry) {
+            background(ray, behind.data());
+            continue;
+        }
+        sums.hit += share;
+        for (const Band& band : plan_.bands) {
+            PathLimits limits = limits_;
+            limits.seed = limits_.seed + 0x9e3779b97f4a7c15ull * (pixel * pattern_.size() + i + 1) +
+                          static_cast<std::uint64_t>(band.first);
+            const auto take = [&](const Lost& lost) {
+                sums.remainder += share * lost.remainder_ / nodes_;
+                sums.absorbed += share * lost.absorbed_ / nodes_;
+                sums.cut += share * lost.cut_ / nodes_;
+            };
+            if (plan_.general) {
+                GatherStokes gather(lights_, band, luminance_, usual_, nodes_, planes(), stokes);
+                CrystalPaths<GatherStokes> paths(body_, band, limits, gather);
+                const EyeFrame frame = eyes_.frame(ray.direction);
+                paths.trace(ray, frame.x, frame.y, *entry);
+                sums.worst_imbalance = std::max(sums.worst_imbalance, paths.worst_imbalance());
+                sums.sampled += paths.sampled();
+                sums.variance += share * share * gather.variance_;
+                take(gather);
+            } else {
+                Gather gather(lights_, band, stokes);
+                LightPaths<Gather>(body_.planes(), band, limits, gather).trace(ray, *entry);
+                take(gather);
+            }
+            ++sums.rays;
+        }
+    }
+    for (std::size_t i = 0; i < values; ++i) sums.luminance += luminance_[i] * stokes[i];
+    sums.luminance *= share;
+    for (std::size_t i = 0; i < values; ++i) stokes[i] = share * (stokes[i] + behind[i]);
+    return sums;
+}
+
+}  // namespace culet

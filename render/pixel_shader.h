@@ -1,0 +1,49 @@
+#pragma once
+// One pixel of the reference renderer: eye rays, their light paths, and the sums over them.
+
+#include <vector>
+
+#include "render/path.h"
+#include "render/plan.h"
+#include "render/sampling.h"
+#include "render/stone_body.h"
+
+namespace culet {
+
+/// What is known of a pixel beside its light. Weights are means over its samples and wavelengths.
+struct PixelSums {
+    double hit = 0;        ///< share of samples that meet the stone
+    double luminance = 0;  ///< that these bring, as a share of the pixel
+    double remainder = 0, absorbed = 0, cut = 0;
+    double variance = 0;  ///< of the luminance, from paths chosen at random
+    double worst_imbalance = 0;
+    long long rays = 0, sampled = 0;
+};
+
+class PixelShader {
+public:
+    PixelShader(const Scene& scene, const Plan& plan, const LightField& lights,
+                const WavelengthSet& colours, const PathLimits& limits, int samples);
+
+    /// Stokes parameters in `stokes`: 1 (S0 only) or, when the plan asks for them, 4.
+    int planes() const { return plan_.stokes ? 4 : 1; }
+
+    /// Means over the pixel whose corner is (x, y) and whose side is `size` pixels, to
+    /// `stokes[plane * nodes + node]`. `pixel`: its number, for the seed.
+    PixelSums shade(double x, double y, double size, std::uint64_t pixel, double* stokes) const;
+
+private:
+    void background(const EyeRay& ray, double* stokes) const;
+
+    StoneBody body_;
+    EyeRays eyes_;
+    const Plan& plan_;
+    const LightField& lights_;
+    PathLimits limits_;
+    std::vector<SamplePoint> pattern_;
+    int nodes_;
+    std::vector<double> luminance_;  // of S[plane] at each node, as seen behind the eye's optics
+    std::vector<double> usual_;      // mean radiance of the lights at each node
+};
+
+}  // namespace culet

@@ -1,0 +1,19 @@
+#pragma once
+// The two waves of a biaxial crystal at a face: where no formula in closed form exists.
+
+#include "render/crystal.h"
+
+namespace culet {
+
+/// As modes_towards, [0] the slow and [1] the fast wave. Along an optic axis the two coincide and
+/// any pair of vibrations serves. Fresnel's equation is solved in w = N^2 - n2^2, whose terms are
+/// all of the order of the birefringence, so that nothing cancels however small it is. Cost: some
+/// five steps a wave; near grazing, and where a wave is evanescent, the eigenvalues of a 4x4
+/// matrix.
+std::array<CrystalMode, 2> biaxial_modes(const Crystal::Rising& crystal, const Vec3& K,
+                                         const Vec3& n);
+
+/// Fills in H, ray and flux of a mode from E and N, with E scaled to length 1.
+void complete_mode(CrystalMode& mode, const ComplexVec3& N, bool propagates);
+
+}  // namespace culet
