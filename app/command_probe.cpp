@@ -11,6 +11,7 @@
 #include "render/scene_io.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "stone/units.h"
 
 namespace culet {
 
@@ -75,7 +76,9 @@ int run_probe(const ProbeOptions& options) {
         fmt::print("the ray misses the stone\n");
         return exit_good;
     }
-    fmt::print("{:>9}  {:<22} {}\n", "weight", "sees", "facets (o, e: the wave between them)");
+    // The ellipse at the eye of unpolarised light that comes this way.
+    fmt::print("{:>9}  {:<22} {:>9} {:>7} {:>7}  {}\n", "weight", "sees", "polarised", "azimuth",
+               "ellipt.", "facets, and the wave between them: o e, slow s fast f, c both, a air");
     int shown = 0;
     for (const ProbedPath& path : result.paths) {
         if (shown++ == options.most) break;
@@ -87,7 +90,10 @@ int run_probe(const ProbeOptions& options) {
                 facets += path.modes[i - 1] == 'i' ? " " : fmt::format(" -{}- ", path.modes[i - 1]);
             facets += path.facets[i];
         }
-        fmt::print("{:>9.6f}  {:<22} {}\n", weight, path.light, facets);
+        const PolarisationEllipse ellipse = ellipse_of(path.stokes);
+        fmt::print("{:>9.6f}  {:<22} {:>8.1f}% {:>7.1f} {:>7.1f}  {}\n", weight, path.light,
+                   100 * ellipse.degree, degrees(ellipse.azimuth), degrees(ellipse.ellipticity),
+                   facets);
     }
     const auto mean = [](const std::vector<double>& values) {
         double sum = 0;

@@ -7,6 +7,7 @@
 #include "app/solid_input.h"
 #include "render/image_io.h"
 #include "render/scene_io.h"
+#include "stone/units.h"
 
 namespace culet {
 
@@ -29,6 +30,11 @@ Description describe_scene_file(const DescribeOptions& options) {
                         {"hemispheres", lights.hemispheres.size()},
                         {"caps", lights.caps.size()},
                         {"planes", lights.planes.size()}};
+    const EyeOptics& optics = camera.optics;
+    if (camera.cone) object["camera"]["cone"] = degrees(*camera.cone);
+    if (optics.analyzer) object["camera"]["analyzer"] = degrees(*optics.analyzer);
+    if (optics.two_windows) object["camera"]["windows"] = 2;
+    object["immersion"] = scene.immersion;
     object["engine"] = scene.settings.engine;
     object["depth"] = scene.settings.depth;
     object["tolerance"] = scene.settings.tolerance;
@@ -41,6 +47,14 @@ Description describe_scene_file(const DescribeOptions& options) {
                                        : (lights.constant > 0 ? "a constant environment, " : ""),
                     lights.spheres.size(), lights.lobes.size(), lights.hemispheres.size(),
                     lights.caps.size(), lights.planes.size()));
+    if (optics.analyzer) {
+        about.lines.push_back(
+            fmt::format("seen through an analyser at {:g} degrees{}{}", degrees(*optics.analyzer),
+                        optics.two_windows ? " and one across it" : "",
+                        camera.cone ? ", in all directions through a point" : ""));
+    }
+    if (scene.immersion != 1)
+        about.lines.push_back(fmt::format("in a liquid of index {:g}", scene.immersion));
     describe_material(scene.stone.material, about);
     describe_solid(scene.stone.solid, scene.stone.convex && !options.may_be_concave,
                    options.facet_table, about);

@@ -24,10 +24,5 @@ inline ComplexVec3 cross(const ComplexVec3& a, const ComplexVec3& b) {
 inline double squared_length(const ComplexVec3& a) {
     return std::norm(a.x) + std::norm(a.y) + std::norm(a.z);
 }
-/// Re(E x H*), twice the mean Poynting vector.
-inline Vec3 energy_flow(const ComplexVec3& E, const ComplexVec3& H) {
-    const ComplexVec3 s = cross(E, {std::conj(H.x), std::conj(H.y), std::conj(H.z)});
-    return {s.x.real(), s.y.real(), s.z.real()};
-}
 
 }  // namespace culet

@@ -46,6 +46,14 @@ namespace {
 // N parallel to the axis: below this sine of their angle a x N is rounding noise.
 constexpr double k_parallel = 1e-9;
 
+// a x N is noise: N runs along the axis a.
+bool along(const Vec3& aN, const Vec3& N) {
+    return glm::dot(aN, aN) < k_parallel * k_parallel * glm::dot(N, N);
+}
+bool along(const ComplexVec3& aN, const ComplexVec3& N) {
+    return squared_length(aN) < k_parallel * k_parallel * squared_length(N);
+}
+
 Complex root_of(double squared) {
     return squared >= 0 ? Complex(std::sqrt(squared)) : Complex(0, std::sqrt(-squared));
 }
@@ -67,38 +75,44 @@ std::array<CrystalMode, 2> uniaxial_modes(const Crystal& crystal, const Vec3& K,
     modes[0].kind = ModeKind::ordinary;
     modes[1].kind = ModeKind::extraordinary;
 
-    // Ordinary: q^2 = (n_o - K)(n_o + K).
+    // Ordinary: q^2 = (n_o - K)(n_o + K), E = a x N.
     const double qo_squared = (n_o - k_length) * (n_o + k_length);
-    const ComplexVec3 No = complex_of(K) + root_of(qo_squared) * complex_of(n);
-    modes[0].E = cross(complex_of(a), No);
-    if (squared_length(modes[0].E) < k_parallel * k_parallel * squared_length(No)) {
-        modes[0].E = complex_of(beside_axis(a, n));
+    if (qo_squared > 0) {
+        const Vec3 N = K + std::sqrt(qo_squared) * n;
+        const Vec3 aN = glm::cross(a, N);
+        complete_travelling(modes[0], along(aN, N) ? beside_axis(a, n) : aN, N);
+    } else {
+        const ComplexVec3 N = complex_of(K) + Complex(0, std::sqrt(-qo_squared)) * complex_of(n);
+        const ComplexVec3 aN = cross(complex_of(a), N);
+        complete_evanescent(modes[0], along(aN, N) ? complex_of(beside_axis(a, n)) : aN, N);
     }
-    complete_mode(modes[0], No, qo_squared > 0);
 
-    // Extraordinary: A q^2 + 2 B q + C = 0; the sign of the root, not of q, is the energy's
-    // direction.
+    // Extraordinary: A q^2 + 2 B q + C = 0, E = eps^-1 (N x (a x N)); the sign of the root, not of
+    // q, is the energy's direction.
     const double an = glm::dot(a, n), ak = glm::dot(a, K);
     const double A = eo + d * an * an, B = d * an * ak;
     const double discriminant = A * eo * (n_e - k_length) * (n_e + k_length) - eo * d * ak * ak;
-    Complex qe;
-    if (discriminant >= 0) {
+    const double along_a = 1 / ee - 1 / eo;
+    if (discriminant > 0) {
         const double root = std::sqrt(discriminant);
         // Where -B and the root cancel, the other root and Vieta's product give the digits back.
         const double C = eo * (k_length - n_e) * (k_length + n_e) + d * ak * ak;
-        qe = B > 0 ? Complex(C / (-B - root)) : Complex((-B + root) / A);
+        const Vec3 N = K + (B > 0 ? C / (-B - root) : (-B + root) / A) * n;
+        const Vec3 aN = glm::cross(a, N), D = glm::cross(N, aN);
+        complete_travelling(
+            modes[1],
+            along(aN, N) ? glm::cross(a, beside_axis(a, n)) : D / eo + along_a * glm::dot(a, D) * a,
+            N);
     } else {
-        qe = Complex(-B / A, std::sqrt(-discriminant) / A);
+        const Complex q(-B / A, std::sqrt(-discriminant) / A);
+        const ComplexVec3 N = complex_of(K) + q * complex_of(n);
+        const ComplexVec3 aN = cross(complex_of(a), N), D = cross(N, aN);
+        complete_evanescent(modes[1],
+                            along(aN, N)
+                                ? complex_of(glm::cross(a, beside_axis(a, n)))
+                                : Complex(1 / eo) * D + along_a * dot(a, D) * complex_of(a),
+                            N);
     }
-    const ComplexVec3 Ne = complex_of(K) + qe * complex_of(n);
-    const ComplexVec3 aNe = cross(complex_of(a), Ne);
-    const ComplexVec3 D = cross(Ne, aNe);
-    const Complex along = (1 / ee - 1 / eo) * dot(a, D);
-    modes[1].E = Complex(1 / eo) * D + along * complex_of(a);
-    if (squared_length(aNe) < k_parallel * k_parallel * squared_length(Ne)) {
-        modes[1].E = complex_of(glm::cross(a, beside_axis(a, n)));
-    }
-    complete_mode(modes[1], Ne, discriminant > 0);
     return modes;
 }
 

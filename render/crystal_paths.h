@@ -79,7 +79,7 @@ private:
     };
 
     NodeWeights weighted(double weight, const NodeWeights& tau) const {
-        NodeWeights result{};
+        NodeWeights result;  // the first band_.count are meant
         for (int i = 0; i < band_.count; ++i) result[i] = weight * tau[i];
         return result;
     }
@@ -365,9 +365,9 @@ private:
 
     // To the end of the node's branch; `node` is used up.
     void follow(Node& node) {
+        Node inner, outer;  // made once: they are large
         for (;;) {
             if (stops(node)) return;
-            Node inner, outer;
             if (!node.inside) {
                 trace_.modes[trace_.length - 1] = 'a';
                 node.at = body_.on_facet(node.again.facet,

@@ -115,8 +115,12 @@ struct LightField::Ready {
 
     // Nearest near light: spheres count from 0, planes after them; -1 for none.
     int nearest(const Vec3& origin, const Vec3& direction) const {
+        double distance = 0;
+        return nearest(origin, direction, distance);
+    }
+    int nearest(const Vec3& origin, const Vec3& direction, double& distance) const {
         int best = -1;
-        double distance = std::numeric_limits<double>::infinity();
+        distance = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < lights.spheres.size(); ++i) {
             const double d = distance_to(lights.spheres[i], origin, direction);
             if (d < distance) {
@@ -248,6 +252,12 @@ void LightField::add_stokes(const PathEnd& end, int first, int count, double* st
             for (int k = 0; k < 4; ++k) stokes[k * stride + first + i] += seen[k] * radiance;
         }
     });
+}
+
+double LightField::nearest_distance(const Vec3& origin, const Vec3& direction) const {
+    double distance = 0;
+    ready_->nearest(origin, direction, distance);
+    return distance;
 }
 
 std::string LightField::name_at(const Vec3& origin, const Vec3& direction) const {

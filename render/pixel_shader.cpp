@@ -25,6 +25,10 @@ public:
     void cut(const NodeWeights& weight) { cut_ += sum(weight); }
 
     double remainder_ = 0, absorbed_ = 0, cut_ = 0;
+    int deepest_ = 0;
+
+protected:
+    void seen(const PathTrace& trace) { deepest_ = std::max(deepest_, trace.length); }
 
 private:
     double sum(const NodeWeights& weight) const {
@@ -39,7 +43,9 @@ public:
     Gather(const LightField& lights, const Band& band, double* radiance)
         : Lost(band.count), lights_(lights), band_(band), radiance_(radiance) {}
 
-    void leaf(const Vec3& at, const Vec3& direction, const NodeWeights& weight, const PathTrace&) {
+    void leaf(const Vec3& at, const Vec3& direction, const NodeWeights& weight,
+              const PathTrace& trace) {
+        seen(trace);
         NodeWeights seen{};
         lights_.add_radiance(at, direction, 1.0, band_.first, band_.count, seen.data());
         for (int i = 0; i < band_.count; ++i) radiance_[band_.first + i] += weight[i] * seen[i];
@@ -64,7 +70,8 @@ public:
           planes_(planes),
           stokes_(stokes) {}
 
-    void leaf(const PathEnd& end, const PathTrace&) {
+    void leaf(const PathEnd& end, const PathTrace& trace) {
+        seen(trace);
         if (planes_ == 4) {
             lights_.add_stokes(end, band_.first, band_.count, stokes_, nodes_);
             return;
@@ -83,9 +90,9 @@ public:
     }
     // Half the estimate each: the squared difference of two such is an unbiased estimate of their
     // sum's variance.
-    void choice_begins() { start_ = seen(); }
+    void choice_begins() { start_ = luminance_so_far(); }
     void choice_ends(bool second) {
-        const double brought = seen() - start_;
+        const double brought = luminance_so_far() - start_;
         if (!second) {
             first_ = brought;
         } else {
@@ -95,7 +102,7 @@ public:
     double variance_ = 0;
 
 private:
-    double seen() const {
+    double luminance_so_far() const {
         double sum = 0;
         for (int k = 0; k < planes_; ++k) {
             for (int i = band_.first; i < band_.first + band_.count; ++i)
@@ -177,7 +184,7 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
         if (!eyes_.sees(x + size * p.x, y + size * p.y)) continue;
         const EyeRay ray = eyes_.through(x + size * p.x, y + size * p.y, p.pupil_x, p.pupil_y);
         const auto entry = body_.entry(ray.origin, ray.direction);
-        if (!entry) {
+        if (!entry || lights_.nearest_distance(ray.origin, ray.direction) < entry->distance) {
             background(ray, behind.data());
             continue;
         }
@@ -190,6 +197,7 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
                 sums.remainder += share * lost.remainder_ / nodes_;
                 sums.absorbed += share * lost.absorbed_ / nodes_;
                 sums.cut += share * lost.cut_ / nodes_;
+                sums.deepest = std::max(sums.deepest, lost.deepest_);
             };
             if (plan_.general) {
                 GatherStokes gather(lights_, band, luminance_, usual_, nodes_, planes(), stokes);

@@ -17,6 +17,7 @@ struct PixelSums {
     double remainder = 0, absorbed = 0, cut = 0;
     double variance = 0;  ///< of the luminance, from paths chosen at random
     double worst_imbalance = 0;
+    int deepest = 0;  ///< faces on the longest path that brought light
     long long rays = 0, sampled = 0;
 };
 

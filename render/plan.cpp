@@ -148,22 +148,27 @@ double mean(const std::array<double, 3>& v) {
     return v[0] == v[1] && v[1] == v[2] ? v[0] : (v[0] + v[1] + v[2]) / 3;
 }
 
-void decide_coherence(const Scene& scene, const Optics& optics, Decider& decider, Plan& plan) {
+void decide_coherence(const Scene& scene, const Optics& optics, Plan& plan) {
     const double extent = diameter(scene.stone.solid) * mm_per(scene.stone.unit);
     const double waves = optics.split * extent / (k_d_line_nm * 1e-6);
     const bool crystal = plan.on(Effects::birefringence);
-    const bool weak = waves < 1, view = has_polariser(scene);
     const bool asked = scene.settings.coherence.value_or(
         (!scene.settings.effects_auto &&
          scene.settings.effects[static_cast<std::size_t>(Effects::coherence)]) ||
-        weak || view);
-    decider.plan.effects[static_cast<std::size_t>(Effects::coherence)] = {
-        Effects::coherence, crystal && asked,
-        !crystal ? "there are no two waves"
-        : !asked ? "nothing polarises at the light or the eye: the two waves' powers are added"
-        : weak   ? fmt::format("the two waves stay within {:.2g} waves of each other", waves)
-                 : "the two waves interfere while their retardation is below the coherence length",
-        crystal && !asked ? k_unknown : 0};
+        has_polariser(scene));
+    std::string why = "there are no two waves";
+    if (crystal && asked) {
+        why = "the two waves interfere while their retardation is below the coherence length";
+    } else if (crystal) {
+        why = "nothing polarises at the light or the eye: the two waves' powers are added";
+        if (waves < 1)
+            why += fmt::format(
+                " (they stay within {:.2g} waves of each other: coherence = \"on\" "
+                "would be exact)",
+                waves);
+    }
+    plan.effects[static_cast<std::size_t>(Effects::coherence)] = {
+        Effects::coherence, crystal && asked, why, crystal && !asked ? k_unknown : 0};
 }
 
 }  // namespace
@@ -204,7 +209,7 @@ Plan make_plan(const Scene& scene, int nodes) {
     decider.decide(Effects::aperture, scene.camera.aperture_radius > 0,
                    fmt::format("pupil radius {:.4g}", scene.camera.aperture_radius),
                    "pinhole camera", k_unknown);
-    decide_coherence(scene, optics, decider, plan);
+    decide_coherence(scene, optics, plan);
 
     const bool dispersive = plan.on(Effects::dispersion);
     const bool coherent = plan.on(Effects::coherence);
@@ -254,7 +259,10 @@ Plan make_plan(const Scene& scene, int nodes) {
         band.n = mean(n);
         // Without the split, light sees the mean over directions of its vibrations.
         if (!plan.splits) n = {band.n, band.n, band.n};
-        band.crystal = Crystal(scene.stone.crystal.axes, n);
+        // Of a uniaxial crystal the optic axis alone counts.
+        band.crystal = material.optic == OpticCharacter::uniaxial
+                           ? uniaxial_crystal(scene.stone.crystal.axes[0], n[1], n[0])
+                           : Crystal(scene.stone.crystal.axes, n);
         band.two_waves = !band.crystal.isotropic();
         band.n_outside = scene.immersion;
         band.absorbs = plan.on(Effects::absorption);

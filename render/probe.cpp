@@ -17,7 +17,9 @@ namespace culet {
 
 namespace {
 
-constexpr int k_deepest = 64;
+constexpr int k_deepest = 1000;
+// One ray may cost what a picture's may not: the whole tree of a crystal to depth 18.
+constexpr int k_most_splits = 1 << 18;
 
 // Keeps every leaf; paths of different wavelengths through the same facets and modes become one.
 class Record {
@@ -147,7 +149,7 @@ ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progres
     Record record(scene, lights, nodes, progress, result);
     const EyeFrame frame = EyeRays(scene.camera).frame(ray.direction);
     const auto entry = body.entry(ray.origin, ray.direction);
-    if (!entry) {
+    if (!entry || lights.nearest_distance(ray.origin, ray.direction) < entry->distance) {
         PathEnd end{ray.origin, ray.direction, frame.x, frame.y, EyeCoherency::of_eye(), {}};
         end.transmitted.fill(1.0);
         for (int first = 0; first < nodes; first += k_band_nodes) {
@@ -163,6 +165,7 @@ ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progres
     limits.cut_weight = scene.settings.tolerance;
     limits.polarised = plan.polarised;
     limits.seed = scene.settings.seed;
+    limits.most_splits = k_most_splits;
     result.depth = limits.depth;
     for (const Band& band : plan.bands) {
         record.begin(band);
@@ -170,6 +173,7 @@ ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progres
             CrystalPaths<Record> paths(body, band, limits, record);
             paths.trace(ray, frame.x, frame.y, *entry);
             result.sampled = result.sampled || paths.sampled();
+            result.worst_imbalance = std::max(result.worst_imbalance, paths.worst_imbalance());
         } else {
             LightPaths<Record>(body.planes(), band, limits, record).trace(ray, *entry);
         }
@@ -226,7 +230,8 @@ std::string probe_json(const ProbeResult& result) {
         {"per_wavelength",
          {{"remainder", result.remainder}, {"absorbed", result.absorbed}, {"cut", result.cut}}},
         {"depth", result.depth},
-        {"standard_error", result.standard_error}};
+        {"standard_error", result.standard_error},
+        {"worst_imbalance", result.worst_imbalance}};
     return json.dump(2) + "\n";
 }
 

@@ -32,11 +32,13 @@ struct ProbeResult {
     Stokes stokes{};
     /// Standard error of the mean radiance from paths chosen at random; 0: none were.
     double standard_error = 0;
+    /// Largest |sum of powers - 1| met at a crystal's face before it was put right.
+    double worst_imbalance = 0;
     bool sampled = false;  ///< a crystal's tree grew too large: from there on one wave was followed
 };
 
 /// Here `tolerance` of the scene's settings is a weight: paths below it are cut. Depth as in the
-/// settings (0: 64). Throws InputError (a ray that starts inside the stone, and as `render`) and
+/// settings (0: 1000). Throws InputError (a ray that starts inside the stone, and as `render`) and
 /// Interrupted.
 ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progress = {});
 

@@ -20,7 +20,7 @@ namespace culet {
 
 namespace {
 
-constexpr int k_deepest = 64;       // by tolerance; what is left then is reported as remainder
+constexpr int k_deepest = 1000;     // by tolerance; what is left then is reported as remainder
 constexpr int k_tile = 16;          // pixels
 constexpr int k_pilot_pixels = 24;  // along the picture's longer side
 // Crystals: a path splits in two at every hit while it carries more than this.
@@ -64,7 +64,8 @@ double pilot_mean(const Scene& scene, const Plan& plan, const LightField& lights
 // The fewest wavelengths whose colours differ from those of the finest set by less than the
 // tolerance, root mean square over a few pixels and relative to their mean: seen on paths of a few
 // faces, which are where the light is.
-constexpr int k_spectral_pixels = 8, k_spectral_depth = 6;
+constexpr int k_spectral_pixels = 10, k_spectral_samples = 16;
+constexpr int k_spectral_depth = 12, k_spectral_crystal_depth = 6;  // of trees that double
 
 Plan plan_for_tolerance(const Scene& scene) {
     Plan plan = make_plan(scene);
@@ -73,16 +74,16 @@ Plan plan_for_tolerance(const Scene& scene) {
     const WavelengthSet colours(finest.wavelengths_nm);
     const LightField lights(scene.lights, colours);
     PathLimits limits;
-    limits.depth = k_spectral_depth;
+    limits.depth = plan.splits ? k_spectral_crystal_depth : k_spectral_depth;
     limits.cut_weight = 1e-4;
     limits.split_weight = 0;
     limits.polarised = finest.polarised;
-    const PixelShader shader(scene, finest, lights, colours, limits, 1);
+    const PixelShader shader(scene, finest, lights, colours, limits, k_spectral_samples);
     const std::size_t nodes = finest.wavelengths_nm.size();
     std::vector<double> stokes(nodes * static_cast<std::size_t>(shader.planes()));
     std::vector<std::vector<double>> spectra;
-    each_pilot_pixel(scene.camera, k_spectral_pixels, [&](double x, double y, double size) {
-        if (shader.shade(x, y, size, 0, stokes.data()).hit > 0)
+    each_pilot_pixel(scene.camera, k_spectral_pixels, [&](double x, double y, double) {
+        if (shader.shade(x, y, 1, 0, stokes.data()).hit > 0)
             spectra.emplace_back(stokes.begin(), stokes.begin() + static_cast<long>(nodes));
     });
     for (int count : k_node_counts) {
@@ -240,6 +241,7 @@ RenderResult render(const Scene& whole, const Progress& progress) {
         stats.rays += sums[i].rays;
         sampled += sums[i].sampled;
         variance += sums[i].variance;
+        stats.depth = std::max(stats.depth, sums[i].deepest);
         stats.worst_imbalance = std::max(stats.worst_imbalance, sums[i].worst_imbalance);
         seen += sums[i].luminance;
     }
@@ -271,11 +273,16 @@ RenderResult render(const Scene& whole, const Progress& progress) {
                         "was followed, chosen by power",
                         sampled, stats.rays, limits.most_splits));
     }
+    if (settings.tolerance > 0 && stats.standard_error > settings.tolerance) {
+        stats.notes.push_back(
+            fmt::format("paths chosen at random leave a standard error of {:.3g} a pixel, over the "
+                        "tolerance {:.3g}: more samples lower it",
+                        stats.standard_error, settings.tolerance));
+    }
     if (settings.tolerance > 0 && stats.error_bound > settings.tolerance) {
         stats.notes.push_back(fmt::format("the error bound {:.3g} is over the tolerance {:.3g}",
                                           stats.error_bound, settings.tolerance));
     }
-    stats.depth = limits.depth;
     stats.effects.assign(plan.effects.begin(), plan.effects.end());
     stats.wavelengths_nm = plan.wavelengths_nm;
     stats.seconds_shade = seconds_since(shading);

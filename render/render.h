@@ -13,7 +13,7 @@ namespace culet {
 
 struct RenderStats {
     std::string engine = "reference";
-    int depth = 0;  ///< deepest path followed at most
+    int depth = 0;  ///< faces on the longest path that brought light
     std::vector<EffectDecision> effects;
     std::vector<double> wavelengths_nm;
     double mean_radiance = 0;  ///< of the stone's pixels, luminance

@@ -159,6 +159,9 @@ public:
     /// The Stokes parameters that reach the eye through the two waves of a path's end, times its
     /// transmission, are added to `stokes[k * stride + node]`, k = 0..3.
     void add_stokes(const PathEnd& end, int first, int count, double* stokes, int stride) const;
+    /// How far along the ray the nearest near light is: it hides what lies behind it. Infinite when
+    /// there is none.
+    double nearest_distance(const Vec3& origin, const Vec3& direction) const;
     std::string name_at(const Vec3& origin, const Vec3& direction) const;
     /// Largest radiance of any light at any node, for bounds.
     double max_radiance() const;

@@ -11,16 +11,21 @@
 
 namespace culet {
 
-void complete_mode(CrystalMode& mode, const ComplexVec3& N, bool propagates) {
-    const double length = std::sqrt(squared_length(mode.E));
-    mode.E = Complex(1 / length) * mode.E;
-    mode.H = cross(N, mode.E);
-    mode.propagates = propagates;
-    if (!propagates) return;
-    mode.wave = {N.x.real(), N.y.real(), N.z.real()};
-    const Vec3 flow = energy_flow(mode.E, mode.H);
+void complete_travelling(CrystalMode& mode, const Vec3& E, const Vec3& N) {
+    const Vec3 unit = glm::normalize(E), H = glm::cross(N, unit);
+    mode.E = complex_of(unit);
+    mode.H = complex_of(H);
+    mode.propagates = true;
+    mode.wave = N;
+    const Vec3 flow = glm::cross(unit, H);
     mode.flux = glm::length(flow);
     mode.ray = flow / mode.flux;
+}
+
+void complete_evanescent(CrystalMode& mode, const ComplexVec3& E, const ComplexVec3& N) {
+    mode.E = Complex(1 / std::sqrt(squared_length(E))) * E;
+    mode.H = cross(N, mode.E);
+    mode.propagates = false;
 }
 
 namespace {
@@ -141,7 +146,7 @@ private:
 
 // The fields of a real N: D is an eigenvector of the impermeability, less I/e2, on the plane
 // normal to N. Always orthogonal for the two waves, on an optic axis too.
-ComplexVec3 field_of_real(const Crystal::Rising& c, const Vec3& N, bool slow) {
+Vec3 field_of_real(const Crystal::Rising& c, const Vec3& N, bool slow) {
     const Vec3 u = perpendicular_to(glm::normalize(N));
     const Vec3 v = glm::normalize(glm::cross(N, u));
     const double f1 = -c.d1 / (c.e1 * c.e2), f3 = -c.d3 / (c.e3 * c.e2);  // 1/e_i - 1/e2
@@ -183,6 +188,7 @@ public:
     Vec3 into(const Vec3& v) const {
         return {glm::dot(axes_[0], v), glm::dot(axes_[1], v), glm::dot(axes_[2], v)};
     }
+    Vec3 back(const Vec3& v) const { return v.x * axes_[0] + v.y * axes_[1] + v.z * axes_[2]; }
     ComplexVec3 back(const ComplexVec3& v) const {
         return v.x * complex_of(axes_[0]) + v.y * complex_of(axes_[1]) + v.z * complex_of(axes_[2]);
     }
@@ -326,13 +332,13 @@ private:
     }
 
     void travelling(CrystalMode& mode, double q, bool slow) const {
-        mode.E = frame_.back(field_of_real(crystal_, equation_.at(q), slow));
-        complete_mode(mode, complex_of(K_) + Complex(q) * complex_of(n_), true);
+        complete_travelling(mode, frame_.back(field_of_real(crystal_, equation_.at(q), slow)),
+                            K_ + q * n_);
     }
     void evanescent(CrystalMode& mode, Complex q, Complex w) const {
         const ComplexVec3 N = complex_of(frame_.into(K_)) + q * complex_of(frame_.into(n_));
-        mode.E = frame_.back(field_of_complex(crystal_, N, w));
-        complete_mode(mode, complex_of(K_) + q * complex_of(n_), false);
+        complete_evanescent(mode, frame_.back(field_of_complex(crystal_, N, w)),
+                            complex_of(K_) + q * complex_of(n_));
     }
 
     const Crystal::Rising& crystal_;

@@ -13,7 +13,8 @@ namespace culet {
 std::array<CrystalMode, 2> biaxial_modes(const Crystal::Rising& crystal, const Vec3& K,
                                          const Vec3& n);
 
-/// Fills in H, ray and flux of a mode from E and N, with E scaled to length 1.
-void complete_mode(CrystalMode& mode, const ComplexVec3& N, bool propagates);
+/// Fill in the fields of a mode from E, scaled to length 1, and N. A travelling wave's are real.
+void complete_travelling(CrystalMode& mode, const Vec3& E, const Vec3& N);
+void complete_evanescent(CrystalMode& mode, const ComplexVec3& E, const ComplexVec3& N);
 
 }  // namespace culet

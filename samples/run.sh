@@ -11,6 +11,13 @@ for sample in real-brilliant dravite-step; do
     build/culet run "samples/$sample/job.toml" -o "out/$sample" >/dev/null
 done
 echo
+echo "== instruments"
+mkdir -p out/instruments
+for view in polariscope conoscope dichroscope; do
+    build/culet render "samples/instruments/$view.toml" -o "out/instruments/$view.png" --exposure 2
+done
+echo
+echo "Pictures: $PWD/out/instruments/*.png"
 echo "Two reports to open in a browser:"
 for sample in real-brilliant dravite-step; do
     echo "  $PWD/out/$sample/report.html"
