@@ -9,12 +9,10 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
-#include <random>
 #include <vector>
 
-#include "stone/perpendicular.h"
 #include "tests/render/face_judge.h"
+#include "tests/render/random_attitudes.h"
 
 namespace culet {
 namespace {
@@ -22,29 +20,6 @@ namespace {
 using oracle::Face;
 
 constexpr std::array<Vec3, 3> k_plain{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-
-class Chance {
-public:
-    explicit Chance(unsigned seed) : engine_(seed) {}
-    double between(double low, double high) {
-        return std::uniform_real_distribution<double>(low, high)(engine_);
-    }
-    Vec3 direction() {
-        const double z = between(-1, 1), azimuth = between(0, 2 * std::numbers::pi);
-        const double r = std::sqrt(1 - z * z);
-        return {r * std::cos(azimuth), r * std::sin(azimuth), z};
-    }
-    std::array<Vec3, 3> frame() {
-        const Vec3 a = direction(), b = glm::normalize(glm::cross(a, direction()));
-        return {a, b, glm::cross(a, b)};
-    }
-    Vec3 across(const Vec3& n, double length) {
-        return length * glm::normalize(glm::cross(n, direction()));
-    }
-
-private:
-    std::mt19937_64 engine_;
-};
 
 double largest(const std::array<double, 3>& n) {
     return std::max({n[0], n[1], n[2]});
@@ -89,7 +64,7 @@ std::vector<double> around(double length, double first = 1e-3, double last = 1e-
 }
 
 TEST(CrystalFaces, uniaxial_of_either_sign_at_random) {
-    Chance chance(1);
+    RandomAttitudes chance(1);
     FaceJudge judge;
     for (int i = 0; i < 120; ++i) {
         const double n_o = chance.between(1.01, 4), n_e = n_o + chance.between(-0.3, 0.3);
@@ -104,7 +79,7 @@ TEST(CrystalFaces, uniaxial_of_either_sign_at_random) {
 }
 
 TEST(CrystalFaces, biaxial_at_random) {
-    Chance chance(2);
+    RandomAttitudes chance(2);
     FaceJudge judge;
     for (int i = 0; i < 120; ++i) {
         const double n1 = chance.between(1.01, 4);
@@ -119,7 +94,7 @@ TEST(CrystalFaces, biaxial_at_random) {
 }
 
 TEST(CrystalFaces, gems_at_random) {
-    Chance chance(3);
+    RandomAttitudes chance(3);
     FaceJudge judge;
     for (const Gem& gem : k_gems)
         for (int i = 0; i < 16; ++i) {
@@ -131,7 +106,7 @@ TEST(CrystalFaces, gems_at_random) {
 }
 
 TEST(CrystalFaces, grazing_from_outside) {
-    Chance chance(4);
+    RandomAttitudes chance(4);
     FaceJudge judge;
     for (const Gem& gem : k_gems) {
         const std::array<Vec3, 3> axes = chance.frame();
@@ -141,8 +116,20 @@ TEST(CrystalFaces, grazing_from_outside) {
     }
 }
 
+TEST(CrystalFaces, close_to_normal_incidence) {
+    // K as the difference of two long vectors: not quite in the face.
+    RandomAttitudes chance(19);
+    FaceJudge judge;
+    for (const Gem& gem : k_gems)
+        for (double angle = 1e-2; angle > 5e-14; angle *= 0.1) {
+            const Vec3 n = chance.direction();
+            const Vec3 N = 1.7 * glm::normalize(n + angle * chance.direction());
+            judge.compare({chance.frame(), gem.n, 1, N - glm::dot(N, n) * n, n});
+        }
+}
+
 TEST(CrystalFaces, at_the_critical_angle_of_the_outside) {
-    Chance chance(5);
+    RandomAttitudes chance(5);
     FaceJudge judge;
     for (const Gem& gem : k_gems) {
         const std::array<Vec3, 3> axes = chance.frame();
@@ -152,7 +139,7 @@ TEST(CrystalFaces, at_the_critical_angle_of_the_outside) {
 
 // Each wave grazes from inside on one side of its critical length and is evanescent on the other.
 TEST(CrystalFaces, grazing_from_inside_uniaxial) {
-    Chance chance(6);
+    RandomAttitudes chance(6);
     FaceJudge judge;
     for (int g = 0; g < 3; ++g) {
         const Face face{chance.frame(), k_gems[g].n, 1};
@@ -164,7 +151,7 @@ TEST(CrystalFaces, grazing_from_inside_uniaxial) {
 }
 
 TEST(CrystalFaces, grazing_from_inside_biaxial) {
-    Chance chance(7);
+    RandomAttitudes chance(7);
     FaceJudge judge;
     for (int g = 3; g < 6; ++g) {
         const Face face{chance.frame(), k_gems[g].n, 1};
@@ -176,7 +163,7 @@ TEST(CrystalFaces, grazing_from_inside_biaxial) {
 }
 
 TEST(CrystalFaces, inhibited_reflection) {
-    Chance chance(8);
+    RandomAttitudes chance(8);
     FaceJudge judge;
     for (const Gem& gem : k_gems) {
         const Face face{chance.frame(), gem.n, 1};
@@ -187,7 +174,7 @@ TEST(CrystalFaces, inhibited_reflection) {
 }
 
 TEST(CrystalFaces, brewster_from_both_sides) {
-    Chance chance(9);
+    RandomAttitudes chance(9);
     FaceJudge judge;
     for (const Gem& gem : k_gems)
         for (const double n_outside : {1.0, 1.33}) {
@@ -214,7 +201,7 @@ TEST(CrystalFaces, principal_axis_along_the_normal_in_the_face_and_along_the_wav
 
 TEST(CrystalFaces, wave_along_the_axis_of_a_uniaxial_crystal_and_beside_it) {
     // N = n_o (axis turned by `off`), the face oblique to it.
-    Chance chance(10);
+    RandomAttitudes chance(10);
     FaceJudge judge;
     for (int g = 0; g < 3; ++g)
         for (double off = 1e-1; off > 5e-14; off *= 0.1) {
@@ -233,7 +220,7 @@ TEST(CrystalFaces, wave_along_the_axis_of_a_uniaxial_crystal_and_beside_it) {
 }
 
 TEST(CrystalFaces, uniaxial_of_vanishing_birefringence) {
-    Chance chance(11);
+    RandomAttitudes chance(11);
     FaceJudge judge;
     for (double d = 1e-2; d > 5e-15; d *= 0.1)
         for (const double sign : {1.0, -1.0})
@@ -248,7 +235,7 @@ TEST(CrystalFaces, uniaxial_of_vanishing_birefringence) {
 }
 
 TEST(CrystalFaces, biaxial_of_vanishing_birefringence) {
-    Chance chance(12);
+    RandomAttitudes chance(12);
     FaceJudge judge;
     for (double d = 1e-2; d > 5e-15; d *= 0.1)
         for (const double middle : {0.1, 0.5, 0.7}) {
@@ -262,7 +249,7 @@ TEST(CrystalFaces, biaxial_of_vanishing_birefringence) {
 }
 
 TEST(CrystalFaces, biaxial_with_two_indices_nearly_equal) {
-    Chance chance(13);
+    RandomAttitudes chance(13);
     FaceJudge judge;
     for (double d = 1e-4; d > 5e-15; d *= 0.1)
         for (const double other : {1.60, 1.80})
@@ -284,7 +271,7 @@ Vec3 optic_axis(const std::array<Vec3, 3>& axes, const std::array<double, 3>& n)
 }
 
 TEST(CrystalFaces, wave_beside_a_biaxial_optic_axis) {
-    Chance chance(14);
+    RandomAttitudes chance(14);
     FaceJudge judge;
     for (int g = 3; g < 6; ++g)
         for (double off = 1e-2; off > 5e-13; off *= 0.1)
@@ -298,7 +285,7 @@ TEST(CrystalFaces, wave_beside_a_biaxial_optic_axis) {
 }
 
 TEST(CrystalFaces, wave_on_a_biaxial_optic_axis_to_the_last_digit) {
-    Chance chance(15);
+    RandomAttitudes chance(15);
     FaceJudge judge;
     for (int g = 3; g < 6; ++g)
         for (int i = 0; i < 6; ++i) {
@@ -324,7 +311,7 @@ TEST(CrystalFaces, wave_exactly_on_a_biaxial_optic_axis) {
 }
 
 TEST(CrystalFaces, other_indices_outside) {
-    Chance chance(16);
+    RandomAttitudes chance(16);
     FaceJudge judge;
     for (const Gem& gem : k_gems)
         for (const double n_outside : {1.33, 1.63, 2.4, 4.0})
@@ -337,7 +324,7 @@ TEST(CrystalFaces, other_indices_outside) {
 
 TEST(CrystalFaces, total_reflection_from_outside) {
     // The outside is the denser: no wave enters, all is reflected, s and p mixed by the crystal.
-    Chance chance(17);
+    RandomAttitudes chance(17);
     FaceJudge judge;
     for (const Gem& gem : k_gems)
         for (const double K : {2.01, 2.2, 2.4 * (1 - 1e-9)}) {
@@ -351,7 +338,7 @@ TEST(CrystalFaces, total_reflection_from_outside) {
 }
 
 TEST(CrystalFaces, isotropic_crystal_has_two_waves_of_one_normal) {
-    Chance chance(18);
+    RandomAttitudes chance(18);
     FaceJudge judge;
     for (int i = 0; i < 6; ++i) {
         const Vec3 n = chance.direction();
