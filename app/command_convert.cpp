@@ -5,9 +5,12 @@
 #include "app/options.h"
 #include "app/solid_input.h"
 #include "app/terminal.h"
+#include "render/povray.h"
+#include "render/scene_io.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
 #include "stone/mesh_io.h"
+#include "stone/output_file.h"
 
 namespace culet {
 
@@ -19,10 +22,30 @@ struct ConvertOptions {
     CutReading cut;
 };
 
+// A scene, for POV-Ray.
+int convert_scene(const ConvertOptions& options) {
+    if (extension_of(options.in) != "toml") {
+        throw InputError(options.in, "a .pov is written from a scene, a .toml file");
+    }
+    const Scene scene = read_scene(options.in, options.common.set);
+    const PovrayScene converted = povray_scene(scene);
+    write_text(options.out, converted.text);
+    for (const std::string& note : scene.notes) say(note, options.common.quiet);
+    for (const std::string& note : converted.notes) {
+        say(fmt::format("{}: not carried: {}", options.out.string(), note), options.common.quiet);
+    }
+    return exit_good;
+}
+
 int convert(const ConvertOptions& options) {
+    if (extension_of(options.out) == "pov") return convert_scene(options);
+    if (!options.common.set.empty()) {
+        throw InputError("--set changes keys of a scene: the output must end in .pov");
+    }
     if (!mesh_format(options.out) && extension_of(options.out) != "asc") {
         throw InputError(options.out,
-                         "cannot be written: the name must end in .obj, .off, .ply, .stl or .asc");
+                         "cannot be written: the name must end in .obj, .off, .ply, .stl or .asc, "
+                         "or .pov for a scene");
     }
     const SolidInput input = load_solid(options.in, options.cut);
     // A mesh may be bent or dented and still be worth converting: it is written as it is.
@@ -55,10 +78,14 @@ int convert(const ConvertOptions& options) {
 
 void add_command_convert(CLI::App& program, int& exit_code) {
     auto options = std::make_shared<ConvertOptions>();
-    CLI::App* command = program.add_subcommand("convert", "between mesh and cut formats");
-    command->add_option("IN", options->in, "mesh (.obj .off .ply .stl) or cut (.asc .gem)")
+    CLI::App* command =
+        program.add_subcommand("convert", "between mesh and cut formats; a scene to POV-Ray");
+    command
+        ->add_option("IN", options->in,
+                     "mesh (.obj .off .ply .stl), cut (.asc .gem) or scene (.toml)")
         ->required();
-    command->add_option("OUT", options->out, ".obj, .off, .ply, .stl or .asc")->required();
+    command->add_option("OUT", options->out, ".obj, .off, .ply, .stl or .asc; of a scene: .pov")
+        ->required();
     command
         ->add_option("--meet-tolerance", options->cut.meet_tolerance,
                      "meets of a cut that miss by less than this fraction of its width become one "
@@ -66,13 +93,15 @@ void add_command_convert(CLI::App& program, int& exit_code) {
         ->check(CLI::Range(0.0, 0.1))
         ->type_name("FRACTION")
         ->capture_default_str();
-    add_common(*command, options->common);
+    add_common(*command, options->common, true);
     command->footer(
         "Names, planes and all digits are kept as far as the format can hold them. A mesh with "
-        "faults is converted as it is, with a warning and exit code 1.\n"
+        "faults is converted as it is, with a warning and exit code 1. What POV-Ray cannot draw is "
+        "named on stderr and in the .pov.\n"
         "Examples:\n"
         "  culet convert design.asc design.obj\n"
-        "  culet convert scan.stl scan.ply");
+        "  culet convert scan.stl scan.ply\n"
+        "  culet convert scene.toml scene.pov --set render.depth=9");
     command->callback([options, &exit_code] { exit_code = convert(*options); });
 }
 

@@ -20,6 +20,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "render/eye_coherency.h"
 #include "render/path.h"
@@ -54,9 +55,16 @@ public:
         eye.c = EyeCoherency::of_eye();
         eye.tau.fill(1.0);
         eye.event = 1;
-        Node inner, outer;
-        meet_from_outside(eye, entry.facet, inner, outer);
-        after_hit(inner, outer);
+        waiting_.clear();
+        waiting_.clear();
+        Node first, second;
+        meet_from_outside(eye, entry.facet, first, second);
+        const int count = after_hit(first, second);
+        // The first face is never left to chance: what waits there waits for `follow` to end.
+        const int length = trace_.length;
+        if (count > 0) follow(first);
+        trace_.length = length;
+        if (count > 1) follow(second);
     }
 
     /// True when the last tree was larger than `most_splits`.
@@ -300,48 +308,106 @@ private:
         sink_.absorbed(lost);
     }
 
-    // What leaves for good is a leaf; what stays, or meets the stone again, goes on.
-    void after_hit(Node& inner, Node& outer) {
+    // What leaves for good is a leaf; what stays, or meets the stone again, goes on. Returns how
+    // many go on; a single one is left in `inner`.
+    int after_hit(Node& inner, Node& outer) {
+        bool meets = false;
         if (outer.power() > 0) {
             const auto again = body_.reentry(outer.at, outer.direction, outer.facet);
+            meets = again.has_value();
             if (again) {
                 outer.again = *again;
-                follow_both(inner, outer);
-                return;
+            } else {
+                sink_.leaf({outer.at, outer.direction, outer.u, outer.v, outer.c, outer.tau},
+                           trace_);
             }
-            sink_.leaf({outer.at, outer.direction, outer.u, outer.v, outer.c, outer.tau}, trace_);
         }
-        if (inner.power() > 0) follow(inner);
+        const bool stays = inner.power() > 0;
+        if (meets && !stays) inner = outer;
+        return stays + meets;
     }
 
-    // Two children of one hit, or two modes that part: both, or one chosen by power.
-    void follow_both(Node& a, Node& b) {
-        const double power_a = a.power(), power_b = b.power();
-        if (!(power_a > 0) || !(power_b > 0)) {
-            if (power_a > 0) follow(a);
-            if (power_b > 0) follow(b);
-            return;
+    // One event, or the parting of two modes that are no longer coherent.
+    int step(Node& node, Node& first, Node& second) {
+        char& mode = trace_.modes[trace_.length - 1];
+        if (!node.inside) {
+            mode = 'a';
+            node.at =
+                body_.on_facet(node.again.facet, node.at + node.again.distance * node.direction);
+            meet_from_outside(node, node.again.facet, first, second);
+        } else if (node.c.power(0) > 0 && node.c.power(1) > 0) {
+            mode = band_.crystal.isotropic() ? 'i' : 'c';
+            if (!meet_together(node, first, second)) {
+                first = second = node;
+                keep_only(0, first.c);
+                keep_only(1, second.c);
+                return 2;
+            }
+        } else {
+            const int m = node.c.power(0) > 0 ? 0 : 1;
+            mode = static_cast<char>(node.modes[m].kind);
+            meet_alone(node, m, first, second);
         }
+        return after_hit(first, second);
+    }
+    static void keep_only(int m, EyeCoherency& c) {
+        for (Eigen::Matrix2cd* block : {&c.xx, &c.yy, &c.xy}) {
+            block->row(1 - m).setZero();
+            block->col(1 - m).setZero();
+        }
+    }
+
+    // The tree that hangs on a node, depth first; `node` is used up. What waits is on a list,
+    // because a tree may be as deep as a path is long.
+    void follow(Node& node) {
+        const std::size_t others = waiting_.size();
+        Node first, second;
+        for (;;) {
+            int count = stops(node) ? 0 : step(node, first, second);
+            if (count == 2) count = branch(first, second);
+            if (count > 0) {
+                node = first;
+            } else {
+                if (waiting_.size() == others) return;
+                node = waiting_.back().node;
+                trace_.length = waiting_.back().length;
+                waiting_.pop_back();
+            }
+        }
+    }
+
+    // Two go on: the second waits, or one is chosen, or both are seen to by two estimates. Returns
+    // whether `first` goes on.
+    int branch(Node& first, Node& second) {
         if (choosing_) {
-            follow_chosen(a, b);
-            return;
+            choose(first, second);
+            return 1;
         }
-        const int length = trace_.length;
-        if (limits_.split_weight <= largest(a) + largest(b) && ++splits_ <= limits_.most_splits) {
-            follow(a);
-            trace_.length = length;
-            follow(b);
-            return;
+        if (limits_.split_weight <= largest(first) + largest(second) &&
+            ++splits_ <= limits_.most_splits) {
+            waiting_.push_back({second, trace_.length});
+            return 1;
         }
         twice([&] {
-            Node half_a = a, half_b = b;
-            half_a.c.scale(0.5);
-            half_b.c.scale(0.5);
-            follow_chosen(half_a, half_b);
+            Node chosen = first, other = second;
+            choose(chosen, other);
+            chosen.c.scale(0.5);
+            follow(chosen);
         });
+        return 0;
     }
 
-    // Two independent estimates of half weight, from here to the end of what hangs on it.
+    // One of two, by power, with the weight of both; in `first`.
+    void choose(Node& first, Node& second) {
+        const double power_first = first.power(), power_second = second.power();
+        const double whole = power_first + power_second;
+        const bool stay = uniform() * whole < power_first;
+        if (!stay) first = second;
+        first.c.scale(whole / (stay ? power_first : power_second));
+    }
+
+    // Two independent estimates of half weight, from here to the end of what hangs on it. From then
+    // on branches are chosen, so that nothing waits.
     template <class Estimate>
     void twice(Estimate&& estimate) {
         const int length = trace_.length;
@@ -353,62 +419,6 @@ private:
             sink_.choice_ends(second);
         }
         choosing_ = false;
-    }
-
-    void follow_chosen(Node& a, Node& b) {
-        const double power_a = a.power(), power_b = b.power(), whole = power_a + power_b;
-        const bool first = uniform() * whole < power_a;
-        Node& chosen = first ? a : b;
-        chosen.c.scale(whole / (first ? power_a : power_b));
-        follow(chosen);
-    }
-
-    // To the end of the node's branch; `node` is used up.
-    void follow(Node& node) {
-        Node inner, outer;  // made once: they are large
-        for (;;) {
-            if (stops(node)) return;
-            if (!node.inside) {
-                trace_.modes[trace_.length - 1] = 'a';
-                node.at = body_.on_facet(node.again.facet,
-                                         node.at + node.again.distance * node.direction);
-                meet_from_outside(node, node.again.facet, inner, outer);
-            } else if (node.c.power(0) > 0 && node.c.power(1) > 0) {
-                trace_.modes[trace_.length - 1] = band_.crystal.isotropic() ? 'i' : 'c';
-                if (!meet_together(node, inner, outer)) {
-                    part(node);
-                    return;
-                }
-            } else {
-                const int m = node.c.power(0) > 0 ? 0 : 1;
-                trace_.modes[trace_.length - 1] = static_cast<char>(node.modes[m].kind);
-                meet_alone(node, m, inner, outer);
-            }
-            // The common end of a hit, without recursion: light leaves a convex stone for good.
-            if (!body_.convex()) {
-                after_hit(inner, outer);
-                return;
-            }
-            if (outer.power() > 0)
-                sink_.leaf({outer.at, outer.direction, outer.u, outer.v, outer.c, outer.tau},
-                           trace_);
-            if (!(inner.power() > 0)) return;
-            node = inner;
-        }
-    }
-
-    // Two modes that are no longer coherent.
-    void part(Node& node) {
-        Node other = node;
-        keep_only(0, node.c);
-        keep_only(1, other.c);
-        follow_both(node, other);
-    }
-    static void keep_only(int m, EyeCoherency& c) {
-        for (Eigen::Matrix2cd* block : {&c.xx, &c.yy, &c.xy}) {
-            block->row(1 - m).setZero();
-            block->col(1 - m).setZero();
-        }
     }
 
     // The depth limit, the weight cut and the roulette.
@@ -457,6 +467,11 @@ private:
     Sink& sink_;
     std::uint64_t random_;
     PathTrace trace_;
+    struct Waiting {
+        Node node;
+        int length;  // of the trace where it starts
+    };
+    std::vector<Waiting> waiting_;
     int splits_ = 0;
     bool choosing_ = false;
     double worst_imbalance_ = 0;

@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "render/convex_body.h"
 #include "render/fresnel.h"
@@ -28,13 +30,25 @@ namespace culet {
 template <class Sink>
 class LightPaths {
 public:
+    /// `trace`: room for the way, and where to look first: what the last ray met there. It changes
+    /// the time taken and nothing else, and comes from the same body or is new.
+    LightPaths(const ConvexBody& body, const Band& band, const PathLimits& limits, Sink& sink,
+               PathTrace& trace)
+        : body_(body), band_(band), limits_(limits), sink_(sink), trace_(trace) {}
     LightPaths(const ConvexBody& body, const Band& band, const PathLimits& limits, Sink& sink)
-        : body_(body), band_(band), limits_(limits), sink_(sink) {}
+        : body_(body),
+          band_(band),
+          limits_(limits),
+          sink_(sink),
+          own_(PathTrace{}),
+          trace_(*own_) {}
+    LightPaths(const LightPaths&) = delete;
+    LightPaths& operator=(const LightPaths&) = delete;
 
     /// Follows an eye ray that enters the stone at `entry`.
     void trace(const EyeRay& ray, const BodyHit& entry) {
         trace_.length = 0;
-        tau_full_.fill(1.0);
+        std::fill_n(tau_full_.begin(), band_.count, 1.0);
         const Vec3 at = body_.on_facet(entry.facet, ray.origin + entry.distance * ray.direction);
         if (limits_.polarised) {
             trace_polarised(at, ray.direction, entry.facet);
@@ -45,15 +59,19 @@ public:
 
 private:
     NodeWeights weighted(double weight, const NodeWeights& tau) const {
-        NodeWeights result{};
+        NodeWeights result;  // the band's nodes only
         for (int i = 0; i < band_.count; ++i) result[i] = weight * tau[i];
         return result;
+    }
+    bool too_small(double weight, const NodeWeights& tau) const {
+        return limits_.cut_weight > 0 && largest(weight, tau) < limits_.cut_weight;
     }
     double largest(double weight, const NodeWeights& tau) const {
         double most = 0;
         for (int i = 0; i < band_.count; ++i) most = std::max(most, tau[i]);
         return weight * most;
     }
+    int guess() const { return trace_.facets[trace_.length]; }
     void push(int facet) {
         trace_.facets[trace_.length] = facet;
         trace_.modes[trace_.length] = 'i';
@@ -72,80 +90,93 @@ private:
         sink_.absorbed(lost);
     }
 
-    // The tangent s of a face for a ray, and p for any ray in the same plane of incidence.
+    // The tangent of a face for a ray, of any length; with the ray's direction it gives p.
     static Vec3 tangent(const Vec3& direction, const Vec3& n) {
         const Vec3 s = glm::cross(direction, n);
-        const double squared = glm::dot(s, s);
-        if (squared > 1e-28) return s / std::sqrt(squared);
+        if (glm::dot(s, s) > 1e-28) return s;
         // Normal incidence: the face treats all directions alike (r_p = -r_s), any tangent serves.
         return perpendicular_to(n);
     }
 
     static Vec3 mirrored(const Vec3& direction, const Vec3& n) {
-        return glm::normalize(direction - 2 * glm::dot(direction, n) * n);
+        const Vec3 v = direction - 2 * glm::dot(direction, n) * n;
+        // Newton's step to unit length: of a length that is off by rounding it is exact.
+        return (1.5 - 0.5 * glm::dot(v, v)) * v;
     }
     // `n` points to the side that the ray goes to; q1, q2 along it.
     static Vec3 refracted(const Vec3& direction, const Vec3& n, double n1, double q1, double q2) {
         return glm::normalize(n1 * direction + (q2 - q1) * n);
     }
 
-    // Jones vector images of two orthonormal eye polarisations, as complex 3-vectors in global
-    // coordinates: no frame is turned and none degenerates. |E_1|^2 + |E_2|^2 is twice the weight.
-    struct Field {
-        Vec3 re{0, 0, 0}, im{0, 0, 0};
+    // Powers that a path passes on of two orthogonal eye polarisations of power 1/2 each, as Stokes
+    // parameters: of s and p together, their difference, and twice the real and imaginary part of
+    // E_s E_p*. A new face turns the frame (s, direction x s): no frame degenerates, and the
+    // parameters' I is the weight.
+    struct Carried {
+        double I, Q, U, V;
+
+        // To the tangent s2, from s; each of any length.
+        void turn(const Vec3& direction, const Vec3& s, const Vec3& s2) {
+            const double along = glm::dot(s, s2), across = glm::dot(glm::cross(direction, s), s2);
+            const double scale = 1 / (along * along + across * across);
+            const double cosine = (along * along - across * across) * scale,
+                         sine = 2 * along * across * scale, was = Q;
+            Q = cosine * was + sine * U;
+            U = cosine * U - sine * was;
+        }
+        void reflect(const FaceAmplitudes& face) {
+            const std::complex<double>&s = face.r_s, &p = face.r_p;
+            if (!face.total) {
+                const double Rs = s.real() * s.real(), Rp = p.real() * p.real(), was = I;
+                I = 0.5 * ((Rs + Rp) * was + (Rs - Rp) * Q);
+                Q = 0.5 * ((Rs - Rp) * was + (Rs + Rp) * Q);
+            }
+            // r_s r_p*, of modulus 1 where reflection is total.
+            const double re = s.real() * p.real() + s.imag() * p.imag(),
+                         im = s.imag() * p.real() - s.real() * p.imag(), was = U;
+            U = re * was - im * V;
+            V = im * was + re * V;
+        }
+        double transmitted(const FaceAmplitudes& face) const {
+            return 0.5 * (face.t_s * face.t_s * (I + Q) + face.t_p * face.t_p * (I - Q));
+        }
     };
 
     void trace_polarised(Vec3 at, Vec3 direction, int facet) {
         const Vec3 n_in = -body_.normal(facet);
         const double q1 = std::clamp(glm::dot(direction, n_in), 0.0, 1.0);
         const FaceAmplitudes face = fresnel(1.0, band_.n, q1);
-        const Vec3 s = tangent(direction, n_in);
+        Vec3 s = tangent(direction, n_in);
         push(facet);
-        // Eye polarisations along s and p of the first face.
         leaf(at, mirrored(direction, n_in), 0.5 * (std::norm(face.r_s) + std::norm(face.r_p)),
              tau_full_);
-        const Vec3 inner = refracted(direction, n_in, 1.0, q1, face.q2);
-        std::array<Field, 2> fields;
-        fields[0].re = face.t_s * s;
-        fields[1].re = face.t_p * glm::cross(inner, s);
-        double weight = 0.5 * (face.t_s * face.t_s + face.t_p * face.t_p);
-        direction = inner;
+        const double Ts = face.t_s * face.t_s, Tp = face.t_p * face.t_p;
+        Carried carried{0.5 * (Ts + Tp), 0.5 * (Ts - Tp), 0, 0};
+        direction = refracted(direction, n_in, 1.0, q1, face.q2);
         NodeWeights tau = tau_full_;
         for (int event = 2; event <= limits_.depth; ++event) {
-            if (largest(weight, tau) < limits_.cut_weight) {
-                sink_.cut(weighted(weight, tau));
+            if (too_small(carried.I, tau)) {
+                sink_.cut(weighted(carried.I, tau));
                 return;
             }
-            const BodyHit hit = body_.exit(at, direction);
+            const BodyHit hit = body_.exit(at, direction, guess());
             at = body_.on_facet(hit.facet, at + hit.distance * direction);
-            absorb(weight, hit.distance, tau);
+            absorb(carried.I, hit.distance, tau);
             const Vec3& n = body_.normal(hit.facet);
-            const FaceAmplitudes out = fresnel(band_.n, 1.0, band_.n * glm::dot(direction, n));
-            const Vec3 s2 = tangent(direction, n), p2 = glm::cross(direction, s2);
-            const Vec3 reflected = mirrored(direction, n), p_reflected = glm::cross(reflected, s2);
+            const double q = band_.n * glm::dot(direction, n);
+            const FaceAmplitudes out = fresnel(band_.n, 1.0, q);
+            const Vec3 s2 = tangent(direction, n);
+            carried.turn(direction, s, s2);
             push(hit.facet);
-            double transmitted = 0, kept = 0;
-            for (Field& field : fields) {
-                const std::complex<double> along_s(glm::dot(field.re, s2), glm::dot(field.im, s2));
-                const std::complex<double> along_p(glm::dot(field.re, p2), glm::dot(field.im, p2));
-                transmitted +=
-                    out.t_s * out.t_s * std::norm(along_s) + out.t_p * out.t_p * std::norm(along_p);
-                const double sr = out.r_s.real() * along_s.real() - out.r_s.imag() * along_s.imag();
-                const double si = out.r_s.real() * along_s.imag() + out.r_s.imag() * along_s.real();
-                const double pr = out.r_p.real() * along_p.real() - out.r_p.imag() * along_p.imag();
-                const double pi = out.r_p.real() * along_p.imag() + out.r_p.imag() * along_p.real();
-                kept += sr * sr + si * si + pr * pr + pi * pi;
-                field.re = sr * s2 + pr * p_reflected;
-                field.im = si * s2 + pi * p_reflected;
-            }
             if (!out.total) {
-                leaf(at, refracted(direction, n, band_.n, band_.n * glm::dot(direction, n), out.q2),
-                     0.5 * transmitted, tau);
+                leaf(at, refracted(direction, n, band_.n, q, out.q2), carried.transmitted(out),
+                     tau);
             }
-            weight = 0.5 * kept;
-            direction = reflected;
+            carried.reflect(out);
+            direction = mirrored(direction, n);
+            s = s2;
         }
-        sink_.remainder(weighted(weight, tau));
+        sink_.remainder(weighted(carried.I, tau));
     }
 
     void trace_scalar(Vec3 at, Vec3 direction, int facet) {
@@ -159,11 +190,11 @@ private:
         direction = refracted(direction, n_in, 1.0, q1, face.q2);
         NodeWeights tau = tau_full_;
         for (int event = 2; event <= limits_.depth; ++event) {
-            if (largest(weight, tau) < limits_.cut_weight) {
+            if (too_small(weight, tau)) {
                 sink_.cut(weighted(weight, tau));
                 return;
             }
-            const BodyHit hit = body_.exit(at, direction);
+            const BodyHit hit = body_.exit(at, direction, guess());
             at = body_.on_facet(hit.facet, at + hit.distance * direction);
             absorb(weight, hit.distance, tau);
             const Vec3& n = body_.normal(hit.facet);
@@ -189,8 +220,9 @@ private:
     const Band& band_;
     PathLimits limits_;
     Sink& sink_;
-    PathTrace trace_;
-    NodeWeights tau_full_{};
+    std::optional<PathTrace> own_;
+    PathTrace& trace_;
+    NodeWeights tau_full_;
 };
 
 }  // namespace culet

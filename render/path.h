@@ -25,7 +25,8 @@ struct PathLimits {
     bool polarised = true;   ///< false: mean powers of s and p at every isotropic face
 };
 
-/// What the eye ray met on the way, by facet; depth-first, so one array serves.
+/// What the eye ray met on the way, by facet; depth-first, so one array serves. Beyond `length` is
+/// what was met before.
 struct PathTrace {
     static constexpr int k_longest = 1024;
     std::array<int, k_longest> facets{};

@@ -46,9 +46,10 @@ public:
     void leaf(const Vec3& at, const Vec3& direction, const NodeWeights& weight,
               const PathTrace& trace) {
         seen(trace);
-        NodeWeights seen{};
-        lights_.add_radiance(at, direction, 1.0, band_.first, band_.count, seen.data());
-        for (int i = 0; i < band_.count; ++i) radiance_[band_.first + i] += weight[i] * seen[i];
+        NodeWeights radiance;
+        std::fill_n(radiance.begin(), band_.count, 0.0);
+        lights_.add_radiance(at, direction, 1.0, band_.first, band_.count, radiance.data());
+        for (int i = 0; i < band_.count; ++i) radiance_[band_.first + i] += weight[i] * radiance[i];
     }
 
 private:
@@ -147,6 +148,20 @@ std::vector<double> usual_radiance(const LightField& lights, const Vec3& at, int
 
 }  // namespace
 
+PixelSums& PixelSums::operator+=(const PixelSums& more) {
+    hit += more.hit;
+    luminance += more.luminance;
+    remainder += more.remainder;
+    absorbed += more.absorbed;
+    cut += more.cut;
+    variance += more.variance;
+    worst_imbalance = std::max(worst_imbalance, more.worst_imbalance);
+    deepest = std::max(deepest, more.deepest);
+    rays += more.rays;
+    sampled += more.sampled;
+    return *this;
+}
+
 PixelShader::PixelShader(const Scene& scene, const Plan& plan, const LightField& lights,
                          const WavelengthSet& colours, const PathLimits& limits, int samples)
     : body_(scene.stone.solid, scene.stone.convex),
@@ -172,18 +187,19 @@ void PixelShader::background(const EyeRay& ray, double* stokes) const {
         lights_.add_stokes(end, first, std::min(k_band_nodes, nodes_ - first), stokes, nodes_);
 }
 
-PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixel,
-                             double* stokes) const {
+PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixel, double* stokes,
+                             PixelMemory& memory) const {
     const std::size_t values = static_cast<std::size_t>(planes() * nodes_);
     std::fill(stokes, stokes + values, 0.0);
-    std::vector<double> behind(values, 0.0);
+    std::vector<double>& behind = memory.behind;
+    behind.assign(values, 0.0);
     PixelSums sums;
     const double share = 1.0 / static_cast<double>(pattern_.size());
     for (std::size_t i = 0; i < pattern_.size(); ++i) {
         const SamplePoint& p = pattern_[i];
         if (!eyes_.sees(x + size * p.x, y + size * p.y)) continue;
         const EyeRay ray = eyes_.through(x + size * p.x, y + size * p.y, p.pupil_x, p.pupil_y);
-        const auto entry = body_.entry(ray.origin, ray.direction);
+        const auto entry = body_.entry(ray.origin, ray.direction, memory.entry);
         if (!entry || lights_.nearest_distance(ray.origin, ray.direction) < entry->distance) {
             background(ray, behind.data());
             continue;
@@ -210,7 +226,8 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
                 take(gather);
             } else {
                 Gather gather(lights_, band, stokes);
-                LightPaths<Gather>(body_.planes(), band, limits, gather).trace(ray, *entry);
+                LightPaths<Gather>(body_.planes(), band, limits, gather, memory.trace)
+                    .trace(ray, *entry);
                 take(gather);
             }
             ++sums.rays;

@@ -19,6 +19,15 @@ struct PixelSums {
     double worst_imbalance = 0;
     int deepest = 0;  ///< faces on the longest path that brought light
     long long rays = 0, sampled = 0;
+
+    PixelSums& operator+=(const PixelSums& more);
+};
+
+/// What one thread keeps from pixel to pixel: room, and what the last ray met.
+struct PixelMemory {
+    std::vector<double> behind;
+    EntryGuess entry;
+    PathTrace trace;
 };
 
 class PixelShader {
@@ -31,7 +40,9 @@ public:
 
     /// Means over the pixel whose corner is (x, y) and whose side is `size` pixels, to
     /// `stokes[plane * nodes + node]`. `pixel`: its number, for the seed.
-    PixelSums shade(double x, double y, double size, std::uint64_t pixel, double* stokes) const;
+    /// `memory`: of this shader or new; it changes no result.
+    PixelSums shade(double x, double y, double size, std::uint64_t pixel, double* stokes,
+                    PixelMemory& memory) const;
 
 private:
     void background(const EyeRay& ray, double* stokes) const;

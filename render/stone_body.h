@@ -20,6 +20,10 @@ public:
     std::optional<BodyHit> entry(const Vec3& origin, const Vec3& direction) const {
         return any_ ? any_->entry(origin, direction) : convex_.entry(origin, direction);
     }
+    std::optional<BodyHit> entry(const Vec3& origin, const Vec3& direction,
+                                 EntryGuess& last) const {
+        return any_ ? any_->entry(origin, direction) : convex_.entry(origin, direction, last);
+    }
     /// From facet `from` inwards.
     BodyHit exit(const Vec3& origin, const Vec3& direction, int from) const {
         return any_ ? any_->exit(origin, direction, from) : convex_.exit(origin, direction);

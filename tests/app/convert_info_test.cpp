@@ -147,6 +147,30 @@ TEST_F(ConvertInfo, StoneAndMaterialFiles) {
     EXPECT_EQ(nlohmann::json::parse(glass.out).at("material").at("optic"), "isotropic");
 }
 
+TEST_F(ConvertInfo, SceneGoesToPovray) {
+    EXPECT_EQ(run_culet({"convert", k_design, file("stone.obj"), "-q"}).exit_code, 0);
+    write("scene.toml",
+          "mesh = \"stone.obj\"\nmaterial = \"diamond\"\n[light]\nconstant = 1\n[render]\n"
+          "depth = 5\n");
+    const ProgramRun run = run_culet({"convert", file("scene.toml"), file("scene.pov")});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(run.out.empty());
+    EXPECT_NE(run.err.find("not carried: dispersion"), std::string::npos) << run.err;
+    EXPECT_NE(text(file("scene.pov")).find("max_trace_level 6 "), std::string::npos);
+    const ProgramRun set = run_culet(
+        {"convert", file("scene.toml"), file("scene.pov"), "-q", "--set", "render.depth=8"});
+    EXPECT_TRUE(set.err.empty()) << set.err;
+    EXPECT_NE(text(file("scene.pov")).find("max_trace_level 9 "), std::string::npos);
+    // Neither a mesh to POV-Ray nor a scene to a mesh.
+    expect_one_error_line(run_culet({"convert", file("stone.obj"), file("a.pov")}));
+    expect_one_error_line(run_culet({"convert", file("scene.toml"), file("a.obj")}));
+    expect_one_error_line(
+        run_culet({"convert", k_design, file("a.obj"), "--set", "render.depth=8"}));
+    expect_one_error_line(
+        run_culet({"convert", file("scene.toml"), file("a.pov"), "--set", "camera.analyzer=0"}));
+    EXPECT_FALSE(std::filesystem::exists(file("a.pov")));
+}
+
 TEST_F(ConvertInfo, HelpHasExamples) {
     for (const char* command : {"convert", "info"}) {
         const ProgramRun run = run_culet({command, "--help"});

@@ -1,0 +1,62 @@
+#include "render/film.h"
+
+#include <cmath>
+#include <utility>
+
+#include "render/eye_optics.h"
+
+namespace culet {
+
+Film::Film(const Scene& scene, const Camera& camera, const Plan& plan, const WavelengthSet& colours,
+           int planes)
+    : colours_(colours),
+      windows_(camera.optics.two_windows ? 2 : 1),
+      width_(camera.width),
+      planes_(planes),
+      nodes_(colours.size()) {
+    picture_.width = windows_ * width_;
+    picture_.height = camera.height;
+    picture_.rgb.resize(3 * picture_.pixels());
+    picture_.coverage.resize(picture_.pixels());
+    if (plan.general) picture_.standard_error.resize(picture_.pixels());
+    if (scene.settings.spectral) {
+        picture_.wavelengths_nm = plan.wavelengths_nm;
+        picture_.spectral.assign(nodes_, std::vector<float>(picture_.pixels()));
+        if (planes == 4 && windows_ == 1) picture_.polarised.fill(picture_.spectral);
+    }
+    for (int window = 0; window < windows_; ++window) {
+        for (double nm : plan.wavelengths_nm) rows_.push_back(response(camera.optics, nm, window));
+    }
+}
+
+void Film::put(int x, int y, const PixelSums& sums, const double* stokes) {
+    std::vector<double> radiance(nodes_);
+    for (int window = 0; window < windows_; ++window) {
+        const std::size_t pixel =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width) +
+            static_cast<std::size_t>(x + window * width_);
+        for (int i = 0; i < nodes_; ++i) {
+            radiance[i] = 0;
+            for (int k = 0; k < planes_; ++k)
+                radiance[i] += rows_[window * nodes_ + i][k] * stokes[k * nodes_ + i];
+        }
+        const Rgb rgb = colours_.rgb_of(radiance.data());
+        for (int c = 0; c < 3; ++c) picture_.rgb[3 * pixel + c] = static_cast<float>(rgb[c]);
+        picture_.coverage[pixel] = static_cast<float>(sums.hit);
+        if (!picture_.standard_error.empty())
+            picture_.standard_error[pixel] = static_cast<float>(std::sqrt(sums.variance));
+        if (picture_.spectral.empty()) continue;
+        for (int i = 0; i < nodes_; ++i) {
+            picture_.spectral[i][pixel] = static_cast<float>(radiance[i]);
+            for (int k = 0; k < 3 && !picture_.polarised[k].empty(); ++k)
+                picture_.polarised[k][i][pixel] = static_cast<float>(stokes[(k + 1) * nodes_ + i]);
+        }
+    }
+}
+
+Picture Film::take(bool noisy) {
+    if (!noisy) picture_.standard_error.clear();
+    return std::move(picture_);
+}
+
+}  // namespace culet

@@ -1,0 +1,33 @@
+#pragma once
+// The picture while it is made: what is seen of each pixel behind the eye's optics, in colour and,
+// if asked for, wavelength by wavelength.
+
+#include <vector>
+
+#include "render/picture.h"
+#include "render/pixel_shader.h"
+#include "render/plan.h"
+
+namespace culet {
+
+class Film {
+public:
+    /// `camera`: of one window; a dichroscope's two stand side by side.
+    Film(const Scene& scene, const Camera& camera, const Plan& plan, const WavelengthSet& colours,
+         int planes);
+
+    /// Of pixel (x, y) of the window: `stokes[plane * nodes + node]`. Different pixels may be put
+    /// from different threads.
+    void put(int x, int y, const PixelSums& sums, const double* stokes);
+
+    /// The finished picture; `noisy`: it has a standard error worth keeping.
+    Picture take(bool noisy);
+
+private:
+    Picture picture_;
+    const WavelengthSet& colours_;
+    int windows_, width_, planes_, nodes_;
+    std::vector<Stokes> rows_;  // window * nodes + node: radiance behind the optics
+};
+
+}  // namespace culet

@@ -1,0 +1,87 @@
+#include "render/pilot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/pixel_shader.h"
+
+namespace culet {
+
+namespace {
+
+constexpr int k_pilot_pixels = 24;  // along the picture's longer side
+constexpr int k_spectral_pixels = 10, k_spectral_samples = 16;
+constexpr int k_spectral_depth = 12, k_spectral_crystal_depth = 6;  // of trees that double
+
+// Calls visit(x, y, size) for an even choice of pixels.
+template <class Visit>
+void each_pilot_pixel(const Camera& camera, int along, Visit&& visit) {
+    const double step =
+        std::max(1.0, static_cast<double>(std::max(camera.width, camera.height)) / along);
+    for (double y = 0; y < camera.height; y += step) {
+        for (double x = 0; x < camera.width; x += step) visit(x, y, step);
+    }
+}
+
+}  // namespace
+
+double pilot_mean(const Scene& scene, const Plan& plan, const LightField& lights,
+                  const WavelengthSet& colours, PathLimits limits) {
+    limits.depth = 16;
+    limits.cut_weight = 1e-3;
+    limits.split_weight = 1;
+    limits.roulette = false;
+    const PixelShader shader(scene, plan, lights, colours, limits, 1);
+    std::vector<double> stokes(plan.wavelengths_nm.size() *
+                               static_cast<std::size_t>(shader.planes()));
+    PixelMemory memory;
+    double sum = 0, hits = 0;
+    each_pilot_pixel(scene.camera, k_pilot_pixels, [&](double x, double y, double size) {
+        const PixelSums pixel = shader.shade(x, y, size, 0, stokes.data(), memory);
+        hits += pixel.hit;
+        sum += pixel.luminance;
+    });
+    return hits > 0 ? sum / hits : 0;
+}
+
+Plan plan_for_tolerance(const Scene& scene) {
+    Plan plan = make_plan(scene);
+    if (!(scene.settings.tolerance > 0) || !chose_spectrum(scene, plan)) return plan;
+    const Plan finest = make_plan(scene, k_node_counts.back());
+    const WavelengthSet colours(finest.wavelengths_nm);
+    const LightField lights(scene.lights, colours);
+    PathLimits limits;
+    limits.depth = plan.splits ? k_spectral_crystal_depth : k_spectral_depth;
+    limits.cut_weight = 1e-4;
+    limits.split_weight = 0;
+    limits.polarised = finest.polarised;
+    const PixelShader shader(scene, finest, lights, colours, limits, k_spectral_samples);
+    const std::size_t nodes = finest.wavelengths_nm.size();
+    std::vector<double> stokes(nodes * static_cast<std::size_t>(shader.planes()));
+    PixelMemory memory;
+    std::vector<std::vector<double>> spectra;
+    each_pilot_pixel(scene.camera, k_spectral_pixels, [&](double x, double y, double) {
+        if (shader.shade(x, y, 1, 0, stokes.data(), memory).hit > 0)
+            spectra.emplace_back(stokes.begin(), stokes.begin() + static_cast<long>(nodes));
+    });
+    for (int count : k_node_counts) {
+        const Plan coarse = make_plan(scene, count);
+        const std::size_t every = (nodes - 1) / (coarse.wavelengths_nm.size() - 1);
+        const WavelengthSet few(coarse.wavelengths_nm);
+        double squares = 0, mean = 0;
+        std::vector<double> chosen(coarse.wavelengths_nm.size());
+        for (const std::vector<double>& spectrum : spectra) {
+            for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = spectrum[i * every];
+            const Rgb fine = colours.rgb_of(spectrum.data()), rough = few.rgb_of(chosen.data());
+            for (int c = 0; c < 3; ++c) {
+                squares += (fine[c] - rough[c]) * (fine[c] - rough[c]);
+                mean += fine[c];
+            }
+        }
+        const double values = 3 * static_cast<double>(spectra.size());
+        if (std::sqrt(squares * values) <= scene.settings.tolerance * mean) return coarse;
+    }
+    return finest;
+}
+
+}  // namespace culet

@@ -1,0 +1,18 @@
+#pragma once
+// A glance at the scene before it is rendered: how bright it is, and how many wavelengths it needs.
+
+#include "render/path.h"
+#include "render/plan.h"
+
+namespace culet {
+
+/// Mean luminance of the stone at low resolution: what a tolerance is relative to.
+double pilot_mean(const Scene& scene, const Plan& plan, const LightField& lights,
+                  const WavelengthSet& colours, PathLimits limits);
+
+/// The plan with the fewest wavelengths whose colours differ from those of the finest set by less
+/// than the tolerance, root mean square over some pixels and relative to their mean. Seen on paths
+/// of a few faces, which are where the light is.
+Plan plan_for_tolerance(const Scene& scene);
+
+}  // namespace culet
