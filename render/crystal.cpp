@@ -43,8 +43,8 @@ Crystal uniaxial_crystal(const Vec3& axis, double n_o, double n_e) {
 
 namespace {
 
-// N parallel to the axis: below this sine of their angle a x N is rounding noise.
-constexpr double k_parallel = 1e-9;
+// N parallel to the axis: below this sine of their angle nothing is left of a x N.
+constexpr double k_parallel = 1e-15;
 
 // a x N is noise: N runs along the axis a.
 bool along(const Vec3& aN, const Vec3& N) {
@@ -65,6 +65,14 @@ Vec3 beside_axis(const Vec3& axis, const Vec3& n) {
     return perpendicular_to(axis);
 }
 
+// A vector normal to the axis and to N.
+Vec3 across(const Vec3& a, const Vec3& N, const Vec3& n) {
+    Vec3 aN = glm::cross(a, N);
+    if (along(aN, N)) aN = beside_axis(a, n);
+    // Rounding leaves a part along N, all the larger beside aN as N is nearer to the axis.
+    return aN - glm::dot(aN, N) / glm::dot(N, N) * N;
+}
+
 std::array<CrystalMode, 2> uniaxial_modes(const Crystal& crystal, const Vec3& K, const Vec3& n) {
     const Vec3& a = crystal.axis();
     const double n_o = crystal.n_o(), n_e = crystal.n_e();
@@ -79,8 +87,7 @@ std::array<CrystalMode, 2> uniaxial_modes(const Crystal& crystal, const Vec3& K,
     const double qo_squared = (n_o - k_length) * (n_o + k_length);
     if (qo_squared > 0) {
         const Vec3 N = K + std::sqrt(qo_squared) * n;
-        const Vec3 aN = glm::cross(a, N);
-        complete_travelling(modes[0], along(aN, N) ? beside_axis(a, n) : aN, N);
+        complete_travelling(modes[0], across(a, N, n), N);
     } else {
         const ComplexVec3 N = complex_of(K) + Complex(0, std::sqrt(-qo_squared)) * complex_of(n);
         const ComplexVec3 aN = cross(complex_of(a), N);
@@ -98,11 +105,13 @@ std::array<CrystalMode, 2> uniaxial_modes(const Crystal& crystal, const Vec3& K,
         // Where -B and the root cancel, the other root and Vieta's product give the digits back.
         const double C = eo * (k_length - n_e) * (k_length + n_e) + d * ak * ak;
         const Vec3 N = K + (B > 0 ? C / (-B - root) : (-B + root) / A) * n;
-        const Vec3 aN = glm::cross(a, N), D = glm::cross(N, aN);
-        complete_travelling(
-            modes[1],
-            along(aN, N) ? glm::cross(a, beside_axis(a, n)) : D / eo + along_a * glm::dot(a, D) * a,
-            N);
+        const Vec3 D = glm::cross(N, across(a, N, n));
+        complete_travelling(modes[1], D / eo + along_a * glm::dot(a, D) * a, N);
+        const Vec3 aN = glm::cross(a, N);
+        if (modes[0].propagates && glm::dot(aN, aN) < 1e-4 * glm::dot(N, N)) {
+            const Vec3 H{modes[1].H.x.real(), modes[1].H.y.real(), modes[1].H.z.real()};
+            share_no_flux(modes[0], modes[1], H / eo + along_a * glm::dot(a, H) * a, n);
+        }
     } else {
         const Complex q(-B / A, std::sqrt(-discriminant) / A);
         const ComplexVec3 N = complex_of(K) + q * complex_of(n);
@@ -133,10 +142,11 @@ struct Tangential {
 struct FaceFrame {
     Vec3 t1, t2;
     FaceFrame(const Vec3& K, const Vec3& n) {
-        const double length = glm::length(K);
-        // Normal incidence has no plane of incidence: any tangent serves.
-        t2 = length > 1e-14 ? K / length : perpendicular_to(n);
-        t1 = glm::cross(t2, n);
+        // Normal incidence has no plane of incidence: any tangent serves. A short K may well have a
+        // part along n that is no longer small beside it.
+        const bool oblique = glm::length(K) > 1e-14;
+        t1 = glm::normalize(glm::cross(oblique ? K : perpendicular_to(n), n));
+        t2 = glm::cross(n, t1);
     }
     Tangential of(const CrystalMode& mode) const {
         return {dot(t1, mode.E), dot(t2, mode.E), dot(t1, mode.H), dot(t2, mode.H)};

@@ -30,6 +30,25 @@ void complete_evanescent(CrystalMode& mode, const ComplexVec3& E, const ComplexV
 
 namespace {
 
+Vec3 real_part(const ComplexVec3& v) {
+    return {v.x.real(), v.y.real(), v.z.real()};
+}
+
+}  // namespace
+
+void share_no_flux(const CrystalMode& first, CrystalMode& second, const Vec3& E_beside,
+                   const Vec3& n) {
+    const Vec3 E1 = real_part(first.E), H1 = real_part(first.H), E2 = real_part(second.E);
+    const auto shared = [&](const Vec3& E) {
+        return glm::dot(n, glm::cross(E1, glm::cross(second.wave, E)) + glm::cross(E, H1));
+    };
+    const double along = shared(E2), beside = shared(E_beside);
+    if (along == 0 || beside == 0) return;
+    complete_travelling(second, E2 - (along / beside) * E_beside, second.wave);
+}
+
+namespace {
+
 // Everything below is in the principal frame, axes by rising index.
 //
 // Fresnel's equation for N^2 = e2 + w (from det(N N^T - w I + diag(d1, 0, d3)) = 0):
@@ -199,6 +218,9 @@ private:
 
 constexpr int k_most_steps = 60;
 
+// Waves whose N are this share of the birefringence apart run beside an optic axis.
+constexpr double k_beside_axis = 1e-2;
+
 class WavePair {
 public:
     WavePair(const Crystal::Rising& crystal, const Vec3& K, const Vec3& n)
@@ -212,6 +234,12 @@ public:
     std::array<CrystalMode, 2> towards_n() const {
         std::array<CrystalMode, 2> modes;
         if (!both_travel(modes) && !both_evanescent(modes)) of_all_four(modes);
+        const double apart = glm::length(modes[0].wave - modes[1].wave);
+        if (modes[0].propagates && modes[1].propagates && apart < k_beside_axis * split_) {
+            const Vec3 H = frame_.into(real_part(modes[1].H));
+            const Vec3 E{H.x / crystal_.e1, H.y / crystal_.e2, H.z / crystal_.e3};
+            share_no_flux(modes[0], modes[1], frame_.back(E), n_);
+        }
         modes[0].kind = ModeKind::slow;
         modes[1].kind = ModeKind::fast;
         return modes;

@@ -17,4 +17,12 @@ std::array<CrystalMode, 2> biaxial_modes(const Crystal::Rising& crystal, const V
 void complete_travelling(CrystalMode& mode, const Vec3& E, const Vec3& N);
 void complete_evanescent(CrystalMode& mode, const ComplexVec3& E, const ComplexVec3& N);
 
+/// Next to an optic axis the last digit of N turns a wave's fields through any angle, and the two
+/// waves of one K, found one by one, would no longer be independent: powers would not add up. This
+/// turns the second's vibration about its N until they share no flux along n, Re(E1 x H2* + E2* x
+/// H1).n = 0, as two travelling waves of one K and different q do. `E_beside`: the field of the
+/// vibration at right angles, eps^-1 H of the second.
+void share_no_flux(const CrystalMode& first, CrystalMode& second, const Vec3& E_beside,
+                   const Vec3& n);
+
 }  // namespace culet

@@ -1,0 +1,50 @@
+#pragma once
+// Holds render/crystal.h against the oracle, one face problem after the other.
+//
+// A deviation passes when it is below the tolerance, or below what the rounding of the input does
+// to the true answer (backward stability): the oracle's own answers move by `sensitivity` when K
+// and the crystal's orientation move by one unit in the last place, 2^-52, in six fixed random
+// ways, and the double computation, some ten roundings long, is allowed eight times that. The
+// second rule matters only next to a critical angle (where powers go as the root of the distance),
+// grazing incidence, and optic axes (where the fields turn through a finite angle at a point); how
+// often it was needed is recorded.
+//
+// Where two waves have the same N to a double's last digits, any pair of fields serves: there the
+// answers are compared as fields (the oracle's amplitudes turned into culet's pair) and as sums of
+// powers.
+
+#include <string>
+#include <vector>
+
+#include "tests/render/face_oracle.h"
+
+namespace culet {
+
+class FaceJudge {
+public:
+    explicit FaceJudge(double tolerance = 1e-12) : tolerance_(tolerance) {}
+    /// Records its figures as properties of the running test.
+    ~FaceJudge();
+    FaceJudge(const FaceJudge&) = delete;
+    FaceJudge& operator=(const FaceJudge&) = delete;
+
+    /// Light from outside, where |K| <= n_outside, and each wave from inside; all of normal, K
+    /// and the waves' normals and rays.
+    void compare(const oracle::Face& face);
+
+    int faces() const { return faces_; }
+    int excused() const { return excused_; }
+
+private:
+    struct Column;
+    void judge(const oracle::Face& face, const Column& column);
+
+    double tolerance_;
+    std::vector<oracle::Answer> nudged_;  ///< of the face at hand, when it came to that
+    int faces_ = 0, columns_ = 0, excused_ = 0;
+    double amplitude_ = 0, power_ = 0, wave_ = 0, ray_ = 0, imbalance_ = 0, of_allowance_ = 0;
+};
+
+std::string described(const oracle::Face& face);
+
+}  // namespace culet

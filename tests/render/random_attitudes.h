@@ -1,0 +1,39 @@
+#pragma once
+// Directions, frames and numbers at random from a fixed seed.
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <random>
+
+#include "stone/solid.h"
+
+namespace culet {
+
+class RandomAttitudes {
+public:
+    explicit RandomAttitudes(unsigned seed) : engine_(seed) {}
+    double between(double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(engine_);
+    }
+    int one_of(int count) { return std::uniform_int_distribution<int>(0, count - 1)(engine_); }
+    Vec3 direction() {
+        const double z = between(-1, 1), azimuth = between(0, 2 * std::numbers::pi);
+        const double r = std::sqrt(1 - z * z);
+        return {r * std::cos(azimuth), r * std::sin(azimuth), z};
+    }
+    std::array<Vec3, 3> frame() {
+        const Vec3 a = direction(), b = glm::normalize(glm::cross(a, direction()));
+        return {a, b, glm::cross(a, b)};
+    }
+    /// Normal to n, of the given length.
+    Vec3 across(const Vec3& n, double length) {
+        return length * glm::normalize(glm::cross(n, direction()));
+    }
+
+private:
+    std::mt19937_64 engine_;
+};
+
+}  // namespace culet
