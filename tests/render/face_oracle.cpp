@@ -98,7 +98,7 @@ struct Wave100 {
     Real forward() const { return propagates ? flux : 1000 * q.imag(); }
 };
 
-Wave rounded(const Wave100& wave) {
+Wave rounded_wave(const Wave100& wave) {
     Wave w;
     w.propagates = wave.propagates;
     w.q = rounded(wave.q);
@@ -207,8 +207,8 @@ public:
     Answer answer() const {
         Answer a;
         for (int i = 0; i < 2; ++i) {
-            a.towards[i] = rounded(towards_[i]);
-            a.away[i] = rounded(away_[i]);
+            a.towards[i] = rounded_wave(towards_[i]);
+            a.away[i] = rounded_wave(away_[i]);
         }
         a.gap_towards = static_cast<double>(sqrt(norm_of(towards_[0].q - towards_[1].q)));
         a.gap_away = static_cast<double>(sqrt(norm_of(away_[0].q - away_[1].q)));
