@@ -98,7 +98,8 @@ void add_command_render(CLI::App& program, int& exit_code) {
                         "auto, all, none, or a list: dispersion,absorption,...");
     command->add_option("--depth", options->depth, "faces on a path at most (0: by tolerance)");
     command->add_option("--tolerance", options->tolerance, "of the picture's mean radiance");
-    command->add_flag("--spectral", options->spectral, "one more channel a wavelength in the .exr");
+    command->add_flag("--spectral", options->spectral,
+                      "Stokes parameters S0 to S3 at every wavelength in the .exr");
     command->add_option("--exposure", options->exposure, "factor on linear light, for .png")
         ->check(CLI::PositiveNumber);
     command->add_option("--tonemap", options->tonemap, "for .png: none or reinhard")
@@ -108,7 +109,8 @@ void add_command_render(CLI::App& program, int& exit_code) {
         "Examples:\n"
         "  culet render scene.toml -o picture.exr --stats stats.json\n"
         "  culet render scene.toml -o quick.png --set render.samples=4 --set "
-        "camera.size=[200,200]");
+        "camera.size=[200,200]\n"
+        "  culet render samples/instruments/conoscope.toml -o conoscope.png --exposure 2");
     command->callback([options, &exit_code] { exit_code = run_render(*options); });
 }
 
