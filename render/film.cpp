@@ -30,17 +30,19 @@ Film::Film(const Scene& scene, const Camera& camera, const Plan& plan, const Wav
 }
 
 void Film::put(int x, int y, const PixelSums& sums, const double* stokes) {
-    std::vector<double> radiance(nodes_);
+    // S0 alone is the radiance: nothing stands before the eye.
+    std::vector<double> behind_optics(planes_ > 1 ? nodes_ : 0);
+    const double* radiance = planes_ > 1 ? behind_optics.data() : stokes;
     for (int window = 0; window < windows_; ++window) {
         const std::size_t pixel =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width) +
             static_cast<std::size_t>(x + window * width_);
-        for (int i = 0; i < nodes_; ++i) {
-            radiance[i] = 0;
+        for (int i = 0; planes_ > 1 && i < nodes_; ++i) {
+            behind_optics[i] = 0;
             for (int k = 0; k < planes_; ++k)
-                radiance[i] += rows_[window * nodes_ + i][k] * stokes[k * nodes_ + i];
+                behind_optics[i] += rows_[window * nodes_ + i][k] * stokes[k * nodes_ + i];
         }
-        const Rgb rgb = colours_.rgb_of(radiance.data());
+        const Rgb rgb = colours_.rgb_of(radiance);
         for (int c = 0; c < 3; ++c) picture_.rgb[3 * pixel + c] = static_cast<float>(rgb[c]);
         picture_.coverage[pixel] = static_cast<float>(sums.hit);
         if (!picture_.standard_error.empty())
