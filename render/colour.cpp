@@ -215,6 +215,10 @@ std::vector<double> WavelengthSet::illuminant_relative(const char* name) const {
     return radiance;
 }
 
+double luminance(const Rgb& rgb) {
+    return k_luminance[0] * rgb[0] + k_luminance[1] * rgb[1] + k_luminance[2] * rgb[2];
+}
+
 double srgb_encoded(double linear) {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }

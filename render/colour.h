@@ -45,6 +45,9 @@ private:
     std::array<std::vector<double>, 3> primaries_;
 };
 
+/// Y of linear sRGB, 1 for white.
+double luminance(const Rgb& rgb);
+
 /// Linear light to the sRGB encoding (IEC 61966-2-1), 0..1 to 0..1.
 double srgb_encoded(double linear);
 double srgb_decoded(double encoded);

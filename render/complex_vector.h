@@ -14,6 +14,9 @@ inline ComplexVec3 operator+(const ComplexVec3& a, const ComplexVec3& b) {
 inline ComplexVec3 operator*(const Complex& f, const ComplexVec3& a) {
     return {f * a.x, f * a.y, f * a.z};
 }
+inline Vec3 real_part(const ComplexVec3& v) {
+    return {v.x.real(), v.y.real(), v.z.real()};
+}
 /// Bilinear: nothing is conjugated.
 inline Complex dot(const Vec3& a, const ComplexVec3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;

@@ -109,7 +109,7 @@ std::array<CrystalMode, 2> uniaxial_modes(const Crystal& crystal, const Vec3& K,
         complete_travelling(modes[1], D / eo + along_a * glm::dot(a, D) * a, N);
         const Vec3 aN = glm::cross(a, N);
         if (modes[0].propagates && glm::dot(aN, aN) < 1e-4 * glm::dot(N, N)) {
-            const Vec3 H{modes[1].H.x.real(), modes[1].H.y.real(), modes[1].H.z.real()};
+            const Vec3 H = real_part(modes[1].H);
             share_no_flux(modes[0], modes[1], H / eo + along_a * glm::dot(a, H) * a, n);
         }
     } else {

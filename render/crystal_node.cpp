@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "render/complex_vector.h"
+
 namespace culet {
 
 namespace {
@@ -23,7 +25,7 @@ Eigen::Vector2cd column(const std::array<Complex, 2>& a) {
 
 // Unit vector along H of a travelling wave, which is real and normal to N.
 Vec3 magnetic(const CrystalMode& mode) {
-    return glm::normalize(Vec3(mode.H.x.real(), mode.H.y.real(), mode.H.z.real()));
+    return glm::normalize(real_part(mode.H));
 }
 
 // The orthogonal matrix next to a 2x2 one (its polar factor).
@@ -37,6 +39,34 @@ Eigen::Matrix2d nearest_rotation(const Eigen::Matrix2d& m) {
         nearest << c / r, s / r, s / r, -c / r;
     }
     return nearest;
+}
+
+// The next node after `from`, from a point on `facet`, with coherency `c`: a ray outside whose
+// first wave vibrates along `s`,
+void start_outside(const CrystalNode& from, const Vec3& at, int facet, const Vec3& direction,
+                   const Vec3& s, const EyeCoherency& c, CrystalNode& outer) {
+    outer.inside = false;
+    outer.at = at;
+    outer.facet = facet;
+    outer.direction = direction;
+    outer.u = s;
+    outer.v = glm::cross(direction, s);
+    outer.c = c;
+    outer.tau = from.tau;
+    outer.event = from.event + 1;
+}
+
+// or two modes inside.
+void start_inside(const CrystalNode& from, const Vec3& at, int facet,
+                  const std::array<CrystalMode, 2>& modes, const EyeCoherency& c,
+                  CrystalNode& inner) {
+    inner.inside = true;
+    inner.at = at;
+    inner.facet = facet;
+    inner.modes = modes;
+    inner.c = c;
+    inner.tau = from.tau;
+    inner.event = from.event + 1;
 }
 
 }  // namespace
@@ -55,47 +85,9 @@ void CrystalSteps::meet_from_outside(const CrystalNode& node, int facet, Crystal
     into << entry.into[0][0], entry.into[1][0], entry.into[0][1], entry.into[1][1];
     back << entry.back[0][0], entry.back[1][0], entry.back[0][1], entry.back[1][1];
 
-    outer.inside = false;
-    outer.at = node.at;
-    outer.facet = facet;
-    outer.direction = glm::normalize(d - 2 * cosine * n_in);
-    outer.u = s;
-    outer.v = glm::cross(outer.direction, s);
-    outer.c = node.c.through(back * turn);
-    outer.tau = node.tau;
-    outer.event = node.event + 1;
-
-    inner.inside = true;
-    inner.at = node.at;
-    inner.facet = facet;
-    inner.modes = entry.modes;
-    inner.c = node.c.through(into * turn);
-    inner.tau = node.tau;
-    inner.event = node.event + 1;
-}
-
-void CrystalSteps::start_outside(const CrystalHit& hit, const CrystalNode& from, const Vec3& at,
-                                 int facet, const EyeCoherency& c, CrystalNode& outer) const {
-    outer.inside = false;
-    outer.at = at;
-    outer.facet = facet;
-    outer.direction = hit.exit_direction;
-    outer.u = hit.s;
-    outer.v = glm::cross(hit.exit_direction, hit.s);
-    outer.c = c;
-    outer.tau = from.tau;
-    outer.event = from.event + 1;
-}
-
-void CrystalSteps::start_inside(const CrystalHit& hit, const CrystalNode& from, const Vec3& at,
-                                int facet, const EyeCoherency& c, CrystalNode& inner) const {
-    inner.inside = true;
-    inner.at = at;
-    inner.facet = facet;
-    inner.modes = hit.modes;
-    inner.c = c;
-    inner.tau = from.tau;
-    inner.event = from.event + 1;
+    start_outside(node, node.at, facet, glm::normalize(d - 2 * cosine * n_in), s,
+                  node.c.through(back * turn), outer);
+    start_inside(node, node.at, facet, entry.modes, node.c.through(into * turn), inner);
 }
 
 double CrystalSteps::alpha(const CrystalMode& mode, int wavelength) const {
@@ -123,8 +115,9 @@ void CrystalSteps::meet_alone(CrystalNode& node, int m, CrystalNode& inner, Crys
     const CrystalHit hit =
         hit_face(band_.crystal, band_.n_outside, mode, body_.normal(found.facet));
     worst_imbalance_ = std::max(worst_imbalance_, hit.imbalance);
-    start_outside(hit, node, at, found.facet, node.c.through_one(m, hit.out[0], hit.out[1]), outer);
-    start_inside(hit, node, at, found.facet,
+    start_outside(node, at, found.facet, hit.exit_direction, hit.s,
+                  node.c.through_one(m, hit.out[0], hit.out[1]), outer);
+    start_inside(node, at, found.facet, hit.modes,
                  node.c.through_one(m, hit.amplitude[0], hit.amplitude[1]), inner);
 }
 
@@ -187,8 +180,8 @@ bool CrystalSteps::meet_together(CrystalNode& node, CrystalNode& inner, CrystalN
         leaving.scale(before / after);
         staying.scale(before / after);
     }
-    start_outside(hit0, node, at, facet, leaving, outer);
-    start_inside(hit0, node, at, facet, staying, inner);
+    start_outside(node, at, facet, hit0.exit_direction, hit0.s, leaving, outer);
+    start_inside(node, at, facet, hit0.modes, staying, inner);
     return true;
 }
 

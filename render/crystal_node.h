@@ -55,10 +55,6 @@ public:
     double worst_imbalance() const { return worst_imbalance_; }
 
 private:
-    void start_inside(const CrystalHit& hit, const CrystalNode& from, const Vec3& at, int facet,
-                      const EyeCoherency& c, CrystalNode& inner) const;
-    void start_outside(const CrystalHit& hit, const CrystalNode& from, const Vec3& at, int facet,
-                       const EyeCoherency& c, CrystalNode& outer) const;
     void absorb_together(CrystalNode& node, const std::array<double, 2>& length,
                          NodeWeights& absorbed) const;
     double alpha(const CrystalMode& mode, int wavelength) const;

@@ -40,6 +40,11 @@ double positive_in(const TomlTable& table, const char* key) {
     return *value;
 }
 
+std::vector<std::string_view> with_polarisation_keys(std::vector<std::string_view> keys) {
+    keys.insert(keys.end(), {"polarization", "degree_of_polarization"});
+    return keys;
+}
+
 // `normal`: of the polariser's sheet where the light has one.
 std::optional<LinearPolarisation> polarisation_in(const TomlTable& table,
                                                   const std::optional<Vec3>& normal) {
@@ -165,11 +170,8 @@ std::shared_ptr<const EnvironmentMap> read_environment(const TomlTable& table,
 }  // namespace
 
 Lights lights_of(const TomlTable& table, double stone_diameter, std::vector<std::string>& notes) {
-    std::vector<std::string_view> keys{"environment", "constant",     "sphere",
-                                       "lobe",        "hemisphere",   "cap",
-                                       "plane",       "polarization", "degree_of_polarization"};
-    keys.insert(keys.end(), std::begin(k_view_keys), std::end(k_view_keys));
-    table.refuse_unknown(keys);
+    table.refuse_unknown(with_view_keys(with_polarisation_keys(
+        {"environment", "constant", "sphere", "lobe", "hemisphere", "cap", "plane"})));
     Lights lights;
     const auto preset = table.text("preset");
     const bool is_view = preset && is_view_preset(*preset);
@@ -197,14 +199,12 @@ Lights lights_of(const TomlTable& table, double stone_diameter, std::vector<std:
     }
     lights.polarisation = polarisation_in(table, std::nullopt);
     for (const TomlTable& t : table.tables("sphere")) {
-        t.refuse_unknown(
-            {"center", "radius", "radiance", "polarization", "degree_of_polarization"});
+        t.refuse_unknown(with_polarisation_keys({"center", "radius", "radiance"}));
         lights.spheres.push_back(
             {point_in(t, "center"), positive_in(t, "radius"), radiance_in(t, std::nullopt)});
     }
     for (const TomlTable& t : table.tables("lobe")) {
-        t.refuse_unknown(
-            {"direction", "exponent", "radiance", "polarization", "degree_of_polarization"});
+        t.refuse_unknown(with_polarisation_keys({"direction", "exponent", "radiance"}));
         const double exponent = t.number("exponent").value_or(1);
         if (exponent < 0)
             t.fail("exponent", fmt::format("exponent must not be negative, found {}", exponent));
@@ -212,13 +212,13 @@ Lights lights_of(const TomlTable& table, double stone_diameter, std::vector<std:
         lights.lobes.push_back({direction, exponent, radiance_in(t, direction)});
     }
     for (const TomlTable& t : table.tables("hemisphere")) {
-        t.refuse_unknown({"direction", "radiance", "polarization", "degree_of_polarization"});
+        t.refuse_unknown(with_polarisation_keys({"direction", "radiance"}));
         const Vec3 direction = direction_in(t, "direction");
         lights.hemispheres.push_back({direction, radiance_in(t, direction)});
     }
     for (const TomlTable& t : table.tables("cap")) {
-        t.refuse_unknown({"direction", "half_angle", "from", "to", "radiance", "polarization",
-                          "degree_of_polarization"});
+        t.refuse_unknown(
+            with_polarisation_keys({"direction", "half_angle", "from", "to", "radiance"}));
         if (t.has("half_angle") == t.has("to"))
             t.fail("", "a cap needs half_angle, or a band from .. to, in degrees");
         const double from = t.number("from").value_or(0);
@@ -232,8 +232,7 @@ Lights lights_of(const TomlTable& table, double stone_diameter, std::vector<std:
         lights.caps.push_back({direction, radians(from), radians(to), radiance_in(t, direction)});
     }
     for (const TomlTable& t : table.tables("plane")) {
-        t.refuse_unknown(
-            {"point", "normal", "u", "v", "radiance", "polarization", "degree_of_polarization"});
+        t.refuse_unknown(with_polarisation_keys({"point", "normal", "u", "v", "radiance"}));
         PlaneLight plane;
         plane.point = point_in(t, "point");
         plane.normal = direction_in(t, "normal");

@@ -142,17 +142,23 @@ private:
         }
     };
 
-    void trace_polarised(Vec3 at, Vec3 direction, int facet) {
+    // The first face: its leaf goes out, and `direction` turns into the stone.
+    FaceAmplitudes enter(const Vec3& at, Vec3& direction, int facet) {
         const Vec3 n_in = -body_.normal(facet);
         const double q1 = std::clamp(glm::dot(direction, n_in), 0.0, 1.0);
         const FaceAmplitudes face = fresnel(1.0, band_.n, q1);
-        Vec3 s = tangent(direction, n_in);
         push(facet);
         leaf(at, mirrored(direction, n_in), 0.5 * (std::norm(face.r_s) + std::norm(face.r_p)),
              tau_);
+        direction = refracted(direction, n_in, 1.0, q1, face.q2);
+        return face;
+    }
+
+    void trace_polarised(Vec3 at, Vec3 direction, int facet) {
+        Vec3 s = tangent(direction, -body_.normal(facet));
+        const FaceAmplitudes face = enter(at, direction, facet);
         const double Ts = face.t_s * face.t_s, Tp = face.t_p * face.t_p;
         Carried carried{0.5 * (Ts + Tp), 0.5 * (Ts - Tp), 0, 0};
-        direction = refracted(direction, n_in, 1.0, q1, face.q2);
         NodeWeights& tau = tau_;
         for (int event = 2; event <= limits_.depth; ++event) {
             if (too_small(carried.I, tau)) {
@@ -180,14 +186,8 @@ private:
     }
 
     void trace_scalar(Vec3 at, Vec3 direction, int facet) {
-        const Vec3 n_in = -body_.normal(facet);
-        const double q1 = std::clamp(glm::dot(direction, n_in), 0.0, 1.0);
-        const FaceAmplitudes face = fresnel(1.0, band_.n, q1);
-        push(facet);
-        leaf(at, mirrored(direction, n_in), 0.5 * (std::norm(face.r_s) + std::norm(face.r_p)),
-             tau_);
+        const FaceAmplitudes face = enter(at, direction, facet);
         double weight = 0.5 * (face.t_s * face.t_s + face.t_p * face.t_p);
-        direction = refracted(direction, n_in, 1.0, q1, face.q2);
         NodeWeights& tau = tau_;
         for (int event = 2; event <= limits_.depth; ++event) {
             if (too_small(weight, tau)) {

@@ -254,6 +254,14 @@ void LightField::add_stokes(const PathEnd& end, int first, int count, double* st
     });
 }
 
+void LightField::add_direct_stokes(const EyeRay& ray, const EyeFrame& frame, int nodes,
+                                   double* stokes) const {
+    PathEnd end{ray.origin, ray.direction, frame.x, frame.y, EyeCoherency::of_eye(), {}};
+    end.transmitted.fill(1.0);
+    for (int first = 0; first < nodes; first += k_band_nodes)
+        add_stokes(end, first, std::min(k_band_nodes, nodes - first), stokes, nodes);
+}
+
 double LightField::nearest_distance(const Vec3& origin, const Vec3& direction) const {
     double distance = 0;
     ready_->nearest(origin, direction, distance);

@@ -25,6 +25,23 @@ struct PathLimits {
     bool polarised = true;   ///< false: mean powers of s and p at every isotropic face
 };
 
+/// Variance of what is chosen at random. Every choice is estimated twice, independently and with
+/// half the weight: the squared difference of the two is an unbiased estimate of the variance of
+/// their sum. `seen`: the sum that is estimated, so far.
+class PairedEstimates {
+public:
+    void begin(double seen) { start_ = seen; }
+    void end(bool second, double seen) {
+        const double brought = seen - start_;
+        if (second) variance_ += (first_ - brought) * (first_ - brought);
+        first_ = brought;
+    }
+    double variance() const { return variance_; }
+
+private:
+    double start_ = 0, first_ = 0, variance_ = 0;
+};
+
 /// What the eye ray met on the way, by facet; depth-first, so one array serves. Beyond `length` is
 /// what was met before.
 struct PathTrace {

@@ -12,10 +12,6 @@ namespace culet {
 
 namespace {
 
-double luminance(const Rgb& rgb) {
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
-
 // What is not seen of one eye ray.
 class Lost {
 public:
@@ -89,18 +85,9 @@ public:
         for (int i = 0; i < band_.count; ++i)
             stokes_[band_.first + i] += weight[i] * usual_[band_.first + i];
     }
-    // Half the estimate each: the squared difference of two such is an unbiased estimate of their
-    // sum's variance.
-    void choice_begins() { start_ = luminance_so_far(); }
-    void choice_ends(bool second) {
-        const double brought = luminance_so_far() - start_;
-        if (!second) {
-            first_ = brought;
-        } else {
-            variance_ += (first_ - brought) * (first_ - brought);
-        }
-    }
-    double variance_ = 0;
+    void choice_begins() { estimates_.begin(luminance_so_far()); }
+    void choice_ends(bool second) { estimates_.end(second, luminance_so_far()); }
+    double variance() const { return estimates_.variance(); }
 
 private:
     double luminance_so_far() const {
@@ -116,7 +103,7 @@ private:
     const std::vector<double>&luminance_, &usual_;
     int nodes_, planes_;
     double* stokes_;
-    double start_ = 0, first_ = 0;
+    PairedEstimates estimates_;
 };
 
 std::vector<double> luminance_weights(const WavelengthSet& colours, const EyeOptics& optics,
@@ -180,11 +167,7 @@ void PixelShader::background(const EyeRay& ray, double* stokes) const {
         lights_.add_radiance(ray.origin, ray.direction, 1.0, 0, nodes_, stokes);
         return;
     }
-    const EyeFrame frame = eyes_.frame(ray.direction);
-    PathEnd end{ray.origin, ray.direction, frame.x, frame.y, EyeCoherency::of_eye(), {}};
-    end.transmitted.fill(1.0);
-    for (int first = 0; first < nodes_; first += k_band_nodes)
-        lights_.add_stokes(end, first, std::min(k_band_nodes, nodes_ - first), stokes, nodes_);
+    lights_.add_direct_stokes(ray, eyes_.frame(ray.direction), nodes_, stokes);
 }
 
 PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixel, double* stokes,
@@ -222,7 +205,7 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
                 paths.trace(ray, frame.x, frame.y, *entry);
                 sums.worst_imbalance = std::max(sums.worst_imbalance, paths.worst_imbalance());
                 sums.sampled += paths.sampled();
-                sums.variance += share * share * gather.variance_;
+                sums.variance += share * share * gather.variance();
                 take(gather);
             } else {
                 Gather gather(lights_, band, stokes);

@@ -21,8 +21,8 @@ constexpr double k_single_precision = 1e-7;
 // The stone's diameter in POV-Ray's units is from this to twice this: hits nearer than 1e-4, which
 // POV-Ray does not take, are then nearer than single precision tells apart.
 constexpr double k_stone_size = 1024;
-constexpr int k_highest_level = 256;  // that POV-Ray accepts
-constexpr int k_deepest = 64;         // written where the tolerance decides
+constexpr int k_highest_level = 256;      // that POV-Ray accepts
+constexpr int k_depth_by_tolerance = 64;  // written where the tolerance decides
 
 std::string vector_text(const Vec3& v) {
     return fmt::format("<{}, {}, {}>", v.x, v.z, v.y);
@@ -122,7 +122,7 @@ private:
     void header() {
         const Camera& camera = scene_.camera;
         const RenderSettings& settings = scene_.settings;
-        const int depth = settings.depth > 0 ? settings.depth : k_deepest;
+        const int depth = settings.depth > 0 ? settings.depth : k_depth_by_tolerance;
         const int level = std::min(depth + 1, k_highest_level);
         line("// POV-Ray 3.7: povray +ITHIS.pov +OPICTURE.png +W{} +H{} -A +FN16 File_Gamma=sRGB",
              camera.width, camera.height);

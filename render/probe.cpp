@@ -17,7 +17,6 @@ namespace culet {
 
 namespace {
 
-constexpr int k_deepest = 1000;
 // One ray may cost what a picture's may not: the whole tree of a crystal to depth 18.
 constexpr int k_most_splits = 1 << 18;
 
@@ -59,13 +58,8 @@ public:
     void absorbed(const NodeWeights& weight) { add(result_.absorbed, weight); }
     void cut(const NodeWeights& weight) { add(result_.cut, weight); }
     void gambled(const NodeWeights&) {}  // a probe cuts
-    // Half the estimate each, see pixel_shader.cpp.
-    void choice_begins() { start_ = seen(); }
-    void choice_ends(bool second) {
-        const double brought = seen() - start_;
-        if (second) variance_ += (first_ - brought) * (first_ - brought);
-        first_ = brought;
-    }
+    void choice_begins() { estimates_.begin(seen()); }
+    void choice_ends(bool second) { estimates_.end(second, seen()); }
 
     // What the eye sees: behind its analyser, if there is one.
     void finish(const EyeOptics& optics) {
@@ -76,7 +70,7 @@ public:
                 result_.stokes[k] += stokes_[k * nodes_ + i] / nodes_;
             }
         }
-        result_.standard_error = std::sqrt(variance_) / nodes_;
+        result_.standard_error = std::sqrt(estimates_.variance()) / nodes_;
     }
     std::vector<double>& stokes() { return stokes_; }
 
@@ -115,7 +109,7 @@ private:
     std::vector<double> stokes_;
     const Band* band_ = nullptr;
     std::map<std::pair<std::vector<int>, std::string>, std::size_t> index_;
-    double start_ = 0, first_ = 0, variance_ = 0;
+    PairedEstimates estimates_;
 };
 
 }  // namespace
@@ -150,12 +144,7 @@ ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progres
     const EyeFrame frame = EyeRays(scene.camera).frame(ray.direction);
     const auto entry = body.entry(ray.origin, ray.direction);
     if (!entry || lights.nearest_distance(ray.origin, ray.direction) < entry->distance) {
-        PathEnd end{ray.origin, ray.direction, frame.x, frame.y, EyeCoherency::of_eye(), {}};
-        end.transmitted.fill(1.0);
-        for (int first = 0; first < nodes; first += k_band_nodes) {
-            lights.add_stokes(end, first, std::min(k_band_nodes, nodes - first),
-                              record.stokes().data(), nodes);
-        }
+        lights.add_direct_stokes(ray, frame, nodes, record.stokes().data());
         record.finish(scene.camera.optics);
         return result;
     }

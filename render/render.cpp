@@ -22,8 +22,7 @@ namespace culet {
 
 namespace {
 
-constexpr int k_deepest = 1000;  // by tolerance; what is left then is reported as remainder
-constexpr int k_tile = 16;       // pixels
+constexpr int k_tile = 16;  // pixels
 // Crystals: a path splits in two at every hit while it carries more than this.
 constexpr double k_split_weight = 0.02;
 constexpr double k_gambled_weight = 1e-3;

@@ -159,6 +159,9 @@ public:
     /// The Stokes parameters that reach the eye through the two waves of a path's end, times its
     /// transmission, are added to `stokes[k * stride + node]`, k = 0..3.
     void add_stokes(const PathEnd& end, int first, int count, double* stokes, int stride) const;
+    /// The same of light that reaches the eye directly, at all `nodes`.
+    void add_direct_stokes(const EyeRay& ray, const EyeFrame& frame, int nodes,
+                           double* stokes) const;
     /// How far along the ray the nearest near light is: it hides what lies behind it. Infinite when
     /// there is none.
     double nearest_distance(const Vec3& origin, const Vec3& direction) const;
@@ -184,6 +187,9 @@ constexpr int k_effect_count = 7;
 const char* name_of(Effects effect);
 
 enum class PixelFilter { box, tent, gaussian };
+
+/// Deepest path that a scene may ask for, and that is followed where the tolerance decides.
+constexpr int k_deepest = 1000;
 
 struct RenderSettings {
     std::string engine = "auto";  ///< reference (auto means it, for now)

@@ -20,11 +20,6 @@ constexpr int k_most_pixels_a_side = 32768;
 constexpr double k_most_pixels = 268435456;  // 2^28, as many as picture files are read with
 constexpr std::size_t k_most_wavelengths = 1000;
 
-std::vector<std::string_view> with_view_keys(std::vector<std::string_view> keys) {
-    keys.insert(keys.end(), std::begin(k_view_keys), std::end(k_view_keys));
-    return keys;
-}
-
 Camera read_camera(const TomlTable& table) {
     table.refuse_unknown(with_view_keys({"position", "look_at", "up", "fov", "orthographic_width",
                                          "size", "aperture_radius", "focus_distance"}));
@@ -153,8 +148,9 @@ RenderSettings read_settings(const TomlTable& table) {
         settings.engine = *engine;
     }
     if (const auto depth = table.integer("depth")) {
-        if (*depth < 0 || *depth > 1000)
-            table.fail("depth", fmt::format("depth is 0 (by tolerance) to 1000, found {}", *depth));
+        if (*depth < 0 || *depth > k_deepest)
+            table.fail("depth",
+                       fmt::format("depth is 0 (by tolerance) to {}, found {}", k_deepest, *depth));
         settings.depth = static_cast<int>(*depth);
     }
     if (const auto tolerance = table.number("tolerance")) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 
 #include "stone/units.h"
 
@@ -22,6 +23,12 @@ std::optional<double> angle_in(const TomlTable& table, const char* american, con
 }
 
 }  // namespace
+
+std::vector<std::string_view> with_view_keys(std::vector<std::string_view> keys) {
+    keys.insert(keys.end(), {"preset", "polarizer", "polariser", "analyzer", "analyser", "cone",
+                             "retarder_nm", "retarder_angle"});
+    return keys;
+}
 
 bool is_view_preset(std::string_view name) {
     return name == "polariscope" || name == "conoscope" || name == "dichroscope";

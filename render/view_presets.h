@@ -8,18 +8,16 @@
 // dichroscope: unpolarised light from behind, two windows side by side whose analysers are at right
 //   angles: the colours of the two waves.
 
-#include <optional>
 #include <string_view>
+#include <vector>
 
 #include "render/scene.h"
 #include "stone/toml_file.h"
 
 namespace culet {
 
-/// Keys that may stand beside `preset`, and of them those that [camera] takes by itself.
-inline constexpr const char* k_view_keys[] = {"preset",      "polarizer",     "polariser",
-                                              "analyzer",    "analyser",      "cone",
-                                              "retarder_nm", "retarder_angle"};
+/// `keys` and those that may stand beside `preset` where it names a view.
+std::vector<std::string_view> with_view_keys(std::vector<std::string_view> keys);
 
 bool is_view_preset(std::string_view name);
 

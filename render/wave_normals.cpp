@@ -28,14 +28,6 @@ void complete_evanescent(CrystalMode& mode, const ComplexVec3& E, const ComplexV
     mode.propagates = false;
 }
 
-namespace {
-
-Vec3 real_part(const ComplexVec3& v) {
-    return {v.x.real(), v.y.real(), v.z.real()};
-}
-
-}  // namespace
-
 void share_no_flux(const CrystalMode& first, CrystalMode& second, const Vec3& E_beside,
                    const Vec3& n) {
     const Vec3 E1 = real_part(first.E), H1 = real_part(first.H), E2 = real_part(second.E);

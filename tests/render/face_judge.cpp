@@ -121,10 +121,6 @@ void add(Figures& f, const Vec3& N, const Vec3& ray, bool with_ray) {
     for (int i = 0; i < 3 && with_ray; ++i) f.rays.push_back(ray[i]);
 }
 
-Vec3 real_part(const ComplexVec3& v) {
-    return {v.x.real(), v.y.real(), v.z.real()};
-}
-
 }  // namespace
 
 void FaceJudge::compare(const Face& given) {
