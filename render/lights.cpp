@@ -35,15 +35,21 @@ Rgb EnvironmentMap::at(const Vec3& direction) const {
     return result;
 }
 
-namespace {
-
-std::vector<double> nodes_of(const LightColour& colour, const WavelengthSet& wavelengths) {
+std::vector<double> radiance_of(const LightColour& colour, const WavelengthSet& wavelengths) {
     if (const double* number = std::get_if<double>(&colour.value)) {
         return std::vector<double>(wavelengths.wavelengths_nm().size(), *number);
     }
     if (const Rgb* rgb = std::get_if<Rgb>(&colour.value)) return wavelengths.spectrum_of(*rgb);
     return wavelengths.illuminant_relative(std::get<std::string>(colour.value).c_str());
 }
+
+CapCosines cosines_of(const CapLight& cap) {
+    // Whole discs and half spaces include their limits: a cap of 180 degrees is everywhere.
+    return {cap.from <= 0 ? 2.0 : std::cos(cap.from),
+            cap.to >= std::numbers::pi ? -2.0 : std::cos(cap.to)};
+}
+
+namespace {
 
 // Distance along a ray to a sphere, or infinity; from inside, to the far side: a dome shines
 // inwards.
@@ -105,7 +111,7 @@ struct LightField::Ready {
     Lights lights;
     std::array<std::vector<double>, 3> primaries;
     std::vector<std::vector<double>> spheres, lobes, hemispheres, caps, planes;
-    std::vector<std::pair<double, double>> cap_cosines;
+    std::vector<CapCosines> cap_cosines;
     double brightest = 0;
     int nodes = 1;
 
@@ -147,7 +153,7 @@ LightField::LightField(const Lights& lights, const WavelengthSet& wavelengths) :
     double far = lights.constant, near = 0;
     const auto take = [&](const auto& list, std::vector<std::vector<double>>& nodes, bool is_near) {
         for (const auto& light : list) {
-            nodes.push_back(nodes_of(light.radiance, wavelengths));
+            nodes.push_back(radiance_of(light.radiance, wavelengths));
             const double most = *std::max_element(nodes.back().begin(), nodes.back().end());
             if (is_near) {
                 near = std::max(near, most);
@@ -161,11 +167,7 @@ LightField::LightField(const Lights& lights, const WavelengthSet& wavelengths) :
     take(lights.lobes, r.lobes, false);
     take(lights.hemispheres, r.hemispheres, false);
     take(lights.caps, r.caps, false);
-    for (const CapLight& cap : lights.caps) {
-        // Whole discs and half spaces include their limits: a cap of 180 degrees is everywhere.
-        r.cap_cosines.emplace_back(cap.from <= 0 ? 2.0 : std::cos(cap.from),
-                                   cap.to >= std::numbers::pi ? -2.0 : std::cos(cap.to));
-    }
+    for (const CapLight& cap : lights.caps) r.cap_cosines.push_back(cosines_of(cap));
     if (lights.environment) {
         float most = 0;
         for (float v : lights.environment->rgb) most = std::max(most, v);
@@ -223,7 +225,7 @@ void LightField::Ready::each_seen(const Vec3& origin, const Vec3& direction, Vis
     }
     for (std::size_t l = 0; l < caps.size(); ++l) {
         const double cosine = glm::dot(direction, lights.caps[l].direction);
-        if (cosine <= cap_cosines[l].first && cosine > cap_cosines[l].second)
+        if (cosine <= cap_cosines[l].from && cosine > cap_cosines[l].to)
             pass(caps[l], 1, lights.caps[l].radiance.polarisation);
     }
 }
@@ -291,7 +293,7 @@ std::string LightField::name_at(const Vec3& origin, const Vec3& direction) const
         [&](std::size_t l) { return glm::dot(direction, r.lights.hemispheres[l].direction) > 0; });
     lit(r.caps, "cap ", [&](std::size_t l) {
         const double cosine = glm::dot(direction, r.lights.caps[l].direction);
-        return cosine <= r.cap_cosines[l].first && cosine > r.cap_cosines[l].second;
+        return cosine <= r.cap_cosines[l].from && cosine > r.cap_cosines[l].to;
     });
     return names.empty() ? "dark" : names;
 }

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <atomic>
@@ -16,6 +14,7 @@
 #include "render/pilot.h"
 #include "render/pixel_shader.h"
 #include "render/scene_checks.h"
+#include "render/threads.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -124,14 +123,7 @@ RenderResult render(const Scene& whole, const Progress& progress) {
             }
         }
     };
-    // More threads than processors are allowed when asked for, and without TBB's warning on stderr.
-    const int most = static_cast<int>(
-        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-    const tbb::global_control allow(
-        tbb::global_control::max_allowed_parallelism,
-        static_cast<std::size_t>(std::max({most, settings.threads, 1})));
-    tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
-    arena.execute([&] {
+    on_threads(settings.threads, [&] {
         tbb::parallel_for(0LL, tiles_wide * tiles_high, shade_tile, tbb::simple_partitioner());
     });
     if (reporter.stopped()) throw Interrupted();

@@ -138,6 +138,14 @@ struct Lights {
     std::vector<PlaneLight> planes;
 };
 
+/// Radiance at each node.
+std::vector<double> radiance_of(const LightColour& colour, const WavelengthSet& wavelengths);
+/// A cap is where the cosine of the angle to its direction is in (to, from].
+struct CapCosines {
+    double from = 2, to = -2;
+};
+CapCosines cosines_of(const CapLight& cap);
+
 struct PathEnd;  // path.h
 
 /// True when any light is polarised.

@@ -1,0 +1,83 @@
+#include "render/beams/beam_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+namespace culet {
+
+namespace {
+
+// Exponents up to this are multiplied out.
+constexpr double k_multiplied_out = 64;
+
+std::vector<float> spectrum(const LightColour& colour, const WavelengthSet& colours, int first,
+                            int count) {
+    const std::vector<double> all = radiance_of(colour, colours);
+    return {all.begin() + first, all.begin() + first + count};
+}
+
+}  // namespace
+
+ShadedLights::ShadedLights(const Lights& lights, const WavelengthSet& colours, int first, int count,
+                           const Vec3& middle,
+                           std::shared_ptr<const EnvironmentPyramid> pyramid)
+    : nodes(count), environment(std::move(pyramid)) {
+    const auto number = [](double v) { return static_cast<float>(v); };
+    constant.assign(static_cast<std::size_t>(count), number(lights.constant));
+    for (const LobeLight& light : lights.lobes) {
+        const Vec3& d = light.direction;
+        const bool whole = light.exponent == std::floor(light.exponent) &&
+                           light.exponent <= k_multiplied_out && light.exponent >= 0;
+        lobes.push_back({number(d.x), number(d.y), number(d.z), number(light.exponent),
+                         whole ? static_cast<int>(light.exponent) : -1,
+                         spectrum(light.radiance, colours, first, count)});
+    }
+    for (const HemisphereLight& light : lights.hemispheres) {
+        const Vec3& d = light.direction;
+        caps.push_back({number(d.x), number(d.y), number(d.z), 2.0f, 0.0f,
+                        spectrum(light.radiance, colours, first, count)});
+    }
+    for (const CapLight& light : lights.caps) {
+        const Vec3& d = light.direction;
+        const CapCosines cosines = cosines_of(light);
+        caps.push_back({number(d.x), number(d.y), number(d.z), number(cosines.from),
+                        number(cosines.to), spectrum(light.radiance, colours, first, count)});
+    }
+    for (const SphereLight& light : lights.spheres) {
+        const Vec3 c = light.center - middle;
+        spheres.push_back({number(c.x), number(c.y), number(c.z), number(light.radius),
+                           spectrum(light.radiance, colours, first, count)});
+    }
+    for (const PlaneLight& light : lights.planes) {
+        Plane plane{};
+        const Vec3 point = light.point - middle;
+        plane.x = number(light.normal.x);
+        plane.y = number(light.normal.y);
+        plane.z = number(light.normal.z);
+        plane.offset = number(glm::dot(light.normal, point));
+        plane.bounded = light.u && light.v;
+        if (plane.bounded) {
+            const Vec3 &u = *light.u, &v = *light.v;
+            const double uu = glm::dot(u, u), vv = glm::dot(v, v), uv = glm::dot(u, v),
+                         determinant = uu * vv - uv * uv;
+            const Vec3 s = (vv * u - uv * v) / determinant, t = (uu * v - uv * u) / determinant;
+            for (int i = 0; i < 3; ++i) {
+                plane.s[i] = number(s[i]);
+                plane.t[i] = number(t[i]);
+            }
+            plane.s[3] = number(-glm::dot(s, point));
+            plane.t[3] = number(-glm::dot(t, point));
+        }
+        plane.radiance = spectrum(light.radiance, colours, first, count);
+        planes.push_back(std::move(plane));
+    }
+    any_edge = environment || !caps.empty() || !spheres.empty() || !planes.empty();
+    for (int i = first; i < first + count; ++i) {
+        red.push_back(number(colours.primaries()[0][static_cast<std::size_t>(i)]));
+        blue.push_back(number(colours.primaries()[2][static_cast<std::size_t>(i)]));
+    }
+}
+
+}  // namespace culet

@@ -1,0 +1,58 @@
+#pragma once
+// Pictures of a convex, isotropic stone by its beams.
+
+#include <memory>
+#include <vector>
+
+#include "render/beams/beam_shading.h"
+#include "render/beams/beam_tree.h"
+#include "render/convex_body.h"
+#include "render/picture.h"
+#include "render/plan.h"
+#include "stone/progress.h"
+
+namespace culet {
+
+/// How the pixels of a beam are shaded.
+enum class BeamShading {
+    flat,     ///< one colour a beam, exact areas of pixels
+    single,   ///< each pixel's middle exactly, along its beam's facets, verified: no anti-aliasing
+    averaged  ///< each touched pixel's middle along each beam's facets, times the area that it fills
+};
+
+struct BeamSettings {
+    BeamLimits limits;
+    BeamShading shading = BeamShading::averaged;
+    int threads = 0;
+};
+
+/// Of one picture. Weights are means over what the stone fills, and over wavelengths.
+struct BeamReport {
+    long long beams = 0, fragments = 0;
+    long long retraced = 0;  ///< rays that did not meet their beam's facets, traced anew
+    double filled = 0;       ///< square pixels of the stone
+    double remainder = 0, absorbed = 0, luminance = 0;
+    double lost_area = 0;    ///< that no beam covers, over the front facets' area
+    int deepest = 0;
+    double seconds_build = 0, seconds_shade = 0;
+};
+
+class BeamRenderer {
+public:
+    explicit BeamRenderer(const Solid& convex);
+    ~BeamRenderer();
+
+    /// Keeps references to what it is given until the next call; the trees are kept where view,
+    /// indices and limits are those of the last call. Throws InputError for a conoscope and
+    /// Interrupted.
+    const Picture& draw(const Scene& scene, const Plan& plan, const LightField& lights,
+                        const WavelengthSet& colours, const BeamSettings& settings,
+                        const Progress& progress = {});
+    const BeamReport& report() const;
+
+private:
+    struct Work;
+    std::unique_ptr<Work> work_;
+};
+
+}  // namespace culet

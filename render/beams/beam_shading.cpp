@@ -1,0 +1,488 @@
+#include "render/beams/beam_shading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "render/band.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/beams/beam_shading.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h.
+#include "render/beams/beam_shading_kernel.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace culet {
+namespace HWY_NAMESPACE {
+
+// Adds light to the nodes' sums; without `kMany` there is one node, and no absorption.
+template <bool kMany>
+struct Gather {
+    const ShadedLights& lights;
+    V* sum;
+    const V* weight;
+
+    HWY_INLINE void operator()(const V& factor, const float* radiance) const {
+        const int nodes = kMany ? lights.nodes : 1;
+        for (int i = 0; i < nodes; ++i)
+            sum[i] = hn::MulAdd(factor * weight[i], number(radiance[i]), sum[i]);
+    }
+    HWY_INLINE void colour(const V& r, const V& g, const V& b) const {
+        const int nodes = kMany ? lights.nodes : 1;
+        const V more_red = r - g, more_blue = b - g;
+        for (int i = 0; i < nodes; ++i) {
+            const auto at = static_cast<size_t>(i);
+            const V seen = hn::MulAdd(more_red, number(lights.red[at]),
+                                      hn::MulAdd(more_blue, number(lights.blue[at]), g));
+            sum[i] = hn::MulAdd(weight[i], seen, sum[i]);
+        }
+    }
+};
+
+// What is carried from face to face: powers of s and p together, their difference, and twice the
+// real and imaginary part of E_s E_p* (light_paths.h).
+struct Carried {
+    V I, Q, U, V_;
+};
+
+template <bool kPolarised, bool kSoft, bool kMany>
+class Follower {
+public:
+    HWY_INLINE Follower(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
+                        int facet_count, const Fragments& out)
+        : stone_(*job.stone),
+          optics_(*job.optics),
+          lights_(*job.lights),
+          eye_(eye),
+          facets_(facets),
+          facet_count_(facet_count),
+          out_(out) {}
+
+    HWY_INLINE void follow(int first) {
+        const V dx = hn::LoadU(k_floats, out_.x + first), dy = hn::LoadU(k_floats, out_.y + first);
+        const int nodes = kMany ? lights_.nodes : 1;
+        for (int i = 0; i < nodes; ++i) {
+            sum_[i] = number(0.0f);
+            tau_[i] = number(1.0f);
+        }
+        enter(dx, dy);
+        const bool located =
+            kMany ? true : out_.follows != nullptr || !lights_.spheres.empty() || !lights_.planes.empty();
+        V absorbed = number(0.0f);
+        for (int k = 1; k < facet_count_; ++k) {
+            const ShadedStone::Face& face = stone_.faces[facets_[k]];
+            const V3 a{number(face.x), number(face.y), number(face.z)};
+            const V cosine = dot(a, ray_.direction);
+            if (located) {
+                const V towards = hn::Max(cosine, number(1e-20f));
+                const V length = (number(face.offset) - dot(a, ray_.point)) / towards;
+                ray_.point = plus(ray_.point, length, ray_.direction);
+                if constexpr (kSoft) {
+                    move(ray_.point_x, ray_.direction_x, length, a, towards);
+                    move(ray_.point_y, ray_.direction_y, length, a, towards);
+                }
+                if constexpr (kMany) absorb(length, absorbed);
+                if (out_.follows != nullptr)
+                    follows_ = hn::And(follows_, hn::And(cosine > number(0.0f), on_facet(face)));
+            }
+            if constexpr (kPolarised) turn(a, cosine, k);
+            meet(a, cosine);
+        }
+        for (int i = 0; i < nodes; ++i)
+            hn::StoreU(sum_[i] * uncovered_ + before_[i], k_floats,
+                       out_.radiance + static_cast<size_t>(i) * static_cast<size_t>(out_.stride) +
+                           first);
+        hn::StoreU(remaining() * uncovered_, k_floats, out_.left + first);
+        if (out_.absorbed != nullptr)
+            hn::StoreU(absorbed * uncovered_, k_floats, out_.absorbed + first);
+        if (out_.follows != nullptr) {
+            const size_t lanes = hn::Lanes(k_floats);
+            HWY_ALIGN float yes[64];
+            hn::Store(hn::IfThenElseZero(follows_, number(1.0f)), k_floats, yes);
+            for (size_t i = 0; i < lanes; ++i)
+                out_.follows[static_cast<size_t>(first) + i] = yes[i] > 0;
+        }
+    }
+
+private:
+    HWY_INLINE V remaining() const {
+        if constexpr (!kMany) {
+            return carried_.I;
+        } else {
+            V mean = number(0.0f);
+            for (int i = 0; i < lights_.nodes; ++i) mean = mean + tau_[i];
+            return carried_.I * mean / number(static_cast<float>(lights_.nodes));
+        }
+    }
+
+    HWY_INLINE M on_facet(const ShadedStone::Face& face) const {
+        const ShadedStone::Side* side = stone_.sides.data() + face.first_side;
+        V most = number(-1.0f);
+        for (std::uint32_t i = 0; i < face.sides; ++i, ++side) {
+            const V3 across{number(side->x), number(side->y), number(side->z)};
+            most = hn::Max(most, dot(across, ray_.point) - number(side->offset));
+        }
+        return most <= number(0.0f);
+    }
+
+    // The next point's change: it stays in the plane.
+    HWY_INLINE static void move(V3& point, const V3& direction_change, const V& length, const V3& a,
+                                const V& towards, const V3& along) {
+        const V3 moved = plus(point, length, direction_change);
+        point = plus(moved, hn::Neg(dot(a, moved)) / towards, along);
+    }
+    HWY_INLINE void move(V3& point, const V3& direction_change, const V& length, const V3& a,
+                         const V& towards) {
+        move(point, direction_change, length, a, towards, ray_.direction);
+    }
+
+    HWY_INLINE void absorb(const V& length, V& absorbed) {
+        if (optics_.absorption.empty()) return;
+        V lost = number(0.0f);
+        for (int i = 0; i < lights_.nodes; ++i) {
+            const V after = tau_[i] * hn::Exp(k_floats, hn::Neg(number(optics_.absorption[static_cast<size_t>(i)])) *
+                                                            hn::Max(length, number(0.0f)));
+            lost = lost + tau_[i] - after;
+            tau_[i] = after;
+        }
+        absorbed = hn::MulAdd(carried_.I / number(static_cast<float>(lights_.nodes)), lost, absorbed);
+    }
+
+    // Light at the end of a path of weight `weight`.
+    HWY_INLINE void leaf(const V& weight, const Ray& out) {
+        if constexpr (kMany) {
+            V weights[k_band_nodes];
+            for (int i = 0; i < lights_.nodes; ++i) weights[i] = weight * tau_[i];
+            Gather<kMany> gather{lights_, sum_, weights};
+            all_light<kSoft>(lights_, out, number(1.0f), gather);
+        } else {
+            Gather<kMany> gather{lights_, sum_, &weight};
+            all_light<kSoft>(lights_, out, number(1.0f), gather);
+        }
+    }
+
+    // The eye ray through a pixel, to the first face and through it.
+    HWY_INLINE void enter(const V& dx, const V& dy) {
+        const ShadedStone::Face& face = stone_.faces[facets_[0]];
+        const V3 N{number(face.x), number(face.y), number(face.z)};
+        const V3 vx = vector(eye_.direction_x), vy = vector(eye_.direction_y);
+        const V3 gx = vector(eye_.point_x), gy = vector(eye_.point_y);
+        const V3 v = plus(plus(vector(eye_.direction), dx, vx), dy, vy);
+        const V3 shift = dx * gx + dy * gy;
+        const V towards = hn::Min(dot(N, v), number(-1e-20f));
+        const V later = hn::Neg(dot(N, shift)) / towards;
+        ray_.point = plus(vector(eye_.point) + shift, later, v);
+        const V length = hn::Sqrt(dot(v, v)), over = number(1.0f) / length;
+        const V3 along = over * v;
+        const V q1 = hn::Min(hn::Neg(towards) * over, number(1.0f));
+        const float n = optics_.n;
+        const V q2 = hn::Sqrt(hn::MulAdd(q1, q1, number((n - 1) * (n + 1))));
+        const V bend = q1 - q2, over_n = number(1.0f / n);
+        ray_.direction = over_n * plus(along, bend, N);
+        follows_ = hn::And(towards < number(0.0f), on_facet(face));
+
+        Ray mirrored{ray_.point, plus(along, q1 + q1, N), ray_.point, ray_.point, N, N};
+        if constexpr (kSoft) {
+            const auto change = [&](const V3& g, const V3& dv, V3& point, V3& inside,
+                                    V3& outside) HWY_ATTR {
+                const V3 moved = plus(g, later, dv);
+                point = plus(moved, hn::Neg(dot(N, moved)) / towards, v);
+                const V3 turned = over * plus(dv, hn::Neg(dot(along, dv)), along);
+                const V dq1 = hn::Neg(dot(N, turned)), dq2 = q1 * dq1 / q2;
+                inside = over_n * plus(turned, dq1 - dq2, N);
+                outside = plus(turned, dq1 + dq1, N);
+            };
+            change(gx, vx, ray_.point_x, ray_.direction_x, mirrored.direction_x);
+            change(gy, vy, ray_.point_y, ray_.direction_y, mirrored.direction_y);
+            mirrored.point_x = ray_.point_x;
+            mirrored.point_y = ray_.point_y;
+        }
+
+        // What stands before the stone.
+        uncovered_ = number(1.0f);
+        const int nodes = kMany ? lights_.nodes : 1;
+        for (int i = 0; i < nodes; ++i) before_[i] = number(0.0f);
+        if (!lights_.spheres.empty() || !lights_.planes.empty()) {
+            const V distance = (number(eye_.distance) + later) * length;
+            Ray from_eye{plus(ray_.point, hn::Neg(distance), along), along, gx, gy, vx, vy};
+            if constexpr (kSoft) {
+                from_eye.point_x = vector(eye_.origin_x);
+                from_eye.point_y = vector(eye_.origin_y);
+                from_eye.direction_x = over * plus(vx, hn::Neg(dot(along, vx)), along);
+                from_eye.direction_y = over * plus(vy, hn::Neg(dot(along, vy)), along);
+            }
+            V one[k_band_nodes];
+            for (int i = 0; i < nodes; ++i) one[i] = number(1.0f);
+            Gather<kMany> gather{lights_, before_, one};
+            uncovered_ = near_light<kSoft>(lights_, from_eye, distance, gather);
+        }
+
+        const V e2 = number(n * n);
+        const V r_s = bend / (q1 + q2), r_p = (e2 * q1 - q2) / (e2 * q1 + q2);
+        const V R_s = r_s * r_s, R_p = r_p * r_p, half = number(0.5f), one = number(1.0f);
+        leaf(half * (R_s + R_p), mirrored);
+        carried_.I = one - half * (R_s + R_p);
+        carried_.Q = half * (R_p - R_s);
+        carried_.U = number(0.0f);
+        carried_.V_ = number(0.0f);
+        // Cosine of the ray with the face before, as `turn` wants it.
+        cosine_before_ = hn::Neg(q2) * over_n;
+    }
+
+    // Into the tangent of the face with normal a, from that of the face before with normal b: the
+    // tangents are d x b and d x a.
+    HWY_INLINE void turn(const V3& a, const V& cosine, int k) {
+        const ShadedStone::Face &now = stone_.faces[facets_[k]], &was = stone_.faces[facets_[k - 1]];
+        const float ab = now.x * was.x + now.y * was.y + now.z * was.z;
+        const V3 cross{number(was.y * now.z - was.z * now.y), number(was.z * now.x - was.x * now.z),
+                       number(was.x * now.y - was.y * now.x)};
+        (void)a;
+        const V along = number(ab) - cosine * cosine_before_, across = dot(ray_.direction, cross);
+        const V al = along * along, ac = across * across, length = al + ac;
+        // Normal incidence has no tangent, and treats all directions alike.
+        const M any = length > number(1e-24f);
+        const V scale = number(1.0f) / hn::IfThenElse(any, length, number(1.0f));
+        const V cosine2 = hn::IfThenElse(any, (al - ac) * scale, number(1.0f));
+        const V sine2 = hn::IfThenElseZero(any, (along + along) * across * scale);
+        const V Q = carried_.Q;
+        carried_.Q = hn::MulAdd(cosine2, Q, sine2 * carried_.U);
+        carried_.U = hn::NegMulAdd(sine2, Q, cosine2 * carried_.U);
+    }
+
+    HWY_INLINE void meet(const V3& a, const V& cosine) {
+        const float n = optics_.n;
+        const V e = number(n * n), one = number(1.0f), half = number(0.5f), zero = number(0.0f);
+        const V q1 = number(n) * hn::Max(cosine, zero);
+        const V q2_squared = hn::MulAdd(q1, q1, number(-(n - 1) * (n + 1)));
+        const M out = q2_squared > zero;
+        V R_s = one, R_p = one, re = one, im = zero;
+        const bool any_out = !hn::AllFalse(k_floats, out);
+        if (any_out) {
+            const V q2 = hn::Sqrt(hn::Max(q2_squared, zero));
+            const V r_s = (q1 - q2) / (q1 + q2), r_p = (q1 - e * q2) / hn::MulAdd(e, q2, q1);
+            R_s = hn::IfThenElse(out, r_s * r_s, one);
+            R_p = hn::IfThenElse(out, r_p * r_p, one);
+            re = hn::IfThenElse(out, r_s * r_p, one);
+            Ray leaving{ray_.point, plus(number(n) * ray_.direction, q2 - q1, a), ray_.point_x,
+                        ray_.point_y, ray_.direction_x, ray_.direction_y};
+            if constexpr (kSoft) {
+                const V slope = q1 / hn::Max(q2, number(1e-6f));
+                const auto change = [&](const V3& inside) HWY_ATTR {
+                    const V3 turned = number(n) * inside;
+                    const V dq1 = dot(a, turned);
+                    return plus(turned, dq1 * slope - dq1, a);
+                };
+                leaving.direction_x = change(ray_.direction_x);
+                leaving.direction_y = change(ray_.direction_y);
+            }
+            V weight = (one - half * (R_s + R_p)) * carried_.I;
+            if constexpr (kPolarised) weight = weight + half * (R_p - R_s) * carried_.Q;
+            leaf(hn::IfThenElseZero(out, weight), leaving);
+        }
+        if constexpr (kPolarised) {
+            if (!hn::AllTrue(k_floats, out)) {
+                // r_s r_p* of total reflection: twice the angle of A + i B.
+                const V kappa = hn::Sqrt(hn::Max(hn::Neg(q2_squared), zero));
+                const V A = hn::MulAdd(e * kappa, kappa, q1 * q1),
+                        B = number((n - 1) * (n + 1)) * kappa * q1;
+                const V AA = A * A, BB = B * B, scale = one / hn::Max(AA + BB, number(1e-30f));
+                re = hn::IfThenElse(out, re, (AA - BB) * scale);
+                im = hn::IfThenElse(out, zero, (A + A) * B * scale);
+            }
+            if (any_out) {
+                const V sum = half * (R_s + R_p), difference = half * (R_s - R_p), I = carried_.I;
+                carried_.I = hn::MulAdd(sum, I, difference * carried_.Q);
+                carried_.Q = hn::MulAdd(difference, I, sum * carried_.Q);
+            }
+            const V U = carried_.U;
+            carried_.U = hn::MulSub(re, U, im * carried_.V_);
+            carried_.V_ = hn::MulAdd(im, U, re * carried_.V_);
+        } else {
+            carried_.I = carried_.I * half * (R_s + R_p);
+        }
+        const V twice = hn::Neg(cosine + cosine);
+        ray_.direction = plus(ray_.direction, twice, a);
+        if constexpr (kSoft) {
+            const auto mirror = [&](const V3& change) HWY_ATTR {
+                const V c = dot(a, change);
+                return plus(change, hn::Neg(c + c), a);
+            };
+            ray_.direction_x = mirror(ray_.direction_x);
+            ray_.direction_y = mirror(ray_.direction_y);
+        }
+        cosine_before_ = hn::Neg(cosine);
+    }
+
+    const ShadedStone& stone_;
+    const ShadedOptics& optics_;
+    const ShadedLights& lights_;
+    const ShadedEye& eye_;
+    const std::uint16_t* facets_;
+    int facet_count_;
+    const Fragments& out_;
+    Ray ray_;
+    Carried carried_;
+    V cosine_before_, uncovered_;
+    M follows_;
+    V sum_[kMany ? k_band_nodes : 1], tau_[kMany ? k_band_nodes : 1],
+        before_[kMany ? k_band_nodes : 1];
+};
+
+template <bool kPolarised, bool kSoft, bool kMany>
+void follow_all(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
+                int facet_count, const Fragments& fragments) {
+    Follower<kPolarised, kSoft, kMany> follower(job, eye, facets, facet_count, fragments);
+    const int lanes = static_cast<int>(hn::Lanes(k_floats));
+    for (int i = 0; i < fragments.count; i += lanes) follower.follow(i);
+}
+
+void ShadeBeam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
+               int facet_count, const Fragments& fragments) {
+    using Follow = void (*)(const ShadingJob&, const ShadedEye&, const std::uint16_t*, int,
+                            const Fragments&);
+    static constexpr Follow k_follow[8] = {
+        follow_all<false, false, false>, follow_all<false, false, true>,
+        follow_all<false, true, false>,  follow_all<false, true, true>,
+        follow_all<true, false, false>,  follow_all<true, false, true>,
+        follow_all<true, true, false>,   follow_all<true, true, true>};
+    const bool many = job.lights->nodes > 1 || !job.optics->absorption.empty();
+    const bool soft = fragments.soft && job.lights->any_edge;
+    k_follow[(job.optics->polarised ? 4 : 0) + (soft ? 2 : 0) + (many ? 1 : 0)](
+        job, eye, facets, facet_count, fragments);
+}
+
+template <bool kSoft>
+void background(const ShadedLights& lights, const ShadedEye& eye, const Fragments& fragments) {
+    const int lanes = static_cast<int>(hn::Lanes(k_floats));
+    const V3 vx = vector(eye.direction_x), vy = vector(eye.direction_y);
+    const V3 ox = vector(eye.origin_x), oy = vector(eye.origin_y);
+    for (int first = 0; first < fragments.count; first += lanes) {
+        const V dx = hn::LoadU(k_floats, fragments.x + first),
+                dy = hn::LoadU(k_floats, fragments.y + first);
+        const V3 v = plus(plus(vector(eye.direction), dx, vx), dy, vy);
+        const V over = number(1.0f) / hn::Sqrt(dot(v, v));
+        const V3 along = over * v;
+        const V3 from = plus(plus(vector(eye.point), dx, ox), dy, oy);
+        Ray ray{from, along, ox, oy, vx, vy};
+        if constexpr (kSoft) {
+            ray.direction_x = over * plus(vx, hn::Neg(dot(along, vx)), along);
+            ray.direction_y = over * plus(vy, hn::Neg(dot(along, vy)), along);
+        }
+        V sum[k_band_nodes], one[k_band_nodes];
+        for (int i = 0; i < lights.nodes; ++i) {
+            sum[i] = number(0.0f);
+            one[i] = number(1.0f);
+        }
+        Gather<true> gather{lights, sum, one};
+        all_light<kSoft>(lights, ray, number(1.0f), gather);
+        for (int i = 0; i < lights.nodes; ++i)
+            hn::StoreU(sum[i], k_floats,
+                       fragments.radiance +
+                           static_cast<size_t>(i) * static_cast<size_t>(fragments.stride) + first);
+    }
+}
+
+void ShadeBackground(const ShadedLights& lights, const ShadedEye& eye, const Fragments& fragments) {
+    if (fragments.soft && lights.any_edge) {
+        background<true>(lights, eye, fragments);
+    } else {
+        background<false>(lights, eye, fragments);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace culet
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace culet {
+
+HWY_EXPORT(ShadeBeam);
+HWY_EXPORT(ShadeBackground);
+
+void shade_beam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
+                int facet_count, const Fragments& fragments) {
+    HWY_DYNAMIC_DISPATCH(ShadeBeam)(job, eye, facets, facet_count, fragments);
+}
+
+void shade_background(const ShadedLights& lights, const ShadedEye& eye,
+                      const Fragments& fragments) {
+    HWY_DYNAMIC_DISPATCH(ShadeBackground)(lights, eye, fragments);
+}
+
+std::vector<std::string> shading_targets() {
+    std::vector<std::string> names;
+    for (std::int64_t target : hwy::SupportedAndGeneratedTargets())
+        names.emplace_back(hwy::TargetName(target));
+    return names;
+}
+
+bool use_shading_target(const std::string& name) {
+    hwy::SetSupportedTargetsForTest(0);
+    for (std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        if (name != hwy::TargetName(target)) continue;
+        hwy::SetSupportedTargetsForTest(target);
+        hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+        return true;
+    }
+    return false;
+}
+
+ShadedStone::ShadedStone(const FacetNet& net) : size(static_cast<float>(net.size())) {
+    Vec3 low(1e300), high(-1e300);
+    for (const Vec3& corner : net.corners()) {
+        low = glm::min(low, corner);
+        high = glm::max(high, corner);
+    }
+    middle = 0.5 * (low + high);
+    const auto number_of = [](double v) { return static_cast<float>(v); };
+    for (int f = 0; f < net.facets(); ++f) {
+        const Plane& plane = net.plane(f);
+        const Vec3& n = plane.normal;
+        const auto& edges = net.edges(f);
+        faces.push_back({number_of(n.x), number_of(n.y), number_of(n.z),
+                         number_of(plane.offset - glm::dot(n, middle)),
+                         static_cast<std::uint32_t>(sides.size()),
+                         static_cast<std::uint32_t>(edges.size())});
+        for (const NetEdge& edge : edges) {
+            const Vec3 from = net.corners()[static_cast<std::size_t>(edge.from)] - middle,
+                       to = net.corners()[static_cast<std::size_t>(edge.to)] - middle;
+            const Vec3 across = glm::normalize(glm::cross(to - from, n));
+            sides.push_back({number_of(across.x), number_of(across.y), number_of(across.z),
+                             number_of(0.5 * glm::dot(across, from + to))});
+        }
+    }
+}
+
+ShadedEye shaded_eye(const ScreenView& view, const ScreenPoint& at, const Plane& front,
+                     const Vec3& middle) {
+    const Vec3 origin = view.origin(at), v = view.towards(at);
+    const double length = glm::length(v);
+    const Vec3 direction = v / length;
+    const double distance =
+        -height_above(front, origin) / glm::dot(front.normal, direction);
+    ShadedEye eye;
+    const auto store = [](const Vec3& from, float* to) {
+        for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
+    };
+    store(origin + distance * direction - middle, eye.point);
+    store(direction, eye.direction);
+    store(view.vx / length, eye.direction_x);
+    store(view.vy / length, eye.direction_y);
+    store(view.ox, eye.origin_x);
+    store(view.oy, eye.origin_y);
+    store(view.ox + distance / length * view.vx, eye.point_x);
+    store(view.oy + distance / length * view.vy, eye.point_y);
+    eye.distance = static_cast<float>(distance);
+    return eye;
+}
+
+ShadedEye shaded_eye(const ScreenView& view, const ScreenPoint& at, const Vec3& middle) {
+    const Vec3 origin = view.origin(at), v = view.towards(at);
+    return shaded_eye(view, at, Plane{-glm::normalize(v), -glm::dot(glm::normalize(v), origin)},
+                      middle);
+}
+
+}  // namespace culet
+#endif

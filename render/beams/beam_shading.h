@@ -1,0 +1,91 @@
+#pragma once
+// Light of a beam's rays, each followed exactly along the facets that the beam names: no search,
+// many rays at once, in single precision about the stone's middle (the regions come from double).
+//
+// What is carried is that of light_paths.h: with polarisation the Stokes parameters of two
+// orthogonal eye polarisations, turned from face to face by products of normals alone.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "render/beams/beam_lights.h"
+#include "render/beams/facet_net.h"
+#include "render/beams/screen_view.h"
+
+namespace culet {
+
+/// The stone as the shading wants it, about `middle`.
+struct ShadedStone {
+    explicit ShadedStone(const FacetNet& net);
+
+    struct Side {
+        float x, y, z, offset;
+    };
+    struct Face {
+        float x, y, z, offset;
+        std::uint32_t first_side, sides;  ///< a point of the plane is on the facet within all sides
+    };
+    Vec3 middle{0};
+    float size = 1;
+    std::vector<Face> faces;
+    std::vector<Side> sides;
+};
+
+/// Light's way through the stone for one band of wavelengths.
+struct ShadedOptics {
+    float n = 1.5f;  ///< over the outside's
+    bool polarised = true;
+    std::vector<float> absorption;  ///< of each node, per length; empty: clear
+};
+
+/// Eye rays about one of them, at the beam's first facet. All about the stone's middle.
+struct ShadedEye {
+    float point[3], direction[3];    ///< where it enters, and its unit direction
+    float point_x[3], point_y[3];    ///< its change from pixel to pixel, at the same distance
+    float direction_x[3], direction_y[3];  ///< and of the direction
+    float origin_x[3], origin_y[3];        ///< and of where the eye ray starts
+    float distance = 0;                    ///< from there to the point
+};
+ShadedEye shaded_eye(const ScreenView& view, const ScreenPoint& at, const Plane& front,
+                     const Vec3& middle);
+/// The same where no facet is met: the point is where the ray starts.
+ShadedEye shaded_eye(const ScreenView& view, const ScreenPoint& at, const Vec3& middle);
+
+/// The rays of one beam; the arrays have room for `k_shading_room` more.
+struct Fragments {
+    const float *x = nullptr, *y = nullptr;  ///< pixels from the eye ray of reference
+    int count = 0;
+    /// Radiance of node i in radiance[i * stride + fragment]: overwritten.
+    float* radiance = nullptr;
+    int stride = 0;
+    float* left = nullptr;      ///< what of the eye's unit of light is still inside at the end
+    float* absorbed = nullptr;  ///< or null
+    /// 1 where the ray does meet these facets and no others; null: not looked at.
+    std::uint8_t* follows = nullptr;
+    bool soft = false;  ///< lights' edges are averaged over a pixel
+};
+constexpr int k_shading_room = 16;
+
+struct ShadingJob {
+    const ShadedStone* stone = nullptr;
+    const ShadedOptics* optics = nullptr;
+    const ShadedLights* lights = nullptr;
+};
+
+/// Follows the fragments' rays along `facets`, the front one first.
+void shade_beam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
+                int facet_count, const Fragments& fragments);
+
+/// Lights seen by the eye itself: `fragments` are of a view whose reference ray starts at
+/// `eye.point`.
+void shade_background(const ShadedLights& lights, const ShadedEye& eye,
+                      const Fragments& fragments);
+
+/// Instruction sets that this processor has of those that were compiled, best first; the first is
+/// used. "EMU128" or "SSE2" is the portable one.
+std::vector<std::string> shading_targets();
+/// Uses the named one from now on; false when there is no such. For tests.
+bool use_shading_target(const std::string& name);
+
+}  // namespace culet

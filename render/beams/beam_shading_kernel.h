@@ -1,0 +1,271 @@
+// The shading of beams for one instruction set; compiled once for each by Highway.
+// No include guard of the usual kind: Highway includes this once for each target.
+
+#include <hwy/highway.h>
+
+#include <hwy/contrib/math/math-inl.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace culet {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Floats = hn::ScalableTag<float>;
+using V = hn::Vec<Floats>;
+using M = hn::Mask<Floats>;
+constexpr Floats k_floats;
+
+HWY_INLINE V number(float v) {
+    return hn::Set(k_floats, v);
+}
+HWY_INLINE V clamped_to_unit(V v) {
+    return hn::Min(hn::Max(v, number(0.0f)), number(1.0f));
+}
+
+struct V3 {
+    V x, y, z;
+};
+HWY_INLINE V3 vector(const float* v) {
+    return {number(v[0]), number(v[1]), number(v[2])};
+}
+HWY_INLINE V3 operator+(const V3& a, const V3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+HWY_INLINE V3 operator*(const V& f, const V3& a) {
+    return {f * a.x, f * a.y, f * a.z};
+}
+// a + f b
+HWY_INLINE V3 plus(const V3& a, const V& f, const V3& b) {
+    return {hn::MulAdd(f, b.x, a.x), hn::MulAdd(f, b.y, a.y), hn::MulAdd(f, b.z, a.z)};
+}
+HWY_INLINE V dot(const V3& a, const V3& b) {
+    return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, a.z * b.z));
+}
+HWY_INLINE V largest_of(const V3& a) {
+    return hn::Sqrt(dot(a, a));
+}
+
+// How a value changes from pixel to pixel: to the right and down.
+struct Gradient {
+    V x, y;
+};
+// A ray, and how it changes from pixel to pixel.
+struct Ray {
+    V3 point, direction, point_x, point_y, direction_x, direction_y;
+};
+
+// Share of a pixel where a value that is linear in it is above 0.
+HWY_INLINE V share_above(const V& value, const Gradient& g) {
+    const V a = hn::Abs(g.x), b = hn::Abs(g.y);
+    const V high = hn::Max(hn::Max(a, b), number(1e-30f)), low = hn::Min(a, b);
+    const V size = hn::Abs(value), reach = number(0.5f) * (high + low);
+    // The pixel's corner beyond the line, or a slice of it.
+    const V missing = hn::Max(reach - size, number(0.0f));
+    const V corner = missing * missing / (number(2.0f) * high * hn::Max(low, number(1e-30f)));
+    const V slice = number(0.5f) - size / high;
+    const V beyond = hn::IfThenElse(size < number(0.5f) * (high - low), slice, corner);
+    return hn::IfThenElse(value > number(0.0f), number(1.0f) - beyond, beyond);
+}
+
+template <bool kSoft>
+HWY_INLINE V share_where(const V& value, const Gradient& g) {
+    if constexpr (kSoft) {
+        return share_above(value, g);
+    } else {
+        (void)g;
+        return hn::IfThenElseZero(value > number(0.0f), number(1.0f));
+    }
+}
+
+// Light that comes along a ray: calls take(factor, radiance of each node).
+template <bool kSoft, class Take>
+HWY_INLINE void distant_light(const ShadedLights& lights, const Ray& ray, const V& unhidden,
+                              Take& take) {
+    const V3& d = ray.direction;
+    take(unhidden, lights.constant.data());
+    for (const ShadedLights::Lobe& lobe : lights.lobes) {
+        const V cosine = hn::Max(
+            hn::MulAdd(number(lobe.x), d.x, hn::MulAdd(number(lobe.y), d.y, number(lobe.z) * d.z)),
+            number(0.0f));
+        V power = number(1.0f);
+        if (lobe.whole >= 0) {
+            V square = cosine;
+            for (int e = lobe.whole; e > 0; e >>= 1, square = square * square) {
+                if (e & 1) power = power * square;
+            }
+        } else {
+            // The smallest normal number stands for 0, whose logarithm is no number.
+            const V some = hn::Max(cosine, number(1.2e-38f));
+            power = hn::IfThenElseZero(
+                cosine > number(0.0f),
+                hn::Exp(k_floats, number(lobe.exponent) * hn::Log(k_floats, some)));
+        }
+        take(unhidden * power, lobe.radiance.data());
+    }
+    for (const ShadedLights::Cap& cap : lights.caps) {
+        const V3 axis{number(cap.x), number(cap.y), number(cap.z)};
+        const V cosine = dot(axis, d);
+        Gradient g{number(0.0f), number(0.0f)};
+        if constexpr (kSoft) g = {dot(axis, ray.direction_x), dot(axis, ray.direction_y)};
+        V share = share_where<kSoft>(cosine - number(cap.to), g);
+        if (cap.from <= 1) share = share - share_where<kSoft>(cosine - number(cap.from), g);
+        take(unhidden * share, cap.radiance.data());
+    }
+}
+
+// The environment's red, green and blue at a direction.
+HWY_INLINE V3 environment_at(const EnvironmentPyramid& map, const V3& d, const V& extent) {
+    const auto& levels = map.levels();
+    const V sum = hn::Abs(d.x) + hn::Abs(d.y) + hn::Abs(d.z);
+    const V scale = number(1.0f) / sum;
+    const V px = d.x * scale, py = d.y * scale;
+    const M below = d.z < number(0.0f);
+    const V one = number(1.0f);
+    const V fx = hn::CopySign(one - hn::Abs(py), px), fy = hn::CopySign(one - hn::Abs(px), py);
+    const V u = hn::IfThenElse(below, fx, px), v = hn::IfThenElse(below, fy, py);
+    // The level whose texels are about as large as what the pixel sees.
+    const hn::Rebind<int32_t, Floats> ints;
+    const V texels = hn::Max(extent / number(levels.front().texel), number(1.0f));
+    // Nearest power of two: the exponent of sqrt(2) times it.
+    const auto bits = hn::BitCast(ints, texels * number(1.41421356f));
+    const auto level = hn::Min(hn::ShiftRight<23>(bits) - hn::Set(ints, 127),
+                               hn::Set(ints, static_cast<int32_t>(levels.size()) - 1));
+    HWY_ALIGN int32_t level_of[64], start_of[64], side_of[64];
+    hn::Store(level, ints, level_of);
+    const size_t lanes = hn::Lanes(k_floats);
+    for (size_t i = 0; i < lanes; ++i) {
+        const auto& here = levels[static_cast<size_t>(level_of[i])];
+        start_of[i] = static_cast<int32_t>(here.start);
+        side_of[i] = here.side;
+    }
+    const auto start = hn::Load(ints, start_of), side = hn::Load(ints, side_of);
+    const V half = number(0.5f), side_f = hn::ConvertTo(k_floats, side);
+    // Texel centres are at half numbers; the border adds 1.
+    const V x = hn::MulAdd(hn::MulAdd(u, half, half), side_f, half),
+            y = hn::MulAdd(hn::MulAdd(v, half, half), side_f, half);
+    const V x0 = hn::Floor(x), y0 = hn::Floor(y);
+    const V tx = x - x0, ty = y - y0;
+    const auto row = side + hn::Set(ints, 2);
+    const auto index = start + hn::ConvertTo(ints, y0) * row + hn::ConvertTo(ints, x0);
+    const auto mix = [&](const float* plane) HWY_ATTR {
+        const V a = hn::GatherIndex(k_floats, plane, index),
+                b = hn::GatherIndex(k_floats, plane + 1, index),
+                c = hn::GatherIndex(k_floats, plane, index + row),
+                e = hn::GatherIndex(k_floats, plane + 1, index + row);
+        const V upper = hn::MulAdd(tx, b - a, a), lower = hn::MulAdd(tx, e - c, c);
+        return hn::MulAdd(ty, lower - upper, upper);
+    };
+    return {mix(map.plane(0)), mix(map.plane(1)), mix(map.plane(2))};
+}
+
+// Near lights by their distance: how much of the pixel each fills, and how far it is.
+template <bool kSoft>
+HWY_INLINE V sphere_share(const ShadedLights::Sphere& sphere, const Ray& ray, V& distance) {
+    const V3 to{number(sphere.x) - ray.point.x, number(sphere.y) - ray.point.y,
+                number(sphere.z) - ray.point.z};
+    const V along = dot(to, ray.direction);
+    const V3 beside = plus(to, hn::Neg(along), ray.direction);
+    const V miss = hn::Sqrt(dot(beside, beside));
+    const V radius = number(sphere.radius);
+    const V inside = radius - miss;
+    const V half = hn::Sqrt(hn::Max(inside * (radius + miss), number(0.0f)));
+    const V near = along - half, far = along + half;
+    distance = hn::IfThenElse(near > number(0.0f), near, far);
+    Gradient g{number(0.0f), number(0.0f)};
+    if constexpr (kSoft) {
+        // beside changes by -point_x - along direction_x, across the ray.
+        const V over = number(1.0f) / hn::Max(miss, number(1e-30f));
+        g = {(dot(beside, ray.point_x) + along * dot(beside, ray.direction_x)) * over,
+             (dot(beside, ray.point_y) + along * dot(beside, ray.direction_y)) * over};
+    }
+    return hn::IfThenElseZero(distance > number(0.0f), share_where<kSoft>(inside, g));
+}
+
+template <bool kSoft>
+HWY_INLINE V plane_share(const ShadedLights::Plane& plane, const Ray& ray, V& distance) {
+    const V3 normal{number(plane.x), number(plane.y), number(plane.z)};
+    const V towards = dot(normal, ray.direction), height = dot(normal, ray.point) - number(plane.offset);
+    const M meets = hn::And(towards < number(0.0f), height > number(0.0f));
+    distance = height / hn::IfThenElse(meets, hn::Neg(towards), number(1.0f));
+    V share = hn::IfThenElseZero(meets, number(1.0f));
+    if (!plane.bounded) return share;
+    const V3 at = plus(ray.point, distance, ray.direction);
+    V3 at_x = at, at_y = at;
+    if constexpr (kSoft) {
+        const auto moved = [&](const V3& p, const V3& d) HWY_ATTR {
+            const V3 still = plus(p, distance, d);
+            return plus(still, hn::Neg(dot(normal, still)) / hn::IfThenElse(meets, towards, number(-1.0f)),
+                        ray.direction);
+        };
+        at_x = moved(ray.point_x, ray.direction_x);
+        at_y = moved(ray.point_y, ray.direction_y);
+    }
+    for (const float* row : {plane.s, plane.t}) {
+        const V3 axis = vector(row);
+        const V value = dot(axis, at) + number(row[3]);
+        Gradient g{number(0.0f), number(0.0f)};
+        if constexpr (kSoft) g = {dot(axis, at_x), dot(axis, at_y)};
+        share = share * (share_where<kSoft>(value + number(1.0f), g) -
+                         share_where<kSoft>(value - number(1.0f), g));
+    }
+    return share;
+}
+
+constexpr int k_most_near_lights = 16;
+
+// All lights along a ray. `hidden_from`: near lights farther than that are not seen and nothing is
+// hidden; the share of the pixel that near lights fill is returned.
+template <bool kSoft, class Take>
+HWY_INLINE V near_light(const ShadedLights& lights, const Ray& ray, const V& reach, Take& take) {
+    V share[k_most_near_lights], distance[k_most_near_lights];
+    const float* radiance[k_most_near_lights];
+    int count = 0;
+    for (const auto& sphere : lights.spheres) {
+        radiance[count] = sphere.radiance.data();
+        share[count] = sphere_share<kSoft>(sphere, ray, distance[count]);
+        ++count;
+    }
+    for (const auto& plane : lights.planes) {
+        radiance[count] = plane.radiance.data();
+        share[count] = plane_share<kSoft>(plane, ray, distance[count]);
+        ++count;
+    }
+    V unhidden = number(1.0f);
+    for (int i = 0; i < count; ++i) {
+        share[i] = hn::IfThenElseZero(distance[i] < reach, share[i]);
+        V seen = share[i];
+        for (int j = 0; j < count; ++j) {
+            if (j == i) continue;
+            const M before = j < i ? distance[j] <= distance[i] : distance[j] < distance[i];
+            const V hides = hn::IfThenElseZero(hn::And(before, distance[j] < reach), share[j]);
+            seen = seen * (number(1.0f) - hides);
+        }
+        take(seen, radiance[i]);
+        unhidden = unhidden * (number(1.0f) - share[i]);
+    }
+    return unhidden;
+}
+
+template <bool kSoft, class Take>
+HWY_INLINE void all_light(const ShadedLights& lights, const Ray& ray, const V& from_here,
+                          Take& take) {
+    V unhidden = from_here;
+    if (!lights.spheres.empty() || !lights.planes.empty()) {
+        const auto scaled = [&](const V& factor, const float* radiance) HWY_ATTR {
+            take(factor * from_here, radiance);
+        };
+        unhidden = unhidden * near_light<kSoft>(lights, ray, number(3e38f), scaled);
+    }
+    distant_light<kSoft>(lights, ray, unhidden, take);
+    if (lights.environment) {
+        V extent = number(0.0f);
+        if constexpr (kSoft)
+            extent = hn::Max(largest_of(ray.direction_x), largest_of(ray.direction_y));
+        const V3 rgb = environment_at(*lights.environment, ray.direction, extent);
+        take.colour(unhidden * rgb.x, unhidden * rgb.y, unhidden * rgb.z);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace culet
+HWY_AFTER_NAMESPACE();

@@ -1,0 +1,468 @@
+#include "render/beams/beam_tree.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/fresnel.h"
+
+namespace culet {
+
+namespace {
+
+struct Region {
+    std::size_t first = 0, count = 0;  // in a pool of corners
+};
+
+// Twice the area; positive when the corners run from x to y.
+double doubled_area(const ScreenPoint* p, std::size_t count) {
+    double sum = 0;
+    for (std::size_t i = 2; i < count; ++i) {
+        sum += (p[i - 1].x - p[0].x) * (p[i].y - p[0].y) -
+               (p[i].x - p[0].x) * (p[i - 1].y - p[0].y);
+    }
+    return sum;
+}
+
+ScreenPoint middle_of(const ScreenPoint* p, std::size_t count) {
+    double weight = 0, x = 0, y = 0;
+    for (std::size_t i = 2; i < count; ++i) {
+        const double ax = p[i - 1].x - p[0].x, ay = p[i - 1].y - p[0].y, bx = p[i].x - p[0].x,
+                     by = p[i].y - p[0].y, w = ax * by - bx * ay;
+        weight += w;
+        x += w * (ax + bx);
+        y += w * (ay + by);
+    }
+    return {p[0].x + x / (3 * weight), p[0].y + y / (3 * weight)};
+}
+
+double mean_reflectance(double n, double cosine) {
+    const FaceAmplitudes face = fresnel(n, 1.0, n * cosine);
+    return face.total ? 1.0 : 0.5 * (std::norm(face.r_s) + std::norm(face.r_p));
+}
+
+// A beam that is to be split: what its rays have in common.
+struct Trunk {
+    int facet = 0;  // met last
+    Region region;
+    double doubled_area = 0;
+    double weight = 1;  // of what goes on behind the facet before that
+};
+
+// Grows the beams below one beam, and keeps the room for it.
+class Grower {
+public:
+    void prepare(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits) {
+        net_ = &net;
+        view_ = &view;
+        n_ = n;
+        limits_ = &limits;
+        if (stamp_of_corner_.size() != net.corners().size() ||
+            stamp_of_line_.size() != static_cast<std::size_t>(net.lines()) ||
+            seen_.size() != static_cast<std::size_t>(net.facets())) {
+            images_.resize(net.corners().size());
+            lines_.resize(static_cast<std::size_t>(net.lines()));
+            stamp_of_corner_.assign(net.corners().size(), 0);
+            stamp_of_line_.assign(lines_.size(), 0);
+            seen_.assign(static_cast<std::size_t>(net.facets()), 0);
+            stamp_ = 0;
+        }
+        // The same start for every branch, whichever thread grows it: ties must not depend on it.
+        guess_.assign(static_cast<std::size_t>(net.facets()), -1);
+    }
+
+    /// Beams behind the front facet's, with the corners of their regions in `corners()`. None when
+    /// the front beam is not to be split.
+    const std::vector<Trunk>& split_front(int facet, const std::vector<ScreenPoint>& outline) {
+        pool_ = outline;
+        path_.assign(1, static_cast<std::uint16_t>(facet));
+        children_.clear();
+        const double doubled = doubled_area(outline.data(), outline.size());
+        const ScreenPoint middle = middle_of(outline.data(), outline.size());
+        const Pencil pencil = pencil_through(*view_, middle, net_->plane(facet), n_);
+        const FaceAmplitudes face = fresnel(1.0, n_, pencil.cos_i);
+        const Trunk trunk{facet,
+                          {0, outline.size()},
+                          doubled,
+                          0.5 * (face.t_s * face.t_s + face.t_p * face.t_p)};
+        if (limits_->depth > 1 && worth_splitting(trunk)) split(trunk, pencil, Folding(), middle);
+        return children_;
+    }
+    const std::vector<ScreenPoint>& corners() const { return pool_; }
+
+    /// A beam that nothing is split from: the front facet's.
+    void keep_front(int facet, const std::vector<ScreenPoint>& outline, BeamBranch& out) {
+        out_ = &out;
+        ++out.beams;
+        pool_ = outline;
+        path_.assign(1, static_cast<std::uint16_t>(facet));
+        leaf({facet,
+              {0, outline.size()},
+              doubled_area(outline.data(), outline.size()),
+              1});
+    }
+
+    /// All beams below one that `split_front` found; `middle`: of the front facet's outline.
+    void grow_branch(int front, const ScreenPoint& middle, const Trunk& child,
+                     const ScreenPoint* region, BeamBranch& out) {
+        out_ = &out;
+        pool_.assign(region, region + child.region.count);
+        path_.assign(1, static_cast<std::uint16_t>(front));
+        children_.clear();
+        front_ = pencil_through(*view_, middle, net_->plane(front), n_);
+        Trunk trunk = child;
+        trunk.region.first = 0;
+        grow(trunk, Folding());
+    }
+
+private:
+    void leaf(const Trunk& trunk) {
+        const ScreenPoint* corners = pool_.data() + trunk.region.first;
+        Beam beam;
+        beam.corner = static_cast<std::uint32_t>(out_->corners.size());
+        beam.corners = static_cast<std::uint16_t>(trunk.region.count);
+        beam.facet = static_cast<std::uint32_t>(out_->facets.size());
+        beam.facets = static_cast<std::uint16_t>(path_.size());
+        double low = corners[0].y, high = low;
+        for (std::size_t i = 1; i < trunk.region.count; ++i) {
+            low = std::min(low, corners[i].y);
+            high = std::max(high, corners[i].y);
+        }
+        beam.first_row = static_cast<std::int32_t>(std::floor(low));
+        beam.end_row = static_cast<std::int32_t>(std::ceil(high));
+        out_->corners.insert(out_->corners.end(), corners, corners + trunk.region.count);
+        out_->facets.insert(out_->facets.end(), path_.begin(), path_.end());
+        out_->leaves.push_back(beam);
+        out_->deepest = std::max(out_->deepest, static_cast<int>(path_.size()));
+        out_->leaf_area += 0.5 * trunk.doubled_area;
+    }
+
+    // `folding`: to the stone before the trunk's facet mirrors it.
+    void grow(const Trunk& trunk, const Folding& folding) {
+        ++out_->beams;
+        path_.push_back(static_cast<std::uint16_t>(trunk.facet));
+        if (static_cast<int>(path_.size()) >= limits_->depth) {
+            leaf(trunk);
+        } else {
+            go_on(trunk, folding);
+        }
+        path_.pop_back();
+    }
+
+    void go_on(const Trunk& trunk, const Folding& before) {
+        const ScreenPoint middle = middle_of(pool_.data() + trunk.region.first, trunk.region.count);
+        const Plane& plane = net_->plane(trunk.facet);
+        const Pencil pencil = limits_->pencil == PencilKind::astigmatic
+                                  ? pencil_through(*view_, middle, net_->plane(path_.front()), n_)
+                                  : front_;
+        const Folding folding = before.mirrored(plane);
+        const double cosine = glm::dot(before.turn * pencil.direction, plane.normal);
+        Trunk next = trunk;
+        next.weight *= mean_reflectance(n_, std::clamp(cosine, 0.0, 1.0));
+        if (!worth_splitting(next)) {
+            leaf(trunk);
+            return;
+        }
+        const std::size_t first_child = children_.size(), pool_before = pool_.size();
+        split(next, pencil, folding, middle);
+        // Growing a child appends to `children_` and takes away what it appended.
+        const std::size_t end = children_.size();
+        for (std::size_t i = first_child; i < end; ++i) {
+            const Trunk child = children_[i];
+            grow(child, folding);
+        }
+        children_.resize(first_child);
+        pool_.resize(pool_before);
+    }
+
+    bool worth_splitting(const Trunk& trunk) const {
+        return trunk.weight >= limits_->cut_weight &&
+               0.5 * trunk.weight * trunk.doubled_area >= limits_->cut_contribution;
+    }
+
+    // Facet through which the ray leaves the stone that it runs in: the largest (n.d)/(c - n.x),
+    // found by walking, because over neighbours a largest one is the largest of all.
+    int exit_of(int facet, const Vec3& x, const Vec3& d) {
+        int best = guess_[static_cast<std::size_t>(facet)];
+        if (best < 0) best = net_->edges(facet).front().beyond;
+        const auto towards = [&](int f) { return glm::dot(net_->plane(f).normal, d); };
+        const auto below = [&](int f) { return std::max(0.0, -height_above(net_->plane(f), x)); };
+        double top = towards(best), bottom = below(best);
+        for (int step = 0; step < net_->facets(); ++step) {
+            int better = -1;
+            for (const NetEdge& edge : net_->edges(best)) {
+                const double t = towards(edge.beyond), b = below(edge.beyond);
+                if (t * bottom > top * b) {
+                    better = edge.beyond;
+                    top = t;
+                    bottom = b;
+                }
+            }
+            if (better < 0) break;
+            best = better;
+        }
+        guess_[static_cast<std::size_t>(facet)] = best;
+        return best;
+    }
+
+    const ScreenImage& image(int corner) {
+        const std::size_t i = static_cast<std::size_t>(corner);
+        if (stamp_of_corner_[i] != stamp_) {
+            stamp_of_corner_[i] = stamp_;
+            images_[i] = map_.of(net_->corners()[i]);
+        }
+        return images_[i];
+    }
+    const Vec3& line(const NetEdge& edge) {
+        const std::size_t i = static_cast<std::size_t>(edge.line);
+        if (stamp_of_line_[i] != stamp_) {
+            stamp_of_line_[i] = stamp_;
+            const int low = std::min(edge.from, edge.to), high = std::max(edge.from, edge.to);
+            lines_[i] = glm::cross(image(low), image(high));
+        }
+        return lines_[i];
+    }
+    static double side(const Vec3& line, const ScreenPoint& p) {
+        return line.x * p.x + line.y * p.y + line.z;
+    }
+    // Of the line's two sides, the one that the facet is on: +1 for the line as it is.
+    double inside_of(const NetEdge& edge) const { return edge.from < edge.to ? parity_ : -parity_; }
+
+    // True when the map sees the facet from within.
+    bool leads_out(int facet) const {
+        const Plane& plane = net_->plane(facet);
+        return glm::dot(plane.normal, eye_) - eye_w_ * plane.offset < 0;
+    }
+
+    void split(const Trunk& trunk, const Pencil& pencil, const Folding& folding,
+               const ScreenPoint& middle) {
+        if (++stamp_ == 0) {
+            std::fill(stamp_of_corner_.begin(), stamp_of_corner_.end(), 0u);
+            std::fill(stamp_of_line_.begin(), stamp_of_line_.end(), 0u);
+            std::fill(seen_.begin(), seen_.end(), 0u);
+            stamp_ = 1;
+        }
+        const Vec3 d = folding.turn * pencil.direction, o = folding.point(pencil.x0);
+        const Plane& left = net_->plane(trunk.facet);
+        const double towards = glm::dot(left.normal, d);
+        const Vec3 x = towards != 0 ? o - height_above(left, o) / towards * d : o;
+        const int exit = exit_of(trunk.facet, x, d);
+        const Plane& hit = net_->plane(exit);
+        const double into = glm::dot(hit.normal, d);
+        const double length = into > 0 ? -height_above(hit, o) / into : 0;
+        const double depth = std::max(0.0, length) * pencil.cos_t;
+        map_ = map_of(pencil, limits_->pencil, folding, depth);
+        const double k = limits_->pencil == PencilKind::parallel ? 0 : 0.5 * (pencil.k_s + pencil.k_t);
+        eye_ = folding.turn * (k * pencil.x0 - pencil.direction / pencil.cos_t) + k * folding.shift;
+        eye_w_ = k;
+        parity_ = path_.size() % 2 == 1 ? 1 : -1;
+
+        open_.assign(1, facet_around(exit, middle));
+        seen_[static_cast<std::size_t>(open_.front())] = stamp_;
+        while (!open_.empty()) {
+            const int facet = open_.back();
+            open_.pop_back();
+            clip(trunk, facet);
+        }
+    }
+
+    // The facet in whose image the point lies, by walking over edges from `facet`.
+    int facet_around(int facet, const ScreenPoint& point) {
+        for (int step = 0; step < 2 * net_->facets(); ++step) {
+            const auto& edges = net_->edges(facet);
+            const auto out = std::find_if(edges.begin(), edges.end(), [&](const NetEdge& edge) {
+                return inside_of(edge) * side(line(edge), point) < 0 && leads_out(edge.beyond);
+            });
+            if (out == edges.end()) break;
+            facet = out->beyond;
+        }
+        return facet;
+    }
+
+    void clip(const Trunk& trunk, int facet) {
+        const ScreenPoint* corners = pool_.data() + trunk.region.first;
+        kept_.assign(corners, corners + trunk.region.count);
+        for (const NetEdge& edge : net_->edges(facet)) {
+            if (edge.beyond == trunk.facet) continue;
+            const Vec3& l = line(edge);
+            const double sign = inside_of(edge);
+            sides_.resize(kept_.size());
+            bool any_out = false, any_in = false;
+            for (std::size_t i = 0; i < kept_.size(); ++i) {
+                sides_[i] = sign * side(l, kept_[i]);
+                any_out |= sides_[i] < 0;
+                any_in |= sides_[i] > 0;
+            }
+            // Beyond the outline of what the eye sees from within there is no other facet.
+            if (!any_out || !leads_out(edge.beyond)) continue;
+            if (seen_[static_cast<std::size_t>(edge.beyond)] != stamp_) {
+                seen_[static_cast<std::size_t>(edge.beyond)] = stamp_;
+                open_.push_back(edge.beyond);
+            }
+            if (!any_in) return;
+            cut();
+        }
+        const double area = doubled_area(kept_.data(), kept_.size());
+        if (!(area > 0)) return;
+        children_.push_back({facet, {pool_.size(), kept_.size()}, area, trunk.weight});
+        pool_.insert(pool_.end(), kept_.begin(), kept_.end());
+    }
+
+    // Sutherland and Hodgman (1974) at the line whose `sides_` are known. A crossing point is
+    // computed alike for both facets of the line, because with all signs turned t is the same.
+    void cut() {
+        cut_.clear();
+        const std::size_t count = kept_.size();
+        for (std::size_t i = 0, j = count - 1; i < count; j = i++) {
+            if ((sides_[j] < 0) != (sides_[i] < 0)) {
+                const double t = sides_[j] / (sides_[j] - sides_[i]);
+                cut_.push_back({kept_[j].x + t * (kept_[i].x - kept_[j].x),
+                                kept_[j].y + t * (kept_[i].y - kept_[j].y)});
+            }
+            if (!(sides_[i] < 0)) cut_.push_back(kept_[i]);
+        }
+        std::swap(kept_, cut_);
+    }
+
+    const FacetNet* net_ = nullptr;
+    const ScreenView* view_ = nullptr;
+    const BeamLimits* limits_ = nullptr;
+    double n_ = 1;
+    BeamBranch* out_ = nullptr;
+    Pencil front_;
+    std::vector<std::uint16_t> path_;
+    std::vector<ScreenPoint> pool_, kept_, cut_;
+    std::vector<double> sides_;
+    std::vector<Trunk> children_;
+    std::vector<int> open_, guess_;
+    // Of the beam that is being split.
+    PencilMap map_;
+    Vec3 eye_{0};
+    double eye_w_ = 0, parity_ = 1;
+    std::vector<ScreenImage> images_;
+    std::vector<Vec3> lines_;
+    std::vector<unsigned> stamp_of_corner_, stamp_of_line_, seen_;
+    unsigned stamp_ = 0;
+};
+
+// What the picture shows of a facet, positively oriented; empty when nothing.
+std::vector<ScreenPoint> seen_outline(const FacetNet& net, int facet, const ScreenView& view) {
+    std::vector<Vec3> images;
+    for (const NetEdge& edge : net.edges(facet))
+        images.push_back(view.of_point(net.corners()[static_cast<std::size_t>(edge.from)]));
+    // The picture's four borders, before division by w: what is behind the eye goes with them.
+    const double width = view.width, height = view.height;
+    for (const Vec3& border : {Vec3{1, 0, 0}, Vec3{-1, 0, width}, Vec3{0, 1, 0}, Vec3{0, -1, height}}) {
+        std::vector<Vec3> kept;
+        for (std::size_t i = 0, j = images.size() - 1; i < images.size(); j = i++) {
+            const double here = glm::dot(border, images[i]), before = glm::dot(border, images[j]);
+            if ((here < 0) != (before < 0))
+                kept.push_back(images[j] + before / (before - here) * (images[i] - images[j]));
+            if (!(here < 0)) kept.push_back(images[i]);
+        }
+        images = kept;
+        if (images.empty()) return {};
+    }
+    std::vector<ScreenPoint> outline;
+    for (const Vec3& image : images) {
+        if (!(image.z > 0)) return {};  // a single point on the eye's plane
+        outline.push_back({image.x / image.z, image.y / image.z});
+    }
+    // Counter-clockwise from outside is from y to x in a picture whose y runs down.
+    std::reverse(outline.begin(), outline.end());
+    return outline;
+}
+
+}  // namespace
+
+void BeamBranch::clear() {
+    leaves.clear();
+    corners.clear();
+    facets.clear();
+    beams = 0;
+    leaf_area = 0;
+    deepest = 0;
+}
+
+long long BeamTree::beams() const {
+    long long sum = 0;
+    for (std::size_t i = 0; i < branch_count; ++i) sum += branches[i].beams;
+    return sum;
+}
+
+int BeamTree::deepest() const {
+    int most = 0;
+    for (std::size_t i = 0; i < branch_count; ++i) most = std::max(most, branches[i].deepest);
+    return most;
+}
+
+double BeamTree::leaf_area() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < branch_count; ++i) sum += branches[i].leaf_area;
+    return sum;
+}
+
+void build_beams(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits,
+                 BeamTree& tree) {
+    struct Front {
+        int facet = 0;
+        std::vector<ScreenPoint> outline, corners;
+        std::vector<Trunk> children;
+    };
+    std::vector<Front> fronts;
+    tree.front_area = 0;
+    for (int facet = 0; facet < net.facets(); ++facet) {
+        if (net.edges(facet).empty() || !view.sees(net.plane(facet))) continue;
+        Front front{facet, seen_outline(net, facet, view), {}, {}};
+        if (front.outline.size() < 3) continue;
+        const double doubled = doubled_area(front.outline.data(), front.outline.size());
+        if (!(doubled > 0)) continue;
+        tree.front_area += 0.5 * doubled;
+        fronts.push_back(std::move(front));
+    }
+    tbb::enumerable_thread_specific<Grower> growers;
+    const auto grower = [&]() -> Grower& {
+        Grower& mine = growers.local();
+        mine.prepare(net, view, n, limits);
+        return mine;
+    };
+    tbb::parallel_for(
+        std::size_t{0}, fronts.size(),
+        [&](std::size_t i) {
+            Grower& mine = grower();
+            fronts[i].children = mine.split_front(fronts[i].facet, fronts[i].outline);
+            fronts[i].corners = mine.corners();
+        },
+        tbb::simple_partitioner());
+    struct Start {
+        std::size_t front = 0, child = 0;
+    };
+    constexpr std::size_t k_none = ~std::size_t{0};
+    std::vector<Start> starts;
+    for (std::size_t i = 0; i < fronts.size(); ++i) {
+        if (fronts[i].children.empty()) starts.push_back({i, k_none});
+        for (std::size_t j = 0; j < fronts[i].children.size(); ++j) starts.push_back({i, j});
+    }
+    tree.branch_count = starts.size();
+    if (tree.branches.size() < starts.size()) tree.branches.resize(starts.size());
+    tbb::parallel_for(
+        std::size_t{0}, starts.size(),
+        [&](std::size_t i) {
+            const Front& front = fronts[starts[i].front];
+            BeamBranch& out = tree.branches[i];
+            out.clear();
+            Grower& mine = grower();
+            if (starts[i].child == k_none) {
+                mine.keep_front(front.facet, front.outline, out);
+                return;
+            }
+            const Trunk& child = front.children[starts[i].child];
+            mine.grow_branch(front.facet, middle_of(front.outline.data(), front.outline.size()),
+                             child, front.corners.data() + child.region.first, out);
+        },
+        tbb::simple_partitioner());
+}
+
+}  // namespace culet

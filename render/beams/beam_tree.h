@@ -1,0 +1,60 @@
+#pragma once
+// The beams of a convex stone: regions of the picture whose rays meet the same facets, in the same
+// order (Voelker & Hamann's beam tree, Guy & Soler's facet tree), unfolded (pencil.h).
+//
+// A beam's polygon is clipped by the facets that its rays meet next, found by walking over edges.
+// An edge's line is computed once, from its lower corner to its higher one, and taken with either
+// sign by the two facets that share it, so that children tile their parent without an epsilon; an
+// edge shared with the facet just left is never clipped by.
+
+#include <cstdint>
+#include <vector>
+
+#include "render/beams/facet_net.h"
+#include "render/beams/pencil.h"
+
+namespace culet {
+
+struct BeamLimits {
+    int depth = 8;  ///< facets met, the front one included
+    /// A beam of less weight (mean of s and p, without absorption, at its middle) is not split
+    /// further, nor one of less weight x area in square pixels.
+    double cut_weight = 0, cut_contribution = 0;
+    PencilKind pencil = PencilKind::astigmatic;
+    bool operator==(const BeamLimits&) const = default;
+};
+
+/// A beam that is not split further.
+struct Beam {
+    std::uint32_t corner = 0, facet = 0;        ///< the first of each in its BeamBranch
+    std::uint16_t corners = 0, facets = 0;      ///< how many
+    std::int32_t first_row = 0, end_row = 0;    ///< of pixels that it touches
+};
+
+/// The beams below one pair of first facets, in the order in which they were found.
+struct BeamBranch {
+    std::vector<Beam> leaves;
+    std::vector<ScreenPoint> corners;   ///< positively oriented in the picture's x and y
+    std::vector<std::uint16_t> facets;  ///< met by a leaf, from the front facet on
+    long long beams = 0;                ///< leaves and what they were split from
+    double leaf_area = 0;               ///< square pixels
+    int deepest = 0;
+    void clear();
+};
+
+struct BeamTree {
+    std::vector<BeamBranch> branches;
+    std::size_t branch_count = 0;  ///< of `branches`; the rest is kept room
+    double front_area = 0;         ///< of the front facets, in square pixels
+
+    long long beams() const;
+    double leaf_area() const;
+    int deepest() const;  ///< most facets that a beam meets
+};
+
+/// Builds into `tree`, whose memory is used again. `n`: index over the outside's, above 1. The eye
+/// must be outside. Runs in parallel; the result does not depend on the number of threads.
+void build_beams(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits,
+                 BeamTree& tree);
+
+}  // namespace culet

@@ -1,0 +1,50 @@
+#include "render/beams/facet_net.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "stone/errors.h"
+
+namespace culet {
+
+FacetNet::FacetNet(const Solid& convex) : size_(diameter(convex)) {
+    std::vector<NamedPlane> planes;
+    for (std::size_t i = 0; i < convex.facets.size(); ++i) {
+        planes_.push_back(convex.facets[i].plane);
+        planes.push_back({std::to_string(i), planes_.back()});
+    }
+    const HalfSpaceSolid bounded = intersect_half_spaces(planes);
+    if (!bounded.bounded || bounded.empty)
+        throw InputError("the facets' planes bound no solid; culet info says what is wrong");
+    const double too_short = std::sqrt(std::numeric_limits<double>::epsilon()) * size_;
+    const Solid solid = contract_near_meets(bounded.solid, too_short).solid;
+    corners_ = solid.vertices;
+    edges_.resize(planes_.size());
+    std::map<std::pair<int, int>, int> facet_at;
+    for (const Facet& facet : solid.facets) {
+        const int number = std::stoi(facet.name);
+        for (std::size_t i = 0; i < facet.corners.size(); ++i) {
+            const int from = facet.corners[i],
+                      to = facet.corners[(i + 1) % facet.corners.size()];
+            facet_at[{from, to}] = number;
+            edges_[static_cast<std::size_t>(number)].push_back({from, to, -1, -1});
+        }
+    }
+    std::map<std::pair<int, int>, int> line_of;
+    for (std::vector<NetEdge>& edges : edges_) {
+        for (NetEdge& edge : edges) {
+            const auto other = facet_at.find({edge.to, edge.from});
+            check(other != facet_at.end(), "every edge of a closed solid has two facets");
+            edge.beyond = other->second;
+            const auto [line, fresh] =
+                line_of.try_emplace(std::minmax(edge.from, edge.to), lines_);
+            lines_ += fresh;
+            edge.line = line->second;
+        }
+    }
+}
+
+}  // namespace culet

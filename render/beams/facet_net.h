@@ -1,0 +1,45 @@
+#pragma once
+// The facets of a convex stone with their edges and neighbours, for walking from facet to facet.
+
+#include <limits>
+#include <vector>
+
+#include "stone/solid.h"
+
+namespace culet {
+
+/// An edge of a facet, counter-clockwise from outside.
+struct NetEdge {
+    int from = 0, to = 0;  ///< corners of the net
+    int beyond = 0;        ///< facet on the other side
+    int line = 0;          ///< the same number for both facets that share the edge
+};
+
+/// Corners are the meets of the planes, which alone are the truth: meets that miss each other by
+/// little are held apart, with short edges between them. Edges shorter than the root of the
+/// rounding unit times the diameter have no direction worth the name (a corner's own rounding turns
+/// them), and are one corner here; that moves a corner by as little as their length.
+class FacetNet {
+public:
+    /// Throws InputError when the planes bound no solid.
+    explicit FacetNet(const Solid& convex);
+
+    /// As many as the solid's; a facet that the planes leave no area has no edges.
+    int facets() const { return static_cast<int>(planes_.size()); }
+    int lines() const { return lines_; }
+    const Plane& plane(int facet) const { return planes_[static_cast<std::size_t>(facet)]; }
+    const std::vector<NetEdge>& edges(int facet) const {
+        return edges_[static_cast<std::size_t>(facet)];
+    }
+    const std::vector<Vec3>& corners() const { return corners_; }
+    double size() const { return size_; }
+
+private:
+    std::vector<Plane> planes_;
+    std::vector<std::vector<NetEdge>> edges_;
+    std::vector<Vec3> corners_;
+    int lines_ = 0;
+    double size_ = 0;
+};
+
+}  // namespace culet

@@ -1,0 +1,40 @@
+#pragma once
+// Which pixels a beam's region touches, and how much of each it fills.
+
+#include <cstddef>
+#include <vector>
+
+#include "render/beams/screen_view.h"
+
+namespace culet {
+
+/// Pixels of one region, row by row. The arrays keep their room and have some to spare.
+struct CoveredPixels {
+    std::vector<int> pixel;      ///< y * width + x
+    std::vector<float> x, y;     ///< of the pixel's middle, from the point of reference
+    std::vector<float> share;    ///< of the pixel's area
+    int count = 0;
+};
+
+class PixelCoverage {
+public:
+    explicit PixelCoverage(int width) : width_(width) {}
+
+    /// Exact areas, to single precision, of a convex, positively oriented region within rows
+    /// [row_begin, row_end): every edge adds what lies to the right of it, row by row.
+    const CoveredPixels& areas(const ScreenPoint* corners, std::size_t count,
+                               const ScreenPoint& reference, int row_begin, int row_end);
+    /// Pixels whose middle is in the region, each with share 1. A middle on an edge belongs to the
+    /// region on its right, or below.
+    const CoveredPixels& middles(const ScreenPoint* corners, std::size_t count,
+                                 const ScreenPoint& reference, int row_begin, int row_end);
+
+private:
+    void reserve(std::size_t pixels);
+    int width_;
+    std::vector<float> sums_;
+    std::vector<double> left_, right_;
+    CoveredPixels found_;
+};
+
+}  // namespace culet

@@ -1,0 +1,78 @@
+#include "render/beams/screen_view.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "stone/errors.h"
+
+namespace culet {
+
+ScreenImage ScreenView::of_direction(const Vec3& d) const {
+    return {glm::dot(rows[0], d), glm::dot(rows[1], d), glm::dot(rows[2], d)};
+}
+
+bool ScreenView::sees(const Plane& plane) const {
+    if (parallel) return glm::dot(v, plane.normal) < 0;
+    return height_above(plane, o) > 0;
+}
+
+ScreenView screen_view(const Camera& camera, double pupil_x, double pupil_y) {
+    if (camera.cone)
+        throw InputError("a conoscope's rays have no common eye: engine = \"reference\" draws it");
+    const Vec3 forward = glm::normalize(camera.look_at - camera.position);
+    const Vec3 right = glm::normalize(glm::cross(forward, camera.up));
+    const Vec3 down = glm::cross(forward, right);
+    const double width = camera.width, height = camera.height;
+    const Vec3 beside = camera.aperture_radius * (pupil_x * right + pupil_y * down);
+    const double focus = camera.focus_distance;
+    ScreenView view;
+    view.width = camera.width;
+    view.height = camera.height;
+    glm::dmat3 basis;  // its inverse takes a point, from the eye, to the picture
+    if (camera.orthographic_width) {
+        const double pixel = *camera.orthographic_width / camera.width;
+        const Vec3 corner =
+            camera.position - 0.5 * pixel * (width * right + height * down);
+        if (camera.aperture_radius > 0) {
+            // Rays of a pixel meet in the plane in focus; they do not meet in the pupil.
+            view.o = corner + beside;
+            view.v = focus * forward - beside;
+        } else {
+            view.o = corner;
+            view.v = forward;
+        }
+        view.ox = pixel * right;
+        view.oy = pixel * down;
+        view.parallel = true;
+        basis = glm::dmat3(view.ox, view.oy, view.v);
+        const glm::dmat3 inverse = glm::inverse(basis);
+        const Vec3 offset = -(inverse * view.o);
+        for (int row = 0; row < 2; ++row) {
+            view.rows[static_cast<std::size_t>(row)] = {inverse[0][row], inverse[1][row],
+                                                        inverse[2][row]};
+            view.row_offsets[row] = offset[row];
+        }
+        view.rows[2] = Vec3(0);
+        view.row_offsets[2] = 1;
+        return view;
+    }
+    const double pixel = 2 * std::tan(camera.fov / 2) / camera.height;
+    const double far = camera.aperture_radius > 0 ? focus : 1;
+    view.o = camera.position + beside;
+    view.vx = far * pixel * right;
+    view.vy = far * pixel * down;
+    view.v = far * forward - 0.5 * (width * view.vx + height * view.vy) - beside;
+    basis = glm::dmat3(view.vx, view.vy, view.v);
+    const glm::dmat3 inverse = glm::inverse(basis);
+    const Vec3 offset = -(inverse * view.o);
+    for (int row = 0; row < 3; ++row) {
+        view.rows[static_cast<std::size_t>(row)] = {inverse[0][row], inverse[1][row],
+                                                    inverse[2][row]};
+        view.row_offsets[row] = offset[row];
+    }
+    return view;
+}
+
+}  // namespace culet

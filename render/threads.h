@@ -1,0 +1,24 @@
+#pragma once
+// Parallel work on as many threads as were asked for.
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace culet {
+
+/// Runs `work` so that the parallel loops in it use `threads` threads; 0: one a processor. More
+/// threads than processors are allowed when asked for, and without TBB's warning on stderr.
+template <class Work>
+void on_threads(int threads, Work&& work) {
+    const int most = static_cast<int>(
+        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(std::max({most, threads, 1})));
+    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+    arena.execute(std::forward<Work>(work));
+}
+
+}  // namespace culet
