@@ -69,10 +69,13 @@ int run_render(const RenderOptions& options) {
                             decision.why),
                 options.common.quiet);
         }
-        say(fmt::format(
-                "{} rays in {:.2f} s; remainder {:.2g}, cut {:.2g}, error bound {:.2g} of the mean",
-                result.stats.rays, result.stats.seconds_setup + result.stats.seconds_shade,
-                result.stats.remainder, result.stats.cut, result.stats.error_bound),
+        say(fmt::format("{} rays, {} beams in {:.2f} s; remainder {:.2g}, cut {:.2g}, error bound "
+                        "{:.2g} of "
+                        "the mean",
+                        result.stats.rays, result.stats.beams,
+                        result.stats.seconds_setup + result.stats.seconds_build +
+                            result.stats.seconds_shade + result.stats.seconds_check,
+                        result.stats.remainder, result.stats.cut, result.stats.error_bound),
             options.common.quiet);
     }
     return exit_good;
@@ -93,7 +96,7 @@ void add_command_render(CLI::App& program, int& exit_code) {
         ->add_option("--stats,--json", options->stats,
                      "what was simulated, left out and how long it took (JSON; - is stdout)")
         ->type_name("STATS.json");
-    command->add_option("--engine", options->engine, "auto or reference");
+    command->add_option("--engine", options->engine, "auto, reference, beams or preview");
     command->add_option("--effects", options->effects,
                         "auto, all, none, or a list: dispersion,absorption,...");
     command->add_option("--depth", options->depth, "faces on a path at most (0: by tolerance)");

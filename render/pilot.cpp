@@ -9,6 +9,9 @@ namespace culet {
 
 namespace {
 
+// Crystals: a path splits in two at every hit while it carries more than this.
+constexpr double k_split_weight = 0.02;
+constexpr double k_gambled_weight = 1e-3;
 constexpr int k_pilot_pixels = 24;  // along the picture's longer side
 constexpr int k_spectral_pixels = 10, k_spectral_samples = 16;
 constexpr int k_spectral_depth = 12, k_spectral_crystal_depth = 6;  // of trees that double
@@ -23,8 +26,7 @@ void each_pilot_pixel(const Camera& camera, int along, Visit&& visit) {
     }
 }
 
-}  // namespace
-
+// Mean luminance of the stone's pixels in a small, shallow picture; 0 when no ray meets the stone.
 double pilot_mean(const Scene& scene, const Plan& plan, const LightField& lights,
                   const WavelengthSet& colours, PathLimits limits) {
     limits.depth = 16;
@@ -42,6 +44,32 @@ double pilot_mean(const Scene& scene, const Plan& plan, const LightField& lights
         sum += pixel.luminance;
     });
     return hits > 0 ? sum / hits : 0;
+}
+
+}  // namespace
+
+PathLimits limits_for(const Scene& scene, const Plan& plan, const LightField& lights,
+                      const WavelengthSet& colours) {
+    const RenderSettings& settings = scene.settings;
+    PathLimits limits;
+    limits.seed = settings.seed;
+    limits.polarised = plan.polarised;
+    limits.depth = settings.depth > 0 ? settings.depth : k_deepest;
+    if (settings.tolerance > 0) {
+        const double mean = pilot_mean(scene, plan, lights, colours, limits);
+        const double brightest = lights.max_radiance();
+        // What is cut sees at most the brightest light. Half of what that allows, because the
+        // pilot's mean is itself a few per cent off.
+        limits.cut_weight = brightest > 0 && mean > 0 ? 0.5 * settings.tolerance * mean / brightest
+                                                      : settings.tolerance;
+        limits.cut_weight = std::min(limits.cut_weight, settings.tolerance);
+        limits.split_weight = std::max(k_split_weight, limits.cut_weight);
+        // Trees that branch gamble instead of cutting: that costs no accuracy but noise, which a
+        // light of great radiance must not make as dear as it makes cutting.
+        limits.roulette = plan.splits || !scene.stone.convex;
+        if (limits.roulette) limits.cut_weight = std::max(limits.cut_weight, k_gambled_weight);
+    }
+    return limits;
 }
 
 Plan plan_for_tolerance(const Scene& scene) {

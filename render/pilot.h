@@ -6,9 +6,10 @@
 
 namespace culet {
 
-/// Mean luminance of the stone at low resolution: what a tolerance is relative to.
-double pilot_mean(const Scene& scene, const Plan& plan, const LightField& lights,
-                  const WavelengthSet& colours, PathLimits limits);
+/// How far paths are followed: to the scene's depth, and to weights that its tolerance lets go,
+/// relative to the mean that a small, shallow picture finds.
+PathLimits limits_for(const Scene& scene, const Plan& plan, const LightField& lights,
+                      const WavelengthSet& colours);
 
 /// The plan with the fewest wavelengths whose colours differ from those of the finest set by less
 /// than the tolerance, root mean square over some pixels and relative to their mean. Seen on paths

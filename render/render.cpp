@@ -10,6 +10,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "render/beams/beam_picture.h"
 #include "render/film.h"
 #include "render/pilot.h"
 #include "render/pixel_shader.h"
@@ -22,9 +23,6 @@ namespace culet {
 namespace {
 
 constexpr int k_tile = 16;  // pixels
-// Crystals: a path splits in two at every hit while it carries more than this.
-constexpr double k_split_weight = 0.02;
-constexpr double k_gambled_weight = 1e-3;
 constexpr int k_samples = 16, k_pupil_samples = 64;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -57,6 +55,7 @@ private:
 }  // namespace
 
 RenderResult render(const Scene& whole, const Progress& progress) {
+    if (drawn_by_beams(whole.settings)) return render_with_beams(whole, progress);
     const auto start = std::chrono::steady_clock::now();
     require_renderable(whole);
     // The two windows of a dichroscope are one view, seen twice.
@@ -69,25 +68,7 @@ RenderResult render(const Scene& whole, const Progress& progress) {
     const Camera& camera = scene.camera;
     const RenderSettings& settings = scene.settings;
 
-    PathLimits limits;
-    limits.seed = settings.seed;
-    limits.polarised = plan.polarised;
-    limits.depth = settings.depth > 0 ? settings.depth : k_deepest;
-    if (settings.tolerance > 0) {
-        const double mean = pilot_mean(scene, plan, lights, colours, limits);
-        const double brightest = lights.max_radiance();
-        // What is cut sees at most the brightest light. Half of what that allows, because the
-        // pilot's mean is itself a few per cent off.
-        limits.cut_weight = brightest > 0 && mean > 0 ? 0.5 * settings.tolerance * mean / brightest
-                                                      : settings.tolerance;
-        limits.cut_weight = std::min(limits.cut_weight, settings.tolerance);
-        limits.split_weight = std::max(k_split_weight, limits.cut_weight);
-        // Trees that branch gamble instead of cutting: that costs no accuracy but noise, which a
-        // light of great radiance must not make as dear as it makes cutting.
-        limits.roulette = plan.splits || !scene.stone.convex;
-        if (limits.roulette) limits.cut_weight = std::max(limits.cut_weight, k_gambled_weight);
-    }
-
+    const PathLimits limits = limits_for(scene, plan, lights, colours);
     const int samples = settings.samples > 0         ? settings.samples
                         : plan.on(Effects::aperture) ? k_pupil_samples
                                                      : k_samples;

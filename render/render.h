@@ -1,6 +1,7 @@
 #pragma once
 // Front door of the room: a scene in, a picture out, and what was left out of it.
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,16 @@ struct RenderStats {
     double standard_error = 0;
     /// Largest |sum of powers - 1| met at a crystal's face before it was put right.
     double worst_imbalance = 0;
+    /// Beams: mean of |difference to the reference| over pixels of the stone, relative to the mean,
+    /// measured at `checked_pixels` of them, with three standard errors; part of `error_bound`.
+    double engine_error = 0;
+    int checked_pixels = 0;
+    long long beams = 0;     ///< of all wavelengths and pupil positions
+    long long retraced = 0;  ///< rays that did not meet their beam's facets, and were traced anew
+    double lost_area = 0;    ///< that no beam covers, as a share of the stone's
     std::vector<std::string> notes;  ///< what a person should know about this picture
     long long rays = 0;              ///< eye rays x bands that met the stone
-    double seconds_setup = 0, seconds_shade = 0;
+    double seconds_setup = 0, seconds_build = 0, seconds_shade = 0, seconds_check = 0;
 };
 
 struct RenderResult {
@@ -39,10 +47,39 @@ struct RenderResult {
     RenderStats stats;
 };
 
-/// The exact reference renderer. Same scene and seed, same bytes, whatever the number of threads.
-/// Throws InputError (stone not closed, camera inside the stone) and
-/// Interrupted.
+/// Draws with the scene's engine: the exact reference renderer, or beams. Same scene and seed, same
+/// bytes, whatever the number of threads. Throws InputError (stone not closed, camera inside the
+/// stone) and Interrupted.
 RenderResult render(const Scene& scene, const Progress& progress = {});
+
+/// Frame after frame by beams (engine "beams" or "preview"), for programs that draw while a person
+/// watches: what is kept from frame to frame is memory and whatever the changes left valid.
+class FrameRenderer {
+public:
+    /// Throws InputError where the scene cannot be drawn by beams.
+    explicit FrameRenderer(const Scene& scene);
+    ~FrameRenderer();
+    FrameRenderer(FrameRenderer&&) noexcept;
+
+    /// Another view: beams are grown anew (milliseconds).
+    void look_from(const Camera& camera);
+    /// Other lights: the beams stay, and are only shaded anew, unless the lights' colours call for
+    /// other wavelengths.
+    void light_with(const Lights& lights);
+    /// Milliseconds of processor time that a frame may take; 0: no limit. Beams that bring little
+    /// are then split no further, as much as the last frame's time asks for: the picture depends on
+    /// the machine, and its `remainder` grows. Guy & Soler (2004) call it the frame-rate limit.
+    void keep_within(double milliseconds);
+
+    /// The picture stays valid until the next call. Without `check` no pixels are compared with the
+    /// reference, and `error_bound` is NaN.
+    const RenderResult& draw(bool check = false);
+
+private:
+    friend RenderResult render_with_beams(const Scene& scene, const Progress& progress);
+    struct State;
+    std::unique_ptr<State> state_;
+};
 
 /// STATS.json (docs/rendering.md) as text.
 std::string stats_json(const RenderStats& stats);

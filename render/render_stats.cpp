@@ -29,12 +29,18 @@ std::string stats_json(const RenderStats& stats) {
                        {"mean_radiance", stats.mean_radiance},
                        {"seconds",
                         {{"setup", stats.seconds_setup},
-                         {"build", 0.0},
+                         {"build", stats.seconds_build},
                          {"shade", stats.seconds_shade},
-                         {"total", stats.seconds_setup + stats.seconds_shade}}},
+                         {"check", stats.seconds_check},
+                         {"total", stats.seconds_setup + stats.seconds_build + stats.seconds_shade +
+                                       stats.seconds_check}}},
                        {"worst_imbalance", stats.worst_imbalance},
                        {"notes", stats.notes},
-                       {"beams", 0},
+                       {"engine_error", stats.engine_error},
+                       {"checked_pixels", stats.checked_pixels},
+                       {"beams", stats.beams},
+                       {"retraced", stats.retraced},
+                       {"lost_area", stats.lost_area},
                        {"rays", stats.rays}};
     return json.dump(2) + "\n";
 }

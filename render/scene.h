@@ -194,16 +194,24 @@ enum class Effects : std::uint8_t {
 constexpr int k_effect_count = 7;
 const char* name_of(Effects effect);
 
+/// How beams follow refraction at the front facets.
+enum class Refraction {
+    astigmatic,   ///< to first order about the middle of every beam
+    perspective,  ///< one virtual eye a front facet (Voelker & Hamann's perspective refraction)
+    parallel      ///< one direction a front facet (Voelker & Hamann's parallel refraction)
+};
+
 enum class PixelFilter { box, tent, gaussian };
 
 /// Deepest path that a scene may ask for, and that is followed where the tolerance decides.
 constexpr int k_deepest = 1000;
 
 struct RenderSettings {
-    std::string engine = "auto";  ///< reference (auto means it, for now)
-    int depth = 0;                ///< 0: by tolerance. Depth d has d - 1 inner segments
-    double tolerance = 0.01;      ///< of the picture's mean radiance; 0: nothing is cut
-    bool effects_auto = true;     ///< all that can matter; else `effects`
+    std::string engine = "auto";  ///< reference (auto means it, for now), beams, preview
+    Refraction refraction = Refraction::astigmatic;
+    int depth = 0;             ///< 0: by tolerance. Depth d has d - 1 inner segments
+    double tolerance = 0.01;   ///< of the picture's mean radiance; 0: nothing is cut
+    bool effects_auto = true;  ///< all that can matter; else `effects`
     std::array<bool, k_effect_count> effects{true, true, true, true, true, true, true};
     /// Coherence of a crystal's two waves: nothing: where the scene calls for it.
     std::optional<bool> coherence;

@@ -130,20 +130,30 @@ void read_filter(const TomlTable& table, RenderSettings& settings) {
 RenderSettings read_settings(const TomlTable& table) {
     table.refuse_unknown(
         with_view_keys({"engine", "depth", "tolerance", "effects", "wavelengths", "samples",
-                        "coherence", "bandwidth", "filter", "filter_radius"}));
+                        "coherence", "bandwidth", "filter", "filter_radius", "refraction"}));
     RenderSettings settings;
     read_coherence(table, settings);
+    if (const auto refraction = table.text("refraction")) {
+        const std::array<std::string, 3> known{"astigmatic", "perspective", "parallel"};
+        const auto found = std::find(known.begin(), known.end(), *refraction);
+        if (found == known.end()) {
+            table.fail("refraction",
+                       fmt::format("no refraction \"{}\"; known: astigmatic, perspective, parallel",
+                                   *refraction));
+        }
+        settings.refraction = static_cast<Refraction>(found - known.begin());
+    }
     read_filter(table, settings);
     if (const auto engine = table.text("engine")) {
         const std::vector<std::string> known{"auto", "reference", "beams", "preview", "raytable"};
         if (std::find(known.begin(), known.end(), *engine) == known.end()) {
             const auto near = nearest_name(*engine, known);
-            table.fail("engine", fmt::format("no engine \"{}\"{}; known: auto, reference", *engine,
-                                             near ? ", did you mean \"" + *near + "\"?" : ""));
-        }
-        if (*engine != "auto" && *engine != "reference") {
             table.fail("engine",
-                       fmt::format("the engine {} is not built yet: use reference", *engine));
+                       fmt::format("no engine \"{}\"{}; known: auto, reference, beams, preview",
+                                   *engine, near ? ", did you mean \"" + *near + "\"?" : ""));
+        }
+        if (*engine == "raytable") {
+            table.fail("engine", "the engine raytable is not built yet: use beams or reference");
         }
         settings.engine = *engine;
     }

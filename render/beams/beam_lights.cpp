@@ -21,8 +21,7 @@ std::vector<float> spectrum(const LightColour& colour, const WavelengthSet& colo
 }  // namespace
 
 ShadedLights::ShadedLights(const Lights& lights, const WavelengthSet& colours, int first, int count,
-                           const Vec3& middle,
-                           std::shared_ptr<const EnvironmentPyramid> pyramid)
+                           const Vec3& middle, std::shared_ptr<const EnvironmentPyramid> pyramid)
     : nodes(count), environment(std::move(pyramid)) {
     const auto number = [](double v) { return static_cast<float>(v); };
     constant.assign(static_cast<std::size_t>(count), number(lights.constant));

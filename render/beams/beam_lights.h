@@ -11,6 +11,9 @@
 
 namespace culet {
 
+/// Spheres and planes together.
+constexpr int k_most_near_lights = 16;
+
 struct ShadedLights {
     ShadedLights() = default;
     ShadedLights(const Lights& lights, const WavelengthSet& colours, int first, int count,

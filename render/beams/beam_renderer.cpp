@@ -75,7 +75,7 @@ struct SortedTree {
 struct Desk {
     explicit Desk(int width) : coverage(width) {}
     PixelCoverage coverage;
-    std::vector<float> radiance, left, absorbed, x, y, cover;
+    std::vector<float> radiance, left, absorbed, share, x, y, cover;
     std::vector<int> pixel;
     std::vector<std::uint8_t> follows;
     std::vector<double> exact;
@@ -86,6 +86,7 @@ struct Desk {
         if (left.size() < size) {
             left.resize(size);
             absorbed.resize(size);
+            share.resize(size);
             follows.resize(size);
         }
         if (radiance.size() < left.size() * static_cast<std::size_t>(nodes))
@@ -110,10 +111,10 @@ struct BeamRenderer::Work {
     std::shared_ptr<const EnvironmentMap> map;
     std::shared_ptr<const EnvironmentPyramid> pyramid;
     std::vector<float> planes;  // node * pixels + pixel
-    Picture picture;
     BeamReport report;
 
     // Of the picture being drawn.
+    Picture* picture = nullptr;
     const Plan* plan = nullptr;
     const LightField* lights = nullptr;
     const WavelengthSet* colours = nullptr;
@@ -133,6 +134,12 @@ struct BeamRenderer::Work {
                      Desk& desk, StripSums& sums);
     void shade_leaf(const SortedTree& tree, LeafNumber number, std::size_t band, int row_begin,
                     int row_end, Desk& desk, StripSums& sums);
+    void shade_flat(const ScreenPoint* corners, const Beam& beam, const ShadingJob& job,
+                    const ShadedEye& eye, const std::uint16_t* facets, const Band& band,
+                    int row_begin, int row_end, Desk& desk, StripSums& sums);
+    void shade_pixels(const CoveredPixels& covered, const ScreenView& view, const Beam& beam,
+                      const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
+                      const Band& band, int row_begin, Desk& desk, StripSums& sums);
     bool trace_exactly(const ScreenView& view, const ScreenPoint& at, const Band& band, Desk& desk,
                        double& remainder, double& absorbed) const;
     void fill_holes(const ScreenView& view, int row_begin, int row_end, Desk& desk,
@@ -171,18 +178,18 @@ void BeamRenderer::Work::prepare(const Scene& scene) {
         value = 1;
         const Rgb rgb = colours->rgb_of(one.data());
         luminance_of_node.push_back(luminance(rgb));
-        rgb_of_node.push_back({static_cast<float>(rgb[0]), static_cast<float>(rgb[1]),
-                               static_cast<float>(rgb[2])});
+        rgb_of_node.push_back(
+            {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])});
         value = 0;
     }
     // The picture's memory is used again.
     planes.resize(static_cast<std::size_t>(nodes) * pixels());
-    picture.width = width;
-    picture.height = height;
-    picture.rgb.resize(3 * pixels());
-    picture.coverage.resize(pixels());
-    picture.wavelengths_nm.clear();
-    picture.spectral.clear();
+    picture->width = width;
+    picture->height = height;
+    picture->rgb.resize(3 * pixels());
+    picture->coverage.resize(pixels());
+    picture->wavelengths_nm.clear();
+    picture->spectral.clear();
     report = {};
 }
 
@@ -211,104 +218,154 @@ bool BeamRenderer::Work::trace_exactly(const ScreenView& view, const ScreenPoint
     return true;
 }
 
-void BeamRenderer::Work::shade_leaf(const SortedTree& sorted, LeafNumber number, std::size_t band,
+// One colour for all of the beam: that of its middle.
+void BeamRenderer::Work::shade_flat(const ScreenPoint* corners, const Beam& beam,
+                                    const ShadingJob& job, const ShadedEye& eye,
+                                    const std::uint16_t* facets, const Band& band, int row_begin,
+                                    int row_end, Desk& desk, StripSums& sums) {
+    const AreaGrid grid = desk.coverage.areas(corners, beam.corners, row_begin, row_end);
+    if (grid.rows == 0) return;
+    static const float k_here[k_shading_room] = {};
+    float left[k_shading_room], absorbed[k_shading_room];
+    desk.reserve(1, band.count);
+    Fragments fragments;
+    fragments.x = fragments.y = k_here;
+    fragments.count = 1;
+    fragments.radiance = desk.radiance.data();
+    fragments.stride = k_shading_room;
+    fragments.left = left;
+    fragments.absorbed = absorbed;
+    shade_beam(job, eye, facets, beam.facets, fragments);
+    ++sums.fragments;
+    const bool first_band = band.first == 0;
+    float area = 0;
+    for (int row = 0; row < grid.rows; ++row) {
+        const float* share = grid.row(row);
+        const int pixel = (grid.y + row) * width + grid.x;
+        float* cover = desk.cover.data() + pixel - row_begin * width;
+        for (int i = 0; i < grid.columns; ++i) area += share[i];
+        if (first_band) {
+            for (int i = 0; i < grid.columns; ++i) cover[i] += share[i];
+        }
+        for (int node = 0; node < band.count; ++node) {
+            float* plane =
+                planes.data() + static_cast<std::size_t>(band.first + node) * pixels() + pixel;
+            const float value = static_cast<float>(view_share) *
+                                desk.radiance[static_cast<std::size_t>(node) * k_shading_room];
+            for (int i = 0; i < grid.columns; ++i) plane[i] += value * share[i];
+        }
+    }
+    const double filled = view_share * static_cast<double>(area);
+    for (int node = 0; node < band.count; ++node) {
+        sums.luminance +=
+            luminance_of_node[static_cast<std::size_t>(band.first + node)] * filled *
+            static_cast<double>(desk.radiance[static_cast<std::size_t>(node) * k_shading_room]);
+    }
+    if (first_band) sums.filled += filled;
+    sums.remainder += filled * band.count / nodes * static_cast<double>(left[0]);
+    sums.absorbed += filled * band.count / nodes * static_cast<double>(absorbed[0]);
+}
+
+// Every pixel along the beam's facets.
+void BeamRenderer::Work::shade_pixels(const CoveredPixels& covered, const ScreenView& view,
+                                      const Beam& beam, const ShadingJob& job, const ShadedEye& eye,
+                                      const std::uint16_t* facets, const Band& band, int row_begin,
+                                      Desk& desk, StripSums& sums) {
+    desk.reserve(covered.count, band.count);
+    Fragments fragments;
+    fragments.x = covered.x.data();
+    fragments.y = covered.y.data();
+    fragments.count = covered.count;
+    fragments.radiance = desk.radiance.data();
+    fragments.stride = static_cast<int>(desk.left.size());
+    fragments.left = desk.left.data();
+    fragments.absorbed = band.absorbs ? desk.absorbed.data() : nullptr;
+    fragments.follows = desk.follows.data();
+    fragments.soft = settings.shading == BeamShading::averaged;
+    shade_beam(job, eye, facets, beam.facets, fragments);
+    sums.fragments += fragments.count;
+
+    // Pixels of which other beams have a part are means of their beams anyway.
+    const bool single = settings.shading == BeamShading::single;
+    const std::size_t count = static_cast<std::size_t>(covered.count);
+    float* share = desk.share.data();
+    std::copy_n(covered.share.data(), count, share);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (desk.follows[i] || covered.share[i] < 1) continue;
+        double left = 0, lost = 0;
+        const ScreenPoint p{covered.pixel[i] % width + 0.5, covered.pixel[i] / width + 0.5};
+        ++sums.retraced;
+        if (!trace_exactly(view, p, band, desk, left, lost)) {
+            // The pixel's middle misses the stone.
+            if (single) share[i] = 0;
+            continue;
+        }
+        for (int node = 0; node < band.count; ++node)
+            desk.radiance[static_cast<std::size_t>(node) * desk.left.size() + i] =
+                static_cast<float>(desk.exact[static_cast<std::size_t>(band.first + node)]);
+        desk.left[i] = static_cast<float>(left);
+        desk.absorbed[i] = static_cast<float>(lost);
+    }
+    for (int node = 0; node < band.count; ++node) {
+        float* plane = planes.data() + static_cast<std::size_t>(band.first + node) * pixels();
+        const float* radiance =
+            desk.radiance.data() + static_cast<std::size_t>(node) * desk.left.size();
+        float light = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const float seen = radiance[i] * share[i];
+            plane[covered.pixel[i]] += static_cast<float>(view_share) * seen;
+            light += seen;
+        }
+        sums.luminance += view_share *
+                          luminance_of_node[static_cast<std::size_t>(band.first + node)] *
+                          static_cast<double>(light);
+    }
+    float filled = 0, remainder = 0, absorbed = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        filled += share[i];
+        remainder += share[i] * desk.left[i];
+    }
+    if (band.absorbs) {
+        for (std::size_t i = 0; i < count; ++i) absorbed += share[i] * desk.absorbed[i];
+    }
+    if (band.first == 0) {
+        float* cover = desk.cover.data();
+        for (std::size_t i = 0; i < count; ++i)
+            cover[covered.pixel[i] - row_begin * width] += share[i];
+        sums.filled += view_share * static_cast<double>(filled);
+    }
+    const double of_nodes = view_share * band.count / nodes;
+    sums.remainder += of_nodes * static_cast<double>(remainder);
+    sums.absorbed += of_nodes * static_cast<double>(absorbed);
+}
+
+void BeamRenderer::Work::shade_leaf(const SortedTree& sorted, LeafNumber number, std::size_t b,
                                     int row_begin, int row_end, Desk& desk, StripSums& sums) {
     const BeamBranch& branch = sorted.tree.branches[number.branch];
     const Beam& beam = branch.leaves[number.leaf];
     const ScreenPoint* corners = branch.corners.data() + beam.corner;
     const std::uint16_t* facets = branch.facets.data() + beam.facet;
-    ScreenPoint reference{0, 0};
+    ScreenPoint middle{0, 0};
     for (int i = 0; i < beam.corners; ++i) {
-        reference.x += corners[i].x;
-        reference.y += corners[i].y;
+        middle.x += corners[i].x;
+        middle.y += corners[i].y;
     }
-    reference.x /= beam.corners;
-    reference.y /= beam.corners;
-
-    const bool flat = settings.shading == BeamShading::flat,
-               single = settings.shading == BeamShading::single;
+    middle.x /= beam.corners;
+    middle.y /= beam.corners;
+    const Band& band = plan->bands[b];
+    const ShadingJob job{&stone, &optics[b], &shaded_lights[b]};
+    const ShadedEye eye = shaded_eye(sorted.view, middle, net.plane(facets[0]), stone.middle);
+    if (settings.shading == BeamShading::flat) {
+        shade_flat(corners, beam, job, eye, facets, band, row_begin, row_end, desk, sums);
+        return;
+    }
     const CoveredPixels& covered =
-        single ? desk.coverage.middles(corners, beam.corners, reference, row_begin, row_end)
-               : desk.coverage.areas(corners, beam.corners, reference, row_begin, row_end);
-    if (covered.count == 0) return;
-    const Band& of_band = plan->bands[band];
-    desk.reserve(covered.count, of_band.count);
-    const ShadedEye eye =
-        shaded_eye(sorted.view, reference, net.plane(facets[0]), stone.middle);
-    static const float k_here[k_shading_room] = {};
-    Fragments fragments;
-    fragments.x = flat ? k_here : covered.x.data();
-    fragments.y = flat ? k_here : covered.y.data();
-    fragments.count = flat ? 1 : covered.count;
-    fragments.radiance = desk.radiance.data();
-    fragments.stride = static_cast<int>(desk.left.size());
-    fragments.left = desk.left.data();
-    fragments.absorbed = of_band.absorbs ? desk.absorbed.data() : nullptr;
-    fragments.follows = flat ? nullptr : desk.follows.data();
-    fragments.soft = !flat && !single;
-    shade_beam({&stone, &optics[band], &shaded_lights[band]}, eye, facets, beam.facets, fragments);
-    sums.fragments += fragments.count;
-
-    const float share_of_view = static_cast<float>(view_share);
-    const bool first_band = band == 0;
-    double filled = 0, remainder = 0, absorbed = 0;
-    if (!flat) {
-        for (int i = 0; i < covered.count; ++i) {
-            const std::size_t at = static_cast<std::size_t>(i);
-            if (desk.follows[at] || covered.share[at] < 1) continue;
-            double left = 0, lost = 0;
-            const ScreenPoint p{covered.pixel[at] % width + 0.5, covered.pixel[at] / width + 0.5};
-            ++sums.retraced;
-            if (!trace_exactly(sorted.view, p, of_band, desk, left, lost)) {
-                // The pixel's middle misses the stone: nothing of it is the stone's.
-                if (single) desk.follows[at] = 2;
-                continue;
-            }
-            for (int node = 0; node < of_band.count; ++node)
-                desk.radiance[static_cast<std::size_t>(node) * desk.left.size() + at] =
-                    static_cast<float>(desk.exact[static_cast<std::size_t>(of_band.first + node)]);
-            desk.left[at] = static_cast<float>(left);
-            desk.absorbed[at] = static_cast<float>(lost);
-        }
-    }
-    for (int node = 0; node < of_band.count; ++node) {
-        float* plane = planes.data() + static_cast<std::size_t>(of_band.first + node) * pixels();
-        const float* radiance =
-            desk.radiance.data() + static_cast<std::size_t>(node) * desk.left.size();
-        double light = 0;
-        if (flat) {
-            const float value = radiance[0] * share_of_view;
-            for (int i = 0; i < covered.count; ++i) {
-                const std::size_t at = static_cast<std::size_t>(i);
-                const float seen = value * covered.share[at];
-                plane[covered.pixel[at]] += seen;
-                light += static_cast<double>(seen);
-            }
-        } else {
-            for (int i = 0; i < covered.count; ++i) {
-                const std::size_t at = static_cast<std::size_t>(i);
-                if (desk.follows[at] == 2) continue;
-                const float seen = radiance[at] * covered.share[at] * share_of_view;
-                plane[covered.pixel[at]] += seen;
-                light += static_cast<double>(seen);
-            }
-        }
-        sums.luminance += luminance_of_node[static_cast<std::size_t>(of_band.first + node)] * light;
-    }
-    for (int i = 0; i < covered.count; ++i) {
-        const std::size_t at = static_cast<std::size_t>(i), from = flat ? 0 : at;
-        if (!flat && desk.follows[at] == 2) continue;
-        const float share = covered.share[at];
-        filled += static_cast<double>(share);
-        remainder += static_cast<double>(share * desk.left[from]);
-        if (of_band.absorbs) absorbed += static_cast<double>(share * desk.absorbed[from]);
-        if (first_band)
-            desk.cover[static_cast<std::size_t>(covered.pixel[at] - row_begin * width)] += share;
-    }
-    const double of_nodes = view_share * of_band.count / nodes;
-    if (first_band) sums.filled += view_share * filled;
-    sums.remainder += of_nodes * remainder;
-    sums.absorbed += of_nodes * absorbed;
+        settings.shading == BeamShading::single
+            ? desk.coverage.middles(corners, beam.corners, middle, row_begin, row_end)
+            : desk.coverage.touched(desk.coverage.areas(corners, beam.corners, row_begin, row_end),
+                                    middle);
+    if (covered.count > 0)
+        shade_pixels(covered, sorted.view, beam, job, eye, facets, band, row_begin, desk, sums);
 }
 
 // Middles of pixels that no beam took, next to pixels that one did.
@@ -354,18 +411,26 @@ void BeamRenderer::Work::fill_holes(const ScreenView& view, int row_begin, int r
 void BeamRenderer::Work::add_background(const ScreenView& view, int row_begin, int row_end,
                                         Desk& desk) {
     const ScreenPoint reference{0.5 * width, 0.5 * (row_begin + row_end)};
-    const std::size_t most = static_cast<std::size_t>((row_end - row_begin) * width) + k_shading_room;
+    const std::size_t most =
+        static_cast<std::size_t>((row_end - row_begin) * width) + k_shading_room;
     desk.x.resize(most);
     desk.y.resize(most);
     desk.pixel.resize(most);
     int count = 0;
     for (int y = row_begin; y < row_end; ++y) {
+        const float* cover = desk.cover.data() + (y - row_begin) * width;
+        const int row_start = count;
+        int* found = desk.pixel.data();
         for (int x = 0; x < width; ++x) {
-            const std::size_t n = static_cast<std::size_t>(count);
-            desk.pixel[n] = y * width + x;
-            desk.x[n] = static_cast<float>(x + 0.5 - reference.x);
-            desk.y[n] = static_cast<float>(y + 0.5 - reference.y);
-            count += desk.cover[static_cast<std::size_t>((y - row_begin) * width + x)] < k_filled;
+            found[count] = x;
+            count += cover[x] < k_filled;
+        }
+        const float x0 = static_cast<float>(0.5 - reference.x),
+                    y0 = static_cast<float>(y + 0.5 - reference.y);
+        for (int i = row_start; i < count; ++i) {
+            desk.x[static_cast<std::size_t>(i)] = static_cast<float>(found[i]) + x0;
+            desk.y[static_cast<std::size_t>(i)] = y0;
+            found[i] += y * width;
         }
     }
     if (count == 0) return;
@@ -407,8 +472,8 @@ void BeamRenderer::Work::shade_strip(int strip, const ScreenView& view, std::siz
             float* plane = planes.data() + static_cast<std::size_t>(node) * pixels();
             std::fill(plane + begin, plane + end, 0.0f);
         }
-        std::fill(picture.coverage.begin() + static_cast<long>(begin),
-                  picture.coverage.begin() + static_cast<long>(end), 0.0f);
+        std::fill(picture->coverage.begin() + static_cast<long>(begin),
+                  picture->coverage.begin() + static_cast<long>(end), 0.0f);
     }
     for (std::size_t b = 0; b < plan->bands.size(); ++b) {
         const SortedTree& sorted = trees[first_tree + b];
@@ -418,29 +483,31 @@ void BeamRenderer::Work::shade_strip(int strip, const ScreenView& view, std::siz
     if (settings.shading == BeamShading::single) fill_holes(view, row_begin, row_end, desk, sums);
     add_background(view, row_begin, row_end, desk);
     for (std::size_t i = begin; i < end; ++i)
-        picture.coverage[i] += static_cast<float>(view_share) * std::min(desk.cover[i - begin], 1.0f);
+        picture->coverage[i] +=
+            static_cast<float>(view_share) * std::min(desk.cover[i - begin], 1.0f);
 }
 
 // From radiance at the nodes to colour.
 void BeamRenderer::Work::develop(int strip) {
-    const std::size_t begin = static_cast<std::size_t>(strip * k_strip) * static_cast<std::size_t>(width),
+    const std::size_t begin = static_cast<std::size_t>(strip * k_strip) *
+                              static_cast<std::size_t>(width),
                       end = static_cast<std::size_t>(std::min((strip + 1) * k_strip, height)) *
                             static_cast<std::size_t>(width);
     if (nodes == 1) {
         const float* plane = planes.data();
         for (std::size_t i = begin; i < end; ++i) {
-            float* rgb = picture.rgb.data() + 3 * i;
+            float* rgb = picture->rgb.data() + 3 * i;
             rgb[0] = rgb[1] = rgb[2] = plane[i];
         }
         return;
     }
-    std::fill(picture.rgb.begin() + static_cast<long>(3 * begin),
-              picture.rgb.begin() + static_cast<long>(3 * end), 0.0f);
+    std::fill(picture->rgb.begin() + static_cast<long>(3 * begin),
+              picture->rgb.begin() + static_cast<long>(3 * end), 0.0f);
     for (int node = 0; node < nodes; ++node) {
         const float* plane = planes.data() + static_cast<std::size_t>(node) * pixels();
         const auto& weight = rgb_of_node[static_cast<std::size_t>(node)];
         for (std::size_t i = begin; i < end; ++i) {
-            float* rgb = picture.rgb.data() + 3 * i;
+            float* rgb = picture->rgb.data() + 3 * i;
             for (std::size_t c = 0; c < 3; ++c) rgb[c] += weight[c] * plane[i];
         }
     }
@@ -453,10 +520,11 @@ const BeamReport& BeamRenderer::report() const {
     return work_->report;
 }
 
-const Picture& BeamRenderer::draw(const Scene& scene, const Plan& plan, const LightField& lights,
-                                  const WavelengthSet& colours, const BeamSettings& settings,
-                                  const Progress& progress) {
+void BeamRenderer::draw(const Scene& scene, const Plan& plan, const LightField& lights,
+                        const WavelengthSet& colours, const BeamSettings& settings,
+                        Picture& picture, const Progress& progress) {
     Work& work = *work_;
+    work.picture = &picture;
     work.plan = &plan;
     work.lights = &lights;
     work.colours = &colours;
@@ -528,8 +596,7 @@ const Picture& BeamRenderer::draw(const Scene& scene, const Plan& plan, const Li
             const BeamTree& tree = work.trees[v * bands + b].tree;
             report.beams += tree.beams();
             report.deepest = std::max(report.deepest, tree.deepest());
-            if (tree.front_area > 0)
-                lost += (tree.front_area - tree.leaf_area()) / tree.front_area;
+            if (tree.front_area > 0) lost += (tree.front_area - tree.leaf_area()) / tree.front_area;
         }
     }
     report.fragments = whole.fragments;
@@ -542,13 +609,13 @@ const Picture& BeamRenderer::draw(const Scene& scene, const Plan& plan, const Li
         report.luminance = whole.luminance / whole.filled;
     }
     if (scene.settings.spectral) {
-        work.picture.wavelengths_nm = plan.wavelengths_nm;
+        picture.wavelengths_nm = plan.wavelengths_nm;
         for (int node = 0; node < work.nodes; ++node) {
-            const float* plane = work.planes.data() + static_cast<std::size_t>(node) * work.pixels();
-            work.picture.spectral.emplace_back(plane, plane + work.pixels());
+            const float* plane =
+                work.planes.data() + static_cast<std::size_t>(node) * work.pixels();
+            picture.spectral.emplace_back(plane, plane + work.pixels());
         }
     }
-    return work.picture;
 }
 
 }  // namespace culet

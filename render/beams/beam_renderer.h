@@ -17,7 +17,8 @@ namespace culet {
 enum class BeamShading {
     flat,     ///< one colour a beam, exact areas of pixels
     single,   ///< each pixel's middle exactly, along its beam's facets, verified: no anti-aliasing
-    averaged  ///< each touched pixel's middle along each beam's facets, times the area that it fills
+    averaged  ///< each touched pixel's middle along each beam's facets, times the area that it
+              ///< fills
 };
 
 struct BeamSettings {
@@ -32,7 +33,7 @@ struct BeamReport {
     long long retraced = 0;  ///< rays that did not meet their beam's facets, traced anew
     double filled = 0;       ///< square pixels of the stone
     double remainder = 0, absorbed = 0, luminance = 0;
-    double lost_area = 0;    ///< that no beam covers, over the front facets' area
+    double lost_area = 0;  ///< that no beam covers, over the front facets' area
     int deepest = 0;
     double seconds_build = 0, seconds_shade = 0;
 };
@@ -42,12 +43,12 @@ public:
     explicit BeamRenderer(const Solid& convex);
     ~BeamRenderer();
 
-    /// Keeps references to what it is given until the next call; the trees are kept where view,
-    /// indices and limits are those of the last call. Throws InputError for a conoscope and
+    /// Draws into `picture`, whose memory is used again. Beams are kept where view, indices and
+    /// limits are those of the last call. Throws InputError for a conoscope and
     /// Interrupted.
-    const Picture& draw(const Scene& scene, const Plan& plan, const LightField& lights,
-                        const WavelengthSet& colours, const BeamSettings& settings,
-                        const Progress& progress = {});
+    void draw(const Scene& scene, const Plan& plan, const LightField& lights,
+              const WavelengthSet& colours, const BeamSettings& settings, Picture& picture,
+              const Progress& progress = {});
     const BeamReport& report() const;
 
 private:

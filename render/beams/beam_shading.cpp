@@ -68,7 +68,8 @@ public:
         }
         enter(dx, dy);
         const bool located =
-            kMany ? true : out_.follows != nullptr || !lights_.spheres.empty() || !lights_.planes.empty();
+            kMany ? true
+                  : out_.follows != nullptr || !lights_.spheres.empty() || !lights_.planes.empty();
         V absorbed = number(0.0f);
         for (int k = 1; k < facet_count_; ++k) {
             const ShadedStone::Face& face = stone_.faces[facets_[k]];
@@ -90,9 +91,9 @@ public:
             meet(a, cosine);
         }
         for (int i = 0; i < nodes; ++i)
-            hn::StoreU(sum_[i] * uncovered_ + before_[i], k_floats,
-                       out_.radiance + static_cast<size_t>(i) * static_cast<size_t>(out_.stride) +
-                           first);
+            hn::StoreU(
+                sum_[i] * uncovered_ + before_[i], k_floats,
+                out_.radiance + static_cast<size_t>(i) * static_cast<size_t>(out_.stride) + first);
         hn::StoreU(remaining() * uncovered_, k_floats, out_.left + first);
         if (out_.absorbed != nullptr)
             hn::StoreU(absorbed * uncovered_, k_floats, out_.absorbed + first);
@@ -141,12 +142,15 @@ private:
         if (optics_.absorption.empty()) return;
         V lost = number(0.0f);
         for (int i = 0; i < lights_.nodes; ++i) {
-            const V after = tau_[i] * hn::Exp(k_floats, hn::Neg(number(optics_.absorption[static_cast<size_t>(i)])) *
-                                                            hn::Max(length, number(0.0f)));
+            const V after =
+                tau_[i] *
+                hn::Exp(k_floats, hn::Neg(number(optics_.absorption[static_cast<size_t>(i)])) *
+                                      hn::Max(length, number(0.0f)));
             lost = lost + tau_[i] - after;
             tau_[i] = after;
         }
-        absorbed = hn::MulAdd(carried_.I / number(static_cast<float>(lights_.nodes)), lost, absorbed);
+        absorbed =
+            hn::MulAdd(carried_.I / number(static_cast<float>(lights_.nodes)), lost, absorbed);
     }
 
     // Light at the end of a path of weight `weight`.
@@ -233,7 +237,8 @@ private:
     // Into the tangent of the face with normal a, from that of the face before with normal b: the
     // tangents are d x b and d x a.
     HWY_INLINE void turn(const V3& a, const V& cosine, int k) {
-        const ShadedStone::Face &now = stone_.faces[facets_[k]], &was = stone_.faces[facets_[k - 1]];
+        const ShadedStone::Face &now = stone_.faces[facets_[k]],
+                                &was = stone_.faces[facets_[k - 1]];
         const float ab = now.x * was.x + now.y * was.y + now.z * was.z;
         const V3 cross{number(was.y * now.z - was.z * now.y), number(was.z * now.x - was.x * now.z),
                        number(was.x * now.y - was.y * now.x)};
@@ -264,8 +269,9 @@ private:
             R_s = hn::IfThenElse(out, r_s * r_s, one);
             R_p = hn::IfThenElse(out, r_p * r_p, one);
             re = hn::IfThenElse(out, r_s * r_p, one);
-            Ray leaving{ray_.point, plus(number(n) * ray_.direction, q2 - q1, a), ray_.point_x,
-                        ray_.point_y, ray_.direction_x, ray_.direction_y};
+            Ray leaving{ray_.point,       plus(number(n) * ray_.direction, q2 - q1, a),
+                        ray_.point_x,     ray_.point_y,
+                        ray_.direction_x, ray_.direction_y};
             if constexpr (kSoft) {
                 const V slope = q1 / hn::Max(q2, number(1e-6f));
                 const auto change = [&](const V3& inside) HWY_ATTR {
@@ -339,8 +345,8 @@ void follow_all(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t
 
 void ShadeBeam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
                int facet_count, const Fragments& fragments) {
-    using Follow = void (*)(const ShadingJob&, const ShadedEye&, const std::uint16_t*, int,
-                            const Fragments&);
+    using Follow =
+        void (*)(const ShadingJob&, const ShadedEye&, const std::uint16_t*, int, const Fragments&);
     static constexpr Follow k_follow[8] = {
         follow_all<false, false, false>, follow_all<false, false, true>,
         follow_all<false, true, false>,  follow_all<false, true, true>,
@@ -460,8 +466,7 @@ ShadedEye shaded_eye(const ScreenView& view, const ScreenPoint& at, const Plane&
     const Vec3 origin = view.origin(at), v = view.towards(at);
     const double length = glm::length(v);
     const Vec3 direction = v / length;
-    const double distance =
-        -height_above(front, origin) / glm::dot(front.normal, direction);
+    const double distance = -height_above(front, origin) / glm::dot(front.normal, direction);
     ShadedEye eye;
     const auto store = [](const Vec3& from, float* to) {
         for (int i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);

@@ -41,8 +41,8 @@ struct ShadedOptics {
 
 /// Eye rays about one of them, at the beam's first facet. All about the stone's middle.
 struct ShadedEye {
-    float point[3], direction[3];    ///< where it enters, and its unit direction
-    float point_x[3], point_y[3];    ///< its change from pixel to pixel, at the same distance
+    float point[3], direction[3];          ///< where it enters, and its unit direction
+    float point_x[3], point_y[3];          ///< its change from pixel to pixel, at the same distance
     float direction_x[3], direction_y[3];  ///< and of the direction
     float origin_x[3], origin_y[3];        ///< and of where the eye ray starts
     float distance = 0;                    ///< from there to the point
@@ -79,8 +79,7 @@ void shade_beam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t
 
 /// Lights seen by the eye itself: `fragments` are of a view whose reference ray starts at
 /// `eye.point`.
-void shade_background(const ShadedLights& lights, const ShadedEye& eye,
-                      const Fragments& fragments);
+void shade_background(const ShadedLights& lights, const ShadedEye& eye, const Fragments& fragments);
 
 /// Instruction sets that this processor has of those that were compiled, best first; the first is
 /// used. "EMU128" or "SSE2" is the portable one.

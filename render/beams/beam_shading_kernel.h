@@ -184,8 +184,9 @@ HWY_INLINE V sphere_share(const ShadedLights::Sphere& sphere, const Ray& ray, V&
 template <bool kSoft>
 HWY_INLINE V plane_share(const ShadedLights::Plane& plane, const Ray& ray, V& distance) {
     const V3 normal{number(plane.x), number(plane.y), number(plane.z)};
-    const V towards = dot(normal, ray.direction), height = dot(normal, ray.point) - number(plane.offset);
-    const M meets = hn::And(towards < number(0.0f), height > number(0.0f));
+    const V towards = dot(normal, ray.direction),
+            height = dot(normal, ray.point) - number(plane.offset);
+    const M meets = hn::And(towards<number(0.0f), height> number(0.0f));
     distance = height / hn::IfThenElse(meets, hn::Neg(towards), number(1.0f));
     V share = hn::IfThenElseZero(meets, number(1.0f));
     if (!plane.bounded) return share;
@@ -194,7 +195,8 @@ HWY_INLINE V plane_share(const ShadedLights::Plane& plane, const Ray& ray, V& di
     if constexpr (kSoft) {
         const auto moved = [&](const V3& p, const V3& d) HWY_ATTR {
             const V3 still = plus(p, distance, d);
-            return plus(still, hn::Neg(dot(normal, still)) / hn::IfThenElse(meets, towards, number(-1.0f)),
+            return plus(still,
+                        hn::Neg(dot(normal, still)) / hn::IfThenElse(meets, towards, number(-1.0f)),
                         ray.direction);
         };
         at_x = moved(ray.point_x, ray.direction_x);
@@ -210,8 +212,6 @@ HWY_INLINE V plane_share(const ShadedLights::Plane& plane, const Ray& ray, V& di
     }
     return share;
 }
-
-constexpr int k_most_near_lights = 16;
 
 // All lights along a ray. `hidden_from`: near lights farther than that are not seen and nothing is
 // hidden; the share of the pixel that near lights fill is returned.
@@ -251,9 +251,8 @@ HWY_INLINE void all_light(const ShadedLights& lights, const Ray& ray, const V& f
                           Take& take) {
     V unhidden = from_here;
     if (!lights.spheres.empty() || !lights.planes.empty()) {
-        const auto scaled = [&](const V& factor, const float* radiance) HWY_ATTR {
-            take(factor * from_here, radiance);
-        };
+        const auto scaled = [&](const V& factor, const float* radiance)
+                                HWY_ATTR { take(factor * from_here, radiance); };
         unhidden = unhidden * near_light<kSoft>(lights, ray, number(3e38f), scaled);
     }
     distant_light<kSoft>(lights, ray, unhidden, take);

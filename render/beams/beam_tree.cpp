@@ -5,12 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/fresnel.h"
 
 namespace culet {
 
 namespace {
+
+// Regions up to so many square pixels need not be looked at: a map is off by about the square of a
+// region's size, and by 1e-4 of it where that is 100 pixels.
+constexpr double k_surely_small = 200;
+constexpr int k_most_halvings = 12;
 
 struct Region {
     std::size_t first = 0, count = 0;  // in a pool of corners
@@ -20,8 +26,8 @@ struct Region {
 double doubled_area(const ScreenPoint* p, std::size_t count) {
     double sum = 0;
     for (std::size_t i = 2; i < count; ++i) {
-        sum += (p[i - 1].x - p[0].x) * (p[i].y - p[0].y) -
-               (p[i].x - p[0].x) * (p[i - 1].y - p[0].y);
+        sum +=
+            (p[i - 1].x - p[0].x) * (p[i].y - p[0].y) - (p[i].x - p[0].x) * (p[i - 1].y - p[0].y);
     }
     return sum;
 }
@@ -83,10 +89,8 @@ public:
         const ScreenPoint middle = middle_of(outline.data(), outline.size());
         const Pencil pencil = pencil_through(*view_, middle, net_->plane(facet), n_);
         const FaceAmplitudes face = fresnel(1.0, n_, pencil.cos_i);
-        const Trunk trunk{facet,
-                          {0, outline.size()},
-                          doubled,
-                          0.5 * (face.t_s * face.t_s + face.t_p * face.t_p)};
+        const Trunk trunk{
+            facet, {0, outline.size()}, doubled, 0.5 * (face.t_s * face.t_s + face.t_p * face.t_p)};
         if (limits_->depth > 1 && worth_splitting(trunk)) split(trunk, pencil, Folding(), middle);
         return children_;
     }
@@ -98,10 +102,7 @@ public:
         ++out.beams;
         pool_ = outline;
         path_.assign(1, static_cast<std::uint16_t>(facet));
-        leaf({facet,
-              {0, outline.size()},
-              doubled_area(outline.data(), outline.size()),
-              1});
+        leaf({facet, {0, outline.size()}, doubled_area(outline.data(), outline.size()), 1});
     }
 
     /// All beams below one that `split_front` found; `middle`: of the front facet's outline.
@@ -154,7 +155,7 @@ private:
     void go_on(const Trunk& trunk, const Folding& before) {
         const ScreenPoint middle = middle_of(pool_.data() + trunk.region.first, trunk.region.count);
         const Plane& plane = net_->plane(trunk.facet);
-        const Pencil pencil = limits_->pencil == PencilKind::astigmatic
+        const Pencil pencil = limits_->refraction == Refraction::astigmatic
                                   ? pencil_through(*view_, middle, net_->plane(path_.front()), n_)
                                   : front_;
         const Folding folding = before.mirrored(plane);
@@ -188,7 +189,10 @@ private:
         int best = guess_[static_cast<std::size_t>(facet)];
         if (best < 0) best = net_->edges(facet).front().beyond;
         const auto towards = [&](int f) { return glm::dot(net_->plane(f).normal, d); };
-        const auto below = [&](int f) { return std::max(0.0, -height_above(net_->plane(f), x)); };
+        const auto below = [&](int f) {
+            const Plane& plane = net_->plane(f);
+            return std::max(0.0, plane.offset - glm::dot(plane.normal, x));
+        };
         double top = towards(best), bottom = below(best);
         for (int step = 0; step < net_->facets(); ++step) {
             int better = -1;
@@ -237,7 +241,7 @@ private:
     }
 
     void split(const Trunk& trunk, const Pencil& pencil, const Folding& folding,
-               const ScreenPoint& middle) {
+               const ScreenPoint& middle, int halvings = k_most_halvings) {
         if (++stamp_ == 0) {
             std::fill(stamp_of_corner_.begin(), stamp_of_corner_.end(), 0u);
             std::fill(stamp_of_line_.begin(), stamp_of_line_.end(), 0u);
@@ -247,24 +251,80 @@ private:
         const Vec3 d = folding.turn * pencil.direction, o = folding.point(pencil.x0);
         const Plane& left = net_->plane(trunk.facet);
         const double towards = glm::dot(left.normal, d);
-        const Vec3 x = towards != 0 ? o - height_above(left, o) / towards * d : o;
+        const Vec3 x =
+            towards != 0 ? o + (left.offset - glm::dot(left.normal, o)) / towards * d : o;
         const int exit = exit_of(trunk.facet, x, d);
         const Plane& hit = net_->plane(exit);
         const double into = glm::dot(hit.normal, d);
-        const double length = into > 0 ? -height_above(hit, o) / into : 0;
+        const double length = into > 0 ? (hit.offset - glm::dot(hit.normal, o)) / into : 0;
         const double depth = std::max(0.0, length) * pencil.cos_t;
-        map_ = map_of(pencil, limits_->pencil, folding, depth);
-        const double k = limits_->pencil == PencilKind::parallel ? 0 : 0.5 * (pencil.k_s + pencil.k_t);
+        map_ = map_of(pencil, limits_->refraction, folding, depth);
+        const double k =
+            limits_->refraction == Refraction::parallel ? 0 : 0.5 * (pencil.k_s + pencil.k_t);
         eye_ = folding.turn * (k * pencil.x0 - pencil.direction / pencil.cos_t) + k * folding.shift;
         eye_w_ = k;
         parity_ = path_.size() % 2 == 1 ? 1 : -1;
 
+        if (halvings > 0 && trunk.doubled_area > 2 * k_surely_small &&
+            map_error(trunk.region, folding, exit) > limits_->map_error) {
+            halve(trunk, folding, halvings - 1);
+            return;
+        }
         open_.assign(1, facet_around(exit, middle));
         seen_[static_cast<std::size_t>(open_.front())] = stamp_;
         while (!open_.empty()) {
             const int facet = open_.back();
             open_.pop_back();
             clip(trunk, facet);
+        }
+    }
+
+    // How far the map is off, in pixels, at the region's corners.
+    double map_error(const Region& region, const Folding& folding, int exit) const {
+        if (limits_->refraction != Refraction::astigmatic) return 0;
+        const Plane& hit = net_->plane(exit);
+        double most = 0;
+        for (std::size_t i = 0; i < region.count; ++i) {
+            const ScreenPoint& corner = pool_[region.first + i];
+            const Pencil exact = pencil_through(*view_, corner, net_->plane(path_.front()), n_);
+            const Vec3 d = folding.turn * exact.direction, o = folding.point(exact.x0);
+            const double into = glm::dot(hit.normal, d);
+            if (!(into > 0)) continue;
+            const ScreenImage seen = map_.of(o + (hit.offset - glm::dot(hit.normal, o)) / into * d);
+            if (!(seen.z > 0)) continue;
+            most = std::max(
+                {most, std::abs(seen.x / seen.z - corner.x), std::abs(seen.y / seen.z - corner.y)});
+        }
+        return most;
+    }
+
+    // Splits the beams behind two halves of a region, each with a map of its own.
+    void halve(const Trunk& trunk, const Folding& folding, int halvings) {
+        const Region whole = trunk.region;
+        const ScreenPoint middle = middle_of(pool_.data() + whole.first, whole.count);
+        // Across the direction of the corner farthest from the middle.
+        double farthest = 0, dx = 1, dy = 0;
+        for (std::size_t i = 0; i < whole.count; ++i) {
+            const ScreenPoint& p = pool_[whole.first + i];
+            const double x = p.x - middle.x, y = p.y - middle.y;
+            if (x * x + y * y <= farthest) continue;
+            farthest = x * x + y * y;
+            dx = x;
+            dy = y;
+        }
+        for (const double sign : {1.0, -1.0}) {
+            Trunk half = trunk;
+            const Vec3 line = sign * Vec3{dx, dy, -dx * middle.x - dy * middle.y};
+            take_region(whole, 1);
+            measure(line);
+            cut();
+            half.doubled_area = doubled_area(kept_.data(), count_);
+            if (count_ < 3 || !(half.doubled_area > 0)) continue;
+            half.region = {pool_.size(), count_};
+            pool_.insert(pool_.end(), kept_.data(), kept_.data() + count_);
+            const ScreenPoint centre = middle_of(pool_.data() + half.region.first, count_);
+            split(half, pencil_through(*view_, centre, net_->plane(path_.front()), n_), folding,
+                  centre, halvings);
         }
     }
 
@@ -281,20 +341,46 @@ private:
         return facet;
     }
 
+    // A region that is to be cut at most `cuts` times; each adds a corner at most.
+    void take_region(const Region& region, std::size_t cuts) {
+        const std::size_t most = region.count + cuts;
+        if (kept_.size() < most) {
+            kept_.resize(most);
+            cut_.resize(most);
+            sides_.resize(most);
+        }
+        count_ = region.count;
+        std::copy_n(pool_.data() + region.first, count_, kept_.data());
+    }
+
+    // On which side of a line each corner is; the lowest and the highest, and 0.
+    std::pair<double, double> measure(const Vec3& line) {
+        const ScreenPoint* corner = kept_.data();
+        double* sides = sides_.data();
+        double lowest = 0, highest = 0;
+        for (std::size_t i = 0; i < count_; ++i) {
+            sides[i] = side(line, corner[i]);
+            lowest = std::min(lowest, sides[i]);
+            highest = std::max(highest, sides[i]);
+        }
+        return {lowest, highest};
+    }
+
     void clip(const Trunk& trunk, int facet) {
-        const ScreenPoint* corners = pool_.data() + trunk.region.first;
-        kept_.assign(corners, corners + trunk.region.count);
-        for (const NetEdge& edge : net_->edges(facet)) {
+        const std::vector<NetEdge>& edges = net_->edges(facet);
+        take_region(trunk.region, edges.size());
+        for (const NetEdge& edge : edges) {
             if (edge.beyond == trunk.facet) continue;
-            const Vec3& l = line(edge);
-            const double sign = inside_of(edge);
-            sides_.resize(kept_.size());
-            bool any_out = false, any_in = false;
-            for (std::size_t i = 0; i < kept_.size(); ++i) {
-                sides_[i] = sign * side(l, kept_[i]);
-                any_out |= sides_[i] < 0;
-                any_in |= sides_[i] > 0;
+            const Vec3 l = inside_of(edge) * line(edge);
+            const ScreenPoint* corner = kept_.data();
+            double* sides = sides_.data();
+            double lowest = 0, highest = 0;
+            for (std::size_t i = 0; i < count_; ++i) {
+                sides[i] = side(l, corner[i]);
+                lowest = std::min(lowest, sides[i]);
+                highest = std::max(highest, sides[i]);
             }
+            const bool any_out = lowest<0, any_in = highest> 0;
             // Beyond the outline of what the eye sees from within there is no other facet.
             if (!any_out || !leads_out(edge.beyond)) continue;
             if (seen_[static_cast<std::size_t>(edge.beyond)] != stamp_) {
@@ -304,25 +390,27 @@ private:
             if (!any_in) return;
             cut();
         }
-        const double area = doubled_area(kept_.data(), kept_.size());
+        const double area = doubled_area(kept_.data(), count_);
         if (!(area > 0)) return;
-        children_.push_back({facet, {pool_.size(), kept_.size()}, area, trunk.weight});
-        pool_.insert(pool_.end(), kept_.begin(), kept_.end());
+        children_.push_back({facet, {pool_.size(), count_}, area, trunk.weight});
+        pool_.insert(pool_.end(), kept_.data(), kept_.data() + count_);
     }
 
     // Sutherland and Hodgman (1974) at the line whose `sides_` are known. A crossing point is
     // computed alike for both facets of the line, because with all signs turned t is the same.
     void cut() {
-        cut_.clear();
-        const std::size_t count = kept_.size();
-        for (std::size_t i = 0, j = count - 1; i < count; j = i++) {
-            if ((sides_[j] < 0) != (sides_[i] < 0)) {
-                const double t = sides_[j] / (sides_[j] - sides_[i]);
-                cut_.push_back({kept_[j].x + t * (kept_[i].x - kept_[j].x),
-                                kept_[j].y + t * (kept_[i].y - kept_[j].y)});
+        const ScreenPoint* from = kept_.data();
+        const double* sides = sides_.data();
+        ScreenPoint* to = cut_.data();
+        for (std::size_t i = 0, j = count_ - 1; i < count_; j = i++) {
+            if ((sides[j] < 0) != (sides[i] < 0)) {
+                const double t = sides[j] / (sides[j] - sides[i]);
+                *to++ = {from[j].x + t * (from[i].x - from[j].x),
+                         from[j].y + t * (from[i].y - from[j].y)};
             }
-            if (!(sides_[i] < 0)) cut_.push_back(kept_[i]);
+            if (!(sides[i] < 0)) *to++ = from[i];
         }
+        count_ = static_cast<std::size_t>(to - cut_.data());
         std::swap(kept_, cut_);
     }
 
@@ -335,6 +423,7 @@ private:
     std::vector<std::uint16_t> path_;
     std::vector<ScreenPoint> pool_, kept_, cut_;
     std::vector<double> sides_;
+    std::size_t count_ = 0;  // of `kept_`
     std::vector<Trunk> children_;
     std::vector<int> open_, guess_;
     // Of the beam that is being split.
@@ -354,7 +443,8 @@ std::vector<ScreenPoint> seen_outline(const FacetNet& net, int facet, const Scre
         images.push_back(view.of_point(net.corners()[static_cast<std::size_t>(edge.from)]));
     // The picture's four borders, before division by w: what is behind the eye goes with them.
     const double width = view.width, height = view.height;
-    for (const Vec3& border : {Vec3{1, 0, 0}, Vec3{-1, 0, width}, Vec3{0, 1, 0}, Vec3{0, -1, height}}) {
+    for (const Vec3& border :
+         {Vec3{1, 0, 0}, Vec3{-1, 0, width}, Vec3{0, 1, 0}, Vec3{0, -1, height}}) {
         std::vector<Vec3> kept;
         for (std::size_t i = 0, j = images.size() - 1; i < images.size(); j = i++) {
             const double here = glm::dot(border, images[i]), before = glm::dot(border, images[j]);

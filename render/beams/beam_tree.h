@@ -20,15 +20,17 @@ struct BeamLimits {
     /// A beam of less weight (mean of s and p, without absorption, at its middle) is not split
     /// further, nor one of less weight x area in square pixels.
     double cut_weight = 0, cut_contribution = 0;
-    PencilKind pencil = PencilKind::astigmatic;
+    /// A beam whose map is off by more, in pixels, is halved (astigmatic refraction only).
+    double map_error = 0.25;
+    Refraction refraction = Refraction::astigmatic;
     bool operator==(const BeamLimits&) const = default;
 };
 
 /// A beam that is not split further.
 struct Beam {
-    std::uint32_t corner = 0, facet = 0;        ///< the first of each in its BeamBranch
-    std::uint16_t corners = 0, facets = 0;      ///< how many
-    std::int32_t first_row = 0, end_row = 0;    ///< of pixels that it touches
+    std::uint32_t corner = 0, facet = 0;      ///< the first of each in its BeamBranch
+    std::uint16_t corners = 0, facets = 0;    ///< how many
+    std::int32_t first_row = 0, end_row = 0;  ///< of pixels that it touches
 };
 
 /// The beams below one pair of first facets, in the order in which they were found.

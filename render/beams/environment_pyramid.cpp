@@ -12,8 +12,9 @@ namespace culet {
 
 namespace {
 
-// Finer than the map, whose texels are pi / height wide: an octahedron's are at most 2 / side.
-constexpr int k_finest = 2048, k_subsamples = 2;
+// Texels as large as the map's would blur it: where memory allows, the finest level has half their
+// size and holds the map's own values.
+constexpr int k_finest = 2048;
 
 // Unit direction at (u, v) in -1..1, and the solid angle there of a unit of the square.
 Vec3 direction_at(double u, double v, double& solid_angle) {
@@ -30,13 +31,13 @@ Vec3 direction_at(double u, double v, double& solid_angle) {
 }  // namespace
 
 EnvironmentPyramid::EnvironmentPyramid(const EnvironmentMap& map) {
-    const int finest = std::min(
-        k_finest, static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(map.height, 2)))));
+    const int wanted = static_cast<int>(std::bit_ceil(2 * static_cast<unsigned>(map.height)));
+    const int finest = std::min(k_finest, wanted);
+    const int subsamples = wanted / finest;
     std::size_t start = 0;
     for (int side = finest; side >= 1; side /= 2) {
         // Next to the horizon's corners a texel is sqrt(3) times as long as at the zenith.
-        levels_.push_back(
-            {side, start, static_cast<float>(2 * std::numbers::sqrt3 / side)});
+        levels_.push_back({side, start, static_cast<float>(2 * std::numbers::sqrt3 / side)});
         start += static_cast<std::size_t>(side + 2) * static_cast<std::size_t>(side + 2);
     }
     for (auto& plane : planes_) plane.assign(start, 0.0f);
@@ -45,21 +46,23 @@ EnvironmentPyramid::EnvironmentPyramid(const EnvironmentMap& map) {
         const Level& level = levels_[l];
         const int side = level.side;
         const auto at = [](const Level& of, int x, int y) {
-            return of.start + static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(of.side + 2) +
+            return of.start +
+                   static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(of.side + 2) +
                    static_cast<std::size_t>(x + 1);
         };
-        std::vector<double> weights(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+        std::vector<double> weights(static_cast<std::size_t>(side) *
+                                    static_cast<std::size_t>(side));
         tbb::parallel_for(0, side, [&](int y) {
             for (int x = 0; x < side; ++x) {
                 double sum = 0;
                 std::array<double, 3> rgb{};
                 if (l == 0) {
-                    const double step = 2.0 / (side * k_subsamples);
-                    for (int i = 0; i < k_subsamples * k_subsamples; ++i) {
+                    const double step = 2.0 / (side * subsamples);
+                    for (int i = 0; i < subsamples * subsamples; ++i) {
                         double weight = 0;
                         const Vec3 direction = direction_at(
-                            -1 + step * (k_subsamples * x + i % k_subsamples + 0.5),
-                            -1 + step * (k_subsamples * y + i / k_subsamples + 0.5), weight);
+                            -1 + step * (subsamples * x + i % subsamples + 0.5),
+                            -1 + step * (subsamples * y + i / subsamples + 0.5), weight);
                         const Rgb seen = map.at(direction);
                         for (std::size_t c = 0; c < 3; ++c) rgb[c] += weight * seen[c];
                         sum += weight;

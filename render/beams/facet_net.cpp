@@ -27,8 +27,7 @@ FacetNet::FacetNet(const Solid& convex) : size_(diameter(convex)) {
     for (const Facet& facet : solid.facets) {
         const int number = std::stoi(facet.name);
         for (std::size_t i = 0; i < facet.corners.size(); ++i) {
-            const int from = facet.corners[i],
-                      to = facet.corners[(i + 1) % facet.corners.size()];
+            const int from = facet.corners[i], to = facet.corners[(i + 1) % facet.corners.size()];
             facet_at[{from, to}] = number;
             edges_[static_cast<std::size_t>(number)].push_back({from, to, -1, -1});
         }
@@ -39,8 +38,7 @@ FacetNet::FacetNet(const Solid& convex) : size_(diameter(convex)) {
             const auto other = facet_at.find({edge.to, edge.from});
             check(other != facet_at.end(), "every edge of a closed solid has two facets");
             edge.beyond = other->second;
-            const auto [line, fresh] =
-                line_of.try_emplace(std::minmax(edge.from, edge.to), lines_);
+            const auto [line, fresh] = line_of.try_emplace(std::minmax(edge.from, edge.to), lines_);
             lines_ += fresh;
             edge.line = line->second;
         }

@@ -42,15 +42,16 @@ Pencil pencil_through(const ScreenView& view, const ScreenPoint& at, const Plane
     return p;
 }
 
-PencilMap map_of(const Pencil& pencil, PencilKind kind, const Folding& folding, double depth) {
+PencilMap map_of(const Pencil& pencil, Refraction refraction, const Folding& folding,
+                 double depth) {
     double k = 0.5 * (pencil.k_s + pencil.k_t), f_t = 1, f_s = 1;
-    if (kind == PencilKind::parallel) k = 0;
-    if (kind == PencilKind::astigmatic) {
+    if (refraction == Refraction::parallel) k = 0;
+    if (refraction == Refraction::astigmatic) {
         f_t = (1 + depth * k) / (1 + depth * pencil.k_t);
         f_s = (1 + depth * k) / (1 + depth * pencil.k_s);
     }
-    const double tan_t = -glm::dot(pencil.direction, pencil.tangential) /
-                         glm::dot(pencil.direction, pencil.normal);
+    const double tan_t =
+        -glm::dot(pencil.direction, pencil.tangential) / glm::dot(pencil.direction, pencil.normal);
     // Depth and the two offsets as functions of a point of the folded stone: a vector and a number.
     const auto folded = [&](const Vec3& direction, double at_x0) {
         const Vec3 turned = folding.turn * direction;
@@ -59,16 +60,15 @@ PencilMap map_of(const Pencil& pencil, PencilKind kind, const Folding& folding, 
     const glm::dvec4 z = -folded(pencil.normal, glm::dot(pencil.normal, pencil.x0));
     const glm::dvec4 a_t =
         f_t * (folded(pencil.tangential, glm::dot(pencil.tangential, pencil.x0)) - tan_t * z);
-    const glm::dvec4 a_s =
-        f_s * folded(pencil.sagittal, glm::dot(pencil.sagittal, pencil.x0));
+    const glm::dvec4 a_s = f_s * folded(pencil.sagittal, glm::dot(pencil.sagittal, pencil.x0));
     glm::dvec4 w = k * z;
     w[3] += 1;
     PencilMap map;
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 4; ++column) {
-            map.m[static_cast<std::size_t>(4 * row + column)] =
-                w[column] * pencil.image_x0[row] + a_t[column] * pencil.image_t[row] +
-                a_s[column] * pencil.image_s[row];
+            map.m[static_cast<std::size_t>(4 * row + column)] = w[column] * pencil.image_x0[row] +
+                                                                a_t[column] * pencil.image_t[row] +
+                                                                a_s[column] * pencil.image_s[row];
         }
     }
     return map;

@@ -32,13 +32,6 @@ struct Folding {
     Folding mirrored(const Plane& plane) const;
 };
 
-/// How beams follow refraction.
-enum class PencilKind {
-    astigmatic,   ///< as above, anew for every beam about its own middle
-    perspective,  ///< one virtual eye a front facet (Voelker & Hamann's perspective refraction)
-    parallel      ///< one direction a front facet (Voelker & Hamann's parallel refraction)
-};
-
 /// One eye ray inside the stone, unfolded.
 struct Pencil {
     Vec3 x0{0}, direction{0};  ///< entry, and unit direction inside
@@ -61,6 +54,6 @@ struct PencilMap {
     }
 };
 /// `depth`: z*, of the point that the ray hits next.
-PencilMap map_of(const Pencil& pencil, PencilKind kind, const Folding& folding, double depth);
+PencilMap map_of(const Pencil& pencil, Refraction refraction, const Folding& folding, double depth);
 
 }  // namespace culet

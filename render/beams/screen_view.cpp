@@ -33,8 +33,7 @@ ScreenView screen_view(const Camera& camera, double pupil_x, double pupil_y) {
     glm::dmat3 basis;  // its inverse takes a point, from the eye, to the picture
     if (camera.orthographic_width) {
         const double pixel = *camera.orthographic_width / camera.width;
-        const Vec3 corner =
-            camera.position - 0.5 * pixel * (width * right + height * down);
+        const Vec3 corner = camera.position - 0.5 * pixel * (width * right + height * down);
         if (camera.aperture_radius > 0) {
             // Rays of a pixel meet in the plane in focus; they do not meet in the pupil.
             view.o = corner + beside;

@@ -1,0 +1,253 @@
+#include "render/beams/beam_picture.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <limits>
+
+#include "render/beams/beam_renderer.h"
+#include "render/pilot.h"
+#include "render/pixel_shader.h"
+#include "render/scene_checks.h"
+#include "render/threads.h"
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+// Pixels that are compared with the reference, and its rays in each: their own noise counts as the
+// beams' error, which can only make the bound larger.
+constexpr int k_checked_across = 48, k_check_samples = 16;
+constexpr double k_standard_errors = 3;
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+double processor_seconds() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+void require_beams(const Scene& scene, const Plan& plan) {
+    const std::string remedy = ": say engine = \"reference\"";
+    if (!scene.stone.convex) throw InputError("beams are for convex stones only" + remedy);
+    for (const Band& band : plan.bands) {
+        if (!(band.n > band.n_outside)) {
+            throw InputError(
+                fmt::format("beams need a stone denser than what surrounds it, found "
+                            "{} in {}{}",
+                            band.n, band.n_outside, remedy));
+        }
+    }
+    if (plan.splits) throw InputError("beams do not split in crystals yet" + remedy);
+    if (plan.stokes)
+        throw InputError("beams do not carry polarised lights or analysers yet" + remedy);
+    if (scene.settings.filter != PixelFilter::box || scene.settings.filter_radius != 0.5)
+        throw InputError("beams average over the pixel's square: say filter = \"box\"" + remedy);
+    if (scene.lights.spheres.size() + scene.lights.planes.size() > k_most_near_lights)
+        throw InputError(
+            fmt::format("beams take at most {} near lights{}", k_most_near_lights, remedy));
+}
+
+BeamSettings beam_settings(const Scene& scene, const PathLimits& limits) {
+    BeamSettings settings;
+    settings.limits.depth = limits.depth;
+    settings.limits.cut_weight = limits.cut_weight;
+    settings.limits.cut_contribution = limits.cut_weight;
+    settings.limits.refraction = scene.settings.refraction;
+    settings.threads = scene.settings.threads;
+    settings.shading = scene.settings.engine == "preview" ? BeamShading::flat
+                       : scene.settings.samples == 1 && scene.camera.aperture_radius == 0
+                           ? BeamShading::single
+                           : BeamShading::averaged;
+    return settings;
+}
+
+// What the scene calls for, with all that is made of it.
+struct Called {
+    Plan plan;
+    WavelengthSet colours;
+    LightField lights;
+    PathLimits limits;
+
+    explicit Called(const Scene& scene)
+        : plan(plan_for_tolerance(scene)),
+          colours(plan.wavelengths_nm),
+          lights(scene.lights, colours),
+          limits(limits_for(scene, plan, lights, colours)) {
+        require_beams(scene, plan);
+    }
+};
+
+}  // namespace
+
+struct FrameRenderer::State {
+    explicit State(const Scene& whole)
+        : scene(whole), called(std::make_unique<Called>(scene)), renderer(scene.stone.solid) {}
+
+    Scene scene;
+    std::unique_ptr<Called> called;
+    BeamRenderer renderer;
+    RenderResult result;
+    double limit_ms = 0, cut = 0;  // of a beam's contribution, to keep within the limit
+    Progress progress;
+
+    void draw(bool check);
+    void check();
+};
+
+void FrameRenderer::State::draw(bool with_check) {
+    BeamSettings settings = beam_settings(scene, called->limits);
+    settings.limits.cut_contribution = std::max(settings.limits.cut_contribution, cut);
+    const double started = processor_seconds();
+    renderer.draw(scene, called->plan, called->lights, called->colours, settings, result.picture,
+                  progress);
+    const double took_ms = 1e3 * (processor_seconds() - started);
+    const BeamReport& report = renderer.report();
+    RenderStats& stats = result.stats;
+    stats = {};
+    stats.engine = scene.settings.engine;
+    stats.depth = report.deepest;
+    stats.effects.assign(called->plan.effects.begin(), called->plan.effects.end());
+    stats.wavelengths_nm = called->plan.wavelengths_nm;
+    stats.mean_radiance = report.luminance;
+    stats.remainder = report.remainder;
+    stats.absorbed = report.absorbed;
+    stats.beams = report.beams;
+    stats.rays = report.fragments;
+    stats.retraced = report.retraced;
+    stats.lost_area = report.lost_area;
+    stats.seconds_build = report.seconds_build;
+    stats.seconds_shade = report.seconds_shade;
+    stats.notes = notes_on_drawing(scene);
+    stats.error_bound = std::numeric_limits<double>::quiet_NaN();
+    if (with_check) check();
+    if (limit_ms > 0) {
+        // The number of beams falls about with the root of the cut: steps towards the limit.
+        const double ratio = took_ms / limit_ms;
+        const double least = 1e-6;
+        if (ratio > 1 || cut > 0) cut = std::max(cut, least) * ratio * ratio;
+        if (cut < least) cut = 0;
+    }
+}
+
+// Pixels on a grid, jittered by the golden ratio, as the reference sees them at the same depth.
+void FrameRenderer::State::check() {
+    const auto start = Clock::now();
+    RenderStats& stats = result.stats;
+    const Picture& picture = result.picture;
+    const bool single = scene.settings.samples == 1;
+    const PixelShader shader(scene, called->plan, called->lights, called->colours, called->limits,
+                             single && scene.camera.aperture_radius == 0 ? 1 : k_check_samples);
+    std::vector<std::size_t> pixels;
+    const double step = std::max(
+        1.0, static_cast<double>(std::max(picture.width, picture.height)) / k_checked_across);
+    int number = 0;
+    for (double y = 0; y < picture.height; y += step) {
+        for (double x = 0; x < picture.width; x += step, ++number) {
+            const int px = static_cast<int>(x + step * std::fmod(number * 0.6180339887498949, 1.0)),
+                      py = static_cast<int>(y + step * std::fmod(number * 0.7548776662466927, 1.0));
+            if (px >= picture.width || py >= picture.height) continue;
+            const std::size_t pixel =
+                static_cast<std::size_t>(py) * static_cast<std::size_t>(picture.width) +
+                static_cast<std::size_t>(px);
+            if (picture.coverage[pixel] > 0) pixels.push_back(pixel);
+        }
+    }
+    const int nodes = called->colours.size();
+    std::vector<double> errors(pixels.size());
+    on_threads(scene.settings.threads, [&] {
+        tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
+            PixelMemory memory;
+            std::vector<double> stokes(static_cast<std::size_t>(nodes * shader.planes()));
+            const int x = static_cast<int>(pixels[i] % static_cast<std::size_t>(picture.width)),
+                      y = static_cast<int>(pixels[i] / static_cast<std::size_t>(picture.width));
+            shader.shade(x, y, 1, pixels[i], stokes.data(), memory);
+            const Rgb exact = called->colours.rgb_of(stokes.data());
+            const float* seen = picture.rgb.data() + 3 * pixels[i];
+            errors[i] = std::abs(luminance(exact) - luminance({static_cast<double>(seen[0]),
+                                                               static_cast<double>(seen[1]),
+                                                               static_cast<double>(seen[2])}));
+        });
+    });
+    double sum = 0, squares = 0;
+    for (double error : errors) {
+        sum += error;
+        squares += error * error;
+    }
+    stats.checked_pixels = static_cast<int>(errors.size());
+    if (!errors.empty() && stats.mean_radiance > 0) {
+        const double count = static_cast<double>(errors.size()), mean = sum / count;
+        const double spread = std::sqrt(std::max(0.0, squares / count - mean * mean) / count);
+        stats.engine_error = (mean + k_standard_errors * spread) / stats.mean_radiance;
+    }
+    stats.error_bound = stats.engine_error;
+    if (stats.mean_radiance > 0)
+        stats.error_bound += stats.remainder * called->lights.max_radiance() / stats.mean_radiance;
+    const double tolerance = scene.settings.tolerance;
+    if (tolerance > 0 && stats.error_bound > tolerance) {
+        stats.notes.push_back(fmt::format("the error bound {:.3g} is over the tolerance {:.3g}",
+                                          stats.error_bound, tolerance));
+    }
+    stats.seconds_check = seconds_since(start);
+}
+
+FrameRenderer::FrameRenderer(const Scene& scene) {
+    require_renderable(scene);
+    state_ = std::make_unique<State>(scene);
+}
+FrameRenderer::~FrameRenderer() = default;
+FrameRenderer::FrameRenderer(FrameRenderer&&) noexcept = default;
+
+void FrameRenderer::look_from(const Camera& camera) {
+    Scene& scene = state_->scene;
+    const Camera before = scene.camera;
+    scene.camera = camera;
+    try {
+        require_renderable(scene);
+    } catch (...) {
+        scene.camera = before;
+        throw;
+    }
+}
+
+void FrameRenderer::light_with(const Lights& lights) {
+    Scene changed = state_->scene;
+    changed.lights = lights;
+    state_->called = std::make_unique<Called>(changed);
+    state_->scene = std::move(changed);
+}
+
+void FrameRenderer::keep_within(double milliseconds) {
+    state_->limit_ms = milliseconds;
+    if (!(milliseconds > 0)) state_->cut = 0;
+}
+
+const RenderResult& FrameRenderer::draw(bool check) {
+    state_->draw(check);
+    return state_->result;
+}
+
+bool drawn_by_beams(const RenderSettings& settings) {
+    return settings.engine == "beams" || settings.engine == "preview";
+}
+
+RenderResult render_with_beams(const Scene& scene, const Progress& progress) {
+    const auto start = Clock::now();
+    require_renderable(scene);
+    FrameRenderer frames(scene);
+    frames.state_->progress = progress;
+    frames.state_->draw(true);
+    RenderResult& result = frames.state_->result;
+    RenderStats& stats = result.stats;
+    stats.seconds_setup =
+        seconds_since(start) - stats.seconds_build - stats.seconds_shade - stats.seconds_check;
+    return std::move(result);
+}
+
+}  // namespace culet
