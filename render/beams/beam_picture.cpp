@@ -44,9 +44,8 @@ void require_beams(const Scene& scene, const Plan& plan) {
                             band.n, band.n_outside, remedy));
         }
     }
-    if (plan.splits) throw InputError("beams do not split in crystals yet" + remedy);
-    if (plan.stokes)
-        throw InputError("beams do not carry polarised lights or analysers yet" + remedy);
+    if (scene.camera.optics.two_windows)
+        throw InputError("beams draw one window, a dichroscope has two" + remedy);
     if (scene.settings.filter != PixelFilter::box || scene.settings.filter_radius != 0.5)
         throw InputError("beams average over the pixel's square: say filter = \"box\"" + remedy);
     if (scene.lights.spheres.size() + scene.lights.planes.size() > k_most_near_lights)
@@ -105,8 +104,7 @@ void FrameRenderer::State::draw(bool with_check) {
     BeamSettings settings = beam_settings(scene, called->limits);
     settings.limits.cut_contribution = std::max(settings.limits.cut_contribution, cut);
     const double started = processor_seconds();
-    renderer.draw(scene, called->plan, called->lights, called->colours, settings, result.picture,
-                  progress);
+    renderer.draw(scene, called->plan, called->colours, settings, result.picture, progress);
     const double took_ms = 1e3 * (processor_seconds() - started);
     const BeamReport& report = renderer.report();
     RenderStats& stats = result.stats;
