@@ -26,9 +26,10 @@ ShadedLights::Polarised polarised_as(const std::optional<LinearPolarisation>& li
     result.sheet = light->normal.has_value();
     // A sheet's direction lies in it.
     const Vec3 normal = light->normal.value_or(Vec3(0, 0, 1));
-    const Vec3 along = result.sheet ? glm::normalize(light->vibration -
-                                                     glm::dot(light->vibration, normal) * normal)
-                                    : light->vibration;
+    const Vec3 along =
+        result.sheet
+            ? glm::normalize(light->vibration - glm::dot(light->vibration, normal) * normal)
+            : light->vibration;
     for (int i = 0; i < 3; ++i) {
         result.along[i] = static_cast<float>(along[i]);
         result.normal[i] = static_cast<float>(normal[i]);
@@ -57,20 +58,20 @@ ShadedLights::ShadedLights(const Lights& lights, const WavelengthSet& colours, i
         const Vec3& d = light.direction;
         caps.push_back({number(d.x), number(d.y), number(d.z), 2.0f, 0.0f,
                         spectrum(light.radiance, colours, first, count),
-                         polarised_as(light.radiance.polarisation)});
+                        polarised_as(light.radiance.polarisation)});
     }
     for (const CapLight& light : lights.caps) {
         const Vec3& d = light.direction;
         const CapCosines cosines = cosines_of(light);
         caps.push_back({number(d.x), number(d.y), number(d.z), number(cosines.from),
                         number(cosines.to), spectrum(light.radiance, colours, first, count),
-                         polarised_as(light.radiance.polarisation)});
+                        polarised_as(light.radiance.polarisation)});
     }
     for (const SphereLight& light : lights.spheres) {
         const Vec3 c = light.center - middle;
         spheres.push_back({number(c.x), number(c.y), number(c.z), number(light.radius),
                            spectrum(light.radiance, colours, first, count),
-                         polarised_as(light.radiance.polarisation)});
+                           polarised_as(light.radiance.polarisation)});
     }
     for (const PlaneLight& light : lights.planes) {
         Plane plane{};

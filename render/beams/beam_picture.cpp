@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "render/beams/beam_renderer.h"
+#include "render/eye_optics.h"
 #include "render/pilot.h"
 #include "render/pixel_shader.h"
 #include "render/scene_checks.h"
@@ -24,6 +25,7 @@ namespace {
 // beams' error, which can only make the bound larger.
 constexpr int k_checked_across = 48, k_check_samples = 16;
 constexpr double k_standard_errors = 3;
+constexpr double k_preview_map_error = 1;  // pixels
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
@@ -64,6 +66,8 @@ BeamSettings beam_settings(const Scene& scene, const PathLimits& limits) {
                        : scene.settings.samples == 1 && scene.camera.aperture_radius == 0
                            ? BeamShading::single
                            : BeamShading::averaged;
+    // Flat colours are off by far more than a beam's borders.
+    if (settings.shading == BeamShading::flat) settings.limits.map_error = k_preview_map_error;
     return settings;
 }
 
@@ -166,6 +170,18 @@ void FrameRenderer::State::check() {
             const int x = static_cast<int>(pixels[i] % static_cast<std::size_t>(picture.width)),
                       y = static_cast<int>(pixels[i] / static_cast<std::size_t>(picture.width));
             shader.shade(x, y, 1, pixels[i], stokes.data(), memory);
+            // Behind the eye's optics.
+            for (int k = 1; k < shader.planes(); ++k) {
+                for (int node = 0; node < nodes; ++node) {
+                    const Stokes row =
+                        response(scene.camera.optics,
+                                 called->plan.wavelengths_nm[static_cast<std::size_t>(node)]);
+                    double& seen_there = stokes[static_cast<std::size_t>(node)];
+                    if (k == 1) seen_there *= row[0];
+                    seen_there += row[static_cast<std::size_t>(k)] *
+                                  stokes[static_cast<std::size_t>(k * nodes + node)];
+                }
+            }
             const Rgb exact = called->colours.rgb_of(stokes.data());
             const float* seen = picture.rgb.data() + 3 * pixels[i];
             errors[i] = std::abs(luminance(exact) - luminance({static_cast<double>(seen[0]),

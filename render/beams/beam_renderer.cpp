@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "render/beams/shading_passes.h"
 #include "render/eye_optics.h"
@@ -70,9 +71,8 @@ struct BeamRenderer::Work {
     void keep_spectra(const Scene& scene, const Plan& plan, Picture& picture) const;
 };
 
-void BeamRenderer::Work::prepare(const Scene& scene, const Plan& plan,
-                                 const WavelengthSet& colours, std::size_t planes,
-                                 Picture& picture) {
+void BeamRenderer::Work::prepare(const Scene& scene, const Plan& plan, const WavelengthSet& colours,
+                                 std::size_t planes, Picture& picture) {
     if (scene.lights.environment != map) {
         map = scene.lights.environment;
         pyramid = map ? std::make_shared<EnvironmentPyramid>(*map) : nullptr;
@@ -94,10 +94,11 @@ void BeamRenderer::Work::prepare(const Scene& scene, const Plan& plan,
         const Rgb rgb = colours.rgb_of(one.data());
         one[node] = 0;
         // Stokes planes are seen through the eye's optics; else those are in the passes already.
-        const double seen = planes > nodes ? response(scene.camera.optics,
-                                                      plan.wavelengths_nm[node])[i / nodes]
-                                           : 1.0;
-        rgb_of_plane.push_back({static_cast<float>(seen * rgb[0]), static_cast<float>(seen * rgb[1]),
+        const double seen =
+            planes > nodes ? response(scene.camera.optics, plan.wavelengths_nm[node])[i / nodes]
+                           : 1.0;
+        rgb_of_plane.push_back({static_cast<float>(seen * rgb[0]),
+                                static_cast<float>(seen * rgb[1]),
                                 static_cast<float>(seen * rgb[2])});
     }
 }
@@ -116,9 +117,9 @@ void BeamRenderer::Work::clear(int strip) {
 void BeamRenderer::Work::develop(int strip, Picture& picture) const {
     const std::size_t width = static_cast<std::size_t>(canvas.width);
     const std::size_t begin = static_cast<std::size_t>(strip * k_strip) * width,
-                      end = static_cast<std::size_t>(
-                                std::min((strip + 1) * k_strip, canvas.height)) *
-                            width;
+                      end =
+                          static_cast<std::size_t>(std::min((strip + 1) * k_strip, canvas.height)) *
+                          width;
     float* rgb = picture.rgb.data();
     if (rgb_of_plane.size() == 1) {
         const float* plane = canvas.planes.data();
@@ -146,8 +147,8 @@ void BeamRenderer::Work::keep_spectra(const Scene& scene, const Plan& plan,
         std::vector<float> seen(pixels, 0.0f);
         for (std::size_t p = node; p < planes; p += nodes) {
             const float weight =
-                planes > nodes ? static_cast<float>(response(
-                                     scene.camera.optics, plan.wavelengths_nm[node])[p / nodes])
+                planes > nodes ? static_cast<float>(response(scene.camera.optics,
+                                                             plan.wavelengths_nm[node])[p / nodes])
                                : 1.0f;
             for (std::size_t i = 0; i < pixels; ++i) seen[i] += weight * plane(p)[i];
         }
@@ -234,7 +235,7 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
         report.absorbed = whole.absorbed / whole.filled;
         report.luminance = whole.luminance / whole.filled;
     }
-    picture.coverage = work.canvas.coverage;
+    std::swap(picture.coverage, work.canvas.coverage);
     if (scene.settings.spectral) work.keep_spectra(scene, plan, picture);
 }
 

@@ -100,8 +100,7 @@ struct DoubleAngle {
 // The picture's right, turned with the view's axis into a ray.
 HWY_INLINE V3 eye_right(const ShadedEye& eye, const V3& direction) {
     const V3 forward = vector(eye.forward), right = vector(eye.right);
-    return plus(right,
-                hn::Neg(dot(right, direction)) / (number(1.0f) + dot(forward, direction)),
+    return plus(right, hn::Neg(dot(right, direction)) / (number(1.0f) + dot(forward, direction)),
                 forward + direction);
 }
 
@@ -304,24 +303,26 @@ private:
             carried_.U = carried_.V_ = zero;
         } else {
             // 1/n^2 of the two waves; psi are the angles to the optic axes.
-            const V sines = hn::Sqrt(hn::Max((one - cosine[0] * cosine[0]) *
-                                                 (one - cosine[1] * cosine[1]), zero));
+            const V sines = hn::Sqrt(
+                hn::Max((one - cosine[0] * cosine[0]) * (one - cosine[1] * cosine[1]), zero));
             const V cosines = cosine[0] * cosine[1];
-            const V mean = number(crystal.inverse_square[0]), spread = number(crystal.inverse_square[1]);
+            const V mean = number(crystal.inverse_square[0]),
+                    spread = number(crystal.inverse_square[1]);
             const V fast = hn::MulAdd(spread, cosines + sines, mean),
                     slow = hn::MulAdd(spread, cosines - sines, mean);
             // n_slow - n_fast without a difference of near equals.
             const V root_fast = hn::Sqrt(fast), root_slow = hn::Sqrt(slow);
-            const V split = number(2.0f) * spread * sines /
-                            (root_fast * root_slow * (root_fast + root_slow));
+            const V split =
+                number(2.0f) * spread * sines / (root_fast * root_slow * (root_fast + root_slow));
             const V retardation = split * way;
             const V turns = retardation * number(crystal.waves_per_length);
             const V phase = number(6.28318530718f) * (turns - hn::Round(turns));
-            const V over = number(3.14159265359f) * retardation * number(crystal.coherence_per_length);
-            const V sinc = hn::IfThenElse(over > number(1e-3f),
-                                          hn::Sin(k_floats, over) / hn::Max(over, number(1e-3f)),
-                                          one);
-            const V left = hn::IfThenElseZero(over < number(3.14159265f), sinc * sinc) * kept1 * kept2;
+            const V over =
+                number(3.14159265359f) * retardation * number(crystal.coherence_per_length);
+            const V sinc = hn::IfThenElse(
+                over > number(1e-3f), hn::Sin(k_floats, over) / hn::Max(over, number(1e-3f)), one);
+            const V left =
+                hn::IfThenElseZero(over < number(3.14159265f), sinc * sinc) * kept1 * kept2;
             const V cos_phase = hn::Cos(k_floats, phase), sin_phase = hn::Sin(k_floats, phase);
             const V U = carried_.U * left, W = carried_.V_ * left;
             // E_first E_second*: the second wave, the slow one, is ahead in phase.
@@ -463,10 +464,12 @@ private:
         const ShadedStone::Face &now = stone_.faces[facets_[k]],
                                 &was = stone_.faces[facets_[k - 1]];
         const float ab = now.x * was.x + now.y * was.y + now.z * was.z;
-        const V3 cross_ab{number(was.y * now.z - was.z * now.y), number(was.z * now.x - was.x * now.z),
-                       number(was.x * now.y - was.y * now.x)};
+        const V3 cross_ab{number(was.y * now.z - was.z * now.y),
+                          number(was.z * now.x - was.x * now.z),
+                          number(was.x * now.y - was.y * now.x)};
         (void)a;
-        const DoubleAngle angle(number(ab) - cosine * cosine_before_, dot(ray_.direction, cross_ab));
+        const DoubleAngle angle(number(ab) - cosine * cosine_before_,
+                                dot(ray_.direction, cross_ab));
         carried_.turn(angle.cosine, angle.sine);
     }
 

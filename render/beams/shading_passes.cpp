@@ -72,8 +72,8 @@ std::vector<ShadingPass> shading_passes(const Scene& scene, const Plan& plan,
             one[static_cast<std::size_t>(i)] = 1;
             const double of_node = luminance(colours.rgb_of(one.data()));
             one[static_cast<std::size_t>(i)] = 0;
-            pass.luminance.push_back(
-                stokes == 4 ? of_node * seen[static_cast<std::size_t>(k)] : of_node);
+            pass.luminance.push_back(stokes == 4 ? of_node * seen[static_cast<std::size_t>(k)]
+                                                 : of_node);
         }
         pass.optics.n = number(pass.n);
         pass.optics.polarised = plan.polarised;
@@ -88,8 +88,8 @@ std::vector<ShadingPass> shading_passes(const Scene& scene, const Plan& plan,
         if (responds) {
             std::array<float, 4> row{};
             for (std::size_t j = 0; j < 4; ++j)
-                row[j] = stokes == 4 ? static_cast<float>(static_cast<int>(j) == k)
-                                     : number(seen[j]);
+                row[j] =
+                    stokes == 4 ? static_cast<float>(static_cast<int>(j) == k) : number(seen[j]);
             pass.optics.response = row;
         }
         pass.lights = ShadedLights(scene.lights, colours, first, count, middle, environment);

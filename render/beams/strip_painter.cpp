@@ -217,8 +217,7 @@ void StripPainter::fill_holes(const std::vector<ShadingPass>& passes) {
             for (int node = 0; node < nodes; ++node) {
                 const float seen = radiance_[static_cast<std::size_t>(node)];
                 plane(pass, node)[pixel] += static_cast<float>(options_.share) * seen;
-                sums_.luminance += options_.share *
-                                   pass.luminance[static_cast<std::size_t>(node)] *
+                sums_.luminance += options_.share * pass.luminance[static_cast<std::size_t>(node)] *
                                    static_cast<double>(seen);
             }
             const double of_sums = options_.share * pass.weight * nodes;
@@ -287,7 +286,8 @@ StripSums StripPainter::paint(int strip, const ScreenView& view, const SortedBea
     row_begin_ = strip * k_strip;
     row_end_ = std::min(row_begin_ + k_strip, canvas_.height);
     sums_ = {};
-    const std::size_t begin = static_cast<std::size_t>(row_begin_) * static_cast<std::size_t>(canvas_.width),
+    const std::size_t begin = static_cast<std::size_t>(row_begin_) *
+                              static_cast<std::size_t>(canvas_.width),
                       count = static_cast<std::size_t>(row_end_ - row_begin_) *
                               static_cast<std::size_t>(canvas_.width);
     cover_.assign(count, 0.0f);

@@ -15,16 +15,17 @@ namespace culet {
 enum class BeamShading {
     flat,     ///< one colour a beam, exact areas of pixels
     single,   ///< each pixel's middle exactly, along its beam's facets, verified: no anti-aliasing
-    averaged  ///< each touched pixel's middle along each beam's facets, times the area that it fills
+    averaged  ///< each touched pixel's middle along each beam's facets, times the area that it
+              ///< fills
 };
 
 /// What is shaded together: some nodes of a band, all of which follow one set of beams.
 struct ShadingPass {
-    std::size_t beams = 0;     ///< which of the view's sets
-    double n = 1;              ///< index over the outside's
-    std::size_t plane = 0;     ///< the first node's; one plane a node
-    double weight = 1;         ///< of its sums in the report, per node
-    bool counts_area = false;  ///< one pass does
+    std::size_t beams = 0;          ///< which of the view's sets
+    double n = 1;                   ///< index over the outside's
+    std::size_t plane = 0;          ///< the first node's; one plane a node
+    double weight = 1;              ///< of its sums in the report, per node
+    bool counts_area = false;       ///< one pass does
     std::vector<double> luminance;  ///< of each node, for the report
     ShadedOptics optics;
     ShadedLights lights;
@@ -57,9 +58,9 @@ struct PaintedStone {
 
 struct PaintOptions {
     BeamShading shading = BeamShading::averaged;
-    int depth = 8;           ///< as the beams' limits
+    int depth = 8;  ///< as the beams' limits
     double cut_weight = 0;
-    double share = 1;        ///< of the picture: one of several points of the pupil
+    double share = 1;  ///< of the picture: one of several points of the pupil
 };
 
 /// One thread's tools.
