@@ -135,8 +135,13 @@ public:
             const V3 a{number(face.x), number(face.y), number(face.z)};
             const V cosine = dot(a, ray_.direction);
             if (located) {
-                const V towards = hn::Max(cosine, number(1e-20f));
-                const V length = (number(face.offset) - dot(a, ray_.point)) / towards;
+                // Rays beside the beam need not meet its facets: they go no farther than a ray in the
+                // stone can.
+                const V towards = hn::Max(cosine, number(1e-4f));
+                const V farthest = number(stone_.size);
+                const V length = hn::Min(
+                    hn::Max((number(face.offset) - dot(a, ray_.point)) / towards, hn::Neg(farthest)),
+                    farthest);
                 ray_.point = plus(ray_.point, length, ray_.direction);
                 if constexpr (kSoft) {
                     move(ray_.point_x, ray_.direction_x, length, a, towards);
