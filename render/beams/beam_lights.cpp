@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <optional>
 
 namespace culet {
 
@@ -18,12 +19,31 @@ std::vector<float> spectrum(const LightColour& colour, const WavelengthSet& colo
     return {all.begin() + first, all.begin() + first + count};
 }
 
+ShadedLights::Polarised polarised_as(const std::optional<LinearPolarisation>& light) {
+    ShadedLights::Polarised result;
+    if (!light) return result;
+    result.degree = static_cast<float>(light->degree);
+    result.sheet = light->normal.has_value();
+    // A sheet's direction lies in it.
+    const Vec3 normal = light->normal.value_or(Vec3(0, 0, 1));
+    const Vec3 along =
+        result.sheet
+            ? glm::normalize(light->vibration - glm::dot(light->vibration, normal) * normal)
+            : light->vibration;
+    for (int i = 0; i < 3; ++i) {
+        result.along[i] = static_cast<float>(along[i]);
+        result.normal[i] = static_cast<float>(normal[i]);
+    }
+    return result;
+}
+
 }  // namespace
 
 ShadedLights::ShadedLights(const Lights& lights, const WavelengthSet& colours, int first, int count,
                            const Vec3& middle, std::shared_ptr<const EnvironmentPyramid> pyramid)
     : nodes(count), environment(std::move(pyramid)) {
     const auto number = [](double v) { return static_cast<float>(v); };
+    surroundings = polarised_as(lights.polarisation);
     constant.assign(static_cast<std::size_t>(count), number(lights.constant));
     for (const LobeLight& light : lights.lobes) {
         const Vec3& d = light.direction;
@@ -31,23 +51,27 @@ ShadedLights::ShadedLights(const Lights& lights, const WavelengthSet& colours, i
                            light.exponent <= k_multiplied_out && light.exponent >= 0;
         lobes.push_back({number(d.x), number(d.y), number(d.z), number(light.exponent),
                          whole ? static_cast<int>(light.exponent) : -1,
-                         spectrum(light.radiance, colours, first, count)});
+                         spectrum(light.radiance, colours, first, count),
+                         polarised_as(light.radiance.polarisation)});
     }
     for (const HemisphereLight& light : lights.hemispheres) {
         const Vec3& d = light.direction;
         caps.push_back({number(d.x), number(d.y), number(d.z), 2.0f, 0.0f,
-                        spectrum(light.radiance, colours, first, count)});
+                        spectrum(light.radiance, colours, first, count),
+                        polarised_as(light.radiance.polarisation)});
     }
     for (const CapLight& light : lights.caps) {
         const Vec3& d = light.direction;
         const CapCosines cosines = cosines_of(light);
         caps.push_back({number(d.x), number(d.y), number(d.z), number(cosines.from),
-                        number(cosines.to), spectrum(light.radiance, colours, first, count)});
+                        number(cosines.to), spectrum(light.radiance, colours, first, count),
+                        polarised_as(light.radiance.polarisation)});
     }
     for (const SphereLight& light : lights.spheres) {
         const Vec3 c = light.center - middle;
         spheres.push_back({number(c.x), number(c.y), number(c.z), number(light.radius),
-                           spectrum(light.radiance, colours, first, count)});
+                           spectrum(light.radiance, colours, first, count),
+                           polarised_as(light.radiance.polarisation)});
     }
     for (const PlaneLight& light : lights.planes) {
         Plane plane{};
@@ -69,6 +93,7 @@ ShadedLights::ShadedLights(const Lights& lights, const WavelengthSet& colours, i
             plane.s[3] = number(-glm::dot(s, point));
             plane.t[3] = number(-glm::dot(t, point));
         }
+        plane.polarised = polarised_as(light.radiance.polarisation);
         plane.radiance = spectrum(light.radiance, colours, first, count);
         planes.push_back(std::move(plane));
     }

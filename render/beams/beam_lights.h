@@ -19,29 +19,42 @@ struct ShadedLights {
     ShadedLights(const Lights& lights, const WavelengthSet& colours, int first, int count,
                  const Vec3& middle, std::shared_ptr<const EnvironmentPyramid> environment);
 
+    /// Degree 0: unpolarised. The vibration of a ray is `along` turned with the sheet's normal into
+    /// it, or without a sheet the projection of `along`.
+    struct Polarised {
+        float degree = 0;
+        bool sheet = false;
+        float along[3] = {1, 0, 0}, normal[3] = {0, 0, 1};
+    };
+
     struct Lobe {
         float x, y, z, exponent;
         int whole;  ///< the exponent when it is a small whole number, else -1
         std::vector<float> radiance;
+        Polarised polarised;
     };
     struct Cap {  ///< or half of all directions: angle cosines in (to, from]
         float x, y, z, from, to;
         std::vector<float> radiance;
+        Polarised polarised;
     };
     struct Sphere {
         float x, y, z, radius;
         std::vector<float> radiance;
+        Polarised polarised;
     };
     struct Plane {
         float x, y, z, offset;
         bool bounded;
         float s[4], t[4];  ///< coordinates of a point along u and v, as a row; lit within -1..1
         std::vector<float> radiance;
+        Polarised polarised;
     };
 
     int nodes = 1;
     bool any_edge = false;  ///< lights whose radiance jumps, or an environment
     std::vector<float> constant;
+    Polarised surroundings;  ///< of the constant light and the environment
     std::vector<Lobe> lobes;
     std::vector<Cap> caps;
     std::vector<Sphere> spheres;

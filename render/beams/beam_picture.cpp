@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "render/beams/beam_renderer.h"
+#include "render/eye_optics.h"
 #include "render/pilot.h"
 #include "render/pixel_shader.h"
 #include "render/scene_checks.h"
@@ -24,6 +25,7 @@ namespace {
 // beams' error, which can only make the bound larger.
 constexpr int k_checked_across = 48, k_check_samples = 16;
 constexpr double k_standard_errors = 3;
+constexpr double k_preview_map_error = 1;  // pixels
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
@@ -44,9 +46,8 @@ void require_beams(const Scene& scene, const Plan& plan) {
                             band.n, band.n_outside, remedy));
         }
     }
-    if (plan.splits) throw InputError("beams do not split in crystals yet" + remedy);
-    if (plan.stokes)
-        throw InputError("beams do not carry polarised lights or analysers yet" + remedy);
+    if (scene.camera.optics.two_windows)
+        throw InputError("beams draw one window, a dichroscope has two" + remedy);
     if (scene.settings.filter != PixelFilter::box || scene.settings.filter_radius != 0.5)
         throw InputError("beams average over the pixel's square: say filter = \"box\"" + remedy);
     if (scene.lights.spheres.size() + scene.lights.planes.size() > k_most_near_lights)
@@ -65,6 +66,8 @@ BeamSettings beam_settings(const Scene& scene, const PathLimits& limits) {
                        : scene.settings.samples == 1 && scene.camera.aperture_radius == 0
                            ? BeamShading::single
                            : BeamShading::averaged;
+    // Flat colours are off by far more than a beam's borders.
+    if (settings.shading == BeamShading::flat) settings.limits.map_error = k_preview_map_error;
     return settings;
 }
 
@@ -105,8 +108,7 @@ void FrameRenderer::State::draw(bool with_check) {
     BeamSettings settings = beam_settings(scene, called->limits);
     settings.limits.cut_contribution = std::max(settings.limits.cut_contribution, cut);
     const double started = processor_seconds();
-    renderer.draw(scene, called->plan, called->lights, called->colours, settings, result.picture,
-                  progress);
+    renderer.draw(scene, called->plan, called->colours, settings, result.picture, progress);
     const double took_ms = 1e3 * (processor_seconds() - started);
     const BeamReport& report = renderer.report();
     RenderStats& stats = result.stats;
@@ -168,6 +170,18 @@ void FrameRenderer::State::check() {
             const int x = static_cast<int>(pixels[i] % static_cast<std::size_t>(picture.width)),
                       y = static_cast<int>(pixels[i] / static_cast<std::size_t>(picture.width));
             shader.shade(x, y, 1, pixels[i], stokes.data(), memory);
+            // Behind the eye's optics.
+            for (int k = 1; k < shader.planes(); ++k) {
+                for (int node = 0; node < nodes; ++node) {
+                    const Stokes row =
+                        response(scene.camera.optics,
+                                 called->plan.wavelengths_nm[static_cast<std::size_t>(node)]);
+                    double& seen_there = stokes[static_cast<std::size_t>(node)];
+                    if (k == 1) seen_there *= row[0];
+                    seen_there += row[static_cast<std::size_t>(k)] *
+                                  stokes[static_cast<std::size_t>(k * nodes + node)];
+                }
+            }
             const Rgb exact = called->colours.rgb_of(stokes.data());
             const float* seen = picture.rgb.data() + 3 * pixels[i];
             errors[i] = std::abs(luminance(exact) - luminance({static_cast<double>(seen[0]),

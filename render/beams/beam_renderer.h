@@ -1,25 +1,15 @@
 #pragma once
-// Pictures of a convex, isotropic stone by its beams.
+// Pictures of a convex stone by its beams.
 
 #include <memory>
-#include <vector>
 
-#include "render/beams/beam_shading.h"
 #include "render/beams/beam_tree.h"
-#include "render/convex_body.h"
+#include "render/beams/strip_painter.h"
 #include "render/picture.h"
 #include "render/plan.h"
 #include "stone/progress.h"
 
 namespace culet {
-
-/// How the pixels of a beam are shaded.
-enum class BeamShading {
-    flat,     ///< one colour a beam, exact areas of pixels
-    single,   ///< each pixel's middle exactly, along its beam's facets, verified: no anti-aliasing
-    averaged  ///< each touched pixel's middle along each beam's facets, times the area that it
-              ///< fills
-};
 
 struct BeamSettings {
     BeamLimits limits;
@@ -46,9 +36,8 @@ public:
     /// Draws into `picture`, whose memory is used again. Beams are kept where view, indices and
     /// limits are those of the last call. Throws InputError for a conoscope and
     /// Interrupted.
-    void draw(const Scene& scene, const Plan& plan, const LightField& lights,
-              const WavelengthSet& colours, const BeamSettings& settings, Picture& picture,
-              const Progress& progress = {});
+    void draw(const Scene& scene, const Plan& plan, const WavelengthSet& colours,
+              const BeamSettings& settings, Picture& picture, const Progress& progress = {});
     const BeamReport& report() const;
 
 private:

@@ -16,26 +16,57 @@ HWY_BEFORE_NAMESPACE();
 namespace culet {
 namespace HWY_NAMESPACE {
 
+// What reaches the eye of a path's end: its weight at each node, and where light's polarisation
+// counts (one node then) the rest of the Stokes parameters, along u and v.
+struct PathWeight {
+    const V* weight;
+    bool polarised = false;
+    V Q, U;  // of weight I = weight[0]
+    V3 direction, u, v;
+};
+
 // Adds light to the nodes' sums; without `kMany` there is one node, and no absorption.
 template <bool kMany>
 struct Gather {
     const ShadedLights& lights;
     V* sum;
-    const V* weight;
+    const PathWeight& path;
 
-    HWY_INLINE void operator()(const V& factor, const float* radiance) const {
-        const int nodes = kMany ? lights.nodes : 1;
-        for (int i = 0; i < nodes; ++i)
-            sum[i] = hn::MulAdd(factor * weight[i], number(radiance[i]), sum[i]);
+    HWY_INLINE int nodes() const { return kMany ? lights.nodes : 1; }
+
+    // Of light that is polarised, more or less of the path's weight comes through.
+    HWY_INLINE V weight(int node, const ShadedLights::Polarised& light) const {
+        const V I = path.weight[node];
+        if (!kMany || !path.polarised || light.degree == 0) return I;
+        V3 along = vector(light.along);
+        if (light.sheet) {
+            V3 normal = vector(light.normal);
+            const V sign = hn::CopySign(number(1.0f), dot(normal, path.direction));
+            normal = sign * normal;
+            // Turned with the normal into the ray, to which it is perpendicular then.
+            const V cosine = dot(normal, path.direction);
+            along = plus(along, hn::Neg(dot(along, path.direction)) / (number(1.0f) + cosine),
+                         normal + path.direction);
+        }
+        const V a = dot(along, path.u), b = dot(along, path.v);
+        const V square = hn::Max(hn::MulAdd(a, a, b * b), number(1e-30f));
+        const V Q = (a * a - b * b) / square, U = number(2.0f) * a * b / square;
+        return hn::MulAdd(number(light.degree), hn::MulAdd(path.Q, Q, path.U * U), I);
     }
-    HWY_INLINE void colour(const V& r, const V& g, const V& b) const {
-        const int nodes = kMany ? lights.nodes : 1;
+
+    HWY_INLINE void operator()(const V& factor, const float* radiance,
+                               const ShadedLights::Polarised& light) const {
+        for (int i = 0; i < nodes(); ++i)
+            sum[i] = hn::MulAdd(factor * weight(i, light), number(radiance[i]), sum[i]);
+    }
+    HWY_INLINE void colour(const V& r, const V& g, const V& b,
+                           const ShadedLights::Polarised& light) const {
         const V more_red = r - g, more_blue = b - g;
-        for (int i = 0; i < nodes; ++i) {
+        for (int i = 0; i < nodes(); ++i) {
             const auto at = static_cast<size_t>(i);
             const V seen = hn::MulAdd(more_red, number(lights.red[at]),
                                       hn::MulAdd(more_blue, number(lights.blue[at]), g));
-            sum[i] = hn::MulAdd(weight[i], seen, sum[i]);
+            sum[i] = hn::MulAdd(weight(i, light), seen, sum[i]);
         }
     }
 };
@@ -44,9 +75,37 @@ struct Gather {
 // real and imaginary part of E_s E_p* (light_paths.h).
 struct Carried {
     V I, Q, U, V_;
+
+    // To a frame turned by half the angle of (cosine, sine).
+    HWY_INLINE void turn(const V& cosine, const V& sine) {
+        const V before = Q;
+        Q = hn::MulAdd(cosine, before, sine * U);
+        U = hn::NegMulAdd(sine, before, cosine * U);
+    }
 };
 
-template <bool kPolarised, bool kSoft, bool kMany>
+// Cosine and sine of twice an angle from a vector along and across.
+struct DoubleAngle {
+    V cosine, sine;
+    HWY_INLINE DoubleAngle(const V& along, const V& across) {
+        const V al = along * along, ac = across * across, length = al + ac;
+        // Where there is no direction all serve.
+        const M any = length > number(1e-24f);
+        const V scale = number(1.0f) / hn::IfThenElse(any, length, number(1.0f));
+        cosine = hn::IfThenElse(any, (al - ac) * scale, number(1.0f));
+        sine = hn::IfThenElseZero(any, (along + along) * across * scale);
+    }
+};
+
+// The picture's right, turned with the view's axis into a ray.
+HWY_INLINE V3 eye_right(const ShadedEye& eye, const V3& direction) {
+    const V3 forward = vector(eye.forward), right = vector(eye.right);
+    return plus(right, hn::Neg(dot(right, direction)) / (number(1.0f) + dot(forward, direction)),
+                forward + direction);
+}
+
+// kGeneral: polarised lights, what the eye responds to, merged crystals.
+template <bool kPolarised, bool kSoft, bool kMany, bool kGeneral>
 class Follower {
 public:
     HWY_INLINE Follower(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
@@ -84,6 +143,9 @@ public:
                     move(ray_.point_y, ray_.direction_y, length, a, towards);
                 }
                 if constexpr (kMany) absorb(length, absorbed);
+                if constexpr (kGeneral) {
+                    if (optics_.crystal) go_through(*optics_.crystal, length, k, absorbed);
+                }
                 if (out_.follows != nullptr)
                     follows_ = hn::And(follows_, hn::And(cosine > number(0.0f), on_facet(face)));
             }
@@ -153,17 +215,132 @@ private:
             hn::MulAdd(carried_.I / number(static_cast<float>(lights_.nodes)), lost, absorbed);
     }
 
-    // Light at the end of a path of weight `weight`.
-    HWY_INLINE void leaf(const V& weight, const Ray& out) {
+    // Light at the end of a path of weight `weight`; `end` has what else is known of it.
+    HWY_INLINE void leaf(const V& weight, const Ray& out, PathWeight& end) {
         if constexpr (kMany) {
             V weights[k_band_nodes];
             for (int i = 0; i < lights_.nodes; ++i) weights[i] = weight * tau_[i];
-            Gather<kMany> gather{lights_, sum_, weights};
-            all_light<kSoft>(lights_, out, number(1.0f), gather);
+            if (end.polarised) {
+                end.Q = end.Q * tau_[0];
+                end.U = end.U * tau_[0];
+            }
+            end.weight = weights;
+            Gather<kMany> gather{lights_, sum_, end};
+            all_light<kSoft>(lights_, out, gather);
         } else {
-            Gather<kMany> gather{lights_, sum_, &weight};
-            all_light<kSoft>(lights_, out, number(1.0f), gather);
+            end.weight = &weight;
+            Gather<kMany> gather{lights_, sum_, end};
+            all_light<kSoft>(lights_, out, gather);
         }
+    }
+
+    // Q and U of what leaves through a face, with the tangent `s` of any length.
+    HWY_INLINE void polarise(PathWeight& end, const V& Q, const V& U, const V3& direction,
+                             const V3& s) const {
+        end.polarised = true;
+        end.Q = Q;
+        end.U = U;
+        end.direction = direction;
+        const V square = dot(s, s);
+        const M any = square > number(1e-24f);
+        const V scale = number(1.0f) / hn::Sqrt(hn::IfThenElse(any, square, number(1.0f)));
+        end.u = scale * s;
+        end.v = cross(direction, end.u);
+    }
+
+    // A segment of a crystal whose waves are merged: absorption of each, and what is left of their
+    // coherence.
+    HWY_INLINE void go_through(const MergedCrystal& crystal, const V& length, int k, V& absorbed) {
+        const V3& d = ray_.direction;
+        const ShadedStone::Face& was = stone_.faces[facets_[k - 1]];
+        const V3 b{number(was.x), number(was.y), number(was.z)};
+        const V one = number(1.0f), half = number(0.5f), zero = number(0.0f);
+        V along[2], across[2], cosine[2];
+        for (int i = 0; i < 2; ++i) {
+            const V3 axis = vector(crystal.optic_axis[i]);
+            cosine[i] = dot(axis, d);
+            along[i] = dot(b, axis) - cosine[i] * dot(d, b);
+            across[i] = dot(d, cross(b, axis));
+        }
+        // Twice the bisector's angle is the sum of the two planes' angles.
+        V c = along[0] * along[1] - across[0] * across[1],
+          s = along[0] * across[1] + across[0] * along[1];
+        const V size = hn::Sqrt(hn::MulAdd(c, c, s * s));
+        const M any = size > number(1e-20f);
+        const V scale = one / hn::IfThenElse(any, size, one);
+        c = hn::IfThenElse(any, c * scale, one);
+        s = hn::IfThenElseZero(any, s * scale);
+        carried_.turn(c, s);
+
+        // The waves' directions of vibration: the bisector, and across it.
+        V3 tangent = cross(d, b);
+        const V squared = dot(tangent, tangent);
+        const M oblique = squared > number(1e-20f);
+        // Normal incidence: the tangent is that which the angles above are from, any.
+        tangent = hn::AllTrue(k_floats, oblique) ? tangent : any_tangent(tangent, d, oblique);
+        tangent = (one / length_of(tangent)) * tangent;
+        const V3 beside = cross(d, tangent);
+        const V cosine1 = hn::Sqrt(hn::Max(half * (one + c), zero));
+        const V sine1 = hn::CopySign(hn::Sqrt(hn::Max(half * (one - c), zero)), s);
+        const V3 first = cosine1 * tangent + sine1 * beside;
+        const V3 second = cosine1 * beside + hn::Neg(sine1) * tangent;
+        V alpha1 = zero, alpha2 = zero;
+        for (int i = 0; i < 3; ++i) {
+            const V3 axis = vector(crystal.principal[i]);
+            const V p = dot(first, axis), q = dot(second, axis), K = number(crystal.absorption[i]);
+            alpha1 = hn::MulAdd(K * p, p, alpha1);
+            alpha2 = hn::MulAdd(K * q, q, alpha2);
+        }
+        const V way = hn::Max(length, zero);
+        const V kept1 = hn::Exp(k_floats, hn::Neg(half * alpha1 * way)),
+                kept2 = hn::Exp(k_floats, hn::Neg(half * alpha2 * way));
+        const V power1 = half * (carried_.I + carried_.Q) * kept1 * kept1,
+                power2 = half * (carried_.I - carried_.Q) * kept2 * kept2;
+        absorbed = absorbed + carried_.I - power1 - power2;
+        carried_.I = power1 + power2;
+        carried_.Q = power1 - power2;
+        if (crystal.waves_per_length == 0) {
+            carried_.U = carried_.V_ = zero;
+        } else {
+            // 1/n^2 of the two waves; psi are the angles to the optic axes.
+            const V sines = hn::Sqrt(
+                hn::Max((one - cosine[0] * cosine[0]) * (one - cosine[1] * cosine[1]), zero));
+            const V cosines = cosine[0] * cosine[1];
+            const V mean = number(crystal.inverse_square[0]),
+                    spread = number(crystal.inverse_square[1]);
+            const V fast = hn::MulAdd(spread, cosines + sines, mean),
+                    slow = hn::MulAdd(spread, cosines - sines, mean);
+            // n_slow - n_fast without a difference of near equals.
+            const V root_fast = hn::Sqrt(fast), root_slow = hn::Sqrt(slow);
+            const V split =
+                number(2.0f) * spread * sines / (root_fast * root_slow * (root_fast + root_slow));
+            const V retardation = split * way;
+            const V turns = retardation * number(crystal.waves_per_length);
+            const V phase = number(6.28318530718f) * (turns - hn::Round(turns));
+            const V over =
+                number(3.14159265359f) * retardation * number(crystal.coherence_per_length);
+            const V sinc = hn::IfThenElse(
+                over > number(1e-3f), hn::Sin(k_floats, over) / hn::Max(over, number(1e-3f)), one);
+            const V left =
+                hn::IfThenElseZero(over < number(3.14159265f), sinc * sinc) * kept1 * kept2;
+            const V cos_phase = hn::Cos(k_floats, phase), sin_phase = hn::Sin(k_floats, phase);
+            const V U = carried_.U * left, W = carried_.V_ * left;
+            // E_first E_second*: the second wave, the slow one, is ahead in phase.
+            carried_.U = hn::MulAdd(cos_phase, U, sin_phase * W);
+            carried_.V_ = hn::NegMulAdd(sin_phase, U, cos_phase * W);
+        }
+        carried_.turn(c, hn::Neg(s));
+    }
+    HWY_INLINE V3 any_tangent(const V3& tangent, const V3& d, const M& oblique) const {
+        // Across the ray and the axis that it is least along.
+        const V ax = hn::Abs(d.x), ay = hn::Abs(d.y), az = hn::Abs(d.z), zero = number(0.0f);
+        const M x = hn::And(ax <= ay, ax <= az), y = hn::And(hn::Not(x), ay <= az);
+        const V3 other{hn::IfThenElse(x, zero, hn::IfThenElse(y, d.z, hn::Neg(d.y))),
+                       hn::IfThenElse(x, hn::Neg(d.z), hn::IfThenElse(y, zero, d.x)),
+                       hn::IfThenElse(x, d.y, hn::IfThenElse(y, hn::Neg(d.x), zero))};
+        return {hn::IfThenElse(oblique, tangent.x, other.x),
+                hn::IfThenElse(oblique, tangent.y, other.y),
+                hn::IfThenElse(oblique, tangent.z, other.z)};
     }
 
     // The eye ray through a pixel, to the first face and through it.
@@ -218,20 +395,67 @@ private:
             }
             V one[k_band_nodes];
             for (int i = 0; i < nodes; ++i) one[i] = number(1.0f);
-            Gather<kMany> gather{lights_, before_, one};
+            PathWeight direct{};
+            direct.weight = one;
+            if constexpr (kGeneral) respond(direct, along);
+            if constexpr (kGeneral) {
+                if (optics_.response) one[0] = number((*optics_.response)[0]);
+            }
+            Gather<kMany> gather{lights_, before_, direct};
             uncovered_ = near_light<kSoft>(lights_, from_eye, distance, gather);
         }
 
         const V e2 = number(n * n);
         const V r_s = bend / (q1 + q2), r_p = (e2 * q1 - q2) / (e2 * q1 + q2);
         const V R_s = r_s * r_s, R_p = r_p * r_p, half = number(0.5f), one = number(1.0f);
-        leaf(half * (R_s + R_p), mirrored);
-        carried_.I = one - half * (R_s + R_p);
-        carried_.Q = half * (R_p - R_s);
-        carried_.U = number(0.0f);
-        carried_.V_ = number(0.0f);
+        const V R = half * (R_s + R_p), D = half * (R_s - R_p);
+        PathWeight end{};
+        if constexpr (kGeneral) {
+            // Stokes parameters of what the eye responds to, in the face's frame.
+            carried_ = {one, number(0.0f), number(0.0f), number(0.0f)};
+            const V3 s = cross(along, N);
+            if (optics_.response) {
+                const auto& row = *optics_.response;
+                // The picture's y is the other way round: right x ray, not ray x right.
+                carried_ = {number(row[0]), number(row[1]), number(-row[2]), number(row[3])};
+                const V3 right = eye_right(eye_, along);
+                const DoubleAngle turned(dot(right, s), dot(cross(along, right), s));
+                carried_.turn(turned.cosine, turned.sine);
+            }
+            const Carried was = carried_;
+            polarise(end, hn::MulAdd(D, was.I, R * was.Q), r_s * r_p * was.U, mirrored.direction,
+                     tangent_or_any(s, along));
+            leaf(hn::MulAdd(R, was.I, D * was.Q), mirrored, end);
+            // t_s t_p, from the powers.
+            const V both = hn::Sqrt(hn::Max((one - R_s) * (one - R_p), number(0.0f)));
+            carried_ = {hn::NegMulAdd(D, was.Q, (one - R) * was.I),
+                        hn::NegMulAdd(D, was.I, (one - R) * was.Q), both * was.U, both * was.V_};
+        } else {
+            leaf(R, mirrored, end);
+            carried_.I = one - R;
+            carried_.Q = hn::Neg(D);
+            carried_.U = number(0.0f);
+            carried_.V_ = number(0.0f);
+        }
         // Cosine of the ray with the face before, as `turn` wants it.
         cosine_before_ = hn::Neg(q2) * over_n;
+    }
+
+    HWY_INLINE V3 tangent_or_any(const V3& s, const V3& d) const {
+        const M oblique = dot(s, s) > number(1e-20f);
+        return hn::AllTrue(k_floats, oblique) ? s : any_tangent(s, d, oblique);
+    }
+    // A path straight to the eye.
+    HWY_INLINE void respond(PathWeight& direct, const V3& along) const {
+        direct.polarised = true;
+        direct.Q = direct.U = number(0.0f);
+        direct.direction = along;
+        direct.u = eye_right(eye_, along);
+        direct.v = cross(along, direct.u);
+        if (optics_.response) {
+            direct.Q = number((*optics_.response)[1]);
+            direct.U = number(-(*optics_.response)[2]);
+        }
     }
 
     // Into the tangent of the face with normal a, from that of the face before with normal b: the
@@ -240,19 +464,13 @@ private:
         const ShadedStone::Face &now = stone_.faces[facets_[k]],
                                 &was = stone_.faces[facets_[k - 1]];
         const float ab = now.x * was.x + now.y * was.y + now.z * was.z;
-        const V3 cross{number(was.y * now.z - was.z * now.y), number(was.z * now.x - was.x * now.z),
-                       number(was.x * now.y - was.y * now.x)};
+        const V3 cross_ab{number(was.y * now.z - was.z * now.y),
+                          number(was.z * now.x - was.x * now.z),
+                          number(was.x * now.y - was.y * now.x)};
         (void)a;
-        const V along = number(ab) - cosine * cosine_before_, across = dot(ray_.direction, cross);
-        const V al = along * along, ac = across * across, length = al + ac;
-        // Normal incidence has no tangent, and treats all directions alike.
-        const M any = length > number(1e-24f);
-        const V scale = number(1.0f) / hn::IfThenElse(any, length, number(1.0f));
-        const V cosine2 = hn::IfThenElse(any, (al - ac) * scale, number(1.0f));
-        const V sine2 = hn::IfThenElseZero(any, (along + along) * across * scale);
-        const V Q = carried_.Q;
-        carried_.Q = hn::MulAdd(cosine2, Q, sine2 * carried_.U);
-        carried_.U = hn::NegMulAdd(sine2, Q, cosine2 * carried_.U);
+        const DoubleAngle angle(number(ab) - cosine * cosine_before_,
+                                dot(ray_.direction, cross_ab));
+        carried_.turn(angle.cosine, angle.sine);
     }
 
     HWY_INLINE void meet(const V3& a, const V& cosine) {
@@ -284,7 +502,15 @@ private:
             }
             V weight = (one - half * (R_s + R_p)) * carried_.I;
             if constexpr (kPolarised) weight = weight + half * (R_p - R_s) * carried_.Q;
-            leaf(hn::IfThenElseZero(out, weight), leaving);
+            PathWeight end{};
+            if constexpr (kGeneral) {
+                const V T = one - half * (R_s + R_p), D = half * (R_p - R_s);
+                const V both = hn::Sqrt(hn::Max((one - R_s) * (one - R_p), zero));
+                polarise(end, hn::IfThenElseZero(out, hn::MulAdd(D, carried_.I, T * carried_.Q)),
+                         hn::IfThenElseZero(out, both * carried_.U), leaving.direction,
+                         tangent_or_any(cross(ray_.direction, a), leaving.direction));
+            }
+            leaf(hn::IfThenElseZero(out, weight), leaving, end);
         }
         if constexpr (kPolarised) {
             if (!hn::AllTrue(k_floats, out)) {
@@ -335,10 +561,10 @@ private:
         before_[kMany ? k_band_nodes : 1];
 };
 
-template <bool kPolarised, bool kSoft, bool kMany>
+template <bool kPolarised, bool kSoft, bool kMany, bool kGeneral>
 void follow_all(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
                 int facet_count, const Fragments& fragments) {
-    Follower<kPolarised, kSoft, kMany> follower(job, eye, facets, facet_count, fragments);
+    Follower<kPolarised, kSoft, kMany, kGeneral> follower(job, eye, facets, facet_count, fragments);
     const int lanes = static_cast<int>(hn::Lanes(k_floats));
     for (int i = 0; i < fragments.count; i += lanes) follower.follow(i);
 }
@@ -348,21 +574,35 @@ void ShadeBeam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t*
     using Follow =
         void (*)(const ShadingJob&, const ShadedEye&, const std::uint16_t*, int, const Fragments&);
     static constexpr Follow k_follow[8] = {
-        follow_all<false, false, false>, follow_all<false, false, true>,
-        follow_all<false, true, false>,  follow_all<false, true, true>,
-        follow_all<true, false, false>,  follow_all<true, false, true>,
-        follow_all<true, true, false>,   follow_all<true, true, true>};
+        follow_all<false, false, false, false>, follow_all<false, false, true, false>,
+        follow_all<false, true, false, false>,  follow_all<false, true, true, false>,
+        follow_all<true, false, false, false>,  follow_all<true, false, true, false>,
+        follow_all<true, true, false, false>,   follow_all<true, true, true, false>};
     const bool many = job.lights->nodes > 1 || !job.optics->absorption.empty();
     const bool soft = fragments.soft && job.lights->any_edge;
-    k_follow[(job.optics->polarised ? 4 : 0) + (soft ? 2 : 0) + (many ? 1 : 0)](
-        job, eye, facets, facet_count, fragments);
+    const bool general = job.optics->crystal || job.optics->response;
+    const Follow follow =
+        general ? (soft ? follow_all<true, true, true, true> : follow_all<true, false, true, true>)
+                : k_follow[(job.optics->polarised ? 4 : 0) + (soft ? 2 : 0) + (many ? 1 : 0)];
+    follow(job, eye, facets, facet_count, fragments);
 }
 
 template <bool kSoft>
-void background(const ShadedLights& lights, const ShadedEye& eye, const Fragments& fragments) {
+void background(const ShadedLights& lights, const ShadedOptics& optics, const ShadedEye& eye,
+                const Fragments& fragments) {
     const int lanes = static_cast<int>(hn::Lanes(k_floats));
     const V3 vx = vector(eye.direction_x), vy = vector(eye.direction_y);
     const V3 ox = vector(eye.origin_x), oy = vector(eye.origin_y);
+    V sum[k_band_nodes], one[k_band_nodes];
+    for (int i = 0; i < lights.nodes; ++i) one[i] = number(1.0f);
+    PathWeight direct{};
+    direct.weight = one;
+    if (optics.response) {
+        direct.polarised = true;
+        one[0] = number((*optics.response)[0]);
+        direct.Q = number((*optics.response)[1]);
+        direct.U = number(-(*optics.response)[2]);
+    }
     for (int first = 0; first < fragments.count; first += lanes) {
         const V dx = hn::LoadU(k_floats, fragments.x + first),
                 dy = hn::LoadU(k_floats, fragments.y + first);
@@ -375,13 +615,14 @@ void background(const ShadedLights& lights, const ShadedEye& eye, const Fragment
             ray.direction_x = over * plus(vx, hn::Neg(dot(along, vx)), along);
             ray.direction_y = over * plus(vy, hn::Neg(dot(along, vy)), along);
         }
-        V sum[k_band_nodes], one[k_band_nodes];
-        for (int i = 0; i < lights.nodes; ++i) {
-            sum[i] = number(0.0f);
-            one[i] = number(1.0f);
+        if (direct.polarised) {
+            direct.direction = along;
+            direct.u = eye_right(eye, along);
+            direct.v = cross(along, direct.u);
         }
-        Gather<true> gather{lights, sum, one};
-        all_light<kSoft>(lights, ray, number(1.0f), gather);
+        for (int i = 0; i < lights.nodes; ++i) sum[i] = number(0.0f);
+        Gather<true> gather{lights, sum, direct};
+        all_light<kSoft>(lights, ray, gather);
         for (int i = 0; i < lights.nodes; ++i)
             hn::StoreU(sum[i], k_floats,
                        fragments.radiance +
@@ -389,11 +630,12 @@ void background(const ShadedLights& lights, const ShadedEye& eye, const Fragment
     }
 }
 
-void ShadeBackground(const ShadedLights& lights, const ShadedEye& eye, const Fragments& fragments) {
+void ShadeBackground(const ShadedLights& lights, const ShadedOptics& optics, const ShadedEye& eye,
+                     const Fragments& fragments) {
     if (fragments.soft && lights.any_edge) {
-        background<true>(lights, eye, fragments);
+        background<true>(lights, optics, eye, fragments);
     } else {
-        background<false>(lights, eye, fragments);
+        background<false>(lights, optics, eye, fragments);
     }
 }
 
@@ -412,9 +654,9 @@ void shade_beam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t
     HWY_DYNAMIC_DISPATCH(ShadeBeam)(job, eye, facets, facet_count, fragments);
 }
 
-void shade_background(const ShadedLights& lights, const ShadedEye& eye,
+void shade_background(const ShadedLights& lights, const ShadedOptics& optics, const ShadedEye& eye,
                       const Fragments& fragments) {
-    HWY_DYNAMIC_DISPATCH(ShadeBackground)(lights, eye, fragments);
+    HWY_DYNAMIC_DISPATCH(ShadeBackground)(lights, optics, eye, fragments);
 }
 
 std::vector<std::string> shading_targets() {
@@ -475,6 +717,8 @@ ShadedEye shaded_eye(const ScreenView& view, const ScreenPoint& at, const Plane&
     store(direction, eye.direction);
     store(view.vx / length, eye.direction_x);
     store(view.vy / length, eye.direction_y);
+    store(view.forward, eye.forward);
+    store(view.right, eye.right);
     store(view.ox, eye.origin_x);
     store(view.oy, eye.origin_y);
     store(view.ox + distance / length * view.vx, eye.point_x);

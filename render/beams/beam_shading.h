@@ -5,7 +5,9 @@
 // What is carried is that of light_paths.h: with polarisation the Stokes parameters of two
 // orthogonal eye polarisations, turned from face to face by products of normals alone.
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,11 +34,28 @@ struct ShadedStone {
     std::vector<Side> sides;
 };
 
+/// A crystal whose two waves go one way, that of the mean index (Guy & Soler 2004, 4.2): what is
+/// split is polarisation alone. The waves vibrate along the bisectors of the planes through the
+/// wave normal and the two optic axes (Biot and Fresnel).
+struct MergedCrystal {
+    float optic_axis[2][3];          ///< unit; the fast wave is the first
+    float inverse_square[2];         ///< half sum and half difference of 1/n^2, slow and fast
+    float principal[3][3];           ///< axes of absorption
+    float absorption[3];             ///< along each, per length
+    float waves_per_length = 0;      ///< 1 / wavelength, where the two waves stay coherent; else 0
+    float coherence_per_length = 0;  ///< 1 / coherence length; 0: infinite
+};
+
 /// Light's way through the stone for one band of wavelengths.
 struct ShadedOptics {
     float n = 1.5f;  ///< over the outside's
     bool polarised = true;
     std::vector<float> absorption;  ///< of each node, per length; empty: clear
+    /// Where either is wanted there is one node, and `polarised`.
+    std::optional<MergedCrystal> crystal;
+    /// What the eye responds to of the four Stokes parameters (stokes.h); none: S0 of unpolarised
+    /// lights.
+    std::optional<std::array<float, 4>> response;
 };
 
 /// Eye rays about one of them, at the beam's first facet. All about the stone's middle.
@@ -46,6 +65,7 @@ struct ShadedEye {
     float direction_x[3], direction_y[3];  ///< and of the direction
     float origin_x[3], origin_y[3];        ///< and of where the eye ray starts
     float distance = 0;                    ///< from there to the point
+    float forward[3], right[3];            ///< of the camera (EyeFrame), for polarised light
 };
 ShadedEye shaded_eye(const ScreenView& view, const ScreenPoint& at, const Plane& front,
                      const Vec3& middle);
@@ -79,7 +99,8 @@ void shade_beam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t
 
 /// Lights seen by the eye itself: `fragments` are of a view whose reference ray starts at
 /// `eye.point`.
-void shade_background(const ShadedLights& lights, const ShadedEye& eye, const Fragments& fragments);
+void shade_background(const ShadedLights& lights, const ShadedOptics& optics, const ShadedEye& eye,
+                      const Fragments& fragments);
 
 /// Instruction sets that this processor has of those that were compiled, best first; the first is
 /// used. "EMU128" or "SSE2" is the portable one.

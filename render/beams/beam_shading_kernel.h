@@ -41,7 +41,10 @@ HWY_INLINE V3 plus(const V3& a, const V& f, const V3& b) {
 HWY_INLINE V dot(const V3& a, const V3& b) {
     return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, a.z * b.z));
 }
-HWY_INLINE V largest_of(const V3& a) {
+HWY_INLINE V3 cross(const V3& a, const V3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+HWY_INLINE V length_of(const V3& a) {
     return hn::Sqrt(dot(a, a));
 }
 
@@ -77,12 +80,12 @@ HWY_INLINE V share_where(const V& value, const Gradient& g) {
     }
 }
 
-// Light that comes along a ray: calls take(factor, radiance of each node).
+// Light that comes along a ray: calls take(factor, radiance of each node, polarisation).
 template <bool kSoft, class Take>
 HWY_INLINE void distant_light(const ShadedLights& lights, const Ray& ray, const V& unhidden,
                               Take& take) {
     const V3& d = ray.direction;
-    take(unhidden, lights.constant.data());
+    take(unhidden, lights.constant.data(), lights.surroundings);
     for (const ShadedLights::Lobe& lobe : lights.lobes) {
         const V cosine = hn::Max(
             hn::MulAdd(number(lobe.x), d.x, hn::MulAdd(number(lobe.y), d.y, number(lobe.z) * d.z)),
@@ -100,7 +103,7 @@ HWY_INLINE void distant_light(const ShadedLights& lights, const Ray& ray, const 
                 cosine > number(0.0f),
                 hn::Exp(k_floats, number(lobe.exponent) * hn::Log(k_floats, some)));
         }
-        take(unhidden * power, lobe.radiance.data());
+        take(unhidden * power, lobe.radiance.data(), lobe.polarised);
     }
     for (const ShadedLights::Cap& cap : lights.caps) {
         const V3 axis{number(cap.x), number(cap.y), number(cap.z)};
@@ -109,7 +112,7 @@ HWY_INLINE void distant_light(const ShadedLights& lights, const Ray& ray, const 
         if constexpr (kSoft) g = {dot(axis, ray.direction_x), dot(axis, ray.direction_y)};
         V share = share_where<kSoft>(cosine - number(cap.to), g);
         if (cap.from <= 1) share = share - share_where<kSoft>(cosine - number(cap.from), g);
-        take(unhidden * share, cap.radiance.data());
+        take(unhidden * share, cap.radiance.data(), cap.polarised);
     }
 }
 
@@ -213,20 +216,22 @@ HWY_INLINE V plane_share(const ShadedLights::Plane& plane, const Ray& ray, V& di
     return share;
 }
 
-// All lights along a ray. `hidden_from`: near lights farther than that are not seen and nothing is
-// hidden; the share of the pixel that near lights fill is returned.
+// Near lights along a ray, up to `reach`; returns the share of the pixel that they leave free.
 template <bool kSoft, class Take>
 HWY_INLINE V near_light(const ShadedLights& lights, const Ray& ray, const V& reach, Take& take) {
     V share[k_most_near_lights], distance[k_most_near_lights];
     const float* radiance[k_most_near_lights];
+    const ShadedLights::Polarised* polarised[k_most_near_lights];
     int count = 0;
     for (const auto& sphere : lights.spheres) {
         radiance[count] = sphere.radiance.data();
+        polarised[count] = &sphere.polarised;
         share[count] = sphere_share<kSoft>(sphere, ray, distance[count]);
         ++count;
     }
     for (const auto& plane : lights.planes) {
         radiance[count] = plane.radiance.data();
+        polarised[count] = &plane.polarised;
         share[count] = plane_share<kSoft>(plane, ray, distance[count]);
         ++count;
     }
@@ -240,28 +245,24 @@ HWY_INLINE V near_light(const ShadedLights& lights, const Ray& ray, const V& rea
             const V hides = hn::IfThenElseZero(hn::And(before, distance[j] < reach), share[j]);
             seen = seen * (number(1.0f) - hides);
         }
-        take(seen, radiance[i]);
+        take(seen, radiance[i], *polarised[i]);
         unhidden = unhidden * (number(1.0f) - share[i]);
     }
     return unhidden;
 }
 
 template <bool kSoft, class Take>
-HWY_INLINE void all_light(const ShadedLights& lights, const Ray& ray, const V& from_here,
-                          Take& take) {
-    V unhidden = from_here;
-    if (!lights.spheres.empty() || !lights.planes.empty()) {
-        const auto scaled = [&](const V& factor, const float* radiance)
-                                HWY_ATTR { take(factor * from_here, radiance); };
-        unhidden = unhidden * near_light<kSoft>(lights, ray, number(3e38f), scaled);
-    }
+HWY_INLINE void all_light(const ShadedLights& lights, const Ray& ray, Take& take) {
+    V unhidden = number(1.0f);
+    if (!lights.spheres.empty() || !lights.planes.empty())
+        unhidden = near_light<kSoft>(lights, ray, number(3e38f), take);
     distant_light<kSoft>(lights, ray, unhidden, take);
     if (lights.environment) {
         V extent = number(0.0f);
         if constexpr (kSoft)
-            extent = hn::Max(largest_of(ray.direction_x), largest_of(ray.direction_y));
+            extent = hn::Max(length_of(ray.direction_x), length_of(ray.direction_y));
         const V3 rgb = environment_at(*lights.environment, ray.direction, extent);
-        take.colour(unhidden * rgb.x, unhidden * rgb.y, unhidden * rgb.z);
+        take.colour(unhidden * rgb.x, unhidden * rgb.y, unhidden * rgb.z, lights.surroundings);
     }
 }
 

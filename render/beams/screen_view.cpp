@@ -30,6 +30,8 @@ ScreenView screen_view(const Camera& camera, double pupil_x, double pupil_y) {
     ScreenView view;
     view.width = camera.width;
     view.height = camera.height;
+    view.forward = forward;
+    view.right = right;
     glm::dmat3 basis;  // its inverse takes a point, from the eye, to the picture
     if (camera.orthographic_width) {
         const double pixel = *camera.orthographic_width / camera.width;

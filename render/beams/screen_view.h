@@ -20,6 +20,7 @@ struct ScreenView {
     Vec3 o{0}, ox{0}, oy{0}, v{0}, vx{0}, vy{0};
     bool parallel = false;  ///< orthographic without a lens: the eye is infinitely far
     int width = 0, height = 0;
+    Vec3 forward{0, 0, 1}, right{1, 0, 0};
     std::array<Vec3, 3> rows;  ///< of the map from a point to its image
     Vec3 row_offsets{0};
 

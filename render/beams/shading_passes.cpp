@@ -1,0 +1,111 @@
+#include "render/beams/shading_passes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+
+#include "render/eye_optics.h"
+
+namespace culet {
+
+namespace {
+
+float number(double v) {
+    return static_cast<float>(v);
+}
+
+// Optic axes of the principal indices: in the plane of the smallest and the largest, at the angle V
+// to the latter's axis, sin^2 V = n3^2 (n2^2 - n1^2) / (n2^2 (n3^2 - n1^2)) (Born & Wolf, 15.3.1).
+MergedCrystal merged_crystal(const Band& band, int node) {
+    const Crystal& crystal = band.crystal;
+    std::array<int, 3> order{0, 1, 2};
+    std::sort(order.begin(), order.end(),
+              [&](int a, int b) { return crystal.n()[a] < crystal.n()[b]; });
+    const Vec3 &x = crystal.axes()[order[0]], &z = crystal.axes()[order[2]];
+    const double n1 = crystal.n()[order[0]] * crystal.n()[order[0]],
+                 n2 = crystal.n()[order[1]] * crystal.n()[order[1]],
+                 n3 = crystal.n()[order[2]] * crystal.n()[order[2]];
+    const double sine = std::sqrt(n3 * (n2 - n1) / (n2 * (n3 - n1))),
+                 cosine = std::sqrt(n1 * (n3 - n2) / (n2 * (n3 - n1)));
+    MergedCrystal merged;
+    for (int i = 0; i < 2; ++i) {
+        const Vec3 axis = (i == 0 ? sine : -sine) * x + cosine * z;
+        for (int k = 0; k < 3; ++k) merged.optic_axis[i][k] = number(axis[k]);
+    }
+    merged.inverse_square[0] = number(0.5 * (1 / n1 + 1 / n3));
+    merged.inverse_square[1] = number(0.5 * (n3 - n1) / (n1 * n3));
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k) merged.principal[i][k] = number(crystal.axes()[i][k]);
+        merged.absorption[i] = band.absorbs ? number(band.absorption[i][node]) : 0.0f;
+    }
+    if (band.coherence_length > 0) {
+        merged.waves_per_length = number(1 / band.wavelength);
+        merged.coherence_per_length = number(1 / band.coherence_length);
+    }
+    return merged;
+}
+
+}  // namespace
+
+std::vector<ShadingPass> shading_passes(const Scene& scene, const Plan& plan,
+                                        const WavelengthSet& colours, const Vec3& middle,
+                                        std::shared_ptr<const EnvironmentPyramid> environment,
+                                        int stokes) {
+    const std::size_t nodes = plan.wavelengths_nm.size();
+    const bool responds = plan.stokes;
+    std::vector<ShadingPass> passes;
+    const auto add = [&](std::size_t b, int first, int count, int k) {
+        const Band& band = plan.bands[b];
+        const double nm = plan.wavelengths_nm[static_cast<std::size_t>(first)];
+        const Stokes seen = response(scene.camera.optics, nm);
+        ShadingPass pass;
+        pass.beams = b;
+        pass.n = band.n / band.n_outside;
+        pass.plane = static_cast<std::size_t>(k) * nodes + static_cast<std::size_t>(first);
+        pass.counts_area = passes.empty();
+        // Remainders are of the eye's unit of light, which only S0's pass carries whole.
+        const double unit = stokes == 4 || !responds ? 1 : seen[0];
+        pass.weight = k == 0 ? 1 / (unit * static_cast<double>(nodes)) : 0;
+        std::vector<double> one(nodes, 0.0);
+        for (int i = first; i < first + count; ++i) {
+            one[static_cast<std::size_t>(i)] = 1;
+            const double of_node = luminance(colours.rgb_of(one.data()));
+            one[static_cast<std::size_t>(i)] = 0;
+            pass.luminance.push_back(stokes == 4 ? of_node * seen[static_cast<std::size_t>(k)]
+                                                 : of_node);
+        }
+        pass.optics.n = number(pass.n);
+        pass.optics.polarised = plan.polarised;
+        const int node = first - band.first;
+        if (band.two_waves) {
+            pass.optics.crystal = merged_crystal(band, node);
+        } else if (band.absorbs) {
+            for (int i = node; i < node + count; ++i)
+                pass.optics.absorption.push_back(
+                    number(band.absorption[0][static_cast<std::size_t>(i)]));
+        }
+        if (responds) {
+            std::array<float, 4> row{};
+            for (std::size_t j = 0; j < 4; ++j)
+                row[j] =
+                    stokes == 4 ? static_cast<float>(static_cast<int>(j) == k) : number(seen[j]);
+            pass.optics.response = row;
+        }
+        pass.lights = ShadedLights(scene.lights, colours, first, count, middle, environment);
+        passes.push_back(std::move(pass));
+    };
+    for (std::size_t b = 0; b < plan.bands.size(); ++b) {
+        const Band& band = plan.bands[b];
+        if (!responds && !band.two_waves) {
+            add(b, band.first, band.count, 0);
+            continue;
+        }
+        for (int k = 0; k < stokes; ++k) {
+            for (int i = 0; i < band.count; ++i) add(b, band.first + i, 1, k);
+        }
+    }
+    return passes;
+}
+
+}  // namespace culet

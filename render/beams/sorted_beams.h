@@ -1,0 +1,57 @@
+#pragma once
+// The beams of one view, by the strips of rows that they touch.
+
+#include <algorithm>
+#include <vector>
+
+#include "render/beams/beam_tree.h"
+
+namespace culet {
+
+/// Rows of pixels that one task shades. A fixed number: sums are in the same order whatever the
+/// number of threads.
+constexpr int k_strip = 50;
+
+struct LeafNumber {
+    std::uint32_t branch = 0, leaf = 0;
+};
+
+struct SortedBeams {
+    ScreenView view;
+    double n = 0;
+    BeamLimits limits;
+    bool grown = false;
+    BeamTree tree;
+    std::vector<std::vector<LeafNumber>> strips;
+
+    /// Grows the beams unless they are there.
+    void grow(const FacetNet& net, const ScreenView& wanted_view, double wanted_n,
+              const BeamLimits& wanted_limits) {
+        if (grown && view == wanted_view && n == wanted_n && limits == wanted_limits) return;
+        grown = false;
+        view = wanted_view;
+        n = wanted_n;
+        limits = wanted_limits;
+        build_beams(net, view, n, limits, tree);
+        sort((view.height + k_strip - 1) / k_strip);
+        grown = true;
+    }
+
+private:
+    void sort(int strip_count) {
+        strips.resize(static_cast<std::size_t>(strip_count));
+        for (auto& strip : strips) strip.clear();
+        for (std::size_t b = 0; b < tree.branch_count; ++b) {
+            const std::vector<Beam>& leaves = tree.branches[b].leaves;
+            for (std::size_t l = 0; l < leaves.size(); ++l) {
+                const int first = std::max(leaves[l].first_row / k_strip, 0),
+                          last = std::min((leaves[l].end_row - 1) / k_strip, strip_count - 1);
+                for (int strip = first; strip <= last; ++strip)
+                    strips[static_cast<std::size_t>(strip)].push_back(
+                        {static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(l)});
+            }
+        }
+    }
+};
+
+}  // namespace culet

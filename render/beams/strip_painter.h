@@ -1,0 +1,109 @@
+#pragma once
+// Beams to pixels: one strip of rows at a time.
+
+#include <memory>
+#include <vector>
+
+#include "render/beams/beam_shading.h"
+#include "render/beams/facet_sequence.h"
+#include "render/beams/pixel_coverage.h"
+#include "render/beams/sorted_beams.h"
+
+namespace culet {
+
+/// How the pixels of a beam are shaded.
+enum class BeamShading {
+    flat,     ///< one colour a beam, exact areas of pixels
+    single,   ///< each pixel's middle exactly, along its beam's facets, verified: no anti-aliasing
+    averaged  ///< each touched pixel's middle along each beam's facets, times the area that it
+              ///< fills
+};
+
+/// What is shaded together: some nodes of a band, all of which follow one set of beams.
+struct ShadingPass {
+    std::size_t beams = 0;          ///< which of the view's sets
+    double n = 1;                   ///< index over the outside's
+    std::size_t plane = 0;          ///< the first node's; one plane a node
+    double weight = 1;              ///< of its sums in the report, per node
+    bool counts_area = false;       ///< one pass does
+    std::vector<double> luminance;  ///< of each node, for the report
+    ShadedOptics optics;
+    ShadedLights lights;
+};
+
+/// Where light is added up: planes of pixels, and how much of each the stone fills.
+struct Canvas {
+    int width = 0, height = 0;
+    std::vector<float> planes;  ///< plane * pixels + pixel
+    std::vector<float> coverage;
+
+    std::size_t pixels() const {
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
+};
+
+struct StripSums {
+    double filled = 0, remainder = 0, absorbed = 0, luminance = 0;
+    long long fragments = 0, retraced = 0;
+    StripSums& operator+=(const StripSums& more);
+};
+
+/// The stone in the forms that shading needs.
+struct PaintedStone {
+    explicit PaintedStone(const Solid& convex) : net(convex), shaded(net), body(convex) {}
+    FacetNet net;
+    ShadedStone shaded;
+    ConvexBody body;
+};
+
+struct PaintOptions {
+    BeamShading shading = BeamShading::averaged;
+    int depth = 8;  ///< as the beams' limits
+    double cut_weight = 0;
+    double share = 1;  ///< of the picture: one of several points of the pupil
+};
+
+/// One thread's tools.
+class StripPainter {
+public:
+    StripPainter(const PaintedStone& stone, Canvas& canvas)
+        : stone_(stone), canvas_(canvas), coverage_(canvas.width) {}
+
+    /// Adds what `view` sees in strip number `strip`; `beams`: the view's sets.
+    StripSums paint(int strip, const ScreenView& view, const SortedBeams* beams,
+                    const std::vector<ShadingPass>& passes, const PaintOptions& options);
+
+private:
+    void paint_beam(const SortedBeams& beams, LeafNumber number, const ShadingPass& pass);
+    void paint_flat(const ScreenPoint* corners, const Beam& beam, const std::uint16_t* facets,
+                    const ShadedEye& eye, const ShadingPass& pass);
+    void paint_pixels(const CoveredPixels& covered, const Beam& beam, const std::uint16_t* facets,
+                      const ShadedEye& eye, const ShadingPass& pass);
+    bool retrace(int pixel, const ShadingPass& pass, std::size_t longest, float* radiance,
+                 int stride, float& left, float& absorbed);
+    void fill_holes(const std::vector<ShadingPass>& passes);
+    void add_background(const std::vector<ShadingPass>& passes);
+    void reserve(int count, int nodes);
+    float* plane(const ShadingPass& pass, int node) {
+        return canvas_.planes.data() +
+               (pass.plane + static_cast<std::size_t>(node)) * canvas_.pixels();
+    }
+    float& cover(int pixel) {
+        return cover_[static_cast<std::size_t>(pixel - row_begin_ * canvas_.width)];
+    }
+
+    const PaintedStone& stone_;
+    Canvas& canvas_;
+    PixelCoverage coverage_;
+    std::vector<float> cover_, radiance_, left_, absorbed_, share_, x_, y_;
+    std::vector<int> pixel_;
+    std::vector<std::uint8_t> follows_;
+    std::vector<std::uint16_t> facets_;
+    // Of the strip being painted.
+    const ScreenView* view_ = nullptr;
+    PaintOptions options_;
+    int row_begin_ = 0, row_end_ = 0;
+    StripSums sums_;
+};
+
+}  // namespace culet
