@@ -1,0 +1,294 @@
+// Expectations: the same bytes whatever the threads and the frames before; the reference renderer
+// with 256 samples a pixel; and what the error bound promises.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/scene_io.h"
+#include "stone/errors.h"
+#include "tests/render/beams/beam_lights.h"
+
+namespace {
+
+using namespace culet;
+
+Scene brilliant_scene() {
+    Scene scene = plain_scene(round_brilliant());
+    look(scene, {0.21, 0.34, 1}, 10);
+    edged_lights().back().make(scene);
+    return scene;
+}
+
+TEST(Frames, are_the_same_bytes_with_any_number_of_threads) {
+    for (const std::string engine : {"beams", "preview"}) {
+        for (const int samples : {1, 16}) {
+            Scene scene = brilliant_scene();
+            optics()[5].make(scene);
+            scene.camera.height = 150;
+            scene.settings.threads = 1;
+            const RenderResult one = with_engine(scene, engine, samples);
+            for (const int threads : {2, 5}) {
+                scene.settings.threads = threads;
+                const RenderResult many = with_engine(scene, engine, samples);
+                EXPECT_EQ(one.picture.rgb, many.picture.rgb) << engine << threads;
+                EXPECT_EQ(one.picture.coverage, many.picture.coverage);
+                EXPECT_EQ(one.stats.error_bound, many.stats.error_bound);
+                EXPECT_EQ(one.stats.remainder, many.stats.remainder);
+                EXPECT_EQ(one.stats.beams, many.stats.beams);
+            }
+        }
+    }
+}
+
+TEST(Frames, with_other_lights_are_those_of_a_fresh_renderer) {
+    for (const std::string engine : {"beams", "preview"}) {
+        Scene scene = brilliant_scene();
+        scene.settings.engine = engine;
+        scene.settings.samples = 16;
+        FrameRenderer frames(scene);
+        const Picture first = frames.draw().picture;
+        for (const auto& lights : {edged_lights(), smooth_lights()}) {
+            for (const NamedChange& light : lights) {
+                SCOPED_TRACE(light.name);
+                Scene changed = scene;
+                light.make(changed);
+                frames.light_with(changed.lights);
+                const RenderResult& relit = frames.draw(true);
+                const RenderResult fresh = render(changed);
+                EXPECT_EQ(relit.picture.rgb, fresh.picture.rgb);
+                EXPECT_EQ(relit.stats.error_bound, fresh.stats.error_bound);
+            }
+        }
+        frames.light_with(scene.lights);
+        EXPECT_EQ(frames.draw().picture.rgb, first.rgb);
+    }
+}
+
+TEST(Frames, with_lights_that_call_for_other_wavelengths_are_those_of_a_fresh_renderer) {
+    Scene scene = brilliant_scene();
+    optics()[5].make(scene);
+    scene.settings.wavelengths_nm.clear();
+    scene.settings.tolerance = 0.02;
+    scene.settings.samples = 16;
+    FrameRenderer frames(scene);
+    frames.draw();
+    Scene changed = scene;
+    changed.lights = {};
+    changed.lights.lobes.push_back({{0, 0, 1}, 3, {"A", {}}});
+    changed.lights.environment = smooth_environment();
+    frames.light_with(changed.lights);
+    EXPECT_EQ(frames.draw().picture.rgb, render(changed).picture.rgb);
+}
+
+TEST(Frames, from_another_view_and_back_are_the_first) {
+    Scene scene = brilliant_scene();
+    scene.settings.samples = 16;
+    FrameRenderer frames(scene);
+    const RenderResult first = frames.draw(true);
+    Scene moved = scene;
+    for (const Vec3& from : {Vec3{1, 0, 0.2}, Vec3{0, 0, -1}, Vec3{0.3, -0.4, 1}}) {
+        look(moved, from, 7);
+        moved.camera.width = from.x == 1 ? 60 : 130;
+        frames.look_from(moved.camera);
+        const RenderResult& there = frames.draw(true);
+        EXPECT_EQ(there.picture.rgb, render(moved).picture.rgb);
+    }
+    frames.look_from(scene.camera);
+    const RenderResult& back = frames.draw(true);
+    EXPECT_EQ(back.picture.rgb, first.picture.rgb);
+    EXPECT_EQ(back.picture.coverage, first.picture.coverage);
+    EXPECT_EQ(back.stats.error_bound, first.stats.error_bound);
+    EXPECT_EQ(back.stats.remainder, first.stats.remainder);
+}
+
+TEST(Frames, that_must_be_quick_have_fewer_beams_and_say_what_is_left) {
+    Scene scene = plain_scene(round_brilliant());
+    look(scene, {0.21, 0.34, 1}, 10);
+    scene.settings.depth = 14;
+    scene.settings.engine = "preview";
+    FrameRenderer frames(scene);
+    const RenderStats whole = frames.draw().stats;
+    frames.keep_within(1e-3);
+    RenderStats quick;
+    for (int i = 0; i < 4; ++i) {
+        quick = frames.draw().stats;
+        // Nothing is lost unseen.
+        EXPECT_NEAR(quick.mean_radiance + quick.remainder, 1, 1e-5);
+    }
+    EXPECT_LT(quick.beams, whole.beams / 2);
+    EXPECT_GT(quick.remainder, whole.remainder);
+    frames.keep_within(0);
+    const RenderStats again = frames.draw().stats;
+    EXPECT_EQ(again.beams, whole.beams);
+    EXPECT_EQ(again.remainder, whole.remainder);
+}
+
+// mean |difference| over the stone / mean, against 256 samples of the same depth.
+void expect_bound_holds(Scene scene, const std::string& engine, int samples) {
+    scene.settings.samples = samples;
+    scene.settings.engine = engine;
+    const RenderResult beams = render(scene);
+    scene.settings.tolerance = 0;
+    const RenderResult exact = with_engine(scene, "reference", 256);
+    const Difference d = difference(beams.picture, exact.picture);
+    EXPECT_EQ(d.not_finite, 0);
+    EXPECT_TRUE(std::isfinite(beams.stats.error_bound));
+    EXPECT_LE(d.mean, beams.stats.error_bound) << engine << ", " << d;
+}
+
+TEST(ErrorBounds, hold_for_every_refraction_and_engine) {
+    std::mt19937_64 random(20284);
+    for (const Refraction kind :
+         {Refraction::astigmatic, Refraction::perspective, Refraction::parallel}) {
+        for (const std::string engine : {"beams", "preview"}) {
+            for (int i = 0; i < 3; ++i) {
+                SCOPED_TRACE("seed 20284, kind " + std::to_string(static_cast<int>(kind)) +
+                             ", case " + std::to_string(i));
+                Scene scene = i == 0 ? brilliant_scene() : plain_scene(random_stone(random, 8 * i));
+                scene.camera.width = scene.camera.height = 64;
+                look(scene, random_direction(random), i == 0 ? 4 : 9, i == 0 ? 1.05 : 1.5);
+                edged_lights()[static_cast<std::size_t>(i == 2 ? 4 : i)].make(scene);
+                scene.settings.refraction = kind;
+                scene.settings.depth = 4 + 2 * i;
+                expect_bound_holds(scene, engine, 16);
+            }
+        }
+    }
+}
+
+TEST(ErrorBounds, hold_at_small_tolerances) {
+    for (const double tolerance : {0.1, 1e-3}) {
+        for (const std::string engine : {"beams", "preview"}) {
+            Scene scene = brilliant_scene();
+            scene.camera.width = scene.camera.height = 64;
+            smooth_lights()[1].make(scene);
+            scene.settings.tolerance = tolerance;
+            scene.settings.depth = 24;
+            expect_bound_holds(scene, engine, 16);
+        }
+    }
+}
+
+TEST(ErrorBounds, hold_through_a_lens) {
+    for (const double aperture : {0.02, 0.2, 1.0}) {
+        SCOPED_TRACE(aperture);
+        Scene scene = brilliant_scene();
+        scene.camera.width = scene.camera.height = 64;
+        smooth_lights()[1].make(scene);
+        scene.camera.aperture_radius = aperture;
+        scene.camera.focus_distance = 10;
+        expect_bound_holds(scene, "beams", 64);
+    }
+}
+
+// Peak to noise over the stone's pixels; the reference's own noise of 256 samples is in it.
+TEST(Averages, are_within_50_dB_of_256_samples_in_smooth_light) {
+    std::mt19937_64 random(20285);
+    for (int i = 0; i < 4; ++i) {
+        SCOPED_TRACE("seed 20285, stone " + std::to_string(i));
+        Scene scene = plain_scene(i == 0 ? round_brilliant() : random_stone(random, 10 * i));
+        scene.camera.width = scene.camera.height = 200;
+        look(scene, {0.21, 0.34, 1}, i == 0 ? 12 : 15, i == 0 ? 1.05 : 1.5);
+        smooth_lights()[1].make(scene);
+        scene.lights.lobes.pop_back();
+        const RenderResult beams = with_engine(scene, "beams", 16),
+                           exact = with_engine(scene, "reference", 256);
+        const Difference d = difference(beams.picture, exact.picture);
+        RecordProperty("psnr_" + std::to_string(i), std::to_string(d.psnr()));
+        EXPECT_GE(d.psnr(), 50) << d;
+    }
+}
+
+// Seen straight through and mirrored in one big facet, where beams have no borders: only the
+// light's own edge needs to be smoothed.
+TEST(Averages, smooth_the_edges_of_lights_within_a_facet) {
+    for (const NamedChange& light : edged_lights()) {
+        SCOPED_TRACE(light.name);
+        Scene scene = plain_scene(slab(1));
+        light.make(scene);
+        scene.camera.width = scene.camera.height = 80;
+        scene.camera.position = {2, 3, 8};
+        scene.camera.look_at = {-0.5, -0.3, 0};
+        scene.camera.fov = 0.9;
+        scene.settings.depth = 5;
+        const RenderResult beams = with_engine(scene, "beams", 16),
+                           exact = with_engine(scene, "reference", 256);
+        const Difference d = difference(beams.picture, exact.picture, 0.05);
+        // 256 samples have a step of 1/256 across an edge at best, 1/16 where it runs along their
+        // rows.
+        EXPECT_GE(d.psnr(), 40) << d;
+        EXPECT_LE(d.share_off(), 5e-3) << d;
+    }
+}
+
+std::string refusal(const Scene& scene) {
+    try {
+        render(scene);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Refusals, are_one_line_that_says_what_to_do) {
+    const std::vector<std::pair<std::string, NamedChange>> cases{
+        {"convex", {"not convex", [](Scene& s) { s.stone.convex = false; }}},
+        {"filter", {"tent", [](Scene& s) { s.settings.filter = PixelFilter::tent; }}},
+        {"filter", {"gaussian", [](Scene& s) { s.settings.filter = PixelFilter::gaussian; }}},
+        {"filter", {"wide box", [](Scene& s) { s.settings.filter_radius = 0.7; }}},
+        {"conoscope", {"conoscope", [](Scene& s) { s.camera.cone = 0.3; }}},
+        {"denser", {"index 1", [](Scene& s) { s.stone.material.index[0].n = 1; }}},
+        {"denser", {"thinner", [](Scene& s) { s.immersion = 2.5; }}},
+        {"near lights",
+         {"17 spheres",
+          [](Scene& s) {
+              for (int i = 0; i < 17; ++i)
+                  s.lights.spheres.push_back({{5, 5, 5.0 + 3 * i}, 1, {1.0, {}}});
+          }}},
+        {"inside",
+         {"camera inside",
+          [](Scene& s) {
+              s.camera.position = {0, 0, 0.01};
+          }}},
+    };
+    for (const auto& [word, change] : cases) {
+        for (const std::string engine : {"beams", "preview"}) {
+            SCOPED_TRACE(change.name);
+            Scene scene = brilliant_scene();
+            scene.settings.engine = engine;
+            change.make(scene);
+            const std::string line = refusal(scene);
+            EXPECT_NE(line.find(word), std::string::npos) << line;
+            EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+        }
+    }
+}
+
+TEST(Refusals, sixteen_near_lights_are_not_too_many) {
+    Scene scene = brilliant_scene();
+    scene.lights = {};
+    for (int i = 0; i < 16; ++i)
+        scene.lights.spheres.push_back({{5, 5, 5.0 + 3 * i}, 1, {1.0, {}}});
+    EXPECT_EQ(refusal(scene), "");
+}
+
+TEST(Refusals, of_a_frame_leave_the_renderer_as_it_was) {
+    const Scene scene = brilliant_scene();
+    FrameRenderer frames(scene);
+    const Picture before = frames.draw().picture;
+    Camera inside = scene.camera;
+    inside.position = {0, 0, 0.01};
+    EXPECT_THROW(frames.look_from(inside), InputError);
+    Lights many = scene.lights;
+    for (int i = 0; i < 17; ++i) many.spheres.push_back({{5, 5, 5.0 + 3 * i}, 1, {1.0, {}}});
+    EXPECT_THROW(frames.light_with(many), InputError);
+    EXPECT_EQ(frames.draw().picture.rgb, before.rgb);
+}
+
+TEST(Progresses, of_no_stops_the_picture) {
+    Scene scene = brilliant_scene();
+    EXPECT_THROW(render(scene, [](double) { return false; }), Interrupted);
+}
+
+}  // namespace

@@ -1,0 +1,310 @@
+// Cases that are hard to get right, each by name. Expectations: the reference renderer, and what
+// the headers promise.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/beams/beam_tree.h"
+#include "render/beams/pixel_coverage.h"
+#include "tests/render/beams/beam_lights.h"
+
+namespace {
+
+using namespace culet;
+
+Scene brilliant_scene() {
+    Scene scene = plain_scene(round_brilliant());
+    look(scene, {0.21, 0.34, 1}, 10);
+    return scene;
+}
+
+// A ray that met other facets than its beam's is traced anew, with the stone's index over that of
+// what surrounds it.
+TEST(HardCases, retraced_rays_of_an_immersed_stone_are_the_references) {
+    Scene scene = brilliant_scene();
+    smooth_lights()[1].make(scene);
+    scene.immersion = 1.33;
+    scene.stone.material.index[0].n = 1.76;
+    const RenderResult beams = with_engine(scene, "beams", 1),
+                       reference = with_engine(scene, "reference", 1);
+    EXPECT_GT(beams.stats.retraced, 0);
+    const Difference d = difference(beams.picture, reference.picture);
+    EXPECT_LE(d.off, 2) << d;
+}
+
+// Voelker & Hamann's maps follow one ray a front facet, which may run outside the unfolded stone.
+TEST(HardCases, maps_of_front_facets_lose_and_double_no_area) {
+    for (const bool parallel_camera : {true, false}) {
+        for (const Refraction kind : {Refraction::perspective, Refraction::parallel}) {
+            Scene scene = brilliant_scene();
+            look(scene, {0.1, 0.23, 1}, 12);
+            scene.camera.width = scene.camera.height = 401;
+            if (parallel_camera) scene.camera.orthographic_width = 2.2;
+            const FacetNet net(scene.stone.solid);
+            BeamLimits limits;
+            limits.depth = 7;
+            limits.refraction = kind;
+            BeamTree tree;
+            build_beams(net, screen_view(scene.camera), 2.417, limits, tree);
+            EXPECT_NEAR(tree.leaf_area() / tree.front_area, 1, 4e-5);
+        }
+    }
+}
+
+// Parallel rays stay parallel: all kinds of map are the same, and exact.
+TEST(HardCases, all_refractions_draw_the_same_orthographic_picture) {
+    Scene scene = brilliant_scene();
+    smooth_lights()[1].make(scene);
+    scene.camera.orthographic_width = 2.2;
+    const RenderResult exact = with_engine(scene, "beams", 16);
+    for (const Refraction kind : {Refraction::perspective, Refraction::parallel}) {
+        scene.settings.refraction = kind;
+        const Difference d =
+            difference(with_engine(scene, "beams", 16).picture, exact.picture, 1e-3);
+        EXPECT_LE(d.off, 5) << d;
+    }
+}
+
+// A wrong sequence may lead a ray anywhere; it must not lead to no number, and a bound must not be
+// 0 because of one.
+TEST(HardCases, near_lights_seen_along_wrong_sequences_are_numbers) {
+    std::mt19937_64 random(20286);
+    for (int i = 0; i < 12; ++i) {
+        for (const Refraction kind :
+             {Refraction::astigmatic, Refraction::perspective, Refraction::parallel}) {
+            SCOPED_TRACE("seed 20286, stone " + std::to_string(i));
+            Scene scene = plain_scene(random_stone(random, 16));
+            scene.camera.width = scene.camera.height = 64;
+            look(scene, random_direction(random), 9, 1.5);
+            edged_lights()[2].make(scene);
+            scene.settings.refraction = kind;
+            scene.settings.depth = 8;
+            const RenderResult result = with_engine(scene, "beams", 16);
+            int bad = 0;
+            for (const float v : result.picture.rgb) bad += !std::isfinite(v);
+            EXPECT_EQ(bad, 0) << "refraction " << static_cast<int>(kind);
+            EXPECT_GT(result.stats.error_bound, 0);
+        }
+    }
+}
+
+// Parallel rays have the same direction in every pixel: a distant light's edge has no gradient.
+TEST(HardCases, orthographic_pictures_in_lights_with_edges_are_numbers) {
+    for (const std::string engine : {"beams", "preview"}) {
+        for (const std::size_t light : {0u, 1u, 5u}) {
+            Scene scene = brilliant_scene();
+            edged_lights()[light].make(scene);
+            scene.camera.orthographic_width = 2.2;
+            const RenderResult beams = with_engine(scene, engine, 16);
+            int bad = 0;
+            for (const float v : beams.picture.rgb) bad += !std::isfinite(v);
+            EXPECT_EQ(bad, 0) << engine << ", " << edged_lights()[light].name;
+            EXPECT_GT(beams.stats.error_bound, 0);
+        }
+    }
+}
+
+// In a light of 1 from everywhere nothing is brighter than 1: a pixel that is has been painted
+// twice. Views from near by, and of symmetric stones, whose edges run through middles of pixels.
+TEST(HardCases, nothing_is_brighter_than_the_furnace) {
+    for (const int samples : {1, 16}) {
+        for (const std::string cut : {"round-brilliant", "step", "princess"}) {
+            for (const Vec3& from : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{0.2, 0.5, 0.6}}) {
+                for (const double distance : {0.7, 1.01, 6.0}) {
+                    const Solid solid = make_cut(cut);
+                    const double size = diameter(solid);
+                    Scene scene = plain_scene(solid);
+                    scene.camera.width = scene.camera.height = 81;
+                    look(scene, from, distance * size, 0.55 * size);
+                    const RenderResult beams = with_engine(scene, "beams", samples);
+                    int bright = 0;
+                    float most = 0;
+                    for (const float v : beams.picture.rgb) {
+                        bright += v > 1.0001f;
+                        most = std::max(most, v);
+                    }
+                    EXPECT_EQ(bright / 3, 0)
+                        << cut << " from (" << from.x << ", " << from.y << ", " << from.z << ") at "
+                        << distance << " diameters, " << samples << " samples: up to " << most;
+                }
+            }
+        }
+    }
+}
+
+// Where a map does not quite lead a region onto the stone, facets must still share it, not each
+// take all of it; and the facet just left, and what the eye does not see from within, get nothing.
+TEST(HardCases, beams_of_near_views_do_not_overlap) {
+    std::mt19937_64 random(20287);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (int i = 0; i < 60; ++i) {
+        const std::string cut = i % 3 == 0 ? "round-brilliant" : i % 3 == 1 ? "step" : "princess";
+        const Solid solid = make_cut(cut);
+        const double size = diameter(solid);
+        Scene scene = plain_scene(solid);
+        const double distance = 0.55 + 0.6 * unit(random), n = 1.3 + 1.2 * unit(random);
+        look(scene, random_direction(random), distance * size, 0.55 * size);
+        const FacetNet net(solid);
+        BeamLimits limits;
+        limits.depth = 4;
+        BeamTree tree;
+        build_beams(net, screen_view(scene.camera), n, limits, tree);
+        EXPECT_NEAR(tree.leaf_area() / tree.front_area, 1, 4e-5)
+            << "seed 20287, case " << i << ", " << cut << " at " << distance << " diameters";
+    }
+}
+
+// cos^0 is 1 on the lobe's side and 0 on the other, as in the reference.
+TEST(HardCases, a_lobe_of_exponent_0_shines_from_one_side) {
+    Scene scene = brilliant_scene();
+    scene.lights = {};
+    scene.lights.lobes.push_back({glm::normalize(Vec3{0.2, 0.3, 1}), 0, {2.0, {}}});
+    const Difference d = difference(with_engine(scene, "beams", 1).picture,
+                                    with_engine(scene, "reference", 1).picture);
+    EXPECT_LE(d.off, 3) << d;
+}
+
+// What hides the stone is not the stone: coverage, and the means over the stone.
+TEST(HardCases, a_light_before_the_stone_is_not_counted_as_the_stone) {
+    for (const int samples : {1, 16}) {
+        Scene scene = brilliant_scene();
+        const Vec3 to_eye = glm::normalize(scene.camera.position);
+        scene.lights.spheres.push_back({2.5 * to_eye + Vec3{0.4, 0.3, 0}, 0.25, {0.7, {}}});
+        const RenderResult beams = with_engine(scene, "beams", samples),
+                           reference = with_engine(scene, "reference", samples == 1 ? 1 : 256);
+        const double most = samples == 1 ? 2e-3 : 1e-2;
+        EXPECT_LE(difference(beams.picture, reference.picture).mean, most);
+        double covered = 0, exact = 0;
+        for (std::size_t i = 0; i < beams.picture.pixels(); ++i) {
+            covered += static_cast<double>(beams.picture.coverage[i]);
+            exact += static_cast<double>(reference.picture.coverage[i]);
+        }
+        EXPECT_NEAR(covered / exact, 1, most);
+        EXPECT_NEAR(beams.stats.mean_radiance / reference.stats.mean_radiance, 1, most);
+        EXPECT_NEAR(beams.stats.remainder / reference.stats.remainder, 1, most);
+    }
+}
+
+// Small pictures have small beams: what is cut of each must still add up to no more than asked for.
+TEST(HardCases, the_tolerance_is_kept_in_small_pictures) {
+    for (const int side : {40, 96, 300}) {
+        for (const double tolerance : {0.01, 1e-3}) {
+            Scene scene = brilliant_scene();
+            scene.camera.width = scene.camera.height = side;
+            scene.settings.tolerance = tolerance;
+            scene.settings.depth = 0;
+            const RenderStats stats = with_engine(scene, "preview", 0).stats;
+            EXPECT_LE(stats.remainder / stats.mean_radiance, tolerance) << side;
+        }
+    }
+}
+
+// A camera is more than a place: what a lens calls for is planned anew.
+TEST(HardCases, a_frame_through_a_lens_is_that_of_a_fresh_renderer) {
+    Scene scene = brilliant_scene();
+    smooth_lights()[1].make(scene);
+    scene.settings.samples = 16;
+    FrameRenderer frames(scene);
+    frames.draw();
+    scene.camera.aperture_radius = 0.5;
+    scene.camera.focus_distance = 10;
+    frames.look_from(scene.camera);
+    EXPECT_EQ(frames.draw().picture.rgb, render(scene).picture.rgb);
+}
+
+// From far away the cut that keeps the tolerance is another one than from near by.
+TEST(HardCases, a_frame_from_elsewhere_has_the_limits_of_a_fresh_renderer) {
+    Scene scene = brilliant_scene();
+    smooth_lights()[1].make(scene);
+    scene.settings.samples = 16;
+    scene.settings.tolerance = 0.02;
+    scene.settings.depth = 0;
+    FrameRenderer frames(scene);
+    frames.draw();
+    look(scene, {1, 0.2, -1}, 4);
+    frames.look_from(scene.camera);
+    const RenderResult moved = frames.draw(true), fresh = render(scene);
+    EXPECT_EQ(moved.stats.beams, fresh.stats.beams);
+    EXPECT_EQ(moved.picture.rgb, fresh.picture.rgb);
+}
+
+// Edges that run through middles of pixels, with corners of one side only on them (as trees have
+// where beams of different depths meet): each middle is taken once.
+TEST(HardCases, edges_through_pixel_middles_with_corners_of_one_side_take_each_once) {
+    constexpr int k_side = 41;
+    PixelCoverage coverage(k_side);
+    int none = 0, many = 0, edges = 0;
+    for (int dx = 1; dx < 20; ++dx) {
+        for (int dy = 1; dy < 20; ++dy) {
+            // The line through the middle pixel's middle along (dx, dy), cut in two on one side.
+            const double m = 20.5, reach = 20.0 / std::max(dx, dy), third = 0.3 * reach;
+            const ScreenPoint a{m - reach * dx, m - reach * dy}, b{m + reach * dx, m + reach * dy},
+                c{m + third * dx, m + third * dy}, right{b.x, a.y}, left{a.x, b.y};
+            const std::vector<ScreenPoint> above{a, right, b, c}, below{a, b, left};
+            std::vector<int> taken(k_side * k_side, 0), expected(taken);
+            for (const auto& p : {above, below}) {
+                const CoveredPixels& found =
+                    coverage.middles(p.data(), p.size(), {0, 0}, 0, k_side);
+                for (int i = 0; i < found.count; ++i)
+                    ++taken[static_cast<std::size_t>(found.pixel[static_cast<std::size_t>(i)])];
+            }
+            const std::vector<ScreenPoint> whole{a, right, b, left};
+            const CoveredPixels& found =
+                coverage.middles(whole.data(), whole.size(), {0, 0}, 0, k_side);
+            for (int i = 0; i < found.count; ++i)
+                ++expected[static_cast<std::size_t>(found.pixel[static_cast<std::size_t>(i)])];
+            ++edges;
+            for (std::size_t i = 0; i < taken.size(); ++i) {
+                none += taken[i] < expected[i];
+                many += taken[i] > expected[i];
+            }
+        }
+    }
+    EXPECT_EQ(many, 0) << "taken twice along " << edges << " lines";
+    EXPECT_EQ(none, 0) << "not taken along " << edges << " lines";
+}
+
+// A light smaller than a pixel sees of it: what it brings on the whole must stay.
+TEST(HardCases, a_sun_smaller_than_a_pixel_keeps_its_light) {
+    Scene scene = plain_scene(slab(1));
+    scene.camera.width = scene.camera.height = 40;
+    scene.camera.position = {0.05, 0.05, 8};
+    scene.camera.look_at = {0, 0, 0};
+    scene.camera.fov = 0.9;
+    scene.settings.depth = 3;
+    scene.lights = {};
+    // A pixel is 0.024 wide; the sun's diameter is 0.0094, and it stands behind the camera.
+    scene.lights.caps.push_back({{0, 0, 1}, 0, 0.0047, {1e4, {}}});
+    const RenderResult beams = with_engine(scene, "beams", 16);
+    const RenderResult exact = with_engine(scene, "reference", 4096);
+    double seen = 0, expected = 0;
+    for (std::size_t i = 0; i < exact.picture.pixels(); ++i) {
+        seen += luminance_at(beams.picture, i);
+        expected += luminance_at(exact.picture, i);
+    }
+    EXPECT_GT(expected, 0);
+    EXPECT_NEAR(seen / expected, 1, 0.05);
+}
+
+// The same of a near light that is small in the picture.
+TEST(HardCases, a_lamp_smaller_than_a_pixel_keeps_its_light) {
+    Scene scene = plain_scene(slab(1));
+    scene.camera.width = scene.camera.height = 40;
+    scene.camera.position = {0.05, 0.05, 8};
+    scene.camera.fov = 0.9;
+    scene.settings.depth = 3;
+    scene.lights = {};
+    scene.lights.spheres.push_back({{1, 1, 9}, 0.02, {1e4, {}}});
+    const RenderResult beams = with_engine(scene, "beams", 16),
+                       exact = with_engine(scene, "reference", 4096);
+    double seen = 0, expected = 0;
+    for (std::size_t i = 0; i < exact.picture.pixels(); ++i) {
+        seen += luminance_at(beams.picture, i);
+        expected += luminance_at(exact.picture, i);
+    }
+    EXPECT_GT(expected, 0);
+    EXPECT_NEAR(seen / expected, 1, 0.05);
+}
+
+}  // namespace

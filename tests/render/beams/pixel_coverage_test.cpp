@@ -1,0 +1,275 @@
+// Expectations: each pixel's square clipped by the polygon (Sutherland & Hodgman 1974, in double),
+// and that what tiles the picture fills each pixel once.
+
+#include "render/beams/pixel_coverage.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace {
+
+using namespace culet;
+using Polygon = std::vector<ScreenPoint>;
+
+double area_of(const Polygon& p) {
+    double sum = 0;
+    for (std::size_t i = 0, j = p.size() - 1; i < p.size(); j = i++)
+        sum += p[j].x * p[i].y - p[i].x * p[j].y;
+    return 0.5 * sum;
+}
+
+// What of the polygon is where a x + b y + c >= 0.
+Polygon clipped(const Polygon& p, double a, double b, double c) {
+    Polygon kept;
+    for (std::size_t i = 0, j = p.size() - 1; i < p.size(); j = i++) {
+        const double here = a * p[i].x + b * p[i].y + c, before = a * p[j].x + b * p[j].y + c;
+        if ((here < 0) != (before < 0)) {
+            const double t = before / (before - here);
+            kept.push_back({p[j].x + t * (p[i].x - p[j].x), p[j].y + t * (p[i].y - p[j].y)});
+        }
+        if (!(here < 0)) kept.push_back(p[i]);
+    }
+    return kept;
+}
+double area_in_pixel(const Polygon& p, int x, int y) {
+    Polygon kept = clipped(p, 1, 0, -x);
+    if (!kept.empty()) kept = clipped(kept, -1, 0, x + 1);
+    if (!kept.empty()) kept = clipped(kept, 0, 1, -y);
+    if (!kept.empty()) kept = clipped(kept, 0, -1, y + 1);
+    return kept.size() < 3 ? 0 : area_of(kept);
+}
+
+// Positively oriented (from x to y): corners of an ellipse, turned.
+Polygon random_polygon(std::mt19937_64& random, double cx, double cy, double rx, double ry) {
+    std::uniform_real_distribution<double> angle(0, 2 * std::numbers::pi);
+    std::uniform_int_distribution<int> sides(3, 9);
+    std::vector<double> angles(static_cast<std::size_t>(sides(random)));
+    for (double& a : angles) a = angle(random);
+    std::sort(angles.begin(), angles.end());
+    const double turn = angle(random);
+    Polygon polygon;
+    for (double a : angles) {
+        const double u = rx * std::cos(a), v = ry * std::sin(a);
+        polygon.push_back({cx + u * std::cos(turn) - v * std::sin(turn),
+                           cy + u * std::sin(turn) + v * std::cos(turn)});
+    }
+    return polygon;
+}
+
+// Coordinates are rounded to single precision in a corner of the polygon, `extent` pixels wide: an
+// area is off by a rounding unit of that for each edge in the pixel, and the running sum of a row
+// adds one of 1 for each column.
+double tolerance(double extent) {
+    return 8 * 6e-8 * (extent + 2);
+}
+
+class Coverage : public testing::Test {
+protected:
+    static constexpr int k_width = 61, k_height = 47;
+    PixelCoverage coverage_{k_width};
+
+    void expect_exact(const Polygon& polygon, int row_begin, int row_end) {
+        double low_x = 1e9, high_x = -1e9, low_y = 1e9, high_y = -1e9;
+        for (const ScreenPoint& p : polygon) {
+            low_x = std::min(low_x, p.x);
+            high_x = std::max(high_x, p.x);
+            low_y = std::min(low_y, p.y);
+            high_y = std::max(high_y, p.y);
+        }
+        const double most = tolerance(std::max(high_x - low_x, high_y - low_y));
+        const AreaGrid grid = coverage_.areas(polygon.data(), polygon.size(), row_begin, row_end);
+        double missed = 0;
+        for (int y = row_begin; y < row_end; ++y) {
+            for (int x = 0; x < k_width; ++x) {
+                const bool in = x >= grid.x && x < grid.x + grid.columns && y >= grid.y &&
+                                y < grid.y + grid.rows;
+                const double exact = area_in_pixel(polygon, x, y);
+                const double found = in ? static_cast<double>(grid.row(y - grid.y)[x - grid.x]) : 0;
+                missed = std::max(missed, std::abs(found - exact));
+            }
+        }
+        ASSERT_LE(missed, most) << polygon.size() << " corners, rows " << row_begin << ".."
+                                << row_end << ", from (" << polygon[0].x << ", " << polygon[0].y
+                                << ")";
+        ASSERT_LE(grid.x + grid.columns, k_width);
+        const ScreenPoint reference{low_x, low_y};
+        const CoveredPixels& touched = coverage_.touched(grid, reference);
+        for (int i = 0; i < touched.count; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            const int x = touched.pixel[at] % k_width, y = touched.pixel[at] / k_width;
+            ASSERT_NEAR(static_cast<double>(touched.share[at]), area_in_pixel(polygon, x, y),
+                        most + 4e-6);
+            ASSERT_NEAR(static_cast<double>(touched.x[at]), x + 0.5 - reference.x, 1e-5);
+            ASSERT_NEAR(static_cast<double>(touched.y[at]), y + 0.5 - reference.y, 1e-5);
+        }
+    }
+};
+
+TEST_F(Coverage, of_random_polygons_is_what_clipping_says) {
+    std::mt19937_64 random(20261);
+    std::uniform_real_distribution<double> x(12, k_width - 12), y(12, k_height - 12), r(0.05, 11);
+    for (int i = 0; i < 1500; ++i) {
+        SCOPED_TRACE("seed 20261, polygon " + std::to_string(i));
+        expect_exact(random_polygon(random, x(random), y(random), r(random), r(random)), 0,
+                     k_height);
+    }
+}
+
+TEST_F(Coverage, of_slivers_is_what_clipping_says) {
+    std::mt19937_64 random(20262);
+    std::uniform_real_distribution<double> x(24, k_width - 24), y(23, k_height - 23), r(0.1, 23),
+        power(-12, -1);
+    for (int i = 0; i < 1500; ++i) {
+        SCOPED_TRACE("seed 20262, polygon " + std::to_string(i));
+        expect_exact(
+            random_polygon(random, x(random), y(random), r(random), std::pow(10, power(random))), 0,
+            k_height);
+    }
+}
+
+TEST_F(Coverage, of_polygons_smaller_than_a_pixel_is_what_clipping_says) {
+    std::mt19937_64 random(20263);
+    std::uniform_real_distribution<double> x(2, k_width - 2), y(2, k_height - 2), power(-9, 0);
+    for (int i = 0; i < 1500; ++i) {
+        SCOPED_TRACE("seed 20263, polygon " + std::to_string(i));
+        const double r = std::pow(10, power(random));
+        expect_exact(random_polygon(random, x(random), y(random), r, r), 0, k_height);
+    }
+}
+
+TEST_F(Coverage, with_corners_on_pixel_borders_is_what_clipping_says) {
+    std::mt19937_64 random(20264);
+    std::uniform_real_distribution<double> x(12, k_width - 12), y(12, k_height - 12), r(0.5, 11);
+    for (int i = 0; i < 1500; ++i) {
+        SCOPED_TRACE("seed 20264, polygon " + std::to_string(i));
+        Polygon polygon = random_polygon(random, x(random), y(random), r(random), r(random));
+        // Halves: borders and middles. A rounded polygon may be concave by its own rounding; its
+        // areas are what clipping says all the same, as long as it does not cross itself.
+        for (ScreenPoint& p : polygon) {
+            p.x = std::round(2 * p.x) / 2;
+            if (i % 2 == 0) p.y = std::round(2 * p.y) / 2;
+        }
+        if (polygon.size() > 3) polygon.resize(3);
+        if (area_of(polygon) <= 0) continue;
+        expect_exact(polygon, 0, k_height);
+    }
+}
+
+TEST_F(Coverage, of_some_rows_is_that_of_the_whole) {
+    std::mt19937_64 random(20265);
+    std::uniform_real_distribution<double> x(20, k_width - 20), y(0, k_height), r(0.5, 19);
+    std::uniform_int_distribution<int> row(0, k_height - 1);
+    for (int i = 0; i < 1500; ++i) {
+        SCOPED_TRACE("seed 20265, polygon " + std::to_string(i));
+        const int a = row(random), b = row(random);
+        expect_exact(random_polygon(random, x(random), y(random), r(random), r(random)),
+                     std::min(a, b), std::max(a, b) + 1);
+    }
+}
+
+// Regions end at the picture's borders, as those of beams do.
+TEST_F(Coverage, at_the_pictures_borders_is_what_clipping_says) {
+    std::mt19937_64 random(20266);
+    std::uniform_real_distribution<double> x(-5, k_width + 5), y(-5, k_height + 5), r(0.5, 19);
+    for (int i = 0; i < 1500; ++i) {
+        SCOPED_TRACE("seed 20266, polygon " + std::to_string(i));
+        Polygon polygon = random_polygon(random, x(random), y(random), r(random), r(random));
+        polygon = clipped(polygon, 1, 0, 0);
+        if (!polygon.empty()) polygon = clipped(polygon, -1, 0, k_width);
+        if (!polygon.empty()) polygon = clipped(polygon, 0, 1, 0);
+        if (!polygon.empty()) polygon = clipped(polygon, 0, -1, k_height);
+        if (polygon.size() < 3) continue;
+        expect_exact(polygon, 0, k_height);
+    }
+}
+
+// The picture cut by lines, each cell by each line in turn; a line is evaluated alike for both
+// sides, and a crossing is computed alike for both.
+std::vector<Polygon> subdivision(double width, double height,
+                                 const std::vector<std::array<double, 3>>& lines) {
+    std::vector<Polygon> cells{{{0, 0}, {width, 0}, {width, height}, {0, height}}};
+    for (const auto& [a, b, c] : lines) {
+        std::vector<Polygon> next;
+        for (const Polygon& cell : cells) {
+            for (const double sign : {1.0, -1.0}) {
+                Polygon part = clipped(cell, sign * a, sign * b, sign * c);
+                if (part.size() > 2 && area_of(part) > 0) next.push_back(std::move(part));
+            }
+        }
+        cells = std::move(next);
+    }
+    return cells;
+}
+
+void expect_tiling(const std::vector<Polygon>& cells, int width, int height, bool exact_middles) {
+    PixelCoverage coverage(width);
+    std::vector<double> sums(static_cast<std::size_t>(width * height), 0.0);
+    std::vector<int> taken(sums.size(), 0);
+    for (const Polygon& cell : cells) {
+        const AreaGrid grid = coverage.areas(cell.data(), cell.size(), 0, height);
+        for (int row = 0; row < grid.rows; ++row) {
+            for (int column = 0; column < grid.columns; ++column)
+                sums[static_cast<std::size_t>((grid.y + row) * width + grid.x + column)] +=
+                    static_cast<double>(grid.row(row)[column]);
+        }
+        const CoveredPixels& middles =
+            coverage.middles(cell.data(), cell.size(), {0, 0}, 0, height);
+        for (int i = 0; i < middles.count; ++i)
+            ++taken[static_cast<std::size_t>(middles.pixel[static_cast<std::size_t>(i)])];
+    }
+    const double most =
+        tolerance(width) * static_cast<double>(std::min<std::size_t>(cells.size(), 20));
+    int none = 0, many = 0;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        EXPECT_NEAR(sums[i], 1, most) << "pixel " << i;
+        none += taken[i] == 0;
+        many += taken[i] > 1;
+    }
+    if (exact_middles) {
+        EXPECT_EQ(none, 0) << "middles that no cell takes, of " << cells.size() << " cells";
+        EXPECT_EQ(many, 0) << "middles that several cells take, of " << cells.size() << " cells";
+    }
+}
+
+TEST(Tiling, by_random_lines_fills_each_pixel_once) {
+    std::mt19937_64 random(20267);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> x(0, 40), y(0, 31);
+    for (int i = 0; i < 20; ++i) {
+        SCOPED_TRACE("seed 20267, subdivision " + std::to_string(i));
+        std::vector<std::array<double, 3>> lines;
+        for (int j = 0; j < 14; ++j) {
+            const double a = normal(random), b = normal(random);
+            lines.push_back({a, b, -a * x(random) - b * y(random)});
+        }
+        expect_tiling(subdivision(40, 31, lines), 40, 31, true);
+    }
+}
+
+// Upright, level and diagonal lines through middles of pixels, as an odd-sized picture of a
+// symmetric stone has them: crossings and middles are exact in double.
+TEST(Tiling, by_lines_through_pixel_middles_takes_each_middle_once) {
+    const double m = 20.5;
+    std::vector<std::array<double, 3>> lines{{1, 0, -m}, {0, 1, -m}, {1, -1, 0}, {1, 1, -2 * m}};
+    for (int k = 1; k < 6; ++k) {
+        lines.push_back({1, 0, -(m + 2 * k)});
+        lines.push_back({0, 1, -(m - 3 * k)});
+        lines.push_back({1, -1, 2.0 * k});
+    }
+    expect_tiling(subdivision(41, 41, lines), 41, 41, true);
+}
+
+TEST(Tiling, of_no_area_takes_nothing) {
+    PixelCoverage coverage(20);
+    const Polygon point{{3.5, 3.5}, {3.5, 3.5}, {3.5, 3.5}}, level{{1, 4.5}, {9, 4.5}, {4, 4.5}};
+    for (const Polygon& p : {point, level}) {
+        EXPECT_EQ(coverage.middles(p.data(), p.size(), {0, 0}, 0, 20).count, 0);
+        EXPECT_EQ(coverage.touched(coverage.areas(p.data(), p.size(), 0, 20), {0, 0}).count, 0);
+    }
+}
+
+}  // namespace
