@@ -135,13 +135,14 @@ public:
             const V3 a{number(face.x), number(face.y), number(face.z)};
             const V cosine = dot(a, ray_.direction);
             if (located) {
-                // Rays beside the beam need not meet its facets: they go no farther than a ray in the
-                // stone can.
+                // Rays beside the beam need not meet its facets: they go no farther than a ray in
+                // the stone can.
                 const V towards = hn::Max(cosine, number(1e-4f));
                 const V farthest = number(stone_.size);
-                const V length = hn::Min(
-                    hn::Max((number(face.offset) - dot(a, ray_.point)) / towards, hn::Neg(farthest)),
-                    farthest);
+                const V length =
+                    hn::Min(hn::Max((number(face.offset) - dot(a, ray_.point)) / towards,
+                                    hn::Neg(farthest)),
+                            farthest);
                 ray_.point = plus(ray_.point, length, ray_.direction);
                 if constexpr (kSoft) {
                     move(ray_.point_x, ray_.direction_x, length, a, towards);
@@ -159,9 +160,16 @@ public:
         }
         for (int i = 0; i < nodes; ++i)
             hn::StoreU(
-                sum_[i] * uncovered_ + before_[i], k_floats,
+                sum_[i] * uncovered_, k_floats,
                 out_.radiance + static_cast<size_t>(i) * static_cast<size_t>(out_.stride) + first);
         hn::StoreU(remaining() * uncovered_, k_floats, out_.left + first);
+        if (out_.unhidden != nullptr) {
+            hn::StoreU(uncovered_, k_floats, out_.unhidden + first);
+            for (int i = 0; i < nodes; ++i)
+                hn::StoreU(before_[i], k_floats,
+                           out_.before + static_cast<size_t>(i) * static_cast<size_t>(out_.stride) +
+                               first);
+        }
         if (out_.absorbed != nullptr)
             hn::StoreU(absorbed * uncovered_, k_floats, out_.absorbed + first);
         if (out_.follows != nullptr) {
@@ -389,7 +397,7 @@ private:
         uncovered_ = number(1.0f);
         const int nodes = kMany ? lights_.nodes : 1;
         for (int i = 0; i < nodes; ++i) before_[i] = number(0.0f);
-        if (!lights_.spheres.empty() || !lights_.planes.empty()) {
+        if (out_.unhidden != nullptr) {
             const V distance = (number(eye_.distance) + later) * length;
             Ray from_eye{plus(ray_.point, hn::Neg(distance), along), along, gx, gy, vx, vy};
             if constexpr (kSoft) {
@@ -402,9 +410,14 @@ private:
             for (int i = 0; i < nodes; ++i) one[i] = number(1.0f);
             PathWeight direct{};
             direct.weight = one;
-            if constexpr (kGeneral) respond(direct, along);
             if constexpr (kGeneral) {
                 if (optics_.response) one[0] = number((*optics_.response)[0]);
+                direct.polarised = true;
+                direct.Q = number(optics_.response ? (*optics_.response)[1] : 0.0f);
+                direct.U = number(optics_.response ? -(*optics_.response)[2] : 0.0f);
+                direct.direction = along;
+                direct.u = eye_right(eye_, along);
+                direct.v = cross(along, direct.u);
             }
             Gather<kMany> gather{lights_, before_, direct};
             uncovered_ = near_light<kSoft>(lights_, from_eye, distance, gather);
@@ -450,19 +463,6 @@ private:
         const M oblique = dot(s, s) > number(1e-20f);
         return hn::AllTrue(k_floats, oblique) ? s : any_tangent(s, d, oblique);
     }
-    // A path straight to the eye.
-    HWY_INLINE void respond(PathWeight& direct, const V3& along) const {
-        direct.polarised = true;
-        direct.Q = direct.U = number(0.0f);
-        direct.direction = along;
-        direct.u = eye_right(eye_, along);
-        direct.v = cross(along, direct.u);
-        if (optics_.response) {
-            direct.Q = number((*optics_.response)[1]);
-            direct.U = number(-(*optics_.response)[2]);
-        }
-    }
-
     // Into the tangent of the face with normal a, from that of the face before with normal b: the
     // tangents are d x b and d x a.
     HWY_INLINE void turn(const V3& a, const V& cosine, int k) {

@@ -80,6 +80,33 @@ HWY_INLINE V share_where(const V& value, const Gradient& g) {
     }
 }
 
+// True where two changes from pixel to pixel are small against a distance.
+HWY_INLINE M narrow(const V3& right, const V3& down, const V& distance) {
+    return number(16.0f) * (dot(right, right) + dot(down, down)) < distance * distance;
+}
+
+// How much of a pixel sees a distant disc about `axis`.
+template <bool kSoft>
+HWY_INLINE V disc_share(const ShadedLights::Disc& disc, const V3& axis, const Ray& ray) {
+    const V3& d = ray.direction;
+    const V cosine = dot(axis, d);
+    if constexpr (!kSoft) return hn::IfThenElseZero(cosine > number(disc.cosine), number(1.0f));
+    if (disc.cosine < -1) return number(1.0f);
+    // The angle to the disc's rim, as 2 tan of its half: 2 (cos a - cos b) / (sin a + sin b).
+    const V3 beside = plus(d, hn::Neg(cosine), axis);
+    const V sine = length_of(beside), over = number(1.0f) / hn::Max(sine, number(1e-20f));
+    const V inside = number(2.0f) * (cosine - number(disc.cosine)) /
+                     hn::Max(sine + number(disc.sine), number(1e-20f));
+    const Gradient g{dot(beside, ray.direction_x) * over, dot(beside, ray.direction_y) * over};
+    // A small one fills no more than its solid angle; where a pixel sees so much that its share is
+    // no parallelogram (next to total reflection), that tells nothing.
+    const V pixel = length_of(cross(ray.direction_x, ray.direction_y));
+    const V most =
+        hn::IfThenElse(narrow(ray.direction_x, ray.direction_y, number(1.0f)),
+                       number(disc.solid_angle) / hn::Max(pixel, number(1e-30f)), number(1.0f));
+    return hn::Min(share_above(inside, g), most);
+}
+
 // Light that comes along a ray: calls take(factor, radiance of each node, polarisation).
 template <bool kSoft, class Take>
 HWY_INLINE void distant_light(const ShadedLights& lights, const Ray& ray, const V& unhidden,
@@ -96,6 +123,8 @@ HWY_INLINE void distant_light(const ShadedLights& lights, const Ray& ray, const 
             for (int e = lobe.whole; e > 0; e >>= 1, square = square * square) {
                 if (e & 1) power = power * square;
             }
+            // The power 0 is 1 on the lobe's side alone.
+            if (lobe.whole == 0) power = hn::IfThenElseZero(cosine > number(0.0f), power);
         } else {
             // The smallest normal number stands for 0, whose logarithm is no number.
             const V some = hn::Max(cosine, number(1.2e-38f));
@@ -107,11 +136,8 @@ HWY_INLINE void distant_light(const ShadedLights& lights, const Ray& ray, const 
     }
     for (const ShadedLights::Cap& cap : lights.caps) {
         const V3 axis{number(cap.x), number(cap.y), number(cap.z)};
-        const V cosine = dot(axis, d);
-        Gradient g{number(0.0f), number(0.0f)};
-        if constexpr (kSoft) g = {dot(axis, ray.direction_x), dot(axis, ray.direction_y)};
-        V share = share_where<kSoft>(cosine - number(cap.to), g);
-        if (cap.from <= 1) share = share - share_where<kSoft>(cosine - number(cap.from), g);
+        V share = disc_share<kSoft>(cap.outer, axis, ray);
+        if (cap.inner.cosine <= 1) share = share - disc_share<kSoft>(cap.inner, axis, ray);
         take(unhidden * share, cap.radiance.data(), cap.polarised);
     }
 }
@@ -174,14 +200,19 @@ HWY_INLINE V sphere_share(const ShadedLights::Sphere& sphere, const Ray& ray, V&
     const V half = hn::Sqrt(hn::Max(inside * (radius + miss), number(0.0f)));
     const V near = along - half, far = along + half;
     distance = hn::IfThenElse(near > number(0.0f), near, far);
-    Gradient g{number(0.0f), number(0.0f)};
-    if constexpr (kSoft) {
-        // beside changes by -point_x - along direction_x, across the ray.
+    if constexpr (!kSoft) {
+        return hn::IfThenElseZero(hn::And(distance > number(0.0f), inside > number(0.0f)),
+                                  number(1.0f));
+    } else {
+        // What a pixel sees beside the middle, across the ray.
         const V over = number(1.0f) / hn::Max(miss, number(1e-30f));
-        g = {(dot(beside, ray.point_x) + along * dot(beside, ray.direction_x)) * over,
-             (dot(beside, ray.point_y) + along * dot(beside, ray.direction_y)) * over};
+        const V3 to_right = plus(ray.point_x, along, ray.direction_x),
+                 down = plus(ray.point_y, along, ray.direction_y);
+        const Gradient g{dot(beside, to_right) * over, dot(beside, down) * over};
+        const V pixel = hn::Abs(dot(ray.direction, cross(to_right, down)));
+        const V most = number(3.14159265f) * radius * radius / hn::Max(pixel, number(1e-30f));
+        return hn::IfThenElseZero(distance > number(0.0f), hn::Min(share_above(inside, g), most));
     }
-    return hn::IfThenElseZero(distance > number(0.0f), share_where<kSoft>(inside, g));
 }
 
 template <bool kSoft>

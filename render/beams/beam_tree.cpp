@@ -33,11 +33,13 @@ struct Trunk {
 // Grows the beams below one beam, and keeps the room for it.
 class Grower {
 public:
-    void prepare(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits) {
+    void prepare(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits,
+                 double front_area) {
         net_ = &net;
         view_ = &view;
         n_ = n;
         limits_ = &limits;
+        least_ = limits.cut_share * front_area;
         splitter_.prepare(net);
     }
 
@@ -143,7 +145,7 @@ private:
 
     bool worth_splitting(const Trunk& trunk) const {
         return trunk.weight >= limits_->cut_weight &&
-               0.5 * trunk.weight * trunk.part.doubled_area >= limits_->cut_contribution;
+               0.5 * trunk.weight * trunk.part.doubled_area >= least_;
     }
 
     void split(const Trunk& trunk, const Pencil& pencil, const Folding& folding,
@@ -231,7 +233,7 @@ private:
     const FacetNet* net_ = nullptr;
     const ScreenView* view_ = nullptr;
     const BeamLimits* limits_ = nullptr;
-    double n_ = 1;
+    double n_ = 1, least_ = 0;
     BeamBranch* out_ = nullptr;
     Pencil front_;
     std::vector<std::uint16_t> path_;
@@ -327,7 +329,7 @@ void build_beams(const FacetNet& net, const ScreenView& view, double n, const Be
     tbb::enumerable_thread_specific<Grower> growers;
     const auto grower = [&]() -> Grower& {
         Grower& mine = growers.local();
-        mine.prepare(net, view, n, limits);
+        mine.prepare(net, view, n, limits, tree.front_area);
         return mine;
     };
     tbb::parallel_for(

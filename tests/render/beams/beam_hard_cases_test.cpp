@@ -229,42 +229,6 @@ TEST(HardCases, a_frame_from_elsewhere_has_the_limits_of_a_fresh_renderer) {
     EXPECT_EQ(moved.picture.rgb, fresh.picture.rgb);
 }
 
-// Edges that run through middles of pixels, with corners of one side only on them (as trees have
-// where beams of different depths meet): each middle is taken once.
-TEST(HardCases, edges_through_pixel_middles_with_corners_of_one_side_take_each_once) {
-    constexpr int k_side = 41;
-    PixelCoverage coverage(k_side);
-    int none = 0, many = 0, edges = 0;
-    for (int dx = 1; dx < 20; ++dx) {
-        for (int dy = 1; dy < 20; ++dy) {
-            // The line through the middle pixel's middle along (dx, dy), cut in two on one side.
-            const double m = 20.5, reach = 20.0 / std::max(dx, dy), third = 0.3 * reach;
-            const ScreenPoint a{m - reach * dx, m - reach * dy}, b{m + reach * dx, m + reach * dy},
-                c{m + third * dx, m + third * dy}, right{b.x, a.y}, left{a.x, b.y};
-            const std::vector<ScreenPoint> above{a, right, b, c}, below{a, b, left};
-            std::vector<int> taken(k_side * k_side, 0), expected(taken);
-            for (const auto& p : {above, below}) {
-                const CoveredPixels& found =
-                    coverage.middles(p.data(), p.size(), {0, 0}, 0, k_side);
-                for (int i = 0; i < found.count; ++i)
-                    ++taken[static_cast<std::size_t>(found.pixel[static_cast<std::size_t>(i)])];
-            }
-            const std::vector<ScreenPoint> whole{a, right, b, left};
-            const CoveredPixels& found =
-                coverage.middles(whole.data(), whole.size(), {0, 0}, 0, k_side);
-            for (int i = 0; i < found.count; ++i)
-                ++expected[static_cast<std::size_t>(found.pixel[static_cast<std::size_t>(i)])];
-            ++edges;
-            for (std::size_t i = 0; i < taken.size(); ++i) {
-                none += taken[i] < expected[i];
-                many += taken[i] > expected[i];
-            }
-        }
-    }
-    EXPECT_EQ(many, 0) << "taken twice along " << edges << " lines";
-    EXPECT_EQ(none, 0) << "not taken along " << edges << " lines";
-}
-
 // A light smaller than a pixel sees of it: what it brings on the whole must stay.
 TEST(HardCases, a_sun_smaller_than_a_pixel_keeps_its_light) {
     Scene scene = plain_scene(slab(1));
