@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/beams/beam_tree.h"
+#include "render/beams/environment_pyramid.h"
 #include "render/beams/pixel_coverage.h"
 #include "tests/render/beams/beam_lights.h"
 
@@ -227,6 +228,49 @@ TEST(HardCases, a_frame_from_elsewhere_has_the_limits_of_a_fresh_renderer) {
     const RenderResult moved = frames.draw(true), fresh = render(scene);
     EXPECT_EQ(moved.stats.beams, fresh.stats.beams);
     EXPECT_EQ(moved.picture.rgb, fresh.picture.rgb);
+}
+
+// What a map sends from all directions, by its own resolution: a sun may be one texel. Bilinear
+// look-up spreads a texel over the ones around it with weights that add up to its own area, but
+// for how the sine of the colatitude bends over two rows.
+TEST(HardCases, an_environment_keeps_the_light_of_one_texel) {
+    const double pi = std::numbers::pi;
+    std::mt19937_64 random(20288);
+    for (const int width : {32, 64, 256, 1024}) {
+        double worst = 0;
+        for (int i = 0; i < 12; ++i) {
+            EnvironmentMap map;
+            map.width = width;
+            map.height = width / 2;
+            map.rgb.assign(static_cast<std::size_t>(3 * width * (width / 2)), 0.0f);
+            const int x = static_cast<int>(random() % static_cast<unsigned>(width)),
+                      y = width / 16 +
+                          static_cast<int>(random() % static_cast<unsigned>(3 * width / 8));
+            map.rgb[static_cast<std::size_t>(3 * (y * width + x))] = 1;
+            const EnvironmentPyramid pyramid(map);
+            const EnvironmentPyramid::Level& level = pyramid.levels().front();
+            double sum = 0;
+            for (int v = 0; v < level.side; ++v) {
+                for (int u = 0; u < level.side; ++u) {
+                    // Solid angle of a texel of the octahedral square.
+                    const double a = 2 * (u + 0.5) / level.side - 1,
+                                 b = 2 * (v + 0.5) / level.side - 1,
+                                 c = 1 - std::abs(a) - std::abs(b);
+                    const double px = c < 0 ? 1 - std::abs(b) : a, py = c < 0 ? 1 - std::abs(a) : b;
+                    const double length = std::sqrt(px * px + py * py + c * c),
+                                 side = 2.0 / level.side;
+                    sum += side * side / (length * length * length) *
+                           static_cast<double>(pyramid.plane(
+                               0)[level.start +
+                                  static_cast<std::size_t>((v + 1) * (level.side + 2) + u + 1)]);
+                }
+            }
+            const double texel = 2 * pi / width,
+                         exact = texel * texel * std::sin(pi * (y + 0.5) / (width / 2));
+            worst = std::max(worst, std::abs(sum / exact - 1));
+        }
+        EXPECT_LE(worst, 0.05) << "seed 20288, width " << width;
+    }
 }
 
 // Edges that run through middles of pixels, with corners of one side only on them (as trees have
