@@ -201,6 +201,12 @@ enum class Refraction {
     parallel      ///< one direction a front facet (Voelker & Hamann's parallel refraction)
 };
 
+/// What becomes of the two waves of a crystal in beams.
+enum class CrystalBeams {
+    merged,  ///< they go one way (Guy & Soler 2004, 4.2), and keep polarisation and coherence
+    parted   ///< each goes its own way, and their powers are added
+};
+
 enum class PixelFilter { box, tent, gaussian };
 
 /// Deepest path that a scene may ask for, and that is followed where the tolerance decides.
@@ -209,6 +215,8 @@ constexpr int k_deepest = 1000;
 struct RenderSettings {
     std::string engine = "auto";  ///< reference (auto means it, for now), beams, preview
     Refraction refraction = Refraction::astigmatic;
+    /// Beams in crystals: nothing: whichever the scene calls for.
+    std::optional<CrystalBeams> crystal_beams;
     int depth = 0;             ///< 0: by tolerance. Depth d has d - 1 inner segments
     double tolerance = 0.01;   ///< of the picture's mean radiance; 0: nothing is cut
     bool effects_auto = true;  ///< all that can matter; else `effects`

@@ -128,11 +128,21 @@ void read_filter(const TomlTable& table, RenderSettings& settings) {
 }
 
 RenderSettings read_settings(const TomlTable& table) {
-    table.refuse_unknown(
-        with_view_keys({"engine", "depth", "tolerance", "effects", "wavelengths", "samples",
-                        "coherence", "bandwidth", "filter", "filter_radius", "refraction"}));
+    table.refuse_unknown(with_view_keys({"engine", "depth", "tolerance", "effects", "wavelengths",
+                                         "samples", "coherence", "bandwidth", "filter",
+                                         "filter_radius", "refraction", "crystal_beams"}));
     RenderSettings settings;
     read_coherence(table, settings);
+    if (const auto beams = table.text("crystal_beams")) {
+        if (*beams != "auto" && *beams != "merged" && *beams != "parted") {
+            table.fail(
+                "crystal_beams",
+                fmt::format("crystal_beams is auto, merged or parted, found \"{}\"", *beams));
+        }
+        if (*beams != "auto")
+            settings.crystal_beams =
+                *beams == "merged" ? CrystalBeams::merged : CrystalBeams::parted;
+    }
     if (const auto refraction = table.text("refraction")) {
         const std::array<std::string, 3> known{"astigmatic", "perspective", "parallel"};
         const auto found = std::find(known.begin(), known.end(), *refraction);

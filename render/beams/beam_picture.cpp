@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "render/beams/beam_renderer.h"
@@ -26,6 +27,8 @@ namespace {
 constexpr int k_checked_across = 48, k_check_samples = 16;
 constexpr double k_standard_errors = 3;
 constexpr double k_preview_map_error = 1;  // pixels
+// Merged images that lie this far apart are off by as much: a tenth of a pixel at edges.
+constexpr double k_seen_apart = 0.1;  // pixels
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
@@ -71,12 +74,35 @@ BeamSettings beam_settings(const Scene& scene, const PathLimits& limits) {
     return settings;
 }
 
+// How far apart the two waves' images of the stone's far side lie, in pixels: the angle between
+// them is about |n1 - n2| (1/n + 1/sqrt(n^2 - 1)) at most (Snell's law and the walk-off), over the
+// stone's size.
+double images_apart(const Scene& scene, const Plan& plan) {
+    double widest = 0;
+    for (const Band& band : plan.bands) {
+        const auto [low, high] =
+            std::minmax_element(band.crystal.n().begin(), band.crystal.n().end());
+        const double n = band.n / band.n_outside;
+        widest = std::max(
+            widest, (*high - *low) / band.n_outside * (1 / n + 1 / std::sqrt((n - 1) * (n + 1))));
+    }
+    const Camera& camera = scene.camera;
+    const double size = diameter(scene.stone.solid);
+    const double pixel = camera.orthographic_width
+                             ? *camera.orthographic_width / camera.width
+                             : 2 * std::tan(camera.fov / 2) / camera.height *
+                                   glm::length(camera.position - centroid(scene.stone.solid));
+    return widest * size / pixel;
+}
+
 // What the scene calls for, with all that is made of it.
 struct Called {
     Plan plan;
     WavelengthSet colours;
     LightField lights;
     PathLimits limits;
+    CrystalBeams crystal = CrystalBeams::merged;
+    std::string why;  // of that, where it matters
 
     explicit Called(const Scene& scene)
         : plan(plan_for_tolerance(scene)),
@@ -84,6 +110,19 @@ struct Called {
           lights(scene.lights, colours),
           limits(limits_for(scene, plan, lights, colours)) {
         require_beams(scene, plan);
+        if (!plan.splits) return;
+        const double apart = images_apart(scene, plan);
+        if (scene.settings.crystal_beams) {
+            crystal = *scene.settings.crystal_beams;
+            why = "as the scene says";
+        } else if (plan.on(Effects::coherence)) {
+            why = "the two waves interfere";
+        } else {
+            crystal = apart > k_seen_apart ? CrystalBeams::parted : CrystalBeams::merged;
+            why = fmt::format("their images lie {:.2g} pixels apart", apart);
+        }
+        why = fmt::format("; beams of the two waves {}: {}",
+                          crystal == CrystalBeams::merged ? "merged" : "parted", why);
     }
 };
 
@@ -107,6 +146,7 @@ struct FrameRenderer::State {
 void FrameRenderer::State::draw(bool with_check) {
     BeamSettings settings = beam_settings(scene, called->limits);
     settings.limits.cut_contribution = std::max(settings.limits.cut_contribution, cut);
+    settings.crystal = called->crystal;
     const double started = processor_seconds();
     renderer.draw(scene, called->plan, called->colours, settings, result.picture, progress);
     const double took_ms = 1e3 * (processor_seconds() - started);
@@ -116,6 +156,7 @@ void FrameRenderer::State::draw(bool with_check) {
     stats.engine = scene.settings.engine;
     stats.depth = report.deepest;
     stats.effects.assign(called->plan.effects.begin(), called->plan.effects.end());
+    stats.effects[static_cast<std::size_t>(Effects::birefringence)].why += called->why;
     stats.wavelengths_nm = called->plan.wavelengths_nm;
     stats.mean_radiance = report.luminance;
     stats.remainder = report.remainder;

@@ -172,8 +172,9 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
     const std::size_t nodes = plan.wavelengths_nm.size();
     const std::size_t stokes = plan.stokes && scene.settings.spectral ? 4 : 1;
     work.prepare(scene, plan, colours, stokes * nodes, picture);
-    const std::vector<ShadingPass> passes = shading_passes(
-        scene, plan, colours, work.stone.shaded.middle, work.pyramid, static_cast<int>(stokes));
+    const std::vector<ShadingPass> passes =
+        shading_passes(scene, plan, colours, work.stone.shaded.middle, work.pyramid,
+                       static_cast<int>(stokes), settings.crystal == CrystalBeams::parted);
     const std::vector<ScreenView> views = views_of(scene, plan);
     BeamReport& report = work.report;
     report = {};
@@ -195,12 +196,14 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
             throw Interrupted();
         SortedBeams* beams = work.beams.data() + v * bands;
         std::vector<StripSums> sums(static_cast<std::size_t>(strips));
+        const std::vector<FrontFacet> fronts = front_facets(work.stone.net, views[v]);
         on_threads(settings.threads, [&] {
             const auto building = Clock::now();
             tbb::parallel_for(
                 std::size_t{0}, bands,
                 [&](std::size_t b) {
                     const Band& band = plan.bands[b];
+                    if (band.two_waves && settings.crystal == CrystalBeams::parted) return;
                     beams[b].grow(work.stone.net, views[v], band.n / band.n_outside,
                                   settings.limits);
                 },
@@ -212,7 +215,7 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
                 [&](int strip) {
                     if (v == 0) work.clear(strip);
                     sums[static_cast<std::size_t>(strip)] =
-                        painters.local().paint(strip, views[v], beams, passes, options);
+                        painters.local().paint(strip, views[v], beams, fronts, passes, options);
                     if (v + 1 == views.size()) work.develop(strip, picture);
                 },
                 tbb::simple_partitioner());
@@ -227,6 +230,8 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
         }
     }
     report.fragments = whole.fragments;
+    report.beams += whole.beams;
+    report.deepest = std::max(report.deepest, whole.deepest);
     report.retraced = whole.retraced;
     report.filled = whole.filled;
     report.lost_area = lost / static_cast<double>(views.size() * bands);

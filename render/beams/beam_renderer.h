@@ -14,6 +14,7 @@ namespace culet {
 struct BeamSettings {
     BeamLimits limits;
     BeamShading shading = BeamShading::averaged;
+    CrystalBeams crystal = CrystalBeams::merged;
     int threads = 0;
 };
 

@@ -135,8 +135,13 @@ public:
             const V3 a{number(face.x), number(face.y), number(face.z)};
             const V cosine = dot(a, ray_.direction);
             if (located) {
-                const V towards = hn::Max(cosine, number(1e-20f));
-                const V length = (number(face.offset) - dot(a, ray_.point)) / towards;
+                // Rays beside the beam need not meet its facets: they go no farther than a ray in the
+                // stone can.
+                const V towards = hn::Max(cosine, number(1e-4f));
+                const V farthest = number(stone_.size);
+                const V length = hn::Min(
+                    hn::Max((number(face.offset) - dot(a, ray_.point)) / towards, hn::Neg(farthest)),
+                    farthest);
                 ray_.point = plus(ray_.point, length, ray_.direction);
                 if constexpr (kSoft) {
                     move(ray_.point_x, ray_.direction_x, length, a, towards);
@@ -630,6 +635,68 @@ void background(const ShadedLights& lights, const ShadedOptics& optics, const Sh
     }
 }
 
+template <bool kSoft>
+void leaving(const ShadedLights& lights, const ShadedLeaving& beam, const Fragments& fragments) {
+    const int lanes = static_cast<int>(hn::Lanes(k_floats));
+    V sum[k_band_nodes], weights[k_band_nodes];
+    const V zero = number(0.0f), one = number(1.0f);
+    for (int first = 0; first < fragments.count; first += lanes) {
+        const V dx = hn::LoadU(k_floats, fragments.x + first),
+                dy = hn::LoadU(k_floats, fragments.y + first);
+        const auto value = [&](const float* v) HWY_ATTR {
+            return hn::MulAdd(dx, number(v[1]), hn::MulAdd(dy, number(v[2]), number(v[0])));
+        };
+        const auto vector_at = [&](const float v[3][3]) HWY_ATTR {
+            return plus(plus(vector(v[0]), dx, vector(v[1])), dy, vector(v[2]));
+        };
+        const V3 along = vector_at(beam.direction);
+        const V over = one / hn::Sqrt(dot(along, along));
+        const V3 direction = over * along;
+        Ray ray{vector_at(beam.point),     direction,
+                vector(beam.point[1]),     vector(beam.point[2]),
+                vector(beam.direction[1]), vector(beam.direction[2])};
+        if constexpr (kSoft) {
+            ray.direction_x =
+                over * plus(ray.direction_x, hn::Neg(dot(direction, ray.direction_x)), direction);
+            ray.direction_y =
+                over * plus(ray.direction_y, hn::Neg(dot(direction, ray.direction_y)), direction);
+        }
+        const V weight = hn::Max(value(beam.weight), zero);
+        for (int i = 0; i < lights.nodes; ++i) {
+            weights[i] = weight * clamped_to_unit(value(beam.transmitted.data() + 3 * i));
+            sum[i] = zero;
+        }
+        PathWeight path{};
+        path.weight = weights;
+        if (beam.polarised) {
+            const V passed = clamped_to_unit(value(beam.transmitted.data()));
+            const V3 s = vector_at(beam.s);
+            const V3 across = plus(s, hn::Neg(dot(s, direction)), direction);
+            path.polarised = true;
+            path.Q = passed * value(beam.Q);
+            path.U = passed * value(beam.U);
+            path.direction = direction;
+            path.u = (one / hn::Max(length_of(across), number(1e-20f))) * across;
+            path.v = cross(direction, path.u);
+        }
+        Gather<true> gather{lights, sum, path};
+        all_light<kSoft>(lights, ray, gather);
+        for (int i = 0; i < lights.nodes; ++i)
+            hn::StoreU(sum[i], k_floats,
+                       fragments.radiance +
+                           static_cast<size_t>(i) * static_cast<size_t>(fragments.stride) + first);
+    }
+}
+
+void ShadeLeaving(const ShadedLights& lights, const ShadedLeaving& beam,
+                  const Fragments& fragments) {
+    if (fragments.soft && lights.any_edge) {
+        leaving<true>(lights, beam, fragments);
+    } else {
+        leaving<false>(lights, beam, fragments);
+    }
+}
+
 void ShadeBackground(const ShadedLights& lights, const ShadedOptics& optics, const ShadedEye& eye,
                      const Fragments& fragments) {
     if (fragments.soft && lights.any_edge) {
@@ -648,6 +715,7 @@ namespace culet {
 
 HWY_EXPORT(ShadeBeam);
 HWY_EXPORT(ShadeBackground);
+HWY_EXPORT(ShadeLeaving);
 
 void shade_beam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
                 int facet_count, const Fragments& fragments) {
@@ -657,6 +725,11 @@ void shade_beam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t
 void shade_background(const ShadedLights& lights, const ShadedOptics& optics, const ShadedEye& eye,
                       const Fragments& fragments) {
     HWY_DYNAMIC_DISPATCH(ShadeBackground)(lights, optics, eye, fragments);
+}
+
+void shade_leaving(const ShadedLights& lights, const ShadedLeaving& beam,
+                   const Fragments& fragments) {
+    HWY_DYNAMIC_DISPATCH(ShadeLeaving)(lights, beam, fragments);
 }
 
 std::vector<std::string> shading_targets() {

@@ -97,6 +97,19 @@ struct ShadingJob {
 void shade_beam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
                 int facet_count, const Fragments& fragments);
 
+/// What leaves the stone, to first order over a small region of the picture: value, change to the
+/// right, change down.
+struct ShadedLeaving {
+    float point[3][3], direction[3][3];
+    float s[3][3];                   ///< with the direction, the frame of Q and U
+    float weight[3], Q[3], U[3];     ///< before absorption
+    std::vector<float> transmitted;  ///< 3 for each node
+    bool polarised = false;          ///< Q and U count
+};
+/// `fragments` are about the point of reference; only the radiance is written.
+void shade_leaving(const ShadedLights& lights, const ShadedLeaving& leaving,
+                   const Fragments& fragments);
+
 /// Lights seen by the eye itself: `fragments` are of a view whose reference ray starts at
 /// `eye.point`.
 void shade_background(const ShadedLights& lights, const ShadedOptics& optics, const ShadedEye& eye,

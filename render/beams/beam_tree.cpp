@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "render/beams/region_splitter.h"
 #include "render/fresnel.h"
 
 namespace culet {
@@ -18,32 +19,6 @@ namespace {
 constexpr double k_surely_small = 200;
 constexpr int k_most_halvings = 12;
 
-struct Region {
-    std::size_t first = 0, count = 0;  // in a pool of corners
-};
-
-// Twice the area; positive when the corners run from x to y.
-double doubled_area(const ScreenPoint* p, std::size_t count) {
-    double sum = 0;
-    for (std::size_t i = 2; i < count; ++i) {
-        sum +=
-            (p[i - 1].x - p[0].x) * (p[i].y - p[0].y) - (p[i].x - p[0].x) * (p[i - 1].y - p[0].y);
-    }
-    return sum;
-}
-
-ScreenPoint middle_of(const ScreenPoint* p, std::size_t count) {
-    double weight = 0, x = 0, y = 0;
-    for (std::size_t i = 2; i < count; ++i) {
-        const double ax = p[i - 1].x - p[0].x, ay = p[i - 1].y - p[0].y, bx = p[i].x - p[0].x,
-                     by = p[i].y - p[0].y, w = ax * by - bx * ay;
-        weight += w;
-        x += w * (ax + bx);
-        y += w * (ay + by);
-    }
-    return {p[0].x + x / (3 * weight), p[0].y + y / (3 * weight)};
-}
-
 double mean_reflectance(double n, double cosine) {
     const FaceAmplitudes face = fresnel(n, 1.0, n * cosine);
     return face.total ? 1.0 : 0.5 * (std::norm(face.r_s) + std::norm(face.r_p));
@@ -51,9 +26,7 @@ double mean_reflectance(double n, double cosine) {
 
 // A beam that is to be split: what its rays have in common.
 struct Trunk {
-    int facet = 0;  // met last
-    Region region;
-    double doubled_area = 0;
+    FacetRegion part;   // the facet met last
     double weight = 1;  // of what goes on behind the facet before that
 };
 
@@ -65,18 +38,7 @@ public:
         view_ = &view;
         n_ = n;
         limits_ = &limits;
-        if (stamp_of_corner_.size() != net.corners().size() ||
-            stamp_of_line_.size() != static_cast<std::size_t>(net.lines()) ||
-            seen_.size() != static_cast<std::size_t>(net.facets())) {
-            images_.resize(net.corners().size());
-            lines_.resize(static_cast<std::size_t>(net.lines()));
-            stamp_of_corner_.assign(net.corners().size(), 0);
-            stamp_of_line_.assign(lines_.size(), 0);
-            seen_.assign(static_cast<std::size_t>(net.facets()), 0);
-            stamp_ = 0;
-        }
-        // The same start for every branch, whichever thread grows it: ties must not depend on it.
-        guess_.assign(static_cast<std::size_t>(net.facets()), -1);
+        splitter_.prepare(net);
     }
 
     /// Beams behind the front facet's, with the corners of their regions in `corners()`. None when
@@ -89,8 +51,8 @@ public:
         const ScreenPoint middle = middle_of(outline.data(), outline.size());
         const Pencil pencil = pencil_through(*view_, middle, net_->plane(facet), n_);
         const FaceAmplitudes face = fresnel(1.0, n_, pencil.cos_i);
-        const Trunk trunk{
-            facet, {0, outline.size()}, doubled, 0.5 * (face.t_s * face.t_s + face.t_p * face.t_p)};
+        const Trunk trunk{{facet, {0, outline.size()}, doubled},
+                          0.5 * (face.t_s * face.t_s + face.t_p * face.t_p)};
         if (limits_->depth > 1 && worth_splitting(trunk)) split(trunk, pencil, Folding(), middle);
         return children_;
     }
@@ -102,48 +64,48 @@ public:
         ++out.beams;
         pool_ = outline;
         path_.assign(1, static_cast<std::uint16_t>(facet));
-        leaf({facet, {0, outline.size()}, doubled_area(outline.data(), outline.size()), 1});
+        leaf({{facet, {0, outline.size()}, doubled_area(outline.data(), outline.size())}, 1});
     }
 
     /// All beams below one that `split_front` found; `middle`: of the front facet's outline.
     void grow_branch(int front, const ScreenPoint& middle, const Trunk& child,
                      const ScreenPoint* region, BeamBranch& out) {
         out_ = &out;
-        pool_.assign(region, region + child.region.count);
+        pool_.assign(region, region + child.part.region.count);
         path_.assign(1, static_cast<std::uint16_t>(front));
         children_.clear();
         front_ = pencil_through(*view_, middle, net_->plane(front), n_);
         Trunk trunk = child;
-        trunk.region.first = 0;
+        trunk.part.region.first = 0;
         grow(trunk, Folding());
     }
 
 private:
     void leaf(const Trunk& trunk) {
-        const ScreenPoint* corners = pool_.data() + trunk.region.first;
+        const ScreenPoint* corners = pool_.data() + trunk.part.region.first;
         Beam beam;
         beam.corner = static_cast<std::uint32_t>(out_->corners.size());
-        beam.corners = static_cast<std::uint16_t>(trunk.region.count);
+        beam.corners = static_cast<std::uint16_t>(trunk.part.region.count);
         beam.facet = static_cast<std::uint32_t>(out_->facets.size());
         beam.facets = static_cast<std::uint16_t>(path_.size());
         double low = corners[0].y, high = low;
-        for (std::size_t i = 1; i < trunk.region.count; ++i) {
+        for (std::size_t i = 1; i < trunk.part.region.count; ++i) {
             low = std::min(low, corners[i].y);
             high = std::max(high, corners[i].y);
         }
         beam.first_row = static_cast<std::int32_t>(std::floor(low));
         beam.end_row = static_cast<std::int32_t>(std::ceil(high));
-        out_->corners.insert(out_->corners.end(), corners, corners + trunk.region.count);
+        out_->corners.insert(out_->corners.end(), corners, corners + trunk.part.region.count);
         out_->facets.insert(out_->facets.end(), path_.begin(), path_.end());
         out_->leaves.push_back(beam);
         out_->deepest = std::max(out_->deepest, static_cast<int>(path_.size()));
-        out_->leaf_area += 0.5 * trunk.doubled_area;
+        out_->leaf_area += 0.5 * trunk.part.doubled_area;
     }
 
     // `folding`: to the stone before the trunk's facet mirrors it.
     void grow(const Trunk& trunk, const Folding& folding) {
         ++out_->beams;
-        path_.push_back(static_cast<std::uint16_t>(trunk.facet));
+        path_.push_back(static_cast<std::uint16_t>(trunk.part.facet));
         if (static_cast<int>(path_.size()) >= limits_->depth) {
             leaf(trunk);
         } else {
@@ -153,8 +115,9 @@ private:
     }
 
     void go_on(const Trunk& trunk, const Folding& before) {
-        const ScreenPoint middle = middle_of(pool_.data() + trunk.region.first, trunk.region.count);
-        const Plane& plane = net_->plane(trunk.facet);
+        const ScreenPoint middle =
+            middle_of(pool_.data() + trunk.part.region.first, trunk.part.region.count);
+        const Plane& plane = net_->plane(trunk.part.facet);
         const Pencil pencil = limits_->refraction == Refraction::astigmatic
                                   ? pencil_through(*view_, middle, net_->plane(path_.front()), n_)
                                   : front_;
@@ -180,107 +143,43 @@ private:
 
     bool worth_splitting(const Trunk& trunk) const {
         return trunk.weight >= limits_->cut_weight &&
-               0.5 * trunk.weight * trunk.doubled_area >= limits_->cut_contribution;
-    }
-
-    // Facet through which the ray leaves the stone that it runs in: the largest (n.d)/(c - n.x),
-    // found by walking, because over neighbours a largest one is the largest of all.
-    int exit_of(int facet, const Vec3& x, const Vec3& d) {
-        int best = guess_[static_cast<std::size_t>(facet)];
-        if (best < 0) best = net_->edges(facet).front().beyond;
-        const auto towards = [&](int f) { return glm::dot(net_->plane(f).normal, d); };
-        const auto below = [&](int f) {
-            const Plane& plane = net_->plane(f);
-            return std::max(0.0, plane.offset - glm::dot(plane.normal, x));
-        };
-        double top = towards(best), bottom = below(best);
-        for (int step = 0; step < net_->facets(); ++step) {
-            int better = -1;
-            for (const NetEdge& edge : net_->edges(best)) {
-                const double t = towards(edge.beyond), b = below(edge.beyond);
-                if (t * bottom > top * b) {
-                    better = edge.beyond;
-                    top = t;
-                    bottom = b;
-                }
-            }
-            if (better < 0) break;
-            best = better;
-        }
-        guess_[static_cast<std::size_t>(facet)] = best;
-        return best;
-    }
-
-    const ScreenImage& image(int corner) {
-        const std::size_t i = static_cast<std::size_t>(corner);
-        if (stamp_of_corner_[i] != stamp_) {
-            stamp_of_corner_[i] = stamp_;
-            images_[i] = map_.of(net_->corners()[i]);
-        }
-        return images_[i];
-    }
-    const Vec3& line(const NetEdge& edge) {
-        const std::size_t i = static_cast<std::size_t>(edge.line);
-        if (stamp_of_line_[i] != stamp_) {
-            stamp_of_line_[i] = stamp_;
-            const int low = std::min(edge.from, edge.to), high = std::max(edge.from, edge.to);
-            lines_[i] = glm::cross(image(low), image(high));
-        }
-        return lines_[i];
-    }
-    static double side(const Vec3& line, const ScreenPoint& p) {
-        return line.x * p.x + line.y * p.y + line.z;
-    }
-    // Of the line's two sides, the one that the facet is on: +1 for the line as it is.
-    double inside_of(const NetEdge& edge) const { return edge.from < edge.to ? parity_ : -parity_; }
-
-    // True when the map sees the facet from within.
-    bool leads_out(int facet) const {
-        const Plane& plane = net_->plane(facet);
-        return glm::dot(plane.normal, eye_) - eye_w_ * plane.offset < 0;
+               0.5 * trunk.weight * trunk.part.doubled_area >= limits_->cut_contribution;
     }
 
     void split(const Trunk& trunk, const Pencil& pencil, const Folding& folding,
                const ScreenPoint& middle, int halvings = k_most_halvings) {
-        if (++stamp_ == 0) {
-            std::fill(stamp_of_corner_.begin(), stamp_of_corner_.end(), 0u);
-            std::fill(stamp_of_line_.begin(), stamp_of_line_.end(), 0u);
-            std::fill(seen_.begin(), seen_.end(), 0u);
-            stamp_ = 1;
-        }
         const Vec3 d = folding.turn * pencil.direction, o = folding.point(pencil.x0);
-        const Plane& left = net_->plane(trunk.facet);
+        const Plane& left = net_->plane(trunk.part.facet);
         const double towards = glm::dot(left.normal, d);
         const Vec3 x =
             towards != 0 ? o + (left.offset - glm::dot(left.normal, o)) / towards * d : o;
-        const int exit = exit_of(trunk.facet, x, d);
+        const int exit = splitter_.exit_of(trunk.part.facet, x, d);
         const Plane& hit = net_->plane(exit);
         const double into = glm::dot(hit.normal, d);
         const double length = into > 0 ? (hit.offset - glm::dot(hit.normal, o)) / into : 0;
         const double depth = std::max(0.0, length) * pencil.cos_t;
-        map_ = map_of(pencil, limits_->refraction, folding, depth);
+        InsideView inside;
+        inside.map = map_of(pencil, limits_->refraction, folding, depth);
         const double k =
             limits_->refraction == Refraction::parallel ? 0 : 0.5 * (pencil.k_s + pencil.k_t);
-        eye_ = folding.turn * (k * pencil.x0 - pencil.direction / pencil.cos_t) + k * folding.shift;
-        eye_w_ = k;
-        parity_ = path_.size() % 2 == 1 ? 1 : -1;
+        inside.eye =
+            folding.turn * (k * pencil.x0 - pencil.direction / pencil.cos_t) + k * folding.shift;
+        inside.eye_weight = k;
+        inside.parity = path_.size() % 2 == 1 ? 1 : -1;
 
-        if (halvings > 0 && trunk.doubled_area > 2 * k_surely_small &&
-            map_error(trunk.region, folding, exit) > limits_->map_error) {
+        if (halvings > 0 && trunk.part.doubled_area > 2 * k_surely_small &&
+            map_error(inside.map, trunk.part.region, folding, exit) > limits_->map_error) {
             halve(trunk, folding, halvings - 1);
             return;
         }
-        open_.assign(1, facet_around(exit, middle));
-        seen_[static_cast<std::size_t>(open_.front())] = stamp_;
-        while (!open_.empty()) {
-            const int facet = open_.back();
-            open_.pop_back();
-            clip(trunk, facet);
-        }
+        parts_.clear();
+        splitter_.split(inside, pool_, trunk.part.region, trunk.part.facet, exit, middle, parts_);
+        for (const FacetRegion& part : parts_) children_.push_back({part, trunk.weight});
     }
 
     // How far the map is off, in pixels, at the region's corners.
-    double map_error(const Region& region, const Folding& folding, int exit) const {
+    double map_error(const PencilMap& map, const Region& region, const Folding& folding,
+                     int exit) const {
         if (limits_->refraction != Refraction::astigmatic) return 0;
         const Plane& hit = net_->plane(exit);
         double most = 0;
@@ -290,7 +189,7 @@ private:
             const Vec3 d = folding.turn * exact.direction, o = folding.point(exact.x0);
             const double into = glm::dot(hit.normal, d);
             if (!(into > 0)) continue;
-            const ScreenImage seen = map_.of(o + (hit.offset - glm::dot(hit.normal, o)) / into * d);
+            const ScreenImage seen = map.of(o + (hit.offset - glm::dot(hit.normal, o)) / into * d);
             if (!(seen.z > 0)) continue;
             most = std::max(
                 {most, std::abs(seen.x / seen.z - corner.x), std::abs(seen.y / seen.z - corner.y)});
@@ -300,7 +199,7 @@ private:
 
     // Splits the beams behind two halves of a region, each with a map of its own.
     void halve(const Trunk& trunk, const Folding& folding, int halvings) {
-        const Region whole = trunk.region;
+        const Region whole = trunk.part.region;
         const ScreenPoint middle = middle_of(pool_.data() + whole.first, whole.count);
         // Across the direction of the corner farthest from the middle.
         double farthest = 0, dx = 1, dy = 0;
@@ -315,103 +214,18 @@ private:
         for (const double sign : {1.0, -1.0}) {
             Trunk half = trunk;
             const Vec3 line = sign * Vec3{dx, dy, -dx * middle.x - dy * middle.y};
-            take_region(whole, 1);
-            measure(line);
-            cut();
-            half.doubled_area = doubled_area(kept_.data(), count_);
-            if (count_ < 3 || !(half.doubled_area > 0)) continue;
-            half.region = {pool_.size(), count_};
-            pool_.insert(pool_.end(), kept_.data(), kept_.data() + count_);
-            const ScreenPoint centre = middle_of(pool_.data() + half.region.first, count_);
+            cutter_.take(pool_.data() + whole.first, whole.count, 1);
+            cutter_.measure(line);
+            cutter_.cut();
+            const std::size_t count = cutter_.count();
+            half.part.doubled_area = doubled_area(cutter_.corners(), count);
+            if (count < 3 || !(half.part.doubled_area > 0)) continue;
+            half.part.region = {pool_.size(), count};
+            pool_.insert(pool_.end(), cutter_.corners(), cutter_.corners() + count);
+            const ScreenPoint centre = middle_of(cutter_.corners(), count);
             split(half, pencil_through(*view_, centre, net_->plane(path_.front()), n_), folding,
                   centre, halvings);
         }
-    }
-
-    // The facet in whose image the point lies, by walking over edges from `facet`.
-    int facet_around(int facet, const ScreenPoint& point) {
-        for (int step = 0; step < 2 * net_->facets(); ++step) {
-            const auto& edges = net_->edges(facet);
-            const auto out = std::find_if(edges.begin(), edges.end(), [&](const NetEdge& edge) {
-                return inside_of(edge) * side(line(edge), point) < 0 && leads_out(edge.beyond);
-            });
-            if (out == edges.end()) break;
-            facet = out->beyond;
-        }
-        return facet;
-    }
-
-    // A region that is to be cut at most `cuts` times; each adds a corner at most.
-    void take_region(const Region& region, std::size_t cuts) {
-        const std::size_t most = region.count + cuts;
-        if (kept_.size() < most) {
-            kept_.resize(most);
-            cut_.resize(most);
-            sides_.resize(most);
-        }
-        count_ = region.count;
-        std::copy_n(pool_.data() + region.first, count_, kept_.data());
-    }
-
-    // On which side of a line each corner is; the lowest and the highest, and 0.
-    std::pair<double, double> measure(const Vec3& line) {
-        const ScreenPoint* corner = kept_.data();
-        double* sides = sides_.data();
-        double lowest = 0, highest = 0;
-        for (std::size_t i = 0; i < count_; ++i) {
-            sides[i] = side(line, corner[i]);
-            lowest = std::min(lowest, sides[i]);
-            highest = std::max(highest, sides[i]);
-        }
-        return {lowest, highest};
-    }
-
-    void clip(const Trunk& trunk, int facet) {
-        const std::vector<NetEdge>& edges = net_->edges(facet);
-        take_region(trunk.region, edges.size());
-        for (const NetEdge& edge : edges) {
-            if (edge.beyond == trunk.facet) continue;
-            const Vec3 l = inside_of(edge) * line(edge);
-            const ScreenPoint* corner = kept_.data();
-            double* sides = sides_.data();
-            double lowest = 0, highest = 0;
-            for (std::size_t i = 0; i < count_; ++i) {
-                sides[i] = side(l, corner[i]);
-                lowest = std::min(lowest, sides[i]);
-                highest = std::max(highest, sides[i]);
-            }
-            const bool any_out = lowest<0, any_in = highest> 0;
-            // Beyond the outline of what the eye sees from within there is no other facet.
-            if (!any_out || !leads_out(edge.beyond)) continue;
-            if (seen_[static_cast<std::size_t>(edge.beyond)] != stamp_) {
-                seen_[static_cast<std::size_t>(edge.beyond)] = stamp_;
-                open_.push_back(edge.beyond);
-            }
-            if (!any_in) return;
-            cut();
-        }
-        const double area = doubled_area(kept_.data(), count_);
-        if (!(area > 0)) return;
-        children_.push_back({facet, {pool_.size(), count_}, area, trunk.weight});
-        pool_.insert(pool_.end(), kept_.data(), kept_.data() + count_);
-    }
-
-    // Sutherland and Hodgman (1974) at the line whose `sides_` are known. A crossing point is
-    // computed alike for both facets of the line, because with all signs turned t is the same.
-    void cut() {
-        const ScreenPoint* from = kept_.data();
-        const double* sides = sides_.data();
-        ScreenPoint* to = cut_.data();
-        for (std::size_t i = 0, j = count_ - 1; i < count_; j = i++) {
-            if ((sides[j] < 0) != (sides[i] < 0)) {
-                const double t = sides[j] / (sides[j] - sides[i]);
-                *to++ = {from[j].x + t * (from[i].x - from[j].x),
-                         from[j].y + t * (from[i].y - from[j].y)};
-            }
-            if (!(sides[i] < 0)) *to++ = from[i];
-        }
-        count_ = static_cast<std::size_t>(to - cut_.data());
-        std::swap(kept_, cut_);
     }
 
     const FacetNet* net_ = nullptr;
@@ -421,19 +235,11 @@ private:
     BeamBranch* out_ = nullptr;
     Pencil front_;
     std::vector<std::uint16_t> path_;
-    std::vector<ScreenPoint> pool_, kept_, cut_;
-    std::vector<double> sides_;
-    std::size_t count_ = 0;  // of `kept_`
+    std::vector<ScreenPoint> pool_;
+    std::vector<FacetRegion> parts_;
     std::vector<Trunk> children_;
-    std::vector<int> open_, guess_;
-    // Of the beam that is being split.
-    PencilMap map_;
-    Vec3 eye_{0};
-    double eye_w_ = 0, parity_ = 1;
-    std::vector<ScreenImage> images_;
-    std::vector<Vec3> lines_;
-    std::vector<unsigned> stamp_of_corner_, stamp_of_line_, seen_;
-    unsigned stamp_ = 0;
+    RegionSplitter splitter_;
+    RegionCutter cutter_;
 };
 
 // What the picture shows of a facet, positively oriented; empty when nothing.
@@ -467,6 +273,18 @@ std::vector<ScreenPoint> seen_outline(const FacetNet& net, int facet, const Scre
 
 }  // namespace
 
+std::vector<FrontFacet> front_facets(const FacetNet& net, const ScreenView& view) {
+    std::vector<FrontFacet> fronts;
+    for (int facet = 0; facet < net.facets(); ++facet) {
+        if (net.edges(facet).empty() || !view.sees(net.plane(facet))) continue;
+        FrontFacet front{facet, seen_outline(net, facet, view)};
+        if (front.outline.size() >= 3 &&
+            doubled_area(front.outline.data(), front.outline.size()) > 0)
+            fronts.push_back(std::move(front));
+    }
+    return fronts;
+}
+
 void BeamBranch::clear() {
     leaves.clear();
     corners.clear();
@@ -496,21 +314,15 @@ double BeamTree::leaf_area() const {
 
 void build_beams(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits,
                  BeamTree& tree) {
-    struct Front {
-        int facet = 0;
-        std::vector<ScreenPoint> outline, corners;
+    struct Front : FrontFacet {
+        std::vector<ScreenPoint> corners;
         std::vector<Trunk> children;
     };
     std::vector<Front> fronts;
     tree.front_area = 0;
-    for (int facet = 0; facet < net.facets(); ++facet) {
-        if (net.edges(facet).empty() || !view.sees(net.plane(facet))) continue;
-        Front front{facet, seen_outline(net, facet, view), {}, {}};
-        if (front.outline.size() < 3) continue;
-        const double doubled = doubled_area(front.outline.data(), front.outline.size());
-        if (!(doubled > 0)) continue;
-        tree.front_area += 0.5 * doubled;
-        fronts.push_back(std::move(front));
+    for (FrontFacet& facet : front_facets(net, view)) {
+        tree.front_area += 0.5 * doubled_area(facet.outline.data(), facet.outline.size());
+        fronts.push_back({std::move(facet), {}, {}});
     }
     tbb::enumerable_thread_specific<Grower> growers;
     const auto grower = [&]() -> Grower& {
@@ -550,7 +362,7 @@ void build_beams(const FacetNet& net, const ScreenView& view, double n, const Be
             }
             const Trunk& child = front.children[starts[i].child];
             mine.grow_branch(front.facet, middle_of(front.outline.data(), front.outline.size()),
-                             child, front.corners.data() + child.region.first, out);
+                             child, front.corners.data() + child.part.region.first, out);
         },
         tbb::simple_partitioner());
 }

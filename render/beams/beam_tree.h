@@ -54,6 +54,13 @@ struct BeamTree {
     int deepest() const;  ///< most facets that a beam meets
 };
 
+/// A facet that the eye sees, and its outline in the picture, within the picture's borders.
+struct FrontFacet {
+    int facet = 0;
+    std::vector<ScreenPoint> outline;
+};
+std::vector<FrontFacet> front_facets(const FacetNet& net, const ScreenView& view);
+
 /// Builds into `tree`, whose memory is used again. `n`: index over the outside's, above 1. The eye
 /// must be outside. Runs in parallel; the result does not depend on the number of threads.
 void build_beams(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits,

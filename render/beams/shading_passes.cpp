@@ -51,7 +51,7 @@ MergedCrystal merged_crystal(const Band& band, int node) {
 std::vector<ShadingPass> shading_passes(const Scene& scene, const Plan& plan,
                                         const WavelengthSet& colours, const Vec3& middle,
                                         std::shared_ptr<const EnvironmentPyramid> environment,
-                                        int stokes) {
+                                        int stokes, bool parted) {
     const std::size_t nodes = plan.wavelengths_nm.size();
     const bool responds = plan.stokes;
     std::vector<ShadingPass> passes;
@@ -78,7 +78,21 @@ std::vector<ShadingPass> shading_passes(const Scene& scene, const Plan& plan,
         pass.optics.n = number(pass.n);
         pass.optics.polarised = plan.polarised;
         const int node = first - band.first;
-        if (band.two_waves) {
+        if (band.two_waves && parted) {
+            auto waves = std::make_shared<ShadingPass::Parted>();
+            waves->band = band;
+            waves->band.first = first;
+            waves->band.count = count;
+            for (auto& absorption : waves->band.absorption)
+                std::copy_n(absorption.begin() + node, count, absorption.begin());
+            if (responds) {
+                for (std::size_t j = 0; j < 4; ++j)
+                    waves->response[j] =
+                        stokes == 4 ? static_cast<double>(static_cast<int>(j) == k) : seen[j];
+            }
+            waves->polarised_lights = polarised(scene.lights);
+            pass.parted = std::move(waves);
+        } else if (band.two_waves) {
             pass.optics.crystal = merged_crystal(band, node);
         } else if (band.absorbs) {
             for (int i = node; i < node + count; ++i)
@@ -97,7 +111,7 @@ std::vector<ShadingPass> shading_passes(const Scene& scene, const Plan& plan,
     };
     for (std::size_t b = 0; b < plan.bands.size(); ++b) {
         const Band& band = plan.bands[b];
-        if (!responds && !band.two_waves) {
+        if (!responds && (!band.two_waves || parted)) {
             add(b, band.first, band.count, 0);
             continue;
         }

@@ -10,7 +10,7 @@ namespace culet {
 
 /// Rows of pixels that one task shades. A fixed number: sums are in the same order whatever the
 /// number of threads.
-constexpr int k_strip = 50;
+constexpr int k_strip = 48;
 
 struct LeafNumber {
     std::uint32_t branch = 0, leaf = 0;

@@ -6,6 +6,7 @@
 
 #include "render/beams/beam_shading.h"
 #include "render/beams/facet_sequence.h"
+#include "render/beams/parted_beams.h"
 #include "render/beams/pixel_coverage.h"
 #include "render/beams/sorted_beams.h"
 
@@ -29,6 +30,13 @@ struct ShadingPass {
     std::vector<double> luminance;  ///< of each node, for the report
     ShadedOptics optics;
     ShadedLights lights;
+    /// Crystals whose waves part have no beams kept: they are grown while they are painted.
+    struct Parted {
+        Band band;  ///< the pass's nodes
+        Stokes response{1, 0, 0, 0};
+        bool polarised_lights = false;
+    };
+    std::shared_ptr<const Parted> parted;
 };
 
 /// Where light is added up: planes of pixels, and how much of each the stone fills.
@@ -44,7 +52,8 @@ struct Canvas {
 
 struct StripSums {
     double filled = 0, remainder = 0, absorbed = 0, luminance = 0;
-    long long fragments = 0, retraced = 0;
+    long long fragments = 0, retraced = 0, beams = 0;
+    int deepest = 0;
     StripSums& operator+=(const StripSums& more);
 };
 
@@ -70,10 +79,15 @@ public:
         : stone_(stone), canvas_(canvas), coverage_(canvas.width) {}
 
     /// Adds what `view` sees in strip number `strip`; `beams`: the view's sets.
+    /// `fronts`: its front facets.
     StripSums paint(int strip, const ScreenView& view, const SortedBeams* beams,
-                    const std::vector<ShadingPass>& passes, const PaintOptions& options);
+                    const std::vector<FrontFacet>& fronts, const std::vector<ShadingPass>& passes,
+                    const PaintOptions& options);
 
 private:
+    void paint_parted(const std::vector<FrontFacet>& fronts, const ShadingPass& pass);
+    void paint_leaving(const LeavingBeam& beam, const ScreenPoint* corners, std::size_t count,
+                       const ShadingPass& pass);
     void paint_beam(const SortedBeams& beams, LeafNumber number, const ShadingPass& pass);
     void paint_flat(const ScreenPoint* corners, const Beam& beam, const std::uint16_t* facets,
                     const ShadedEye& eye, const ShadingPass& pass);

@@ -1,0 +1,83 @@
+#pragma once
+// Beams in a crystal, whose every face splits them in two: each follows one wave from face to face,
+// and the two of a face go apart as exactly as the reference's rays (crystal.h). Powers are added:
+// the two waves' coherence is not kept.
+//
+// A small cell of the picture has one ray of reference. Together with two rays beside it, by which
+// all that belongs to it is known to first order over the cell, it is traced exactly along facets
+// and waves; a facet beside the one that it meets is met by it in the facet's plane.
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "render/band.h"
+#include "render/beams/region_splitter.h"
+#include "render/crystal.h"
+#include "render/stokes.h"
+
+namespace culet {
+
+/// What is seen through a beam where it leaves the stone, as value, change to the right and change
+/// down, from the point of reference.
+struct LeavingBeam {
+    ScreenPoint reference;
+    std::array<Vec3, 3> point, direction, s;
+    /// Of the eye's unit of light, before absorption; and the second and third Stokes parameter, in
+    /// the frame of s and direction x s.
+    std::array<double, 3> weight{}, Q{}, U{};
+    std::array<NodeWeights, 3> transmitted{};  ///< by absorption
+    int facets = 1;                            ///< met so far
+};
+
+struct PartedLimits {
+    int depth = 8;
+    double cut_weight = 1e-3;
+};
+
+class PartedBeams {
+public:
+    using Sink =
+        std::function<void(const LeavingBeam&, const ScreenPoint* corners, std::size_t count)>;
+
+    /// `response`: of the eye (stokes.h).
+    PartedBeams(const FacetNet& net, const Band& band, const PartedLimits& limits,
+                const Stokes& response);
+
+    /// Calls `sink` for all that leaves the stone within a region of a front facet's outline.
+    void grow(const ScreenView& view, int facet, const ScreenPoint* region, std::size_t count,
+              const Sink& sink);
+
+    long long beams() const { return beams_; }
+    double remainder() const { return remainder_; }  ///< weight x square pixels, mean over nodes
+    double absorbed() const { return absorbed_; }
+    void forget_sums() { beams_ = 0, remainder_ = absorbed_ = 0; }
+
+private:
+    struct Ray {
+        Vec3 point{0};
+        CrystalMode mode;
+        double weight = 0;
+        NodeWeights transmitted;
+    };
+    using Rays = std::array<Ray, 3>;
+
+    void follow(const Rays& rays, int facet, const FacetRegion& part, int event);
+    void leave(const std::array<CrystalHit, 3>& hits, const Rays& at, const FacetRegion& part,
+               int event);
+    InsideView view_of(const Rays& rays, double length) const;
+    double mean_transmitted(const Ray& ray) const;
+
+    const FacetNet& net_;
+    const Band& band_;
+    PartedLimits limits_;
+    Stokes response_;
+    RegionSplitter splitter_;
+    std::vector<ScreenPoint> pool_;
+    ScreenPoint reference_;
+    const Sink* sink_ = nullptr;
+    long long beams_ = 0;
+    double remainder_ = 0, absorbed_ = 0;
+};
+
+}  // namespace culet

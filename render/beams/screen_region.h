@@ -1,0 +1,71 @@
+#pragma once
+// Convex regions of the picture, and cutting them.
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "render/beams/screen_view.h"
+
+namespace culet {
+
+/// Corners in a pool that several regions share; positively oriented in x and y.
+struct Region {
+    std::size_t first = 0, count = 0;
+};
+
+double doubled_area(const ScreenPoint* corners, std::size_t count);
+/// The middle of its area, which must not be 0.
+ScreenPoint middle_of(const ScreenPoint* corners, std::size_t count);
+
+/// Cuts a region by lines l, where l.x x + l.y y + l.z is a point's side: what is not below 0
+/// stays.
+class RegionCutter {
+public:
+    /// A region that is to be cut at most `cuts` times; each adds a corner at most.
+    void take(const ScreenPoint* corners, std::size_t count, std::size_t cuts);
+    /// The sides of all corners; returns the lowest and the highest, and 0.
+    std::pair<double, double> measure(const Vec3& line);
+    /// Cuts at the line measured last (Sutherland & Hodgman 1974). With all signs turned the
+    /// crossings are the same to the bit: the two parts of a region meet.
+    void cut();
+
+    const ScreenPoint* corners() const { return kept_.data(); }
+    std::size_t count() const { return count_; }
+
+private:
+    std::vector<ScreenPoint> kept_, cut_;
+    std::vector<double> sides_;
+    std::size_t count_ = 0;
+};
+
+inline std::pair<double, double> RegionCutter::measure(const Vec3& line) {
+    const ScreenPoint* corner = kept_.data();
+    double* sides = sides_.data();
+    double lowest = 0, highest = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        sides[i] = line.x * corner[i].x + line.y * corner[i].y + line.z;
+        lowest = std::min(lowest, sides[i]);
+        highest = std::max(highest, sides[i]);
+    }
+    return {lowest, highest};
+}
+
+inline void RegionCutter::cut() {
+    const ScreenPoint* from = kept_.data();
+    const double* sides = sides_.data();
+    ScreenPoint* to = cut_.data();
+    for (std::size_t i = 0, j = count_ - 1; i < count_; j = i++) {
+        if ((sides[j] < 0) != (sides[i] < 0)) {
+            const double t = sides[j] / (sides[j] - sides[i]);
+            *to++ = {from[j].x + t * (from[i].x - from[j].x),
+                     from[j].y + t * (from[i].y - from[j].y)};
+        }
+        if (!(sides[i] < 0)) *to++ = from[i];
+    }
+    count_ = static_cast<std::size_t>(to - cut_.data());
+    std::swap(kept_, cut_);
+}
+
+}  // namespace culet
