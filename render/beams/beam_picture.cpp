@@ -24,7 +24,7 @@ namespace {
 
 // Pixels that are compared with the reference, and its rays in each: their own noise counts as the
 // beams' error, which can only make the bound larger.
-constexpr int k_checked_across = 48, k_check_samples = 16;
+constexpr int k_checked_across = 64, k_check_samples = 16;
 constexpr double k_standard_errors = 3;
 // Beams that are cut for their share of the picture may be this many before they bring as much as
 // those cut for their weight.

@@ -60,11 +60,11 @@ struct Ray {
 // Share of a pixel where a value that is linear in it is above 0.
 HWY_INLINE V share_above(const V& value, const Gradient& g) {
     const V a = hn::Abs(g.x), b = hn::Abs(g.y);
-    const V high = hn::Max(hn::Max(a, b), number(1e-30f)), low = hn::Min(a, b);
+    const V high = hn::Max(hn::Max(a, b), number(1e-15f)), low = hn::Min(a, b);
     const V size = hn::Abs(value), reach = number(0.5f) * (high + low);
     // The pixel's corner beyond the line, or a slice of it.
     const V missing = hn::Max(reach - size, number(0.0f));
-    const V corner = missing * missing / (number(2.0f) * high * hn::Max(low, number(1e-30f)));
+    const V corner = missing * missing / (number(2.0f) * high * hn::Max(low, number(1e-15f)));
     const V slice = number(0.5f) - size / high;
     const V beyond = hn::IfThenElse(size < number(0.5f) * (high - low), slice, corner);
     return hn::IfThenElse(value > number(0.0f), number(1.0f) - beyond, beyond);
@@ -92,19 +92,24 @@ HWY_INLINE V disc_share(const ShadedLights::Disc& disc, const V3& axis, const Ra
     const V cosine = dot(axis, d);
     if constexpr (!kSoft) return hn::IfThenElseZero(cosine > number(disc.cosine), number(1.0f));
     if (disc.cosine < -1) return number(1.0f);
-    // The angle to the disc's rim, as 2 tan of its half: 2 (cos a - cos b) / (sin a + sin b).
-    const V3 beside = plus(d, hn::Neg(cosine), axis);
-    const V sine = length_of(beside), over = number(1.0f) / hn::Max(sine, number(1e-20f));
-    const V inside = number(2.0f) * (cosine - number(disc.cosine)) /
-                     hn::Max(sine + number(disc.sine), number(1e-20f));
-    const Gradient g{dot(beside, ray.direction_x) * over, dot(beside, ray.direction_y) * over};
     // A small one fills no more than its solid angle; where a pixel sees so much that its share is
     // no parallelogram (next to total reflection), that tells nothing.
     const V pixel = length_of(cross(ray.direction_x, ray.direction_y));
     const V most =
         hn::IfThenElse(narrow(ray.direction_x, ray.direction_y, number(1.0f)),
                        number(disc.solid_angle) / hn::Max(pixel, number(1e-30f)), number(1.0f));
-    return hn::Min(share_above(inside, g), most);
+    const Gradient wide{dot(axis, ray.direction_x), dot(axis, ray.direction_y)};
+    const V share = share_above(cosine - number(disc.cosine), wide);
+    const M small = most < number(1.0f);
+    if (hn::AllFalse(k_floats, small)) return share;
+    // About a small one the cosine is no measure of distance. The angle to its rim, as 2 tan of its
+    // half, is: 2 (cos a - cos b) / (sin a + sin b).
+    const V3 beside = plus(d, hn::Neg(cosine), axis);
+    const V sine = length_of(beside), over = number(1.0f) / hn::Max(sine, number(1e-15f));
+    const V inside = number(2.0f) * (cosine - number(disc.cosine)) /
+                     hn::Max(sine + number(disc.sine), number(1e-15f));
+    const Gradient near{dot(beside, ray.direction_x) * over, dot(beside, ray.direction_y) * over};
+    return hn::IfThenElse(small, hn::Min(share_above(inside, near), most), share);
 }
 
 // Light that comes along a ray: calls take(factor, radiance of each node, polarisation).

@@ -22,6 +22,8 @@ struct BeamLimits {
     double cut_weight = 0, cut_share = 0;
     /// A beam whose map is off by more, in pixels, is halved (astigmatic refraction only).
     double map_error = 0.25;
+    /// Where there would be more, `cut_share` is raised until there are not.
+    long long most_beams = 1 << 23;
     Refraction refraction = Refraction::astigmatic;
     bool operator==(const BeamLimits&) const = default;
 };
