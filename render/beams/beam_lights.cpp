@@ -19,6 +19,15 @@ std::vector<float> spectrum(const LightColour& colour, const WavelengthSet& colo
     return {all.begin() + first, all.begin() + first + count};
 }
 
+// Cosines beyond 1 or -1 stand for nothing and for all directions.
+ShadedLights::Disc disc(double cosine) {
+    const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
+    // 1 - cosine of a small angle, from its sine.
+    const double less = cosine > 0 ? sine * sine / (1 + cosine) : 1 - cosine;
+    return {static_cast<float>(cosine), static_cast<float>(sine),
+            static_cast<float>(2 * std::numbers::pi * less)};
+}
+
 ShadedLights::Polarised polarised_as(const std::optional<LinearPolarisation>& light) {
     ShadedLights::Polarised result;
     if (!light) return result;
@@ -56,15 +65,15 @@ ShadedLights::ShadedLights(const Lights& lights, const WavelengthSet& colours, i
     }
     for (const HemisphereLight& light : lights.hemispheres) {
         const Vec3& d = light.direction;
-        caps.push_back({number(d.x), number(d.y), number(d.z), 2.0f, 0.0f,
+        caps.push_back({number(d.x), number(d.y), number(d.z), disc(0), disc(2),
                         spectrum(light.radiance, colours, first, count),
                         polarised_as(light.radiance.polarisation)});
     }
     for (const CapLight& light : lights.caps) {
         const Vec3& d = light.direction;
         const CapCosines cosines = cosines_of(light);
-        caps.push_back({number(d.x), number(d.y), number(d.z), number(cosines.from),
-                        number(cosines.to), spectrum(light.radiance, colours, first, count),
+        caps.push_back({number(d.x), number(d.y), number(d.z), disc(cosines.to), disc(cosines.from),
+                        spectrum(light.radiance, colours, first, count),
                         polarised_as(light.radiance.polarisation)});
     }
     for (const SphereLight& light : lights.spheres) {

@@ -33,8 +33,13 @@ struct ShadedLights {
         std::vector<float> radiance;
         Polarised polarised;
     };
-    struct Cap {  ///< or half of all directions: angle cosines in (to, from]
-        float x, y, z, from, to;
+    /// A disc in the sky.
+    struct Disc {
+        float cosine, sine, solid_angle;  ///< of the angle from its middle to its rim
+    };
+    struct Cap {  ///< what is within the outer and not within the inner; or half of all directions
+        float x, y, z;
+        Disc outer, inner;
         std::vector<float> radiance;
         Polarised polarised;
     };

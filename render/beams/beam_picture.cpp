@@ -24,8 +24,11 @@ namespace {
 
 // Pixels that are compared with the reference, and its rays in each: their own noise counts as the
 // beams' error, which can only make the bound larger.
-constexpr int k_checked_across = 48, k_check_samples = 16;
+constexpr int k_checked_across = 64, k_check_samples = 16;
 constexpr double k_standard_errors = 3;
+// Beams that are cut for their share of the picture may be this many before they bring as much as
+// those cut for their weight.
+constexpr double k_cut_share = 1 / 4e5;
 constexpr double k_preview_map_error = 1;  // pixels
 // Merged images that lie this far apart are off by as much: a tenth of a pixel at edges.
 constexpr double k_seen_apart = 0.1;  // pixels
@@ -62,7 +65,7 @@ BeamSettings beam_settings(const Scene& scene, const PathLimits& limits) {
     BeamSettings settings;
     settings.limits.depth = limits.depth;
     settings.limits.cut_weight = limits.cut_weight;
-    settings.limits.cut_contribution = limits.cut_weight;
+    settings.limits.cut_share = k_cut_share * limits.cut_weight;
     settings.limits.refraction = scene.settings.refraction;
     settings.threads = scene.settings.threads;
     settings.shading = scene.settings.engine == "preview" ? BeamShading::flat
@@ -104,12 +107,28 @@ struct Called {
     CrystalBeams crystal = CrystalBeams::merged;
     std::string why;  // of that, where it matters
 
+    /// Another camera, with the wavelengths that were chosen.
+    void look(const Scene& scene) {
+        Plan anew = make_plan(scene, colours.size());
+        require_beams(scene, anew);
+        plan = std::move(anew);
+        limits = limits_for(scene, plan, lights, colours);
+        choose_crystal(scene);
+    }
+
     explicit Called(const Scene& scene)
         : plan(plan_for_tolerance(scene)),
           colours(plan.wavelengths_nm),
           lights(scene.lights, colours),
           limits(limits_for(scene, plan, lights, colours)) {
         require_beams(scene, plan);
+        choose_crystal(scene);
+    }
+
+private:
+    void choose_crystal(const Scene& scene) {
+        why.clear();
+        crystal = CrystalBeams::merged;
         if (!plan.splits) return;
         const double apart = images_apart(scene, plan);
         if (scene.settings.crystal_beams) {
@@ -136,7 +155,7 @@ struct FrameRenderer::State {
     std::unique_ptr<Called> called;
     BeamRenderer renderer;
     RenderResult result;
-    double limit_ms = 0, cut = 0;  // of a beam's contribution, to keep within the limit
+    double limit_ms = 0, cut = 0;  // of a beam's share, to keep within the limit
     Progress progress;
 
     void draw(bool check);
@@ -145,7 +164,7 @@ struct FrameRenderer::State {
 
 void FrameRenderer::State::draw(bool with_check) {
     BeamSettings settings = beam_settings(scene, called->limits);
-    settings.limits.cut_contribution = std::max(settings.limits.cut_contribution, cut);
+    settings.limits.cut_share = std::max(settings.limits.cut_share, cut);
     settings.crystal = called->crystal;
     const double started = processor_seconds();
     renderer.draw(scene, called->plan, called->colours, settings, result.picture, progress);
@@ -173,7 +192,7 @@ void FrameRenderer::State::draw(bool with_check) {
     if (limit_ms > 0) {
         // The number of beams falls about with the root of the cut: steps towards the limit.
         const double ratio = took_ms / limit_ms;
-        const double least = 1e-6;
+        const double least = 1e-9;
         if (ratio > 1 || cut > 0) cut = std::max(cut, least) * ratio * ratio;
         if (cut < least) cut = 0;
     }
@@ -232,6 +251,8 @@ void FrameRenderer::State::check() {
     });
     double sum = 0, squares = 0;
     for (double error : errors) {
+        // A pixel of no number is as wrong as can be.
+        if (!std::isfinite(error)) error = called->lights.max_radiance();
         sum += error;
         squares += error * error;
     }
@@ -260,15 +281,11 @@ FrameRenderer::~FrameRenderer() = default;
 FrameRenderer::FrameRenderer(FrameRenderer&&) noexcept = default;
 
 void FrameRenderer::look_from(const Camera& camera) {
-    Scene& scene = state_->scene;
-    const Camera before = scene.camera;
+    Scene scene = state_->scene;
     scene.camera = camera;
-    try {
-        require_renderable(scene);
-    } catch (...) {
-        scene.camera = before;
-        throw;
-    }
+    require_renderable(scene);
+    state_->called->look(scene);
+    state_->scene.camera = camera;
 }
 
 void FrameRenderer::light_with(const Lights& lights) {

@@ -81,6 +81,9 @@ struct Fragments {
     int stride = 0;
     float* left = nullptr;      ///< what of the eye's unit of light is still inside at the end
     float* absorbed = nullptr;  ///< or null
+    /// Where near lights may stand before the stone: the share of a pixel that they leave free, and
+    /// their own radiance, likewise by node. Both or none.
+    float *unhidden = nullptr, *before = nullptr;
     /// 1 where the ray does meet these facets and no others; null: not looked at.
     std::uint8_t* follows = nullptr;
     bool soft = false;  ///< lights' edges are averaged over a pixel

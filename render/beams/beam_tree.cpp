@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -33,11 +34,14 @@ struct Trunk {
 // Grows the beams below one beam, and keeps the room for it.
 class Grower {
 public:
-    void prepare(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits) {
+    void prepare(const FacetNet& net, const ScreenView& view, double n, const BeamLimits& limits,
+                 double front_area, std::atomic<long long>& grown) {
         net_ = &net;
         view_ = &view;
         n_ = n;
         limits_ = &limits;
+        least_ = limits.cut_share * front_area;
+        grown_ = &grown;
         splitter_.prepare(net);
     }
 
@@ -77,6 +81,7 @@ public:
         front_ = pencil_through(*view_, middle, net_->plane(front), n_);
         Trunk trunk = child;
         trunk.part.region.first = 0;
+        counted_ = 0;
         grow(trunk, Folding());
     }
 
@@ -105,6 +110,7 @@ private:
     // `folding`: to the stone before the trunk's facet mirrors it.
     void grow(const Trunk& trunk, const Folding& folding) {
         ++out_->beams;
+        if (too_many()) return;
         path_.push_back(static_cast<std::uint16_t>(trunk.part.facet));
         if (static_cast<int>(path_.size()) >= limits_->depth) {
             leaf(trunk);
@@ -141,9 +147,19 @@ private:
         pool_.resize(pool_before);
     }
 
+    // Asks now and then only: the branches share one count.
+    bool too_many() {
+        constexpr long long k_now_and_then = 1024;
+        if (out_->beams - counted_ >= k_now_and_then) {
+            *grown_ += out_->beams - counted_;
+            counted_ = out_->beams;
+        }
+        return *grown_ > limits_->most_beams;
+    }
+
     bool worth_splitting(const Trunk& trunk) const {
         return trunk.weight >= limits_->cut_weight &&
-               0.5 * trunk.weight * trunk.part.doubled_area >= limits_->cut_contribution;
+               0.5 * trunk.weight * trunk.part.doubled_area >= least_;
     }
 
     void split(const Trunk& trunk, const Pencil& pencil, const Folding& folding,
@@ -231,7 +247,9 @@ private:
     const FacetNet* net_ = nullptr;
     const ScreenView* view_ = nullptr;
     const BeamLimits* limits_ = nullptr;
-    double n_ = 1;
+    double n_ = 1, least_ = 0;
+    std::atomic<long long>* grown_ = nullptr;  // in all branches
+    long long counted_ = 0;                    // of this branch, in that
     BeamBranch* out_ = nullptr;
     Pencil front_;
     std::vector<std::uint16_t> path_;
@@ -324,10 +342,11 @@ void build_beams(const FacetNet& net, const ScreenView& view, double n, const Be
         tree.front_area += 0.5 * doubled_area(facet.outline.data(), facet.outline.size());
         fronts.push_back({std::move(facet), {}, {}});
     }
+    std::atomic<long long> grown{0};
     tbb::enumerable_thread_specific<Grower> growers;
     const auto grower = [&]() -> Grower& {
         Grower& mine = growers.local();
-        mine.prepare(net, view, n, limits);
+        mine.prepare(net, view, n, limits, tree.front_area, grown);
         return mine;
     };
     tbb::parallel_for(
@@ -365,6 +384,13 @@ void build_beams(const FacetNet& net, const ScreenView& view, double n, const Be
                              child, front.corners.data() + child.part.region.first, out);
         },
         tbb::simple_partitioner());
+    if (tree.beams() <= limits.most_beams) return;
+    // Whether there are too many does not depend on who grew which first, so neither does this.
+    constexpr double k_fewer = 8, k_least_share = 1e-10;
+    BeamLimits fewer = limits;
+    fewer.cut_share = std::max(k_fewer * limits.cut_share, k_least_share);
+    for (std::size_t i = 0; i < tree.branch_count; ++i) tree.branches[i] = {};
+    build_beams(net, view, n, fewer, tree);
 }
 
 }  // namespace culet

@@ -18,10 +18,12 @@ namespace culet {
 struct BeamLimits {
     int depth = 8;  ///< facets met, the front one included
     /// A beam of less weight (mean of s and p, without absorption, at its middle) is not split
-    /// further, nor one of less weight x area in square pixels.
-    double cut_weight = 0, cut_contribution = 0;
+    /// further, nor one whose weight x area, as a share of what the front facets fill, is less.
+    double cut_weight = 0, cut_share = 0;
     /// A beam whose map is off by more, in pixels, is halved (astigmatic refraction only).
     double map_error = 0.25;
+    /// Where there would be more, `cut_share` is raised until there are not.
+    long long most_beams = 1 << 23;
     Refraction refraction = Refraction::astigmatic;
     bool operator==(const BeamLimits&) const = default;
 };

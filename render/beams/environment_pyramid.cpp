@@ -13,7 +13,7 @@ namespace culet {
 namespace {
 
 // Texels as large as the map's would blur it: where memory allows, the finest level has half their
-// size and holds the map's own values.
+// size.
 constexpr int k_finest = 2048;
 
 // Unit direction at (u, v) in -1..1, and the solid angle there of a unit of the square.
@@ -33,7 +33,8 @@ Vec3 direction_at(double u, double v, double& solid_angle) {
 EnvironmentPyramid::EnvironmentPyramid(const EnvironmentMap& map) {
     const int wanted = static_cast<int>(std::bit_ceil(2 * static_cast<unsigned>(map.height)));
     const int finest = std::min(k_finest, wanted);
-    const int subsamples = wanted / finest;
+    // Averages, so that a single texel keeps its light.
+    const int subsamples = 2 * wanted / finest;
     std::size_t start = 0;
     for (int side = finest; side >= 1; side /= 2) {
         // Next to the horizon's corners a texel is sqrt(3) times as long as at the zenith.

@@ -1,6 +1,7 @@
 #include "render/beams/region_splitter.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace culet {
 
@@ -70,19 +71,29 @@ bool RegionSplitter::leads_out(int facet) const {
     return glm::dot(plane.normal, view_->eye) - view_->eye_weight * plane.offset < 0;
 }
 
-// The facet in whose image the point lies, by walking over edges from `facet`.
-int RegionSplitter::facet_around(int facet, const ScreenPoint& point) {
-    for (int step = 0; step < 2 * net_->facets(); ++step) {
-        const auto& edges = net_->edges(facet);
-        const auto out = std::find_if(edges.begin(), edges.end(), [&](const NetEdge& edge) {
-            const Vec3& l = line(edge);
-            return inside_of(edge) * (l.x * point.x + l.y * point.y + l.z) < 0 &&
-                   leads_out(edge.beyond);
-        });
-        if (out == edges.end()) break;
-        facet = out->beyond;
+// The edge beyond which the point is seen, if it is not on the facet.
+const NetEdge* RegionSplitter::way_to(int facet, const ScreenPoint& point) {
+    for (const NetEdge& edge : net_->edges(facet)) {
+        const Vec3& l = line(edge);
+        if (inside_of(edge) * (l.x * point.x + l.y * point.y + l.z) < 0 && leads_out(edge.beyond))
+            return &edge;
     }
-    return facet;
+    return nullptr;
+}
+
+// The facet in whose image the point lies, by walking over edges from `start`; where that does not
+// lead there, which a start that is seen from outside may do, by looking at all.
+int RegionSplitter::facet_around(int start, const ScreenPoint& point) {
+    int facet = start;
+    for (int step = 0; step < net_->facets() && leads_out(facet); ++step) {
+        const NetEdge* edge = way_to(facet, point);
+        if (edge == nullptr) return facet;
+        facet = edge->beyond;
+    }
+    for (int f = 0; f < net_->facets(); ++f) {
+        if (!net_->edges(f).empty() && leads_out(f) && way_to(f, point) == nullptr) return f;
+    }
+    return start;
 }
 
 void RegionSplitter::clip(std::vector<ScreenPoint>& pool, const Region& region, int from, int facet,
@@ -120,6 +131,26 @@ void RegionSplitter::split(const InsideView& view, std::vector<ScreenPoint>& poo
         std::fill(seen_.begin(), seen_.end(), 0u);
         stamp_ = 1;
     }
+    const std::size_t parts_before = parts.size(), pool_before = pool.size();
+    tile(pool, region, from, start, middle, parts);
+    // Past the outline of what the eye sees from within, facets that are not neighbours may both
+    // hold the same place. Rounding apart the parts have the whole's area, or else the region is
+    // cut along the outline first.
+    const double whole = doubled_area(pool.data() + region.first, region.count);
+    double sum = 0;
+    for (std::size_t i = parts_before; i < parts.size(); ++i) sum += parts[i].doubled_area;
+    if (std::abs(sum - whole) <= 1e-10 * whole + 1e-13) return;
+    parts.resize(parts_before);
+    pool.resize(pool_before);
+    const Region within = cut_off_outline(pool, region, parts);
+    if (within.count == 0) return;
+    const ScreenPoint inner = middle_of(pool.data() + within.first, within.count);
+    std::fill(seen_.begin(), seen_.end(), 0u);
+    tile(pool, within, from, start, inner, parts);
+}
+
+void RegionSplitter::tile(std::vector<ScreenPoint>& pool, const Region& region, int from, int start,
+                          const ScreenPoint& middle, std::vector<FacetRegion>& parts) {
     open_.assign(1, facet_around(start, middle));
     seen_[static_cast<std::size_t>(open_.front())] = stamp_;
     while (!open_.empty()) {
@@ -127,6 +158,41 @@ void RegionSplitter::split(const InsideView& view, std::vector<ScreenPoint>& poo
         open_.pop_back();
         clip(pool, region, from, facet, parts);
     }
+}
+
+// What lies past an edge of the outline is given to the facet within it, edge by edge; returns what
+// is left.
+Region RegionSplitter::cut_off_outline(std::vector<ScreenPoint>& pool, const Region& region,
+                                       std::vector<FacetRegion>& parts) {
+    Region left = region;
+    for (int facet = 0; facet < net_->facets(); ++facet) {
+        if (net_->edges(facet).empty() || !leads_out(facet)) continue;
+        for (const NetEdge& edge : net_->edges(facet)) {
+            if (leads_out(edge.beyond)) continue;
+            const Vec3 inwards = static_cast<double>(inside_of(edge)) * line(edge);
+            cutter_.take(pool.data() + left.first, left.count, 1);
+            const auto [lowest, highest] = cutter_.measure(inwards);
+            if (!(lowest < 0)) continue;
+            Region within{pool.size(), 0};
+            if (highest > 0) {
+                cutter_.cut();
+                within.count = cutter_.count();
+                pool.insert(pool.end(), cutter_.corners(), cutter_.corners() + cutter_.count());
+            }
+            cutter_.take(pool.data() + left.first, left.count, 1);
+            cutter_.measure(-1.0 * inwards);
+            if (highest > 0) cutter_.cut();
+            const double area = doubled_area(cutter_.corners(), cutter_.count());
+            if (area > 0) {
+                parts.push_back({facet, {pool.size(), cutter_.count()}, area});
+                pool.insert(pool.end(), cutter_.corners(), cutter_.corners() + cutter_.count());
+            }
+            left = within;
+            if (left.count < 3 || !(doubled_area(pool.data() + left.first, left.count) > 0))
+                return {};
+        }
+    }
+    return left;
 }
 
 }  // namespace culet

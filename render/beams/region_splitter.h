@@ -49,7 +49,12 @@ private:
     }
     // True when the view sees the facet from within.
     bool leads_out(int facet) const;
-    int facet_around(int facet, const ScreenPoint& point);
+    const NetEdge* way_to(int facet, const ScreenPoint& point);
+    int facet_around(int start, const ScreenPoint& point);
+    void tile(std::vector<ScreenPoint>& pool, const Region& region, int from, int start,
+              const ScreenPoint& middle, std::vector<FacetRegion>& parts);
+    Region cut_off_outline(std::vector<ScreenPoint>& pool, const Region& region,
+                           std::vector<FacetRegion>& parts);
     void clip(std::vector<ScreenPoint>& pool, const Region& region, int from, int facet,
               std::vector<FacetRegion>& parts);
 

@@ -94,7 +94,7 @@ private:
     void paint_pixels(const CoveredPixels& covered, const Beam& beam, const std::uint16_t* facets,
                       const ShadedEye& eye, const ShadingPass& pass);
     bool retrace(int pixel, const ShadingPass& pass, std::size_t longest, float* radiance,
-                 int stride, float& left, float& absorbed);
+                 int stride, float& left, float& absorbed, float& unhidden, float* before);
     void fill_holes(const std::vector<ShadingPass>& passes);
     void add_background(const std::vector<ShadingPass>& passes);
     void reserve(int count, int nodes);
@@ -106,10 +106,20 @@ private:
         return cover_[static_cast<std::size_t>(pixel - row_begin_ * canvas_.width)];
     }
 
+    /// Adds a pixel's share of the stone, `unhidden` of which is seen.
+    void add_cover(int pixel, float share, float unhidden) {
+        cover(pixel) += share;
+        if (hides_)
+            visible_[static_cast<std::size_t>(pixel - row_begin_ * canvas_.width)] +=
+                share * unhidden;
+    }
+
     const PaintedStone& stone_;
     Canvas& canvas_;
     PixelCoverage coverage_;
-    std::vector<float> cover_, radiance_, left_, absorbed_, share_, x_, y_;
+    std::vector<std::uint8_t> taken_;
+    std::vector<float> unhidden_, before_, visible_, cover_, radiance_, left_, absorbed_, share_,
+        x_, y_;
     std::vector<int> pixel_;
     std::vector<std::uint8_t> follows_;
     std::vector<std::uint16_t> facets_;
@@ -117,6 +127,7 @@ private:
     const ScreenView* view_ = nullptr;
     PaintOptions options_;
     int row_begin_ = 0, row_end_ = 0;
+    bool hides_ = false;  ///< there are near lights
     StripSums sums_;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "render/beams/beam_tree.h"
+#include "render/beams/environment_pyramid.h"
 #include "render/beams/pixel_coverage.h"
 #include "tests/render/beams/beam_lights.h"
 
@@ -172,7 +173,7 @@ TEST(HardCases, a_light_before_the_stone_is_not_counted_as_the_stone) {
         const Vec3 to_eye = glm::normalize(scene.camera.position);
         scene.lights.spheres.push_back({2.5 * to_eye + Vec3{0.4, 0.3, 0}, 0.25, {0.7, {}}});
         const RenderResult beams = with_engine(scene, "beams", samples),
-                           reference = with_engine(scene, "reference", samples == 1 ? 1 : 256);
+                           reference = with_engine(scene, "reference", samples == 1 ? 1 : 64);
         const double most = samples == 1 ? 2e-3 : 1e-2;
         EXPECT_LE(difference(beams.picture, reference.picture).mean, most);
         double covered = 0, exact = 0;
@@ -189,7 +190,7 @@ TEST(HardCases, a_light_before_the_stone_is_not_counted_as_the_stone) {
 // Small pictures have small beams: what is cut of each must still add up to no more than asked for.
 TEST(HardCases, the_tolerance_is_kept_in_small_pictures) {
     for (const int side : {40, 96, 300}) {
-        for (const double tolerance : {0.01, 1e-3}) {
+        for (const double tolerance : {0.01, 2e-3}) {
             Scene scene = brilliant_scene();
             scene.camera.width = scene.camera.height = side;
             scene.settings.tolerance = tolerance;
@@ -218,7 +219,7 @@ TEST(HardCases, a_frame_from_elsewhere_has_the_limits_of_a_fresh_renderer) {
     Scene scene = brilliant_scene();
     smooth_lights()[1].make(scene);
     scene.settings.samples = 16;
-    scene.settings.tolerance = 0.02;
+    scene.settings.tolerance = 0.1;
     scene.settings.depth = 0;
     FrameRenderer frames(scene);
     frames.draw();
@@ -229,40 +230,47 @@ TEST(HardCases, a_frame_from_elsewhere_has_the_limits_of_a_fresh_renderer) {
     EXPECT_EQ(moved.picture.rgb, fresh.picture.rgb);
 }
 
-// Edges that run through middles of pixels, with corners of one side only on them (as trees have
-// where beams of different depths meet): each middle is taken once.
-TEST(HardCases, edges_through_pixel_middles_with_corners_of_one_side_take_each_once) {
-    constexpr int k_side = 41;
-    PixelCoverage coverage(k_side);
-    int none = 0, many = 0, edges = 0;
-    for (int dx = 1; dx < 20; ++dx) {
-        for (int dy = 1; dy < 20; ++dy) {
-            // The line through the middle pixel's middle along (dx, dy), cut in two on one side.
-            const double m = 20.5, reach = 20.0 / std::max(dx, dy), third = 0.3 * reach;
-            const ScreenPoint a{m - reach * dx, m - reach * dy}, b{m + reach * dx, m + reach * dy},
-                c{m + third * dx, m + third * dy}, right{b.x, a.y}, left{a.x, b.y};
-            const std::vector<ScreenPoint> above{a, right, b, c}, below{a, b, left};
-            std::vector<int> taken(k_side * k_side, 0), expected(taken);
-            for (const auto& p : {above, below}) {
-                const CoveredPixels& found =
-                    coverage.middles(p.data(), p.size(), {0, 0}, 0, k_side);
-                for (int i = 0; i < found.count; ++i)
-                    ++taken[static_cast<std::size_t>(found.pixel[static_cast<std::size_t>(i)])];
+// What a map sends from all directions, by its own resolution: a sun may be one texel. Bilinear
+// look-up spreads a texel over the ones around it with weights that add up to its own area, but
+// for how the sine of the colatitude bends over two rows.
+TEST(HardCases, an_environment_keeps_the_light_of_one_texel) {
+    const double pi = std::numbers::pi;
+    std::mt19937_64 random(20288);
+    for (const int width : {32, 64, 256, 1024}) {
+        double worst = 0;
+        for (int i = 0; i < 12; ++i) {
+            EnvironmentMap map;
+            map.width = width;
+            map.height = width / 2;
+            map.rgb.assign(static_cast<std::size_t>(3 * width * (width / 2)), 0.0f);
+            const int x = static_cast<int>(random() % static_cast<unsigned>(width)),
+                      y = width / 16 +
+                          static_cast<int>(random() % static_cast<unsigned>(3 * width / 8));
+            map.rgb[static_cast<std::size_t>(3 * (y * width + x))] = 1;
+            const EnvironmentPyramid pyramid(map);
+            const EnvironmentPyramid::Level& level = pyramid.levels().front();
+            double sum = 0;
+            for (int v = 0; v < level.side; ++v) {
+                for (int u = 0; u < level.side; ++u) {
+                    // Solid angle of a texel of the octahedral square.
+                    const double a = 2 * (u + 0.5) / level.side - 1,
+                                 b = 2 * (v + 0.5) / level.side - 1,
+                                 c = 1 - std::abs(a) - std::abs(b);
+                    const double px = c < 0 ? 1 - std::abs(b) : a, py = c < 0 ? 1 - std::abs(a) : b;
+                    const double length = std::sqrt(px * px + py * py + c * c),
+                                 side = 2.0 / level.side;
+                    sum += side * side / (length * length * length) *
+                           static_cast<double>(pyramid.plane(
+                               0)[level.start +
+                                  static_cast<std::size_t>((v + 1) * (level.side + 2) + u + 1)]);
+                }
             }
-            const std::vector<ScreenPoint> whole{a, right, b, left};
-            const CoveredPixels& found =
-                coverage.middles(whole.data(), whole.size(), {0, 0}, 0, k_side);
-            for (int i = 0; i < found.count; ++i)
-                ++expected[static_cast<std::size_t>(found.pixel[static_cast<std::size_t>(i)])];
-            ++edges;
-            for (std::size_t i = 0; i < taken.size(); ++i) {
-                none += taken[i] < expected[i];
-                many += taken[i] > expected[i];
-            }
+            const double texel = 2 * pi / width,
+                         exact = texel * texel * std::sin(pi * (y + 0.5) / (width / 2));
+            worst = std::max(worst, std::abs(sum / exact - 1));
         }
+        EXPECT_LE(worst, 0.05) << "seed 20288, width " << width;
     }
-    EXPECT_EQ(many, 0) << "taken twice along " << edges << " lines";
-    EXPECT_EQ(none, 0) << "not taken along " << edges << " lines";
 }
 
 // A light smaller than a pixel sees of it: what it brings on the whole must stay.
@@ -277,7 +285,7 @@ TEST(HardCases, a_sun_smaller_than_a_pixel_keeps_its_light) {
     // A pixel is 0.024 wide; the sun's diameter is 0.0094, and it stands behind the camera.
     scene.lights.caps.push_back({{0, 0, 1}, 0, 0.0047, {1e4, {}}});
     const RenderResult beams = with_engine(scene, "beams", 16);
-    const RenderResult exact = with_engine(scene, "reference", 4096);
+    const RenderResult exact = with_engine(scene, "reference", 1024);
     double seen = 0, expected = 0;
     for (std::size_t i = 0; i < exact.picture.pixels(); ++i) {
         seen += luminance_at(beams.picture, i);

@@ -95,7 +95,7 @@ TEST(SingleRays, are_the_references_in_an_environment) {
 }
 
 TEST(SingleRays, are_the_references_at_every_depth) {
-    for (const int depth : {1, 2, 3, 12, 40}) {
+    for (const int depth : {1, 2, 3, 12, 24}) {
         SCOPED_TRACE(depth);
         Scene scene = brilliant_scene();
         smooth_lights()[1].make(scene);
@@ -152,7 +152,7 @@ TEST(Furnace, sends_back_what_goes_in) {
                 scene.lights.constant = 1;
                 change.make(scene);
                 if (scene.settings.wavelengths_nm.size() > 1) scene.settings.wavelengths_nm = {520};
-                for (const int depth : {2, 30}) {
+                for (const int depth : {2, 14}) {
                     scene.settings.depth = depth;
                     const RenderResult result = with_engine(scene, engine, samples);
                     const RenderStats& stats = result.stats;
@@ -167,7 +167,7 @@ TEST(Furnace, sends_back_what_goes_in) {
 
 TEST(Furnace, counts_what_is_cut) {
     for (const std::string engine : {"beams", "preview"}) {
-        for (const double tolerance : {0.1, 0.01, 1e-3}) {
+        for (const double tolerance : {0.1, 0.01}) {
             Scene scene = brilliant_scene();
             scene.settings.tolerance = tolerance;
             scene.settings.depth = 0;

@@ -315,13 +315,13 @@ TEST(BeamTrees, that_are_cut_keep_their_area) {
     long long before = all;
     for (const double cut : {1e-4, 1e-2, 0.3, 0.99}) {
         limits.cut_weight = cut;
-        limits.cut_contribution = 0;
+        limits.cut_share = 0;
         const BeamTree by_weight = tree_of(net, view, limits);
         EXPECT_NEAR(lost_share(by_weight), 0, k_lost);
         EXPECT_LE(by_weight.beams(), before);
         before = by_weight.beams();
         limits.cut_weight = 0;
-        limits.cut_contribution = 100 * cut;
+        limits.cut_share = 100 * cut;
         EXPECT_NEAR(lost_share(tree_of(net, view, limits)), 0, k_lost);
     }
     EXPECT_LT(before, all / 10);

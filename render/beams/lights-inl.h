@@ -1,7 +1,6 @@
-// The shading of beams for one instruction set; compiled once for each by Highway.
-// No include guard of the usual kind: Highway includes this once for each target.
-
-#include <hwy/highway.h>
+// What rays see of the lights.
+// For one instruction set; Highway includes this once for each, which a guard of the usual kind
+// would not let it.
 
 #include <hwy/contrib/math/math-inl.h>
 
@@ -9,75 +8,31 @@ HWY_BEFORE_NAMESPACE();
 namespace culet {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-using Floats = hn::ScalableTag<float>;
-using V = hn::Vec<Floats>;
-using M = hn::Mask<Floats>;
-constexpr Floats k_floats;
-
-HWY_INLINE V number(float v) {
-    return hn::Set(k_floats, v);
-}
-HWY_INLINE V clamped_to_unit(V v) {
-    return hn::Min(hn::Max(v, number(0.0f)), number(1.0f));
-}
-
-struct V3 {
-    V x, y, z;
-};
-HWY_INLINE V3 vector(const float* v) {
-    return {number(v[0]), number(v[1]), number(v[2])};
-}
-HWY_INLINE V3 operator+(const V3& a, const V3& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-HWY_INLINE V3 operator*(const V& f, const V3& a) {
-    return {f * a.x, f * a.y, f * a.z};
-}
-// a + f b
-HWY_INLINE V3 plus(const V3& a, const V& f, const V3& b) {
-    return {hn::MulAdd(f, b.x, a.x), hn::MulAdd(f, b.y, a.y), hn::MulAdd(f, b.z, a.z)};
-}
-HWY_INLINE V dot(const V3& a, const V3& b) {
-    return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, a.z * b.z));
-}
-HWY_INLINE V3 cross(const V3& a, const V3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-HWY_INLINE V length_of(const V3& a) {
-    return hn::Sqrt(dot(a, a));
-}
-
-// How a value changes from pixel to pixel: to the right and down.
-struct Gradient {
-    V x, y;
-};
-// A ray, and how it changes from pixel to pixel.
-struct Ray {
-    V3 point, direction, point_x, point_y, direction_x, direction_y;
-};
-
-// Share of a pixel where a value that is linear in it is above 0.
-HWY_INLINE V share_above(const V& value, const Gradient& g) {
-    const V a = hn::Abs(g.x), b = hn::Abs(g.y);
-    const V high = hn::Max(hn::Max(a, b), number(1e-30f)), low = hn::Min(a, b);
-    const V size = hn::Abs(value), reach = number(0.5f) * (high + low);
-    // The pixel's corner beyond the line, or a slice of it.
-    const V missing = hn::Max(reach - size, number(0.0f));
-    const V corner = missing * missing / (number(2.0f) * high * hn::Max(low, number(1e-30f)));
-    const V slice = number(0.5f) - size / high;
-    const V beyond = hn::IfThenElse(size < number(0.5f) * (high - low), slice, corner);
-    return hn::IfThenElse(value > number(0.0f), number(1.0f) - beyond, beyond);
-}
-
+// How much of a pixel sees a distant disc about `axis`.
 template <bool kSoft>
-HWY_INLINE V share_where(const V& value, const Gradient& g) {
-    if constexpr (kSoft) {
-        return share_above(value, g);
-    } else {
-        (void)g;
-        return hn::IfThenElseZero(value > number(0.0f), number(1.0f));
-    }
+HWY_INLINE V disc_share(const ShadedLights::Disc& disc, const V3& axis, const Ray& ray) {
+    const V3& d = ray.direction;
+    const V cosine = dot(axis, d);
+    if constexpr (!kSoft) return hn::IfThenElseZero(cosine > number(disc.cosine), number(1.0f));
+    if (disc.cosine < -1) return number(1.0f);
+    // A small one fills no more than its solid angle; where a pixel sees so much that its share is
+    // no parallelogram (next to total reflection), that tells nothing.
+    const V pixel = length_of(cross(ray.direction_x, ray.direction_y));
+    const V most =
+        hn::IfThenElse(narrow(ray.direction_x, ray.direction_y, number(1.0f)),
+                       number(disc.solid_angle) / hn::Max(pixel, number(1e-30f)), number(1.0f));
+    const Gradient wide{dot(axis, ray.direction_x), dot(axis, ray.direction_y)};
+    const V share = share_above(cosine - number(disc.cosine), wide);
+    const M small = most < number(1.0f);
+    if (hn::AllFalse(k_floats, small)) return share;
+    // About a small one the cosine is no measure of distance. The angle to its rim, as 2 tan of its
+    // half, is: 2 (cos a - cos b) / (sin a + sin b).
+    const V3 beside = plus(d, hn::Neg(cosine), axis);
+    const V sine = length_of(beside), over = number(1.0f) / hn::Max(sine, number(1e-15f));
+    const V inside = number(2.0f) * (cosine - number(disc.cosine)) /
+                     hn::Max(sine + number(disc.sine), number(1e-15f));
+    const Gradient near{dot(beside, ray.direction_x) * over, dot(beside, ray.direction_y) * over};
+    return hn::IfThenElse(small, hn::Min(share_above(inside, near), most), share);
 }
 
 // Light that comes along a ray: calls take(factor, radiance of each node, polarisation).
@@ -96,6 +51,8 @@ HWY_INLINE void distant_light(const ShadedLights& lights, const Ray& ray, const 
             for (int e = lobe.whole; e > 0; e >>= 1, square = square * square) {
                 if (e & 1) power = power * square;
             }
+            // The power 0 is 1 on the lobe's side alone.
+            if (lobe.whole == 0) power = hn::IfThenElseZero(cosine > number(0.0f), power);
         } else {
             // The smallest normal number stands for 0, whose logarithm is no number.
             const V some = hn::Max(cosine, number(1.2e-38f));
@@ -107,11 +64,8 @@ HWY_INLINE void distant_light(const ShadedLights& lights, const Ray& ray, const 
     }
     for (const ShadedLights::Cap& cap : lights.caps) {
         const V3 axis{number(cap.x), number(cap.y), number(cap.z)};
-        const V cosine = dot(axis, d);
-        Gradient g{number(0.0f), number(0.0f)};
-        if constexpr (kSoft) g = {dot(axis, ray.direction_x), dot(axis, ray.direction_y)};
-        V share = share_where<kSoft>(cosine - number(cap.to), g);
-        if (cap.from <= 1) share = share - share_where<kSoft>(cosine - number(cap.from), g);
+        V share = disc_share<kSoft>(cap.outer, axis, ray);
+        if (cap.inner.cosine <= 1) share = share - disc_share<kSoft>(cap.inner, axis, ray);
         take(unhidden * share, cap.radiance.data(), cap.polarised);
     }
 }
@@ -174,14 +128,19 @@ HWY_INLINE V sphere_share(const ShadedLights::Sphere& sphere, const Ray& ray, V&
     const V half = hn::Sqrt(hn::Max(inside * (radius + miss), number(0.0f)));
     const V near = along - half, far = along + half;
     distance = hn::IfThenElse(near > number(0.0f), near, far);
-    Gradient g{number(0.0f), number(0.0f)};
-    if constexpr (kSoft) {
-        // beside changes by -point_x - along direction_x, across the ray.
+    if constexpr (!kSoft) {
+        return hn::IfThenElseZero(hn::And(distance > number(0.0f), inside > number(0.0f)),
+                                  number(1.0f));
+    } else {
+        // What a pixel sees beside the middle, across the ray.
         const V over = number(1.0f) / hn::Max(miss, number(1e-30f));
-        g = {(dot(beside, ray.point_x) + along * dot(beside, ray.direction_x)) * over,
-             (dot(beside, ray.point_y) + along * dot(beside, ray.direction_y)) * over};
+        const V3 to_right = plus(ray.point_x, along, ray.direction_x),
+                 down = plus(ray.point_y, along, ray.direction_y);
+        const Gradient g{dot(beside, to_right) * over, dot(beside, down) * over};
+        const V pixel = hn::Abs(dot(ray.direction, cross(to_right, down)));
+        const V most = number(3.14159265f) * radius * radius / hn::Max(pixel, number(1e-30f));
+        return hn::IfThenElseZero(distance > number(0.0f), hn::Min(share_above(inside, g), most));
     }
-    return hn::IfThenElseZero(distance > number(0.0f), share_where<kSoft>(inside, g));
 }
 
 template <bool kSoft>
@@ -265,6 +224,61 @@ HWY_INLINE void all_light(const ShadedLights& lights, const Ray& ray, Take& take
         take.colour(unhidden * rgb.x, unhidden * rgb.y, unhidden * rgb.z, lights.surroundings);
     }
 }
+
+// What reaches the eye of a path's end: its weight at each node, and where light's polarisation
+// counts (one node then) the rest of the Stokes parameters, along u and v.
+struct PathWeight {
+    const V* weight;
+    bool polarised = false;
+    V Q, U;  // of weight I = weight[0]
+    V3 direction, u, v;
+};
+
+// Adds light to the nodes' sums; without `kMany` there is one node, and no absorption.
+template <bool kMany>
+struct Gather {
+    const ShadedLights& lights;
+    V* sum;
+    const PathWeight& path;
+
+    HWY_INLINE int nodes() const { return kMany ? lights.nodes : 1; }
+
+    // Of light that is polarised, more or less of the path's weight comes through.
+    HWY_INLINE V weight(int node, const ShadedLights::Polarised& light) const {
+        const V I = path.weight[node];
+        if (!kMany || !path.polarised || light.degree == 0) return I;
+        V3 along = vector(light.along);
+        if (light.sheet) {
+            V3 normal = vector(light.normal);
+            const V sign = hn::CopySign(number(1.0f), dot(normal, path.direction));
+            normal = sign * normal;
+            // Turned with the normal into the ray, to which it is perpendicular then.
+            const V cosine = dot(normal, path.direction);
+            along = plus(along, hn::Neg(dot(along, path.direction)) / (number(1.0f) + cosine),
+                         normal + path.direction);
+        }
+        const V a = dot(along, path.u), b = dot(along, path.v);
+        const V square = hn::Max(hn::MulAdd(a, a, b * b), number(1e-30f));
+        const V Q = (a * a - b * b) / square, U = number(2.0f) * a * b / square;
+        return hn::MulAdd(number(light.degree), hn::MulAdd(path.Q, Q, path.U * U), I);
+    }
+
+    HWY_INLINE void operator()(const V& factor, const float* radiance,
+                               const ShadedLights::Polarised& light) const {
+        for (int i = 0; i < nodes(); ++i)
+            sum[i] = hn::MulAdd(factor * weight(i, light), number(radiance[i]), sum[i]);
+    }
+    HWY_INLINE void colour(const V& r, const V& g, const V& b,
+                           const ShadedLights::Polarised& light) const {
+        const V more_red = r - g, more_blue = b - g;
+        for (int i = 0; i < nodes(); ++i) {
+            const auto at = static_cast<size_t>(i);
+            const V seen = hn::MulAdd(more_red, number(lights.red[at]),
+                                      hn::MulAdd(more_blue, number(lights.blue[at]), g));
+            sum[i] = hn::MulAdd(weight(i, light), seen, sum[i]);
+        }
+    }
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace culet

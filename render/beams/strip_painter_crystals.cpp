@@ -1,0 +1,119 @@
+// Strips of crystals whose two waves part (parted_beams.h).
+
+#include <algorithm>
+
+#include "render/beams/strip_painter.h"
+
+namespace culet {
+
+namespace {
+
+// Pixels along the edge of a cell whose crystal beams have one ray of reference.
+constexpr int k_cell = 12;
+
+}  // namespace
+
+void StripPainter::paint_leaving(const LeavingBeam& beam, const ScreenPoint* corners,
+                                 std::size_t count, const ShadingPass& pass) {
+    const CoveredPixels& covered =
+        options_.shading == BeamShading::single
+            ? coverage_.middles(corners, count, beam.reference, row_begin_, row_end_)
+            : coverage_.touched(coverage_.areas(corners, count, row_begin_, row_end_),
+                                beam.reference);
+    if (covered.count == 0) return;
+    const int nodes = pass.lights.nodes;
+    reserve(covered.count, nodes);
+    const auto store = [](const std::array<Vec3, 3>& from, float to[3][3], const Vec3& about) {
+        for (int i = 0; i < 3; ++i) {
+            for (int k = 0; k < 3; ++k)
+                to[i][k] = static_cast<float>(from[static_cast<std::size_t>(i)][k] -
+                                              (i == 0 ? about[k] : 0.0));
+        }
+    };
+    ShadedLeaving leaving;
+    store(beam.point, leaving.point, stone_.shaded.middle);
+    store(beam.direction, leaving.direction, Vec3(0));
+    store(beam.s, leaving.s, Vec3(0));
+    for (std::size_t i = 0; i < 3; ++i) {
+        leaving.weight[i] = static_cast<float>(beam.weight[i]);
+        leaving.Q[i] = static_cast<float>(beam.Q[i]);
+        leaving.U[i] = static_cast<float>(beam.U[i]);
+    }
+    leaving.polarised = pass.parted->polarised_lights;
+    for (std::size_t node = 0; node < static_cast<std::size_t>(nodes); ++node) {
+        for (std::size_t i = 0; i < 3; ++i)
+            leaving.transmitted.push_back(static_cast<float>(beam.transmitted[i][node]));
+    }
+    Fragments fragments;
+    fragments.x = covered.x.data();
+    fragments.y = covered.y.data();
+    fragments.count = covered.count;
+    fragments.radiance = radiance_.data();
+    fragments.stride = static_cast<int>(left_.size());
+    fragments.soft = options_.shading != BeamShading::single;
+    shade_leaving(pass.lights, leaving, fragments);
+    sums_.fragments += covered.count;
+    sums_.deepest = std::max(sums_.deepest, beam.facets);
+    const float of_picture = static_cast<float>(options_.share);
+    for (int node = 0; node < nodes; ++node) {
+        float* to = plane(pass, node);
+        const float* radiance = radiance_.data() + node * fragments.stride;
+        float light = 0;
+        for (int i = 0; i < covered.count; ++i) {
+            const std::size_t at = static_cast<std::size_t>(i);
+            const float seen = radiance[i] * covered.share[at];
+            to[covered.pixel[at]] += of_picture * seen;
+            light += seen;
+        }
+        sums_.luminance += options_.share * pass.luminance[static_cast<std::size_t>(node)] *
+                           static_cast<double>(light);
+    }
+    // What is mirrored at the front covers each pixel once.
+    if (!pass.counts_area || beam.facets > 1) return;
+    for (int i = 0; i < covered.count; ++i) {
+        const std::size_t at = static_cast<std::size_t>(i);
+        add_cover(covered.pixel[at], covered.share[at], 1);
+        sums_.filled += options_.share * static_cast<double>(covered.share[at]);
+    }
+}
+
+// Cell by cell of every front facet.
+void StripPainter::paint_parted(const std::vector<FrontFacet>& fronts, const ShadingPass& pass) {
+    PartedBeams beams(stone_.net, pass.parted->band, {options_.depth, options_.cut_weight},
+                      pass.parted->response);
+    const PartedBeams::Sink sink = [&](const LeavingBeam& beam, const ScreenPoint* corners,
+                                       std::size_t count) {
+        paint_leaving(beam, corners, count, pass);
+    };
+    RegionCutter cutter;
+    for (const FrontFacet& front : fronts) {
+        double low = front.outline[0].x, high = low;
+        for (const ScreenPoint& p : front.outline) {
+            low = std::min(low, p.x);
+            high = std::max(high, p.x);
+        }
+        const int first = static_cast<int>(low) / k_cell, last = static_cast<int>(high) / k_cell;
+        for (int y = row_begin_; y < row_end_; y += k_cell) {
+            const int y_end = std::min(y + k_cell, row_end_);
+            for (int column = first; column <= last; ++column) {
+                cutter.take(front.outline.data(), front.outline.size(), 4);
+                const double left = column * k_cell, right = left + k_cell;
+                bool any = true;
+                for (const Vec3& line :
+                     {Vec3{1, 0, -left}, Vec3{-1, 0, right}, Vec3{0, 1, -static_cast<double>(y)},
+                      Vec3{0, -1, static_cast<double>(y_end)}}) {
+                    any = any && cutter.measure(line).second > 0;
+                    if (any) cutter.cut();
+                }
+                if (any && doubled_area(cutter.corners(), cutter.count()) > 0)
+                    beams.grow(*view_, front.facet, cutter.corners(), cutter.count(), sink);
+            }
+        }
+    }
+    const double of_sums = options_.share * pass.weight * pass.lights.nodes;
+    sums_.beams += beams.beams();
+    sums_.remainder += of_sums * beams.remainder();
+    sums_.absorbed += of_sums * beams.absorbed();
+}
+
+}  // namespace culet
