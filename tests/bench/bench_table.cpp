@@ -7,6 +7,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "stone/errors.h"
+
 namespace culet {
 
 namespace {
@@ -49,6 +51,7 @@ void BenchTables::section(const std::string& name, const std::string& remark,
 }
 
 void BenchTables::line(const std::string& what, const std::vector<std::string>& values) {
+    check(values.size() == content_->columns.size(), "a value for every column");
     nlohmann::ordered_json line{{"what", what}};
     std::cout << fmt::format("{:<{}}", what, k_first_column);
     for (std::size_t i = 0; i < values.size(); ++i) {

@@ -67,25 +67,32 @@ double Difference::psnr() const {
 Difference difference(const Picture& picture, const Picture& reference) {
     check(picture.rgb.size() == reference.rgb.size(), "pictures are of one size");
     Difference d;
-    double squares = 0;
+    double squares = 0, stone = 0;
     for (const float v : reference.rgb) {
         d.peak = std::max(d.peak, static_cast<double>(v));
         d.mean += static_cast<double>(v);
     }
     for (std::size_t i = 0; i < reference.pixels(); ++i) {
         double most = 0;
+        Rgb error{};
         for (std::size_t c = 0; c < 3; ++c) {
-            const double e = std::abs(static_cast<double>(picture.rgb[3 * i + c]) -
-                                      static_cast<double>(reference.rgb[3 * i + c]));
+            error[c] = static_cast<double>(picture.rgb[3 * i + c]) -
+                       static_cast<double>(reference.rgb[3 * i + c]);
+            const double e = std::abs(error[c]);
             // Also true of what is no number.
             if (!(e <= most)) most = e;
             squares += e * e;
+        }
+        if (!picture.coverage.empty() && picture.coverage[i] > 0) {
+            d.of_stone += std::abs(luminance(error));
+            ++stone;
         }
         d.off += !(most <= 1e-3 * d.peak);
     }
     const double values = static_cast<double>(reference.rgb.size());
     d.rmse = std::sqrt(squares / values);
     d.mean /= values;
+    if (stone > 0) d.of_stone /= stone;
     return d;
 }
 

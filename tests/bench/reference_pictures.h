@@ -15,6 +15,8 @@ struct Difference {
     double peak = 0;  ///< largest radiance of the second picture
     double mean = 0;  ///< of the second picture
     int off = 0;      ///< pixels that differ by more than 1e-3 of the peak
+    /// Mean of the luminance's difference over the first picture's pixels of the stone.
+    double of_stone = 0;
     double psnr() const;
 };
 Difference difference(const Picture& picture, const Picture& reference);
