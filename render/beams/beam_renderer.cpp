@@ -50,6 +50,39 @@ std::vector<ScreenView> views_of(const Scene& scene, const Plan& plan) {
     return views;
 }
 
+// Bands that share beams, by the band whose index these are of: the borders of two wavelengths'
+// beams lie apart by the angle |dn| / (n sqrt(n^2 - 1)) at most (Snell's law), over the way through
+// the stone; as long as that is less than a map may be off, one set of beams serves.
+std::vector<std::size_t> shared_beams(const Plan& plan, const ScreenView& view, const Vec3& middle,
+                                      double size, const BeamLimits& limits) {
+    // Segments are some two thirds of the stone's size; few ways longer than this bring light.
+    constexpr double k_segment = 2.0 / 3;
+    constexpr int k_longest = 16;
+    const ScreenImage here = view.of_point(middle),
+                      beside = view.of_point(middle + size * view.right);
+    const double pixels =
+        std::hypot(beside.x / beside.z - here.x / here.z, beside.y / beside.z - here.y / here.z);
+    const double way = k_segment * std::min(limits.depth, k_longest) * pixels;
+    std::vector<std::size_t> leader(plan.bands.size());
+    for (std::size_t first = 0; first < leader.size();) {
+        const auto index = [&](std::size_t b) { return plan.bands[b].n / plan.bands[b].n_outside; };
+        const auto apart = [&](std::size_t a, std::size_t b) {
+            const double n = std::min(index(a), index(b));
+            return way * std::abs(index(a) - index(b)) / (n * std::sqrt((n - 1) * (n + 1)));
+        };
+        std::size_t middle_band = first, end = first + 1;
+        // From both ends to the middle one.
+        while (end < leader.size() && apart(first, end) <= 2 * limits.map_error) {
+            ++end;
+            while (middle_band + 1 < end && apart(first, middle_band + 1) <= limits.map_error)
+                ++middle_band;
+        }
+        while (end > first + 1 && apart(middle_band, end - 1) > limits.map_error) --end;
+        for (; first < end; ++first) leader[first] = std::min(middle_band, end - 1);
+    }
+    return leader;
+}
+
 }  // namespace
 
 struct BeamRenderer::Work {
@@ -172,10 +205,13 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
     const std::size_t nodes = plan.wavelengths_nm.size();
     const std::size_t stokes = plan.stokes && scene.settings.spectral ? 4 : 1;
     work.prepare(scene, plan, colours, stokes * nodes, picture);
-    const std::vector<ShadingPass> passes =
+    std::vector<ShadingPass> passes =
         shading_passes(scene, plan, colours, work.stone.shaded.middle, work.pyramid,
                        static_cast<int>(stokes), settings.crystal == CrystalBeams::parted);
     const std::vector<ScreenView> views = views_of(scene, plan);
+    const std::vector<std::size_t> leader = shared_beams(plan, views[0], work.stone.shaded.middle,
+                                                         work.stone.net.size(), settings.limits);
+    for (ShadingPass& pass : passes) pass.beams = leader[pass.beams];
     BeamReport& report = work.report;
     report = {};
     PaintOptions options;
@@ -191,6 +227,7 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
         [&] { return StripPainter(work.stone, work.canvas); });
     StripSums whole;
     double lost = 0;
+    int trees = 0;
     for (std::size_t v = 0; v < views.size(); ++v) {
         if (progress && !progress(static_cast<double>(v) / static_cast<double>(views.size())))
             throw Interrupted();
@@ -204,6 +241,7 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
                 [&](std::size_t b) {
                     const Band& band = plan.bands[b];
                     if (band.two_waves && settings.crystal == CrystalBeams::parted) return;
+                    if (leader[b] != b) return;
                     beams[b].grow(work.stone.net, views[v], band.n / band.n_outside,
                                   settings.limits);
                 },
@@ -222,11 +260,15 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
             report.seconds_shade += seconds_since(shading);
         });
         for (const StripSums& sum : sums) whole += sum;
-        for (std::size_t b = 0; b < bands; ++b) {
+        const bool kept = settings.crystal == CrystalBeams::merged || !plan.splits;
+        for (std::size_t b = 0; kept && b < bands; ++b) {
+            if (leader[b] != b) continue;
             const BeamTree& tree = beams[b].tree;
             report.beams += tree.beams();
             report.deepest = std::max(report.deepest, tree.deepest());
-            if (tree.front_area > 0) lost += (tree.front_area - tree.leaf_area()) / tree.front_area;
+            if (!(tree.front_area > 0)) continue;
+            lost += (tree.front_area - tree.leaf_area()) / tree.front_area;
+            ++trees;
         }
     }
     report.fragments = whole.fragments;
@@ -234,7 +276,7 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
     report.deepest = std::max(report.deepest, whole.deepest);
     report.retraced = whole.retraced;
     report.filled = whole.filled;
-    report.lost_area = lost / static_cast<double>(views.size() * bands);
+    report.lost_area = trees > 0 ? lost / trees : 0;
     if (whole.filled > 0) {
         report.remainder = whole.remainder / whole.filled;
         report.absorbed = whole.absorbed / whole.filled;
