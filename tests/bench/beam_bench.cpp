@@ -64,6 +64,8 @@ void BeamBench::drawing(const std::string& what, const Scene& scene, Drawing kin
                         fmt::format("{:.2e}", promised.of_stone / stats.mean_radiance),
                         fmt::format("{:.2e}", stats.engine_error),
                         single ? fmt::format("{}", promised.off) : std::string()});
+    if (promised.of_stone > stats.engine_error * stats.mean_radiance)
+        tables_.remark("  the error is over the reported one");
 }
 
 void BeamBench::reference(int samples) {
