@@ -16,7 +16,7 @@ Scene drawn_as(Scene scene, Drawing drawing, int threads) {
     return scene;
 }
 
-Clocks frame_time(FrameRenderer& frames, const Camera& camera) {
+Clocks frame_time(FrameRenderer& frames, const Camera& camera, double seconds) {
     frames.draw();
     Camera moved = camera;
     double to = 1e-9;
@@ -27,7 +27,7 @@ Clocks frame_time(FrameRenderer& frames, const Camera& camera) {
             frames.look_from(moved);
             frames.draw();
         },
-        5, 0.25);
+        5, seconds);
 }
 
 std::string milliseconds(double seconds) {
@@ -166,7 +166,7 @@ void BeamBench::pupils() {
 }
 
 void BeamBench::refractions() {
-    begin("refraction", fmt::format("how beams follow it; preview; errors against {} samples; "
+    begin("refraction", fmt::format("how beams follow it; errors against {} samples; "
                                     "astigmatic is what all else uses",
                                     k_full));
     for (const auto& [name, refraction] : {std::pair{"astigmatic", Refraction::astigmatic},

@@ -23,8 +23,9 @@ enum class Drawing {
 };
 Scene drawn_as(Scene scene, Drawing drawing, int threads);
 
-/// Of a frame whose camera moved by too little to see, so that all of it is drawn anew.
-Clocks frame_time(FrameRenderer& frames, const Camera& camera);
+/// Of a frame whose camera moved by too little to see, so that all of it is drawn anew; the
+/// quickest of as many as `seconds` hold.
+Clocks frame_time(FrameRenderer& frames, const Camera& camera, double seconds = 0.25);
 
 std::string milliseconds(double seconds);
 

@@ -94,7 +94,7 @@ void BeamBench::threads() {
                                         {"exact", Drawing::exact},
                                         {"anti-aliased", Drawing::averaged}}) {
         FrameRenderer one(drawn_as(base_, drawing, 1)), two(drawn_as(base_, drawing, 2));
-        const Clocks a = frame_time(one, base_.camera), b = frame_time(two, base_.camera);
+        const Clocks a = frame_time(one, base_.camera, 1), b = frame_time(two, base_.camera, 2);
         tables_.line(name, {milliseconds(a.cpu), milliseconds(a.wall), milliseconds(b.cpu),
                             milliseconds(b.wall), fmt::format("{:.2f}", a.wall / b.wall)});
     }
