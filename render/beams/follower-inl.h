@@ -74,7 +74,13 @@ public:
             meet(a, cosine);
             // Rays beside the beam may lose all along its facets; what is left of it would be
             // numbers too small for the processor's fast ways.
-            const M alive = carried_.I > number(1e-12f);
+            V most = hn::Abs(carried_.I);
+            if constexpr (kGeneral) {
+                // Of a Stokes parameter that is a difference, the first may be nothing.
+                most = hn::Max(hn::Max(most, hn::Abs(carried_.Q)),
+                               hn::Max(hn::Abs(carried_.U), hn::Abs(carried_.V_)));
+            }
+            const M alive = most > number(1e-12f);
             if (hn::AllFalse(k_floats, alive)) {
                 carried_.I = number(0.0f);
                 break;
