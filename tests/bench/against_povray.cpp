@@ -6,22 +6,18 @@
 // Without a scene: a round brilliant of 73 facets in diamond's index, tilted, under four lights.
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <glm/geometric.hpp>
 #include <iostream>
 
-#include "render/image_io.h"
-#include "render/povray.h"
 #include "render/render.h"
 #include "render/scene_io.h"
 #include "stone/errors.h"
-#include "stone/output_file.h"
+#include "tests/bench/cpu_time.h"
+#include "tests/bench/povray_run.h"
 
 namespace {
 
@@ -61,16 +57,6 @@ std::vector<NamedScene> own_scenes() {
     return scenes;
 }
 
-// User and system together, as POV-Ray counts.
-double cpu_seconds() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    };
-    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
 struct Timed {
     Picture picture;
     double seconds = 0;
@@ -83,40 +69,7 @@ Timed with_culet(Scene scene, bool polarised) {
     scene.settings.effects[static_cast<std::size_t>(Effects::polarization)] = polarised;
     scene.settings.effects[static_cast<std::size_t>(Effects::absorption)] = true;
     Timed result;
-    for (int i = 0; i < 3; ++i) {
-        const double start = cpu_seconds();
-        result.picture = render(scene).picture;
-        const double took = cpu_seconds() - start;
-        result.seconds = i == 0 ? took : std::min(result.seconds, took);
-    }
-    return result;
-}
-
-// Its own statement of the CPU seconds of tracing, without reading the scene or writing the
-// picture.
-double trace_seconds(const std::string& messages) {
-    const std::size_t trace = messages.find("Trace Time:");
-    const std::size_t with = trace == std::string::npos ? trace : messages.find("with ", trace);
-    if (with == std::string::npos)
-        throw InputError("POV-Ray did not say how long it traced:\n" + messages);
-    return std::strtod(messages.c_str() + with + 5, nullptr);
-}
-
-Timed with_povray(const Scene& scene, const std::filesystem::path& folder) {
-    const std::string in = (folder / "scene.pov").string(), out = (folder / "picture.png").string(),
-                      said = (folder / "messages.txt").string();
-    write_text(in, povray_scene(scene).text);
-    const std::string command =
-        fmt::format("povray '+I{}' '+O{}' +W{} +H{} -A -D -V +WT1 +FN16 File_Gamma=sRGB >'{}' 2>&1",
-                    in, out, scene.camera.width, scene.camera.height, said);
-    Timed result;
-    for (int i = 0; i < 3; ++i) {
-        if (std::system(command.c_str()) != 0)
-            throw InputError("POV-Ray failed:\n" + read_text(said));
-        const double took = trace_seconds(read_text(said));
-        result.seconds = i == 0 ? took : std::min(result.seconds, took);
-    }
-    result.picture = read_picture(out).picture;
+    result.seconds = quickest([&] { result.picture = render(scene).picture; }, 3, 0).cpu;
     return result;
 }
 
@@ -157,8 +110,7 @@ int run(int argc, char** argv) {
     } else {
         scenes = own_scenes();
     }
-    std::string folder = (std::filesystem::temp_directory_path() / "culet-povray-XXXXXX").string();
-    if (mkdtemp(folder.data()) == nullptr) throw InputError("no temporary folder");
+    const PovrayFolder folder;
     std::cout << fmt::format(
         "{} x {} pixels; RMSE and differences of linear radiance, CPU seconds\n", pixels, pixels);
     for (NamedScene& named : scenes) {
@@ -174,8 +126,8 @@ int run(int argc, char** argv) {
             "scalar", "polar.", "x", "x pol.");
         for (int level = 2; level <= 10; ++level) {
             scene.settings.depth = level - 1;
-            const Timed ours = with_culet(scene, false), polarised = with_culet(scene, true),
-                        theirs = with_povray(scene, folder);
+            const Timed ours = with_culet(scene, false), polarised = with_culet(scene, true);
+            const PovrayRun theirs = folder.draw(scene, "-A", 3);
             const Difference d = difference(ours.picture, theirs.picture);
             std::cout << fmt::format(
                              "{:>5} {:>6.4f} {:>9.2e} {:>9.2e} {:>9.2e} {:>6} {:>9.2e} | {:>8.3f} "
@@ -186,7 +138,6 @@ int run(int argc, char** argv) {
                       << std::flush;
         }
     }
-    std::filesystem::remove_all(folder);
     return 0;
 }
 

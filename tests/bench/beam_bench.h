@@ -1,0 +1,69 @@
+#pragma once
+// The renderer by beams, measured: speed and error, one parameter at a time about a base case, and
+// beside other renderers. Prints tables.
+
+#include <filesystem>
+#include <string>
+
+#include "render/render.h"
+#include "tests/bench/bench_scenes.h"
+#include "tests/bench/bench_table.h"
+#include "tests/bench/cpu_time.h"
+#include "tests/bench/reference_pictures.h"
+
+namespace culet {
+
+/// Samples of the reference that errors are against: in the base case, and elsewhere.
+constexpr int k_full = 256, k_side = 64;
+
+enum class Drawing {
+    preview,  ///< one colour a beam
+    exact,    ///< each pixel's middle
+    averaged  ///< over the pixel
+};
+Scene drawn_as(Scene scene, Drawing drawing, int threads);
+
+/// Of a frame whose camera moved by too little to see, so that all of it is drawn anew.
+Clocks frame_time(FrameRenderer& frames, const Camera& camera);
+
+std::string milliseconds(double seconds);
+
+class BeamBench {
+public:
+    BeamBench(int pixels, const std::filesystem::path& cache)
+        : pixels_(pixels), references_(cache), base_(base_scene(pixels)) {}
+
+    /// The section of that name, or all. Throws InputError for an unknown one.
+    void run(const std::string& only);
+    const BenchTables& tables() const { return tables_; }
+
+private:
+    // beam_bench.cpp: one parameter at a time.
+    void drawing(const std::string& what, const Scene& scene, Drawing drawing, int samples);
+    void all_drawings(const std::string& what, const Scene& scene, int samples);
+    void reference(int samples);
+    void engines();
+    void depths();
+    void stones();
+    void distances();
+    void wavelengths();
+    void pupils();
+    void refractions();
+    // beam_figures.cpp
+    void relighting();
+    void sequences();
+    void threads();
+    // beam_rivals.cpp: others on the same scenes.
+    void plain();
+    void equal_error(const Scene& scene, const std::string& of);
+    void povray();
+
+    void begin(const std::string& name, const std::string& remark);
+
+    int pixels_;
+    ReferencePictures references_;
+    BenchTables tables_;
+    Scene base_;
+};
+
+}  // namespace culet

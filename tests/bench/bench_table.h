@@ -1,0 +1,31 @@
+#pragma once
+// Tables for people on stdout, and the same as JSON.
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace culet {
+
+class BenchTables {
+public:
+    BenchTables();
+    ~BenchTables();
+
+    /// A title, what a reader should know of it, and the names of the columns after the first.
+    void section(const std::string& name, const std::string& remark,
+                 const std::vector<std::string>& columns);
+    /// A line at once: numbers as text, empty where there is none.
+    void line(const std::string& what, const std::vector<std::string>& values);
+    /// What the lines before come to.
+    void remark(const std::string& text);
+    /// One object; see docs/rendering.md.
+    std::string json(const std::vector<std::pair<std::string, std::string>>& head) const;
+
+private:
+    struct Content;
+    std::unique_ptr<Content> content_;
+};
+
+}  // namespace culet
