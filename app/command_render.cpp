@@ -113,6 +113,7 @@ void add_command_render(CLI::App& program, int& exit_code) {
         "  culet render scene.toml -o picture.exr --stats stats.json\n"
         "  culet render scene.toml -o quick.png --set render.samples=4 --set "
         "camera.size=[200,200]\n"
+        "  culet render scene.toml -o frame.png --engine beams\n"
         "  culet render samples/instruments/conoscope.toml -o conoscope.png --exposure 2");
     command->callback([options, &exit_code] { exit_code = run_render(*options); });
 }

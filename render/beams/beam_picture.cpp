@@ -29,6 +29,9 @@ constexpr double k_standard_errors = 3;
 // Beams that are cut for their share of the picture may be this many before they bring as much as
 // those cut for their weight.
 constexpr double k_cut_share = 1 / 4e5;
+// Beams alone in their pixel, as a multiple of the tolerance: what they bring to it is some ten
+// times as much, and as often too bright as too dark.
+constexpr double k_alone = 10;
 constexpr double k_preview_map_error = 1;  // pixels
 // Merged images that lie this far apart are off by as much: a tenth of a pixel at edges.
 constexpr double k_seen_apart = 0.1;  // pixels
@@ -66,6 +69,7 @@ BeamSettings beam_settings(const Scene& scene, const PathLimits& limits) {
     settings.limits.depth = limits.depth;
     settings.limits.cut_weight = limits.cut_weight;
     settings.limits.cut_share = k_cut_share * limits.cut_weight;
+    settings.limits.alone = std::min(k_alone * scene.settings.tolerance, 0.5);
     settings.limits.refraction = scene.settings.refraction;
     settings.threads = scene.settings.threads;
     settings.shading = scene.settings.engine == "preview" ? BeamShading::flat

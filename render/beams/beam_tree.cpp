@@ -135,6 +135,14 @@ private:
             leaf(trunk);
             return;
         }
+        if (0.5 * next.weight * next.part.doubled_area < limits_->alone) {
+            const std::size_t length = path_.size();
+            follow_alone(next, folding.turn * pencil.direction, folding.point(pencil.x0));
+            leaf(trunk);
+            out_->leaves.back().alone = true;
+            path_.resize(length);
+            return;
+        }
         const std::size_t first_child = children_.size(), pool_before = pool_.size();
         split(next, pencil, folding, middle);
         // Growing a child appends to `children_` and takes away what it appended.
@@ -155,6 +163,23 @@ private:
             counted_ = out_->beams;
         }
         return *grown_ > limits_->most_beams;
+    }
+
+    // Adds to the path what the ray along `d` through `point` meets behind the trunk's facet.
+    void follow_alone(const Trunk& trunk, Vec3 d, const Vec3& point) {
+        const Plane& left = net_->plane(trunk.part.facet);
+        Vec3 x = point - height_above(left, point) / glm::dot(left.normal, d) * d;
+        double weight = trunk.weight;
+        while (static_cast<int>(path_.size()) < limits_->depth && weight >= limits_->cut_weight) {
+            const int facet = splitter_.exit_of(path_.back(), x, d);
+            const Plane& plane = net_->plane(facet);
+            const double cosine = glm::dot(plane.normal, d);
+            if (!(cosine > 0)) return;  // along an edge
+            x -= height_above(plane, x) / cosine * d;
+            d -= 2 * cosine * plane.normal;
+            weight *= mean_reflectance(n_, std::min(cosine, 1.0));
+            path_.push_back(static_cast<std::uint16_t>(facet));
+        }
     }
 
     bool worth_splitting(const Trunk& trunk) const {

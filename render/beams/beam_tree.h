@@ -22,6 +22,9 @@ struct BeamLimits {
     double cut_weight = 0, cut_share = 0;
     /// A beam whose map is off by more, in pixels, is halved (astigmatic refraction only).
     double map_error = 0.25;
+    /// A beam whose weight x area in square pixels is less is not split either: its middle ray is
+    /// followed to the end and speaks for all of it.
+    double alone = 0;
     /// Where there would be more, `cut_share` is raised until there are not.
     long long most_beams = 1 << 23;
     Refraction refraction = Refraction::astigmatic;
@@ -32,6 +35,7 @@ struct BeamLimits {
 struct Beam {
     std::uint32_t corner = 0, facet = 0;      ///< the first of each in its BeamBranch
     std::uint16_t corners = 0, facets = 0;    ///< how many
+    bool alone = false;                       ///< its middle ray speaks for all of it
     std::int32_t first_row = 0, end_row = 0;  ///< of pixels that it touches
 };
 

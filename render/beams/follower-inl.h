@@ -72,6 +72,23 @@ public:
             }
             if constexpr (kPolarised) turn(a, cosine, k);
             meet(a, cosine);
+            // Rays beside the beam may lose all along its facets; what is left of it would be
+            // numbers too small for the processor's fast ways.
+            V most = hn::Abs(carried_.I);
+            if constexpr (kGeneral) {
+                // Of a Stokes parameter that is a difference, the first may be nothing.
+                most = hn::Max(hn::Max(most, hn::Abs(carried_.Q)),
+                               hn::Max(hn::Abs(carried_.U), hn::Abs(carried_.V_)));
+            }
+            const M alive = most > number(1e-12f);
+            if (hn::AllFalse(k_floats, alive)) {
+                carried_.I = number(0.0f);
+                break;
+            }
+            carried_.I = hn::IfThenElseZero(alive, carried_.I);
+            carried_.Q = hn::IfThenElseZero(alive, carried_.Q);
+            carried_.U = hn::IfThenElseZero(alive, carried_.U);
+            carried_.V_ = hn::IfThenElseZero(alive, carried_.V_);
         }
         for (int i = 0; i < nodes; ++i)
             hn::StoreU(

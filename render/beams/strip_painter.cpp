@@ -53,6 +53,7 @@ void StripPainter::paint_flat(const ScreenPoint* corners, const Beam& beam,
     fragments.stride = k_shading_room;
     fragments.left = left_.data();
     fragments.absorbed = absorbed_.data();
+    fragments.soft = options_.shading == BeamShading::averaged;
     if (hides_) {
         fragments.unhidden = unhidden_.data();
         fragments.before = before_.data();
@@ -210,16 +211,20 @@ void StripPainter::paint_beam(const SortedBeams& beams, LeafNumber number,
     const Beam& beam = branch.leaves[number.leaf];
     const ScreenPoint* corners = branch.corners.data() + beam.corner;
     const std::uint16_t* facets = branch.facets.data() + beam.facet;
+    const bool flat = options_.shading == BeamShading::flat ||
+                      (options_.shading == BeamShading::averaged && beam.alone);
     ScreenPoint middle{0, 0};
-    for (int i = 0; i < beam.corners; ++i) {
-        middle.x += corners[i].x;
-        middle.y += corners[i].y;
+    if (flat) {
+        middle = middle_of(corners, beam.corners);
+    } else {
+        for (int i = 0; i < beam.corners; ++i) {
+            middle.x += corners[i].x / beam.corners;
+            middle.y += corners[i].y / beam.corners;
+        }
     }
-    middle.x /= beam.corners;
-    middle.y /= beam.corners;
     const ShadedEye eye =
         shaded_eye(*view_, middle, stone_.net.plane(facets[0]), stone_.shaded.middle);
-    if (options_.shading == BeamShading::flat) {
+    if (flat) {
         paint_flat(corners, beam, facets, eye, pass);
         return;
     }

@@ -8,8 +8,20 @@ namespace culet {
 
 namespace {
 
-// Pixels along the edge of a cell whose crystal beams have one ray of reference.
-constexpr int k_cell = 12;
+// Pixels along the edge of a cell that has one ray of reference: what is of second order over it is
+// about the square of its share of the stone's width, and a cell costs as much as some 10 pixels.
+int cell_of(const std::vector<FrontFacet>& fronts) {
+    constexpr double k_cells_across = 64;
+    constexpr int k_least = 4, k_most = 16;
+    double low = 1e300, high = -1e300;
+    for (const FrontFacet& front : fronts) {
+        for (const ScreenPoint& p : front.outline) {
+            low = std::min(low, p.x);
+            high = std::max(high, p.x);
+        }
+    }
+    return std::clamp(static_cast<int>((high - low) / k_cells_across), k_least, k_most);
+}
 
 }  // namespace
 
@@ -86,18 +98,19 @@ void StripPainter::paint_parted(const std::vector<FrontFacet>& fronts, const Sha
         paint_leaving(beam, corners, count, pass);
     };
     RegionCutter cutter;
+    const int cell = cell_of(fronts);
     for (const FrontFacet& front : fronts) {
         double low = front.outline[0].x, high = low;
         for (const ScreenPoint& p : front.outline) {
             low = std::min(low, p.x);
             high = std::max(high, p.x);
         }
-        const int first = static_cast<int>(low) / k_cell, last = static_cast<int>(high) / k_cell;
-        for (int y = row_begin_; y < row_end_; y += k_cell) {
-            const int y_end = std::min(y + k_cell, row_end_);
+        const int first = static_cast<int>(low) / cell, last = static_cast<int>(high) / cell;
+        for (int y = row_begin_; y < row_end_; y += cell) {
+            const int y_end = std::min(y + cell, row_end_);
             for (int column = first; column <= last; ++column) {
                 cutter.take(front.outline.data(), front.outline.size(), 4);
-                const double left = column * k_cell, right = left + k_cell;
+                const double left = column * cell, right = left + cell;
                 bool any = true;
                 for (const Vec3& line :
                      {Vec3{1, 0, -left}, Vec3{-1, 0, right}, Vec3{0, 1, -static_cast<double>(y)},

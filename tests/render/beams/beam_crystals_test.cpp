@@ -1,0 +1,183 @@
+// Polarised light and crystals in beams, against the reference.
+
+#include <gtest/gtest.h>
+
+#include "stone/perpendicular.h"
+#include "tests/render/beams/beam_lights.h"
+
+namespace {
+
+using namespace culet;
+
+// Every kind of polarised light, an analyser and a plate before it.
+Scene polarised_scene() {
+    Scene scene = plain_scene(round_brilliant());
+    look(scene, {0.21, 0.34, 1}, 10);
+    scene.camera.optics.analyzer = 0.5;
+    scene.camera.optics.retarder = {137, 1.2};
+    scene.lights.polarisation = LinearPolarisation{glm::normalize(Vec3{1, 0.2, 0}), {}, 1};
+    LobeLight& lobe = scene.lights.lobes.emplace_back();
+    lobe.direction = glm::normalize(Vec3{0.3, 0.2, 1});
+    lobe.exponent = 3;
+    lobe.radiance.value = 2.0;
+    lobe.radiance.polarisation = LinearPolarisation{{0, 1, 0}, {}, 0.7};
+    // Behind a sheet: turned with its normal into each ray.
+    CapLight& cap = scene.lights.caps.emplace_back();
+    cap.direction = glm::normalize(Vec3{-1, 0.3, 1});
+    cap.to = 0.6;
+    cap.radiance.value = 3.0;
+    cap.radiance.polarisation =
+        LinearPolarisation{perpendicular_to(cap.direction), cap.direction, 1};
+    return scene;
+}
+
+void give_crystal(Scene& scene, const std::vector<double>& n,
+                  const std::vector<double>& absorption) {
+    Material& material = scene.stone.material;
+    material.optic = n.size() == 2 ? OpticCharacter::uniaxial : OpticCharacter::biaxial;
+    for (std::size_t i = 0; i < n.size(); ++i) {
+        material.index[i].n = n[i];
+        material.absorption_per_mm[i] = Spectrum(absorption[i]);
+    }
+    const Vec3 a = glm::normalize(Vec3{0.3, 0.2, 1}), b = perpendicular_to(a);
+    scene.stone.crystal.axes = {a, b, glm::cross(a, b)};
+}
+
+// Single rays carry the same Stokes parameters as the reference, but for single precision: what is
+// off are rays within its rounding of an edge of a facet or of a light.
+TEST(PolarisedBeams, see_what_the_reference_sees_through_the_eyes_optics) {
+    const Scene scene = polarised_scene();
+    const Difference d = difference(with_engine(scene, "beams", 1).picture,
+                                    with_engine(scene, "reference", 1).picture);
+    EXPECT_LE(d.off, 3) << d;
+    EXPECT_GT(d.pixels, 3000);
+}
+
+TEST(PolarisedBeams, have_all_four_stokes_parameters) {
+    Scene scene = polarised_scene();
+    scene.settings.spectral = true;
+    const Picture beams = with_engine(scene, "beams", 1).picture,
+                  reference = with_engine(scene, "reference", 1).picture;
+    for (std::size_t k = 0; k < 3; ++k) {
+        ASSERT_EQ(beams.polarised[k].size(), 1u);
+        int off = 0;
+        double largest = 0;
+        for (std::size_t i = 0; i < beams.pixels(); ++i) {
+            const double exact = static_cast<double>(reference.polarised[k][0][i]);
+            off += !(std::abs(static_cast<double>(beams.polarised[k][0][i]) - exact) < 5e-4);
+            largest = std::max(largest, std::abs(exact));
+        }
+        EXPECT_LE(off, 3) << "S" << k + 1;
+        EXPECT_GT(largest, 0.05) << "S" << k + 1;
+    }
+}
+
+struct NamedCrystal {
+    std::string name;
+    std::vector<double> n, absorption;
+    bool coherent;
+};
+
+// Merged waves go one way with the mean index. Over some six segments their rays leave that by
+// about |n1 - n2| in angle, 1e-5 here: a pixel is 0.02, so that only pixels within 1e-3 of one of
+// an edge may change, and coefficients change by 0.2 |n1 - n2| (notes on physics: Guy & Soler's
+// merging). What is coherent turns by the phase, to which a hundredth of a wave is next to nothing.
+TEST(MergedBeams, are_the_reference_where_the_split_is_small) {
+    const std::vector<NamedCrystal> crystals{
+        {"positive", {1.76, 1.76001}, {0, 0}, false},
+        {"negative, coherent", {1.76, 1.75998}, {0, 0}, true},
+        {"dichroic", {1.76, 1.76001}, {0.9, 0.05}, false},
+        {"biaxial, three colours", {1.76, 1.76001, 1.76003}, {0.9, 0.05, 0.4}, false},
+        {"biaxial, coherent", {1.76, 1.76001, 1.76003}, {0.2, 0.05, 0.4}, true}};
+    for (const NamedCrystal& crystal : crystals) {
+        SCOPED_TRACE(crystal.name);
+        Scene scene = plain_scene(round_brilliant());
+        look(scene, {0.21, 0.34, 1}, 10);
+        scene.settings.depth = 5;
+        scene.lights.lobes.push_back({glm::normalize(Vec3{0.3, 0.2, 1}), 3, {2.0, {}}});
+        give_crystal(scene, crystal.n, crystal.absorption);
+        if (crystal.coherent) {
+            scene.camera.optics.analyzer = 0.4;
+            scene.lights.polarisation = LinearPolarisation{{1, 0, 0}, {}, 1};
+            scene.settings.coherence = true;
+            scene.settings.bandwidth_nm = 10;
+        }
+        scene.settings.crystal_beams = CrystalBeams::merged;
+        const Difference d = difference(with_engine(scene, "beams", 1).picture,
+                                        with_engine(scene, "reference", 1).picture, 5e-3);
+        EXPECT_LE(d.share_off(), 5e-3) << d;
+        EXPECT_LE(d.mean, 2e-3) << d;
+    }
+}
+
+// Parted waves are exact rays at a cell's middle and first order beside it. Powers are added, as in
+// the reference without coherence; nothing is left out but what is cut.
+TEST(PartedBeams, are_the_reference_in_crystals_of_strong_split) {
+    std::mt19937_64 random(20290);
+    const std::vector<NamedCrystal> crystals{
+        {"zircon", {1.925, 1.984}, {0.05, 0.3}, false},
+        {"calcite", {1.658, 1.486}, {0, 0}, false},
+        {"biaxial", {1.654, 1.67, 1.69}, {0.3, 0, 0.1}, false}};
+    for (const NamedCrystal& crystal : crystals) {
+        SCOPED_TRACE("seed 20290, " + crystal.name);
+        Scene scene = plain_scene(random_stone(random, 12));
+        look(scene, random_direction(random), 9, 1.5);
+        scene.settings.depth = 4;
+        scene.lights.lobes.push_back({glm::normalize(Vec3{0.3, 0.2, 1}), 3, {2.0, {}}});
+        give_crystal(scene, crystal.n, crystal.absorption);
+        scene.settings.crystal_beams = CrystalBeams::parted;
+        const RenderResult beams = with_engine(scene, "beams", 1),
+                           exact = with_engine(scene, "reference", 1);
+        // Off by more than a hundredth: pixels next to edges, which a map displaces by a hundredth
+        // of a pixel or so, and next to total reflection, where first order ends.
+        const Difference d = difference(beams.picture, exact.picture, 1e-2);
+        EXPECT_LE(d.share_off(), 0.04) << d;
+        EXPECT_LE(d.mean, 5e-3) << d;
+        EXPECT_NEAR(beams.stats.remainder, exact.stats.remainder, 5e-3);
+        EXPECT_NEAR(beams.stats.absorbed, exact.stats.absorbed, 5e-3);
+    }
+}
+
+TEST(PartedBeams, see_polarised_lights_and_analysers) {
+    Scene scene = polarised_scene();
+    scene.settings.depth = 4;
+    give_crystal(scene, {1.925, 1.984}, {0, 0});
+    scene.settings.coherence = false;
+    scene.settings.crystal_beams = CrystalBeams::parted;
+    const Difference d = difference(with_engine(scene, "beams", 1).picture,
+                                    with_engine(scene, "reference", 1).picture, 1e-2);
+    EXPECT_LE(d.share_off(), 0.06) << d;
+    EXPECT_LE(d.mean, 1e-2) << d;
+}
+
+// In a constant light of 1 a pixel that the stone fills is 1 less what is still inside.
+TEST(PartedBeams, balance_in_a_furnace) {
+    Scene scene = plain_scene(round_brilliant());
+    look(scene, {0.21, 0.34, 1}, 10);
+    give_crystal(scene, {1.925, 1.984}, {0, 0});
+    scene.settings.depth = 5;
+    scene.settings.crystal_beams = CrystalBeams::parted;
+    const RenderStats stats = with_engine(scene, "beams", 16).stats;
+    // First order within a cell; weights next to total reflection bend.
+    EXPECT_NEAR(stats.mean_radiance + stats.remainder, 1, 2e-3);
+}
+
+TEST(CrystalBeams, part_where_the_two_images_are_seen_apart) {
+    Scene scene = plain_scene(round_brilliant());
+    look(scene, {0.21, 0.34, 1}, 10);
+    const auto said = [&] {
+        return with_engine(scene, "beams", 1)
+            .stats.effects[static_cast<std::size_t>(Effects::birefringence)]
+            .why;
+    };
+    scene.settings.depth = 3;
+    give_crystal(scene, {1.925, 1.984}, {0, 0});
+    EXPECT_NE(said().find("parted"), std::string::npos) << said();
+    give_crystal(scene, {1.925, 1.925001}, {0, 0});
+    EXPECT_NE(said().find("merged"), std::string::npos) << said();
+    give_crystal(scene, {1.925, 1.984}, {0, 0});
+    scene.settings.coherence = true;
+    EXPECT_NE(said().find("merged: the two waves interfere"), std::string::npos) << said();
+}
+
+}  // namespace
