@@ -131,9 +131,8 @@ public:
     }
 
 private:
-    // The face through which rays enter; from it, in a circle over its neighbours: the rays that
-    // the packet before, or the nearest of all planes the eye sees, gets wrong are looked up in
-    // all.
+    // The face through which rays enter: that of the packet before when all rays are in it, else
+    // the farthest of the planes that the eye is above. Which rays meet the stone is returned.
     HWY_INLINE M enter(const V3& origin, const V3& direction, const M& wanted, Hit& hit) {
         const Prepared::Face& guess = scene_.faces[static_cast<std::size_t>(guess_[0])];
         if (guess.front) {
@@ -150,7 +149,7 @@ private:
             const M in = hn::And(hit.meeting.towards > number(0.0f), most < number(-1e-6f));
             if (hn::AllTrue(k_floats, hn::Or(in, hn::Not(wanted)))) return wanted;
         }
-        // The farthest of the planes that the rays come in through, before any they leave through.
+        // In through the farthest of these, if that is nearer than the first plane on the way out.
         Meeting far{number(k_tiny), number(0.0f)}, near{number(k_tiny), number(1.0f)};
         V3 normal{number(0.0f), number(0.0f), number(1.0f)};
         V facet = number(0.0f);
