@@ -146,7 +146,8 @@ private:
                 most = hn::Max(most, dot(normal_of(face), at) - number(face.offset));
             }
             // In it, and by more than rounding.
-            const M in = hn::And(hit.meeting.towards > number(0.0f), most < number(-1e-6f));
+            const M in =
+                hn::And(hit.meeting.towards > number(0.0f), most < number(-1e-6f * scene_.radius));
             if (hn::AllTrue(k_floats, hn::Or(in, hn::Not(wanted)))) return wanted;
         }
         // In through the farthest of these, if that is nearer than the first plane on the way out.
