@@ -93,6 +93,9 @@ struct BeamRenderer::Work {
     std::shared_ptr<const EnvironmentMap> map;
     std::shared_ptr<const EnvironmentPyramid> pyramid;
     Canvas canvas;
+    // One a thread, with the room that it has needed so far.
+    tbb::enumerable_thread_specific<StripPainter> painters{
+        [this] { return StripPainter(stone, canvas); }};
     BeamReport report;
 
     // From radiance (or Stokes parameters) at the nodes to colour, in one strip.
@@ -223,8 +226,6 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
     const std::size_t bands = plan.bands.size();
     work.beams.resize(views.size() * bands);
     const int strips = (work.canvas.height + k_strip - 1) / k_strip;
-    tbb::enumerable_thread_specific<StripPainter> painters(
-        [&] { return StripPainter(work.stone, work.canvas); });
     StripSums whole;
     double lost = 0;
     int trees = 0;
@@ -252,8 +253,8 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
                 0, strips,
                 [&](int strip) {
                     if (v == 0) work.clear(strip);
-                    sums[static_cast<std::size_t>(strip)] =
-                        painters.local().paint(strip, views[v], beams, fronts, passes, options);
+                    sums[static_cast<std::size_t>(strip)] = work.painters.local().paint(
+                        strip, views[v], beams, fronts, passes, options);
                     if (v + 1 == views.size()) work.develop(strip, picture);
                 },
                 tbb::simple_partitioner());

@@ -131,7 +131,9 @@ private:
             const V3 across{number(side->x), number(side->y), number(side->z)};
             most = hn::Max(most, dot(across, ray_.point) - number(side->offset));
         }
-        return most <= number(0.0f);
+        // By more than single precision's rounding over a long path: nearer ones are looked at
+        // again.
+        return most <= number(-1e-6f * stone_.size);
     }
 
     // The next point's change: it stays in the plane.

@@ -26,7 +26,8 @@ struct AreaGrid {
 
 class PixelCoverage {
 public:
-    explicit PixelCoverage(int width) : width_(width) {}
+    explicit PixelCoverage(int width = 1) : width_(width) {}
+    void set_width(int width) { width_ = width; }
 
     /// Exact areas, to single precision, of a convex, positively oriented region within rows
     /// [row_begin, row_end): every edge adds what lies to the right of it, row by row.

@@ -47,30 +47,6 @@ int RegionSplitter::exit_of(int from, const Vec3& x, const Vec3& d) {
     return best;
 }
 
-const ScreenImage& RegionSplitter::image(int corner) {
-    const std::size_t i = static_cast<std::size_t>(corner);
-    if (stamp_of_corner_[i] != stamp_) {
-        stamp_of_corner_[i] = stamp_;
-        images_[i] = view_->map.of(net_->corners()[i]);
-    }
-    return images_[i];
-}
-
-const Vec3& RegionSplitter::line(const NetEdge& edge) {
-    const std::size_t i = static_cast<std::size_t>(edge.line);
-    if (stamp_of_line_[i] != stamp_) {
-        stamp_of_line_[i] = stamp_;
-        const int low = std::min(edge.from, edge.to), high = std::max(edge.from, edge.to);
-        lines_[i] = glm::cross(image(low), image(high));
-    }
-    return lines_[i];
-}
-
-bool RegionSplitter::leads_out(int facet) const {
-    const Plane& plane = net_->plane(facet);
-    return glm::dot(plane.normal, view_->eye) - view_->eye_weight * plane.offset < 0;
-}
-
 // The edge beyond which the point is seen, if it is not on the facet.
 const NetEdge* RegionSplitter::way_to(int facet, const ScreenPoint& point) {
     for (const NetEdge& edge : net_->edges(facet)) {

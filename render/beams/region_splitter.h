@@ -1,6 +1,7 @@
 #pragma once
 // Which facets the rays of a region meet next, and where each does.
 
+#include <algorithm>
 #include <vector>
 
 #include "render/beams/facet_net.h"
@@ -41,14 +42,34 @@ public:
                int from, int start, const ScreenPoint& middle, std::vector<FacetRegion>& parts);
 
 private:
-    const ScreenImage& image(int corner);
-    const Vec3& line(const NetEdge& edge);
+    // Kept here, where they can be compiled into their callers: they are asked a hundred times a
+    // beam.
+    const ScreenImage& image(int corner) {
+        const std::size_t i = static_cast<std::size_t>(corner);
+        if (stamp_of_corner_[i] != stamp_) {
+            stamp_of_corner_[i] = stamp_;
+            images_[i] = view_->map.of(net_->corners()[i]);
+        }
+        return images_[i];
+    }
+    const Vec3& line(const NetEdge& edge) {
+        const std::size_t i = static_cast<std::size_t>(edge.line);
+        if (stamp_of_line_[i] != stamp_) {
+            stamp_of_line_[i] = stamp_;
+            const int low = std::min(edge.from, edge.to), high = std::max(edge.from, edge.to);
+            lines_[i] = glm::cross(image(low), image(high));
+        }
+        return lines_[i];
+    }
     // Of the line's two sides, the one that the facet is on: +1 for the line as it is.
     int inside_of(const NetEdge& edge) const {
         return edge.from < edge.to ? view_->parity : -view_->parity;
     }
     // True when the view sees the facet from within.
-    bool leads_out(int facet) const;
+    bool leads_out(int facet) const {
+        const Plane& plane = net_->plane(facet);
+        return glm::dot(plane.normal, view_->eye) - view_->eye_weight * plane.offset < 0;
+    }
     const NetEdge* way_to(int facet, const ScreenPoint& point);
     int facet_around(int start, const ScreenPoint& point);
     void tile(std::vector<ScreenPoint>& pool, const Region& region, int from, int start,

@@ -330,6 +330,7 @@ StripSums StripPainter::paint(int strip, const ScreenView& view, const SortedBea
                               const std::vector<ShadingPass>& passes, const PaintOptions& options) {
     view_ = &view;
     options_ = options;
+    coverage_.set_width(canvas_.width);
     row_begin_ = strip * k_strip;
     row_end_ = std::min(row_begin_ + k_strip, canvas_.height);
     sums_ = {};

@@ -75,8 +75,7 @@ struct PaintOptions {
 /// One thread's tools.
 class StripPainter {
 public:
-    StripPainter(const PaintedStone& stone, Canvas& canvas)
-        : stone_(stone), canvas_(canvas), coverage_(canvas.width) {}
+    StripPainter(const PaintedStone& stone, Canvas& canvas) : stone_(stone), canvas_(canvas) {}
 
     /// Adds what `view` sees in strip number `strip`; `beams`: the view's sets.
     /// `fronts`: its front facets.
