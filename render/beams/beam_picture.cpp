@@ -32,7 +32,10 @@ constexpr double k_cut_share = 1 / 4e5;
 // Beams alone in their pixel, as a multiple of the tolerance: what they bring to it is some ten
 // times as much, and as often too bright as too dark.
 constexpr double k_alone = 10;
+// Previews have one colour a beam, which is off by far more than a beam's borders, and by more than
+// beams that bring less than that much to a pixel.
 constexpr double k_preview_map_error = 1;  // pixels
+constexpr double k_preview_alone = 2;      // square pixels
 // Merged images that lie this far apart are off by as much: a tenth of a pixel at edges.
 constexpr double k_seen_apart = 0.1;  // pixels
 
@@ -76,8 +79,10 @@ BeamSettings beam_settings(const Scene& scene, const PathLimits& limits) {
                        : scene.settings.samples == 1 && scene.camera.aperture_radius == 0
                            ? BeamShading::single
                            : BeamShading::averaged;
-    // Flat colours are off by far more than a beam's borders.
-    if (settings.shading == BeamShading::flat) settings.limits.map_error = k_preview_map_error;
+    if (settings.shading == BeamShading::flat) {
+        settings.limits.map_error = k_preview_map_error;
+        settings.limits.alone = k_preview_alone;
+    }
     return settings;
 }
 

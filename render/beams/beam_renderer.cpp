@@ -158,9 +158,7 @@ void BeamRenderer::Work::develop(int strip, Picture& picture) const {
                           width;
     float* rgb = picture.rgb.data();
     if (rgb_of_plane.size() == 1) {
-        const float* plane = canvas.planes.data();
-        for (std::size_t i = begin; i < end; ++i)
-            rgb[3 * i] = rgb[3 * i + 1] = rgb[3 * i + 2] = plane[i];
+        spread_to_rgb(canvas.planes.data() + begin, end - begin, rgb + 3 * begin);
         return;
     }
     std::fill(rgb + 3 * begin, rgb + 3 * end, 0.0f);

@@ -1,5 +1,7 @@
 #include "render/beams/beam_shading.h"
 
+#include <algorithm>
+
 #include "render/band.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -16,6 +18,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace culet {
 namespace HWY_NAMESPACE {
+
+constexpr int k_most_lanes = 64;
 
 template <bool kPolarised, bool kSoft, bool kMany, bool kGeneral>
 void follow_all(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
@@ -43,9 +47,12 @@ void ShadeBeam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t*
     follow(job, eye, facets, facet_count, fragments);
 }
 
+// What rounding leaves of a whole pixel.
+constexpr float k_filled = 1 - 1e-5f;
+
 template <bool kSoft>
 void background(const ShadedLights& lights, const ShadedOptics& optics, const ShadedEye& eye,
-                const Fragments& fragments) {
+                const BareRow& row) {
     const int lanes = static_cast<int>(hn::Lanes(k_floats));
     const V3 vx = vector(eye.direction_x), vy = vector(eye.direction_y);
     const V3 ox = vector(eye.origin_x), oy = vector(eye.origin_y);
@@ -59,9 +66,21 @@ void background(const ShadedLights& lights, const ShadedOptics& optics, const Sh
         direct.Q = number((*optics.response)[1]);
         direct.U = number(-(*optics.response)[2]);
     }
-    for (int first = 0; first < fragments.count; first += lanes) {
-        const V dx = hn::LoadU(k_floats, fragments.x + first),
-                dy = hn::LoadU(k_floats, fragments.y + first);
+    const V dy = number(row.y);
+    for (int first = 0; first < row.count; first += lanes) {
+        const int here = std::min(lanes, row.count - first);
+        HWY_ALIGN float part[k_most_lanes];
+        const float* cover = row.cover + first;
+        if (here < lanes) {
+            std::copy_n(cover, here, part);
+            std::fill(part + here, part + lanes, 1.0f);
+            cover = part;
+        }
+        const V covered = hn::LoadU(k_floats, cover);
+        const M open = covered < number(k_filled);
+        if (hn::AllFalse(k_floats, open)) continue;
+        const V bare = hn::IfThenElseZero(open, number(row.factor) * (number(1.0f) - covered));
+        const V dx = hn::Iota(k_floats, row.x + static_cast<float>(first));
         const V3 v = plus(plus(vector(eye.direction), dx, vx), dy, vy);
         const V over = number(1.0f) / hn::Sqrt(dot(v, v));
         const V3 along = over * v;
@@ -79,10 +98,15 @@ void background(const ShadedLights& lights, const ShadedOptics& optics, const Sh
         for (int i = 0; i < lights.nodes; ++i) sum[i] = number(0.0f);
         Gather<true> gather{lights, sum, direct};
         all_light<kSoft>(lights, ray, gather);
-        for (int i = 0; i < lights.nodes; ++i)
-            hn::StoreU(sum[i], k_floats,
-                       fragments.radiance +
-                           static_cast<size_t>(i) * static_cast<size_t>(fragments.stride) + first);
+        for (int i = 0; i < lights.nodes; ++i) {
+            float* to = row.radiance + static_cast<size_t>(i) * row.stride + first;
+            if (here == lanes) {
+                hn::StoreU(hn::MulAdd(bare, sum[i], hn::LoadU(k_floats, to)), k_floats, to);
+            } else {
+                hn::Store(bare * sum[i], k_floats, part);
+                for (int k = 0; k < here; ++k) to[k] += part[k];
+            }
+        }
     }
 }
 
@@ -149,11 +173,11 @@ void ShadeLeaving(const ShadedLights& lights, const ShadedLeaving& beam,
 }
 
 void ShadeBackground(const ShadedLights& lights, const ShadedOptics& optics, const ShadedEye& eye,
-                     const Fragments& fragments) {
-    if (fragments.soft && lights.any_edge) {
-        background<true>(lights, optics, eye, fragments);
+                     const BareRow& row) {
+    if (row.soft && lights.any_edge) {
+        background<true>(lights, optics, eye, row);
     } else {
-        background<false>(lights, optics, eye, fragments);
+        background<false>(lights, optics, eye, row);
     }
 }
 
@@ -174,8 +198,8 @@ void shade_beam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t
 }
 
 void shade_background(const ShadedLights& lights, const ShadedOptics& optics, const ShadedEye& eye,
-                      const Fragments& fragments) {
-    HWY_DYNAMIC_DISPATCH(ShadeBackground)(lights, optics, eye, fragments);
+                      const BareRow& row) {
+    HWY_DYNAMIC_DISPATCH(ShadeBackground)(lights, optics, eye, row);
 }
 
 void shade_leaving(const ShadedLights& lights, const ShadedLeaving& beam,

@@ -56,6 +56,8 @@ struct ShadedOptics {
     /// What the eye responds to of the four Stokes parameters (stokes.h); none: S0 of unpolarised
     /// lights.
     std::optional<std::array<float, 4>> response;
+
+    bool absorbs() const { return crystal || !absorption.empty(); }
 };
 
 /// Eye rays about one of them, at the beam's first facet. All about the stone's middle.
@@ -84,8 +86,8 @@ struct Fragments {
     /// Where near lights may stand before the stone: the share of a pixel that they leave free, and
     /// their own radiance, likewise by node. Both or none.
     float *unhidden = nullptr, *before = nullptr;
-    /// 1 where the ray does meet these facets and no others; null: not looked at.
-    std::uint8_t* follows = nullptr;
+    /// 1 where the ray does meet these facets and no others, else 0; null: not looked at.
+    float* follows = nullptr;
     bool soft = false;  ///< lights' edges are averaged over a pixel
 };
 constexpr int k_shading_room = 16;
@@ -113,10 +115,20 @@ struct ShadedLeaving {
 void shade_leaving(const ShadedLights& lights, const ShadedLeaving& leaving,
                    const Fragments& fragments);
 
-/// Lights seen by the eye itself: `fragments` are of a view whose reference ray starts at
+/// One row of pixels and how much of each the stone fills.
+struct BareRow {
+    float x = 0, y = 0;  ///< the first pixel's middle, from the eye ray of reference
+    int count = 0;
+    const float* cover = nullptr;
+    float* radiance = nullptr;  ///< node * stride + pixel: added to
+    std::size_t stride = 0;
+    float factor = 1;
+    bool soft = false;
+};
+/// Adds the lights that the eye itself sees beside the stone; its reference ray starts at
 /// `eye.point`.
 void shade_background(const ShadedLights& lights, const ShadedOptics& optics, const ShadedEye& eye,
-                      const Fragments& fragments);
+                      const BareRow& row);
 
 /// Instruction sets that this processor has of those that were compiled, best first; the first is
 /// used. "EMU128" or "SSE2" is the portable one.

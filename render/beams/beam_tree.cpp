@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "render/beams/region_splitter.h"
@@ -15,9 +16,10 @@ namespace culet {
 
 namespace {
 
-// Regions up to so many square pixels need not be looked at: a map is off by about the square of a
-// region's size, and by 1e-4 of it where that is 100 pixels.
-constexpr double k_surely_small = 200;
+// Regions up to so many square pixels, times a pixel's angle, need not be looked at: a map is off
+// by about the square of the angle that a region fills.
+constexpr double k_surely_small = 0.046;
+constexpr double k_surely_right = 0.25;  // pixels
 constexpr int k_most_halvings = 12;
 
 double mean_reflectance(double n, double cosine) {
@@ -29,6 +31,7 @@ double mean_reflectance(double n, double cosine) {
 struct Trunk {
     FacetRegion part;   // the facet met last
     double weight = 1;  // of what goes on behind the facet before that
+    bool sure = true;   // no border is off by more than k_surely_right
 };
 
 // Grows the beams below one beam, and keeps the room for it.
@@ -41,6 +44,9 @@ public:
         n_ = n;
         limits_ = &limits;
         least_ = limits.cut_share * front_area;
+        const ScreenPoint centre{0.5 * view.width, 0.5 * view.height};
+        const double pixel = glm::length(view.vx) / glm::length(view.towards(centre));
+        small_ = pixel > 0 ? k_surely_small / pixel : std::numeric_limits<double>::infinity();
         grown_ = &grown;
         splitter_.prepare(net);
     }
@@ -93,6 +99,7 @@ private:
         beam.corners = static_cast<std::uint16_t>(trunk.part.region.count);
         beam.facet = static_cast<std::uint32_t>(out_->facets.size());
         beam.facets = static_cast<std::uint16_t>(path_.size());
+        beam.sure = trunk.sure;
         double low = corners[0].y, high = low;
         for (std::size_t i = 1; i < trunk.part.region.count; ++i) {
             low = std::min(low, corners[i].y);
@@ -208,25 +215,30 @@ private:
         inside.eye_weight = k;
         inside.parity = path_.size() % 2 == 1 ? 1 : -1;
 
-        if (halvings > 0 && trunk.part.doubled_area > 2 * k_surely_small &&
-            map_error(inside.map, trunk.part.region, folding, exit) > limits_->map_error) {
-            halve(trunk, folding, halvings - 1);
-            return;
+        bool sure = trunk.sure;
+        if (limits_->refraction != Refraction::astigmatic) {
+            sure = false;
+        } else if (trunk.part.doubled_area > 2 * small_) {
+            const double error = map_error(inside.map, trunk.part.region, folding, exit);
+            if (halvings > 0 && error > limits_->map_error) {
+                halve(trunk, folding, halvings - 1);
+                return;
+            }
+            sure = sure && error <= k_surely_right;
         }
         parts_.clear();
         splitter_.split(inside, pool_, trunk.part.region, trunk.part.facet, exit, middle, parts_);
-        for (const FacetRegion& part : parts_) children_.push_back({part, trunk.weight});
+        for (const FacetRegion& part : parts_) children_.push_back({part, trunk.weight, sure});
     }
 
     // How far the map is off, in pixels, at the region's corners.
     double map_error(const PencilMap& map, const Region& region, const Folding& folding,
                      int exit) const {
-        if (limits_->refraction != Refraction::astigmatic) return 0;
-        const Plane& hit = net_->plane(exit);
+        const Plane &hit = net_->plane(exit), &front = net_->plane(path_.front());
         double most = 0;
         for (std::size_t i = 0; i < region.count; ++i) {
             const ScreenPoint& corner = pool_[region.first + i];
-            const Pencil exact = pencil_through(*view_, corner, net_->plane(path_.front()), n_);
+            const InsideRay exact = ray_through(*view_, corner, front, n_);
             const Vec3 d = folding.turn * exact.direction, o = folding.point(exact.x0);
             const double into = glm::dot(hit.normal, d);
             if (!(into > 0)) continue;
@@ -272,7 +284,7 @@ private:
     const FacetNet* net_ = nullptr;
     const ScreenView* view_ = nullptr;
     const BeamLimits* limits_ = nullptr;
-    double n_ = 1, least_ = 0;
+    double n_ = 1, least_ = 0, small_ = 0;
     std::atomic<long long>* grown_ = nullptr;  // in all branches
     long long counted_ = 0;                    // of this branch, in that
     BeamBranch* out_ = nullptr;

@@ -36,6 +36,7 @@ struct Beam {
     std::uint32_t corner = 0, facet = 0;      ///< the first of each in its BeamBranch
     std::uint16_t corners = 0, facets = 0;    ///< how many
     bool alone = false;                       ///< its middle ray speaks for all of it
+    bool sure = true;                         ///< no border is off by more than 1/4 pixel
     std::int32_t first_row = 0, end_row = 0;  ///< of pixels that it touches
 };
 

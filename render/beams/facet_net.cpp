@@ -43,6 +43,10 @@ FacetNet::FacetNet(const Solid& convex) : size_(diameter(convex)) {
             edge.line = line->second;
         }
     }
+    for (const std::vector<NetEdge>& edges : edges_) {
+        std::vector<NetNeighbour>& beyond = neighbours_.emplace_back();
+        for (const NetEdge& edge : edges) beyond.push_back({plane(edge.beyond), edge.beyond});
+    }
 }
 
 }  // namespace culet

@@ -15,6 +15,12 @@ struct NetEdge {
     int line = 0;          ///< the same number for both facets that share the edge
 };
 
+/// What lies beyond one of a facet's edges.
+struct NetNeighbour {
+    Plane plane;
+    int facet = 0;
+};
+
 /// Corners are the meets of the planes, which alone are the truth: meets that miss each other by
 /// little are held apart, with short edges between them. Edges shorter than the root of the
 /// rounding unit times the diameter have no direction worth the name (a corner's own rounding turns
@@ -31,12 +37,17 @@ public:
     const std::vector<NetEdge>& edges(int facet) const {
         return edges_[static_cast<std::size_t>(facet)];
     }
+    /// Of each edge, in the same order.
+    const std::vector<NetNeighbour>& neighbours(int facet) const {
+        return neighbours_[static_cast<std::size_t>(facet)];
+    }
     const std::vector<Vec3>& corners() const { return corners_; }
     double size() const { return size_; }
 
 private:
     std::vector<Plane> planes_;
     std::vector<std::vector<NetEdge>> edges_;
+    std::vector<std::vector<NetNeighbour>> neighbours_;
     std::vector<Vec3> corners_;
     int lines_ = 0;
     double size_ = 0;

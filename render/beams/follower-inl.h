@@ -104,13 +104,8 @@ public:
         }
         if (out_.absorbed != nullptr)
             hn::StoreU(absorbed * uncovered_, k_floats, out_.absorbed + first);
-        if (out_.follows != nullptr) {
-            const size_t lanes = hn::Lanes(k_floats);
-            HWY_ALIGN float yes[64];
-            hn::Store(hn::IfThenElseZero(follows_, number(1.0f)), k_floats, yes);
-            for (size_t i = 0; i < lanes; ++i)
-                out_.follows[static_cast<size_t>(first) + i] = yes[i] > 0;
-        }
+        if (out_.follows != nullptr)
+            hn::StoreU(hn::IfThenElseZero(follows_, number(1.0f)), k_floats, out_.follows + first);
     }
 
 private:

@@ -15,24 +15,45 @@ Folding Folding::mirrored(const Plane& plane) const {
     return next;
 }
 
+namespace {
+
+// A ray at a face: towards it, and on behind it.
+struct Refracted {
+    Vec3 v{0}, x0{0};  // unit direction outside, and where it enters
+    double distance = 0, cos_i = 1, q2 = 0;
+};
+Refracted refracted(const ScreenView& view, const ScreenPoint& at, const Plane& front, double n) {
+    Refracted ray;
+    const Vec3 origin = view.origin(at), towards = view.towards(at);
+    ray.v = towards / glm::length(towards);
+    ray.cos_i = -glm::dot(ray.v, front.normal);
+    ray.distance = (glm::dot(front.normal, origin) - front.offset) / ray.cos_i;
+    ray.x0 = origin + ray.distance * ray.v;
+    ray.q2 = std::sqrt((n - 1) * (n + 1) + ray.cos_i * ray.cos_i);
+    return ray;
+}
+
+}  // namespace
+
+InsideRay ray_through(const ScreenView& view, const ScreenPoint& at, const Plane& front, double n) {
+    const Refracted ray = refracted(view, at, front, n);
+    return {ray.x0, (ray.v + (ray.cos_i - ray.q2) * front.normal) / n};
+}
+
 Pencil pencil_through(const ScreenView& view, const ScreenPoint& at, const Plane& front, double n) {
+    const Refracted ray = refracted(view, at, front, n);
     Pencil p;
     p.normal = front.normal;
-    const Vec3 origin = view.origin(at), towards = view.towards(at);
-    const double length = glm::length(towards);
-    const Vec3 v = towards / length;
-    p.cos_i = -glm::dot(v, p.normal);
-    const double distance = height_above(front, origin) / p.cos_i;
-    p.x0 = origin + distance * v;
-    const double q2 = std::sqrt((n - 1) * (n + 1) + p.cos_i * p.cos_i);
-    p.direction = (v + (p.cos_i - q2) * p.normal) / n;
-    p.cos_t = q2 / n;
-    const Vec3 along = v + p.cos_i * p.normal;
+    p.x0 = ray.x0;
+    p.direction = (ray.v + (ray.cos_i - ray.q2) * p.normal) / n;
+    p.cos_i = ray.cos_i;
+    p.cos_t = ray.q2 / n;
+    const Vec3 along = ray.v + p.cos_i * p.normal;
     const double sine = glm::length(along);
     p.tangential = sine > 1e-14 ? along / sine : perpendicular_to(p.normal);
     p.sagittal = glm::cross(p.normal, p.tangential);
     if (!view.parallel) {
-        p.k_s = 1 / (n * distance * p.cos_t);
+        p.k_s = 1 / (n * ray.distance * p.cos_t);
         const double ratio = p.cos_i / p.cos_t;
         p.k_t = p.k_s * ratio * ratio;
     }

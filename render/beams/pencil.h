@@ -33,9 +33,13 @@ struct Folding {
 };
 
 /// One eye ray inside the stone, unfolded.
-struct Pencil {
+struct InsideRay {
     Vec3 x0{0}, direction{0};  ///< entry, and unit direction inside
-    Vec3 normal{0};            ///< of the front facet, outwards
+};
+
+/// One eye ray inside the stone, and those about it.
+struct Pencil : InsideRay {
+    Vec3 normal{0};  ///< of the front facet, outwards
     Vec3 tangential{0}, sagittal{0};
     double cos_i = 1, cos_t = 1, k_t = 0, k_s = 0;
     ScreenImage image_x0{0}, image_t{0}, image_s{0};
@@ -43,6 +47,7 @@ struct Pencil {
 
 /// The ray of `view` through `at`, refracted at the plane into the index `n` (over the outside's).
 Pencil pencil_through(const ScreenView& view, const ScreenPoint& at, const Plane& front, double n);
+InsideRay ray_through(const ScreenView& view, const ScreenPoint& at, const Plane& front, double n);
 
 /// Image of points of the stone that `folding` leads to, as rows of a 3 x 4 matrix.
 struct PencilMap {

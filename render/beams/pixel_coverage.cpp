@@ -5,62 +5,183 @@
 
 #include "render/beams/beam_shading.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/beams/pixel_coverage.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h; clang-format must not sort them.
+#include "render/beams/vectors-inl.h"
+
+#ifndef CULET_RENDER_BEAMS_PIXEL_COVERAGE
+#define CULET_RENDER_BEAMS_PIXEL_COVERAGE
 namespace culet {
 
-namespace {
+struct RegionBox {
+    int pixel = 0, width = 0;  // of the box's first row, and from row to row
+    int columns = 0, rows = 0;
+    float x = 0, y = 0;  // of its first pixel's middle, from the point of reference
+};
+
+// Numbers of one edge, or of the region, in each of some rows.
+constexpr std::size_t k_row_numbers = 5;
+
+}  // namespace culet
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace culet {
+namespace HWY_NAMESPACE {
 
 // What rounding leaves of no area at all, and of a whole pixel.
 constexpr float k_nothing = 1e-6f, k_whole = 1 - 4e-6f;
 
-// Of numbers that are not negative.
-int floor_of(float v) {
-    return static_cast<int>(v);
-}
-int ceil_of(float v) {
-    const int whole = static_cast<int>(v);
-    return whole + (static_cast<float>(whole) < v);
+// `numbers` has room for `edge_count` + 1 blocks of k_row_numbers * lanes.
+void FindAreas(const PixelCoverage::Edge* edges, std::size_t edge_count, const RegionBox& box,
+               float* numbers, CoveredPixels& found) {
+    using Edge = PixelCoverage::Edge;
+    const std::size_t lanes = hn::Lanes(k_floats), block = k_row_numbers * lanes;
+    const V zero = number(0.0f), one = number(1.0f);
+    const float widest = static_cast<float>(box.columns);
+    float *xs = found.x.data(), *ys = found.y.data(), *shares = found.share.data();
+    int n = 0;
+    for (int row0 = 0; row0 < box.rows; row0 += static_cast<int>(lanes)) {
+        // Each edge in many rows: between which x it crosses, over which signed height.
+        const V top = hn::Iota(k_floats, static_cast<float>(row0)), end = top + one;
+        V left = number(widest), right = zero, full_left = zero, full_right = left, height = zero;
+        for (std::size_t e = 0; e < edge_count; ++e) {
+            const Edge& edge = edges[e];
+            const V x_end = number(edge.x_end), y_end = number(edge.y_end),
+                    x_top = number(edge.x_top), y_top = number(edge.y_top);
+            const V ya = hn::Max(y_top, top), yb = hn::Min(y_end, end);
+            const V over = hn::Max(yb - ya, zero);
+            const M active = over > zero;
+            const V slope = number(edge.slope);
+            const V widest_x = number(widest);
+            const V xa = hn::Min(hn::Max(hn::MulAdd(ya - y_top, slope, x_top), zero), widest_x);
+            const V xb = hn::IfThenElse(
+                yb == y_end, x_end,
+                hn::Min(hn::Max(hn::MulAdd(yb - y_top, slope, x_top), zero), widest_x));
+            const V low = hn::Min(xa, xb);
+            // An upright edge is as wide as rounding.
+            const V high =
+                hn::Max(hn::Max(xa, xb), hn::MulAdd(low, number(1.2e-7f), low) + number(1e-7f));
+            float* of_edge = numbers + e * block;
+            hn::StoreU(low, k_floats, of_edge);
+            hn::StoreU(one / (high - low), k_floats, of_edge + lanes);
+            hn::StoreU(number(0.5f) * (high - low), k_floats, of_edge + 2 * lanes);
+            hn::StoreU(number(edge.sign) * over, k_floats, of_edge + 3 * lanes);
+            left = hn::Min(left, hn::IfThenElse(active, low, left));
+            right = hn::Max(right, hn::IfThenElseZero(active, high));
+            if (edge.sign > 0) {
+                full_left = hn::Max(full_left, hn::IfThenElseZero(active, high));
+                height = height + over;
+            } else {
+                full_right = hn::Min(full_right, hn::IfThenElse(active, low, full_right));
+            }
+        }
+        float* of_rows = numbers + edge_count * block;
+        hn::StoreU(hn::Floor(left), k_floats, of_rows);
+        hn::StoreU(hn::Min(hn::Ceil(right), number(widest)), k_floats, of_rows + lanes);
+        hn::StoreU(hn::Ceil(full_left), k_floats, of_rows + 2 * lanes);
+        hn::StoreU(hn::Floor(full_right), k_floats, of_rows + 3 * lanes);
+        hn::StoreU(height, k_floats, of_rows + 4 * lanes);
+
+        const int rows = std::min(static_cast<int>(lanes), box.rows - row0);
+        for (int row = 0; row < rows; ++row) {
+            const float* of_row = of_rows + row;
+            const float first = of_row[0], last = of_row[lanes], full_first = of_row[2 * lanes],
+                        full_last = of_row[3 * lanes];
+            if (!(first < last)) continue;
+            const V y = number(box.y + static_cast<float>(row0 + row));
+            const V all = number(of_row[4 * lanes]);
+            const float step = static_cast<float>(lanes);
+            int at = n;
+            for (float x = first; x < last; x += step, at += static_cast<int>(lanes)) {
+                const V pixel = hn::Iota(k_floats, x);
+                V share = all;
+                if (!(x >= full_first && x + step <= full_last)) {
+                    share = zero;
+                    for (std::size_t e = 0; e < edge_count; ++e) {
+                        const float* of_edge = numbers + e * block + row;
+                        // How much of the edge lies left of the pixel, and left of its right side.
+                        const V in = pixel - number(of_edge[0]);
+                        const V over_width = number(of_edge[lanes]);
+                        const V before = clamped_to_unit(in * over_width),
+                                until = clamped_to_unit((in + one) * over_width);
+                        const V beside =
+                            hn::NegMulAdd(number(of_edge[2 * lanes]), before + until, in + one);
+                        share = hn::MulAdd(number(of_edge[3 * lanes]),
+                                           hn::MulAdd(until - before, beside, before), share);
+                    }
+                    share = hn::Max(share, zero);
+                }
+                share = hn::IfThenElse(share > number(k_whole), one, share);
+                hn::StoreU(share, k_floats, shares + at);
+                hn::StoreU(pixel + number(box.x), k_floats, xs + at);
+                hn::StoreU(y, k_floats, ys + at);
+            }
+            const int columns = static_cast<int>(last - first);
+            int count = columns, skipped = 0;
+            while (count > 0 && !(shares[n + count - 1] > k_nothing)) --count;
+            while (skipped < count && !(shares[n + skipped] > k_nothing)) ++skipped;
+            if (skipped == count) continue;
+            found.runs.push_back(
+                {box.pixel + (row0 + row) * box.width + static_cast<int>(first) + skipped,
+                 n + skipped, count - skipped});
+            // Skipped places stay, with nothing in them.
+            for (int i = 0; i < skipped; ++i) shares[n + i] = 0;
+            n += count;
+        }
+    }
+    found.count = n;
 }
 
-// Adds, for each pixel of one row, the area to the right of an edge from x to x_next, which spans
-// the signed height `d`; as differences from pixel to pixel.
-void add_edge(float* row, float x, float x_next, float d) {
-    const float low = std::min(x, x_next), high = std::max(x, x_next);
-    const int first = floor_of(low), last = ceil_of(high);
-    const float low_floor = static_cast<float>(first);
-    if (last <= first + 1) {
-        const float across = 0.5f * (x + x_next) - low_floor;
-        row[first] += d - d * across;
-        row[first + 1] += d * across;
-        return;
+// Places and shares of whole pixels; a run's y is that of its row.
+void FillRuns(const RegionBox& box, CoveredPixels& found) {
+    const int lanes = static_cast<int>(hn::Lanes(k_floats));
+    const V one = number(1.0f);
+    for (const PixelRun& run : found.runs) {
+        const int in_box = run.pixel - box.pixel, row = in_box / box.width,
+                  column = in_box - row * box.width;
+        const V y = number(box.y + static_cast<float>(row));
+        float *xs = found.x.data() + run.first, *ys = found.y.data() + run.first,
+              *shares = found.share.data() + run.first;
+        for (int i = 0; i < run.count; i += lanes) {
+            hn::StoreU(hn::Iota(k_floats, static_cast<float>(column + i)) + number(box.x), k_floats,
+                       xs + i);
+            hn::StoreU(y, k_floats, ys + i);
+            hn::StoreU(one, k_floats, shares + i);
+        }
     }
-    const float slope = 1 / (high - low), in = low - low_floor,
-                out = high - static_cast<float>(last) + 1;
-    const float begin = 0.5f * slope * (1 - in) * (1 - in), end = 0.5f * slope * out * out;
-    row[first] += d * begin;
-    if (last == first + 2) {
-        row[first + 1] += d * (1 - begin - end);
-    } else {
-        const float second = slope * (1.5f - in);
-        row[first + 1] += d * (second - begin);
-        for (int i = first + 2; i < last - 1; ++i) row[i] += d * slope;
-        row[last - 1] += d * (1 - (second + static_cast<float>(last - first - 3) * slope) - end);
-    }
-    row[last] += d * end;
 }
 
-}  // namespace
+std::size_t LanesHere() {
+    return hn::Lanes(k_floats);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace culet
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace culet {
+
+HWY_EXPORT(FindAreas);
+HWY_EXPORT(FillRuns);
+HWY_EXPORT(LanesHere);
 
 void PixelCoverage::reserve(std::size_t pixels) {
     pixels += k_shading_room;
-    if (found_.pixel.size() >= pixels) return;
-    found_.pixel.resize(pixels);
+    if (found_.x.size() >= pixels) return;
     found_.x.resize(pixels);
     found_.y.resize(pixels);
     found_.share.resize(pixels);
 }
 
-AreaGrid PixelCoverage::areas(const ScreenPoint* corners, std::size_t count, int row_begin,
-                              int row_end) {
+const CoveredPixels& PixelCoverage::areas(const ScreenPoint* corners, std::size_t count,
+                                          const ScreenPoint& reference, int row_begin,
+                                          int row_end) {
+    found_.count = 0;
+    found_.runs.clear();
     double x_low = corners[0].x, x_high = x_low, y_low = corners[0].y, y_high = y_low;
     for (std::size_t i = 1; i < count; ++i) {
         x_low = std::min(x_low, corners[i].x);
@@ -72,75 +193,32 @@ AreaGrid PixelCoverage::areas(const ScreenPoint* corners, std::size_t count, int
               x1 = std::clamp(static_cast<int>(std::ceil(x_high)), x0 + 1, width_),
               y0 = std::max(static_cast<int>(std::floor(y_low)), row_begin),
               y1 = std::min(static_cast<int>(std::ceil(y_high)), row_end);
-    if (y0 >= y1) return {};
-    const std::size_t stride = static_cast<std::size_t>(x1 - x0 + 2);
-    sums_.assign(stride * static_cast<std::size_t>(y1 - y0), 0.0f);
+    if (y0 >= y1) return found_;
     // In the region's own corner, where single precision has digits to spare.
     const auto local = [&](const ScreenPoint& p) {
         return std::pair{
             static_cast<float>(std::clamp(p.x - x0, 0.0, static_cast<double>(x1 - x0))),
             static_cast<float>(p.y - y0)};
     };
-    const float height = static_cast<float>(y1 - y0);
+    edges_.clear();
     auto [xa, ya] = local(corners[count - 1]);
     for (std::size_t i = 0; i < count; ++i) {
         const auto [xb, yb] = local(corners[i]);
-        if (ya != yb) {
-            // Positively oriented: edges that run up (in y) have the region on their left.
-            const float sign = ya < yb ? -1.0f : 1.0f;
-            const float xt = ya < yb ? xa : xb, yt = ya < yb ? ya : yb, xe = ya < yb ? xb : xa,
-                        ye = ya < yb ? yb : ya;
-            if (ye > 0 && yt < height) {
-                const float slope = (xe - xt) / (ye - yt);
-                const float widest = static_cast<float>(x1 - x0);
-                float y = std::max(yt, 0.0f);
-                const int row0 = floor_of(y), row1 = std::min(y1 - y0, ceil_of(ye));
-                float x = std::clamp(xt + (y - yt) * slope, 0.0f, widest);
-                for (int row = row0; row < row1; ++row) {
-                    const float until = std::min(static_cast<float>(row + 1), ye);
-                    const float x_next =
-                        until == ye ? xe : std::clamp(xt + (until - yt) * slope, 0.0f, widest);
-                    add_edge(sums_.data() + static_cast<std::size_t>(row) * stride, x, x_next,
-                             sign * (until - y));
-                    x = x_next;
-                    y = until;
-                }
-            }
-        }
+        // Positively oriented: edges that run up (in y) have the region on their left.
+        if (ya < yb) edges_.push_back({xa, ya, xb, yb, (xb - xa) / (yb - ya), -1.0f});
+        if (ya > yb) edges_.push_back({xb, yb, xa, ya, (xa - xb) / (ya - yb), 1.0f});
         xa = xb;
         ya = yb;
     }
-    for (int row = 0; row < y1 - y0; ++row) {
-        float* sums = sums_.data() + static_cast<std::size_t>(row) * stride;
-        float area = 0;
-        for (int column = 0; column < x1 - x0; ++column) {
-            area += sums[column];
-            sums[column] = area;
-        }
-    }
-    return {x0, y0, x1 - x0, y1 - y0, sums_.data(), static_cast<int>(stride)};
-}
-
-const CoveredPixels& PixelCoverage::touched(const AreaGrid& grid, const ScreenPoint& reference) {
-    reserve(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
-    int *pixels = found_.pixel.data(), n = 0;
-    float *xs = found_.x.data(), *ys = found_.y.data(), *shares = found_.share.data();
-    const float x = static_cast<float>(grid.x + 0.5 - reference.x);
-    for (int row = 0; row < grid.rows; ++row) {
-        float* share = sums_.data() + static_cast<std::ptrdiff_t>(row) * grid.stride;
-        for (int column = 0; column < grid.columns; ++column)
-            share[column] = share[column] > k_whole ? 1.0f : share[column];
-        const int pixel = (grid.y + row) * width_ + grid.x, before = n;
-        for (int column = 0; column < grid.columns; ++column) {
-            // Written always, kept if there is something.
-            pixels[n] = pixel + column;
-            xs[n] = x + static_cast<float>(column);
-            shares[n] = share[column];
-            n += share[column] > k_nothing;
-        }
-        std::fill(ys + before, ys + n, static_cast<float>(grid.y + row + 0.5 - reference.y));
-    }
-    found_.count = n;
+    const std::size_t room =
+        (edges_.size() + 1) * k_row_numbers * HWY_DYNAMIC_DISPATCH(LanesHere)();
+    if (crossings_.size() < room) crossings_.resize(room);
+    reserve(static_cast<std::size_t>(x1 - x0) * static_cast<std::size_t>(y1 - y0));
+    HWY_DYNAMIC_DISPATCH(FindAreas)
+    (edges_.data(), edges_.size(),
+     {y0 * width_ + x0, width_, x1 - x0, y1 - y0, static_cast<float>(x0 + 0.5 - reference.x),
+      static_cast<float>(y0 + 0.5 - reference.y)},
+     crossings_.data(), found_);
     return found_;
 }
 
@@ -148,12 +226,17 @@ const CoveredPixels& PixelCoverage::middles(const ScreenPoint* corners, std::siz
                                             const ScreenPoint& reference, int row_begin,
                                             int row_end) {
     found_.count = 0;
+    found_.runs.clear();
     double y_low = corners[0].y, y_high = y_low;
     for (std::size_t i = 1; i < count; ++i) {
         y_low = std::min(y_low, corners[i].y);
         y_high = std::max(y_high, corners[i].y);
     }
-    const auto first_middle = [](double v) { return static_cast<int>(std::ceil(v - 0.5)); };
+    // The lowest whole number that is not below v - 1/2: pictures have no rows before -1.
+    const auto first_middle = [](double v) {
+        const int whole = static_cast<int>(v - 0.5);
+        return whole + (whole < v - 0.5);
+    };
     const int y0 = std::max(first_middle(y_low), row_begin),
               y1 = std::min(first_middle(y_high), row_end);
     if (y0 >= y1) return found_;
@@ -167,27 +250,25 @@ const CoveredPixels& PixelCoverage::middles(const ScreenPoint* corners, std::siz
                   row1 = std::min(first_middle(end.y), y1);
         if (row0 >= row1) continue;
         const double slope = (end.x - top.x) / (end.y - top.y);
-        for (int row = row0; row < row1; ++row) {
-            const double x = top.x + (row + 0.5 - top.y) * slope;
-            double& border = (down ? right_ : left_)[static_cast<std::size_t>(row - y0)];
-            border = x;
-        }
+        double* border = (down ? right_ : left_).data();
+        for (int row = row0; row < row1; ++row)
+            border[row - y0] = top.x + (row + 0.5 - top.y) * slope;
     }
     for (int row = y0; row < y1; ++row) {
         const int x0 = std::max(first_middle(left_[static_cast<std::size_t>(row - y0)]), 0),
                   x1 = std::min(first_middle(right_[static_cast<std::size_t>(row - y0)]), width_);
         if (x0 >= x1) continue;
-        reserve(static_cast<std::size_t>(found_.count + x1 - x0));
-        const float y = static_cast<float>(row + 0.5 - reference.y);
-        for (int x = x0; x < x1; ++x) {
-            const std::size_t n = static_cast<std::size_t>(found_.count++);
-            found_.pixel[n] = row * width_ + x;
-            found_.x[n] = static_cast<float>(x + 0.5 - reference.x);
-            found_.y[n] = y;
-            found_.share[n] = 1;
-        }
+        found_.runs.push_back({row * width_ + x0, found_.count, x1 - x0});
+        found_.count += x1 - x0;
     }
+    if (found_.count == 0) return found_;
+    reserve(static_cast<std::size_t>(found_.count));
+    HWY_DYNAMIC_DISPATCH(FillRuns)
+    ({y0 * width_, width_, width_, y1 - y0, static_cast<float>(0.5 - reference.x),
+      static_cast<float>(y0 + 0.5 - reference.y)},
+     found_);
     return found_;
 }
 
 }  // namespace culet
+#endif

@@ -24,18 +24,19 @@ void RegionSplitter::prepare(const FacetNet& net) {
 int RegionSplitter::exit_of(int from, const Vec3& x, const Vec3& d) {
     int best = guess_[static_cast<std::size_t>(from)];
     if (best < 0) best = net_->edges(from).front().beyond;
-    const auto towards = [&](int f) { return glm::dot(net_->plane(f).normal, d); };
-    const auto below = [&](int f) {
-        const Plane& plane = net_->plane(f);
+    const auto below = [&](const Plane& plane) {
         return std::max(0.0, plane.offset - glm::dot(plane.normal, x));
     };
-    double top = towards(best), bottom = below(best);
+    const Plane& first = net_->plane(best);
+    double top = glm::dot(first.normal, d), bottom = below(first);
     for (int step = 0; step < net_->facets(); ++step) {
         int better = -1;
-        for (const NetEdge& edge : net_->edges(best)) {
-            const double t = towards(edge.beyond), b = below(edge.beyond);
+        for (const NetNeighbour& next : net_->neighbours(best)) {
+            const double t = glm::dot(next.plane.normal, d);
+            if (t <= 0 && top > 0) continue;
+            const double b = below(next.plane);
             if (t * bottom > top * b) {
-                better = edge.beyond;
+                better = next.facet;
                 top = t;
                 bottom = b;
             }

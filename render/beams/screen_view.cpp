@@ -9,10 +9,6 @@
 
 namespace culet {
 
-ScreenImage ScreenView::of_direction(const Vec3& d) const {
-    return {glm::dot(rows[0], d), glm::dot(rows[1], d), glm::dot(rows[2], d)};
-}
-
 bool ScreenView::sees(const Plane& plane) const {
     if (parallel) return glm::dot(v, plane.normal) < 0;
     return height_above(plane, o) > 0;

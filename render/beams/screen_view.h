@@ -3,6 +3,7 @@
 // y, and the picture of a point.
 
 #include <array>
+#include <glm/geometric.hpp>
 
 #include "render/scene.h"
 
@@ -27,7 +28,9 @@ struct ScreenView {
     Vec3 origin(const ScreenPoint& p) const { return o + p.x * ox + p.y * oy; }
     Vec3 towards(const ScreenPoint& p) const { return v + p.x * vx + p.y * vy; }
     ScreenImage of_point(const Vec3& point) const { return of_direction(point) + row_offsets; }
-    ScreenImage of_direction(const Vec3& d) const;
+    ScreenImage of_direction(const Vec3& d) const {
+        return {glm::dot(rows[0], d), glm::dot(rows[1], d), glm::dot(rows[2], d)};
+    }
     /// True when the eye is on the plane's outer side.
     bool sees(const Plane& plane) const;
     bool operator==(const ScreenView&) const = default;

@@ -4,12 +4,6 @@
 
 namespace culet {
 
-namespace {
-
-constexpr float k_filled = 1 - 1e-5f;
-
-}  // namespace
-
 StripSums& StripSums::operator+=(const StripSums& more) {
     filled += more.filled;
     remainder += more.remainder;
@@ -38,11 +32,9 @@ void StripPainter::reserve(int count, int nodes) {
 }
 
 // One colour for all of the beam: that of its middle.
-void StripPainter::paint_flat(const ScreenPoint* corners, const Beam& beam,
+void StripPainter::paint_flat(const CoveredPixels& covered, const Beam& beam,
                               const std::uint16_t* facets, const ShadedEye& eye,
                               const ShadingPass& pass) {
-    const AreaGrid grid = coverage_.areas(corners, beam.corners, row_begin_, row_end_);
-    if (grid.rows == 0) return;
     static const float k_here[k_shading_room] = {};
     const int nodes = pass.lights.nodes;
     reserve(1, nodes);
@@ -60,30 +52,22 @@ void StripPainter::paint_flat(const ScreenPoint* corners, const Beam& beam,
     }
     shade_beam({&stone_.shaded, &pass.optics, &pass.lights}, eye, facets, beam.facets, fragments);
     ++sums_.fragments;
-    const float unhidden = hides_ ? unhidden_[0] : 1.0f;
-    float area = 0;
-    for (int row = 0; row < grid.rows; ++row) {
-        const float* share = grid.row(row);
-        const int pixel = (grid.y + row) * canvas_.width + grid.x;
-        for (int i = 0; i < grid.columns; ++i) area += share[i];
-        if (pass.counts_area) {
-            for (int i = 0; i < grid.columns; ++i) add_cover(pixel + i, share[i], unhidden);
-        }
-        for (int node = 0; node < nodes; ++node) {
-            float* to = plane(pass, node) + pixel;
-            const std::size_t of_node = static_cast<std::size_t>(node * k_shading_room);
-            const float value = static_cast<float>(options_.share) *
-                                (radiance_[of_node] + (hides_ ? before_[of_node] : 0.0f));
-            for (int i = 0; i < grid.columns; ++i) to[i] += value * share[i];
-        }
-    }
-    const double filled = options_.share * static_cast<double>(area);
+    const float *shares = covered.share.data(), unhidden = hides_ ? unhidden_[0] : 1.0f;
+    const double filled =
+        options_.share * static_cast<double>(sum_of_shared(nullptr, shares, covered.count));
     for (int node = 0; node < nodes; ++node) {
-        sums_.luminance +=
-            pass.luminance[static_cast<std::size_t>(node)] * filled *
-            static_cast<double>(radiance_[static_cast<std::size_t>(node * k_shading_room)]);
+        const std::size_t of_node = static_cast<std::size_t>(node * k_shading_room);
+        const float value = radiance_[of_node] + (hides_ ? before_[of_node] : 0.0f);
+        add_to_runs(covered.runs, nullptr, shares, static_cast<float>(options_.share) * value,
+                    plane(pass, node));
+        sums_.luminance += pass.luminance[static_cast<std::size_t>(node)] * filled *
+                           static_cast<double>(radiance_[of_node]);
     }
-    if (pass.counts_area) sums_.filled += filled * static_cast<double>(unhidden);
+    if (pass.counts_area) {
+        add_to_runs(covered.runs, nullptr, shares, 1, strip(cover_));
+        if (hides_) add_to_runs(covered.runs, nullptr, shares, unhidden, strip(visible_));
+        sums_.filled += filled * static_cast<double>(unhidden);
+    }
     sums_.remainder += filled * pass.weight * nodes * static_cast<double>(left_[0]);
     sums_.absorbed += filled * pass.weight * nodes * static_cast<double>(absorbed_[0]);
 }
@@ -128,8 +112,8 @@ bool StripPainter::retrace(int pixel, const ShadingPass& pass, std::size_t longe
     return true;
 }
 
-// Every pixel along the beam's facets.
-void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam,
+// Every pixel along the beam's facets. `own`: the beam was grown for the pass's own index.
+void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, bool own,
                                 const std::uint16_t* facets, const ShadedEye& eye,
                                 const ShadingPass& pass) {
     const int nodes = pass.lights.nodes;
@@ -147,62 +131,62 @@ void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam,
         fragments.unhidden = unhidden_.data();
         fragments.before = before_.data();
     }
-    fragments.follows = follows_.data();
+    // Pixels of which other beams have a part are means of their beams anyway. Whole ones lie half
+    // a pixel within, twice as far as the map may be off.
+    const bool verified = options_.shading == BeamShading::single || !beam.sure || !own;
+    if (verified) fragments.follows = follows_.data();
     fragments.soft = options_.shading == BeamShading::averaged;
     shade_beam({&stone_.shaded, &pass.optics, &pass.lights}, eye, facets, beam.facets, fragments);
     sums_.fragments += covered.count;
 
-    float* share = share_.data();
-    std::copy_n(covered.share.data(), count, share);
+    const float* share = covered.share.data();
     if (options_.shading == BeamShading::single) {
         // Where rounding gives a pixel's middle to two beams, the first has it.
-        for (std::size_t i = 0; i < count; ++i) {
-            std::uint8_t& taken =
-                taken_[static_cast<std::size_t>(covered.pixel[i] - row_begin_ * canvas_.width)];
-            if (taken) share[i] = 0;
-            taken = 1;
-        }
+        std::copy_n(covered.share.data(), count, share_.data());
+        claim_runs(covered.runs, strip(taken_), share_.data());
+        share = share_.data();
     }
-    for (std::size_t i = 0; i < count; ++i) {
-        // Pixels of which other beams have a part are means of their beams anyway.
-        if (follows_[i] || share[i] < 1) continue;
-        if (!retrace(covered.pixel[i], pass, beam.facets, radiance_.data() + i, fragments.stride,
-                     left_[i], absorbed_[i], unhidden_[i], before_.data() + i) &&
-            options_.shading == BeamShading::single)
-            share[i] = 0;  // the pixel's middle misses the stone
-    }
+    if (verified && any_unmarked_whole(follows_.data(), share, covered.count))
+        retrace_astray(covered, beam, pass, share);
     const float of_picture = static_cast<float>(options_.share);
     for (int node = 0; node < nodes; ++node) {
-        float* to = plane(pass, node);
         const float* radiance = radiance_.data() + node * fragments.stride;
-        float light = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const float seen = radiance[i] * share[i];
-            to[covered.pixel[i]] += of_picture * seen;
-            light += seen;
-        }
-        if (hides_) {
-            const float* before = before_.data() + node * fragments.stride;
-            for (std::size_t i = 0; i < count; ++i)
-                to[covered.pixel[i]] += of_picture * before[i] * share[i];
-        }
+        add_to_runs(covered.runs, radiance, share, of_picture, plane(pass, node));
+        if (hides_)
+            add_to_runs(covered.runs, before_.data() + node * fragments.stride, share, of_picture,
+                        plane(pass, node));
         sums_.luminance += options_.share * pass.luminance[static_cast<std::size_t>(node)] *
-                           static_cast<double>(light);
-    }
-    if (!hides_) std::fill_n(unhidden_.data(), count, 1.0f);
-    float filled = 0, remainder = 0, absorbed = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        filled += share[i] * unhidden_[i];
-        remainder += share[i] * left_[i];
-        absorbed += share[i] * absorbed_[i];
+                           static_cast<double>(sum_of_shared(radiance, share, covered.count));
     }
     if (pass.counts_area) {
-        for (std::size_t i = 0; i < count; ++i) add_cover(covered.pixel[i], share[i], unhidden_[i]);
-        sums_.filled += options_.share * static_cast<double>(filled);
+        add_to_runs(covered.runs, nullptr, share, 1, strip(cover_));
+        if (hides_) add_to_runs(covered.runs, unhidden_.data(), share, 1, strip(visible_));
+        sums_.filled +=
+            options_.share * static_cast<double>(sum_of_shared(hides_ ? unhidden_.data() : nullptr,
+                                                               share, covered.count));
     }
     const double of_sums = options_.share * pass.weight * nodes;
-    sums_.remainder += of_sums * static_cast<double>(remainder);
-    sums_.absorbed += of_sums * static_cast<double>(absorbed);
+    sums_.remainder +=
+        of_sums * static_cast<double>(sum_of_shared(left_.data(), share, covered.count));
+    if (pass.optics.absorbs())
+        sums_.absorbed +=
+            of_sums * static_cast<double>(sum_of_shared(absorbed_.data(), share, covered.count));
+}
+
+// Whole pixels whose rays meet other facets than the beam's.
+void StripPainter::retrace_astray(const CoveredPixels& covered, const Beam& beam,
+                                  const ShadingPass& pass, const float* share) {
+    const int stride = static_cast<int>(left_.size());
+    for (const PixelRun& run : covered.runs) {
+        for (int k = 0; k < run.count; ++k) {
+            const std::size_t i = static_cast<std::size_t>(run.first + k);
+            if (follows_[i] > 0 || share[i] < 1) continue;
+            if (!retrace(run.pixel + k, pass, beam.facets, radiance_.data() + i, stride, left_[i],
+                         absorbed_[i], unhidden_[i], before_.data() + i) &&
+                options_.shading == BeamShading::single)
+                share_[i] = 0;  // the pixel's middle misses the stone
+        }
+    }
 }
 
 void StripPainter::paint_beam(const SortedBeams& beams, LeafNumber number,
@@ -224,16 +208,16 @@ void StripPainter::paint_beam(const SortedBeams& beams, LeafNumber number,
     }
     const ShadedEye eye =
         shaded_eye(*view_, middle, stone_.net.plane(facets[0]), stone_.shaded.middle);
-    if (flat) {
-        paint_flat(corners, beam, facets, eye, pass);
-        return;
-    }
     const CoveredPixels& covered =
         options_.shading == BeamShading::single
             ? coverage_.middles(corners, beam.corners, middle, row_begin_, row_end_)
-            : coverage_.touched(coverage_.areas(corners, beam.corners, row_begin_, row_end_),
-                                middle);
-    if (covered.count > 0) paint_pixels(covered, beam, facets, eye, pass);
+            : coverage_.areas(corners, beam.corners, middle, row_begin_, row_end_);
+    if (covered.count == 0) return;
+    if (flat) {
+        paint_flat(covered, beam, facets, eye, pass);
+    } else {
+        paint_pixels(covered, beam, beams.n == pass.n, facets, eye, pass);
+    }
 }
 
 // Middles of pixels that no beam took, next to pixels that one did.
@@ -241,17 +225,17 @@ void StripPainter::fill_holes(const std::vector<ShadingPass>& passes) {
     const int width = canvas_.width;
     const auto taken = [&](int x, int y) {
         return x >= 0 && x < width && y >= row_begin_ && y < row_end_ &&
-               taken_[static_cast<std::size_t>((y - row_begin_) * width + x)];
+               taken_[static_cast<std::size_t>((y - row_begin_) * width + x)] > 0;
     };
-    pixel_.clear();
+    holes_.clear();
     for (int y = row_begin_; y < row_end_; ++y) {
         for (int x = 0; x < width; ++x) {
             if (!taken(x, y) &&
                 (taken(x - 1, y) || taken(x + 1, y) || taken(x, y - 1) || taken(x, y + 1)))
-                pixel_.push_back(y * width + x);
+                holes_.push_back(y * width + x);
         }
     }
-    for (int pixel : pixel_) {
+    for (int pixel : holes_) {
         for (const ShadingPass& pass : passes) {
             const int nodes = pass.lights.nodes;
             reserve(1, nodes);
@@ -261,8 +245,8 @@ void StripPainter::fill_holes(const std::vector<ShadingPass>& passes) {
                 break;
             for (int node = 0; node < nodes; ++node) {
                 const float seen = radiance_[static_cast<std::size_t>(node)];
-                plane(pass, node)[pixel] += static_cast<float>(options_.share) *
-                                            (seen + before_[static_cast<std::size_t>(node)]);
+                plane(pass, node).values[pixel] += static_cast<float>(options_.share) *
+                                                   (seen + before_[static_cast<std::size_t>(node)]);
                 sums_.luminance += options_.share * pass.luminance[static_cast<std::size_t>(node)] *
                                    static_cast<double>(seen);
             }
@@ -270,7 +254,9 @@ void StripPainter::fill_holes(const std::vector<ShadingPass>& passes) {
             sums_.remainder += of_sums * static_cast<double>(left);
             sums_.absorbed += of_sums * static_cast<double>(absorbed);
             if (!pass.counts_area) continue;
-            add_cover(pixel, 1, unhidden);
+            const std::size_t in_strip = static_cast<std::size_t>(pixel - row_begin_ * width);
+            cover_[in_strip] += 1;
+            if (hides_) visible_[in_strip] += unhidden;
             sums_.filled += options_.share * static_cast<double>(unhidden);
         }
     }
@@ -279,48 +265,19 @@ void StripPainter::fill_holes(const std::vector<ShadingPass>& passes) {
 void StripPainter::add_background(const std::vector<ShadingPass>& passes) {
     const int width = canvas_.width;
     const ScreenPoint reference{0.5 * width, 0.5 * (row_begin_ + row_end_)};
-    const std::size_t most =
-        static_cast<std::size_t>((row_end_ - row_begin_) * width) + k_shading_room;
-    x_.resize(most);
-    y_.resize(most);
-    pixel_.resize(most);
-    int count = 0;
-    for (int y = row_begin_; y < row_end_; ++y) {
-        const float* covered = &cover(y * width);
-        const int row_start = count;
-        int* found = pixel_.data();
-        for (int x = 0; x < width; ++x) {
-            found[count] = x;
-            count += covered[x] < k_filled;
-        }
-        const float x0 = static_cast<float>(0.5 - reference.x),
-                    y0 = static_cast<float>(y + 0.5 - reference.y);
-        for (int i = row_start; i < count; ++i) {
-            x_[static_cast<std::size_t>(i)] = static_cast<float>(found[i]) + x0;
-            y_[static_cast<std::size_t>(i)] = y0;
-            found[i] += y * width;
-        }
-    }
-    if (count == 0) return;
     const ShadedEye eye = shaded_eye(*view_, reference, stone_.shaded.middle);
+    BareRow bare;
+    bare.x = static_cast<float>(0.5 - reference.x);
+    bare.count = width;
+    bare.stride = canvas_.pixels();
+    bare.factor = static_cast<float>(options_.share);
+    bare.soft = options_.shading != BeamShading::single;
     for (const ShadingPass& pass : passes) {
-        reserve(count, pass.lights.nodes);
-        Fragments fragments;
-        fragments.x = x_.data();
-        fragments.y = y_.data();
-        fragments.count = count;
-        fragments.radiance = radiance_.data();
-        fragments.stride = static_cast<int>(left_.size());
-        fragments.soft = options_.shading != BeamShading::single;
-        shade_background(pass.lights, pass.optics, eye, fragments);
-        for (int node = 0; node < pass.lights.nodes; ++node) {
-            float* to = plane(pass, node);
-            const float* radiance = radiance_.data() + node * fragments.stride;
-            for (int i = 0; i < count; ++i) {
-                const int pixel = pixel_[static_cast<std::size_t>(i)];
-                const float bare = std::max(1 - cover(pixel), 0.0f);
-                to[pixel] += static_cast<float>(options_.share) * bare * radiance[i];
-            }
+        for (int y = row_begin_; y < row_end_; ++y) {
+            bare.y = static_cast<float>(y + 0.5 - reference.y);
+            bare.cover = cover_.data() + static_cast<std::ptrdiff_t>(y - row_begin_) * width;
+            bare.radiance = plane(pass, 0).values + static_cast<std::ptrdiff_t>(y) * width;
+            shade_background(pass.lights, pass.optics, eye, bare);
         }
     }
 }

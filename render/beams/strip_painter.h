@@ -88,39 +88,33 @@ private:
     void paint_leaving(const LeavingBeam& beam, const ScreenPoint* corners, std::size_t count,
                        const ShadingPass& pass);
     void paint_beam(const SortedBeams& beams, LeafNumber number, const ShadingPass& pass);
-    void paint_flat(const ScreenPoint* corners, const Beam& beam, const std::uint16_t* facets,
+    void paint_flat(const CoveredPixels& covered, const Beam& beam, const std::uint16_t* facets,
                     const ShadedEye& eye, const ShadingPass& pass);
-    void paint_pixels(const CoveredPixels& covered, const Beam& beam, const std::uint16_t* facets,
-                      const ShadedEye& eye, const ShadingPass& pass);
+    void paint_pixels(const CoveredPixels& covered, const Beam& beam, bool own,
+                      const std::uint16_t* facets, const ShadedEye& eye, const ShadingPass& pass);
     bool retrace(int pixel, const ShadingPass& pass, std::size_t longest, float* radiance,
                  int stride, float& left, float& absorbed, float& unhidden, float* before);
+    void retrace_astray(const CoveredPixels& covered, const Beam& beam, const ShadingPass& pass,
+                        const float* share);
     void fill_holes(const std::vector<ShadingPass>& passes);
     void add_background(const std::vector<ShadingPass>& passes);
     void reserve(int count, int nodes);
-    float* plane(const ShadingPass& pass, int node) {
-        return canvas_.planes.data() +
-               (pass.plane + static_cast<std::size_t>(node)) * canvas_.pixels();
+    PixelRows plane(const ShadingPass& pass, int node) {
+        return {canvas_.planes.data() +
+                    (pass.plane + static_cast<std::size_t>(node)) * canvas_.pixels(),
+                0};
     }
-    float& cover(int pixel) {
-        return cover_[static_cast<std::size_t>(pixel - row_begin_ * canvas_.width)];
-    }
-
-    /// Adds a pixel's share of the stone, `unhidden` of which is seen.
-    void add_cover(int pixel, float share, float unhidden) {
-        cover(pixel) += share;
-        if (hides_)
-            visible_[static_cast<std::size_t>(pixel - row_begin_ * canvas_.width)] +=
-                share * unhidden;
+    /// Of a plane that holds this strip alone.
+    PixelRows strip(std::vector<float>& values) {
+        return {values.data(), row_begin_ * canvas_.width};
     }
 
     const PaintedStone& stone_;
     Canvas& canvas_;
     PixelCoverage coverage_;
-    std::vector<std::uint8_t> taken_;
-    std::vector<float> unhidden_, before_, visible_, cover_, radiance_, left_, absorbed_, share_,
-        x_, y_;
-    std::vector<int> pixel_;
-    std::vector<std::uint8_t> follows_;
+    std::vector<float> unhidden_, before_, visible_, cover_, taken_, radiance_, left_, absorbed_,
+        share_, follows_;
+    std::vector<int> holes_;
     std::vector<std::uint16_t> facets_;
     // Of the strip being painted.
     const ScreenView* view_ = nullptr;

@@ -30,8 +30,7 @@ void StripPainter::paint_leaving(const LeavingBeam& beam, const ScreenPoint* cor
     const CoveredPixels& covered =
         options_.shading == BeamShading::single
             ? coverage_.middles(corners, count, beam.reference, row_begin_, row_end_)
-            : coverage_.touched(coverage_.areas(corners, count, row_begin_, row_end_),
-                                beam.reference);
+            : coverage_.areas(corners, count, beam.reference, row_begin_, row_end_);
     if (covered.count == 0) return;
     const int nodes = pass.lights.nodes;
     reserve(covered.count, nodes);
@@ -66,27 +65,19 @@ void StripPainter::paint_leaving(const LeavingBeam& beam, const ScreenPoint* cor
     shade_leaving(pass.lights, leaving, fragments);
     sums_.fragments += covered.count;
     sums_.deepest = std::max(sums_.deepest, beam.facets);
-    const float of_picture = static_cast<float>(options_.share);
+    const float *shares = covered.share.data(), of_picture = static_cast<float>(options_.share);
     for (int node = 0; node < nodes; ++node) {
-        float* to = plane(pass, node);
         const float* radiance = radiance_.data() + node * fragments.stride;
-        float light = 0;
-        for (int i = 0; i < covered.count; ++i) {
-            const std::size_t at = static_cast<std::size_t>(i);
-            const float seen = radiance[i] * covered.share[at];
-            to[covered.pixel[at]] += of_picture * seen;
-            light += seen;
-        }
+        add_to_runs(covered.runs, radiance, shares, of_picture, plane(pass, node));
         sums_.luminance += options_.share * pass.luminance[static_cast<std::size_t>(node)] *
-                           static_cast<double>(light);
+                           static_cast<double>(sum_of_shared(radiance, shares, covered.count));
     }
     // What is mirrored at the front covers each pixel once.
     if (!pass.counts_area || beam.facets > 1) return;
-    for (int i = 0; i < covered.count; ++i) {
-        const std::size_t at = static_cast<std::size_t>(i);
-        add_cover(covered.pixel[at], covered.share[at], 1);
-        sums_.filled += options_.share * static_cast<double>(covered.share[at]);
-    }
+    add_to_runs(covered.runs, nullptr, shares, 1, strip(cover_));
+    if (hides_) add_to_runs(covered.runs, nullptr, shares, 1, strip(visible_));
+    sums_.filled +=
+        options_.share * static_cast<double>(sum_of_shared(nullptr, shares, covered.count));
 }
 
 // Cell by cell of every front facet.
