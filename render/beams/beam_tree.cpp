@@ -178,7 +178,7 @@ private:
         Vec3 x = point - height_above(left, point) / glm::dot(left.normal, d) * d;
         double weight = trunk.weight;
         while (static_cast<int>(path_.size()) < limits_->depth && weight >= limits_->cut_weight) {
-            const int facet = splitter_.exit_of(path_.back(), x, d);
+            const int facet = net_->exit_of(path_.back(), x, d);
             const Plane& plane = net_->plane(facet);
             const double cosine = glm::dot(plane.normal, d);
             if (!(cosine > 0)) return;  // along an edge
@@ -201,7 +201,7 @@ private:
         const double towards = glm::dot(left.normal, d);
         const Vec3 x =
             towards != 0 ? o + (left.offset - glm::dot(left.normal, o)) / towards * d : o;
-        const int exit = splitter_.exit_of(trunk.part.facet, x, d);
+        const int exit = net_->exit_of(trunk.part.facet, x, d);
         const Plane& hit = net_->plane(exit);
         const double into = glm::dot(hit.normal, d);
         const double length = into > 0 ? (hit.offset - glm::dot(hit.normal, o)) / into : 0;

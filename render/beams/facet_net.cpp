@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
 #include <string>
 #include <utility>
@@ -47,6 +48,46 @@ FacetNet::FacetNet(const Solid& convex) : size_(diameter(convex)) {
         std::vector<NetNeighbour>& beyond = neighbours_.emplace_back();
         for (const NetEdge& edge : edges) beyond.push_back({plane(edge.beyond), edge.beyond});
     }
+    exits_.assign(cell_of(facets(), {-1, -1, 1}), 0);
+    for (int from = 0; from < facets(); ++from) {
+        if (edges(from).empty()) continue;
+        Vec3 middle(0);
+        for (const NetEdge& edge : edges(from))
+            middle += corners_[static_cast<std::size_t>(edge.from)] /
+                      static_cast<double>(edges(from).size());
+        for (int cell = 0; cell < 2 * k_cells * k_cells; ++cell) {
+            const double x = (cell % k_cells + 0.5) * 2 / k_cells - 1,
+                         y = (cell / k_cells % k_cells + 0.5) * 2 / k_cells - 1,
+                         z = std::sqrt(std::max(0.0, 1 - x * x - y * y));
+            const Vec3 d(x, y, cell < k_cells * k_cells ? z : -z);
+            exits_[static_cast<std::size_t>(2 * k_cells * k_cells * from + cell)] =
+                walk(edges(from).front().beyond, middle, d);
+        }
+    }
+}
+
+int FacetNet::walk(int start, const Vec3& x, const Vec3& d) const {
+    int best = start;
+    const auto below = [&](const Plane& plane) {
+        return std::max(0.0, plane.offset - glm::dot(plane.normal, x));
+    };
+    double top = glm::dot(plane(best).normal, d), bottom = below(plane(best));
+    for (int step = 0; step < facets(); ++step) {
+        int better = -1;
+        for (const NetNeighbour& next : neighbours(best)) {
+            const double t = glm::dot(next.plane.normal, d);
+            if (t <= 0 && top > 0) continue;
+            const double b = below(next.plane);
+            if (t * bottom > top * b) {
+                better = next.facet;
+                top = t;
+                bottom = b;
+            }
+        }
+        if (better < 0) break;
+        best = better;
+    }
+    return best;
 }
 
 }  // namespace culet

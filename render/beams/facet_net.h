@@ -1,6 +1,7 @@
 #pragma once
 // The facets of a convex stone with their edges and neighbours, for walking from facet to facet.
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -41,13 +42,32 @@ public:
     const std::vector<NetNeighbour>& neighbours(int facet) const {
         return neighbours_[static_cast<std::size_t>(facet)];
     }
+    /// The facet through which a ray that runs along `d` from `x` on facet `from` leaves the stone:
+    /// the largest (n.d)/(c - n.x), found by walking, because over neighbours a largest one is the
+    /// largest of all (a linear-fractional programme).
+    int exit_of(int from, const Vec3& x, const Vec3& d) const {
+        return walk(exits_[cell_of(from, d)], x, d);
+    }
     const std::vector<Vec3>& corners() const { return corners_; }
     double size() const { return size_; }
 
 private:
+    // Directions by their x and y, and by the sign of z.
+    static constexpr int k_cells = 6;
+    static std::size_t cell_of(int from, const Vec3& d) {
+        const auto step = [](double v) {
+            const double cell = (v + 1) * (0.5 * k_cells);
+            return cell > 0 ? static_cast<int>(std::min(cell, k_cells - 1.0)) : 0;
+        };
+        return static_cast<std::size_t>(((2 * from + (d.z < 0)) * k_cells + step(d.y)) * k_cells +
+                                        step(d.x));
+    }
+    int walk(int start, const Vec3& x, const Vec3& d) const;
+
     std::vector<Plane> planes_;
     std::vector<std::vector<NetEdge>> edges_;
     std::vector<std::vector<NetNeighbour>> neighbours_;
+    std::vector<int> exits_;  // of rays from a facet's middle, where walks begin
     std::vector<Vec3> corners_;
     int lines_ = 0;
     double size_ = 0;

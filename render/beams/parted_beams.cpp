@@ -150,7 +150,7 @@ void PartedBeams::follow(const Rays& rays, int facet, const FacetRegion& part, i
         return;
     }
     const Vec3 &x0 = rays[0].point, &t0 = rays[0].mode.ray;
-    const int exit = splitter_.exit_of(facet, x0, t0);
+    const int exit = net_.exit_of(facet, x0, t0);
     const auto length_to = [](const Ray& ray, const Plane& plane) {
         return -height_above(plane, ray.point) / glm::dot(plane.normal, ray.mode.ray);
     };

@@ -21,6 +21,12 @@ struct RegionBox {
     float x = 0, y = 0;  // of its first pixel's middle, from the point of reference
 };
 
+struct SpanRows {
+    double first = 0, width = 0;
+    std::size_t count = 0, stride = 0;
+    double inner_low = 0, inner_high = 0;  // y
+};
+
 // Numbers of one edge, or of the region, in each of some rows.
 constexpr std::size_t k_row_numbers = 5;
 
@@ -132,7 +138,55 @@ void FindAreas(const PixelCoverage::Edge* edges, std::size_t edge_count, const R
             n += count;
         }
     }
-    found.count = n;
+    found.count = found.near_border = n;
+}
+
+using Doubles = hn::ScalableTag<double>;
+using D = hn::Vec<Doubles>;
+constexpr Doubles k_doubles;
+
+// In each row the columns whose middles are in the region, and those farther than `margin` from its
+// border; `spans` has room for 4 numbers a row and a vector's more in each of the four.
+void FindSpans(const PixelCoverage::Side* sides, std::size_t count, const SpanRows& rows,
+               double margin, double* spans) {
+    const std::size_t lanes = hn::Lanes(k_doubles);
+    const D half = hn::Set(k_doubles, 0.5), zero = hn::Zero(k_doubles),
+            width = hn::Set(k_doubles, rows.width), by = hn::Set(k_doubles, margin);
+    const auto first_middle = [&](const D& x) HWY_ATTR {
+        return hn::Min(hn::Max(hn::Ceil(x - half), zero), width);
+    };
+    for (std::size_t row0 = 0; row0 < rows.count; row0 += lanes) {
+        const D y = hn::Iota(k_doubles, rows.first + static_cast<double>(row0) + 0.5);
+        D left = width, right = zero, inner_left = zero, inner_right = width;
+        for (std::size_t i = 0; i < count; ++i) {
+            const PixelCoverage::Side& side = sides[i];
+            // Alike for both regions that share the side.
+            const D x = hn::Set(k_doubles, side.x_top) +
+                        (y - hn::Set(k_doubles, side.y_top)) * hn::Set(k_doubles, side.slope);
+            const D moved = by * hn::Set(k_doubles, side.stretch);
+            // A middle on the upper end's level is the side's, one on the lower end's is not.
+            const auto here =
+                hn::And(y >= hn::Set(k_doubles, side.y_top), y < hn::Set(k_doubles, side.y_end));
+            if (side.right) {
+                right = hn::IfThenElse(here, x, right);
+                inner_right = hn::Min(inner_right, x - moved);
+            } else {
+                left = hn::IfThenElse(here, x, left);
+                inner_left = hn::Max(inner_left, x + moved);
+            }
+        }
+        const D first = first_middle(left), end = hn::Max(first, first_middle(right));
+        const auto within = hn::And(y >= hn::Set(k_doubles, rows.inner_low),
+                                    y <= hn::Set(k_doubles, rows.inner_high));
+        const D inner_first = hn::IfThenElse(
+                    within, hn::Min(hn::Max(first_middle(inner_left), first), end), end),
+                inner_end = hn::Max(inner_first, hn::Min(first_middle(inner_right), end));
+        double* to = spans + row0;
+        hn::StoreU(first, k_doubles, to);
+        hn::StoreU(inner_first, k_doubles, to + rows.stride);
+        hn::StoreU(inner_end, k_doubles, to + 2 * rows.stride);
+        hn::StoreU(end, k_doubles, to + 3 * rows.stride);
+    }
 }
 
 // Places and shares of whole pixels; a run's y is that of its row.
@@ -166,6 +220,7 @@ HWY_AFTER_NAMESPACE();
 namespace culet {
 
 HWY_EXPORT(FindAreas);
+HWY_EXPORT(FindSpans);
 HWY_EXPORT(FillRuns);
 HWY_EXPORT(LanesHere);
 
@@ -224,8 +279,8 @@ const CoveredPixels& PixelCoverage::areas(const ScreenPoint* corners, std::size_
 
 const CoveredPixels& PixelCoverage::middles(const ScreenPoint* corners, std::size_t count,
                                             const ScreenPoint& reference, int row_begin,
-                                            int row_end) {
-    found_.count = 0;
+                                            int row_end, double margin) {
+    found_.count = found_.near_border = 0;
     found_.runs.clear();
     double y_low = corners[0].y, y_high = y_low;
     for (std::size_t i = 1; i < count; ++i) {
@@ -240,27 +295,39 @@ const CoveredPixels& PixelCoverage::middles(const ScreenPoint* corners, std::siz
     const int y0 = std::max(first_middle(y_low), row_begin),
               y1 = std::min(first_middle(y_high), row_end);
     if (y0 >= y1) return found_;
-    left_.assign(static_cast<std::size_t>(y1 - y0), width_);
-    right_.assign(static_cast<std::size_t>(y1 - y0), 0.0);
+    sides_.clear();
     for (std::size_t i = 0, j = count - 1; i < count; j = i++) {
         const bool down = corners[j].y < corners[i].y;
         const ScreenPoint &top = down ? corners[j] : corners[i],
                           &end = down ? corners[i] : corners[j];
-        const int row0 = std::max(first_middle(top.y), y0),
-                  row1 = std::min(first_middle(end.y), y1);
-        if (row0 >= row1) continue;
+        if (!(top.y < end.y)) continue;
         const double slope = (end.x - top.x) / (end.y - top.y);
-        double* border = (down ? right_ : left_).data();
-        for (int row = row0; row < row1; ++row)
-            border[row - y0] = top.x + (row + 0.5 - top.y) * slope;
+        sides_.push_back({top.x, top.y, end.y, slope, std::sqrt(1 + slope * slope), down});
     }
-    for (int row = y0; row < y1; ++row) {
-        const int x0 = std::max(first_middle(left_[static_cast<std::size_t>(row - y0)]), 0),
-                  x1 = std::min(first_middle(right_[static_cast<std::size_t>(row - y0)]), width_);
-        if (x0 >= x1) continue;
-        found_.runs.push_back({row * width_ + x0, found_.count, x1 - x0});
-        found_.count += x1 - x0;
+    const std::size_t rows = static_cast<std::size_t>(y1 - y0);
+    const std::size_t stride = rows + k_shading_room;
+    if (spans_.size() < 4 * stride) spans_.resize(4 * stride);
+    const double* spans = spans_.data();
+    HWY_DYNAMIC_DISPATCH(FindSpans)
+    (sides_.data(), sides_.size(),
+     {static_cast<double>(y0), static_cast<double>(width_), rows, stride, y_low + margin,
+      y_high - margin},
+     margin, spans_.data());
+    // Those near the border first, then the others.
+    const auto add = [&](std::size_t row, double from, double until) {
+        if (!(from < until)) return;
+        const int columns = static_cast<int>(until - from);
+        found_.runs.push_back({(y0 + static_cast<int>(row)) * width_ + static_cast<int>(from),
+                               found_.count, columns});
+        found_.count += columns;
+    };
+    for (std::size_t row = 0; row < rows; ++row) {
+        add(row, spans[row], spans[stride + row]);
+        add(row, spans[2 * stride + row], spans[3 * stride + row]);
     }
+    found_.near_border = found_.count;
+    for (std::size_t row = 0; row < rows; ++row)
+        add(row, spans[stride + row], spans[2 * stride + row]);
     if (found_.count == 0) return found_;
     reserve(static_cast<std::size_t>(found_.count));
     HWY_DYNAMIC_DISPATCH(FillRuns)

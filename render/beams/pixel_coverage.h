@@ -2,6 +2,7 @@
 // Which pixels a beam's region touches, and how much of each it fills.
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "render/beams/pixel_runs.h"
@@ -15,6 +16,7 @@ struct CoveredPixels {
     std::vector<float> x, y;   ///< of the pixel's middle, from the point of reference
     std::vector<float> share;  ///< of the pixel's area
     int count = 0;
+    int near_border = 0;  ///< so many values, the first ones, are of middles near the border
 };
 
 class PixelCoverage {
@@ -28,24 +30,31 @@ public:
     const CoveredPixels& areas(const ScreenPoint* corners, std::size_t count,
                                const ScreenPoint& reference, int row_begin, int row_end);
     /// Pixels whose middle is in the region, each with share 1. A middle on an edge belongs to the
-    /// region on its right, or below.
+    /// region on its right, or below. Near the border: within `margin` pixels.
     const CoveredPixels& middles(const ScreenPoint* corners, std::size_t count,
-                                 const ScreenPoint& reference, int row_begin, int row_end);
+                                 const ScreenPoint& reference, int row_begin, int row_end,
+                                 double margin = std::numeric_limits<double>::infinity());
 
     /// An edge from its upper end to its lower one, from the corner of the region's pixels.
     struct Edge {
         float x_top, y_top, x_end, y_end, slope;
         float sign;  ///< +1: the region lies to the right of it
     };
-    /// Where the edges cross some rows of pixels.
-    struct Crossings;
+
+    /// The same in double precision, from the picture's corner.
+    struct Side {
+        double x_top, y_top, y_end, slope;
+        double stretch;  ///< along x, of a distance from the side
+        bool right;      ///< the region lies to the left of it
+    };
 
 private:
     void reserve(std::size_t pixels);
     int width_;
     std::vector<Edge> edges_;
     std::vector<float> crossings_;
-    std::vector<double> left_, right_;
+    std::vector<Side> sides_;
+    std::vector<double> spans_;
     CoveredPixels found_;
 };
 

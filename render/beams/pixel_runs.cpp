@@ -1,5 +1,7 @@
 #include "render/beams/pixel_runs.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/beams/pixel_runs.cpp"
 #include <hwy/foreach_target.h>
@@ -125,6 +127,35 @@ bool AnyUnmarkedWhole(const float* marks, const float* shares, int count) {
     return rest || !hn::AllFalse(k_floats, any);
 }
 
+void FindGaps(const PixelRows& rows, int width, int count, std::vector<int>& pixels) {
+    const int lanes = static_cast<int>(hn::Lanes(k_floats));
+    const V zero = number(0.0f);
+    for (int y = 0; y < count; ++y) {
+        const float *here = rows.values + static_cast<std::ptrdiff_t>(y) * width,
+                    *above = y > 0 ? here - width : here,
+                    *below = y + 1 < count ? here + width : here;
+        const auto gap = [&](int x) {
+            return here[x] == 0 &&
+                   ((x > 0 && here[x - 1] != 0) || (x + 1 < width && here[x + 1] != 0) ||
+                    above[x] != 0 || below[x] != 0);
+        };
+        const auto look = [&](int from, int until) {
+            for (int x = from; x < until; ++x) {
+                if (gap(x)) pixels.push_back(rows.first_pixel + y * width + x);
+            }
+        };
+        look(0, std::min(1, width));
+        int x = 1;
+        for (; x + lanes < width; x += lanes) {
+            const V beside = hn::LoadU(k_floats, here + x - 1) + hn::LoadU(k_floats, here + x + 1) +
+                             hn::LoadU(k_floats, above + x) + hn::LoadU(k_floats, below + x);
+            const M any = hn::And(hn::LoadU(k_floats, here + x) == zero, beside != zero);
+            if (!hn::AllFalse(k_floats, any)) look(x, x + lanes);
+        }
+        look(x, width);
+    }
+}
+
 void SpreadToRgb(const float* values, std::size_t count, float* rgb) {
     const std::size_t lanes = hn::Lanes(k_floats);
     std::size_t i = 0;
@@ -146,6 +177,7 @@ HWY_EXPORT(AddToRuns);
 HWY_EXPORT(ClaimRuns);
 HWY_EXPORT(SumOfShared);
 HWY_EXPORT(AnyUnmarkedWhole);
+HWY_EXPORT(FindGaps);
 HWY_EXPORT(SpreadToRgb);
 
 void add_to_runs(const PixelRuns& runs, const float* values, const float* shares, float factor,
@@ -160,6 +192,9 @@ float sum_of_shared(const float* values, const float* shares, int count) {
 }
 bool any_unmarked_whole(const float* marks, const float* shares, int count) {
     return HWY_DYNAMIC_DISPATCH(AnyUnmarkedWhole)(marks, shares, count);
+}
+void find_gaps(const PixelRows& rows, int width, int count, std::vector<int>& pixels) {
+    HWY_DYNAMIC_DISPATCH(FindGaps)(rows, width, count, pixels);
 }
 void spread_to_rgb(const float* values, std::size_t count, float* rgb) {
     HWY_DYNAMIC_DISPATCH(SpreadToRgb)(values, count, rgb);

@@ -30,6 +30,8 @@ void claim_runs(const PixelRuns& runs, const PixelRows& taken, float* shares);
 float sum_of_shared(const float* values, const float* shares, int count);
 /// True where a whole pixel (share 1) has a mark of 0.
 bool any_unmarked_whole(const float* marks, const float* shares, int count);
+/// Appends the pixels of value 0, of some rows, next to others in the same rows.
+void find_gaps(const PixelRows& rows, int width, int count, std::vector<int>& pixels);
 /// Each value three times.
 void spread_to_rgb(const float* values, std::size_t count, float* rgb);
 

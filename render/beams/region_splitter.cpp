@@ -17,35 +17,6 @@ void RegionSplitter::prepare(const FacetNet& net) {
         seen_.assign(static_cast<std::size_t>(net.facets()), 0);
         stamp_ = 0;
     }
-    // The same start for all that is split, whichever thread does it: ties must not depend on it.
-    guess_.assign(static_cast<std::size_t>(net.facets()), -1);
-}
-
-int RegionSplitter::exit_of(int from, const Vec3& x, const Vec3& d) {
-    int best = guess_[static_cast<std::size_t>(from)];
-    if (best < 0) best = net_->edges(from).front().beyond;
-    const auto below = [&](const Plane& plane) {
-        return std::max(0.0, plane.offset - glm::dot(plane.normal, x));
-    };
-    const Plane& first = net_->plane(best);
-    double top = glm::dot(first.normal, d), bottom = below(first);
-    for (int step = 0; step < net_->facets(); ++step) {
-        int better = -1;
-        for (const NetNeighbour& next : net_->neighbours(best)) {
-            const double t = glm::dot(next.plane.normal, d);
-            if (t <= 0 && top > 0) continue;
-            const double b = below(next.plane);
-            if (t * bottom > top * b) {
-                better = next.facet;
-                top = t;
-                bottom = b;
-            }
-        }
-        if (better < 0) break;
-        best = better;
-    }
-    guess_[static_cast<std::size_t>(from)] = best;
-    return best;
 }
 
 // The edge beyond which the point is seen, if it is not on the facet.

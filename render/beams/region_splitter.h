@@ -31,11 +31,6 @@ class RegionSplitter {
 public:
     void prepare(const FacetNet& net);
 
-    /// The facet through which a ray that runs along `d` from `x` on facet `from` leaves the stone:
-    /// the largest (n.d)/(c - n.x), found by walking, because over neighbours a largest one is the
-    /// largest of all (a linear-fractional programme).
-    int exit_of(int from, const Vec3& x, const Vec3& d);
-
     /// Splits a region of `pool`, of a beam that was at facet `from`; the parts' corners are
     /// appended to the pool. `start`: a facet next to that which `middle` sees.
     void split(const InsideView& view, std::vector<ScreenPoint>& pool, const Region& region,
@@ -82,7 +77,7 @@ private:
     const FacetNet* net_ = nullptr;
     const InsideView* view_ = nullptr;
     RegionCutter cutter_;
-    std::vector<int> open_, guess_;
+    std::vector<int> open_;
     std::vector<ScreenImage> images_;
     std::vector<Vec3> lines_;
     std::vector<unsigned> stamp_of_corner_, stamp_of_line_, seen_;

@@ -1,8 +1,46 @@
 #include "render/beams/strip_painter.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace culet {
+
+namespace {
+
+// False for points that are outside by more than rounding.
+bool may_be_within(const std::vector<ScreenPoint>& outline, const ScreenPoint& p) {
+    constexpr double k_rounding = 1e-6;  // pixels
+    for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
+        const double dx = outline[i].x - outline[j].x, dy = outline[i].y - outline[j].y;
+        if (dx * (p.y - outline[j].y) - dy * (p.x - outline[j].x) <
+            -k_rounding * (std::abs(dx) + std::abs(dy)))
+            return false;
+    }
+    return true;
+}
+
+// Those from `first` on.
+Fragments rest_of(const Fragments& all, int first, int count) {
+    Fragments rest = all;
+    rest.follows = nullptr;
+    rest.count = count - first;
+    rest.x += first;
+    rest.y += first;
+    rest.radiance += first;
+    rest.left += first;
+    rest.absorbed += first;
+    if (rest.unhidden != nullptr) {
+        rest.unhidden += first;
+        rest.before += first;
+    }
+    return rest;
+}
+
+// Borders of beams are off by half of this.
+constexpr double k_margin = 0.5;  // pixels
+
+}  // namespace
 
 StripSums& StripSums::operator+=(const StripSums& more) {
     filled += more.filled;
@@ -112,8 +150,8 @@ bool StripPainter::retrace(int pixel, const ShadingPass& pass, std::size_t longe
     return true;
 }
 
-// Every pixel along the beam's facets. `own`: the beam was grown for the pass's own index.
-void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, bool own,
+// Every pixel along the beam's facets; the first `to_verify` are looked at again.
+void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, int to_verify,
                                 const std::uint16_t* facets, const ShadedEye& eye,
                                 const ShadingPass& pass) {
     const int nodes = pass.lights.nodes;
@@ -131,12 +169,16 @@ void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, 
         fragments.unhidden = unhidden_.data();
         fragments.before = before_.data();
     }
-    // Pixels of which other beams have a part are means of their beams anyway. Whole ones lie half
-    // a pixel within, twice as far as the map may be off.
-    const bool verified = options_.shading == BeamShading::single || !beam.sure || !own;
-    if (verified) fragments.follows = follows_.data();
     fragments.soft = options_.shading == BeamShading::averaged;
-    shade_beam({&stone_.shaded, &pass.optics, &pass.lights}, eye, facets, beam.facets, fragments);
+    const ShadingJob job{&stone_.shaded, &pass.optics, &pass.lights};
+    const int verified = std::min(to_verify, covered.count);
+    if (verified > 0) {
+        fragments.count = verified;
+        fragments.follows = follows_.data();
+        shade_beam(job, eye, facets, beam.facets, fragments);
+    }
+    if (verified < covered.count)
+        shade_beam(job, eye, facets, beam.facets, rest_of(fragments, verified, covered.count));
     sums_.fragments += covered.count;
 
     const float* share = covered.share.data();
@@ -146,8 +188,8 @@ void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, 
         claim_runs(covered.runs, strip(taken_), share_.data());
         share = share_.data();
     }
-    if (verified && any_unmarked_whole(follows_.data(), share, covered.count))
-        retrace_astray(covered, beam, pass, share);
+    if (any_unmarked_whole(follows_.data(), share, verified))
+        retrace_astray(covered, verified, beam, pass, share);
     const float of_picture = static_cast<float>(options_.share);
     for (int node = 0; node < nodes; ++node) {
         const float* radiance = radiance_.data() + node * fragments.stride;
@@ -174,13 +216,13 @@ void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, 
 }
 
 // Whole pixels whose rays meet other facets than the beam's.
-void StripPainter::retrace_astray(const CoveredPixels& covered, const Beam& beam,
+void StripPainter::retrace_astray(const CoveredPixels& covered, int verified, const Beam& beam,
                                   const ShadingPass& pass, const float* share) {
     const int stride = static_cast<int>(left_.size());
     for (const PixelRun& run : covered.runs) {
         for (int k = 0; k < run.count; ++k) {
             const std::size_t i = static_cast<std::size_t>(run.first + k);
-            if (follows_[i] > 0 || share[i] < 1) continue;
+            if (run.first + k >= verified || follows_[i] > 0 || share[i] < 1) continue;
             if (!retrace(run.pixel + k, pass, beam.facets, radiance_.data() + i, stride, left_[i],
                          absorbed_[i], unhidden_[i], before_.data() + i) &&
                 options_.shading == BeamShading::single)
@@ -208,33 +250,34 @@ void StripPainter::paint_beam(const SortedBeams& beams, LeafNumber number,
     }
     const ShadedEye eye =
         shaded_eye(*view_, middle, stone_.net.plane(facets[0]), stone_.shaded.middle);
+    // Where the beam is sure, rays half a pixel within it need no second look. Under anti-aliasing
+    // all whole pixels are; others are means of their beams anyway.
+    const bool sure = beam.sure && beams.n == pass.n;
+    const bool single = options_.shading == BeamShading::single;
     const CoveredPixels& covered =
-        options_.shading == BeamShading::single
-            ? coverage_.middles(corners, beam.corners, middle, row_begin_, row_end_)
-            : coverage_.areas(corners, beam.corners, middle, row_begin_, row_end_);
+        single ? coverage_.middles(corners, beam.corners, middle, row_begin_, row_end_,
+                                   sure ? k_margin : std::numeric_limits<double>::infinity())
+               : coverage_.areas(corners, beam.corners, middle, row_begin_, row_end_);
     if (covered.count == 0) return;
     if (flat) {
         paint_flat(covered, beam, facets, eye, pass);
     } else {
-        paint_pixels(covered, beam, beams.n == pass.n, facets, eye, pass);
+        paint_pixels(covered, beam, sure && !single ? 0 : covered.near_border, facets, eye, pass);
     }
 }
 
 // Middles of pixels that no beam took, next to pixels that one did.
-void StripPainter::fill_holes(const std::vector<ShadingPass>& passes) {
+void StripPainter::fill_holes(const std::vector<FrontFacet>& fronts,
+                              const std::vector<ShadingPass>& passes) {
     const int width = canvas_.width;
-    const auto taken = [&](int x, int y) {
-        return x >= 0 && x < width && y >= row_begin_ && y < row_end_ &&
-               taken_[static_cast<std::size_t>((y - row_begin_) * width + x)] > 0;
-    };
     holes_.clear();
-    for (int y = row_begin_; y < row_end_; ++y) {
-        for (int x = 0; x < width; ++x) {
-            if (!taken(x, y) &&
-                (taken(x - 1, y) || taken(x + 1, y) || taken(x, y - 1) || taken(x, y + 1)))
-                holes_.push_back(y * width + x);
-        }
-    }
+    find_gaps(strip(taken_), width, row_end_ - row_begin_, holes_);
+    std::erase_if(holes_, [&](int pixel) {
+        const ScreenPoint middle{pixel % width + 0.5, pixel / width + 0.5};
+        return std::none_of(fronts.begin(), fronts.end(), [&](const FrontFacet& front) {
+            return may_be_within(front.outline, middle);
+        });
+    });
     for (int pixel : holes_) {
         for (const ShadingPass& pass : passes) {
             const int nodes = pass.lights.nodes;
@@ -311,7 +354,7 @@ StripSums StripPainter::paint(int strip, const ScreenView& view, const SortedBea
         for (const LeafNumber& number : sorted.strips[static_cast<std::size_t>(strip)])
             paint_beam(sorted, number, pass);
     }
-    if (options.shading == BeamShading::single && !parted) fill_holes(passes);
+    if (options.shading == BeamShading::single && !parted) fill_holes(fronts, passes);
     add_background(passes);
     const float share = static_cast<float>(options.share);
     const float* seen = hides_ ? visible_.data() : cover_.data();

@@ -90,13 +90,13 @@ private:
     void paint_beam(const SortedBeams& beams, LeafNumber number, const ShadingPass& pass);
     void paint_flat(const CoveredPixels& covered, const Beam& beam, const std::uint16_t* facets,
                     const ShadedEye& eye, const ShadingPass& pass);
-    void paint_pixels(const CoveredPixels& covered, const Beam& beam, bool own,
+    void paint_pixels(const CoveredPixels& covered, const Beam& beam, int to_verify,
                       const std::uint16_t* facets, const ShadedEye& eye, const ShadingPass& pass);
     bool retrace(int pixel, const ShadingPass& pass, std::size_t longest, float* radiance,
                  int stride, float& left, float& absorbed, float& unhidden, float* before);
-    void retrace_astray(const CoveredPixels& covered, const Beam& beam, const ShadingPass& pass,
-                        const float* share);
-    void fill_holes(const std::vector<ShadingPass>& passes);
+    void retrace_astray(const CoveredPixels& covered, int verified, const Beam& beam,
+                        const ShadingPass& pass, const float* share);
+    void fill_holes(const std::vector<FrontFacet>& fronts, const std::vector<ShadingPass>& passes);
     void add_background(const std::vector<ShadingPass>& passes);
     void reserve(int count, int nodes);
     PixelRows plane(const ShadingPass& pass, int node) {
