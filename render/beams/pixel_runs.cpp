@@ -156,6 +156,24 @@ void FindGaps(const PixelRows& rows, int width, int count, std::vector<int>& pix
     }
 }
 
+void AddUpToOne(const float* values, int count, float factor, float* to) {
+    const V by = number(factor), one = number(1.0f);
+    over_values(
+        count,
+        [&](int i) HWY_ATTR {
+            hn::StoreU(hn::MulAdd(by, hn::Min(hn::LoadU(k_floats, values + i), one),
+                                  hn::LoadU(k_floats, to + i)),
+                       k_floats, to + i);
+        },
+        [&](int i, M mask) HWY_ATTR {
+            hn::BlendedStore(
+                hn::MulAdd(by, hn::Min(hn::MaskedLoad(mask, k_floats, values + i), one),
+                           hn::MaskedLoad(mask, k_floats, to + i)),
+                mask, k_floats, to + i);
+        },
+        [&](int i) { to[i] += factor * std::min(values[i], 1.0f); });
+}
+
 void SpreadToRgb(const float* values, std::size_t count, float* rgb) {
     const std::size_t lanes = hn::Lanes(k_floats);
     std::size_t i = 0;
@@ -178,6 +196,7 @@ HWY_EXPORT(ClaimRuns);
 HWY_EXPORT(SumOfShared);
 HWY_EXPORT(AnyUnmarkedWhole);
 HWY_EXPORT(FindGaps);
+HWY_EXPORT(AddUpToOne);
 HWY_EXPORT(SpreadToRgb);
 
 void add_to_runs(const PixelRuns& runs, const float* values, const float* shares, float factor,
@@ -195,6 +214,9 @@ bool any_unmarked_whole(const float* marks, const float* shares, int count) {
 }
 void find_gaps(const PixelRows& rows, int width, int count, std::vector<int>& pixels) {
     HWY_DYNAMIC_DISPATCH(FindGaps)(rows, width, count, pixels);
+}
+void add_up_to_one(const float* values, int count, float factor, float* to) {
+    HWY_DYNAMIC_DISPATCH(AddUpToOne)(values, count, factor, to);
 }
 void spread_to_rgb(const float* values, std::size_t count, float* rgb) {
     HWY_DYNAMIC_DISPATCH(SpreadToRgb)(values, count, rgb);

@@ -32,6 +32,8 @@ float sum_of_shared(const float* values, const float* shares, int count);
 bool any_unmarked_whole(const float* marks, const float* shares, int count);
 /// Appends the pixels of value 0, of some rows, next to others in the same rows.
 void find_gaps(const PixelRows& rows, int width, int count, std::vector<int>& pixels);
+/// Adds factor * values, values above 1 counting as 1.
+void add_up_to_one(const float* values, int count, float factor, float* to);
 /// Each value three times.
 void spread_to_rgb(const float* values, std::size_t count, float* rgb);
 

@@ -356,10 +356,8 @@ StripSums StripPainter::paint(int strip, const ScreenView& view, const SortedBea
     }
     if (options.shading == BeamShading::single && !parted) fill_holes(fronts, passes);
     add_background(passes);
-    const float share = static_cast<float>(options.share);
-    const float* seen = hides_ ? visible_.data() : cover_.data();
-    for (std::size_t i = 0; i < count; ++i)
-        canvas_.coverage[begin + i] += share * std::min(seen[i], 1.0f);
+    add_up_to_one(hides_ ? visible_.data() : cover_.data(), static_cast<int>(count),
+                  static_cast<float>(options.share), canvas_.coverage.data() + begin);
     return sums_;
 }
 
