@@ -208,13 +208,18 @@ void shade_leaving(const ShadedLights& lights, const ShadedLeaving& beam,
 }
 
 std::vector<std::string> shading_targets() {
-    std::vector<std::string> names;
-    for (std::int64_t target : hwy::SupportedAndGeneratedTargets())
-        names.emplace_back(hwy::TargetName(target));
+    // As found before any was chosen.
+    static const std::vector<std::string> names = [] {
+        std::vector<std::string> found;
+        for (std::int64_t target : hwy::SupportedAndGeneratedTargets())
+            found.emplace_back(hwy::TargetName(target));
+        return found;
+    }();
     return names;
 }
 
 bool use_shading_target(const std::string& name) {
+    shading_targets();
     hwy::SetSupportedTargetsForTest(0);
     for (std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
         if (name != hwy::TargetName(target)) continue;

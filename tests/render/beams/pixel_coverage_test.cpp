@@ -7,8 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
+#include <string>
+#include <utility>
+
+#include "render/beams/beam_shading.h"
 
 namespace {
 
@@ -67,8 +72,11 @@ double tolerance(double extent) {
     return 8 * 6e-8 * (extent + 2);
 }
 
-class Coverage : public testing::Test {
+class Coverage : public testing::TestWithParam<std::string> {
 protected:
+    void SetUp() override { ASSERT_TRUE(use_shading_target(GetParam())); }
+    void TearDown() override { use_shading_target(shading_targets().front()); }
+
     static constexpr int k_width = 61, k_height = 47;
     PixelCoverage coverage_{k_width};
 
@@ -113,7 +121,7 @@ protected:
     }
 };
 
-TEST_F(Coverage, of_random_polygons_is_what_clipping_says) {
+TEST_P(Coverage, of_random_polygons_is_what_clipping_says) {
     std::mt19937_64 random(20261);
     std::uniform_real_distribution<double> x(12, k_width - 12), y(12, k_height - 12), r(0.05, 11);
     for (int i = 0; i < 1500; ++i) {
@@ -123,7 +131,7 @@ TEST_F(Coverage, of_random_polygons_is_what_clipping_says) {
     }
 }
 
-TEST_F(Coverage, of_slivers_is_what_clipping_says) {
+TEST_P(Coverage, of_slivers_is_what_clipping_says) {
     std::mt19937_64 random(20262);
     std::uniform_real_distribution<double> x(24, k_width - 24), y(23, k_height - 23), r(0.1, 23),
         power(-12, -1);
@@ -135,7 +143,7 @@ TEST_F(Coverage, of_slivers_is_what_clipping_says) {
     }
 }
 
-TEST_F(Coverage, of_polygons_smaller_than_a_pixel_is_what_clipping_says) {
+TEST_P(Coverage, of_polygons_smaller_than_a_pixel_is_what_clipping_says) {
     std::mt19937_64 random(20263);
     std::uniform_real_distribution<double> x(2, k_width - 2), y(2, k_height - 2), power(-9, 0);
     for (int i = 0; i < 1500; ++i) {
@@ -145,7 +153,7 @@ TEST_F(Coverage, of_polygons_smaller_than_a_pixel_is_what_clipping_says) {
     }
 }
 
-TEST_F(Coverage, with_corners_on_pixel_borders_is_what_clipping_says) {
+TEST_P(Coverage, with_corners_on_pixel_borders_is_what_clipping_says) {
     std::mt19937_64 random(20264);
     std::uniform_real_distribution<double> x(12, k_width - 12), y(12, k_height - 12), r(0.5, 11);
     for (int i = 0; i < 1500; ++i) {
@@ -163,7 +171,7 @@ TEST_F(Coverage, with_corners_on_pixel_borders_is_what_clipping_says) {
     }
 }
 
-TEST_F(Coverage, of_some_rows_is_that_of_the_whole) {
+TEST_P(Coverage, of_some_rows_is_that_of_the_whole) {
     std::mt19937_64 random(20265);
     std::uniform_real_distribution<double> x(20, k_width - 20), y(0, k_height), r(0.5, 19);
     std::uniform_int_distribution<int> row(0, k_height - 1);
@@ -176,7 +184,7 @@ TEST_F(Coverage, of_some_rows_is_that_of_the_whole) {
 }
 
 // Regions end at the picture's borders, as those of beams do.
-TEST_F(Coverage, at_the_pictures_borders_is_what_clipping_says) {
+TEST_P(Coverage, at_the_pictures_borders_is_what_clipping_says) {
     std::mt19937_64 random(20266);
     std::uniform_real_distribution<double> x(-5, k_width + 5), y(-5, k_height + 5), r(0.5, 19);
     for (int i = 0; i < 1500; ++i) {
@@ -190,6 +198,58 @@ TEST_F(Coverage, at_the_pictures_borders_is_what_clipping_says) {
         expect_exact(polygon, 0, k_height);
     }
 }
+
+TEST_P(Coverage, near_the_border_is_within_the_margin) {
+    std::mt19937_64 random(20269);
+    std::uniform_real_distribution<double> x(12, k_width - 12), y(12, k_height - 12), r(0.5, 20),
+        margin(0, 3);
+    for (int i = 0; i < 300; ++i) {
+        SCOPED_TRACE("seed 20269, polygon " + std::to_string(i));
+        Polygon polygon = random_polygon(random, x(random), y(random), r(random), r(random));
+        polygon = clipped(polygon, 1, 0, 0);
+        if (!polygon.empty()) polygon = clipped(polygon, -1, 0, k_width);
+        if (polygon.size() < 3) continue;
+        if (i % 5 == 0) {
+            // A level side on a row of middles.
+            polygon = clipped(polygon, 0, 1, -(std::floor(polygon[0].y) - 2.5));
+            if (polygon.size() < 3) continue;
+        }
+        const double m = margin(random);
+        const auto collected = [&](double by) {
+            const CoveredPixels& found =
+                coverage_.middles(polygon.data(), polygon.size(), {0, 0}, 0, k_height, by);
+            std::vector<std::pair<int, bool>> pixels;
+            for (const PixelRun& run : found.runs) {
+                for (int k = 0; k < run.count; ++k)
+                    pixels.push_back({run.pixel + k, run.first + k < found.near_border});
+            }
+            std::sort(pixels.begin(), pixels.end());
+            return pixels;
+        };
+        const auto all = collected(std::numeric_limits<double>::infinity()), parted = collected(m);
+        ASSERT_EQ(parted.size(), all.size());
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            ASSERT_EQ(parted[k].first, all[k].first);
+            ASSERT_TRUE(all[k].second);
+            const double px = all[k].first % k_width + 0.5, py = all[k].first / k_width + 0.5;
+            double nearest = 1e9;
+            for (std::size_t b = 0, a = polygon.size() - 1; b < polygon.size(); a = b++) {
+                const double dx = polygon[b].x - polygon[a].x, dy = polygon[b].y - polygon[a].y,
+                             length = std::hypot(dx, dy);
+                if (length < 1e-9) continue;
+                nearest = std::min(nearest,
+                                   (dx * (py - polygon[a].y) - dy * (px - polygon[a].x)) / length);
+            }
+            // Off a rounding unit of the places, a middle is near the border or it is not.
+            if (std::abs(nearest - m) > 1e-9) {
+                ASSERT_EQ(parted[k].second, nearest < m);
+            }
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(OnEach, Coverage, testing::ValuesIn(shading_targets()),
+                         [](const auto& target) { return target.param; });
 
 // The picture cut by lines, each cell by each line in turn; a line is evaluated alike for both
 // sides, and a crossing is computed alike for both.
