@@ -32,6 +32,11 @@ constexpr double k_cut_share = 1 / 4e5;
 // Beams alone in their pixel, as a multiple of the tolerance: what they bring to it is some ten
 // times as much, and as often too bright as too dark.
 constexpr double k_alone = 10;
+// A border that is off by a pixel brings its contrast to that pixel: borders may be off by this
+// multiple of the tolerance, in pixels, within bounds between which accuracy is cheap (docs: "How
+// fast, and how right"). Rays that are looked at again need less.
+constexpr double k_map_error = 10, k_least_map_error = 0.02, k_least_verified = 0.1,
+                 k_most_map_error = 0.25;
 // Previews have one colour a beam, which is off by far more than a beam's borders, and by more than
 // beams that bring less than that much to a pixel.
 constexpr double k_preview_map_error = 1;  // pixels
@@ -79,6 +84,12 @@ BeamSettings beam_settings(const Scene& scene, const PathLimits& limits) {
                        : scene.settings.samples == 1 && scene.camera.aperture_radius == 0
                            ? BeamShading::single
                            : BeamShading::averaged;
+    settings.limits.map_error =
+        std::clamp(k_map_error * scene.settings.tolerance,
+                   settings.shading == BeamShading::single ? k_least_verified : k_least_map_error,
+                   k_most_map_error);
+    // Borders of many views are off this way and that.
+    if (scene.camera.aperture_radius > 0) settings.limits.map_error = k_most_map_error;
     if (settings.shading == BeamShading::flat) {
         settings.limits.map_error = k_preview_map_error;
         settings.limits.alone = k_preview_alone;

@@ -14,7 +14,7 @@
 namespace culet {
 
 /// Samples of the reference that errors are against: in the base case, and elsewhere.
-constexpr int k_full = 256, k_side = 64;
+constexpr int k_full = 256, k_finest = 1024, k_side = 64;
 
 enum class Drawing {
     preview,  ///< one colour a beam

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 #include "tests/bench/beam_bench.h"
@@ -22,8 +23,8 @@ struct TracedPoint {
 void BeamBench::plain() {
     tables_.section("plain tracer",
                     fmt::format("packets of rays without beams, one thread; errors against {} "
-                                "samples; off: as above",
-                                k_full),
+                                "samples, of which {} would be too noisy here; off: as above",
+                                k_finest, k_full),
                     {"CPU ms", "RMSE", "PSNR", "off"});
     for (const bool polarised : {false, true}) {
         Scene scene = base_;
@@ -35,7 +36,7 @@ void BeamBench::plain() {
 // How long each takes to come as near to the reference as the beams do.
 void BeamBench::equal_error(const Scene& scene, const std::string& of) {
     const PlainTracer tracer(scene);
-    const Picture& reference = references_.at(scene, k_full);
+    const Picture& reference = references_.at(scene, k_finest);
     const auto trace = [&](const PlainTracing& how, const std::string& what) {
         Picture picture;
         const double took =
@@ -107,9 +108,13 @@ void BeamBench::povray() {
     line("POV-Ray", theirs.seconds, theirs.picture);
     for (const bool polarised : {false, true}) {
         set_polarised(scene, polarised);
-        for (const auto& [name, drawing] :
-             {std::pair{"preview", Drawing::preview}, {"anti-aliased", Drawing::averaged}}) {
-            FrameRenderer frames(drawn_as(scene, drawing, 1));
+        for (const auto& [name, drawing, tolerance] :
+             {std::tuple{"preview", Drawing::preview, 0.0},
+              {"anti-aliased, tolerance 0.01", Drawing::averaged, 0.01},
+              {"anti-aliased, tolerance 0", Drawing::averaged, 0.0}}) {
+            Scene drawn = drawn_as(scene, drawing, 1);
+            drawn.settings.tolerance = tolerance;
+            FrameRenderer frames(drawn);
             const double seconds = frame_time(frames, scene.camera).cpu;
             line(fmt::format("{}, {}", polarised ? "polarised" : "unpolarised", name), seconds,
                  frames.draw().picture);

@@ -184,15 +184,20 @@ protected:
     void TearDown() override { use_shading_target(shading_targets().front()); }
 };
 
-// The same operations in another width; fused multiply-adds round once instead of twice.
+// The same operations in another width; fused multiply-adds round once instead of twice. What
+// leaves near the critical angle turns by the root of a rounding unit, 3e-4, and of an edged light
+// a pixel may see a tenth of a radian there: 3e-3 of the light, for few pixels.
 TEST_F(Targets, of_every_instruction_set_draw_the_same_picture) {
     std::vector<NamedChange> lights = edged_lights();
+    const std::size_t edged = lights.size();
     lights.push_back(smooth_lights()[2]);
     lights.push_back({"environment", [](Scene& s) {
                           s.lights = {};
                           s.lights.environment = smooth_environment();
                       }});
-    for (const NamedChange& light : lights) {
+    for (std::size_t number = 0; number < lights.size(); ++number) {
+        const NamedChange& light = lights[number];
+        const double tolerance = number < edged ? 3e-3 : 2e-5;
         for (const int samples : {1, 16}) {
             SCOPED_TRACE(light.name);
             Scene scene = brilliant_scene();
@@ -203,8 +208,9 @@ TEST_F(Targets, of_every_instruction_set_draw_the_same_picture) {
             for (const std::string& target : shading_targets()) {
                 ASSERT_TRUE(use_shading_target(target));
                 const RenderResult other = with_engine(scene, "beams", samples);
-                const Difference d = difference(other.picture, best.picture, 2e-5);
+                const Difference d = difference(other.picture, best.picture, tolerance);
                 EXPECT_LE(d.off, std::max(2.0, 1e-3 * d.pixels)) << target << ": " << d;
+                EXPECT_LE(d.mean, 1e-5) << target << ": " << d;
                 EXPECT_EQ(d.not_finite, 0);
                 use_shading_target(shading_targets().front());
             }
