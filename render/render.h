@@ -61,7 +61,8 @@ public:
     ~FrameRenderer();
     FrameRenderer(FrameRenderer&&) noexcept;
 
-    /// Another view: beams are grown anew (milliseconds).
+    /// Another view: beams are grown anew (milliseconds). What the tolerance lets be cut stays as it
+    /// was chosen for the first view.
     void look_from(const Camera& camera);
     /// Other lights: the beams stay, and are only shaded anew, unless the lights' colours call for
     /// other wavelengths.

@@ -58,9 +58,12 @@ void require_renderable(const Scene& scene) {
         throw InputError(fmt::format("depth {} is over the longest path, {}", scene.settings.depth,
                                      PathTrace::k_longest));
     }
-    if (StoneBody(stone.solid, stone.convex).contains(scene.camera.position)) {
+    require_outside(StoneBody(stone.solid, stone.convex), scene.camera);
+}
+
+void require_outside(const StoneBody& body, const Camera& camera) {
+    if (body.contains(camera.position))
         throw InputError("the camera is inside the stone: move camera.position out");
-    }
 }
 
 std::vector<std::string> notes_on_drawing(const Scene& scene) {

@@ -9,6 +9,7 @@
 #include <ctime>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "render/beams/beam_renderer.h"
 #include "render/eye_optics.h"
@@ -40,7 +41,7 @@ constexpr double k_map_error = 10, k_least_map_error = 0.02, k_least_verified = 
 // Previews have one colour a beam, which is off by far more than a beam's borders, and by more than
 // beams that bring less than that much to a pixel.
 constexpr double k_preview_map_error = 1;  // pixels
-constexpr double k_preview_alone = 2;      // square pixels
+constexpr double k_preview_alone = 4;      // square pixels
 // Merged images that lie this far apart are off by as much: a tenth of a pixel at edges.
 constexpr double k_seen_apart = 0.1;  // pixels
 
@@ -127,12 +128,11 @@ struct Called {
     CrystalBeams crystal = CrystalBeams::merged;
     std::string why;  // of that, where it matters
 
-    /// Another camera, with the wavelengths that were chosen.
+    /// Another camera, with the wavelengths and the limits that were chosen.
     void look(const Scene& scene) {
         Plan anew = make_plan(scene, colours.size());
         require_beams(scene, anew);
         plan = std::move(anew);
-        limits = limits_for(scene, plan, lights, colours);
         choose_crystal(scene);
     }
 
@@ -169,9 +169,15 @@ private:
 
 struct FrameRenderer::State {
     explicit State(const Scene& whole)
-        : scene(whole), called(std::make_unique<Called>(scene)), renderer(scene.stone.solid) {}
+        : scene(whole),
+          body(scene.stone.solid, scene.stone.convex),
+          notes(notes_on_drawing(scene)),
+          called(std::make_unique<Called>(scene)),
+          renderer(scene.stone.solid) {}
 
     Scene scene;
+    StoneBody body;
+    std::vector<std::string> notes;
     std::unique_ptr<Called> called;
     BeamRenderer renderer;
     RenderResult result;
@@ -206,7 +212,7 @@ void FrameRenderer::State::draw(bool with_check) {
     stats.lost_area = report.lost_area;
     stats.seconds_build = report.seconds_build;
     stats.seconds_shade = report.seconds_shade;
-    stats.notes = notes_on_drawing(scene);
+    stats.notes = notes;
     stats.error_bound = std::numeric_limits<double>::quiet_NaN();
     if (with_check) check();
     if (limit_ms > 0) {
@@ -301,11 +307,14 @@ FrameRenderer::~FrameRenderer() = default;
 FrameRenderer::FrameRenderer(FrameRenderer&&) noexcept = default;
 
 void FrameRenderer::look_from(const Camera& camera) {
-    Scene scene = state_->scene;
-    scene.camera = camera;
-    require_renderable(scene);
-    state_->called->look(scene);
-    state_->scene.camera = camera;
+    require_outside(state_->body, camera);
+    const Camera before = std::exchange(state_->scene.camera, camera);
+    try {
+        state_->called->look(state_->scene);
+    } catch (...) {
+        state_->scene.camera = before;
+        throw;
+    }
 }
 
 void FrameRenderer::light_with(const Lights& lights) {

@@ -55,7 +55,7 @@ void BeamBench::equal_error(const Scene& scene, const std::string& of) {
     trace(how, "1 sample, every plane");
     how.search = ExitSearch::walk;
     std::vector<TracedPoint> points;
-    for (const int across : {1, 2, 3, 4, 5, 6, 8}) {
+    for (const int across : {1, 2, 3, 4, 5, 6, 8, 12, 16, 24}) {
         how.across = across;
         points.push_back(
             trace(how, fmt::format("{} sample{}", across * across, across == 1 ? "" : "s")));
