@@ -7,6 +7,8 @@
 #include "app/options.h"
 #include "app/terminal.h"
 #include "fit/fit.h"
+#include "page/drawing.h"
+#include "page/fit_paint.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 #include "stone/stone_io.h"
@@ -17,13 +19,14 @@ namespace {
 
 struct FitCommand {
     CommonOptions common;
-    std::string stone, output, report;
+    std::string stone, output, report, drawing, paint = "residual";
     int iterations = 0;
 };
 
 int run_fit(const FitCommand& command) {
     require_writable(command.output);
     require_writable(command.report);
+    require_writable(command.drawing);
     StoneFile file = read_stone(command.stone, command.common.set);
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
@@ -41,7 +44,17 @@ int run_fit(const FitCommand& command) {
         }
     }();
     write_solid(result.solid, command.output);
-    if (!command.report.empty()) write_text(command.report, fit_report(result));
+    const std::string report = fit_report(result);
+    if (!command.report.empty()) write_text(command.report, report);
+    if (!command.drawing.empty()) {
+        const FitPaint paint =
+            fit_paint(result.solid, report,
+                      command.paint == "sigma" ? FitColour::uncertainty : FitColour::residual);
+        write_text(command.drawing,
+                   drawing_svg(file.stone.name.empty() ? command.stone : file.stone.name,
+                               fmt::format("{}: {}", name_of(result.status), result.message),
+                               result.solid, paint.facets, paint.legend));
+    }
     say(fmt::format("{}: {}", name_of(result.status), result.message), command.common.quiet);
     say(fmt::format("{} facets, {} corners, planar to {:.1e} {}, {} steps, {:.2f} s",
                     result.solid.facets.size(), result.solid.vertices.size(), result.planarity_max,
@@ -65,6 +78,13 @@ void add_command_fit(CLI::App& program, int& exit_code) {
     fit->add_option("--report,--json", command->report,
                     "readings, residuals, uncertainties, suspects (- is stdout)")
         ->type_name("FIT.json");
+    fit->add_option("--drawing", command->drawing,
+                    "crown, pavilion and girdle views with facet names (- is stdout)")
+        ->type_name("DRAWING.svg");
+    fit->add_option("--paint", command->paint,
+                    "what its colours show: residual (default) or sigma, how sure each facet is")
+        ->check(CLI::IsMember({"residual", "sigma"}))
+        ->type_name("WHAT");
     fit->add_option("--iterations", command->iterations, "most steps of the last stage")
         ->check(CLI::Range(1, 1000000))
         ->type_name("N");
@@ -72,7 +92,7 @@ void add_command_fit(CLI::App& program, int& exit_code) {
     fit->footer(
         "Examples:\n"
         "  culet fit stone.toml -o fitted.obj --report fit.json\n"
-        "  culet fit stone.toml -o fitted.obj --set fit.meets=soft");
+        "  culet fit stone.toml -o fitted.obj --drawing fitted.svg --set fit.meets=soft");
     fit->callback([command, &exit_code] { exit_code = run_fit(*command); });
 }
 

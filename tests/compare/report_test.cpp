@@ -9,8 +9,8 @@
 #include <set>
 #include <sstream>
 
-#include "compare/drawing.h"
-#include "compare/html.h"
+#include "page/drawing.h"
+#include "page/html.h"
 #include "stone/errors.h"
 #include "tests/compare/synthetic_pictures.h"
 

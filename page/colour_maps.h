@@ -1,5 +1,6 @@
 #pragma once
-// Numbers as colours, and the bars that say which is which.
+// Numbers as colours. In all but `difference` lightness falls or rises all the way, so that they
+// are told apart without seeing hues, and in print.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +12,8 @@ enum class ColourMap {
     difference,  ///< blue, white, red (ColorBrewer RdBu, Brewer 2003): signed, 0 in the middle
     error,       ///< black, purple, orange, yellow (inferno, Smith and van der Walt 2015)
     likeness,    ///< the same the other way round: what agrees is dark
-    residual     ///< green, yellow, red: how far a reading is off, in standard uncertainties
+    residual,    ///< pale yellow, orange, dark red (YlOrRd, Brewer 2003): how far a reading is off
+    uncertainty  ///< pale yellow, green, dark blue (YlGnBu, Brewer 2003): how sure a facet is
 };
 
 /// The colour at 0..1 (clamped; NaN counts as 0), red, green, blue in sRGB.

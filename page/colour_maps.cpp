@@ -1,4 +1,4 @@
-#include "compare/colour_maps.h"
+#include "page/colour_maps.h"
 
 #include <fmt/format.h>
 
@@ -14,11 +14,15 @@ constexpr std::uint32_t k_difference[] = {0x2166ac, 0x4393c3, 0x92c5de, 0xd1e5f0
                                           0xfddbc7, 0xf4a582, 0xd6604d, 0xb2182b};
 constexpr std::uint32_t k_error[] = {0x000004, 0x1b0c41, 0x4a0c6b, 0x781c6d, 0xa52c60,
                                      0xcf4446, 0xed6925, 0xfb9b06, 0xf7d13d, 0xfcffa4};
-constexpr std::uint32_t k_residual[] = {0x2f8f83, 0x7fb86b, 0xe8d25a, 0xe8923f, 0xcf3f3a, 0x9b1b4b};
+constexpr std::uint32_t k_residual[] = {0xffffcc, 0xffeda0, 0xfed976, 0xfeb24c,
+                                        0xfd8d3c, 0xfc4e2a, 0xe31a1c, 0xbd0026};
+constexpr std::uint32_t k_uncertainty[] = {0xffffd9, 0xedf8b1, 0xc7e9b4, 0x7fcdbb,
+                                           0x41b6c4, 0x1d91c0, 0x225ea8};
 
 std::span<const std::uint32_t> stops_of(ColourMap map) {
     if (map == ColourMap::difference) return k_difference;
     if (map == ColourMap::residual) return k_residual;
+    if (map == ColourMap::uncertainty) return k_uncertainty;
     return k_error;
 }
 

@@ -1,4 +1,4 @@
-#include "compare/html.h"
+#include "page/html.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,127 @@
+// Truth, draws and errors of a study.
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "fit/study_parts.h"
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+// A facet more level than this has no azimuth to speak of.
+constexpr double k_level = 1e-6;
+
+std::map<std::string, StudyTruth::Place> places_of(const FitResult& fitted, bool from_corner_mean) {
+    Vec3 middle(0);
+    if (from_corner_mean) {
+        for (const Vec3& v : fitted.solid.vertices) {
+            middle += v / static_cast<double>(fitted.solid.vertices.size());
+        }
+    } else {
+        middle = centroid(fitted.solid);
+    }
+    std::map<std::string, StudyTruth::Place> places;
+    for (const FittedFacet& f : fitted.facets) {
+        places[f.name] = {f.inclination, f.azimuth - fitted.azimuth_zero,
+                          f.plane.offset - glm::dot(f.plane.normal, middle)};
+    }
+    return places;
+}
+
+bool fixes_azimuth(const Reading& reading) {
+    switch (reading.kind) {
+        case ReadingKind::azimuth:
+        case ReadingKind::width:
+        case ReadingKind::table_width:
+            return true;
+        default:
+            return false;
+    }
+}
+
+}  // namespace
+
+void StudyBudget::report(double fraction) const {
+    if (progress_ && !progress_(fraction)) throw Interrupted();
+}
+
+StudyTruth truth_of(const Stone& stone, const std::vector<Reading>& readings,
+                    const FitResult& fitted, bool from_corner_mean) {
+    StudyTruth truth;
+    truth.stone = stone;
+    truth.stone.solid = fitted.solid;
+    truth.readings = readings;
+    truth.from_corner_mean = from_corner_mean;
+    truth.azimuths_read = stone.azimuth_from_mesh;
+    for (std::size_t r = 0; r < readings.size(); ++r) {
+        truth.azimuths_read = truth.azimuths_read || fixes_azimuth(readings[r]);
+        if (!is_relation(readings[r].kind)) truth.readings[r].value = fitted.readings[r].fitted;
+    }
+    truth.places = places_of(fitted, from_corner_mean);
+    return truth;
+}
+
+std::vector<Reading> drawn_readings(const std::vector<Reading>& readings, std::uint64_t seed,
+                                    int draw) {
+    std::seed_seq sequence{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32),
+                           static_cast<std::uint32_t>(draw)};
+    std::mt19937_64 random(sequence);
+    std::normal_distribution<double> normal;
+    std::vector<Reading> drawn = readings;
+    for (Reading& reading : drawn) {
+        const double error = normal(random);
+        if (!reading.exact && !is_relation(reading.kind)) reading.value += reading.sigma * error;
+    }
+    return drawn;
+}
+
+StudyError error_of(const StudyTruth& truth, const FitResult& fitted) {
+    StudyError sum;
+    double angles = 0, offsets = 0;
+    for (const auto& [name, place] : places_of(fitted, truth.from_corner_mean)) {
+        const auto found = truth.places.find(name);
+        if (found == truth.places.end()) continue;
+        const StudyTruth::Place& right = found->second;
+        const double off = place.offset - right.offset;
+        sum.offset += off * off;
+        ++offsets;
+        const double level = std::sin(right.inclination);
+        if (level < k_level) continue;
+        const double tilt = place.inclination - right.inclination;
+        const double turn =
+            truth.azimuths_read
+                ? level * std::remainder(place.azimuth - right.azimuth, 2 * std::numbers::pi)
+                : 0;
+        sum.angle += tilt * tilt + turn * turn;
+        ++angles;
+    }
+    return {angles > 0 ? sum.angle / angles : 0, offsets > 0 ? sum.offset / offsets : 0};
+}
+
+StudyError limit_of(const StudyTruth& truth, const FitResult& fitted) {
+    StudyError sum;
+    double angles = 0, offsets = 0;
+    for (const FittedFacet& f : fitted.facets) {
+        sum.offset += f.sigma_offset * f.sigma_offset;
+        ++offsets;
+        const double level = std::sin(f.inclination);
+        if (level < k_level) continue;
+        const double turn = truth.azimuths_read ? level * f.sigma_azimuth : 0;
+        sum.angle += f.sigma_inclination * f.sigma_inclination + turn * turn;
+        ++angles;
+    }
+    return {angles > 0 ? sum.angle / angles : 0, offsets > 0 ? sum.offset / offsets : 0};
+}
+
+bool is_sound(const Stone& stone, const FitResult& fitted) {
+    return fitted.closed && (fitted.convex || !stone.convex) && fitted.missing_facets.empty();
+}
+
+bool is_settled(const Stone& stone, const FitResult& fitted) {
+    return is_sound(stone, fitted) && fitted.status != FitStatus::not_converged;
+}
+
+}  // namespace culet
