@@ -13,7 +13,7 @@ namespace culet {
 namespace {
 
 // Of all readings that have a value; after the last, as many as are left when each is needed.
-constexpr std::array k_shares{1.0, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125};
+constexpr std::array k_shares{1.0, 0.9, 0.75, 0.625, 0.5, 0.375, 0.25, 0.1875, 0.125};
 // Redundancies nearer than this are equal: the order then is that of the list.
 constexpr double k_same_redundancy = 1e-6;
 

@@ -41,7 +41,11 @@ public:
         double value;
         bool labelled;
     };
-    std::vector<Tick> ticks() const { return logarithmic_ ? decades() : steps(); }
+    std::vector<Tick> ticks() const {
+        if (!logarithmic_) return steps(low_, high_);
+        // Less than half a decade shows too few round powers.
+        return high_ - low_ < 0.6 ? steps(std::pow(10, low_), std::pow(10, high_)) : decades();
+    }
 
 private:
     double shown(double value) const { return logarithmic_ ? std::log10(value) : value; }
@@ -53,22 +57,22 @@ private:
                 const double at = decade + std::log10(digit);
                 if (at < low_ || at > high_) continue;
                 const bool labelled = digit == 1 || (span < 2.5 && (digit == 2 || digit == 5)) ||
-                                      (span < 0.7 && digit != 7 && digit != 9);
+                                      (span < 1.2 && digit == 3);
                 ticks.push_back({digit * std::pow(10, decade), labelled});
             }
         }
         return ticks;
     }
-    std::vector<Tick> steps() const {
-        const double rough = (high_ - low_) / 6;
+    static std::vector<Tick> steps(double low, double high) {
+        const double rough = (high - low) / 6;
         const double decade = std::pow(10, std::floor(std::log10(rough)));
         double step = 10 * decade;
         for (const double s : {5.0, 2.0, 1.0}) {
             if (s * decade >= rough) step = s * decade;
         }
         std::vector<Tick> ticks;
-        for (double value = std::ceil(low_ / step) * step; value <= high_; value += step) {
-            ticks.push_back({std::abs(value) < 1e-9 * step ? 0 : value, true});
+        for (double k = std::ceil(low / step); k * step <= high; ++k) {
+            ticks.push_back({k * step, true});
         }
         return ticks;
     }

@@ -89,7 +89,7 @@ DrawnView drawn_view(const Solid& solid, ViewSide side, const std::vector<FacetP
         lines);
     result.content += fmt::format(
         "<g class=\"names\" aria-hidden=\"true\" font-family=\"{0}\" font-weight=\"600\" "
-        "fill=\"#10161a\" stroke=\"#ffffff\" stroke-opacity=\"0.6\" stroke-width=\"4\" "
+        "fill=\"#10161a\" stroke=\"#ffffff\" stroke-opacity=\"0.75\" stroke-width=\"4\" "
         "paint-order=\"stroke\" pointer-events=\"none\">{1}</g>\n"
         "<g class=\"led\" aria-hidden=\"true\" font-family=\"{0}\" font-weight=\"600\" "
         "fill=\"#10161a\" pointer-events=\"none\">{2}</g>\n",
@@ -113,7 +113,7 @@ const char* short_name(ViewSide side) {
     return "";
 }
 
-// A ramp as ten steps: gradients with many stops are drawn alike everywhere.
+// A ramp as many small steps, which every program draws alike.
 std::string ramp(const PaintLegend& legend, double x, double y, double width) {
     std::string svg;
     constexpr int k_steps = 40;
@@ -165,7 +165,7 @@ std::string draw_facets_svg(const Solid& solid, ViewSide side,
     return fmt::format(
         "<svg class=\"stone\" viewBox=\"{:.0f} 0 {:.0f} {:.0f}\" role=\"group\" "
         "aria-label=\"{}\">{}</svg>",
-        -view.left, view.width, view.height, short_name(side), view.content);
+        0.0 - view.left, view.width, view.height, short_name(side), view.content);
 }
 
 std::string drawing_svg(const std::string& title, const std::string& subtitle, const Solid& solid,

@@ -14,7 +14,7 @@ namespace {
 constexpr double k_largest = 34, k_smallest = 17;
 constexpr double k_led = 22, k_least_led = 11;
 constexpr double k_gap = 26;         // between drawing and led names
-constexpr double k_letter = 0.62;    // width of a letter of a bold sans-serif
+constexpr double k_letter = 0.74;    // width of a capital of a bold sans-serif
 constexpr double k_line = 0.95;      // height of a line
 constexpr double k_turn_gain = 1.3;  // a turned name must be so much larger to be worth it
 constexpr std::size_t k_longest = 14;
@@ -62,7 +62,8 @@ glm::dvec2 centre_of(const std::vector<glm::dvec2>& corners) {
 
 // The largest box of the given proportions (half width, half height, at size 1) that a polygon
 // holds, in the box's own frame. The size is the least over the edges of distance / reach, a
-// concave function of the middle: a pattern search finds its top.
+// concave function of the middle: a pattern search finds its top. Being far from the middle of the
+// facet costs a little, and what is larger than a name may be gains nothing.
 Fitted largest_box(const std::vector<glm::dvec2>& corners, double half_width, double half_height) {
     struct Side {
         glm::dvec2 inward;
@@ -85,18 +86,21 @@ Fitted largest_box(const std::vector<glm::dvec2>& corners, double half_width, do
         }
         return size;
     };
-    Fitted best{centre_of(corners), 0};
-    best.size = size_at(best.at);
+    const glm::dvec2 centre = centre_of(corners);
+    const auto worth = [&](const Fitted& f) {
+        return std::min(f.size, k_largest) - 0.02 * glm::length(f.at - centre);
+    };
+    Fitted best{centre, size_at(centre)};
     for (double step = 64; step > 0.5; step /= 2) {
         for (int moves = 0; moves < 12; ++moves) {
             Fitted next = best;
             for (int k = 0; k < 8; ++k) {
                 const double angle = k * std::numbers::pi / 4;
                 const glm::dvec2 at = best.at + step * glm::dvec2(std::cos(angle), std::sin(angle));
-                const double size = size_at(at);
-                if (size > next.size) next = {at, size};
+                const Fitted there{at, size_at(at)};
+                if (worth(there) > worth(next)) next = there;
             }
-            if (next.size <= best.size) break;
+            if (!(worth(next) > worth(best))) break;
             best = next;
         }
     }

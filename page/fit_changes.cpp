@@ -35,11 +35,11 @@ std::string change_row(const Solid& before, const Facet& old_facet, const Solid&
     const bool level = std::min(a.inclination_deg, b.inclination_deg) < 0.05;
     const double turn = std::remainder(b.azimuth_deg - a.azimuth_deg, 360.0);
     const auto three = [](double from, double to, double change, int places) {
+        const std::string text = decimals(change, places);
+        const bool grows = change > 0 && text.find_first_of("123456789") != std::string::npos;
         return fmt::format(
-            "<td class=\"n\">{}</td><td class=\"n\">{}</td>"
-            "<td class=\"n strong\">{}{}</td>",
-            decimals(from, places), decimals(to, places), change > 0 ? "+" : "",
-            decimals(change, places));
+            "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n strong\">{}{}</td>",
+            decimals(from, places), decimals(to, places), grows ? "+" : "", text);
     };
     const std::string no_azimuth =
         "<td class=\"n\">–</td><td class=\"n\">–</td><td class=\"n\">–</td>";

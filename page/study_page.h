@@ -7,8 +7,8 @@
 namespace culet {
 
 struct StudyView {
-    std::string study_json;  ///< as written to study.json
-    std::string title, version, command;
+    std::string study_json{};  ///< as written to study.json
+    std::string title{}, version{}, command{};
 };
 
 /// Throw InputError when the study is no JSON object.
