@@ -22,14 +22,15 @@ namespace fs = std::filesystem;
 
 struct StudyCommand {
     CommonOptions common;
-    std::string input, out, json;
+    std::string input, out, json, only;
     int draws = 8;
     double budget = 60;
 };
 
 int run_study(const StudyCommand& command) {
     const TomlTable root = read_toml(command.input, command.common.set);
-    if (!root.table("stone") && (root.has("stone") || root.has("camera") || root.has("mesh"))) {
+    const bool is_stone = root.kind("stone") == TomlTable::Kind::table;
+    if (!is_stone && (root.has("stone") || root.has("camera") || root.has("mesh"))) {
         throw InputError(command.input,
                          "is a scene: this version studies fits only; give a stone file with its "
                          "readings");
@@ -47,6 +48,8 @@ int run_study(const StudyCommand& command) {
     options.seed = command.common.seed;
     options.draws = command.draws;
     options.budget_seconds = command.budget;
+    options.times = command.only != "limit";
+    options.limits = command.only != "time";
 
     const fs::path folder = command.out;
     std::error_code problem;
@@ -112,6 +115,9 @@ void add_command_study(CLI::App& program, int& exit_code) {
     study->add_option("--budget", command->budget, "seconds of processor time (60; 0: no limit)")
         ->check(CLI::Range(0.0, 1e9))
         ->type_name("S");
+    study->add_option("--only", command->only, "one half: time, or limit")
+        ->check(CLI::IsMember({"time", "limit"}))
+        ->type_name("HALF");
     add_common(*study, command->common, true);
     study->footer(
         "Examples:\n"

@@ -24,10 +24,14 @@ Study study_fit(const Stone& stone, const std::vector<Reading>& readings,
         return study;
     }
     // Half of the time each, but for what the first leaves over.
-    budget.allow(0.5 * options.budget_seconds);
-    study_settings(stone, readings, base, budget, study);
-    budget.allow(options.budget_seconds);
-    study_limits(stone, base, truth_of(stone, readings, base), budget, study);
+    if (options.times) {
+        budget.allow((options.limits ? 0.5 : 1) * options.budget_seconds);
+        study_settings(stone, readings, base, budget, study);
+    }
+    if (options.limits) {
+        budget.allow(options.budget_seconds);
+        study_limits(stone, base, truth_of(stone, readings, base), budget, study);
+    }
     budget.report(1);
     return study;
 }

@@ -21,6 +21,8 @@ struct StudyOptions {
     /// Seconds of processor time; 0: no limit. When they are used up, the rows have fewer draws and
     /// the last ones may be missing; what is there is the same whatever the budget.
     double budget_seconds = 60;
+    bool times = true;   ///< error and time of each way of fitting
+    bool limits = true;  ///< error beside the theoretical limit
 };
 
 /// One way of fitting, and what came of it over all draws.
