@@ -36,7 +36,10 @@ struct StudySetting {
     /// And as good as the best known: chi-square within max(4, 5 %) of that of the fit from the
     /// mesh as it is.
     int best = 0;
-    double angle_error = 0;   ///< root mean square over sound draws and facets, radians
+    double angle_error = 0;  ///< root mean square over sound draws and facets, radians
+    /// Likewise, not against the truth but against the fit as asked of the same readings: what the
+    /// arithmetic leaves undone. Negative where that solves other equations.
+    double angle_left = -1;
     double offset_error = 0;  ///< likewise of planes' distances, in the stone's unit
     /// Processor time of one fit, covariance included: median and quartiles.
     double seconds = 0, seconds_low = 0, seconds_high = 0;

@@ -35,8 +35,9 @@ struct StudyTruth {
     Stone stone;                    ///< its solid is the true one
     std::vector<Reading> readings;  ///< with the values that the true stone gives
     struct Place {
-        double inclination = 0, azimuth = 0;  ///< azimuth from the zero of the readings
-        double offset = 0;                    ///< distance from the middle of the stone
+        double inclination = 0;  ///< from above, 0 .. pi
+        double azimuth = 0;      ///< from the zero of the readings
+        double offset = 0;       ///< distance from the middle of the stone
     };
     std::map<std::string, Place> places;  ///< by facet
     bool azimuths_read = false;           ///< some reading fixes where azimuths begin

@@ -43,6 +43,7 @@ Json object_of(const StudySetting& row) {
             {"settled", row.settled},
             {"best", row.best < 0 ? Json(nullptr) : Json(row.best)},
             {"angle_error", if_sound(degrees(row.angle_error))},
+            {"angle_left", row.angle_left < 0 ? Json(nullptr) : number(degrees(row.angle_left))},
             {"offset_error", if_sound(row.offset_error)},
             {"seconds", row.seconds},
             {"seconds_low", row.seconds_low},

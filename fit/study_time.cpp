@@ -26,12 +26,14 @@ struct Way {
     bool same_equations = true;  // chi-square may be compared with the asked way's
     std::vector<double> seconds;
     std::vector<StudyError> errors;
+    double left = 0;  // sum of squares
 };
 
 struct Outcome {
     double seconds = 0, chi2 = 0;
     bool sound = false, settled = false;
     StudyError error;
+    FitResult fitted;
 };
 
 bool is_symmetry(ReadingKind kind) {
@@ -122,9 +124,10 @@ Outcome outcome_of(const Way& way, const Stone& stone, const StudyTruth& truth,
     const std::vector<Reading> readings = with_symmetry(drawn, way.symmetry);
     const Stone start = way.shake > 0 ? shaken(stone, way.shake, seed, draw) : stone;
     const double begin = processor_seconds();
-    const FitResult fitted = fit_stone(start, readings, way.options);
     Outcome outcome;
+    outcome.fitted = fit_stone(start, readings, way.options);
     outcome.seconds = processor_seconds() - begin;
+    const FitResult& fitted = outcome.fitted;
     outcome.chi2 = fitted.chi2;
     outcome.sound = is_sound(stone, fitted);
     outcome.settled = is_settled(stone, fitted);
@@ -132,12 +135,14 @@ Outcome outcome_of(const Way& way, const Stone& stone, const StudyTruth& truth,
     return outcome;
 }
 
-void note(const Outcome& outcome, const Outcome& asked, Way& way) {
+// Both fits of one draw.
+void note(const Outcome& outcome, const Outcome& asked, const StudyTruth& end, Way& way) {
     ++way.row.fits;
     way.seconds.push_back(outcome.seconds);
     if (outcome.sound) {
         ++way.row.sound;
         way.errors.push_back(outcome.error);
+        way.left += error_of(end, outcome.fitted).angle;
     }
     if (outcome.settled) ++way.row.settled;
     if (way.same_equations && outcome.settled &&
@@ -166,6 +171,7 @@ void sum_up(Way& way) {
         mean.offset += e.offset / double(way.errors.size());
     }
     way.row.angle_error = std::sqrt(mean.angle);
+    if (way.same_equations) way.row.angle_left = std::sqrt(way.left / double(way.errors.size()));
     way.row.offset_error = std::sqrt(mean.offset);
 }
 
@@ -180,11 +186,12 @@ void study_settings(const Stone& stone, const std::vector<Reading>& readings, co
         Way plain;
         plain.options = study.options.fit;
         const Outcome asked = outcome_of(plain, stone, truth, drawn, study.options.seed, draw);
+        const StudyTruth end = truth_of(stone, drawn, asked.fitted);
         for (std::size_t w = 0; w < all.size(); ++w) {
             if (all[w].row.as_asked) {
-                note(asked, asked, all[w]);
+                note(asked, asked, end, all[w]);
             } else if (!budget.spent()) {
-                note(outcome_of(all[w], stone, truth, drawn, study.options.seed, draw), asked,
+                note(outcome_of(all[w], stone, truth, drawn, study.options.seed, draw), asked, end,
                      all[w]);
             }
             budget.report(0.5 * (draw + double(w) / double(all.size())) / study.options.draws);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <random>
 
 #include "fit/study_parts.h"
@@ -14,7 +15,26 @@ namespace {
 // A facet more level than this has no azimuth to speak of.
 constexpr double k_level = 1e-6;
 
-std::map<std::string, StudyTruth::Place> places_of(const FitResult& fitted, bool from_corner_mean) {
+// Up in the frame of a fitted solid.
+Vec3 up_of(const Stone& stone, const FitResult& fitted) {
+    if (const int facet = find_facet(fitted.solid, stone.up_facet); facet >= 0) {
+        return fitted.solid.facets[static_cast<std::size_t>(facet)].plane.normal;
+    }
+    // The fit lays it on a coordinate axis that is near.
+    for (int k = 0; k < 3; ++k) {
+        if (std::abs(stone.up[k]) < std::cos(radians(20))) continue;
+        Vec3 axis(0);
+        axis[k] = std::copysign(1, stone.up[k]);
+        return axis;
+    }
+    return stone.up;
+}
+
+// Inclinations count from above all the way, 0 .. pi: folded at the horizon they would hide half of
+// the errors of upright facets.
+std::map<std::string, StudyTruth::Place> places_of(const Stone& stone, const FitResult& fitted,
+                                                   bool from_corner_mean) {
+    const Vec3 up = up_of(stone, fitted);
     Vec3 middle(0);
     if (from_corner_mean) {
         for (const Vec3& v : fitted.solid.vertices) {
@@ -25,7 +45,9 @@ std::map<std::string, StudyTruth::Place> places_of(const FitResult& fitted, bool
     }
     std::map<std::string, StudyTruth::Place> places;
     for (const FittedFacet& f : fitted.facets) {
-        places[f.name] = {f.inclination, f.azimuth - fitted.azimuth_zero,
+        const bool below = glm::dot(f.plane.normal, up) < 0;
+        places[f.name] = {below ? std::numbers::pi - f.inclination : f.inclination,
+                          f.azimuth - fitted.azimuth_zero,
                           f.plane.offset - glm::dot(f.plane.normal, middle)};
     }
     return places;
@@ -60,7 +82,7 @@ StudyTruth truth_of(const Stone& stone, const std::vector<Reading>& readings,
         truth.azimuths_read = truth.azimuths_read || fixes_azimuth(readings[r]);
         if (!is_relation(readings[r].kind)) truth.readings[r].value = fitted.readings[r].fitted;
     }
-    truth.places = places_of(fitted, from_corner_mean);
+    truth.places = places_of(stone, fitted, from_corner_mean);
     return truth;
 }
 
@@ -81,7 +103,7 @@ std::vector<Reading> drawn_readings(const std::vector<Reading>& readings, std::u
 StudyError error_of(const StudyTruth& truth, const FitResult& fitted) {
     StudyError sum;
     double angles = 0, offsets = 0;
-    for (const auto& [name, place] : places_of(fitted, truth.from_corner_mean)) {
+    for (const auto& [name, place] : places_of(truth.stone, fitted, truth.from_corner_mean)) {
         const auto found = truth.places.find(name);
         if (found == truth.places.end()) continue;
         const StudyTruth::Place& right = found->second;

@@ -136,13 +136,15 @@ std::string time_table(const Json& study, const std::string& unit) {
         rows += fmt::format(
             "<tr><th scope=\"row\">{}</th><td>{}{}</td><td class=\"n\">{}</td>"
             "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
-            "<td class=\"n\">{}</td><td class=\"n\">{} <small>{} … {}</small></td></tr>\n",
+            "<td class=\"n\">{}</td><td class=\"n\">{}</td>"
+            "<td class=\"n\">{} <small>{} … {}</small></td></tr>\n",
             escaped(words != nullptr ? words->name : sweep), escaped(text_at(row, "setting")),
             true_at(row, "as_asked") ? " <small>as asked</small>" : "", of_fits(row, "sound"),
             of_fits(row, "settled"), of_fits(row, "best"),
-            significant(number_at(row, "angle_error")), significant(number_at(row, "offset_error")),
-            ms(value_at(row, "seconds")), ms(value_at(row, "seconds_low")),
-            ms(value_at(row, "seconds_high")));
+            significant(number_at(row, "angle_error")),
+            significant(number_at(row, "angle_left"), 2),
+            significant(number_at(row, "offset_error")), ms(value_at(row, "seconds")),
+            ms(value_at(row, "seconds_low")), ms(value_at(row, "seconds_high")));
     }
     if (rows.empty()) return {};
     return table("Error and time of each way of fitting",
@@ -151,6 +153,7 @@ std::string time_table(const Json& study, const std::string& unit) {
                              "<th scope=\"col\" class=\"n\">Settled</th>"
                              "<th scope=\"col\" class=\"n\">Best</th>"
                              "<th scope=\"col\" class=\"n\">Angles, °</th>"
+                             "<th scope=\"col\" class=\"n\">From the end, °</th>"
                              "<th scope=\"col\" class=\"n\">Offsets, {}</th>"
                              "<th scope=\"col\" class=\"n\">Processor time, ms</th>",
                              escaped(unit)),
@@ -250,8 +253,8 @@ std::string study_table(const std::string& study_json) {
     };
     std::string text;
     if (!array_at(study, "settings").empty()) {
-        text += fmt::format("{:<11} {:<13} {:>6} {:>8} {:>6} {:>10} {:>11} {:>9}\n", "what",
-                            "setting", "sound", "settled", "best", "angles/deg",
+        text += fmt::format("{:<11} {:<13} {:>6} {:>8} {:>6} {:>10} {:>9} {:>11} {:>9}\n", "what",
+                            "setting", "sound", "settled", "best", "angles/deg", "to end",
                             fmt::format("offsets/{}", unit), "CPU/ms");
     }
     for (const Json& row : array_at(study, "settings")) {
@@ -300,7 +303,9 @@ std::string study_page(const StudyView& view) {
     if (!array_at(study, "settings").empty()) {
         time +=
             "<p class=\"note\">Angles and offsets: root mean square over facets and draws, against "
-            "the truth. Sound: a closed stone with every facet. Settled: the search ended by "
+            "the truth. From the end: likewise against the fit as asked of the same readings, what "
+            "the arithmetic leaves undone. Sound: a closed stone with every facet. Settled: the "
+            "search ended by "
             "itself. Best: as good a fit as any start gave. Time: median and quartiles of one fit, "
             "uncertainties included. Hollow points: some fits found no stone.</p>\n" +
             notes_of(study);

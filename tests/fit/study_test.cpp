@@ -103,7 +103,7 @@ TEST(Study, has_a_row_for_each_way_of_fitting) {
     std::istringstream csv(study_time_csv(study));
     std::size_t lines = 0;
     for (std::string line; std::getline(csv, line); ++lines) {
-        EXPECT_EQ(std::count(line.begin(), line.end(), ','), 11);
+        EXPECT_EQ(std::count(line.begin(), line.end(), ','), 12);
     }
     EXPECT_EQ(lines, json["settings"].size() + 1);
 }
