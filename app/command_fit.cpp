@@ -7,6 +7,7 @@
 #include "app/options.h"
 #include "app/terminal.h"
 #include "fit/fit.h"
+#include "fit/summary.h"
 #include "page/drawing.h"
 #include "page/fit_paint.h"
 #include "stone/errors.h"
@@ -55,7 +56,11 @@ int run_fit(const FitCommand& command) {
                                fmt::format("{}: {}", name_of(result.status), result.message),
                                result.solid, paint.facets, paint.legend));
     }
-    say(fmt::format("{}: {}", name_of(result.status), result.message), command.common.quiet);
+    std::string prefix = fmt::format("{}: ", name_of(result.status));
+    for (const std::string& sentence : fit_summary(result)) {
+        say(prefix + sentence, command.common.quiet);
+        prefix.clear();
+    }
     say(fmt::format("{} facets, {} corners, planar to {:.1e} {}, {} steps, {:.2f} s",
                     result.solid.facets.size(), result.solid.vertices.size(), result.planarity_max,
                     name_of(result.unit), result.iterations, result.seconds),

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fit/fit.h"
+#include "fit/summary.h"
 #include "stone/units.h"
 
 namespace culet {
@@ -41,6 +42,7 @@ std::string fit_report(const FitResult& result) {
     report["schema"] = 1;
     report["status"] = name_of(result.status);
     report["message"] = result.message;
+    report["summary"] = fit_summary(result);
     report["unit"] = std::string(name_of(result.unit));
     Json facets = Json::array();
     for (const FittedFacet& f : result.facets) {

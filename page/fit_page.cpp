@@ -25,6 +25,13 @@ std::string fit_facts(const Json& fit) {
         words = "The search did not settle: do not rely on the stone below.";
     if (status == "contradictory") words = "The readings contradict one another: see the suspects.";
     if (status == "undetermined") words = "The readings leave some facets free: see below.";
+    // The fit's own sentences say more.
+    std::string sentences;
+    for (const Json& sentence : array_at(fit, "summary")) {
+        if (!sentence.is_string()) continue;
+        sentences += (sentences.empty() ? "" : " ") + escaped(sentence.get<std::string>());
+    }
+    if (!sentences.empty()) words = sentences;
     std::string shown_status = status;
     std::replace(shown_status.begin(), shown_status.end(), '_', ' ');
     std::string body = fmt::format(

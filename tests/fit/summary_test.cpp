@@ -1,0 +1,92 @@
+#include "fit/summary.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "stone/units.h"
+
+namespace culet {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+FittedFacet facet(const std::string& name, double sigma_deg) {
+    FittedFacet f;
+    f.name = name;
+    f.inclination = radians(90);
+    f.sigma_inclination = radians(0.6 * sigma_deg);
+    f.sigma_azimuth = radians(0.8 * sigma_deg);
+    return f;
+}
+
+FitResult result() {
+    FitResult r;
+    r.status = FitStatus::converged;
+    r.chi2 = 48.9;
+    r.dof = 94;
+    r.chi2_limit = 142.1;
+    r.facets = {facet("P1", 0.1), facet("P2", 0.3), facet("P3", 0.2)};
+    FittedReading reading;
+    reading.id = "r0";
+    reading.of = {"P1"};
+    reading.value = radians(43.4);
+    reading.residual = radians(-4.5);
+    reading.redundancy = 0.5;
+    reading.normalized = -12.34;
+    r.readings = {reading};
+    return r;
+}
+
+TEST(Summary, names_the_least_sure_facets) {
+    const auto lines = fit_summary(result());
+    EXPECT_THAT(lines.front(), HasSubstr("chi-square 48.9, where 94.0 is expected"));
+    EXPECT_THAT(lines, Contains(HasSubstr("Least sure are P2 (0.3 degrees), P3 (0.2 degrees)")));
+    EXPECT_THAT(lines, Not(Contains(HasSubstr("Look again"))));
+}
+
+// Without its own reading of 43.4 the facet would come to 43.4 - 4.5 / 0.5 = 34.4: the residual is
+// the redundancy's part of the error.
+TEST(Summary, says_what_the_others_say_of_a_suspect) {
+    FitResult r = result();
+    r.status = FitStatus::contradictory;
+    r.suspects = {"r0"};
+    EXPECT_THAT(
+        fit_summary(r),
+        Contains(HasSubstr(
+            "Look again at r0 (inclination of P1: read 43.4, the others say 34.4, off by 12.3")));
+}
+
+TEST(Summary, says_what_is_open_and_what_nothing_checks) {
+    FitResult r = result();
+    r.status = FitStatus::undetermined;
+    r.message = "2 freedoms";
+    r.readings[0].redundancy = 0;
+    r.undetermined = {{"P3", "azimuth"}, {"P3", "offset"}, {"P1", "offset"}};
+    const auto lines = fit_summary(r);
+    EXPECT_THAT(lines, Contains("Nothing measured fixes the azimuth and offset of P3, the offset "
+                                "of P1."));
+    EXPECT_THAT(lines, Contains(HasSubstr("Nothing checks 1 of 1 readings (r0)")));
+}
+
+TEST(Summary, of_a_failure_says_not_to_rely_on_it) {
+    FitResult r;
+    r.message = "the fitted stone is not closed";
+    const auto lines = fit_summary(r);
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_EQ(lines[0], "Do not rely on this stone: the fitted stone is not closed.");
+}
+
+TEST(Summary, survives_what_is_not_known) {
+    FitResult r = result();
+    for (FittedFacet& f : r.facets) f.sigma_inclination = f.sigma_azimuth = std::nan("");
+    r.readings[0].redundancy = std::nan("");
+    r.suspects = {"gone"};
+    for (const std::string& line : fit_summary(r)) EXPECT_THAT(line, Not(HasSubstr("nan")));
+}
+
+}  // namespace
+}  // namespace culet
