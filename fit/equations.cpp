@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <numbers>
 
 #include "fit/system.h"
@@ -100,9 +101,7 @@ std::vector<Equation> System::equations(const Shape& shape,
         e.role = incidence.how == MeetTreatment::released ? Equation::Role::released
                                                           : Equation::Role::incidence;
         e.exact = incidence.how == MeetTreatment::exact;
-        e.sigma = incidence.how == MeetTreatment::released ? k_released_sigma
-                  : incidence.sigma > 0                    ? incidence.sigma
-                                        : group_sigmas_[is_girdle(incidence.facet)];
+        e.sigma = incidence_sigma(incidence);
         if (e.role == Equation::Role::incidence && !e.exact && incidence.sigma == 0 &&
             estimates_meets_) {
             e.group = is_girdle(incidence.facet);
@@ -110,7 +109,26 @@ std::vector<Equation> System::equations(const Shape& shape,
         e.formula = height(incidence.facet, Corner{incidence.point, {-1, -1, -1}});
         all.push_back(std::move(e));
     }
+    std::vector<Equation> of_readings = reading_equations(shape, outline);
+    std::move(of_readings.begin(), of_readings.end(), std::back_inserter(all));
+    return all;
+}
 
+double System::incidence_sigma(const Incidence& incidence) const {
+    return incidence.how == MeetTreatment::exact      ? 0
+           : incidence.how == MeetTreatment::released ? k_released_sigma
+           : incidence.sigma > 0                      ? incidence.sigma
+                                                      : group_sigmas_[is_girdle(incidence.facet)];
+}
+
+bool System::has_exact_readings() const {
+    return std::any_of(readings_.begin(), readings_.end(),
+                       [](const Reading& r) { return r.exact && r.kind != ReadingKind::meet; });
+}
+
+std::vector<Equation> System::reading_equations(
+    const Shape& shape, const std::shared_ptr<const Outline>& outline, bool reduced) const {
+    std::vector<Equation> all;
     // Corners, loops and edges as they are now; of a facet that is not there, as in the mesh.
     const auto loop_of = [&](int f) {
         return outline->loops[f].size() >= 3 ? corners_of(*outline, f)
@@ -146,6 +164,7 @@ std::vector<Equation> System::equations(const Shape& shape,
 
     for (std::size_t r = 0; r < readings_.size(); ++r) {
         const Reading& reading = readings_[r];
+        if (reduced && first_extra_[r] >= 0 && fixed_extras_[first_extra_[r]]) continue;
         const double unit = unit_of(reading);
         Equation base;
         base.reading = static_cast<int>(r);
