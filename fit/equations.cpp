@@ -51,14 +51,17 @@ Corner farthest(const Shape& shape, const std::vector<Corner>& corners, const Ve
     return best;
 }
 
+bool is_nearly_upright(const Vec3& normal) {
+    return std::abs(normal.z) < std::sin(radians(5));
+}
+
 // Whether an inclination counts from above or from below. A reading of a nearly upright facet does
 // not say on which side of upright it is: the nearer one is meant.
 int side_of(const Vec3& normal, double inclination_read) {
     const int side = normal.z < 0 ? -1 : 1;
     const double from_up = std::atan2(std::hypot(normal.x, normal.y), side * normal.z);
     const double from_down = std::numbers::pi - from_up;
-    const bool near_upright = std::abs(from_up - std::numbers::pi / 2) < radians(5);
-    return near_upright &&
+    return is_nearly_upright(normal) &&
                    std::abs(from_down - inclination_read) < std::abs(from_up - inclination_read)
                ? -side
                : side;
@@ -212,6 +215,11 @@ std::vector<Equation> System::reading_equations(
                     }
                 }
                 put(aggregated(reading, std::move(terms), shape), base.value);
+                if (reading.aggregate == Aggregate::single &&
+                    reading.datum.kind == Datum::Kind::up &&
+                    is_nearly_upright(shape.normals[reading.facets[0]])) {
+                    all.back().other_value = std::numbers::pi - base.value;
+                }
                 break;
             }
             case ReadingKind::azimuth:

@@ -214,6 +214,16 @@ Sheet Relaxation::hard_sheet(const Shape& shape, const std::vector<Held>& held) 
     return sheet;
 }
 
+std::vector<Relaxation::Folded> Relaxation::folded(const Shape& shape) const {
+    std::vector<Folded> result;
+    int row = static_cast<int>(incidences_.size());
+    for (const Equation& e : system_.reading_equations(shape, system_.mesh_outline(), true)) {
+        if (e.other_value && !e.exact) result.push_back({row, *e.other_value - e.value, e.sigma});
+        ++row;
+    }
+    return result;
+}
+
 std::vector<SaddleSolver::Entry> Relaxation::curvature(const Shape& shape,
                                                        const Eigen::VectorXd& forces) const {
     // force * (normal . point - offset): mixed derivatives of tilts and points, and the turn of the

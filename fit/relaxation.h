@@ -55,6 +55,13 @@ public:
     bool is_convex(const Shape& shape) const { return above(shape).empty(); }
 
     Eigen::VectorXd metric() const;
+    /// Rows of `sheet` that may as well mean another value, and by how much more that is.
+    struct Folded {
+        int row = -1;
+        double shift = 0, sigma = 1;
+    };
+    std::vector<Folded> folded(const Shape& shape) const;
+
     /// Second derivatives of the Lagrangian from the incidences, which are bilinear.
     std::vector<SaddleSolver::Entry> curvature(const Shape& shape,
                                                const Eigen::VectorXd& forces) const;

@@ -31,6 +31,9 @@ struct Equation {
     bool exact = false;
     double value = 0, sigma = 1;
     double size = 1;  ///< of the quantity, by which early stages soften it
+    /// What the reading may as well mean: of a nearly upright facet an inclination does not say
+    /// whether it leans in or out.
+    std::optional<double> other_value;
     Formula formula;
 
     /// Takes part in chi-square and in the count of redundancy.
