@@ -21,7 +21,7 @@ namespace {
 struct FitCommand {
     CommonOptions common;
     std::string stone, output, report, drawing, paint = "residual";
-    int iterations = 0;
+    int iterations = 0, starts = 0;
 };
 
 int run_fit(const FitCommand& command) {
@@ -35,6 +35,7 @@ int run_fit(const FitCommand& command) {
     const auto readings = bind_readings(written, file.stone);
     FitOptions options = read_fit_options(command.stone, command.common.set);
     if (command.iterations > 0) options.iterations = command.iterations;
+    if (command.starts > 0) options.starts = command.starts;
 
     const FitResult result = [&] {
         try {
@@ -91,6 +92,10 @@ void add_command_fit(CLI::App& program, int& exit_code) {
         ->check(CLI::IsMember({"residual", "sigma"}))
         ->type_name("WHAT");
     fit->add_option("--iterations", command->iterations, "most steps of the last stage")
+        ->check(CLI::Range(1, 1000000))
+        ->type_name("N");
+    fit->add_option("--starts", command->starts,
+                    "most starts to try when the first does not explain the readings (12)")
         ->check(CLI::Range(1, 1000000))
         ->type_name("N");
     add_common(*fit, command->common, true);

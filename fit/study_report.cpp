@@ -115,6 +115,7 @@ std::string study_json(const Study& study) {
                          {"meets", word(fit.meets)},
                          {"meet_sigma", fit.meet_sigma ? Json(*fit.meet_sigma) : Json("auto")},
                          {"iterations", fit.iterations},
+                         {"starts", fit.starts},
                          {"significance", fit.significance}};
     object["settings"] = array_of(study.settings);
     object["limits"] = array_of(study.limits);

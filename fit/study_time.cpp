@@ -15,6 +15,9 @@ namespace {
 
 constexpr std::array k_iterations{1, 2, 4, 8, 16, 32};
 constexpr std::array k_shakes{0.01, 0.05, 0.1, 0.2};
+// Of starts one needs many only when the mesh is bad.
+constexpr std::array k_starts{1, 2, 4, 8};
+constexpr double k_bad_mesh = 0.2;
 // Of symmetry that is declared exact, when it is studied as soft.
 constexpr double k_soft_symmetry = 0.1;  // degrees
 
@@ -23,6 +26,7 @@ struct Way {
     FitOptions options;
     enum class Symmetry { as_asked, exact, soft, none } symmetry = Symmetry::as_asked;
     double shake = 0;            // of the mesh's corners, in diameters
+    bool is_asked_fit = false;   // from the mesh as it is, with the options of the stone file
     bool same_equations = true;  // chi-square may be compared with the asked way's
     std::vector<double> seconds;
     std::vector<StudyError> errors;
@@ -82,7 +86,7 @@ std::vector<Way> ways(const std::vector<Reading>& readings, const FitOptions& as
         Way way;
         way.row.sweep = sweep;
         way.row.setting = std::move(setting);
-        way.row.as_asked = is_asked;
+        way.row.as_asked = way.is_asked_fit = is_asked;
         way.options = asked;
         all.push_back(std::move(way));
         return all.back();
@@ -116,6 +120,16 @@ std::vector<Way> ways(const std::vector<Reading>& readings, const FitOptions& as
     for (const double share : k_shakes) {
         add("start", fmt::format("shaken {:g} %", 100 * share), false).shake = share;
     }
+    const auto add_starts = [&](int starts) {
+        Way& way = add("starts", fmt::format("{}", starts), false);
+        way.row.as_asked = starts == asked.starts;
+        way.options.starts = starts;
+        way.shake = k_bad_mesh;
+    };
+    for (const int starts : k_starts) {
+        if (starts < asked.starts) add_starts(starts);
+    }
+    add_starts(asked.starts);
     return all;
 }
 
@@ -188,7 +202,7 @@ void study_settings(const Stone& stone, const std::vector<Reading>& readings, co
         const Outcome asked = outcome_of(plain, stone, truth, drawn, study.options.seed, draw);
         const StudyTruth end = truth_of(stone, drawn, asked.fitted);
         for (std::size_t w = 0; w < all.size(); ++w) {
-            if (all[w].row.as_asked) {
+            if (all[w].is_asked_fit) {
                 note(asked, asked, end, all[w]);
             } else if (!budget.spent()) {
                 note(outcome_of(all[w], stone, truth, drawn, study.options.seed, draw), asked, end,

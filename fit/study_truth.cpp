@@ -14,6 +14,13 @@ namespace {
 
 // A facet more level than this has no azimuth to speak of.
 constexpr double k_level = 1e-6;
+// The reading of a facet that is nearly upright does not say which way it leans: of these only
+// azimuths are compared, since the limit knows nothing of such a choice.
+constexpr double k_upright = radians(5);
+
+bool is_upright(double inclination) {
+    return std::abs(inclination - std::numbers::pi / 2) < k_upright;
+}
 
 // Up in the frame of a fitted solid.
 Vec3 up_of(const Stone& stone, const FitResult& fitted) {
@@ -112,7 +119,8 @@ StudyError error_of(const StudyTruth& truth, const FitResult& fitted) {
         ++offsets;
         const double level = std::sin(right.inclination);
         if (level < k_level) continue;
-        const double tilt = place.inclination - right.inclination;
+        const double tilt =
+            is_upright(right.inclination) ? 0 : place.inclination - right.inclination;
         const double turn =
             truth.azimuths_read
                 ? level * std::remainder(place.azimuth - right.azimuth, 2 * std::numbers::pi)
@@ -132,7 +140,8 @@ StudyError limit_of(const StudyTruth& truth, const FitResult& fitted) {
         const double level = std::sin(f.inclination);
         if (level < k_level) continue;
         const double turn = truth.azimuths_read ? level * f.sigma_azimuth : 0;
-        sum.angle += f.sigma_inclination * f.sigma_inclination + turn * turn;
+        const double tilt = is_upright(f.inclination) ? 0 : f.sigma_inclination;
+        sum.angle += tilt * tilt + turn * turn;
         ++angles;
     }
     return {angles > 0 ? sum.angle / angles : 0, offsets > 0 ? sum.offset / offsets : 0};

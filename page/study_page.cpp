@@ -37,7 +37,7 @@ constexpr SweepWords k_sweeps[] = {
     {"meets", "meets", "how meets of more than three facets are treated", false},
     {"symmetry", "symmetry", "how the declared symmetry is treated", false},
     {"start", "start", "how far the mesh is from the stone when the fit begins", false},
-    {"starts", "starts", "how many starts may be tried, from a badly shaken mesh", true},
+    {"starts", "starts", "how many starts may be tried, from a mesh shaken by 20 %", true},
 };
 
 const SweepWords* words_of(const std::string& sweep) {
