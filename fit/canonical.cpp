@@ -64,8 +64,8 @@ Pattern pattern_of(const Solid& solid, const HalfEdges& half, int infinite) {
         }
     }
     const Edge& edge = half.edges[infinite];
-    for (int line : {edge.from, edge.to, pattern.vertices + edge.left,
-                     pattern.vertices + edge.right}) {
+    for (int line :
+         {edge.from, edge.to, pattern.vertices + edge.left, pattern.vertices + edge.right}) {
         pattern.is_line[line] = true;
     }
     return pattern;

@@ -129,8 +129,9 @@ bool System::has_exact_readings() const {
                        [](const Reading& r) { return r.exact && r.kind != ReadingKind::meet; });
 }
 
-std::vector<Equation> System::reading_equations(
-    const Shape& shape, const std::shared_ptr<const Outline>& outline, bool reduced) const {
+std::vector<Equation> System::reading_equations(const Shape& shape,
+                                                const std::shared_ptr<const Outline>& outline,
+                                                bool reduced) const {
     std::vector<Equation> all;
     // Corners, loops and edges as they are now; of a facet that is not there, as in the mesh.
     const auto loop_of = [&](int f) {
@@ -179,6 +180,13 @@ std::vector<Equation> System::reading_equations(
             e.formula = std::move(formula);
             e.value = value;
             all.push_back(std::move(e));
+        };
+        const auto put_caliper = [&](const std::vector<Corner>& corners, const Vec3& direction) {
+            const std::array<Corner, 2> touched{farthest(shape, corners, direction),
+                                                farthest(shape, corners, -direction)};
+            put(extent(touched[0], touched[1], direction), base.value);
+            all.back().touched = touched;
+            all.back().caliper = direction;
         };
         switch (reading.kind) {
             case ReadingKind::inclination: {
@@ -276,17 +284,13 @@ std::vector<Equation> System::reading_equations(
                 } else if (reading.kind == ReadingKind::width) {
                     direction = inside_direction(reading.direction);
                 }
-                put(extent(farthest(shape, outline->corners, direction),
-                           farthest(shape, outline->corners, -direction), direction),
-                    base.value);
+                put_caliper(outline->corners, direction);
                 break;
             }
             case ReadingKind::table_width: {
                 const Vec3 direction{std::cos(reading.azimuth), std::sin(reading.azimuth), 0};
                 const std::vector<Corner> loop = loop_of(up_facet_);
-                put(extent(farthest(shape, loop, direction), farthest(shape, loop, -direction),
-                           direction),
-                    base.value);
+                put_caliper(loop, direction);
                 break;
             }
             case ReadingKind::volume:

@@ -1,7 +1,7 @@
 #include "fit/exact_finish.h"
 
-#include <algorithm>
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -13,6 +13,9 @@ namespace {
 // their way in each step; those that no reading holds do not move.
 constexpr double k_first_damping = 1e-2;
 constexpr double k_least_damping = 1e-6;
+
+constexpr double k_nearly_met = 1e-10;
+constexpr int k_most_choices = 12;
 
 std::span<const double> steps(const Eigen::VectorXd& step) {
     return {step.data(), static_cast<std::size_t>(step.size())};
@@ -57,20 +60,42 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
     softness.with_priors = false;
     Settled result;
     Shape shape = start;
+    relaxation.forget_ties();
+    relaxation.choose(shape);
     Sheet sheet = relaxation.sheet(shape, softness, held);
     const Eigen::VectorXd metric = relaxation.metric();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(freedoms.size());
     SaddleSolver solver;
     double damping = k_first_damping;
-    int quiet = 0;
+    int quiet = 0, choices = 0;
     bool curved = false;
+    // At an end, the readings are asked again what they mean there. At a kink (a caliper's jaw that
+    // touches two corners at once) they would change their mind for ever; `choose` ties the two.
+    const auto ends = [&](bool settled) {
+        if (choices > k_most_choices) {
+            result.converged = settled;
+            return true;
+        }
+        relaxation.choose(shape);
+        Sheet fresh = relaxation.sheet(shape, softness, held);
+        if (std::abs(fresh.merit - sheet.merit) < 1e-9 * (1 + sheet.merit)) {
+            result.converged = settled;
+            return true;
+        }
+        ++choices;
+        sheet = std::move(fresh);
+        quiet = 0;
+        damping = std::max(damping, 1e-4);
+        if (damping > 1) damping = 1e-2;
+        return false;
+    };
     Eigen::VectorXd forces;
     for (int i = 0; i < iterations; ++i) {
         result.iterations = i + 1;
         bool factored = false;
         if (curved && forces.size() >= Eigen::Index(0)) {
-            factored = solver.factor(sheet.rows, damping * metric,
-                                     relaxation.curvature(shape, forces));
+            factored =
+                solver.factor(sheet.rows, damping * metric, relaxation.curvature(shape, forces));
         }
         if (!factored) {
             curved = false;
@@ -85,13 +110,14 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
                 length = step.cwiseAbs().maxCoeff();
                 // Half a unit is half the stone's radius: no linearisation holds so far.
                 if (length > 0.2) step *= 0.2 / length;
-                Shape next = freedoms.moved(shape, steps(step));
+                Shape next = freedoms.moved_with_turn(shape, steps(step));
+
                 // Second-order correction: back onto the curved constraints, same factors.
                 Sheet there = relaxation.sheet(next, softness, held);
                 double off_before = 1e300;
                 for (int k = 0; k < 4; ++k) {
                     const double worst = there.hard_worst;
-                    if (worst < 1e-12 || !(worst < 0.5 * off_before)) break;
+                    if (worst < 1e-13 || !(worst < 0.5 * off_before)) break;
                     off_before = worst;
                     Eigen::VectorXd back = Eigen::VectorXd::Zero(sheet.rows.count());
                     const int common = std::min(sheet.rows.count(), there.rows.count());
@@ -106,12 +132,15 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
                     there = relaxation.sheet(next, softness, held);
                 }
                 // The hard equations first: their size is the size of what they leave undone.
-                const double before = sheet.merit + 1e6 * sheet.hard_sum,
-                             after = there.merit + 1e6 * there.hard_sum;
+                // Hard equations are brought to rounding at the end; so little does not count.
+                const double before =
+                                 sheet.merit + 1e6 * std::max(0.0, sheet.hard_sum - k_nearly_met),
+                             after =
+                                 there.merit + 1e6 * std::max(0.0, there.hard_sum - k_nearly_met);
                 better = there.finite && after <= before * (1 + 1e-12) + 1e-9;
                 if (better) {
                     const double gain = before - after;
-                    quiet = gain < 1e-9 * (1 + before) || length < 1e-12 ? quiet + 1 : 0;
+                    quiet = gain < 1e-8 * (1 + before) || length < 1e-12 ? quiet + 1 : 0;
                     shape = std::move(next);
                     // The exact Hessian near the end: weak freedoms would creep.
                     if (length < 1e-2) {
@@ -124,26 +153,18 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
             }
         }
         if (!better) {
-            // Nothing more to gain at the size of rounding.
-            if (factored && length < 1e-9) {
-                result.converged = true;
-                break;
-            }
             curved = false;
             damping *= 10;
-            if (damping > 1e8) {
-                // Widths pass from corner to corner with a kink; at its bottom no step is better.
-                result.converged = factored;
-                break;
+            // Nothing more to gain at the size of rounding; or no step is better.
+            if ((factored && length < 1e-9) || damping > 1e8) {
+                if (ends(factored)) break;
             }
         }
-        if (quiet >= 2) {
-            result.converged = true;
-            break;
-        }
+        if (quiet >= 2 && ends(true)) break;
     }
     result.shape = onto_constraints(relaxation, std::move(shape), held);
-    softness.with_priors = false;
+    relaxation.forget_ties();
+    relaxation.choose(result.shape);
     const Sheet end = relaxation.sheet(result.shape, softness, held);
     result.chi2 = end.chi2;
     result.worst_hard = relaxation.hard_sheet(result.shape, {}).hard_worst;
@@ -157,7 +178,7 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
 // two at a time are turned over as long as that gains. Nothing when none should be.
 std::optional<Shape> leaning_better(Relaxation& relaxation, const Shape& shape,
                                     const std::vector<Held>& held) {
-    const std::vector<Relaxation::Folded> folded = relaxation.folded(shape);
+    const std::vector<Relaxation::Folded> folded = relaxation.folded();
     if (folded.empty()) return std::nullopt;
     Softness softness;
     softness.with_priors = false;
@@ -218,7 +239,8 @@ std::optional<Shape> leaning_better(Relaxation& relaxation, const Shape& shape,
     if (!any) return std::nullopt;
     Eigen::VectorXd right = Eigen::VectorXd::Zero(sheet.rows.count());
     for (Eigen::Index i = 0; i < count; ++i) {
-        if (turned[std::size_t(i)]) right(folded[std::size_t(i)].row) = folded[std::size_t(i)].shift;
+        if (turned[std::size_t(i)])
+            right(folded[std::size_t(i)].row) = folded[std::size_t(i)].shift;
     }
     const auto s = solver.solve(none, right);
     if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > 0.2) return std::nullopt;

@@ -53,8 +53,7 @@ void System::find_exchanges() {
         const Reading& reading = readings_[r];
         if (!is_symmetry(reading)) continue;
         const bool in_pairs = reading.kind == ReadingKind::mirror && !reading.has_direction;
-        if (!in_pairs && !reading.facets.empty() &&
-            reading.facets.size() != solid_.facets.size()) {
+        if (!in_pairs && !reading.facets.empty() && reading.facets.size() != solid_.facets.size()) {
             continue;
         }
         double least = 1e300;

@@ -62,8 +62,7 @@ Freedoms::Freedoms(const Shape& shape, int up_facet, Orbits orbits,
     }
     for (int f = 0; f < layout_.facets; ++f) {
         if (!is_first_facet(f)) continue;
-        const KeptDirections kept =
-            orbits_.empty() ? KeptDirections() : orbits_.kept_by_facet[f];
+        const KeptDirections kept = orbits_.empty() ? KeptDirections() : orbits_.kept_by_facet[f];
         normal_count_[f] = f == up_facet_ ? 0 : static_cast<int>(directions_of(kept).size()) - 1;
         const double images = facet_images_[f];
         normal_column_[f] = take(normal_count_[f], images, true);
@@ -171,6 +170,35 @@ Shape Freedoms::moved(const Shape& shape, std::span<const double> step) const {
         const OrbitMember& m = orbits_.points[p];
         if (m.first != p) next.points[p] = m.from_first * next.points[m.first];
     }
+    return next;
+}
+
+Shape Freedoms::moved_with_turn(const Shape& shape, std::span<const double> step) const {
+    if (!orbits_.empty()) return moved(shape, step);
+    double along = 0, size = 0;
+    for (int p = 0; p < layout_.points; ++p) {
+        const Vec3 turn{-shape.points[p].y, shape.points[p].x, 0};
+        const int at = point_column_[p];
+        along += turn.x * step[at] + turn.y * step[at + 1];
+        size += glm::dot(turn, turn);
+    }
+    const double angle = size > 0 ? along / size : 0;
+    std::vector<double> rest(step.begin(), step.end());
+    for (int p = 0; p < layout_.points; ++p) {
+        rest[point_column_[p]] += angle * shape.points[p].y;
+        rest[point_column_[p] + 1] -= angle * shape.points[p].x;
+    }
+    for (int f = 0; f < layout_.facets; ++f) {
+        if (normal_count_[f] != 2) continue;
+        const Vec3 turn{-shape.normals[f].y, shape.normals[f].x, 0};
+        const auto [t, u] = tangents(shape.normals[f]);
+        rest[normal_column_[f]] -= angle * glm::dot(t, turn);
+        rest[normal_column_[f] + 1] -= angle * glm::dot(u, turn);
+    }
+    Shape next = moved(shape, rest);
+    const glm::dmat3 turn = turn_about_z(angle);
+    for (Vec3& n : next.normals) n = turn * n;
+    for (Vec3& p : next.points) p = turn * p;
     return next;
 }
 

@@ -33,6 +33,9 @@ public:
     bool is_tilt(int freedom) const { return is_tilt_[freedom]; }
 
     Shape moved(const Shape& shape, std::span<const double> step) const;
+    /// The same, but what the step turns the stone about z as a whole is done as a turn: readings
+    /// may say so little of where azimuth begins that steps of many degrees are wanted.
+    Shape moved_with_turn(const Shape& shape, std::span<const double> step) const;
     /// The nearest shape with the symmetry: the mean of what the motions make of it.
     Shape symmetrised(const Shape& shape) const;
 
@@ -52,8 +55,8 @@ public:
     /// Sums up one row; equal columns are merged.
     class Row {
     public:
-        Row(const Chart& chart, int size) : chart_(chart), sum_(std::size_t(size), 0.0),
-                                            used_(std::size_t(size), false) {}
+        Row(const Chart& chart, int size)
+            : chart_(chart), sum_(std::size_t(size), 0.0), used_(std::size_t(size), false) {}
         void normal(int facet, const Vec3& slope);
         void offset(int facet, double slope);
         void point(int point, const Vec3& slope);

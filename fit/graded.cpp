@@ -40,6 +40,7 @@ int solve_stage(Relaxation& relaxation, SaddleSolver& solver, Shape& shape,
     for (int i = 0; keep_normals && i < freedoms.size(); ++i) {
         if (freedoms.is_tilt(i)) kept(i) = k_keep;
     }
+    relaxation.choose(shape);
     Sheet sheet = relaxation.sheet(shape, softness);
     double damping = 1e-3;
     int steps = 0;

@@ -56,8 +56,7 @@ Spread spread(const std::vector<SymmetryMotion>& generators, int count, Image im
                     result.members[to] = {first, map};
                     queue.push_back(to);
                 } else {
-                    narrow(result.kept[first],
-                           glm::transpose(result.members[to].from_first) * map);
+                    narrow(result.kept[first], glm::transpose(result.members[to].from_first) * map);
                 }
             }
         }
@@ -81,22 +80,20 @@ std::optional<Orbits> orbits_of(const std::vector<SymmetryMotion>& generators, i
                                 int points) {
     Orbits orbits;
     orbits.generators = generators;
-    Spread of_facets = spread(generators, facets, [](const SymmetryMotion& g, int f) {
-        return g.exchange.facets[f];
-    });
-    Spread of_points = spread(generators, points, [](const SymmetryMotion& g, int p) {
-        return g.exchange.vertices[p];
-    });
+    Spread of_facets = spread(generators, facets,
+                              [](const SymmetryMotion& g, int f) { return g.exchange.facets[f]; });
+    Spread of_points = spread(
+        generators, points, [](const SymmetryMotion& g, int p) { return g.exchange.vertices[p]; });
     // Of a convex stone at most one facet above and one below are crossed by the axis, or as many
     // corners.
     int on_axis = 0;
     for (int f = 0; f < facets; ++f) {
-        on_axis += of_facets.members[f].first == f &&
-                   of_facets.kept[f].kind == KeptDirections::Kind::axis;
+        on_axis +=
+            of_facets.members[f].first == f && of_facets.kept[f].kind == KeptDirections::Kind::axis;
     }
     for (int p = 0; p < points; ++p) {
-        on_axis += of_points.members[p].first == p &&
-                   of_points.kept[p].kind == KeptDirections::Kind::axis;
+        on_axis +=
+            of_points.members[p].first == p && of_points.kept[p].kind == KeptDirections::Kind::axis;
     }
     if (on_axis > 2) return std::nullopt;
     orbits.facets = std::move(of_facets.members);

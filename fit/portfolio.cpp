@@ -27,14 +27,14 @@ bool agrees(const System& system, const Candidate& candidate, int free, int coun
     const double chi2 = candidate.finished.chi2;
     if (chi2_tail(chi2, std::max(0, counted - free)) > significance && counted > free) return true;
     if (!(chi2_tail(chi2, counted) > significance)) return false;
-    const Diagnosis d = diagnose(system, candidate.finished.shape, candidate.finished.outline,
-                                 {.full = false});
+    const Diagnosis d =
+        diagnose(system, candidate.finished.shape, candidate.finished.outline, {.full = false});
     return chi2_tail(d.chi2, d.dof) > significance;
 }
 
 auto rank(const Candidate& c) {
-    return std::make_tuple(!c.sound, !(c.finished.worst_hard < k_hard_limit),
-                           !c.finished.converged, c.finished.chi2);
+    return std::make_tuple(!c.sound, !(c.finished.worst_hard < k_hard_limit), !c.finished.converged,
+                           c.finished.chi2);
 }
 
 }  // namespace
@@ -79,13 +79,12 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
         candidate.finished.iterations += graded.steps;
         const bool good = candidate.sound && candidate.finished.converged &&
                           candidate.finished.worst_hard < k_hard_limit;
-        candidate.agrees =
-            good && agrees(system, candidate, free, counted, options.significance);
+        candidate.agrees = good && agrees(system, candidate, free, counted, options.significance);
         const double chi2 = candidate.finished.chi2;
         const bool accept = candidate.agrees && candidate.held.empty();
         const bool again = good && std::any_of(ends.begin(), ends.end(), [&](double other) {
-            return std::abs(other - chi2) < k_same * (1 + chi2);
-        });
+                               return std::abs(other - chi2) < k_same * (1 + chi2);
+                           });
         if (good) ends.push_back(chi2);
         if (result.starts++ == 0 || rank(candidate) < rank(result.best)) {
             result.best = std::move(candidate);

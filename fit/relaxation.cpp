@@ -14,6 +14,8 @@ constexpr double k_mesh_sigma = 0.4;
 // Corners that want to stand above a neighbour facet are held this far below it, in half diameters:
 // far above rounding, far below anything one could measure.
 constexpr double k_hold_below = 1e-7;
+// Corners that share a caliper's jaw are level to this part of the half diameter.
+constexpr double k_tie_sigma = 1e-6;
 
 // One pair of facet and point of each orbit, and how many go with it.
 class OrbitPairs {
@@ -52,6 +54,7 @@ Relaxation::Relaxation(const System& system, const Freedoms& freedoms)
             incidence_images_.push_back(images);
         }
     }
+    choose(system.mesh_shape());
     if (!system.stone().convex) return;
     const std::vector<Facet>& facets = system.stone().solid.facets;
     const std::size_t points = system.mesh_shape().points.size();
@@ -78,6 +81,28 @@ Relaxation::Relaxation(const System& system, const Freedoms& freedoms)
         }
     }
     was_positive_.assign(hinges_.size(), false);
+}
+
+void Relaxation::choose(const Shape& shape) {
+    std::vector<Equation> before = std::move(equations_);
+    equations_ = system_.reading_equations(shape, system_.mesh_outline(), true);
+    if (before.size() != equations_.size()) return;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const Equation &was = before[i], &is = equations_[i];
+        if (is.caliper == Vec3(0)) continue;
+        for (int jaw = 0; jaw < 2; ++jaw) {
+            const int from = was.touched[std::size_t(jaw)].point,
+                      to = is.touched[std::size_t(jaw)].point;
+            if (from < 0 || to < 0 || from == to) continue;
+            std::vector<int>& left = left_[{static_cast<int>(i), jaw}];
+            if (std::find(left.begin(), left.end(), to) != left.end()) {
+                ties_.push_back({from, to, is.caliper});
+                left.clear();
+            } else {
+                left.push_back(from);
+            }
+        }
+    }
 }
 
 double Relaxation::height(const Shape& shape, int facet, int point) const {
@@ -130,7 +155,7 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness,
         close(residual, (own * own + soft2) / incidence_images_[i]);
     }
     if (softness.with_readings) {
-        for (const Equation& e : system_.reading_equations(shape, system_.mesh_outline(), true)) {
+        for (const Equation& e : equations_) {
             const Quantity q = e.formula(shape);
             const double residual = q.value - e.value;
             row.quantity(q);
@@ -142,6 +167,12 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness,
     for (const Held& h : held) {
         incident(h.facet, h.point);
         close(height(shape, h.facet, h.point) + k_hold_below, soft2);
+    }
+    for (const Tie& tie : ties_) {
+        row.point(tie.one, tie.direction);
+        row.point(tie.other, -tie.direction);
+        close(glm::dot(tie.direction, shape.points[tie.one] - shape.points[tie.other]),
+              k_tie_sigma * k_tie_sigma);
     }
     for (std::size_t i = 0; i < hinges_.size(); ++i) {
         const auto& [f, p] = hinges_[i];
@@ -203,7 +234,7 @@ Sheet Relaxation::hard_sheet(const Shape& shape, const std::vector<Held>& held) 
         if (incidence.how == MeetTreatment::exact) incident(incidence.facet, incidence.point, 0);
     }
     if (system_.has_exact_readings()) {
-        for (const Equation& e : system_.reading_equations(shape, system_.mesh_outline(), true)) {
+        for (const Equation& e : equations_) {
             if (!e.exact) continue;
             const Quantity q = e.formula(shape);
             row.quantity(q);
@@ -214,10 +245,10 @@ Sheet Relaxation::hard_sheet(const Shape& shape, const std::vector<Held>& held) 
     return sheet;
 }
 
-std::vector<Relaxation::Folded> Relaxation::folded(const Shape& shape) const {
+std::vector<Relaxation::Folded> Relaxation::folded() const {
     std::vector<Folded> result;
     int row = static_cast<int>(incidences_.size());
-    for (const Equation& e : system_.reading_equations(shape, system_.mesh_outline(), true)) {
+    for (const Equation& e : equations_) {
         if (e.other_value && !e.exact) result.push_back({row, *e.other_value - e.value, e.sigma});
         ++row;
     }
@@ -235,8 +266,7 @@ std::vector<SaddleSolver::Entry> Relaxation::curvature(const Shape& shape,
         const double force = forces(Eigen::Index(i));
         const Freedoms::Slots &n = chart.normals[incidence.facet],
                               &x = chart.points[incidence.point];
-        const double out =
-            glm::dot(shape.normals[incidence.facet], shape.points[incidence.point]);
+        const double out = glm::dot(shape.normals[incidence.facet], shape.points[incidence.point]);
         for (int a = 0; a < n.count; ++a) {
             entries.push_back({n.column + a, n.column + a, -force * out});
             for (int b = 0; b < x.count; ++b) {
@@ -245,6 +275,56 @@ std::vector<SaddleSolver::Entry> Relaxation::curvature(const Shape& shape,
                 entries.push_back(
                     {row, column,
                      force * glm::dot(n.along[std::size_t(a)], x.along[std::size_t(b)])});
+            }
+        }
+    }
+    const auto add = [&](int a, int b, double value) {
+        entries.push_back({std::max(a, b), std::min(a, b), value});
+    };
+    for (std::size_t i = 0; i < equations_.size(); ++i) {
+        const Equation& e = equations_[i];
+        const double force = forces(Eigen::Index(incidences_.size() + i));
+        const Reading& reading = system_.readings()[std::size_t(e.reading)];
+        if (reading.aggregate != Aggregate::single) continue;
+        if (reading.kind == ReadingKind::inclination && reading.datum.kind == Datum::Kind::up) {
+            const int f = reading.facets[0];
+            const Freedoms::Slots& n = chart.normals[f];
+            const Vec3& normal = shape.normals[f];
+            const double flat = std::hypot(normal.x, normal.y);
+            if (n.count != 2 || flat < 1e-3) continue;
+            // An angle from z grows by half its cotangent for a step across.
+            const Vec3 across{-normal.y / flat, normal.x / flat, 0};
+            const Quantity q = e.formula(shape);
+            const double side = q.slopes.empty() || q.slopes[0].slope.z <= 0 ? 1 : -1;
+            const double bend = force * side * normal.z / flat;
+            for (int a = 0; a < 2; ++a) {
+                for (int b = 0; b <= a; ++b) {
+                    add(n.column + a, n.column + b,
+                        bend * glm::dot(across, n.along[std::size_t(a)]) *
+                            glm::dot(across, n.along[std::size_t(b)]));
+                }
+            }
+        } else if (reading.kind == ReadingKind::edge) {
+            const Quantity q = e.formula(shape);
+            if (q.slopes.size() != 2 || !(q.value > 1e-6) || q.slopes[0].by != Quantity::By::point)
+                continue;
+            const Vec3 along = q.slopes[0].slope;
+            const double bend = force / q.value;
+            for (int one = 0; one < 2; ++one) {
+                for (int other = 0; other < 2; ++other) {
+                    const Freedoms::Slots &x = chart.points[q.slopes[std::size_t(one)].index],
+                                          &y = chart.points[q.slopes[std::size_t(other)].index];
+                    for (int a = 0; a < x.count; ++a) {
+                        for (int b = 0; b < y.count; ++b) {
+                            const int row = x.column + a, column = y.column + b;
+                            if (row < column) continue;
+                            const Vec3 &u = x.along[std::size_t(a)], &v = y.along[std::size_t(b)];
+                            add(row, column,
+                                (one == other ? bend : -bend) *
+                                    (glm::dot(u, v) - glm::dot(u, along) * glm::dot(v, along)));
+                        }
+                    }
+                }
             }
         }
     }

@@ -2,6 +2,7 @@
 // The equations of a fit for the solver: incidences and hinges in closed form, readings by their
 // formulas, each as one row in the freedoms. Private to the room: shows Eigen.
 
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -14,9 +15,9 @@ namespace culet {
 
 /// How far a stage softens what will have to hold.
 struct Softness {
-    double incidence = 0;  ///< of exact incidences and exact readings; 0: they are hard
-    double readings = 0;   ///< added to each reading's own uncertainty
-    double hinge = 1e-4;   ///< by how much a corner may stand above a neighbour facet
+    double incidence = 0;       ///< of exact incidences and exact readings; 0: they are hard
+    double readings = 0;        ///< added to each reading's own uncertainty
+    double hinge = 1e-4;        ///< by how much a corner may stand above a neighbour facet
     bool with_readings = true;  ///< false: only a convex stone of these meets, near the mesh
     bool with_priors = true;    ///< the mesh's points, as far as a hand-made mesh may be off
 };
@@ -31,11 +32,11 @@ struct Held {
 struct Sheet {
     SparseRows rows;  ///< incidences first, in the system's order
     Eigen::VectorXd prior_stiffness, prior_gradient;
-    double merit = 0;       ///< sum of squares of all that is soft, priors and hinges included
-    double hard_sum = 0;    ///< sum of sizes of what is left of hard equations
+    double merit = 0;     ///< sum of squares of all that is soft, priors and hinges included
+    double hard_sum = 0;  ///< sum of sizes of what is left of hard equations
     double hard_worst = 0;
-    double chi2 = 0;        ///< of readings and soft meets, at their own uncertainties
-    bool convex = true;     ///< no hinge is positive
+    double chi2 = 0;     ///< of readings and soft meets, at their own uncertainties
+    bool convex = true;  ///< no hinge is positive
     bool finite = true;
 };
 
@@ -45,6 +46,16 @@ public:
 
     const System& system() const { return system_; }
     const Freedoms& freedoms() const { return freedoms_; }
+
+    /// Chooses what the readings mean at this shape: which corners the caliper's jaws touch, which
+    /// way upright facets lean. Later sheets keep to it, so that they are smooth.
+    /// Where a jaw would change between two corners for ever, it rests on both: at the bottom of
+    /// a kink the two are held level.
+    void choose(const Shape& shape);
+    void forget_ties() {
+        ties_.clear();
+        left_.clear();
+    }
 
     /// Hinges that were ever positive keep a row, so that the pattern of the matrix settles.
     Sheet sheet(const Shape& shape, const Softness& softness, const std::vector<Held>& held = {});
@@ -60,9 +71,10 @@ public:
         int row = -1;
         double shift = 0, sigma = 1;
     };
-    std::vector<Folded> folded(const Shape& shape) const;
+    std::vector<Folded> folded() const;
 
-    /// Second derivatives of the Lagrangian from the incidences, which are bilinear.
+    /// Second derivatives of the Lagrangian: of the incidences, which are bilinear, and of
+    /// inclinations and edges, without which a turn of the whole stone would seem to change them.
     std::vector<SaddleSolver::Entry> curvature(const Shape& shape,
                                                const Eigen::VectorXd& forces) const;
 
@@ -71,10 +83,18 @@ private:
 
     const System& system_;
     const Freedoms& freedoms_;
-    std::vector<int> incidences_;             // one of each orbit
+    std::vector<int> incidences_;              // one of each orbit
     std::vector<std::pair<int, int>> hinges_;  // facet, point: likewise
     std::vector<double> incidence_images_, hinge_images_;
     std::vector<char> was_positive_;
+    std::vector<Equation> equations_;  // of the readings, as chosen
+    struct Tie {
+        int one, other;
+        Vec3 direction;
+    };
+    std::vector<Tie> ties_;
+    // Of each reading and jaw, the corners that it has left.
+    std::map<std::pair<int, int>, std::vector<int>> left_;
 };
 
 }  // namespace culet

@@ -53,11 +53,11 @@ private:
     void lay_out(const SparseRows& rows, const std::vector<Entry>& curvature);
 
     int unknowns_ = 0, equations_ = 0;
-    std::vector<int> begin_, column_;                // of the pattern that was analysed
-    std::vector<std::pair<int, int>> curved_;        // likewise
-    std::vector<int> slot_;                          // of each slope, then each curvature entry
-    std::vector<int> diagonal_;                      // of each column
-    Eigen::SparseMatrix<double> matrix_;             // lower half
+    std::vector<int> begin_, column_;          // of the pattern that was analysed
+    std::vector<std::pair<int, int>> curved_;  // likewise
+    std::vector<int> slot_;                    // of each slope, then each curvature entry
+    std::vector<int> diagonal_;                // of each column
+    Eigen::SparseMatrix<double> matrix_;       // lower half
     Eigen::VectorXd variance_;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>>
         factors_;

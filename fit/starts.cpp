@@ -166,8 +166,7 @@ std::optional<Start> Starts::similar() {
     if (!canonical_) return std::nullopt;
     const Shape& mesh = system_.mesh_shape();
     const Moments m = moments(canonical_->points, mesh.points);
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m.cross,
-                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m.cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
     Eigen::Vector3d sign(1, 1, 1);
     if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign(2) = -1;
     const double scale = svd.singularValues().dot(sign) / m.own.trace();
@@ -228,8 +227,7 @@ std::optional<Start> Starts::blend(double of_mesh) {
     return start;
 }
 
-std::optional<Start> Starts::from_angles(std::optional<Start> base,
-                                         const std::string& name) const {
+std::optional<Start> Starts::from_angles(std::optional<Start> base, const std::string& name) const {
     if (!base) return base;
     Shape& shape = base->shape;
     const std::size_t facets = shape.normals.size();

@@ -34,6 +34,9 @@ struct Equation {
     /// What the reading may as well mean: of a nearly upright facet an inclination does not say
     /// whether it leans in or out.
     std::optional<double> other_value;
+    /// Of a caliper: the corners that its jaws touch, the upper one first, along this direction.
+    std::array<Corner, 2> touched{};
+    Vec3 caliper{0, 0, 0};
     Formula formula;
 
     /// Takes part in chi-square and in the count of redundancy.
@@ -149,7 +152,7 @@ private:
     std::vector<Incidence> incidences_;
     std::vector<int> first_extra_;
     std::vector<std::vector<std::pair<int, int>>> pairs_;  // facets, of symmetry readings
-    std::vector<std::optional<Automorphism>> exchanges_;  // of symmetry readings of all facets
+    std::vector<std::optional<Automorphism>> exchanges_;   // of symmetry readings of all facets
     std::vector<SymmetryMotion> exact_motions_;
     std::vector<bool> fixed_extras_;
     int up_facet_ = -1;

@@ -26,9 +26,9 @@ struct Class {
         return fmt::format("{}, {}", name_of(kind), symmetric ? "symmetric" : "none");
     }
 };
-const std::vector<Class> k_classes{{TruthKind::round, true},  {TruthKind::round, false},
-                                   {TruthKind::step, true},   {TruthKind::step, false},
-                                   {TruthKind::pear, false},  {TruthKind::trillion, false}};
+const std::vector<Class> k_classes{{TruthKind::round, true}, {TruthKind::round, false},
+                                   {TruthKind::step, true},  {TruthKind::step, false},
+                                   {TruthKind::pear, false}, {TruthKind::trillion, false}};
 
 double median(std::vector<double> values) {
     if (values.empty()) return std::nan("");
@@ -133,8 +133,8 @@ void time_table(BenchTables& tables, unsigned seeds, bool large) {
         for (unsigned seed = 1; seed <= count; ++seed) {
             const Truth truth = make(seed);
             const auto readings = read_by_instruments(truth, 1000 + seed, edges);
-            const Trial trial = fit_mesh(
-                noise > 0 ? noisy_mesh(truth.stone, noise, seed) : truth.stone, readings);
+            const Trial trial =
+                fit_mesh(noise > 0 ? noisy_mesh(truth.stone, noise, seed) : truth.stone, readings);
             times.push_back(1e3 * trial.cpu);
             facets = truth.stone.solid.facets.size();
             readings_count = trial.result.readings.size();
@@ -149,10 +149,11 @@ void time_table(BenchTables& tables, unsigned seeds, bool large) {
         line(c.name(), make, 0.01, seeds, c.symmetric ? 10 : 60);
         line(c.name(), make, 0.2, seeds, c.symmetric ? 1000 : 1000);
     }
-    line("tiered", [](unsigned s) { return make_tiered(300, s); }, 0.003, std::min(seeds, 5u),
-         2000);
+    line(
+        "tiered", [](unsigned s) { return make_tiered(300, s); }, 0.003, std::min(seeds, 5u), 2000);
     if (large) {
-        line("tiered", [](unsigned s) { return make_tiered(1000, s); }, 0.001, 1, 20000, 2000);
+        line(
+            "tiered", [](unsigned s) { return make_tiered(1000, s); }, 0.001, 1, 20000, 2000);
     }
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -178,7 +179,9 @@ int main(int argc, char** argv) {
     try {
         app.parse(argc, argv);
         BenchTables tables;
-        const auto wanted = [&](const std::string& name) { return section.empty() || section == name; };
+        const auto wanted = [&](const std::string& name) {
+            return section.empty() || section == name;
+        };
         if (wanted("noise")) {
             success_table(tables, "noise",
                           "found from corner noise (root mean square, of the diameter): same "

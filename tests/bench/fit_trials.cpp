@@ -27,15 +27,13 @@ bool is_valid(const Stone& declared, const FitResult& result) {
     for (const Facet& f : declared.solid.facets) {
         if (find_facet(solid, f.name) < 0) return false;
     }
-    return is_closed(solid) && is_convex(solid) &&
-           planarity(solid) < 1e-12 * diameter(solid) &&
+    return is_closed(solid) && is_convex(solid) && planarity(solid) < 1e-12 * diameter(solid) &&
            find_faults(solid, {.planarity = 1e-12}).empty();
 }
 
 bool succeeds(const Stone& declared, const Trial& trial, const Trial& reference) {
     return trial.refusal.empty() && is_valid(declared, trial.result) &&
-           trial.result.chi2 <
-               reference.result.chi2 + std::max(4.0, 0.05 * reference.result.chi2);
+           trial.result.chi2 < reference.result.chi2 + std::max(4.0, 0.05 * reference.result.chi2);
 }
 
 }  // namespace culet::bench

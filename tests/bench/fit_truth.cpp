@@ -1,7 +1,7 @@
 #include "tests/bench/fit_truth.h"
 
-#include <Eigen/SparseCholesky>
 #include <fmt/format.h>
+#include <Eigen/SparseCholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -37,14 +37,13 @@ Solid random_cut(TruthKind kind, Random& random) {
     const auto r = [&](double low, double high) { return uniform(random, low, high); };
     switch (kind) {
         case TruthKind::round:
-            return make_cut("round-brilliant",
-                            {{"table", r(50, 64)},
-                             {"crown-angle", r(30, 38)},
-                             {"pavilion-angle", r(39.5, 43)},
-                             {"star", r(40, 60)},
-                             {"lower-half", r(70, 85)},
-                             {"girdle", r(2, 5)},
-                             {"girdle-segments", 1}});
+            return make_cut("round-brilliant", {{"table", r(50, 64)},
+                                                {"crown-angle", r(30, 38)},
+                                                {"pavilion-angle", r(39.5, 43)},
+                                                {"star", r(40, 60)},
+                                                {"lower-half", r(70, 85)},
+                                                {"girdle", r(2, 5)},
+                                                {"girdle-segments", 1}});
         case TruthKind::step:
             return make_cut("step", {{"table", r(52, 66)},
                                      {"crown-angle", r(34, 42)},
@@ -209,9 +208,8 @@ Truth make_tiered(int facets, unsigned seed) {
             const double i = tilt + radians(uniform(random, -1.5, 1.5));
             const Vec3 n{std::sin(i) * std::cos(a), std::sin(i) * std::sin(a), std::cos(i)};
             // The ellipsoid's support.
-            const double reach =
-                std::sqrt(n.x * n.x + wide * wide * n.y * n.y + 0.49 * n.z * n.z) *
-                uniform(random, 0.999, 1.001);
+            const double reach = std::sqrt(n.x * n.x + wide * wide * n.y * n.y + 0.49 * n.z * n.z) *
+                                 uniform(random, 0.999, 1.001);
             planes.push_back({fmt::format("F{}x{}", t, k), {n, reach}});
         }
     }
@@ -240,15 +238,14 @@ std::vector<WrittenReading> read_perfectly(const Truth& truth, int edges) {
                                    width_along(solid, {std::cos(a), std::sin(a), 0}),
                                    truth.length_sigma));
     }
-    readings.push_back(
-        written("depth", {}, width_along(solid, {0, 0, 1}), truth.length_sigma));
+    readings.push_back(written("depth", {}, width_along(solid, {0, 0, 1}), truth.length_sigma));
     std::vector<Edge> of = half_edges(solid).edges;
     if (symmetric && edges < 0) {
         // With symmetry some are enough: about those that fit on a page.
         edges = std::min<int>(static_cast<int>(of.size()), 50);
     }
-    const int count = edges < 0 ? static_cast<int>(of.size())
-                                : std::min(edges, static_cast<int>(of.size()));
+    const int count =
+        edges < 0 ? static_cast<int>(of.size()) : std::min(edges, static_cast<int>(of.size()));
     for (int k = 0; k < count; ++k) {
         const Edge& e = of[std::size_t(k) * of.size() / std::size_t(count)];
         readings.push_back(written("edge", {solid.facets[e.left].name, solid.facets[e.right].name},
@@ -318,8 +315,7 @@ Stone kicked_mesh(const Stone& stone, unsigned seed) {
         if (v != at) nearest = std::min(nearest, glm::length(vertices[v] - vertices[at]));
     }
     std::normal_distribution<double> normal;
-    vertices[at] +=
-        nearest * glm::normalize(Vec3{normal(random), normal(random), normal(random)});
+    vertices[at] += nearest * glm::normalize(Vec3{normal(random), normal(random), normal(random)});
     planes_from_corners(mesh.solid);
     return mesh;
 }
