@@ -120,12 +120,12 @@ void RowWriter::write(const Quantity& quantity, int row, double factor, Triplets
     }
 }
 
-Eigen::RowVectorXd RowWriter::row(const Quantity& quantity) const {
+Eigen::SparseVector<double> RowWriter::function(const Quantity& quantity) const {
     Triplets entries;
     write(quantity, 0, 1, entries);
-    Eigen::RowVectorXd dense = Eigen::RowVectorXd::Zero(layout_.size());
-    for (const auto& entry : entries) dense(entry.col()) += entry.value();
-    return dense;
+    Eigen::SparseVector<double> row(layout_.size());
+    for (const auto& entry : entries) row.coeffRef(entry.col()) += entry.value();
+    return row;
 }
 
 Linearised linearise(const System& system, const Shape& shape,
