@@ -68,8 +68,7 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> without_hinges(const Linearised& li
     return rows;
 }
 
-FunctionRow function_row(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows,
-                         Eigen::Index i) {
+FunctionRow function_row(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows, Eigen::Index i) {
     FunctionRow row(rows.cols());
     for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, i); it; ++it) {
         row.coeffRef(it.col()) += it.value();
@@ -109,7 +108,7 @@ struct Covariance::Sparse {
     Held tight;    // a weak prior: what the readings hold
     Held trusted;  // the mesh's own trust as prior, where something is open
     bool has_open = false;
-    Eigen::MatrixXd gauge;  // G, orthonormal in the metric
+    Eigen::MatrixXd gauge;       // G, orthonormal in the metric
     Eigen::MatrixXd gauge_rows;  // M G
     Eigen::VectorXd pins;
     double prior = 0;
@@ -136,14 +135,15 @@ struct Covariance::Sparse {
 
     Eigen::VectorXd with_all(const Held& held, const FunctionRow& function) const {
         const Eigen::VectorXd along = gauge.transpose() * function;
-        Eigen::VectorXd all = held.inverse.solve(Eigen::VectorXd(function)) -
-                              held.gauge_solved * along;
+        Eigen::VectorXd all =
+            held.inverse.solve(Eigen::VectorXd(function)) - held.gauge_solved * along;
         all -= gauge * (gauge_rows.transpose() * all);
         return all;
     }
 };
 
-Covariance::Covariance(const Linearised& linear, Algorithm algorithm) : rows_(without_hinges(linear)) {
+Covariance::Covariance(const Linearised& linear, Algorithm algorithm)
+    : rows_(without_hinges(linear)) {
     const bool small = linear.layout.size() <= k_most_dense;
     if (algorithm == Algorithm::dense || (algorithm == Algorithm::by_size && small)) {
         find_dense(linear);
@@ -151,7 +151,8 @@ Covariance::Covariance(const Linearised& linear, Algorithm algorithm) : rows_(wi
         find_sparse(linear);
     }
     if (!usable_) {
-        leverages_ = Eigen::VectorXd::Constant(rows_.rows(), std::numeric_limits<double>::quiet_NaN());
+        leverages_ =
+            Eigen::VectorXd::Constant(rows_.rows(), std::numeric_limits<double>::quiet_NaN());
     }
 }
 
@@ -159,8 +160,8 @@ Covariance::~Covariance() = default;
 
 void Covariance::find_dense(const Linearised& linear) {
     const Eigen::Index unknowns = linear.layout.size();
-    const FreeDirections free = free_directions(linear.hard_rows, linear.layout.point(0),
-                                                linear.layout.extra(0));
+    const FreeDirections free =
+        free_directions(linear.hard_rows, linear.layout.point(0), linear.layout.extra(0));
     const Eigen::MatrixXd gauge = gauge_motions(linear);
     const Eigen::Index size = free.basis.cols();
     held_.resize(unknowns, 0);
@@ -181,12 +182,13 @@ void Covariance::find_dense(const Linearised& linear) {
         return;
     }
     const auto whitened = [&](const Eigen::MatrixXd& rows) -> Eigen::MatrixXd {
+        if (rows.rows() == 0) return Eigen::MatrixXd(0, size);
         return chol.matrixU().solve<Eigen::OnTheRight>(rows);
     };
     Eigen::MatrixXd seen = whitened(Eigen::MatrixXd(rows_ * free.basis));
     // Along the gauge nothing is seen: it counts as held, and is taken out at the end.
-    const Eigen::MatrixXd along = whitened(
-        Eigen::MatrixXd((linear.metric.asDiagonal() * gauge).transpose() * free.basis));
+    const Eigen::MatrixXd along =
+        whitened(Eigen::MatrixXd((linear.metric.asDiagonal() * gauge).transpose() * free.basis));
 
     const Eigen::VectorXd norms = seen.rowwise().norm();
     double largest = 0, smallest = 1e300;
@@ -194,17 +196,18 @@ void Covariance::find_dense(const Linearised& linear) {
         largest = std::max(largest, norms(i));
         if (norms(i) > 0) smallest = std::min(smallest, norms(i));
     }
-    const double gauge_weight = std::max(1.0, std::min(largest, k_tight));
+    const double gauge_weight = std::max(1e3, std::min(largest, k_tight));
     Eigen::MatrixXd clipped = seen;
     for (Eigen::Index i = 0; i < norms.size(); ++i) {
         if (norms(i) > k_tight) clipped.row(i) *= k_tight / norms(i);
     }
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size, size);
-    normal.selfadjointView<Eigen::Lower>().rankUpdate(clipped.transpose());
-    normal.selfadjointView<Eigen::Lower>().rankUpdate(along.transpose(),
-                                                      gauge_weight * gauge_weight);
-    const bool spread =
-        largest > k_tight || largest > k_most_spread * std::max(smallest, 1e-3);
+    if (clipped.rows() > 0) normal.selfadjointView<Eigen::Lower>().rankUpdate(clipped.transpose());
+    if (along.rows() > 0) {
+        normal.selfadjointView<Eigen::Lower>().rankUpdate(along.transpose(),
+                                                          gauge_weight * gauge_weight);
+    }
+    const bool spread = largest > k_tight || largest > k_most_spread * std::max(smallest, 1e-3);
 
     const Eigen::MatrixXd shifted = normal - k_determined * Eigen::MatrixXd::Identity(size, size);
     const bool all_held = Eigen::LLT<Eigen::MatrixXd>(shifted).info() == Eigen::Success;
@@ -314,7 +317,8 @@ Eigen::VectorXd Covariance::with_all(const FunctionRow& function, bool open) con
         if (open) all += open_ * (function.transpose() * open_).transpose();
         return all;
     }
-    return sparse_->with_all(open && sparse_->has_open ? sparse_->trusted : sparse_->tight, function);
+    return sparse_->with_all(open && sparse_->has_open ? sparse_->trusted : sparse_->tight,
+                             function);
 }
 
 Eigen::VectorXd Covariance::leverage_column(Eigen::Index equation) const {

@@ -7,6 +7,7 @@
 
 #include "fit/covariance.h"
 #include "fit/disagreement.h"
+#include "fit/facet_functions.h"
 #include "fit/linear.h"
 #include "fit/snooping.h"
 #include "fit/statistics.h"
@@ -21,32 +22,6 @@ constexpr double k_no_redundancy = 1e-6;
 constexpr double k_power_80 = 0.8416212335729143;
 // What is left of hard equations is rounding below this part of the half diameter.
 constexpr double k_hard_limit = 1e-9;
-
-// Rows that turn unknowns into inclination, azimuth and distance from the middle of the stone.
-std::array<FunctionRow, 3> facet_functions(const Shape& shape, int f, const Layout& layout,
-                                           const Vec3& middle) {
-    std::array<FunctionRow, 3> rows{FunctionRow(layout.size()), FunctionRow(layout.size()),
-                                    FunctionRow(layout.size())};
-    const Vec3& n = shape.normals[f];
-    const auto basis = tangents(n);
-    const double flat = std::hypot(n.x, n.y);
-    for (int k = 0; k < 2; ++k) {
-        const Vec3& t = basis[static_cast<std::size_t>(k)];
-        const Eigen::Index at = layout.tilt(f) + k;
-        if (flat > 1e-9) {
-            const Vec3 outward{n.x / flat, n.y / flat, 0};
-            // inclination = atan2(flat, |z|)
-            rows[0].coeffRef(at) =
-                std::abs(n.z) * glm::dot(outward, t) - std::copysign(flat, n.z) * t.z;
-            rows[1].coeffRef(at) = (n.x * t.y - n.y * t.x) / (flat * flat);
-        } else {
-            rows[0].coeffRef(at) = 1;
-        }
-        rows[2].coeffRef(at) = -glm::dot(middle, t);
-    }
-    rows[2].coeffRef(layout.offset(f)) = 1;
-    return rows;
-}
 
 void find_open_freedoms(const System& system, const Shape& shape, const Covariance& covariance,
                         const Vec3& middle, Diagnosis& diagnosis) {
@@ -82,18 +57,16 @@ void snoop(const System& system, const Linearised& linear, const std::vector<Eig
         residuals.redundancy(i) = redundancy[std::size_t(i)];
     }
     residuals.column = [&](Eigen::Index i) {
-        const Eigen::VectorXd all =
-            diagnosis.covariance->leverage_column(counted[std::size_t(i)]);
+        const Eigen::VectorXd all = diagnosis.covariance->leverage_column(counted[std::size_t(i)]);
         Eigen::VectorXd column(count);
         for (Eigen::Index k = 0; k < count; ++k) column(k) = -all(counted[std::size_t(k)]);
         column(i) = redundancy[std::size_t(i)];
         return column;
     };
     const double pairs = std::max(1.0, 0.5 * double(count) * double(count - 1));
-    const std::vector<Outlier> outliers =
-        find_outliers(residuals, diagnosis.suspect_limit,
-                      chi2_quantile(options.significance / pairs, 2),
-                      std::max<std::size_t>(3, counted.size() / 10));
+    const std::vector<Outlier> outliers = find_outliers(
+        residuals, diagnosis.suspect_limit, chi2_quantile(options.significance / pairs, 2),
+        std::max<std::size_t>(3, counted.size() / 10));
     const auto reading_of = [&](Eigen::Index i) {
         return linear.soft[std::size_t(counted[std::size_t(i)])].reading;
     };
@@ -105,7 +78,8 @@ void snoop(const System& system, const Linearised& linear, const std::vector<Eig
         const Equation& e = linear.soft[std::size_t(counted[std::size_t(outlier.equation)])];
         const Reading& named = system.readings()[std::size_t(reading)];
         const double unit = e.sigma * system.unit_of(named);
-        Suspicion suspicion{reading, named.value - outlier.error * unit, outlier.error_sigma * unit, {}};
+        Suspicion suspicion{
+            reading, named.value - outlier.error * unit, outlier.error_sigma * unit, {}};
         for (const Eigen::Index other : outlier.alternatives) {
             const int alternative = reading_of(other);
             if (alternative >= 0 && alternative != reading) {
@@ -227,8 +201,7 @@ Diagnosis diagnose(const System& system, const Shape& shape,
         diagnosis.disagreeing = disagreeing_exact_readings(system, shape, outline);
     }
 
-    Vec3 middle(0);
-    for (const Vec3& p : shape.points) middle += p / double(shape.points.size());
+    const Vec3 middle = middle_of(shape);
     for (int f = 0; f < layout.facets; ++f) {
         const auto rows = facet_functions(shape, f, layout, middle);
         const auto total = [&](std::size_t k) {

@@ -38,9 +38,9 @@ public:
         double best = 0;
         for (const auto& [column, value] : row) {
             const bool preferred = column >= first_preferred && column < end_preferred;
-            const double rank = std::abs(value) + (preferred && std::abs(value) > k_preferred * largest
-                                                       ? 2 * largest
-                                                       : 0);
+            const double rank =
+                std::abs(value) +
+                (preferred && std::abs(value) > k_preferred * largest ? 2 * largest : 0);
             if (rank > best) {
                 best = rank;
                 pivot = column;
@@ -57,8 +57,8 @@ public:
         // Earlier expressions that used the pivot use its expression instead.
         for (const int user : std::exchange(uses_[std::size_t(pivot)], {})) {
             Entries& old = expressions_[std::size_t(user)];
-            const auto there = std::find_if(old.begin(), old.end(),
-                                            [&](const auto& entry) { return entry.first == pivot; });
+            const auto there = std::find_if(
+                old.begin(), old.end(), [&](const auto& entry) { return entry.first == pivot; });
             if (there == old.end()) continue;
             const double factor = there->second;
             old.erase(there);

@@ -36,8 +36,9 @@ Parts assembled(const NormalEquations& equations) {
     kept.prune(0.0, 0.0);
     const Eigen::SparseMatrix<double> columns(kept), hard(equations.hard_rows);
     parts.matrix = Eigen::SparseMatrix<double>(columns.transpose()) * columns;
-    parts.matrix += equations.hard_weight * equations.hard_weight *
-                    Eigen::SparseMatrix<double>(Eigen::SparseMatrix<double>(hard.transpose()) * hard);
+    parts.matrix +=
+        equations.hard_weight * equations.hard_weight *
+        Eigen::SparseMatrix<double>(Eigen::SparseMatrix<double>(hard.transpose()) * hard);
     // The three unknowns of a facet or point belong together even when nothing joins them.
     Triplets diagonal;
     for (Eigen::Index i = 0; i < equations.diagonal.size(); ++i) {
@@ -66,7 +67,8 @@ bool SelectedInverse::compute(const NormalEquations& equations) {
 
     // Takahashi's recurrence from the last column to the first, for Z = (L D L')^-1:
     // z_jj = 1/d_j - sum_k l_kj z_kj and z_ij = -sum_k l_kj z_ik, k over the entries of column j.
-    inverse_ = factor_.matrixL();  // unit lower triangle; its pattern is closed under the recurrence
+    inverse_ =
+        factor_.matrixL();  // unit lower triangle; its pattern is closed under the recurrence
     inverse_.makeCompressed();
     const Eigen::Index n = inverse_.cols();
     const Eigen::SparseMatrix<double> lower = inverse_;
@@ -106,7 +108,8 @@ bool SelectedInverse::compute(const NormalEquations& equations) {
         const Eigen::Index count = Eigen::Index(parts.long_rows.size());
         Eigen::MatrixXd long_rows(count, n);
         for (Eigen::Index i = 0; i < count; ++i) {
-            long_rows.row(i) = Eigen::RowVectorXd(equations.rows.row(parts.long_rows[std::size_t(i)]));
+            long_rows.row(i) =
+                Eigen::RowVectorXd(equations.rows.row(parts.long_rows[std::size_t(i)]));
         }
         wide_ = factor_.solve(long_rows.transpose());
         capacitance_.compute(Eigen::MatrixXd::Identity(count, count) + long_rows * wide_);
@@ -161,7 +164,8 @@ int negative_pivots(const NormalEquations& equations) {
         }
         for (Eigen::Index i = 0; i < count; ++i) {
             all.emplace_back(n + i, n + i, -1.0);
-            for (Rows::InnerIterator it(equations.rows, parts.long_rows[std::size_t(i)]); it; ++it) {
+            for (Rows::InnerIterator it(equations.rows, parts.long_rows[std::size_t(i)]); it;
+                 ++it) {
                 all.emplace_back(n + i, it.col(), it.value());
                 all.emplace_back(it.col(), n + i, it.value());
             }

@@ -34,7 +34,7 @@ private:
     Eigen::SparseMatrix<double> inverse_;  // lower half, permuted, pattern of the factor
     Eigen::VectorXi place_;                // of an unknown in the permuted order
     // Long rows D by Woodbury: A^-1 = A0^-1 - W (1 + D W)^-1 W', W = A0^-1 D'.
-    Eigen::MatrixXd wide_;         // W
+    Eigen::MatrixXd wide_;  // W
     Eigen::LLT<Eigen::MatrixXd> capacitance_;
 };
 

@@ -121,8 +121,7 @@ public:
             const Eigen::VectorXd link = column_without(state, i) / state.redundancy(i);
             for (Index j = 0; j < state.values.size(); ++j) {
                 if (j == i) continue;
-                const double left =
-                    state.redundancy(j) - link(j) * link(j) * state.redundancy(i);
+                const double left = state.redundancy(j) - link(j) * link(j) * state.redundancy(i);
                 if (!(left > k_checked)) continue;
                 const double value = state.values(j) - link(j) * state.values(i);
                 const double gain = alone + value * value / left;

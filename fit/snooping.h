@@ -12,8 +12,8 @@ namespace culet {
 /// matrix, so that residuals = R errors.
 struct Residuals {
     Eigen::VectorXd values;
-    Eigen::VectorXd redundancy;                                   ///< diagonal of R
-    std::function<Eigen::VectorXd(Eigen::Index)> column;          ///< of R
+    Eigen::VectorXd redundancy;                           ///< diagonal of R
+    std::function<Eigen::VectorXd(Eigen::Index)> column;  ///< of R
 };
 
 struct Outlier {

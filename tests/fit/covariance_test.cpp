@@ -69,7 +69,8 @@ TEST(SelectedInverse, MatchesTheInverse) {
         for (int i = 0; i < 60; ++i) {
             const Eigen::VectorXd f =
                 i < 30 ? Eigen::VectorXd(dense_rows.row(i).transpose())
-                       : Eigen::VectorXd(random_rows(1, size, 9, 1000 * seed + unsigned(i)).row(0).transpose());
+                       : Eigen::VectorXd(
+                             random_rows(1, size, 9, 1000 * seed + unsigned(i)).row(0).transpose());
             const double expected = f.dot(full * f);
             EXPECT_NEAR(inverse.quadratic(f.sparseView()), expected, 1e-9 * expected) << i;
             EXPECT_LT((inverse.solve(f) - full * f).norm(), 1e-9 * (full * f).norm()) << i;
@@ -81,7 +82,8 @@ TEST(SelectedInverse, MatchesTheInverse) {
 TEST(SelectedInverse, CountsNegativeEigenvalues) {
     const int size = 60;
     for (unsigned seed = 1; seed <= 5; ++seed) {
-        const Sparse rows = random_rows(80, size, 3, seed), hard = random_rows(5, size, 3, 50 + seed);
+        const Sparse rows = random_rows(80, size, 3, seed),
+                     hard = random_rows(5, size, 3, 50 + seed);
         const Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(size, -1.0);
         const Eigen::MatrixXd a = rows, h = hard;
         Eigen::MatrixXd matrix = a.transpose() * a + 4.0 * h.transpose() * h;
@@ -132,7 +134,8 @@ TEST(Covariance, BothAlgorithmsAgree) {
             for (int k = 0; k < 3; ++k) {
                 FunctionRow row(linear.layout.size());
                 row.coeffRef(linear.layout.tilt(f) + k) = 1;
-                const double d = std::sqrt(dense.variance(row)), s = std::sqrt(sparse.variance(row));
+                const double d = std::sqrt(dense.variance(row)),
+                             s = std::sqrt(sparse.variance(row));
                 EXPECT_NEAR(d, s, 0.01 * d + 1e-6) << c.name << " facet " << f << " " << k;
             }
         }
