@@ -12,6 +12,7 @@
 #include <set>
 
 #include "fit/measurement.h"
+#include "fit/slips.h"
 #include "stone/errors.h"
 #include "stone/toml_file.h"
 
@@ -63,6 +64,9 @@ std::optional<double> plain_number(std::string_view text) {
     }
     return value;
 }
+
+// A hand-made mesh's inclinations are hardly further off.
+constexpr double k_slip_tolerance_deg = 12;
 
 struct NamedFacets {
     Aggregate aggregate = Aggregate::single;
@@ -147,6 +151,16 @@ private:
             reading.value = *w.value;
             if (!std::isfinite(reading.value)) fail("value is not a finite number");
         }
+        if (w.rounding) {
+            if (!(*w.rounding > 0) || !std::isfinite(*w.rounding)) {
+                fail(
+                    fmt::format("rounding is {:g}; it must be positive (the step of the "
+                                "instrument's display, such as 0.1)",
+                                *w.rounding));
+            }
+            if (is_relation(reading.kind)) fail("takes no rounding: it has no value");
+            reading.rounding = *w.rounding;
+        }
         if (w.sigma) {
             if (!std::isfinite(*w.sigma)) fail("sigma is not a finite number");
             if (!(*w.sigma > 0)) {
@@ -156,7 +170,7 @@ private:
                                 *w.sigma));
             }
             reading.sigma = *w.sigma;
-        } else if (!w.exact && !w.released && reading.kind != ReadingKind::meet) {
+        } else if (!w.exact && !w.released && reading.kind != ReadingKind::meet && !w.rounding) {
             fail("sigma is missing (one standard uncertainty), or give exact = true");
         }
         if (w.exact && w.released) fail("cannot be exact and released");
@@ -165,9 +179,9 @@ private:
             case ReadingKind::inclination:
                 if (v < 0 || v > 90) {
                     fail(
-                        fmt::format("value {:g} is outside 0..90 degrees; pavilion facets count "
+                        fmt::format("value {:g} is outside 0..90 degrees{}; pavilion facets count "
                                     "from the horizontal too",
-                                    v));
+                                    v, meant_inclination(v)));
                 }
                 break;
             case ReadingKind::azimuth:
@@ -198,7 +212,27 @@ private:
         if (angular) {
             reading.value = radians(reading.value);
             reading.sigma = radians(reading.sigma);
+            reading.rounding = radians(reading.rounding);
         }
+    }
+
+    // What an impossible inclination may have been meant to be: the slip that comes near to the
+    // facet of the mesh.
+    std::string meant_inclination(double value) const {
+        if (written_->of.size() != 1) return {};
+        const auto found = facet_of_name_.find(written_->of[0]);
+        if (found == facet_of_name_.end()) return {};
+        const Vec3& normal = stone_.solid.facets[std::size_t(found->second)].plane.normal;
+        const auto slip =
+            find_slip(value, degrees(inclination(normal, stone_up())), k_slip_tolerance_deg, true);
+        return slip ? fmt::format(" ({}: {:g}?)", slip->what, slip->corrected) : std::string();
+    }
+
+    Vec3 stone_up() const {
+        const auto up = facet_of_name_.find(stone_.up_facet);
+        return up == facet_of_name_.end()
+                   ? stone_.up
+                   : stone_.solid.facets[std::size_t(up->second)].plane.normal;
     }
 
     Datum datum(ReadingKind kind) const {

@@ -17,7 +17,7 @@ public:
     using Triplets = std::vector<Eigen::Triplet<double>>;
     explicit RowWriter(const Shape& shape);
     void write(const Quantity& quantity, int row, double factor, Triplets& to) const;
-    Eigen::RowVectorXd row(const Quantity& quantity) const;
+    Eigen::SparseVector<double> function(const Quantity& quantity) const;
 
 private:
     Layout layout_;
