@@ -27,6 +27,7 @@ struct NextReading {
 /// What a suspect reading should have been.
 struct Proposal {
     std::string id;
+    bool in_radians = false;
     double estimate = 0, sigma = 0;  ///< from the other readings, in the reading's unit
     std::string slip;                ///< the slip of pen or key that would explain it, or empty
     double corrected = 0;            ///< with a slip: the value without it

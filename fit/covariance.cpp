@@ -321,6 +321,12 @@ Eigen::VectorXd Covariance::with_all(const FunctionRow& function, bool open) con
                              function);
 }
 
+Eigen::VectorXd Covariance::fitted_part(const Eigen::VectorXd& residuals) const {
+    if (!sparse_) return seen_ * (seen_.transpose() * residuals);
+    const Eigen::VectorXd all = rows_.transpose() * residuals;
+    return rows_ * sparse_->with_all(sparse_->tight, FunctionRow(all.sparseView()));
+}
+
 Eigen::VectorXd Covariance::leverage_column(Eigen::Index equation) const {
     if (!sparse_) return seen_ * seen_.row(equation).transpose();
     return rows_ * with_all(function_row(rows_, equation), false);

@@ -40,6 +40,8 @@ public:
     const Eigen::VectorXd& leverages() const { return leverages_; }
     /// One column of the hat matrix.
     Eigen::VectorXd leverage_column(Eigen::Index equation) const;
+    /// Hat matrix times residuals of the soft equations.
+    Eigen::VectorXd fitted_part(const Eigen::VectorXd& residuals) const;
     int open_freedoms() const { return open_freedoms_; }
     bool is_dense() const { return sparse_ == nullptr; }
     /// Open directions, of length one in the mesh's metric; dense only (else no columns).

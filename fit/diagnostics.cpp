@@ -45,22 +45,29 @@ void find_open_freedoms(const System& system, const Shape& shape, const Covarian
 
 // Baarda's data snooping, for several errors at once, and where that is not the whole story the
 // smallest set of readings that disagrees.
-void snoop(const System& system, const Linearised& linear, const std::vector<Eigen::Index>& counted,
-           const std::vector<double>& redundancy, const DiagnosisOptions& options,
-           Diagnosis& diagnosis) {
+void snoop(const System& system, const Linearised& linear, const Covariance& covariance,
+           const DiagnosisOptions& options, Diagnosis& diagnosis) {
+    std::vector<Eigen::Index> counted;
+    for (std::size_t i = 0; i < linear.soft.size(); ++i) {
+        if (linear.soft[i].is_counted()) counted.push_back(Eigen::Index(i));
+    }
     const Eigen::Index count = static_cast<Eigen::Index>(counted.size());
+    // At the optimum the residuals are R times the errors; elsewhere what a step would take away
+    // comes off first.
+    const Eigen::VectorXd settled =
+        linear.soft_residuals - covariance.fitted_part(linear.soft_residuals);
     Residuals residuals;
     residuals.values.resize(count);
     residuals.redundancy.resize(count);
     for (Eigen::Index i = 0; i < count; ++i) {
-        residuals.values(i) = linear.soft_residuals(counted[std::size_t(i)]);
-        residuals.redundancy(i) = redundancy[std::size_t(i)];
+        residuals.values(i) = settled(counted[std::size_t(i)]);
+        residuals.redundancy(i) = 1 - covariance.leverages()(counted[std::size_t(i)]);
     }
     residuals.column = [&](Eigen::Index i) {
-        const Eigen::VectorXd all = diagnosis.covariance->leverage_column(counted[std::size_t(i)]);
+        const Eigen::VectorXd all = covariance.leverage_column(counted[std::size_t(i)]);
         Eigen::VectorXd column(count);
         for (Eigen::Index k = 0; k < count; ++k) column(k) = -all(counted[std::size_t(k)]);
-        column(i) = redundancy[std::size_t(i)];
+        column(i) = residuals.redundancy(i);
         return column;
     };
     const double pairs = std::max(1.0, 0.5 * double(count) * double(count - 1));
@@ -196,7 +203,14 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     for (std::size_t r = 0; r < terms.size(); ++r) {
         if (terms[r] > 0) diagnosis.readings[r].redundancy /= terms[r];
     }
-    snoop(system, linear, counted, redundancy, options, diagnosis);
+    if (options.seen_from) {
+        const Linearised there = linearise(system, options.seen_from->shape,
+                                           options.seen_from->outline, false);
+        const Covariance from_there(there);
+        snoop(system, there, from_there.usable() ? from_there : *covariance, options, diagnosis);
+    } else {
+        snoop(system, linear, *covariance, options, diagnosis);
+    }
     if (linear.worst_hard() > k_hard_limit) {
         diagnosis.disagreeing = disagreeing_exact_readings(system, shape, outline);
     }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/finish.h"
 #include "fit/system.h"
 
 namespace culet {
@@ -57,6 +58,8 @@ struct Diagnosis {
 struct DiagnosisOptions {
     double significance = 0.001;
     bool full = true;  ///< false: only what variance components need
+    /// Look for wrong readings from this fit, which they did not bend; same readings.
+    const Finished* seen_from = nullptr;
 };
 
 Diagnosis diagnose(const System& system, const Shape& shape,

@@ -8,9 +8,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "fit/assess.h"
 #include "fit/diagnostics.h"
 #include "fit/finish.h"
 #include "fit/portfolio.h"
+#include "fit/refit.h"
+#include "fit/robust.h"
 #include "fit/statistics.h"
 #include "fit/system.h"
 #include "stone/checks.h"
@@ -126,6 +129,36 @@ std::string names(const std::vector<std::string>& list) {
     return text;
 }
 
+// A gross error: beyond this the equations' bend matters.
+bool needs_robust_view(const Diagnosis& diagnosis) {
+    return std::any_of(diagnosis.readings.begin(), diagnosis.readings.end(),
+                       [](const ReadingCheck& c) { return std::abs(c.normalized) > 8; });
+}
+
+std::string words(const NextReading& reading) {
+    std::string of;
+    for (const std::string& name : reading.of) of += (of.empty() ? "" : "/") + name;
+    return name_of(reading.kind) + (of.empty() ? "" : " of " + of);
+}
+
+// Who is to blame, as far as one can tell.
+std::string contradiction(const FitResult& result) {
+    std::string text;
+    if (!result.suspects.empty()) {
+        text = "; look at " + names(result.suspects);
+        const Proposal& first = result.proposals.front();
+        if (!first.slip.empty()) {
+            text += fmt::format(" ({}: {:g}?)", first.slip,
+                                first.in_radians ? degrees(first.corrected) : first.corrected);
+        } else if (!first.alternatives.empty()) {
+            text += " (or at " + names(first.alternatives) + " instead)";
+        }
+    } else if (!result.disagreeing.empty()) {
+        text = "; the fewest that cannot hold together: " + names(result.disagreeing);
+    }
+    return text;
+}
+
 void judge(const System& system, const Finished& finished, const Diagnosis& diagnosis,
            FitResult& result) {
     std::vector<std::string> broken;
@@ -146,7 +179,8 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
     };
     if (!broken.empty()) {
         return end(FitStatus::contradictory,
-                   fmt::format("exact readings contradict each other: {}", names(broken)));
+                   fmt::format("exact readings contradict each other: {}",
+                               names(result.disagreeing.empty() ? broken : result.disagreeing)));
     }
     if (!result.missing_facets.empty()) {
         return end(FitStatus::not_converged,
@@ -179,12 +213,12 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
             fmt::format("the readings do not agree within their uncertainties: chi2 {:.1f} "
                         "for {:.1f} degrees of freedom (limit {:.1f} at the {:g} level){}",
                         result.chi2, result.dof, result.chi2_limit, result.options.significance,
-                        result.suspects.empty() ? "" : "; look at " + names(result.suspects)));
+                        contradiction(result)));
     }
     if (!result.suspects.empty()) {
         return end(
             FitStatus::contradictory,
-            fmt::format("readings that cannot belong to the others: {}", names(result.suspects)));
+            "readings that cannot belong to the others" + contradiction(result));
     }
     if (result.undetermined_freedoms > 0) {
         std::vector<std::string> facets;
@@ -196,7 +230,8 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
                                "readings{}",
                                result.undetermined_freedoms,
                                result.undetermined_freedoms == 1 ? " is" : "s are",
-                               facets.empty() ? "" : " (facets " + names(facets) + ")"));
+                               facets.empty() ? "" : " (facets " + names(facets) + ")") +
+                       (result.help.empty() ? "" : "; most would help: " + words(result.help[0])));
     }
     end(FitStatus::converged,
         fmt::format("chi2 {:.1f} for {:.1f} degrees of freedom", result.chi2, result.dof));
@@ -212,8 +247,17 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     result.options = options;
     result.unit = stone.unit;
 
-    Portfolio portfolio = fit_from_starts(system, options, progress);
-    Candidate& best = portfolio.best;
+    std::optional<Candidate> again;
+    if (const auto shape = options.start ? shape_of(system, *options.start) : std::nullopt) {
+        again = finish_from(system, *shape, options.iterations);
+    }
+    const bool goes_on = again && again->sound && again->finished.converged &&
+                         again->finished.worst_hard < k_hard_limit;
+    Candidate best = goes_on ? std::move(*again)
+                             : fit_from_starts(system, options, progress).best;
+    const std::vector<double> weights =
+        options.loss == Loss::none ? std::vector<double>()
+                                   : reweight(system, best, options.loss, options.iterations);
     if (progress && !progress(0.7)) throw Interrupted();
     if (system.has_estimated_groups()) {
         estimate_sigmas(system, best.finished, options, progress);
@@ -221,8 +265,18 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     if (progress && !progress(0.95)) throw Interrupted();
 
     const Finished& finished = best.finished;
-    const Diagnosis diagnosis =
-        diagnose(system, finished.shape, finished.outline, {.significance = options.significance});
+    const Diagnosis diagnosis = [&] {
+        Diagnosis plain = diagnose(system, finished.shape, finished.outline,
+                                   {.significance = options.significance});
+        if (!needs_robust_view(plain) || options.loss != Loss::none) return plain;
+        // A gross error bends the whole stone: look for it from a fit that it does not pull.
+        System reweighted = system;
+        Candidate robust = best;
+        reweight(reweighted, robust, Loss::cauchy, options.iterations);
+        if (!robust.sound || !robust.finished.outline) return plain;
+        return diagnose(system, finished.shape, finished.outline,
+                        {.significance = options.significance, .seen_from = &robust.finished});
+    }();
     const System::Pose pose = system.pose_of(finished.shape);
     result.missing_facets = make_solid(system, finished.shape, pose, result);
     result.planarity_max = planarity(result.solid);
@@ -278,9 +332,12 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
         fitted.detectable = c.detectable;
         fitted.suspect = c.suspect;
         fitted.exact = reading.exact;
+        fitted.rounding = reading.rounding;
+        if (!weights.empty()) fitted.weight = weights[r];
         result.readings.push_back(std::move(fitted));
     }
     for (int s : diagnosis.suspects) result.suspects.push_back(readings[s].id);
+    assess(system, finished, diagnosis, result);
     judge(system, finished, diagnosis, result);
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

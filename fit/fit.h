@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/assessment.h"
 #include "fit/measurement.h"
 #include "stone/progress.h"
 #include "stone/stone.h"
@@ -22,6 +23,10 @@ enum class MeetTreatment {
     soft,     ///< each plane of a meet passes the common point within a standard uncertainty
     released  ///< meets of more than three planes come apart freely
 };
+
+/// How readings that are far off count: as least squares has it, or less (see robust.h).
+enum class Loss { none, huber, cauchy };
+const char* name_of(Loss loss);
 
 struct FitOptions {
     /// Of meets of more than three facets that no `meet` reading speaks of.
@@ -36,10 +41,14 @@ struct FitOptions {
     /// Family level of both tests: the chi-square test of all readings, and (shared out among them
     /// by Bonferroni) the test of each.
     double significance = 0.001;
+    Loss loss = Loss::none;
+    /// An earlier result of the same mesh and nearly the same readings: the fit goes on from there
+    /// and looks for no other start, unless it cannot get there.
+    std::optional<Solid> start;
 };
 
 /// The [fit] table of a stone file: `meets` = "exact" | "soft" | "released", `meet_sigma`,
-/// `iterations`, `starts`, `significance`. Throws InputError.
+/// `iterations`, `starts`, `significance`, `loss` = "none" | "huber" | "cauchy". Throws InputError.
 FitOptions read_fit_options(const std::filesystem::path& stone_file,
                             const std::vector<std::string>& overrides = {});
 
@@ -70,6 +79,8 @@ struct FittedReading {
     double redundancy = 0;  ///< 0: nothing checks this reading; 1: it adds nothing
     double detectable = 0;  ///< smallest error that the test would find, 80 times in 100; 0: none
     bool suspect = false, exact = false;
+    double rounding = 0;  ///< step of the instrument; 0: none
+    double weight = 1;    ///< left to it by a robust loss
 };
 
 struct Undetermined {
@@ -95,6 +106,12 @@ struct FitResult {
     std::vector<FittedReading> readings;
     std::vector<Undetermined> undetermined;
     std::vector<std::string> suspects;  ///< ids, the worst first
+    std::vector<Proposal> proposals;    ///< for the suspects
+    /// The smallest set of readings that cannot hold together, where there is a contradiction.
+    std::vector<std::string> disagreeing;
+    std::vector<std::string> undetermined_words;  ///< what nothing fixes, one sentence each
+    std::vector<NextReading> help;                ///< the best further readings, the best first
+    std::vector<FittedProportion> proportions;
     std::vector<std::string> missing_facets;
     MeetReport meets;
     double planarity_max = 0;

@@ -7,12 +7,24 @@
 
 namespace culet {
 
+const char* name_of(Loss loss) {
+    switch (loss) {
+        case Loss::none:
+            return "none";
+        case Loss::huber:
+            return "huber";
+        case Loss::cauchy:
+            return "cauchy";
+    }
+    return "none";
+}
+
 FitOptions read_fit_options(const std::filesystem::path& stone_file,
                             const std::vector<std::string>& overrides) {
     FitOptions options;
     const auto table = read_toml(stone_file, overrides).table("fit");
     if (!table) return options;
-    table->refuse_unknown({"meets", "meet_sigma", "iterations", "starts", "significance"});
+    table->refuse_unknown({"meets", "meet_sigma", "iterations", "starts", "significance", "loss"});
     if (const auto meets = table->text("meets")) {
         if (*meets == "exact") {
             options.meets = MeetTreatment::exact;
@@ -22,6 +34,15 @@ FitOptions read_fit_options(const std::filesystem::path& stone_file,
             options.meets = MeetTreatment::released;
         } else {
             table->fail("meets", "`meets` of [fit] must be \"exact\", \"soft\" or \"released\"");
+        }
+    }
+    if (const auto loss = table->text("loss")) {
+        if (*loss == "huber") {
+            options.loss = Loss::huber;
+        } else if (*loss == "cauchy") {
+            options.loss = Loss::cauchy;
+        } else if (*loss != "none") {
+            table->fail("loss", "`loss` of [fit] must be \"none\", \"huber\" or \"cauchy\"");
         }
     }
     if (table->kind("meet_sigma") == TomlTable::Kind::number) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "fit/fit.h"
+#include "fit/report_assessment.h"
 #include "fit/summary.h"
 #include "stone/units.h"
 
@@ -78,6 +79,7 @@ std::string fit_report(const FitResult& result) {
              {"redundancy", number(r.redundancy)},
              {"detectable", r.detectable > 0 ? number(unit * r.detectable) : Json(nullptr)},
              {"suspect", r.suspect}});
+        if (r.rounding > 0) readings.back()["rounding"] = number(unit * r.rounding);
     }
     report["readings"] = readings;
     Json undetermined = Json::array();
@@ -112,6 +114,7 @@ std::string fit_report(const FitResult& result) {
         {"meet_sigma", result.options.meet_sigma ? Json(*result.options.meet_sigma) : Json("auto")},
         {"iterations", result.options.iterations},
         {"significance", result.options.significance}};
+    report_assessment(result, report);
     return report.dump(1) + "\n";
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "fit/rounding.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
 
@@ -63,6 +64,11 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
     find_exchanges();
     pair_facets();
     list_exact_motions();
+    std::vector<std::pair<int, int>> alike;
+    for (std::size_t r = 0; r < readings_.size(); ++r) {
+        if (readings_[r].exact) alike.insert(alike.end(), pairs_[r].begin(), pairs_[r].end());
+    }
+    widen_for_rounding(readings_, alike, int(solid_.facets.size()));
 }
 
 void System::bring_upright() {

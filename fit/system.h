@@ -76,6 +76,10 @@ public:
     const std::array<double, 2>& group_sigmas() const { return group_sigmas_; }
     void set_group_sigma(int group, double sigma) { group_sigmas_[std::size_t(group)] = sigma; }
     bool has_estimated_groups() const;
+    /// Of a reading from now on, in its unit (robust weights).
+    void set_reading_sigma(int reading, double sigma) {
+        readings_[std::size_t(reading)].sigma = sigma;
+    }
 
     /// All equations but prior and hinges, for the corners that carry them at this shape.
     std::vector<Equation> equations(const Shape& shape,
