@@ -340,6 +340,8 @@ std::vector<Equation> System::hinges() const {
             if (std::find(own.begin(), own.end(), c) != own.end()) continue;
             Equation e;
             e.role = Equation::Role::hinge;
+            e.facet = static_cast<int>(f);
+            e.point = c;
             e.formula = height(static_cast<int>(f), Corner{c, {-1, -1, -1}});
             all.push_back(std::move(e));
         }

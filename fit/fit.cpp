@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "fit/describe.h"
 #include "fit/diagnostics.h"
 #include "fit/finish.h"
 #include "fit/solver.h"
@@ -320,6 +321,7 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
         result.readings.push_back(std::move(fitted));
     }
     for (int s : diagnosis.suspects) result.suspects.push_back(readings[s].id);
+    describe_findings(system, finished, diagnosis, pose, result);
     judge(system, finished, diagnosis, result);
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

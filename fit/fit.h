@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/findings.h"
 #include "fit/measurement.h"
 #include "stone/progress.h"
 #include "stone/stone.h"
@@ -34,6 +35,13 @@ struct FitOptions {
     /// Family level of both tests: the chi-square test of all readings, and (shared out among them
     /// by Bonferroni) the test of each.
     double significance = 0.001;
+    /// Find out about the stone's own axis, contradicted meets, and edges and facets that the
+    /// readings leave open or deny.
+    bool findings = true;
+    /// Propose the stone's symmetry.
+    bool find_symmetry = false;
+    /// Edges and facets that the readings deny may change or go, contradicted meets come apart.
+    bool allow_topology = false;
 };
 
 /// The [fit] table of a stone file: `meets` = "exact" | "soft" | "released", `meet_sigma`,
@@ -53,6 +61,7 @@ struct FittedFacet {
     std::string name;
     Plane plane;
     double inclination = 0, azimuth = 0;  ///< radians; azimuth in the frame of the fitted solid
+    double inclination_own_axis = 0;      ///< NaN when the stone has no axis of its own
     double sigma_inclination = 0, sigma_azimuth = 0;  ///< radians; azimuth: NaN for level facets
     double sigma_offset = 0;  ///< of the plane's distance from the middle of the stone
     double area = 0;          ///< of the facet in the result; 0: not there
@@ -95,6 +104,12 @@ struct FitResult {
     std::vector<std::string> suspects;  ///< ids, the worst first
     std::vector<std::string> missing_facets;
     MeetReport meets;
+    OwnAxis own_axis;
+    std::vector<Tier> tiers;
+    std::vector<MeetFinding> meet_findings;
+    std::vector<ShapeFinding> shape_findings;
+    std::vector<ExtraFacet> extra_facets;
+    std::vector<std::string> changes;  ///< of the topology, in their order
     double planarity_max = 0;
     bool closed = false, convex = false;
     double chi2 = 0, dof = 0, chi2_limit = 0, chi2_p = 1;

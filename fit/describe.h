@@ -1,0 +1,15 @@
+#pragma once
+// Puts what was found out about the stone into the result of its fit. Private to the room.
+
+#include "fit/diagnostics.h"
+#include "fit/finish.h"
+#include "fit/fit.h"
+#include "fit/system.h"
+
+namespace culet {
+
+/// Own axis, tiers, meets, edges and facets. `result` holds facets, readings and tests already.
+void describe_findings(const System& system, const Finished& finished, const Diagnosis& diagnosis,
+                       const System::Pose& pose, FitResult& result);
+
+}  // namespace culet
