@@ -10,6 +10,7 @@
 #include "fit/meet_tests.h"
 #include "fit/own_axis.h"
 #include "fit/shape_findings.h"
+#include "fit/symmetry_tests.h"
 
 namespace culet {
 
@@ -178,6 +179,14 @@ void describe_findings(const System& system, const Finished& finished, const Dia
     if (!inference.usable()) return;
     describe_meets(system, finished.shape, inference, result);
     describe_shape(system, finished, diagnosis, inference, result);
+    const bool declared =
+        std::any_of(system.readings().begin(), system.readings().end(), [](const Reading& r) {
+            return r.kind == ReadingKind::rotation || r.kind == ReadingKind::mirror;
+        });
+    // Declared symmetry would only be found again: `fit_stone` asks a fit without it.
+    if (result.options.find_symmetry && !declared) {
+        result.symmetry = symmetry_of(system, finished.shape, inference, result.options);
+    }
 }
 
 }  // namespace culet

@@ -71,4 +71,42 @@ struct ExtraFacet {
     std::string what;
 };
 
+/// One group held against the readings.
+struct GroupTest {
+    std::string group;  ///< C8v, C4, Cs, ...
+    int order = 1;
+    bool mirrors = false;
+    double mirror_azimuth = 0;  ///< of one mirror plane's normal, as `mirror` readings count it
+    int conditions = 0;         ///< that symmetry would put on the shape
+    int tested = 0;             ///< of these, that the readings tell anything of
+    double chi2 = 0, p = 1;
+    bool supported = false;   ///< tested, and not denied at the level
+    bool determined = false;  ///< at least half of the conditions are tested
+};
+
+/// How far the facets of one tier are from being alike.
+struct TierSymmetry {
+    std::string tier;
+    std::vector<std::string> facets;
+    double deviation = 0;  ///< root mean square angle off the symmetric direction; radians
+    /// Standard deviation of the true directions about symmetry, what the readings cannot know
+    /// taken away; its own standard uncertainty; and with 95 % confidence no more than `at_most`.
+    double sigma = 0, sigma_sigma = 0, at_most = 0;
+    double p = 1;          ///< chance of such deviations if the tier is exactly alike
+    std::string worst;     ///< the facet furthest off
+    double worst_off = 0;  ///< by this much; radians
+};
+
+struct SymmetryReport {
+    std::string form;      ///< the largest group that the form itself has and comes near to
+    std::string proposed;  ///< the largest group that the readings support; C1: none
+    std::string message;   ///< in one line
+    std::vector<GroupTest> groups;    ///< the largest first
+    std::vector<TierSymmetry> tiers;  ///< under the form's group
+    /// Of all tiers together: to write "n-fold within sigma degrees".
+    double sigma = 0, sigma_sigma = 0;
+    /// Readings that would declare the proposal, in the words of a stone file.
+    std::vector<std::string> readings;
+};
+
 }  // namespace culet

@@ -10,6 +10,7 @@
 
 #include "fit/describe.h"
 #include "fit/diagnostics.h"
+#include "fit/find_symmetry.h"
 #include "fit/finish.h"
 #include "fit/solver.h"
 #include "fit/statistics.h"
@@ -322,6 +323,12 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     }
     for (int s : diagnosis.suspects) result.suspects.push_back(readings[s].id);
     describe_findings(system, finished, diagnosis, pose, result);
+    const auto declares = [](const Reading& r) {
+        return r.kind == ReadingKind::rotation || r.kind == ReadingKind::mirror;
+    };
+    if (options.find_symmetry && std::any_of(readings.begin(), readings.end(), declares)) {
+        result.symmetry = find_symmetry(stone, readings, options, progress);
+    }
     judge(system, finished, diagnosis, result);
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -109,7 +109,8 @@ struct FitResult {
     std::vector<MeetFinding> meet_findings;
     std::vector<ShapeFinding> shape_findings;
     std::vector<ExtraFacet> extra_facets;
-    std::vector<std::string> changes;  ///< of the topology, in their order
+    std::optional<SymmetryReport> symmetry;  ///< when it was looked for
+    std::vector<std::string> changes;        ///< of the topology, in their order
     double planarity_max = 0;
     bool closed = false, convex = false;
     double chi2 = 0, dof = 0, chi2_limit = 0, chi2_p = 1;

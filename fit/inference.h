@@ -14,7 +14,7 @@
 
 namespace culet {
 
-inline constexpr double k_unheld_variance = 1e6;
+inline constexpr double k_unheld_variance = 1e3;
 
 class Inference {
 public:

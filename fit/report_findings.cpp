@@ -25,6 +25,39 @@ Json axis_of(const OwnAxis& axis) {
             {"scatter_sigma", number(degrees(axis.scatter_sigma))}};
 }
 
+Json symmetry_of(const SymmetryReport& symmetry) {
+    Json groups = Json::array(), tiers = Json::array();
+    for (const GroupTest& g : symmetry.groups) {
+        groups.push_back({{"group", g.group},
+                          {"mirror_azimuth", g.mirrors ? Json(degrees(g.mirror_azimuth)) : Json()},
+                          {"conditions", g.conditions},
+                          {"tested", g.tested},
+                          {"chi2", number(g.chi2)},
+                          {"p", number(g.p)},
+                          {"supported", g.supported},
+                          {"determined", g.determined}});
+    }
+    for (const TierSymmetry& t : symmetry.tiers) {
+        tiers.push_back({{"tier", t.tier},
+                         {"facets", t.facets},
+                         {"deviation", number(degrees(t.deviation))},
+                         {"sigma", number(degrees(t.sigma))},
+                         {"sigma_sigma", number(degrees(t.sigma_sigma))},
+                         {"at_most", number(degrees(t.at_most))},
+                         {"p", number(t.p)},
+                         {"worst", t.worst},
+                         {"worst_off", number(degrees(t.worst_off))}});
+    }
+    return {{"form", symmetry.form},
+            {"proposed", symmetry.proposed},
+            {"message", symmetry.message},
+            {"sigma", number(degrees(symmetry.sigma))},
+            {"sigma_sigma", number(degrees(symmetry.sigma_sigma))},
+            {"readings", symmetry.readings},
+            {"groups", groups},
+            {"tiers", tiers}};
+}
+
 }  // namespace
 
 void add_findings(const FitResult& result, Json& report) {
@@ -85,6 +118,7 @@ void add_findings(const FitResult& result, Json& report) {
     }
     report["extra_facets"] = extra;
     report["changes"] = result.changes;
+    if (result.symmetry) report["symmetry"] = symmetry_of(*result.symmetry);
 }
 
 }  // namespace culet
