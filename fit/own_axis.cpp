@@ -79,10 +79,20 @@ double quadratic(const glm::dmat3& s, const Vec3& v) {
 
 AxisGroup form_group(const System& system, const Shape& shape) {
     const std::vector<Automorphism> all = automorphisms(system.stone().solid);
-    // Points beyond the mesh's own are meets that readings ask for.
-    const std::vector<Vec3> points(
-        shape.points.begin(),
-        shape.points.begin() + std::ptrdiff_t(system.stone().solid.vertices.size()));
+    // Corners where their planes come nearest to each other: points of meets that were let go may
+    // lie anywhere.
+    std::vector<Vec3> points;
+    for (std::size_t v = 0; v < system.stone().solid.vertices.size(); ++v) {
+        glm::dmat3 normals(0.0);
+        Vec3 right(0);
+        for (int f : system.edges().facets_of_vertex[v]) {
+            const Vec3& n = shape.normals[std::size_t(f)];
+            normals += glm::outerProduct(n, n);
+            right += shape.offsets[std::size_t(f)] * n;
+        }
+        const bool crossing = glm::determinant(normals) > 1e-9;
+        points.push_back(crossing ? glm::inverse(normals) * right : shape.points[v]);
+    }
     return largest_group(motions_about_z(all, points), k_near_form);
 }
 

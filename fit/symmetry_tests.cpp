@@ -77,9 +77,8 @@ GroupTest test_group(const System& system, const AxisGroup& group,
     return test;
 }
 
-TierSymmetry test_tier(const System& system, const PolarCoordinates& c, const FacetOrbit& orbit,
-                       const SymmetricModel& model, const Eigen::MatrixXd& covariance,
-                       Contrasts& pooled) {
+TierSymmetry test_tier(const System& system, const FacetOrbit& orbit, const SymmetricModel& model,
+                       const Eigen::MatrixXd& covariance, Contrasts& pooled) {
     TierSymmetry tier;
     // Polar angle and azimuth of its facets: directions only.
     std::vector<Eigen::Index> rows;
@@ -122,7 +121,6 @@ TierSymmetry test_tier(const System& system, const PolarCoordinates& c, const Fa
         ++tested;
     }
     tier.p = chi2_tail(chi2, tested);
-    (void)c;
     pooled.values.insert(pooled.values.end(), contrasts.values.begin(), contrasts.values.end());
     pooled.variances.insert(pooled.variances.end(), contrasts.variances.begin(),
                             contrasts.variances.end());
@@ -146,7 +144,7 @@ std::vector<std::string> readings_for(const GroupTest& test, const std::string& 
     return readings;
 }
 
-void conclude(SymmetryReport& report) {
+void conclude(SymmetryReport& report, double level) {
     const GroupTest* proposed = nullptr;
     for (const GroupTest& test : report.groups) {
         if (test.supported && test.determined && !proposed) proposed = &test;
@@ -168,6 +166,15 @@ void conclude(SymmetryReport& report) {
         return;
     }
     report.proposed = "C1";
+    // A single level facet may be all that is askew: the table that everything else is read from.
+    std::string askew;
+    bool others = false;
+    for (const TierSymmetry& tier : report.tiers) {
+        if (tier.p >= level) continue;
+        others = others || tier.facets.size() > 1 || !askew.empty();
+        askew =
+            fmt::format("{}, which stands {} degrees off", tier.tier, in_degrees(tier.worst_off));
+    }
     if (!form.determined) {
         report.message =
             fmt::format("the readings leave {} open: they tell of {} of its {} conditions only",
@@ -177,6 +184,9 @@ void conclude(SymmetryReport& report) {
     report.message =
         fmt::format("no exact symmetry: {} is denied (chi2 {:.1f} for {}, p {:.2g}); {}",
                     form.group, form.chi2, form.tested, form.p, spread);
+    if (!askew.empty() && !others) {
+        report.message += fmt::format("; the stone would have it but for {}", askew);
+    }
     report.readings =
         readings_for(form, fmt::format("sigma = {:.2g}", std::max(1e-6, degrees(report.sigma))));
 }
@@ -224,7 +234,7 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Infer
     for (const FacetOrbit& orbit : orbits_of(form, shape.normals.size())) {
         // A single facet is unlike nothing, unless turns must leave it level.
         if (orbit.facets.size() == 1 && !orbit.stays && orbit.own_mirror < 0) continue;
-        TierSymmetry tier = test_tier(system, coordinates, orbit, model, covariance, pooled);
+        TierSymmetry tier = test_tier(system, orbit, model, covariance, pooled);
         tier.tier = tier.facets.front();
         for (const Tier& t : tiers) {
             if (std::find(t.facets.begin(), t.facets.end(), orbit.facets.front()) !=
@@ -237,7 +247,7 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Infer
     const VarianceComponent whole = variance_component(pooled);
     report.sigma = whole.sigma;
     report.sigma_sigma = whole.sigma_sigma;
-    conclude(report);
+    conclude(report, options.significance / double(report.tiers.size() + 1));
     return report;
 }
 

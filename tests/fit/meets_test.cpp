@@ -50,38 +50,6 @@ Solid with_loose_culet(const std::array<double, 8>& up) {
     return enclosed(planes);
 }
 
-/// What an instrument says of the true planes, without lengths that belong to other corners: angles
-/// and distances of each plane from the table's middle, as a scan gives them.
-std::vector<Reading> plane_readings(const Solid& design, const Solid& truth, double sigma_deg,
-                                    double sigma) {
-    std::vector<Reading> readings;
-    for (std::size_t f = 0; f < design.facets.size(); ++f) {
-        const int t = find_facet(truth, design.facets[f].name);
-        if (t < 0 || design.facets[f].name == "T") continue;
-        const Vec3& n = truth.facets[std::size_t(t)].plane.normal;
-        readings.push_back(reading(ReadingKind::inclination, {int(f)},
-                                   inclination(n, Vec3{0, 0, 1}), radians(sigma_deg)));
-        readings.push_back(reading(ReadingKind::azimuth, {int(f)}, azimuth(n), radians(sigma_deg)));
-    }
-    readings.push_back(depth(truth, sigma));
-    for (int k = 0; k < 16; ++k) readings.push_back(width(truth, 11.25 * k, sigma));
-    // Edges that both have, by name.
-    for (const Edge& e : half_edges(design).edges) {
-        const std::string a = design.facets[std::size_t(e.left)].name,
-                          b = design.facets[std::size_t(e.right)].name;
-        for (const Edge& t : half_edges(truth).edges) {
-            const std::string c = truth.facets[std::size_t(t.left)].name,
-                              d = truth.facets[std::size_t(t.right)].name;
-            if (!((a == c && b == d) || (a == d && b == c))) continue;
-            readings.push_back(reading(ReadingKind::edge, {e.left, e.right},
-                                       glm::length(truth.vertices[std::size_t(t.from)] -
-                                                   truth.vertices[std::size_t(t.to)]),
-                                       sigma));
-        }
-    }
-    return readings;
-}
-
 std::vector<std::string> sorted(std::vector<std::string> names) {
     std::sort(names.begin(), names.end());
     return names;
