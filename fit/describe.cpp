@@ -171,10 +171,22 @@ void describe_shape(const System& system, const Finished& finished, const Diagno
 
 }  // namespace
 
-void describe_findings(const System& system, const Finished& finished, const Diagnosis& diagnosis,
+void describe_findings(const System& system, const Finished& finished,
+                       const std::vector<HeldCorner>& held, const Diagnosis& diagnosis,
                        const System::Pose& pose, FitResult& result) {
     if (!result.options.findings || !finished.outline) return;
-    const Inference inference(system, finished.shape, finished.outline, finished.held);
+    std::vector<Equation> conditions;
+    for (const HeldCorner& corner : held) {
+        Equation e;
+        e.role = Equation::Role::relation;
+        e.exact = true;
+        e.facet = corner.facet;
+        e.point = corner.point;
+        e.formula = height(corner.facet, Corner{corner.point, {-1, -1, -1}});
+        e.value = e.formula(finished.shape).value;
+        conditions.push_back(std::move(e));
+    }
+    const Inference inference(system, finished.shape, finished.outline, conditions);
     describe_axis(system, finished.shape, pose, inference.usable() ? &inference : nullptr, result);
     if (!inference.usable()) return;
     describe_meets(system, finished.shape, inference, result);

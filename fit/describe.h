@@ -9,7 +9,12 @@
 namespace culet {
 
 /// Own axis, tiers, meets, edges and facets. `result` holds facets, readings and tests already.
-void describe_findings(const System& system, const Finished& finished, const Diagnosis& diagnosis,
+/// `held` are corners (point below facet) that the fit had to hold down.
+struct HeldCorner {
+    int facet = -1, point = -1;
+};
+void describe_findings(const System& system, const Finished& finished,
+                       const std::vector<HeldCorner>& held, const Diagnosis& diagnosis,
                        const System::Pose& pose, FitResult& result);
 
 }  // namespace culet

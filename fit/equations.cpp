@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <numbers>
 
 #include "fit/system.h"
@@ -50,14 +51,17 @@ Corner farthest(const Shape& shape, const std::vector<Corner>& corners, const Ve
     return best;
 }
 
+bool is_nearly_upright(const Vec3& normal) {
+    return std::abs(normal.z) < std::sin(radians(5));
+}
+
 // Whether an inclination counts from above or from below. A reading of a nearly upright facet does
 // not say on which side of upright it is: the nearer one is meant.
 int side_of(const Vec3& normal, double inclination_read) {
     const int side = normal.z < 0 ? -1 : 1;
     const double from_up = std::atan2(std::hypot(normal.x, normal.y), side * normal.z);
     const double from_down = std::numbers::pi - from_up;
-    const bool near_upright = std::abs(from_up - std::numbers::pi / 2) < radians(5);
-    return near_upright &&
+    return is_nearly_upright(normal) &&
                    std::abs(from_down - inclination_read) < std::abs(from_up - inclination_read)
                ? -side
                : side;
@@ -100,9 +104,7 @@ std::vector<Equation> System::equations(const Shape& shape,
         e.role = incidence.how == MeetTreatment::released ? Equation::Role::released
                                                           : Equation::Role::incidence;
         e.exact = incidence.how == MeetTreatment::exact;
-        e.sigma = incidence.how == MeetTreatment::released ? k_released_sigma
-                  : incidence.sigma > 0                    ? incidence.sigma
-                                        : group_sigmas_[is_girdle(incidence.facet)];
+        e.sigma = incidence_sigma(incidence);
         if (e.role == Equation::Role::incidence && !e.exact && incidence.sigma == 0 &&
             estimates_meets_) {
             e.group = is_girdle(incidence.facet);
@@ -110,7 +112,26 @@ std::vector<Equation> System::equations(const Shape& shape,
         e.formula = height(incidence.facet, Corner{incidence.point, {-1, -1, -1}});
         all.push_back(std::move(e));
     }
+    std::vector<Equation> of_readings = reading_equations(shape, outline);
+    std::move(of_readings.begin(), of_readings.end(), std::back_inserter(all));
+    return all;
+}
 
+double System::incidence_sigma(const Incidence& incidence) const {
+    return incidence.how == MeetTreatment::exact      ? 0
+           : incidence.how == MeetTreatment::released ? k_released_sigma
+           : incidence.sigma > 0                      ? incidence.sigma
+                                                      : group_sigmas_[is_girdle(incidence.facet)];
+}
+
+bool System::has_exact_readings() const {
+    return std::any_of(readings_.begin(), readings_.end(),
+                       [](const Reading& r) { return r.exact && r.kind != ReadingKind::meet; });
+}
+
+std::vector<Equation> System::reading_equations(
+    const Shape& shape, const std::shared_ptr<const Outline>& outline, bool reduced) const {
+    std::vector<Equation> all;
     // Corners, loops and edges as they are now; of a facet that is not there, as in the mesh.
     const auto loop_of = [&](int f) {
         return outline->loops[f].size() >= 3 ? corners_of(*outline, f)
@@ -146,6 +167,7 @@ std::vector<Equation> System::equations(const Shape& shape,
 
     for (std::size_t r = 0; r < readings_.size(); ++r) {
         const Reading& reading = readings_[r];
+        if (reduced && first_extra_[r] >= 0 && fixed_extras_[first_extra_[r]]) continue;
         const double unit = unit_of(reading);
         Equation base;
         base.reading = static_cast<int>(r);
@@ -193,6 +215,11 @@ std::vector<Equation> System::equations(const Shape& shape,
                     }
                 }
                 put(aggregated(reading, std::move(terms), shape), base.value);
+                if (reading.aggregate == Aggregate::single &&
+                    reading.datum.kind == Datum::Kind::up &&
+                    is_nearly_upright(shape.normals[reading.facets[0]])) {
+                    all.back().other_value = std::numbers::pi - base.value;
+                }
                 break;
             }
             case ReadingKind::azimuth:
@@ -340,8 +367,6 @@ std::vector<Equation> System::hinges() const {
             if (std::find(own.begin(), own.end(), c) != own.end()) continue;
             Equation e;
             e.role = Equation::Role::hinge;
-            e.facet = static_cast<int>(f);
-            e.point = c;
             e.formula = height(static_cast<int>(f), Corner{c, {-1, -1, -1}});
             all.push_back(std::move(e));
         }

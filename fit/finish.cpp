@@ -158,7 +158,6 @@ Finished finish(const System& system, const Shape& start, int iterations) {
         result = settle(system, result.shape, held, iterations);
         result.iterations += steps;
     }
-    result.held = std::move(held);
     return result;
 }
 

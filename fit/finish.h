@@ -16,8 +16,6 @@ struct Finished {
     int iterations = 0;
     double chi2 = 0;
     double worst_hard = 0;  ///< what is left of the hard equations
-    /// Corners that the readings want above a neighbour facet, held just below it.
-    std::vector<Equation> held;
 };
 
 /// `iterations` bounds the steps. Directions that no reading holds stay where they were.

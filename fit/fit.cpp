@@ -12,7 +12,7 @@
 #include "fit/diagnostics.h"
 #include "fit/find_symmetry.h"
 #include "fit/finish.h"
-#include "fit/solver.h"
+#include "fit/portfolio.h"
 #include "fit/statistics.h"
 #include "fit/system.h"
 #include "stone/checks.h"
@@ -41,31 +41,6 @@ namespace {
 constexpr double k_hard_limit = 1e-9;
 // Contract with the user: corners lie on their planes to this part of the diameter.
 constexpr double k_planarity = 1e-9;
-
-struct Candidate {
-    Finished finished;
-    bool sound = false;
-};
-
-bool is_sound(const System& system, const Finished& finished) {
-    if (system.splits()) {
-        const System::Enclosed enclosed = system.enclosed(finished.shape);
-        return enclosed.closed && enclosed.missing.empty();
-    }
-    for (const Equation& e : system.hinges()) {
-        if (e.formula(finished.shape).value > 0) return false;
-    }
-    return true;
-}
-
-Candidate from_start(const System& system, const GradedStart& start, const FitOptions& options,
-                     const Progress& progress) {
-    const Graded graded = graded_fit(system, start, progress);
-    Candidate candidate;
-    candidate.finished = finish(system, graded.shape, options.iterations);
-    candidate.sound = is_sound(system, candidate.finished);
-    return candidate;
-}
 
 // Foerstner (1979): each group's uncertainty is the one that its residuals show, sum of squares /
 // redundancy, repeated until it agrees with the one they were weighted by.
@@ -239,22 +214,8 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     result.options = options;
     result.unit = stone.unit;
 
-    // Starts in the order of trust: the mesh as it is, then the angles that were read.
-    Candidate best = from_start(system, {system.mesh_shape(), false}, options, progress);
-    const auto passes = [&](const Candidate& c) {
-        if (!c.sound || !c.finished.converged) return false;
-        if (system.has_estimated_groups()) return true;
-        const Diagnosis d = diagnose(system, c.finished.shape, c.finished.outline, {.full = false});
-        return chi2_tail(d.chi2, d.dof) > options.significance;
-    };
-    if (!passes(best)) {
-        Candidate other = from_start(system, start_from_angles(system), options, progress);
-        const auto rank = [](const Candidate& c) {
-            return std::make_tuple(!c.sound, !(c.finished.worst_hard < k_hard_limit),
-                                   !c.finished.converged, c.finished.chi2);
-        };
-        if (rank(other) < rank(best)) best = std::move(other);
-    }
+    Portfolio portfolio = fit_from_starts(system, options, progress);
+    Candidate& best = portfolio.best;
     if (progress && !progress(0.7)) throw Interrupted();
     if (system.has_estimated_groups()) {
         estimate_sigmas(system, best.finished, options, progress);
@@ -322,7 +283,9 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
         result.readings.push_back(std::move(fitted));
     }
     for (int s : diagnosis.suspects) result.suspects.push_back(readings[s].id);
-    describe_findings(system, finished, diagnosis, pose, result);
+    std::vector<HeldCorner> held;
+    for (const Held& h : best.held) held.push_back({h.facet, h.point});
+    describe_findings(system, finished, held, diagnosis, pose, result);
     const auto declares = [](const Reading& r) {
         return r.kind == ReadingKind::rotation || r.kind == ReadingKind::mirror;
     };

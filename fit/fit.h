@@ -32,6 +32,8 @@ struct FitOptions {
     std::optional<double> meet_sigma;
     /// Largest number of steps of the last stage.
     int iterations = 100;
+    /// Most starts that are tried before the best of what they gave is returned; see starts.h.
+    int starts = 12;
     /// Family level of both tests: the chi-square test of all readings, and (shared out among them
     /// by Bonferroni) the test of each.
     double significance = 0.001;
@@ -45,7 +47,7 @@ struct FitOptions {
 };
 
 /// The [fit] table of a stone file: `meets` = "exact" | "soft" | "released", `meet_sigma`,
-/// `iterations`, `significance`. Throws InputError.
+/// `iterations`, `starts`, `significance`. Throws InputError.
 FitOptions read_fit_options(const std::filesystem::path& stone_file,
                             const std::vector<std::string>& overrides = {});
 

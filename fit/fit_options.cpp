@@ -12,7 +12,7 @@ FitOptions read_fit_options(const std::filesystem::path& stone_file,
     FitOptions options;
     const auto table = read_toml(stone_file, overrides).table("fit");
     if (!table) return options;
-    table->refuse_unknown({"meets", "meet_sigma", "iterations", "significance"});
+    table->refuse_unknown({"meets", "meet_sigma", "iterations", "starts", "significance"});
     if (const auto meets = table->text("meets")) {
         if (*meets == "exact") {
             options.meets = MeetTreatment::exact;
@@ -40,6 +40,12 @@ FitOptions read_fit_options(const std::filesystem::path& stone_file,
                         "`iterations` of [fit] must be a whole number of steps, 1 or more");
         }
         options.iterations = static_cast<int>(*iterations);
+    }
+    if (const auto starts = table->integer("starts")) {
+        if (*starts < 1 || *starts > 1000) {
+            table->fail("starts", "`starts` of [fit] must be a whole number from 1 to 1000");
+        }
+        options.starts = static_cast<int>(*starts);
     }
     if (const auto significance = table->number("significance")) {
         if (!(*significance > 0 && *significance < 0.5)) {

@@ -60,7 +60,9 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
     bring_upright();
     list_incidences(options);
     add_extras();
+    find_exchanges();
     pair_facets();
+    list_exact_motions();
 }
 
 void System::bring_upright() {
@@ -283,6 +285,11 @@ std::vector<int> all_facets(const Shape& shape) {
 std::vector<int> System::rotation_partners(const Reading& reading) const {
     const std::vector<int> facets =
         reading.facets.empty() ? all_facets(mesh_shape_) : reading.facets;
+    if (const auto& exchange = exchanges_[std::size_t(&reading - readings_.data())]) {
+        std::vector<int> images;
+        for (int f : facets) images.push_back(exchange->facets[f]);
+        return images;
+    }
     const double angle = 2 * std::numbers::pi / reading.order;
     std::vector<int> found = partners(mesh_shape_, facets, [&](const Plane& plane) {
         return Plane{about_z(plane.normal, angle), plane.offset};
@@ -314,6 +321,11 @@ std::vector<int> System::rotation_partners(const Reading& reading) const {
 std::vector<int> System::mirror_partners(const Reading& reading) const {
     const std::vector<int> facets =
         reading.facets.empty() ? all_facets(mesh_shape_) : reading.facets;
+    if (const auto& exchange = exchanges_[std::size_t(&reading - readings_.data())]) {
+        std::vector<int> images;
+        for (int f : facets) images.push_back(exchange->facets[f]);
+        return images;
+    }
     const Vec3 m{std::cos(reading.azimuth), std::sin(reading.azimuth), 0};
     const std::vector<int> found = partners(mesh_shape_, facets, [&](const Plane& plane) {
         return Plane{plane.normal - 2 * glm::dot(m, plane.normal) * m, plane.offset};

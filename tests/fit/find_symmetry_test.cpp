@@ -220,7 +220,7 @@ TEST(FindSymmetry, OfAStoneWithoutAny) {
 // the table's normal, as the test is for a stone whose table is its datum.
 TEST(FindSymmetry, AgreesWithASymmetricFit) {
     const Solid truth = fold(6);
-    const std::vector<Reading> readings = noisy(readings_of(truth, 0.05, 0.003), 8);
+    const std::vector<Reading> readings = noisy(plane_readings(truth, truth, 0.05, 0.003), 8);
     const FitResult free = fit_stone(stone_of(truth), readings);
     const SymmetryReport report = find_symmetry(stone_of(truth), readings);
     std::vector<Reading> symmetric = readings;
