@@ -9,7 +9,9 @@
 #include <glm/geometric.hpp>
 
 #include "fit/assess.h"
+#include "fit/describe.h"
 #include "fit/diagnostics.h"
+#include "fit/find_symmetry.h"
 #include "fit/finish.h"
 #include "fit/portfolio.h"
 #include "fit/refit.h"
@@ -208,17 +210,15 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
                                finished.iterations));
     }
     if (result.dof > 0 && result.chi2_p < result.options.significance) {
-        return end(
-            FitStatus::contradictory,
-            fmt::format("the readings do not agree within their uncertainties: chi2 {:.1f} "
-                        "for {:.1f} degrees of freedom (limit {:.1f} at the {:g} level){}",
-                        result.chi2, result.dof, result.chi2_limit, result.options.significance,
-                        contradiction(result)));
+        return end(FitStatus::contradictory,
+                   fmt::format("the readings do not agree within their uncertainties: chi2 {:.1f} "
+                               "for {:.1f} degrees of freedom (limit {:.1f} at the {:g} level){}",
+                               result.chi2, result.dof, result.chi2_limit,
+                               result.options.significance, contradiction(result)));
     }
     if (!result.suspects.empty()) {
-        return end(
-            FitStatus::contradictory,
-            "readings that cannot belong to the others" + contradiction(result));
+        return end(FitStatus::contradictory,
+                   "readings that cannot belong to the others" + contradiction(result));
     }
     if (result.undetermined_freedoms > 0) {
         std::vector<std::string> facets;
@@ -253,8 +253,7 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     }
     const bool goes_on = again && again->sound && again->finished.converged &&
                          again->finished.worst_hard < k_hard_limit;
-    Candidate best = goes_on ? std::move(*again)
-                             : fit_from_starts(system, options, progress).best;
+    Candidate best = goes_on ? std::move(*again) : fit_from_starts(system, options, progress).best;
     const std::vector<double> weights =
         options.loss == Loss::none ? std::vector<double>()
                                    : reweight(system, best, options.loss, options.iterations);
@@ -338,6 +337,15 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     }
     for (int s : diagnosis.suspects) result.suspects.push_back(readings[s].id);
     assess(system, finished, diagnosis, result);
+    std::vector<HeldCorner> held;
+    for (const Held& h : best.held) held.push_back({h.facet, h.point});
+    describe_findings(system, finished, held, diagnosis, pose, result);
+    const auto declares = [](const Reading& r) {
+        return r.kind == ReadingKind::rotation || r.kind == ReadingKind::mirror;
+    };
+    if (options.find_symmetry && std::any_of(readings.begin(), readings.end(), declares)) {
+        result.symmetry = find_symmetry(stone, readings, options, progress);
+    }
     judge(system, finished, diagnosis, result);
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "fit/assessment.h"
+#include "fit/findings.h"
 #include "fit/measurement.h"
 #include "stone/progress.h"
 #include "stone/stone.h"
@@ -45,6 +46,13 @@ struct FitOptions {
     /// An earlier result of the same mesh and nearly the same readings: the fit goes on from there
     /// and looks for no other start, unless it cannot get there.
     std::optional<Solid> start;
+    /// Find out about the stone's own axis, contradicted meets, and edges and facets that the
+    /// readings leave open or deny.
+    bool findings = true;
+    /// Propose the stone's symmetry.
+    bool find_symmetry = false;
+    /// Edges and facets that the readings deny may change or go, contradicted meets come apart.
+    bool allow_topology = false;
 };
 
 /// The [fit] table of a stone file: `meets` = "exact" | "soft" | "released", `meet_sigma`,
@@ -64,6 +72,7 @@ struct FittedFacet {
     std::string name;
     Plane plane;
     double inclination = 0, azimuth = 0;  ///< radians; azimuth in the frame of the fitted solid
+    double inclination_own_axis = 0;      ///< NaN when the stone has no axis of its own
     double sigma_inclination = 0, sigma_azimuth = 0;  ///< radians; azimuth: NaN for level facets
     double sigma_offset = 0;  ///< of the plane's distance from the middle of the stone
     double area = 0;          ///< of the facet in the result; 0: not there
@@ -114,6 +123,13 @@ struct FitResult {
     std::vector<FittedProportion> proportions;
     std::vector<std::string> missing_facets;
     MeetReport meets;
+    OwnAxis own_axis;
+    std::vector<Tier> tiers;
+    std::vector<MeetFinding> meet_findings;
+    std::vector<ShapeFinding> shape_findings;
+    std::vector<ExtraFacet> extra_facets;
+    std::optional<SymmetryReport> symmetry;  ///< when it was looked for
+    std::vector<std::string> changes;        ///< of the topology, in their order
     double planarity_max = 0;
     bool closed = false, convex = false;
     double chi2 = 0, dof = 0, chi2_limit = 0, chi2_p = 1;

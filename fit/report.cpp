@@ -5,6 +5,7 @@
 
 #include "fit/fit.h"
 #include "fit/report_assessment.h"
+#include "fit/report_findings.h"
 #include "fit/summary.h"
 #include "stone/units.h"
 
@@ -99,6 +100,7 @@ std::string fit_report(const FitResult& result) {
                        {"sigma_estimated", result.meets.estimated},
                        {"miss_rms", result.meets.miss_rms},
                        {"miss_max", result.meets.miss_max}};
+    add_findings(result, report);
     report["planarity_max"] = result.planarity_max;
     report["closed"] = result.closed;
     report["convex"] = result.convex;

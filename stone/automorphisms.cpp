@@ -99,7 +99,7 @@ public:
         result.facets.assign(solid_.facets.size(), -1);
         result.vertices.assign(solid_.vertices.size(), -1);
         for (std::size_t d = 0; d < darts_.size(); ++d) {
-            check(image_[d] >= 0, "automorphisms of a surface of several pieces");
+            if (image_[d] < 0) return false;  // a piece of its own
             const Dart& there = darts_[image_[d]];
             result.facets[darts_[d].facet] = there.facet;
             result.vertices[darts_[d].from] = turns_over ? darts_[there.twin].from : there.from;
@@ -137,7 +137,15 @@ std::vector<Automorphism> automorphisms(const Solid& solid) {
     const int first = propagation.rarest_dart();
     std::vector<Automorphism> all;
     Automorphism found;
-    if (propagation.follow(first, first, false, found)) all.push_back(found);
+    if (!propagation.follow(first, first, false, found)) {
+        // Several pieces: only the identity is looked for.
+        found.facets.resize(solid.facets.size());
+        found.vertices.resize(solid.vertices.size());
+        std::iota(found.facets.begin(), found.facets.end(), 0);
+        std::iota(found.vertices.begin(), found.vertices.end(), 0);
+        return {found};
+    }
+    all.push_back(found);
     for (const bool turns_over : {false, true}) {
         for (std::size_t d = 0; d < darts.size(); ++d) {
             const int to = static_cast<int>(d);

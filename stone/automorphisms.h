@@ -18,10 +18,10 @@ struct Automorphism {
 };
 
 /// All of them, the identity first, then in the order of the images of one edge. The surface must
-/// be closed and of one piece (InternalError, see `find_faults`). Each is found by following the
-/// neighbours of one edge's image all over the surface (flag propagation; the map of a connected
-/// surface is fixed by the image of one flag), so there are at most 4 for each edge. Cost: edges x
-/// edges of the rarest shape of neighbourhood, at worst.
+/// be closed (InternalError, see `find_faults`); of several pieces only the identity is given. Each
+/// is found by following the neighbours of one edge's image all over the surface (flag propagation;
+/// the map of a connected surface is fixed by the image of one flag), so there are at most 4 for
+/// each edge. Cost: edges x edges of the rarest shape of neighbourhood, at worst.
 std::vector<Automorphism> automorphisms(const Solid& solid);
 
 /// Those of `all` that leave facet `pole` where it is: turns about it and mirrorings through it.
