@@ -22,7 +22,7 @@ Inference::Inference(const System& system, const Shape& shape,
 Eigen::MatrixXd Inference::rows_of(const std::vector<Quantity>& quantities) const {
     Eigen::MatrixXd rows(Eigen::Index(quantities.size()), linear_.layout.size());
     for (std::size_t i = 0; i < quantities.size(); ++i) {
-        rows.row(Eigen::Index(i)) = writer_.row(quantities[i]);
+        rows.row(Eigen::Index(i)) = Eigen::VectorXd(writer_.function(quantities[i])).transpose();
     }
     return rows;
 }
