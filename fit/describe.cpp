@@ -99,11 +99,16 @@ void describe_meets(const System& system, const Shape& shape, const Inference& i
                     FitResult& result) {
     MeetTestOptions options;
     options.significance = result.options.significance;
-    // Few suspects: wrong readings are the simpler story. Many: no story at all.
-    const bool few = result.suspects.size() <= 3;
+    // When a few wrong readings explain the contradiction, they are the simpler story; when they
+    // leave it, they are none.
+    double explained = 0, largest = 0;
     for (const FittedReading& r : result.readings) {
-        if (!few || !r.suspect || !std::isfinite(r.normalized) || is_relation(r.kind)) continue;
-        options.least_chi2 = std::max(options.least_chi2, r.normalized * r.normalized);
+        if (!r.suspect || !std::isfinite(r.normalized) || is_relation(r.kind)) continue;
+        explained += r.normalized * r.normalized;
+        largest = std::max(largest, r.normalized * r.normalized);
+    }
+    if (result.suspects.size() <= 3 && result.chi2 - explained < result.chi2_limit) {
+        options.least_chi2 = largest;
     }
     result.meet_findings = test_meets(system, shape, inference, options);
     for (MeetFinding& meet : result.meet_findings) {

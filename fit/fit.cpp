@@ -18,6 +18,7 @@
 #include "fit/robust.h"
 #include "fit/statistics.h"
 #include "fit/system.h"
+#include "fit/topology.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
 
@@ -189,6 +190,12 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
                    fmt::format("the fitted planes leave no room for facet {}",
                                names(result.missing_facets)));
     }
+    for (const ShapeFinding& f : result.shape_findings) {
+        if (f.kind == ShapeFinding::Kind::facet_vanishes) {
+            return end(FitStatus::not_converged,
+                       f.what + "; leave it out of the mesh, or allow the topology to change");
+        }
+    }
     if (finished.worst_hard > k_hard_limit) {
         return end(FitStatus::not_converged, "the facets and meets could not be brought together");
     }
@@ -208,6 +215,11 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
         return end(FitStatus::not_converged,
                    fmt::format("no end after {} steps; raise the limit, or look at the suspects",
                                finished.iterations));
+    }
+    for (const ShapeFinding& f : result.shape_findings) {
+        if (f.kind == ShapeFinding::Kind::edge_vanishes && f.p < result.options.significance) {
+            return end(FitStatus::contradictory, f.what + "; allow the topology to change");
+        }
     }
     if (result.dof > 0 && result.chi2_p < result.options.significance) {
         return end(FitStatus::contradictory,
@@ -245,6 +257,7 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     System system(stone, readings, options);
     FitResult result;
     result.options = options;
+    if (options.allow_topology) result.options.findings = true;
     result.unit = stone.unit;
 
     std::optional<Candidate> again;
@@ -349,6 +362,11 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     judge(system, finished, diagnosis, result);
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (options.allow_topology) {
+        result = fit_with_changes(stone, readings, options, std::move(result), progress);
+        result.seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    }
     if (progress) progress(1);
     return result;
 }

@@ -13,6 +13,7 @@ using Triplets = RowWriter::Triplets;
 // What a step of one means for each unknown: a mesh may be off by 20 % of its width in its points;
 // tilts, offsets and extras are of the order of one.
 constexpr double k_point_weight = 1 / (0.4 * 0.4);
+constexpr double k_loose_point_weight = 1e-3;
 constexpr double k_repeat = 1e-13;
 constexpr double k_hinge_sigma = 1e-4;
 
@@ -172,6 +173,16 @@ Linearised linearise(const System& system, const Shape& shape,
     linear.metric = Eigen::VectorXd::Ones(unknowns);
     linear.metric.segment(linear.layout.point(0), 3 * linear.layout.points)
         .setConstant(k_point_weight);
+    // The point of a meet that was let go belongs to nothing: wherever it lies, nothing is open.
+    std::vector<bool> held_point(std::size_t(linear.layout.points), false);
+    for (const Incidence& incidence : system.incidences()) {
+        if (incidence.how != MeetTreatment::released)
+            held_point[std::size_t(incidence.point)] = true;
+    }
+    for (int p = 0; p < linear.layout.points; ++p) {
+        if (held_point[std::size_t(p)]) continue;
+        linear.metric.segment(linear.layout.point(p), 3).setConstant(k_loose_point_weight);
+    }
     for (Eigen::VectorXd& g : rigid_motions(system, shape)) {
         if (unseen(linear.soft_rows, g) && unseen(linear.hard_rows, g)) {
             linear.gauge_rows.push_back(linear.metric.cwiseProduct(g));

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <set>
 
 namespace culet {
 
@@ -39,7 +38,8 @@ std::vector<std::string> names_of(const System& system, const Edge& edge) {
     return names;
 }
 
-// A corner held below a facet, and what the readings want of it.
+// Corners held below the facet at the other end of an edge keep the edge from turning round. Let
+// go, it would be as long as the readings want it.
 void add_vanishing(const System& system, const Finished& finished, const Inference& inference,
                    std::vector<ShapeFinding>& findings) {
     const std::vector<Equation>& hard = inference.linear().hard;
@@ -48,41 +48,48 @@ void add_vanishing(const System& system, const Finished& finished, const Inferen
         if (hard[i].facet >= 0 && hard[i].point >= 0) held.push_back(Eigen::Index(i));
     }
     if (held.empty()) return;
-    Eigen::MatrixXd pick =
-        Eigen::MatrixXd::Zero(Eigen::Index(hard.size()), Eigen::Index(held.size()));
-    for (std::size_t k = 0; k < held.size(); ++k) pick(held[k], Eigen::Index(k)) = 1;
-    const Eigen::MatrixXd v = inference.multiplier_covariance(pick);
-    std::set<std::pair<int, int>> seen;
-    for (std::size_t k = 0; k < held.size(); ++k) {
-        const Equation& e = hard[std::size_t(held[k])];
-        const double pull = inference.multipliers()(held[k]);
-        const double information = v(Eigen::Index(k), Eigen::Index(k));
-        // Pulled downwards, or so loosely that rounding decides: not what shapes the stone.
-        if (!(pull > 0) || !(information > 4)) continue;
-        const double height = pull / information, sigma = 1 / std::sqrt(information);
-        const double p = std::erfc(pull / std::sqrt(2 * information));
-        for (const Edge& edge : system.edges().edges) {
+    // Of an edge both ends may be held, which is one condition said twice: they are let go
+    // together. A corner of an edge of length l lies l times the slope below the far facet.
+    std::vector<const Edge*> edges;
+    std::vector<Eigen::VectorXd> columns;
+    for (const Edge& edge : system.edges().edges) {
+        const Vec3 along =
+            glm::normalize(glm::cross(finished.shape.normals[std::size_t(edge.left)],
+                                      finished.shape.normals[std::size_t(edge.right)]));
+        Eigen::VectorXd column = Eigen::VectorXd::Zero(Eigen::Index(hard.size()));
+        for (const Eigen::Index k : held) {
+            const Equation& e = hard[std::size_t(k)];
             if (edge.from != e.point && edge.to != e.point) continue;
+            if (edge.left == e.facet || edge.right == e.facet) continue;
             const int far_end = edge.from == e.point ? edge.to : edge.from;
             const std::vector<int>& there = system.edges().facets_of_vertex[std::size_t(far_end)];
             if (std::find(there.begin(), there.end(), e.facet) == there.end()) continue;
-            if (edge.left == e.facet || edge.right == e.facet) continue;
-            if (!seen.insert({edge.left, edge.right}).second) continue;
-            // How fast the corner sinks below the facet along the edge.
-            const Vec3 along =
-                glm::normalize(glm::cross(finished.shape.normals[std::size_t(edge.left)],
-                                          finished.shape.normals[std::size_t(edge.right)]));
-            const double slope =
-                std::abs(glm::dot(along, finished.shape.normals[std::size_t(e.facet)]));
-            if (!(slope > 1e-9)) continue;
-            ShapeFinding finding;
-            finding.kind = ShapeFinding::Kind::edge_vanishes;
-            finding.facets = names_of(system, edge);
-            finding.value = -height / slope;
-            finding.sigma = sigma / slope;
-            finding.p = p;
-            findings.push_back(std::move(finding));
+            column(k) = std::abs(glm::dot(along, finished.shape.normals[std::size_t(e.facet)]));
         }
+        if (column.maxCoeff() < 1e-9) continue;
+        edges.push_back(&edge);
+        columns.push_back(std::move(column));
+    }
+    if (edges.empty()) return;
+    Eigen::MatrixXd combinations(Eigen::Index(hard.size()), Eigen::Index(columns.size()));
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        combinations.col(Eigen::Index(k)) = columns[k];
+    }
+    const Eigen::MatrixXd v = inference.multiplier_covariance(combinations);
+    const Eigen::VectorXd pulls = combinations.transpose() * inference.multipliers();
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+        const double pull = pulls(Eigen::Index(k));
+        const double information = v(Eigen::Index(k), Eigen::Index(k));
+        // Drawn apart, or pulled so loosely that rounding decides: not what shapes the stone.
+        if (!(pull > 0) || !(information > 4)) continue;
+        ShapeFinding finding;
+        finding.kind = ShapeFinding::Kind::edge_vanishes;
+        finding.facets = names_of(system, *edges[k]);
+        finding.value = -pull / information;
+        finding.sigma = 1 / std::sqrt(information);
+        // One-sided: only a wish for less than nothing counts.
+        finding.p = 0.5 * std::erfc(pull / std::sqrt(2 * information));
+        findings.push_back(std::move(finding));
     }
 }
 

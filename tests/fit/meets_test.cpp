@@ -125,5 +125,23 @@ TEST(Meets, AReleasedCuletComesApart) {
     EXPECT_GT(culet.miss, 0.002);
 }
 
+// The same without being told which: allowed to, the fit lets go what the readings contradict, says
+// so, and ends where every reading agrees.
+TEST(Meets, AContradictedCuletComesApartWhereThatIsAllowed) {
+    const Solid design = brilliant(),
+                truth = with_loose_culet({0.02, -0.01, 0.015, 0.0, -0.02, 0.01, 0.005, -0.015});
+    FitOptions options;
+    options.allow_topology = true;
+    const FitResult result = fit_stone(
+        stone_of(design), noisy(plane_readings(design, truth, 0.02, 0.002), 2), options);
+    EXPECT_EQ(result.status, FitStatus::converged) << result.message;
+    EXPECT_EQ(result.solid.vertices.size(), truth.vertices.size());
+    EXPECT_THAT(find_faults(result.solid), ::testing::IsEmpty());
+    EXPECT_THAT(result.changes,
+                ::testing::Contains(::testing::AllOf(::testing::HasSubstr("came apart"),
+                                                     ::testing::HasSubstr("P1, P8, P7"))));
+    EXPECT_THAT(result.changes, ::testing::Contains(::testing::HasSubstr("edges new")));
+}
+
 }  // namespace
 }  // namespace culet
