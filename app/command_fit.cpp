@@ -20,9 +20,34 @@ namespace {
 
 struct FitCommand {
     CommonOptions common;
-    std::string stone, output, report, drawing, paint = "residual";
+    std::string stone, output, report, drawing, paint = "residual", from;
     int iterations = 0, starts = 0;
+    bool find_symmetry = false, allow_topology = false;
 };
+
+// A solid that was fitted before, with the facets of the mesh.
+Solid earlier_fit(const std::string& name, const Solid& mesh) {
+    Solid solid = read_solid(name).solid;
+    for (const Facet& facet : mesh.facets) {
+        if (find_facet(solid, facet.name) < 0) {
+            throw InputError(name,
+                             fmt::format("has no facet \"{}\" of the stone's mesh: --from takes "
+                                         "an earlier result of the same stone",
+                                         facet.name));
+        }
+    }
+    return solid;
+}
+
+void draw(const FitCommand& command, const std::string& title, const FitResult& result,
+          const std::string& report) {
+    const FitPaint paint =
+        fit_paint(result.solid, report,
+                  command.paint == "sigma" ? FitColour::uncertainty : FitColour::residual);
+    write_text(command.drawing,
+               drawing_svg(title, fmt::format("{}: {}", name_of(result.status), result.message),
+                           result.solid, paint.facets, paint.legend));
+}
 
 int run_fit(const FitCommand& command) {
     require_writable(command.output);
@@ -36,6 +61,9 @@ int run_fit(const FitCommand& command) {
     FitOptions options = read_fit_options(command.stone, command.common.set);
     if (command.iterations > 0) options.iterations = command.iterations;
     if (command.starts > 0) options.starts = command.starts;
+    options.find_symmetry = options.find_symmetry || command.find_symmetry;
+    options.allow_topology = options.allow_topology || command.allow_topology;
+    if (!command.from.empty()) options.start = earlier_fit(command.from, file.stone.solid);
 
     const FitResult result = [&] {
         try {
@@ -49,13 +77,7 @@ int run_fit(const FitCommand& command) {
     const std::string report = fit_report(result);
     if (!command.report.empty()) write_text(command.report, report);
     if (!command.drawing.empty()) {
-        const FitPaint paint =
-            fit_paint(result.solid, report,
-                      command.paint == "sigma" ? FitColour::uncertainty : FitColour::residual);
-        write_text(command.drawing,
-                   drawing_svg(file.stone.name.empty() ? command.stone : file.stone.name,
-                               fmt::format("{}: {}", name_of(result.status), result.message),
-                               result.solid, paint.facets, paint.legend));
+        draw(command, file.stone.name.empty() ? command.stone : file.stone.name, result, report);
     }
     std::string prefix = fmt::format("{}: ", name_of(result.status));
     for (const std::string& sentence : fit_summary(result)) {
@@ -98,11 +120,20 @@ void add_command_fit(CLI::App& program, int& exit_code) {
                     "most starts to try when the first does not explain the readings (12)")
         ->check(CLI::Range(1, 1000000))
         ->type_name("N");
+    fit->add_option("--from", command->from,
+                    "an earlier result of the same stone, to go on from after an edit")
+        ->type_name("FITTED");
+    fit->add_flag("--find-symmetry", command->find_symmetry,
+                  "propose the stone's symmetry and tell how well the readings support it");
+    fit->add_flag(
+        "--allow-topology", command->allow_topology,
+        "let edges and facets that the readings deny change or go; each change is listed");
     add_common(*fit, command->common, true);
     fit->footer(
         "Examples:\n"
         "  culet fit stone.toml -o fitted.obj --report fit.json\n"
-        "  culet fit stone.toml -o fitted.obj --drawing fitted.svg --set fit.meets=soft");
+        "  culet fit stone.toml -o fitted.obj --drawing fitted.svg --find-symmetry\n"
+        "  culet fit stone.toml -o again.obj --from fitted.obj --set fit.meets=soft");
     fit->callback([command, &exit_code] { exit_code = run_fit(*command); });
 }
 

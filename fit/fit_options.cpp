@@ -24,7 +24,8 @@ FitOptions read_fit_options(const std::filesystem::path& stone_file,
     FitOptions options;
     const auto table = read_toml(stone_file, overrides).table("fit");
     if (!table) return options;
-    table->refuse_unknown({"meets", "meet_sigma", "iterations", "starts", "significance", "loss"});
+    table->refuse_unknown({"meets", "meet_sigma", "iterations", "starts", "significance", "loss",
+                           "find_symmetry", "allow_topology"});
     if (const auto meets = table->text("meets")) {
         if (*meets == "exact") {
             options.meets = MeetTreatment::exact;
@@ -45,6 +46,8 @@ FitOptions read_fit_options(const std::filesystem::path& stone_file,
             table->fail("loss", "`loss` of [fit] must be \"none\", \"huber\" or \"cauchy\"");
         }
     }
+    options.find_symmetry = table->boolean("find_symmetry").value_or(false);
+    options.allow_topology = table->boolean("allow_topology").value_or(false);
     if (table->kind("meet_sigma") == TomlTable::Kind::number) {
         options.meet_sigma = table->number("meet_sigma");
     }

@@ -8,14 +8,17 @@ Study study_fit(const Stone& stone, const std::vector<Reading>& readings,
                 const StudyOptions& options, const Progress& progress) {
     Study study;
     study.options = options;
+    // Asked of the stone itself, not of every draw.
+    study.options.fit.findings = study.options.fit.find_symmetry = false;
+    study.options.fit.allow_topology = false;
     study.stone = stone.name;
     study.unit = stone.unit;
     study.facets = static_cast<int>(stone.solid.facets.size());
     study.readings = static_cast<int>(readings.size());
     StudyBudget budget(options.budget_seconds, progress);
     const double begin = processor_seconds();
-    const FitResult base =
-        fit_stone(stone, readings, options.fit, [&](double) { return !progress || progress(0); });
+    const FitResult base = fit_stone(stone, readings, study.options.fit,
+                                     [&](double) { return !progress || progress(0); });
     study.seconds = processor_seconds() - begin;
     study.status = base.status;
     study.message = base.message;

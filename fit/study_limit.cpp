@@ -163,6 +163,8 @@ void study_limits(const Stone& stone, const FitResult& base, const StudyTruth& t
         return;
     }
     const StudyTruth right = truth_of(stone, readings, ideal, true);
+    // The optimum that belongs to the truth: no other start is looked for.
+    options.start = right.stone.solid;
     Selection now{right.readings, fit_stone(right.stone, right.readings, options)};
     const int all = count(right.readings);
     if (all == 0) {

@@ -6,6 +6,7 @@
 
 #include "page/drawing.h"
 #include "page/fit_fields.h"
+#include "page/fit_findings.h"
 #include "page/fit_paint.h"
 #include "page/fit_tables.h"
 #include "page/html.h"
@@ -95,6 +96,7 @@ std::string fit_section(const FitView& view) {
                     "</details>\n";
         }
     }
+    body += findings_tables(fit);
     body += readings_table(fit);
     body += facets_table(fit, view.length_unit);
     return section("fit", "The fitted stone", body);

@@ -60,6 +60,56 @@ TEST(Summary, says_what_the_others_say_of_a_suspect) {
             "Look again at r0 (inclination of P1: read 43.4, the others say 34.4, off by 12.3")));
 }
 
+TEST(Summary, names_the_slip_that_would_explain_a_suspect) {
+    FitResult r = result();
+    r.suspects = {"r0"};
+    r.proposals = {{"r0", true, radians(34.41), radians(0.1), "digits swapped", radians(34.4), {}}};
+    EXPECT_THAT(fit_summary(r),
+                Contains(HasSubstr("the others say 34.41 +- 0.1 (digits swapped: 34.4?)")));
+}
+
+TEST(Summary, names_a_set_only_where_no_single_reading_explains) {
+    FitResult r = result();
+    r.disagreeing = {"a", "b", "c"};
+    EXPECT_THAT(fit_summary(r),
+                Contains("The fewest readings that cannot hold together: a, b, c."));
+    r.suspects = {"r0"};
+    EXPECT_THAT(fit_summary(r), Not(Contains(HasSubstr("cannot hold together"))));
+}
+
+TEST(Summary, tells_what_was_found_out) {
+    FitResult r = result();
+    r.undetermined_words = {"nothing measured fixes the azimuth of star S3"};
+    r.help = {{ReadingKind::azimuth, {"S3"}, 0.1, 0.02, true}, {}};
+    r.changes = {"edges gone: A|B"};
+    r.own_axis.known = true;
+    r.own_axis.tilt = radians(0.8);
+    r.own_axis.sigma = radians(0.04);
+    r.own_axis.azimuth = radians(120);
+    MeetFinding meet;
+    meet.contradicted = true;
+    meet.advice = "meet of P1..P8: planes miss by 20 um: release it";
+    r.meet_findings = {meet, {}};
+    r.symmetry.emplace();
+    r.symmetry->message = "C8v is supported";
+    const auto lines = fit_summary(r);
+    for (const char* words :
+         {"Nothing measured fixes the azimuth of star S3.", "Changed: edges gone: A|B.",
+          "Meet of P1..P8: planes miss by 20 um: release it.", "Symmetry: C8v is supported."}) {
+        EXPECT_THAT(lines, Contains(words));
+    }
+    EXPECT_THAT(lines, Contains(HasSubstr("The table leans 0.8 +- 0.04 degrees")));
+    EXPECT_THAT(lines, Contains("The reading that would help most: azimuth of S3 (it would settle "
+                                "something that is open)."));
+    // A tilt that its uncertainty explains is none; a reading that brings little is not asked for.
+    r.own_axis.sigma = radians(0.4);
+    r.help[0].closes = false;
+    for (const std::string& line : fit_summary(r)) {
+        EXPECT_THAT(line, Not(HasSubstr("leans")));
+        EXPECT_THAT(line, Not(HasSubstr("help most")));
+    }
+}
+
 TEST(Summary, says_what_is_open_and_what_nothing_checks) {
     FitResult r = result();
     r.status = FitStatus::undetermined;
