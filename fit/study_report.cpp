@@ -53,17 +53,19 @@ Json object_of(const StudySetting& row) {
 Json object_of(const StudyLimit& row) {
     const bool measured = row.draws > row.failed;
     const auto if_measured = [&](double value) { return measured ? number(value) : Json(nullptr); };
-    return {{"readings", row.readings},
-            {"share", row.share},
-            {"dof", row.dof},
-            {"draws", row.draws},
-            {"failed", row.failed},
-            {"angle_error", if_measured(degrees(row.angle_error))},
-            {"angle_limit", number(degrees(row.angle_limit))},
-            {"ratio", if_measured(row.ratio)},
-            {"ratio_sigma", if_measured(row.ratio_sigma)},
-            {"offset_error", if_measured(row.offset_error)},
-            {"offset_limit", number(row.offset_limit)}};
+    return {
+        {"readings", row.readings},
+        {"share", row.share},
+        {"dof", row.dof},
+        {"draws", row.draws},
+        {"failed", row.failed},
+        {"angle_error", if_measured(degrees(row.angle_error))},
+        {"angle_limit", number(degrees(row.angle_limit))},
+        {"ratio", if_measured(row.ratio)},
+        // One draw does not scatter.
+        {"ratio_sigma", row.draws - row.failed > 1 ? if_measured(row.ratio_sigma) : Json(nullptr)},
+        {"offset_error", if_measured(row.offset_error)},
+        {"offset_limit", number(row.offset_limit)}};
 }
 
 // Columns by the keys of the first row; null is empty.

@@ -96,6 +96,15 @@ struct Box {
 class Room {
 public:
     void take(const Box& box) { taken_.push_back(box); }
+    /// Names keep off lines, too.
+    void take_line(double x0, double y0, double x1, double y1) {
+        const int pieces = 1 + static_cast<int>(std::hypot(x1 - x0, y1 - y0) / 6);
+        for (int i = 0; i <= pieces; ++i) {
+            const double t = static_cast<double>(i) / pieces, x = x0 + t * (x1 - x0),
+                         y = y0 + t * (y1 - y0);
+            take({x - 2, y - 2, x + 2, y + 2});
+        }
+    }
     /// Middle of the text's box, or nothing when every place is taken.
     std::optional<Box> find(double x, double y, double width, double height) {
         for (const double away : {9.0, 20.0, 34.0}) {
@@ -210,6 +219,16 @@ std::string draw_chart_svg(const Chart& chart) {
             if (shows(chart, p) && series.markers) {
                 room.take({x.at(p.x) - 7, y.at(p.y) - 7, x.at(p.x) + 7, y.at(p.y) + 7});
             }
+        }
+    }
+    for (const ChartSeries& series : chart.series) {
+        const ChartPoint* before = nullptr;
+        for (const ChartPoint& p : series.points) {
+            if (!series.line || !shows(chart, p)) continue;
+            if (before != nullptr) {
+                room.take_line(x.at(before->x), y.at(before->y), x.at(p.x), y.at(p.y));
+            }
+            before = &p;
         }
     }
     for (std::size_t s = 0; s < chart.series.size(); ++s) {
