@@ -7,6 +7,7 @@
 #include "app/options.h"
 #include "app/terminal.h"
 #include "fit/fit.h"
+#include "fit/mending.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 #include "stone/stone_io.h"
@@ -27,12 +28,15 @@ int run_fit(const FitCommand& command) {
     StoneFile file = read_stone(command.stone, command.common.set);
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
+    const Mended mesh = mended(file.stone);
+    file.stone = mesh.stone;
+    for (const std::string& note : mesh.notes) say(note, command.common.quiet);
     const auto written = read_readings(command.stone, command.common.set);
     const auto readings = bind_readings(written, file.stone);
     FitOptions options = read_fit_options(command.stone, command.common.set);
     if (command.iterations > 0) options.iterations = command.iterations;
 
-    const FitResult result = [&] {
+    FitResult result = [&] {
         try {
             return fit_stone(file.stone, readings, options,
                              progress_line("fit", command.common.quiet));
@@ -40,6 +44,7 @@ int run_fit(const FitCommand& command) {
             throw InputError(file.mesh_file, error.what());
         }
     }();
+    result.notes.insert(result.notes.begin(), mesh.notes.begin(), mesh.notes.end());
     write_solid(result.solid, command.output);
     if (!command.report.empty()) write_text(command.report, fit_report(result));
     say(fmt::format("{}: {}", name_of(result.status), result.message), command.common.quiet);

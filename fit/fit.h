@@ -96,6 +96,13 @@ struct FitResult {
     std::vector<Undetermined> undetermined;
     std::vector<std::string> suspects;  ///< ids, the worst first
     std::vector<std::string> missing_facets;
+    /// Edges that the readings want to have no length, as `A/B`: they are kept at a hair's.
+    std::vector<std::string> vanishing_edges;
+    double vanishing_chi2 = 0;  ///< what keeping them costs
+    int starts = 0;             ///< tried
+    std::string start;          ///< that the result came from
+    /// What was done to the mesh before it could be fitted: turned round, scaled, ...
+    std::vector<std::string> notes;
     MeetReport meets;
     double planarity_max = 0;
     bool closed = false, convex = false;

@@ -11,7 +11,9 @@
 #include <set>
 #include <tuple>
 
+#include "fit/canonical.h"
 #include "stone/checks.h"
+#include "stone/half_edges.h"
 
 namespace culet {
 
@@ -189,6 +191,41 @@ std::vector<std::string> join_pieces(Solid& solid) {
 
 }  // namespace
 
+std::optional<Stone> mirrored_to_azimuths(const Stone& stone,
+                                          const std::vector<Reading>& readings) {
+    // Azimuths read less those drawn agree up to one turn, or their sums do: mean directions.
+    const Vec3 up = [&] {
+        const int f = stone.up_facet.empty() ? -1 : find_facet(stone.solid, stone.up_facet);
+        return f < 0 ? glm::normalize(stone.up) : stone.solid.facets[f].plane.normal;
+    }();
+    const Vec3 side =
+        glm::normalize(glm::cross(std::abs(up.x) < 0.8 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, up));
+    const Vec3 other = glm::cross(up, side);
+    double ways[2][2] = {{0, 0}, {0, 0}};
+    int count = 0;
+    for (const Reading& r : readings) {
+        if (r.kind != ReadingKind::azimuth || r.datum.kind == Datum::Kind::facet) continue;
+        const Vec3& n = stone.solid.facets[r.facets[0]].plane.normal;
+        const double drawn = std::atan2(glm::dot(n, other), glm::dot(n, side));
+        for (int way = 0; way < 2; ++way) {
+            const double angle = r.value + (way == 0 ? -drawn : drawn);
+            ways[way][0] += std::cos(angle);
+            ways[way][1] += std::sin(angle);
+        }
+        ++count;
+    }
+    const double straight = std::hypot(ways[0][0], ways[0][1]),
+                 turned = std::hypot(ways[1][0], ways[1][1]);
+    if (count < 3 || turned < 0.5 * count || straight > 0.7 * turned) return std::nullopt;
+    Stone result = stone;
+    for (Vec3& v : result.solid.vertices) v -= 2 * glm::dot(v, side) * side;
+    for (Facet& facet : result.solid.facets) {
+        std::reverse(facet.corners.begin(), facet.corners.end());
+        renew_plane(result.solid, facet);
+    }
+    return result;
+}
+
 Mended mended(const Stone& stone) {
     Mended result{stone, {}};
     Solid& solid = result.stone.solid;
@@ -197,9 +234,8 @@ Mended mended(const Stone& stone) {
         const std::size_t before = solid.vertices.size();
         if (auto closed = welded(solid)) {
             solid = std::move(*closed);
-            result.notes.push_back(
-                fmt::format("the mesh was open: {} corners were welded into {}", before,
-                            solid.vertices.size()));
+            result.notes.push_back(fmt::format("the mesh was open: {} corners were welded into {}",
+                                               before, solid.vertices.size()));
         }
     }
     if (is_closed(solid)) {
@@ -212,7 +248,7 @@ Mended mended(const Stone& stone) {
                             joined.size(), joined.size() == 1 ? " was" : "s were", joined[0]));
         }
     }
-    if (is_closed(solid) && volume(solid) < 0) {
+    if (is_closed(solid) && volume(solid) < 0 && lies_mirrored(solid, half_edges(solid))) {
         for (Facet& facet : solid.facets) {
             std::reverse(facet.corners.begin(), facet.corners.end());
             renew_plane(solid, facet);
