@@ -7,6 +7,7 @@
 #include "app/options.h"
 #include "app/terminal.h"
 #include "fit/fit.h"
+#include "fit/mending.h"
 #include "fit/summary.h"
 #include "page/drawing.h"
 #include "page/fit_paint.h"
@@ -56,6 +57,9 @@ int run_fit(const FitCommand& command) {
     StoneFile file = read_stone(command.stone, command.common.set);
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
+    const Mended mesh = mended(file.stone);
+    file.stone = mesh.stone;
+    for (const std::string& note : mesh.notes) say(note, command.common.quiet);
     const auto written = read_readings(command.stone, command.common.set);
     const auto readings = bind_readings(written, file.stone);
     FitOptions options = read_fit_options(command.stone, command.common.set);
@@ -65,7 +69,7 @@ int run_fit(const FitCommand& command) {
     options.allow_topology = options.allow_topology || command.allow_topology;
     if (!command.from.empty()) options.start = earlier_fit(command.from, file.stone.solid);
 
-    const FitResult result = [&] {
+    FitResult result = [&] {
         try {
             return fit_stone(file.stone, readings, options,
                              progress_line("fit", command.common.quiet));
@@ -73,6 +77,7 @@ int run_fit(const FitCommand& command) {
             throw InputError(file.mesh_file, error.what());
         }
     }();
+    result.notes.insert(result.notes.begin(), mesh.notes.begin(), mesh.notes.end());
     write_solid(result.solid, command.output);
     const std::string report = fit_report(result);
     if (!command.report.empty()) write_text(command.report, report);
@@ -117,7 +122,7 @@ void add_command_fit(CLI::App& program, int& exit_code) {
         ->check(CLI::Range(1, 1000000))
         ->type_name("N");
     fit->add_option("--starts", command->starts,
-                    "most starts to try when the first does not explain the readings (12)")
+                    "most starts to try when the first does not explain the readings (13)")
         ->check(CLI::Range(1, 1000000))
         ->type_name("N");
     fit->add_option("--from", command->from,

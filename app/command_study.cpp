@@ -7,6 +7,7 @@
 
 #include "app/options.h"
 #include "app/terminal.h"
+#include "fit/mending.h"
 #include "fit/study.h"
 #include "page/study_page.h"
 #include "stone/errors.h"
@@ -38,6 +39,9 @@ int run_study(const StudyCommand& command) {
     StoneFile file = read_stone(command.input, command.common.set);
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
+    const Mended mesh = mended(file.stone);
+    file.stone = mesh.stone;
+    for (const std::string& note : mesh.notes) say(note, command.common.quiet);
     const auto readings =
         bind_readings(read_readings(command.input, command.common.set), file.stone);
     if (readings.empty()) {

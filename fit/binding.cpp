@@ -445,7 +445,9 @@ private:
         if (a.kind == Place::Kind::facet && b.kind == Place::Kind::facet) {
             const Vec3 &m = stone_.solid.facets[a.facet].plane.normal,
                        &n = stone_.solid.facets[b.facet].plane.normal;
-            if (glm::length(glm::cross(m, n)) > 0.35) {
+            // A rough mesh does not tell what is parallel.
+            const bool rough = planarity(stone_.solid) > 0.01 * diameter(stone_.solid);
+            if (!rough && glm::length(glm::cross(m, n)) > 0.35) {
                 fail(fmt::format(
                     "facets '{}' and '{}' are not parallel in the mesh (they stand {:.0f} "
                     "degrees apart); name a vertex or an edge instead",
@@ -618,6 +620,23 @@ void refuse_other_unit(const Reading& reading, const Stone& stone) {
     }
 }
 
+// Three or more overall lengths that all ask for the same other size: then it is the mesh that was
+// drawn in another unit, which is no matter, since only its shape counts.
+bool mesh_is_in_another_unit(const std::vector<Reading>& readings, const Stone& stone) {
+    std::vector<double> ratios;
+    for (const Reading& r : readings) {
+        const double mine = r.kind == ReadingKind::depth   ? width_along(stone.solid, stone.up)
+                            : r.kind == ReadingKind::width ? diameter(stone.solid)
+                                                           : 0;
+        if (mine > 0 && r.value > 0) ratios.push_back(r.value / mine);
+    }
+    if (ratios.size() < 3) return false;
+    std::sort(ratios.begin(), ratios.end());
+    const double middle = ratios[ratios.size() / 2];
+    return std::max(middle, 1 / middle) > 5 && ratios.back() < 2.5 * middle &&
+           ratios.front() > middle / 2.5;
+}
+
 }  // namespace
 
 std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, const Stone& stone) {
@@ -640,9 +659,11 @@ std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, c
                     fmt::format("the id '{}' is taken by the reading at {}:{}", reading.id,
                                 at->second->file.filename().string(), at->second->line));
             }
-            refuse_other_unit(reading, stone);
             readings.push_back(std::move(reading));
         }
+    }
+    if (!mesh_is_in_another_unit(readings, stone)) {
+        for (const Reading& reading : readings) refuse_other_unit(reading, stone);
     }
     return readings;
 }

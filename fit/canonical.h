@@ -16,4 +16,9 @@ namespace culet {
 /// as those of a convex solid (two facets that share two edges, say).
 std::optional<Shape> canonical_polyhedron(const Solid& solid, const HalfEdges& edges);
 
+/// Whether the corners lie as in a mirror, or the facets run clockwise seen from outside: the
+/// canonical polyhedron would have to be mirrored to lie nearest to the mesh. Unlike the sign of
+/// the volume this is no matter of a few wild corners. False when there is no canonical polyhedron.
+bool lies_mirrored(const Solid& solid, const HalfEdges& edges);
+
 }  // namespace culet

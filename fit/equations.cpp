@@ -224,8 +224,7 @@ std::vector<Equation> System::reading_equations(const Shape& shape,
                 }
                 put(aggregated(reading, std::move(terms), shape), base.value);
                 if (reading.aggregate == Aggregate::single &&
-                    reading.datum.kind == Datum::Kind::up &&
-                    is_nearly_upright(shape.normals[reading.facets[0]])) {
+                    reading.datum.kind == Datum::Kind::up) {
                     all.back().other_value = std::numbers::pi - base.value;
                 }
                 break;

@@ -1,9 +1,9 @@
 #include "fit/exact_finish.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <optional>
+
+#include "fit/leaning.h"
 
 namespace culet {
 
@@ -15,6 +15,8 @@ constexpr double k_first_damping = 1e-2;
 constexpr double k_least_damping = 1e-6;
 
 constexpr double k_nearly_met = 1e-10;
+// Facets that may lean either way at the end.
+constexpr double k_nearly_upright = 0.1;
 constexpr int k_most_choices = 12;
 
 std::span<const double> steps(const Eigen::VectorXd& step) {
@@ -65,7 +67,8 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
     Sheet sheet = relaxation.sheet(shape, softness, held);
     const Eigen::VectorXd metric = relaxation.metric();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(freedoms.size());
-    SaddleSolver solver;
+    // One for each pattern of the matrix, with and without second derivatives.
+    SaddleSolver plain, with_curvature;
     double damping = k_first_damping;
     int quiet = 0, choices = 0;
     bool curved = false;
@@ -93,14 +96,15 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
     for (int i = 0; i < iterations; ++i) {
         result.iterations = i + 1;
         bool factored = false;
-        if (curved && forces.size() >= Eigen::Index(0)) {
-            factored =
-                solver.factor(sheet.rows, damping * metric, relaxation.curvature(shape, forces));
+        if (curved) {
+            factored = with_curvature.factor(sheet.rows, damping * metric,
+                                             relaxation.curvature(shape, forces));
         }
         if (!factored) {
             curved = false;
-            factored = solver.factor(sheet.rows, damping * metric);
+            factored = plain.factor(sheet.rows, damping * metric);
         }
+        const SaddleSolver& solver = curved ? with_curvature : plain;
         bool better = false;
         double length = 0;
         if (factored) {
@@ -171,105 +175,41 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
     return result;
 }
 
-// A reading of a nearly upright facet does not say whether it leans in or out, and each way has an
-// optimum of its own. By how much chi-square changes when some of them are taken the other way
-// follows from the residuals r and the matrix R = 1 - J C J' of their redundancies (both in units
-// of sigma), exactly where equations are linear: 2 d'r + d'R d for shifts d of the values. One and
-// two at a time are turned over as long as that gains. Nothing when none should be.
-std::optional<Shape> leaning_better(Relaxation& relaxation, const Shape& shape,
-                                    const std::vector<Held>& held) {
-    const std::vector<Relaxation::Folded> folded = relaxation.folded();
-    if (folded.empty()) return std::nullopt;
-    Softness softness;
-    softness.with_priors = false;
-    const Sheet sheet = relaxation.sheet(shape, softness, held);
-    SaddleSolver solver;
-    if (!solver.factor(sheet.rows, k_least_damping * relaxation.metric())) return std::nullopt;
-    const auto count = static_cast<Eigen::Index>(folded.size());
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(relaxation.freedoms().size());
-    // In units of sigma; the value grows by the shift, the residual shrinks by it.
-    Eigen::VectorXd r(count), d(count);
-    Eigen::MatrixXd big(count, count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-        const Relaxation::Folded& f = folded[std::size_t(i)];
-        r(i) = sheet.rows.residual[f.row] / f.sigma;
-        d(i) = -f.shift / f.sigma;
-        Eigen::VectorXd one = Eigen::VectorXd::Zero(sheet.rows.count());
-        one(f.row) = -f.sigma;
-        const auto s = solver.solve(none, one);
-        if (!s.good) return std::nullopt;
-        for (Eigen::Index k = 0; k < count; ++k) {
-            // forces = (J x - b) / variance
-            big(k, i) = s.forces(folded[std::size_t(k)].row) * folded[std::size_t(k)].sigma;
-        }
-    }
-    std::vector<bool> turned(std::size_t(count), false);
-    const auto shift_of = [&](Eigen::Index i) { return turned[std::size_t(i)] ? -d(i) : d(i); };
-    bool any = false;
-    for (int round = 0; round < 4 * count; ++round) {
-        double best = -1e-3;
-        Eigen::Index first = -1, second = -1;
-        for (Eigen::Index i = 0; i < count; ++i) {
-            const double a = shift_of(i);
-            const double alone = 2 * a * r(i) + a * a * big(i, i);
-            if (alone < best) {
-                best = alone;
-                first = i;
-                second = -1;
-            }
-            for (Eigen::Index k = 0; k < i; ++k) {
-                const double b = shift_of(k);
-                const double both =
-                    alone + 2 * b * r(k) + b * b * big(k, k) + 2 * a * b * big(i, k);
-                if (both < best) {
-                    best = both;
-                    first = i;
-                    second = k;
-                }
-            }
-        }
-        if (first < 0) break;
-        any = true;
-        for (Eigen::Index i : {first, second}) {
-            if (i < 0) continue;
-            r += big.col(i) * shift_of(i);
-            turned[std::size_t(i)] = !turned[std::size_t(i)];
-        }
-    }
-    if (!any) return std::nullopt;
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(sheet.rows.count());
-    for (Eigen::Index i = 0; i < count; ++i) {
-        if (turned[std::size_t(i)])
-            right(folded[std::size_t(i)].row) = folded[std::size_t(i)].shift;
-    }
-    const auto s = solver.solve(none, right);
-    if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > 0.2) return std::nullopt;
-    return relaxation.freedoms().moved(shape, steps(s.unknowns));
-}
-
 }  // namespace
 
-ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterations) {
+ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterations,
+                         double hopeless) {
     ExactFinish result;
     Settled settled = settle(relaxation, start, {}, iterations);
+    Softness softness;
+    softness.with_priors = false;
     for (int round = 0; round < 4; ++round) {
-        const auto leaning = leaning_better(relaxation, settled.shape, {});
+        const auto leaning = leaning_better(relaxation, settled.shape, softness, k_nearly_upright);
         if (!leaning) break;
         Settled other = settle(relaxation, *leaning, {}, iterations);
         other.iterations += settled.iterations;
-        if (!(other.chi2 < settled.chi2 - 1e-6 * (1 + settled.chi2))) break;
+        if (!(other.chi2 < settled.chi2 - 1e-3)) break;
         settled = std::move(other);
     }
     const double free_chi2 = settled.chi2;
     // Penalties let corners stand a hair above their neighbours. Those are held just below from now
     // on: an active set that only grows, since a corner that readings push out will be pushed
     // again.
-    for (int round = 0; round < 8; ++round) {
+    const std::vector<Facet>& facets = relaxation.system().stone().solid.facets;
+    const auto is_corner = [&](int facet, int point) {
+        const std::vector<int>& loop = facets[facet].corners;
+        return std::find(loop.begin(), loop.end(), point) != loop.end();
+    };
+    for (int round = 0; round < 8 && settled.chi2 < hopeless; ++round) {
         const std::size_t before = result.held.size();
         for (const Held& h : relaxation.above(settled.shape)) {
-            if (std::find(result.held.begin(), result.held.end(), h) == result.held.end()) {
-                result.held.push_back(h);
-            }
+            // An edge that would turn over shows at both its ends: one of them is enough.
+            const bool known =
+                std::any_of(result.held.begin(), result.held.end(), [&](const Held& other) {
+                    return other == h ||
+                           (is_corner(h.facet, other.point) && is_corner(other.facet, h.point));
+                });
+            if (!known) result.held.push_back(h);
         }
         if (result.held.size() == before) break;
         const int earlier = settled.iterations;

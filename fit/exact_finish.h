@@ -16,6 +16,8 @@ struct ExactFinish {
     double cost_of_holding = 0;
 };
 
-ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterations);
+/// Ends early, with corners above their neighbours, where chi-square is larger than `hopeless`.
+ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterations,
+                         double hopeless = 1e300);
 
 }  // namespace culet

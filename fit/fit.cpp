@@ -13,6 +13,7 @@
 #include "fit/diagnostics.h"
 #include "fit/find_symmetry.h"
 #include "fit/finish.h"
+#include "fit/mending.h"
 #include "fit/portfolio.h"
 #include "fit/refit.h"
 #include "fit/robust.h"
@@ -162,6 +163,39 @@ std::string contradiction(const FitResult& result) {
     return text;
 }
 
+// The edges whose turning over held corners prevent.
+std::vector<std::string> vanishing(const System& system, const std::vector<Held>& held) {
+    const std::vector<Facet>& facets = system.stone().solid.facets;
+    std::vector<std::string> edges;
+    for (const Held& h : held) {
+        const std::vector<int>& loop = facets[h.facet].corners;
+        for (const Edge& e : system.edges().edges) {
+            const int other = e.from == h.point ? e.to : e.to == h.point ? e.from : -1;
+            if (other < 0 || std::find(loop.begin(), loop.end(), other) == loop.end()) continue;
+            std::string name = facets[e.left].name + "/" + facets[e.right].name;
+            if (std::find(edges.begin(), edges.end(), name) == edges.end()) {
+                edges.push_back(std::move(name));
+            }
+        }
+    }
+    return edges;
+}
+
+// The mesh was drawn in another unit, most likely.
+std::string other_size(const System& system) {
+    const double factor = system.mesh_scale(), apart = std::max(factor, 1 / factor);
+    if (apart < 3) return {};
+    std::string guess;
+    for (double known : {10.0, 25.4, 100.0, 1000.0}) {
+        if (apart > known / 1.6 && apart < known * 1.6) guess = fmt::format("{:g} ", known);
+    }
+    return fmt::format(
+        "the mesh is {} times too {} for the lengths that were read{}: it was scaled; check `unit` "
+        "of [stone]",
+        guess.empty() ? fmt::format("{:.3g}", apart) : "about " + guess.substr(0, guess.size() - 1),
+        factor > 1 ? "small" : "large", guess.empty() ? "" : ", as if drawn in another unit");
+}
+
 void judge(const System& system, const Finished& finished, const Diagnosis& diagnosis,
            FitResult& result) {
     std::vector<std::string> broken;
@@ -175,6 +209,11 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
     const auto end = [&](FitStatus status, std::string message) {
         result.status = status;
         result.message = std::move(message);
+        if (!result.vanishing_edges.empty() && status != FitStatus::not_converged) {
+            result.message += fmt::format("; the readings want edge {} to have no length",
+                                          names(result.vanishing_edges));
+        }
+        for (const std::string& note : result.notes) result.message += "; " + note;
         if (!diagnosis.analysed) {
             result.message +=
                 "; the stone is too large for uncertainties and suspects: none are given";
@@ -198,6 +237,23 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
     }
     if (finished.worst_hard > k_hard_limit) {
         return end(FitStatus::not_converged, "the facets and meets could not be brought together");
+    }
+    // Under the hypothesis that an edge has a length at all, chi-square with one freedom for each.
+    if (!result.vanishing_edges.empty() &&
+        chi2_tail(result.vanishing_chi2, double(result.vanishing_edges.size())) <
+            result.options.significance) {
+        return end(FitStatus::not_converged,
+                   fmt::format("the readings want edge {} to have no length, and agree with the "
+                               "mesh's facets only at a loss (chi2 {:.1f} more)",
+                               names(result.vanishing_edges), result.vanishing_chi2));
+    }
+    if (!system.stone().convex) {
+        const std::vector<Fault> faults =
+            find_faults(result.solid, {.planarity = k_planarity, .must_be_convex = false});
+        if (!faults.empty()) {
+            return end(FitStatus::not_converged,
+                       "the fitted stone is not sound: " + faults.front().what);
+        }
     }
     if (!result.closed || (!result.convex && system.stone().convex)) {
         const std::vector<Fault> faults = find_faults(
@@ -251,9 +307,11 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
 
 }  // namespace
 
-FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
+FitResult fit_stone(const Stone& drawn, const std::vector<Reading>& readings,
                     const FitOptions& options, const Progress& progress) {
     const auto begin = std::chrono::steady_clock::now();
+    const std::optional<Stone> mirrored = mirrored_to_azimuths(drawn, readings);
+    const Stone& stone = mirrored ? *mirrored : drawn;
     System system(stone, readings, options);
     FitResult result;
     result.options = options;
@@ -266,10 +324,26 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     }
     const bool goes_on = again && again->sound && again->finished.converged &&
                          again->finished.worst_hard < k_hard_limit;
-    Candidate best = goes_on ? std::move(*again) : fit_from_starts(system, options, progress).best;
+    Portfolio portfolio;
+    if (goes_on) {
+        portfolio.best = std::move(*again);
+        portfolio.best.start = "earlier result";
+    } else {
+        portfolio = fit_from_starts(system, options, progress);
+    }
+    Candidate& best = portfolio.best;
     const std::vector<double> weights =
         options.loss == Loss::none ? std::vector<double>()
                                    : reweight(system, best, options.loss, options.iterations);
+    result.starts = portfolio.starts;
+    result.start = best.start;
+    result.vanishing_edges = vanishing(system, best.held);
+    result.vanishing_chi2 = best.cost_of_holding;
+    if (mirrored) {
+        result.notes.push_back(
+            "by the azimuths read, the mesh is the mirror image of the stone: it was mirrored");
+    }
+    if (const std::string note = other_size(system); !note.empty()) result.notes.push_back(note);
     if (progress && !progress(0.7)) throw Interrupted();
     if (system.has_estimated_groups()) {
         estimate_sigmas(system, best.finished, options, progress);

@@ -38,7 +38,7 @@ struct FitOptions {
     /// Largest number of steps of the last stage.
     int iterations = 100;
     /// Most starts that are tried before the best of what they gave is returned; see starts.h.
-    int starts = 12;
+    int starts = 13;
     /// Family level of both tests: the chi-square test of all readings, and (shared out among them
     /// by Bonferroni) the test of each.
     double significance = 0.001;
@@ -122,6 +122,13 @@ struct FitResult {
     std::vector<NextReading> help;                ///< the best further readings, the best first
     std::vector<FittedProportion> proportions;
     std::vector<std::string> missing_facets;
+    /// Edges that the readings want to have no length, as `A/B`: they are kept at a hair's.
+    std::vector<std::string> vanishing_edges;
+    double vanishing_chi2 = 0;  ///< what keeping them costs
+    int starts = 0;             ///< tried
+    std::string start;          ///< that the result came from
+    /// What was done to the mesh before it could be fitted: turned round, scaled, ...
+    std::vector<std::string> notes;
     MeetReport meets;
     OwnAxis own_axis;
     std::vector<Tier> tiers;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "fit/leaning.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -12,6 +13,9 @@ namespace {
 constexpr int k_most_steps = 40;
 // Stages only have to lead to the next one.
 constexpr double k_enough = 1e-3;
+// As long as incidences are this soft, facets within this sine of upright may turn out to look the
+// other way.
+constexpr double k_leaning_until = 0.005, k_may_lean = 0.6;
 // Tilts that are kept move by nothing that counts.
 constexpr double k_keep = 1e9;
 
@@ -93,10 +97,21 @@ Graded graded_fit(Relaxation& relaxation, const Start& start, const Progress& pr
     // mesh has inside out would hold it there.
     const bool keep = start.keep_normals_at_first;
     if (!start.is_convex) run({0.03, 0.0}, false, keep, 0.05);
+    result.shape = relaxation.freedoms().symmetrised(
+        looking_as(relaxation.system(), std::move(result.shape), start.sides));
     if (keep) run({0.03, 0.02}, true, true, 0.08);
     double fraction = 0.1;
     for (const Stage& stage : k_stages) {
         run(stage, true, false, fraction);
+        if (stage.incidence > k_leaning_until) {
+            for (int round = 0; round < 3; ++round) {
+                const auto other =
+                    leaning_better(relaxation, result.shape, softness_of(stage, true), k_may_lean);
+                if (!other) break;
+                result.shape = relaxation.freedoms().symmetrised(*other);
+                run(stage, true, false, fraction);
+            }
+        }
         fraction += 0.1;
     }
     result.convex = relaxation.is_convex(result.shape);

@@ -18,6 +18,7 @@ namespace {
 constexpr double k_hard_limit = 1e-9;
 // Two starts that end in the same stone have the same chi-square to this part.
 constexpr double k_same = 1e-6;
+constexpr double k_agrees_well = 0.2;
 
 // The chi-square test by counting: the least redundancy that there can be decides what is accepted
 // at once, and only in between is it counted out.
@@ -44,11 +45,8 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
     const Freedoms freedoms = system.freedoms();
     Relaxation relaxation(system, freedoms);
     // Free directions: freedoms less hard equations, less shifts (and a turn) that nothing sees.
-    int hard = 0, counted = 0;
-    {
-        const Sheet sheet = relaxation.sheet(system.mesh_shape(), {.with_priors = false});
-        for (double v : sheet.rows.variance) ++(v == 0 ? hard : counted);
-    }
+    const Relaxation::Counts counts = relaxation.counts();
+    const int counted = counts.soft, hard = counts.hard;
     const int shifts = freedoms.orbits().empty() ? 3 : 1;
     const int free = std::max(0, freedoms.size() - hard - shifts);
 
@@ -70,7 +68,8 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
             const System::Enclosed enclosed = system.enclosed(candidate.finished.shape);
             candidate.sound = enclosed.closed && enclosed.missing.empty();
         } else {
-            ExactFinish exact = exact_finish(relaxation, graded.shape, options.iterations);
+            ExactFinish exact = exact_finish(relaxation, graded.shape, options.iterations,
+                                             result.best.sound ? result.best.finished.chi2 : 1e300);
             candidate.finished = std::move(exact.finished);
             candidate.held = std::move(exact.held);
             candidate.cost_of_holding = exact.cost_of_holding;
@@ -81,7 +80,11 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
                           candidate.finished.worst_hard < k_hard_limit;
         candidate.agrees = good && agrees(system, candidate, free, counted, options.significance);
         const double chi2 = candidate.finished.chi2;
-        const bool accept = candidate.agrees && candidate.held.empty();
+        // An optimum that agrees but poorly may be a lesser one: others get a chance. Holding a
+        // corner that hardly wants to pass its neighbour is no fault of the start.
+        const bool accept = candidate.agrees && candidate.cost_of_holding < 1 &&
+                            (system.has_estimated_groups() ||
+                             chi2_tail(chi2, std::max(1, counted - free)) > k_agrees_well);
         const bool again = good && std::any_of(ends.begin(), ends.end(), [&](double other) {
                                return std::abs(other - chi2) < k_same * (1 + chi2);
                            });

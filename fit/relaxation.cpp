@@ -14,6 +14,9 @@ constexpr double k_mesh_sigma = 0.4;
 // Corners that want to stand above a neighbour facet are held this far below it, in half diameters:
 // far above rounding, far below anything one could measure.
 constexpr double k_hold_below = 1e-7;
+// About so far: an edge that would turn over asks its two ends to be held, which one length of the
+// edge can do but about.
+constexpr double k_hold_sigma = 1e-8;
 // Corners that share a caliper's jaw are level to this part of the half diameter.
 constexpr double k_tie_sigma = 1e-6;
 
@@ -109,6 +112,17 @@ double Relaxation::height(const Shape& shape, int facet, int point) const {
     return glm::dot(shape.normals[facet], shape.points[point]) - shape.offsets[facet];
 }
 
+Relaxation::Counts Relaxation::counts() const {
+    Counts counts;
+    for (int i : incidences_) {
+        const MeetTreatment how = system_.incidences()[i].how;
+        counts.hard += how == MeetTreatment::exact;
+        counts.soft += how == MeetTreatment::soft;
+    }
+    for (const Equation& e : equations_) ++(e.exact ? counts.hard : counts.soft);
+    return counts;
+}
+
 Eigen::VectorXd Relaxation::metric() const {
     const std::vector<double>& m = freedoms_.metric();
     return Eigen::Map<const Eigen::VectorXd>(m.data(), Eigen::Index(m.size()));
@@ -166,7 +180,7 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness,
     }
     for (const Held& h : held) {
         incident(h.facet, h.point);
-        close(height(shape, h.facet, h.point) + k_hold_below, soft2);
+        close(height(shape, h.facet, h.point) + k_hold_below, k_hold_sigma * k_hold_sigma);
     }
     for (const Tie& tie : ties_) {
         row.point(tie.one, tie.direction);
@@ -217,39 +231,47 @@ Sheet Relaxation::hard_sheet(const Shape& shape, const std::vector<Held>& held) 
     Sheet sheet;
     const Freedoms::Chart chart = freedoms_.chart(shape);
     Freedoms::Row row(chart, freedoms_.size());
-    const auto close = [&](double residual) {
-        row.close(sheet.rows, residual, 0);
+    const auto close = [&](double residual, double variance) {
+        row.close(sheet.rows, residual, variance);
+        if (!std::isfinite(residual)) sheet.finite = false;
+        if (variance > 0) return;
         sheet.hard_sum += std::abs(residual);
         sheet.hard_worst = std::max(sheet.hard_worst, std::abs(residual));
-        if (!std::isfinite(residual)) sheet.finite = false;
     };
-    const auto incident = [&](int f, int p, double below) {
+    const auto incident = [&](int f, int p, double below, double variance) {
         row.normal(f, shape.points[p]);
         row.offset(f, -1);
         row.point(p, shape.normals[f]);
-        close(height(shape, f, p) + below);
+        close(height(shape, f, p) + below, variance);
     };
     for (int i : incidences_) {
         const Incidence& incidence = system_.incidences()[i];
-        if (incidence.how == MeetTreatment::exact) incident(incidence.facet, incidence.point, 0);
+        if (incidence.how == MeetTreatment::exact) incident(incidence.facet, incidence.point, 0, 0);
     }
     if (system_.has_exact_readings()) {
         for (const Equation& e : equations_) {
             if (!e.exact) continue;
             const Quantity q = e.formula(shape);
             row.quantity(q);
-            close(q.value - e.value);
+            close(q.value - e.value, 0);
         }
     }
-    for (const Held& h : held) incident(h.facet, h.point, k_hold_below);
+    for (const Held& h : held) {
+        incident(h.facet, h.point, k_hold_below, k_hold_sigma * k_hold_sigma);
+    }
     return sheet;
 }
 
-std::vector<Relaxation::Folded> Relaxation::folded() const {
+std::vector<Relaxation::Folded> Relaxation::folded(const Shape& shape, double within) const {
     std::vector<Folded> result;
     int row = static_cast<int>(incidences_.size());
     for (const Equation& e : equations_) {
-        if (e.other_value && !e.exact) result.push_back({row, *e.other_value - e.value, e.sigma});
+        if (e.other_value && !e.exact) {
+            const int f = system_.readings()[std::size_t(e.reading)].facets[0];
+            if (std::abs(shape.normals[f].z) < within) {
+                result.push_back({row, *e.other_value - e.value});
+            }
+        }
         ++row;
     }
     return result;

@@ -65,13 +65,19 @@ public:
     std::vector<Held> above(const Shape& shape) const;
     bool is_convex(const Shape& shape) const { return above(shape).empty(); }
 
+    /// Readings and soft meets; equations that hold exactly.
+    struct Counts {
+        int soft = 0, hard = 0;
+    };
+    Counts counts() const;
     Eigen::VectorXd metric() const;
-    /// Rows of `sheet` that may as well mean another value, and by how much more that is.
+    /// Rows of `sheet` that may as well mean another value, and by how much more that is: of facets
+    /// within this sine of upright.
     struct Folded {
         int row = -1;
-        double shift = 0, sigma = 1;
+        double shift = 0;
     };
-    std::vector<Folded> folded() const;
+    std::vector<Folded> folded(const Shape& shape, double within) const;
 
     /// Second derivatives of the Lagrangian: of the incidences, which are bilinear, and of
     /// inclinations and edges, without which a turn of the whole stone would seem to change them.

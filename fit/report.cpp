@@ -92,6 +92,10 @@ std::string fit_report(const FitResult& result) {
     report["suspects"] = result.suspects;
     report["suspect_limit"] = result.suspect_limit;
     report["missing_facets"] = result.missing_facets;
+    report["vanishing_edges"] = result.vanishing_edges;
+    report["starts"] = result.starts;
+    report["start"] = result.start;
+    report["notes"] = result.notes;
     report["meets"] = {{"exact", result.meets.exact},
                        {"soft", result.meets.soft},
                        {"released", result.meets.released},

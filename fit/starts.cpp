@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <numbers>
 
 #include "fit/canonical.h"
 #include "stone/checks.h"
@@ -72,6 +73,7 @@ Starts::Starts(const System& system) : system_(system) {
     for (const Equation& e : system.hinges()) {
         if (e.formula(mesh).value > k_drawn_with_care) mesh_is_good_ = false;
     }
+    find_sides();
 }
 
 void Starts::make_canonical() {
@@ -83,6 +85,7 @@ void Starts::make_canonical() {
 std::optional<Start> Starts::next() {
     while (true) {
         std::optional<Start> start;
+        bool without_sides = false;
         // A mesh drawn with care goes first: what the readings leave open then stays as drawn.
         switch (at_++) {
             case 0:
@@ -95,41 +98,104 @@ std::optional<Start> Starts::next() {
                 start = from_angles(similar(), "canonical with the angles read");
                 break;
             case 3:
-                start = affine();
+                without_sides = true;
+                if (std::any_of(sides_.begin(), sides_.end(), [](int s) { return s != 0; })) {
+                    start = similar();
+                }
                 break;
             case 4:
-                if (!mesh_is_good_) start = mesh();
+                start = affine();
                 break;
             case 5:
-                start = from_angles(mesh(), "mesh with the angles read");
+                if (!mesh_is_good_) start = mesh();
                 break;
             case 6:
-                start = stretched(0.6);
+                start = from_angles(mesh(), "mesh with the angles read");
                 break;
             case 7:
-                start = blend(0.5);
+                start = stretched(0.6);
                 break;
             case 8:
-                start = stretched(1.6);
+                start = blend(0.5);
                 break;
             case 9:
-                start = from_angles(stretched(0.6), "flat canonical with the angles read");
+                start = stretched(1.6);
                 break;
             case 10:
-                start = blend(0.25);
+                start = from_angles(stretched(0.6), "flat canonical with the angles read");
                 break;
             case 11:
+                start = blend(0.25);
+                break;
+            case 12:
                 start = stretched(0.35);
                 break;
             default:
                 return std::nullopt;
         }
-        if (start) return start;
+        if (start) {
+            // The mesh may be wrong about them all the same: one start does not ask.
+            if (!without_sides) start->sides = sides_;
+            return start;
+        }
     }
 }
 
+// What the mesh says of a facet counts when it tells the two meanings of the reading apart by six
+// times what its corners' errors turn its normal by.
+void Starts::find_sides() {
+    const Shape& mesh = system_.mesh_shape();
+    sides_.assign(mesh.normals.size(), 0);
+    // Of k corners k - 3 show how far they lie off a plane.
+    double squares = 0, redundancy = 0;
+    for (std::size_t f = 0; f < mesh.normals.size(); ++f) {
+        const std::vector<int>& loop = system_.mesh_outline()->loops[f];
+        for (int corner : loop) {
+            const double off = glm::dot(mesh.normals[f], mesh.points[corner]) - mesh.offsets[f];
+            squares += off * off;
+        }
+        redundancy += double(loop.size()) - 3;
+    }
+    if (!(redundancy > 0)) return;
+    const double rough = std::sqrt(squares / redundancy);
+    for (const Reading& r : system_.readings()) {
+        if (r.kind != ReadingKind::inclination || r.datum.kind != Datum::Kind::up ||
+            r.aggregate != Aggregate::single) {
+            continue;
+        }
+        const int f = r.facets[0];
+        const std::vector<int>& loop = system_.mesh_outline()->loops[f];
+        Vec3 mean(0);
+        for (int corner : loop) mean += mesh.points[corner] / double(loop.size());
+        double spread = 0;
+        for (int corner : loop) {
+            const Vec3 off = mesh.points[corner] - mean;
+            spread += glm::dot(off, off);
+        }
+        const double turn = rough / std::sqrt(std::max(1e-12, spread / 2));
+        const double z = std::clamp(mesh.normals[f].z, -1.0, 1.0);
+        const double drawn = std::acos(z);
+        const double as_up = std::abs(drawn - r.value),
+                     as_down = std::abs(drawn - (std::numbers::pi - r.value));
+        if (std::abs(as_up - as_down) > 6 * turn) sides_[f] = as_up < as_down ? 1 : -1;
+    }
+}
+
+Shape looking_as(const System& system, Shape shape, const std::vector<int>& sides) {
+    for (std::size_t f = 0; f < sides.size(); ++f) {
+        Vec3& n = shape.normals[f];
+        if (static_cast<int>(f) == system.up_facet() || !(sides[f] * n.z < 0)) continue;
+        n.z = -n.z;
+        Vec3 mean(0);
+        const std::vector<int>& loop = system.mesh_outline()->loops[f];
+        for (int corner : loop) mean += shape.points[corner] / double(loop.size());
+        shape.offsets[f] = glm::dot(n, mean);
+    }
+    return shape;
+}
+
 Start Starts::mesh() const {
-    return {"mesh", system_.mesh_shape(), false, false};
+    return {"mesh", system_.mesh_shape(), false, false, {}};
 }
 
 // Brings the up facet level, and azimuths to where they were read.
@@ -173,7 +239,7 @@ std::optional<Start> Starts::similar() {
     if (!(scale > 0) || !std::isfinite(scale)) return std::nullopt;
     const Eigen::Matrix3d map =
         scale * (svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose());
-    Start start{"canonical", mapped(*canonical_, map, m.to - times(map, m.from)), false, true};
+    Start start{"canonical", mapped(*canonical_, map, m.to - times(map, m.from)), false, true, {}};
     start.shape.extras = mesh.extras;
     for (std::size_t p = start.shape.points.size(); p < mesh.points.size(); ++p) {
         start.shape.points.push_back(mesh.points[p]);
@@ -195,7 +261,10 @@ std::optional<Start> Starts::affine() {
         return std::nullopt;
     }
     Start start{"canonical, as long and wide as the mesh",
-                mapped(*canonical_, map, m.to - times(map, m.from)), false, true};
+                mapped(*canonical_, map, m.to - times(map, m.from)),
+                false,
+                true,
+                {}};
     start.shape.extras = mesh.extras;
     for (std::size_t p = start.shape.points.size(); p < mesh.points.size(); ++p) {
         start.shape.points.push_back(mesh.points[p]);
@@ -263,7 +332,11 @@ std::optional<Start> Starts::from_angles(std::optional<Start> base, const std::s
         Vec3 mean(0);
         const std::vector<int>& loop = system_.mesh_outline()->loops[f];
         for (int corner : loop) mean += shape.points[corner] / double(loop.size());
-        if (glm::dot(n, mean - middle) < glm::dot(Vec3{n.x, n.y, -n.z}, mean - middle)) n.z = -n.z;
+        if (sides_[f] != 0) {
+            n.z = std::copysign(n.z, sides_[f]);
+        } else if (glm::dot(n, mean - middle) < glm::dot(Vec3{n.x, n.y, -n.z}, mean - middle)) {
+            n.z = -n.z;
+        }
         shape.offsets[f] = glm::dot(n, mean);
     }
     base->name = name;

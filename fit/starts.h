@@ -16,7 +16,13 @@ struct Start {
     /// The first stage leaves normals as they are: the start trusts the angles that were read.
     bool keep_normals_at_first = false;
     bool is_convex = false;  ///< planar facets that nothing stands above
+    /// Which way each facet looks before readings come in: 1 up, -1 down, 0 as the shape says. An
+    /// inclination has two meanings; a mesh that is not too rough tells which.
+    std::vector<int> sides;
 };
+
+/// Turns facets that look the other way than `sides`.
+Shape looking_as(const System& system, Shape shape, const std::vector<int>& sides);
 
 /// Makes starts one after another, each when it is asked for; always the same ones.
 class Starts {
@@ -34,10 +40,12 @@ private:
     std::optional<Start> blend(double of_mesh);
     std::optional<Start> from_angles(std::optional<Start> base, const std::string& name) const;
     Shape upright(Shape shape) const;
+    void find_sides();
 
     const System& system_;
     bool mesh_is_good_ = false, canonical_made_ = false;
     std::optional<Shape> canonical_;
+    std::vector<int> sides_;
     int at_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "fit/canonical.h"
 #include "fit/rounding.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
@@ -53,11 +54,11 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
                          (faults.empty() ? std::string() : ": " + faults.front().what) +
                          "; `culet info` lists its faults");
     }
-    if (!(volume(solid_) > 0)) {
+    edges_ = half_edges(solid_);
+    if (!(volume(solid_) > 0) && (!stone.convex || lies_mirrored(solid_, edges_))) {
         throw InputError(
             "the mesh is inside out: its facets run clockwise seen from outside; turn them round");
     }
-    edges_ = half_edges(solid_);
     bring_upright();
     list_incidences(options);
     add_extras();
@@ -114,6 +115,28 @@ void System::bring_upright() {
         if (mine > 0 && r.value > 0) {
             log_sum += std::log(r.value / mine);
             ++lengths;
+        }
+    }
+    if (lengths == 0) {
+        // Single edges say less: the middle one of what they say.
+        std::vector<double> ratios;
+        for (const Reading& r : readings_) {
+            if (r.kind != ReadingKind::edge || r.facets.size() != 2 || !(r.value > 0)) continue;
+            for (const Edge& e : edges_.edges) {
+                if (std::minmax(e.left, e.right) != std::minmax(r.facets[0], r.facets[1])) continue;
+                const double mine = glm::length(solid_.vertices[e.from] - solid_.vertices[e.to]);
+                if (mine > 0) ratios.push_back(std::log(r.value / mine));
+                break;
+            }
+        }
+        if (!ratios.empty()) {
+            const auto middle = ratios.begin() + std::ptrdiff_t(ratios.size() / 2);
+            std::nth_element(ratios.begin(), middle, ratios.end());
+            // Within the errors of a drawing, the mesh's own size is as good.
+            if (std::abs(*middle) > std::log(3.0)) {
+                log_sum = *middle;
+                lengths = 1;
+            }
         }
     }
     mesh_scale_ = lengths > 0 ? std::exp(log_sum / lengths) : 1;

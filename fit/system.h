@@ -115,6 +115,8 @@ public:
     /// The solid of the mesh's own facets and the shape's points.
     Solid met_solid(const Shape& shape) const;
 
+    /// By how much the mesh was made larger to suit the lengths read.
+    double mesh_scale() const { return mesh_scale_; }
     /// Length of the stone's unit that is 1 inside.
     double scale() const { return scale_; }
     /// Within 10 degrees of upright in the mesh.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "fit/mending.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
 #include "tests/bench/cpu_time.h"
@@ -13,7 +14,8 @@ Trial fit_mesh(const Stone& mesh, const std::vector<WrittenReading>& readings,
     Trial trial;
     const double start = clocks().cpu;
     try {
-        trial.result = fit_stone(mesh, bind_readings(readings, mesh), options);
+        const Stone stone = mended(mesh).stone;
+        trial.result = fit_stone(stone, bind_readings(readings, stone), options);
     } catch (const InputError& error) {
         trial.refusal = error.what();
     }
