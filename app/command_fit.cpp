@@ -59,7 +59,6 @@ int run_fit(const FitCommand& command) {
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
     const Mended mesh = mended(file.stone);
     file.stone = mesh.stone;
-    for (const std::string& note : mesh.notes) say(note, command.common.quiet);
     const auto written = read_readings(command.stone, command.common.set);
     const auto readings = bind_readings(written, file.stone);
     FitOptions options = read_fit_options(command.stone, command.common.set);

@@ -23,19 +23,33 @@ constexpr double k_tight = 1e6;
 // Normal equations square the spread of weights; beyond this spread QR keeps what they lose.
 constexpr double k_most_spread = 1e5;
 
-// Gauge motions, orthonormal in the metric.
-Eigen::MatrixXd gauge_motions(const Linearised& linear) {
-    Eigen::MatrixXd motions(linear.layout.size(), Eigen::Index(linear.gauge_rows.size()));
+// Gauge motions, orthonormal in the metric. The turn about up is one of them also where readings see
+// it (widths along azimuths) but hold it less than the mesh does: no freedom of the stone's shape.
+Eigen::MatrixXd gauge_motions(const Linearised& linear,
+                              const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows) {
+    Eigen::MatrixXd motions(linear.layout.size(), Eigen::Index(linear.gauge_rows.size()) + 1);
     Eigen::Index count = 0;
+    std::vector<Eigen::VectorXd> all;
     for (const Eigen::VectorXd& row : linear.gauge_rows) {
-        Eigen::VectorXd g = row.cwiseQuotient(linear.metric);
+        all.push_back(row.cwiseQuotient(linear.metric));
+    }
+    if (linear.turn.size() > 0) {
+        const double size = linear.turn.dot(linear.metric.cwiseProduct(linear.turn));
+        const double hard = (linear.hard_rows * linear.turn).norm();
+        if ((rows * linear.turn).squaredNorm() < k_determined * size &&
+            hard < 1e-9 * linear.turn.norm()) {
+            all.push_back(linear.turn);
+        }
+    }
+    for (Eigen::VectorXd& g : all) {
+        g /= g.norm();
         for (int twice = 0; twice < 2; ++twice) {
             for (Eigen::Index k = 0; k < count; ++k) {
                 g -= motions.col(k) * motions.col(k).dot(linear.metric.cwiseProduct(g));
             }
         }
         const double size = std::sqrt(g.dot(linear.metric.cwiseProduct(g)));
-        if (!(size > 1e-12)) continue;
+        if (!(size > 1e-6)) continue;
         motions.col(count++) = g / size;
     }
     return motions.leftCols(count);
@@ -162,7 +176,7 @@ void Covariance::find_dense(const Linearised& linear) {
     const Eigen::Index unknowns = linear.layout.size();
     const FreeDirections free =
         free_directions(linear.hard_rows, linear.layout.point(0), linear.layout.extra(0));
-    const Eigen::MatrixXd gauge = gauge_motions(linear);
+    const Eigen::MatrixXd gauge = gauge_motions(linear, rows_);
     const Eigen::Index size = free.basis.cols();
     held_.resize(unknowns, 0);
     open_.resize(unknowns, 0);
@@ -267,7 +281,7 @@ void Covariance::find_sparse(const Linearised& linear) {
     }
     const double hard = std::clamp(1e3 * tightest, 1e4, 1e6);
     sparse_ = std::make_unique<Sparse>();
-    sparse_->gauge = gauge_motions(linear);
+    sparse_->gauge = gauge_motions(linear, rows_);
     sparse_->gauge_rows = linear.metric.asDiagonal() * sparse_->gauge;
     sparse_->pins = pins(sparse_->gauge, std::max(1e6, tightest * tightest));
     sparse_->prior = 1e-3;

@@ -216,6 +216,11 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     }
 
     const Vec3 middle = middle_of(shape);
+    const RowWriter writer(shape);
+    // Azimuths are told in the result's frame, which turns to lie as the mesh does.
+    const FunctionRow turn = writer.function(system.turn_of(shape));
+    const Eigen::VectorXd with_turn = covariance->with_all(turn, true);
+    const double turn_variance = turn.dot(with_turn);
     for (int f = 0; f < layout.facets; ++f) {
         const auto rows = facet_functions(shape, f, layout, middle);
         const auto total = [&](std::size_t k) {
@@ -225,9 +230,11 @@ Diagnosis diagnose(const System& system, const Shape& shape,
         sigma.inclination = total(0);
         sigma.offset = total(2);
         const double flat = std::hypot(shape.normals[f].x, shape.normals[f].y);
-        sigma.azimuth = flat > 1e-9 ? total(1) : std::numeric_limits<double>::quiet_NaN();
+        sigma.azimuth =
+            flat > 1e-9 ? std::sqrt(std::max(0.0, total(1) * total(1) + turn_variance +
+                                                      2 * rows[1].dot(with_turn)))
+                        : std::numeric_limits<double>::quiet_NaN();
     }
-    const RowWriter writer(shape);
     for (int f = 0; f < layout.facets; ++f) {
         if (outline->loops[f].size() < 3) continue;
         std::vector<Corner> loop;

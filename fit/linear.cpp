@@ -183,7 +183,9 @@ Linearised linearise(const System& system, const Shape& shape,
         if (held_point[std::size_t(p)]) continue;
         linear.metric.segment(linear.layout.point(p), 3).setConstant(k_loose_point_weight);
     }
-    for (Eigen::VectorXd& g : rigid_motions(system, shape)) {
+    std::vector<Eigen::VectorXd> motions = rigid_motions(system, shape);
+    linear.turn = motions[5];
+    for (Eigen::VectorXd& g : motions) {
         if (unseen(linear.soft_rows, g) && unseen(linear.hard_rows, g)) {
             linear.gauge_rows.push_back(linear.metric.cwiseProduct(g));
             linear.gauge_rows.back().normalize();

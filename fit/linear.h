@@ -33,6 +33,8 @@ struct Linearised {
     Eigen::VectorXd hard_residuals;
     /// Motions that no equation sees (shifts, turns), weighted: held at zero.
     std::vector<Eigen::VectorXd> gauge_rows;
+    /// The turn of the whole stone about up, seen or not; steps.
+    Eigen::VectorXd turn;
     Eigen::VectorXd metric;  ///< diagonal: what counts as a step of one, for each unknown
 
     double chi2() const;   ///< of the counted equations

@@ -425,22 +425,36 @@ double System::unit_of(const Reading& reading) const {
     }
 }
 
+Quantity System::turn_of(const Shape& shape) const {
+    Quantity turn;
+    if (stone_.azimuth_from_mesh) return turn;
+    // Kabsch (1976) about one axis.
+    const std::size_t count = solid_.vertices.size();
+    Vec3 mean(0), mesh_mean(0);
+    for (std::size_t v = 0; v < count; ++v) {
+        mean += shape.points[v] / double(count);
+        mesh_mean += solid_.vertices[v] / double(count);
+    }
+    double east = 0, north = 0;
+    for (std::size_t v = 0; v < count; ++v) {
+        const Vec3 p = shape.points[v] - mean, q = solid_.vertices[v] - mesh_mean;
+        east += p.x * q.x + p.y * q.y;
+        north += p.x * q.y - p.y * q.x;
+    }
+    turn.value = std::atan2(north, east) - turn_;
+    const double size = east * east + north * north;
+    for (std::size_t v = 0; v < count && size > 0; ++v) {
+        const Vec3 q = solid_.vertices[v] - mesh_mean;
+        turn.add(Quantity::By::point, int(v),
+                 Vec3{east * q.y - north * q.x, -east * q.x - north * q.y, 0} / size);
+    }
+    return turn;
+}
+
 System::Pose System::pose_of(const Shape& shape) const {
     Pose pose;
-    pose.turn = 0;
     const std::size_t count = solid_.vertices.size();
-    if (!stone_.azimuth_from_mesh) {
-        // Kabsch (1976) about one axis.
-        Vec3 mean(0);
-        for (std::size_t v = 0; v < count; ++v) mean += shape.points[v] / double(count);
-        double east = 0, north = 0;
-        for (std::size_t v = 0; v < count; ++v) {
-            const Vec3 p = shape.points[v] - mean, q = solid_.vertices[v];
-            east += p.x * q.x + p.y * q.y;
-            north += p.x * q.y - p.y * q.x;
-        }
-        pose.turn = std::atan2(north, east) - turn_;
-    }
+    pose.turn = turn_of(shape).value;
     Vec3 mean(0);
     for (std::size_t v = 0; v < count; ++v) mean += shape.points[v] / double(count);
     pose.shift = middle_ - times_transposed(outward_, about_z(mean, pose.turn)) * scale_;

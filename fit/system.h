@@ -130,6 +130,8 @@ public:
         Vec3 shift{0, 0, 0};
     };
     Pose pose_of(const Shape& shape) const;
+    /// The pose's turn, with its derivatives by the points; none when azimuths count from the mesh.
+    Quantity turn_of(const Shape& shape) const;
     Vec3 outside_point(const Vec3& p, const Pose& pose) const;
     Plane outside_plane(const Plane& plane, const Pose& pose) const;
     /// Where azimuth 0 of the readings lies in the outside frame.
