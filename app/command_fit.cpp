@@ -7,6 +7,10 @@
 #include "app/options.h"
 #include "app/terminal.h"
 #include "fit/fit.h"
+#include "fit/mending.h"
+#include "fit/summary.h"
+#include "page/drawing.h"
+#include "page/fit_paint.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 #include "stone/stone_io.h"
@@ -17,22 +21,54 @@ namespace {
 
 struct FitCommand {
     CommonOptions common;
-    std::string stone, output, report;
-    int iterations = 0;
+    std::string stone, output, report, drawing, paint = "residual", from;
+    int iterations = 0, starts = 0;
+    bool find_symmetry = false, allow_topology = false;
 };
+
+// A solid that was fitted before, with the facets of the mesh.
+Solid earlier_fit(const std::string& name, const Solid& mesh) {
+    Solid solid = read_solid(name).solid;
+    for (const Facet& facet : mesh.facets) {
+        if (find_facet(solid, facet.name) < 0) {
+            throw InputError(name,
+                             fmt::format("has no facet \"{}\" of the stone's mesh: --from takes "
+                                         "an earlier result of the same stone",
+                                         facet.name));
+        }
+    }
+    return solid;
+}
+
+void draw(const FitCommand& command, const std::string& title, const FitResult& result,
+          const std::string& report) {
+    const FitPaint paint =
+        fit_paint(result.solid, report,
+                  command.paint == "sigma" ? FitColour::uncertainty : FitColour::residual);
+    write_text(command.drawing,
+               drawing_svg(title, fmt::format("{}: {}", name_of(result.status), result.message),
+                           result.solid, paint.facets, paint.legend));
+}
 
 int run_fit(const FitCommand& command) {
     require_writable(command.output);
     require_writable(command.report);
+    require_writable(command.drawing);
     StoneFile file = read_stone(command.stone, command.common.set);
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
+    const Mended mesh = mended(file.stone);
+    file.stone = mesh.stone;
     const auto written = read_readings(command.stone, command.common.set);
     const auto readings = bind_readings(written, file.stone);
     FitOptions options = read_fit_options(command.stone, command.common.set);
     if (command.iterations > 0) options.iterations = command.iterations;
+    if (command.starts > 0) options.starts = command.starts;
+    options.find_symmetry = options.find_symmetry || command.find_symmetry;
+    options.allow_topology = options.allow_topology || command.allow_topology;
+    if (!command.from.empty()) options.start = earlier_fit(command.from, file.stone.solid);
 
-    const FitResult result = [&] {
+    FitResult result = [&] {
         try {
             return fit_stone(file.stone, readings, options,
                              progress_line("fit", command.common.quiet));
@@ -40,9 +76,18 @@ int run_fit(const FitCommand& command) {
             throw InputError(file.mesh_file, error.what());
         }
     }();
+    result.notes.insert(result.notes.begin(), mesh.notes.begin(), mesh.notes.end());
     write_solid(result.solid, command.output);
-    if (!command.report.empty()) write_text(command.report, fit_report(result));
-    say(fmt::format("{}: {}", name_of(result.status), result.message), command.common.quiet);
+    const std::string report = fit_report(result);
+    if (!command.report.empty()) write_text(command.report, report);
+    if (!command.drawing.empty()) {
+        draw(command, file.stone.name.empty() ? command.stone : file.stone.name, result, report);
+    }
+    std::string prefix = fmt::format("{}: ", name_of(result.status));
+    for (const std::string& sentence : fit_summary(result)) {
+        say(prefix + sentence, command.common.quiet);
+        prefix.clear();
+    }
     say(fmt::format("{} facets, {} corners, planar to {:.1e} {}, {} steps, {:.2f} s",
                     result.solid.facets.size(), result.solid.vertices.size(), result.planarity_max,
                     name_of(result.unit), result.iterations, result.seconds),
@@ -65,14 +110,34 @@ void add_command_fit(CLI::App& program, int& exit_code) {
     fit->add_option("--report,--json", command->report,
                     "readings, residuals, uncertainties, suspects (- is stdout)")
         ->type_name("FIT.json");
+    fit->add_option("--drawing", command->drawing,
+                    "crown, pavilion and girdle views with facet names (- is stdout)")
+        ->type_name("DRAWING.svg");
+    fit->add_option("--paint", command->paint,
+                    "what its colours show: residual (default) or sigma, how sure each facet is")
+        ->check(CLI::IsMember({"residual", "sigma"}))
+        ->type_name("WHAT");
     fit->add_option("--iterations", command->iterations, "most steps of the last stage")
         ->check(CLI::Range(1, 1000000))
         ->type_name("N");
+    fit->add_option("--starts", command->starts,
+                    "most starts to try when the first does not explain the readings (13)")
+        ->check(CLI::Range(1, 1000000))
+        ->type_name("N");
+    fit->add_option("--from", command->from,
+                    "an earlier result of the same stone, to go on from after an edit")
+        ->type_name("FITTED");
+    fit->add_flag("--find-symmetry", command->find_symmetry,
+                  "propose the stone's symmetry and tell how well the readings support it");
+    fit->add_flag(
+        "--allow-topology", command->allow_topology,
+        "let edges and facets that the readings deny change or go; each change is listed");
     add_common(*fit, command->common, true);
     fit->footer(
         "Examples:\n"
         "  culet fit stone.toml -o fitted.obj --report fit.json\n"
-        "  culet fit stone.toml -o fitted.obj --set fit.meets=soft");
+        "  culet fit stone.toml -o fitted.obj --drawing fitted.svg --find-symmetry\n"
+        "  culet fit stone.toml -o again.obj --from fitted.obj --set fit.meets=soft");
     fit->callback([command, &exit_code] { exit_code = run_fit(*command); });
 }
 

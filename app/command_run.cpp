@@ -10,6 +10,7 @@
 #include "compare/compare.h"
 #include "compare/report.h"
 #include "fit/fit.h"
+#include "fit/mending.h"
 #include "render/image_io.h"
 #include "render/render.h"
 #include "render/scene_io.h"
@@ -77,6 +78,7 @@ int run_job(const RunOptions& options) {
     // Everything that can be wrong with the inputs is found before the first output is written.
     StoneFile file = read_stone(job.stone);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
+    file.stone = mended(file.stone).stone;
     const auto readings = bind_readings(read_readings(job.stone), file.stone);
     const FitOptions fit_options = read_fit_options(job.stone);
     Scene scene = read_scene(job.scene, {}, &file.stone);

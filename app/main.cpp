@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
     add_command_render(program, exit_code);
     add_command_compare(program, exit_code);
     add_command_run(program, exit_code);
+    add_command_study(program, exit_code);
     add_command_probe(program, exit_code);
     add_command_cut(program, exit_code);
     add_command_convert(program, exit_code);

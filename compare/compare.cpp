@@ -12,7 +12,7 @@
 
 #include "compare/flip.h"
 #include "compare/frame.h"
-#include "compare/html.h"
+#include "page/html.h"
 #include "compare/metrics.h"
 #include "compare/pixels.h"
 #include "compare/reflexes.h"

@@ -8,9 +8,11 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "compare/html.h"
 #include "compare/pixels.h"
 #include "compare/report_parts.h"
+#include "page/html.h"
+#include "page/json_fields.h"
+#include "page/parts.h"
 
 namespace culet {
 

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "fit/measurement.h"
+#include "fit/slips.h"
 #include "stone/errors.h"
 #include "stone/toml_file.h"
 
@@ -63,6 +64,9 @@ std::optional<double> plain_number(std::string_view text) {
     }
     return value;
 }
+
+// A hand-made mesh's inclinations are hardly further off.
+constexpr double k_slip_tolerance_deg = 12;
 
 struct NamedFacets {
     Aggregate aggregate = Aggregate::single;
@@ -147,6 +151,16 @@ private:
             reading.value = *w.value;
             if (!std::isfinite(reading.value)) fail("value is not a finite number");
         }
+        if (w.rounding) {
+            if (!(*w.rounding > 0) || !std::isfinite(*w.rounding)) {
+                fail(
+                    fmt::format("rounding is {:g}; it must be positive (the step of the "
+                                "instrument's display, such as 0.1)",
+                                *w.rounding));
+            }
+            if (is_relation(reading.kind)) fail("takes no rounding: it has no value");
+            reading.rounding = *w.rounding;
+        }
         if (w.sigma) {
             if (!std::isfinite(*w.sigma)) fail("sigma is not a finite number");
             if (!(*w.sigma > 0)) {
@@ -156,7 +170,7 @@ private:
                                 *w.sigma));
             }
             reading.sigma = *w.sigma;
-        } else if (!w.exact && !w.released && reading.kind != ReadingKind::meet) {
+        } else if (!w.exact && !w.released && reading.kind != ReadingKind::meet && !w.rounding) {
             fail("sigma is missing (one standard uncertainty), or give exact = true");
         }
         if (w.exact && w.released) fail("cannot be exact and released");
@@ -165,9 +179,9 @@ private:
             case ReadingKind::inclination:
                 if (v < 0 || v > 90) {
                     fail(
-                        fmt::format("value {:g} is outside 0..90 degrees; pavilion facets count "
+                        fmt::format("value {:g} is outside 0..90 degrees{}; pavilion facets count "
                                     "from the horizontal too",
-                                    v));
+                                    v, meant_inclination(v)));
                 }
                 break;
             case ReadingKind::azimuth:
@@ -198,7 +212,27 @@ private:
         if (angular) {
             reading.value = radians(reading.value);
             reading.sigma = radians(reading.sigma);
+            reading.rounding = radians(reading.rounding);
         }
+    }
+
+    // What an impossible inclination may have been meant to be: the slip that comes near to the
+    // facet of the mesh.
+    std::string meant_inclination(double value) const {
+        if (written_->of.size() != 1) return {};
+        const auto found = facet_of_name_.find(written_->of[0]);
+        if (found == facet_of_name_.end()) return {};
+        const Vec3& normal = stone_.solid.facets[std::size_t(found->second)].plane.normal;
+        const auto slip =
+            find_slip(value, degrees(inclination(normal, stone_up())), k_slip_tolerance_deg, true);
+        return slip ? fmt::format(" ({}: {:g}?)", slip->what, slip->corrected) : std::string();
+    }
+
+    Vec3 stone_up() const {
+        const auto up = facet_of_name_.find(stone_.up_facet);
+        return up == facet_of_name_.end()
+                   ? stone_.up
+                   : stone_.solid.facets[std::size_t(up->second)].plane.normal;
     }
 
     Datum datum(ReadingKind kind) const {
@@ -411,7 +445,9 @@ private:
         if (a.kind == Place::Kind::facet && b.kind == Place::Kind::facet) {
             const Vec3 &m = stone_.solid.facets[a.facet].plane.normal,
                        &n = stone_.solid.facets[b.facet].plane.normal;
-            if (glm::length(glm::cross(m, n)) > 0.35) {
+            // A rough mesh does not tell what is parallel.
+            const bool rough = planarity(stone_.solid) > 0.01 * diameter(stone_.solid);
+            if (!rough && glm::length(glm::cross(m, n)) > 0.35) {
                 fail(fmt::format(
                     "facets '{}' and '{}' are not parallel in the mesh (they stand {:.0f} "
                     "degrees apart); name a vertex or an edge instead",
@@ -584,6 +620,23 @@ void refuse_other_unit(const Reading& reading, const Stone& stone) {
     }
 }
 
+// Three or more overall lengths that all ask for the same other size: then it is the mesh that was
+// drawn in another unit, which is no matter, since only its shape counts.
+bool mesh_is_in_another_unit(const std::vector<Reading>& readings, const Stone& stone) {
+    std::vector<double> ratios;
+    for (const Reading& r : readings) {
+        const double mine = r.kind == ReadingKind::depth   ? width_along(stone.solid, stone.up)
+                            : r.kind == ReadingKind::width ? diameter(stone.solid)
+                                                           : 0;
+        if (mine > 0 && r.value > 0) ratios.push_back(r.value / mine);
+    }
+    if (ratios.size() < 3) return false;
+    std::sort(ratios.begin(), ratios.end());
+    const double middle = ratios[ratios.size() / 2];
+    return std::max(middle, 1 / middle) > 5 && ratios.back() < 2.5 * middle &&
+           ratios.front() > middle / 2.5;
+}
+
 }  // namespace
 
 std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, const Stone& stone) {
@@ -606,9 +659,11 @@ std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, c
                     fmt::format("the id '{}' is taken by the reading at {}:{}", reading.id,
                                 at->second->file.filename().string(), at->second->line));
             }
-            refuse_other_unit(reading, stone);
             readings.push_back(std::move(reading));
         }
+    }
+    if (!mesh_is_in_another_unit(readings, stone)) {
+        for (const Reading& reading : readings) refuse_other_unit(reading, stone);
     }
     return readings;
 }

@@ -1,13 +1,15 @@
 #include "fit/diagnostics.h"
 
-#include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "fit/covariance.h"
+#include "fit/disagreement.h"
+#include "fit/facet_functions.h"
 #include "fit/linear.h"
+#include "fit/snooping.h"
 #include "fit/statistics.h"
 
 namespace culet {
@@ -18,153 +20,93 @@ namespace {
 constexpr double k_no_redundancy = 1e-6;
 // An error of size limit + 0.84 sigma is found in 80 of 100 cases.
 constexpr double k_power_80 = 0.8416212335729143;
-// Freedoms held less than twice as tightly by the readings as by the mesh (lambda = 4 in
-// variance) count as not determined.
-constexpr double k_determined = 4;
-// Dense algebra beyond this many unknowns would take minutes.
-constexpr Eigen::Index k_most_dense = 2400;
+// What is left of hard equations is rounding below this part of the half diameter.
+constexpr double k_hard_limit = 1e-9;
 
-// Directions of the unknowns that satisfy all hard equations and gauge rows.
-Eigen::MatrixXd free_directions(const Linearised& linear) {
-    const Eigen::Index n = linear.layout.size();
-    const Eigen::Index gauges = static_cast<Eigen::Index>(linear.gauge_rows.size());
-    Eigen::MatrixXd rows(linear.hard_rows.rows() + gauges, n);
-    rows.topRows(linear.hard_rows.rows()) = linear.hard_rows;
-    for (Eigen::Index k = 0; k < gauges; ++k) {
-        rows.row(linear.hard_rows.rows() + k) = linear.gauge_rows[k].transpose();
-    }
-    if (rows.rows() == 0) return Eigen::MatrixXd::Identity(n, n);
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
-    qr.setThreshold(1e-10);
-    const Eigen::Index rank = qr.rank();
-    Eigen::MatrixXd selector = Eigen::MatrixXd::Zero(n, n - rank);
-    selector.bottomRows(n - rank).setIdentity();
-    return qr.householderQ() * selector;
-}
-
-struct Modes {
-    Eigen::MatrixXd held;  ///< covariance factor: cov = held held'
-    Eigen::MatrixXd open;  ///< undetermined directions, of length one in the mesh's metric
-};
-
-// Splits the free directions by how tightly the readings hold them, relative to the mesh's metric.
-Modes modes_of(const Linearised& linear) {
-    const Eigen::MatrixXd z = free_directions(linear);
-    if (z.cols() == 0) {
-        // Exact readings leave nothing free.
-        return {Eigen::MatrixXd(linear.layout.size(), 0), Eigen::MatrixXd(linear.layout.size(), 0)};
-    }
-    // Whitening by the metric first turns the generalised eigenproblem into a plain one.
-    const Eigen::MatrixXd metric = z.transpose() * linear.metric.asDiagonal() * z;
-    const Eigen::LLT<Eigen::MatrixXd> chol(metric);
-    const Eigen::MatrixXd whitened = chol.matrixL().solve(z.transpose()).transpose();  // z L^-T
-    Eigen::SparseMatrix<double, Eigen::RowMajor> rows = linear.soft_rows;
-    for (std::size_t i = 0; i < linear.soft.size(); ++i) {
-        if (linear.soft[i].role != Equation::Role::hinge) continue;
-        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, Eigen::Index(i));
-             it; ++it) {
-            it.valueRef() = 0;
-        }
-    }
-    const Eigen::MatrixXd seen = rows * whitened;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(seen.transpose() * seen);
-    Eigen::Index open = 0;
-    while (open < eigen.eigenvalues().size() && eigen.eigenvalues()(open) < k_determined) ++open;
-    Modes modes;
-    modes.open = whitened * eigen.eigenvectors().leftCols(open);
-    modes.held = whitened * eigen.eigenvectors().rightCols(eigen.eigenvalues().size() - open);
-    for (Eigen::Index k = 0; k < modes.held.cols(); ++k) {
-        modes.held.col(k) /= std::sqrt(eigen.eigenvalues()(open + k));
-    }
-    return modes;
-}
-
-// Rows that turn unknowns into inclination, azimuth and distance from the middle of the stone.
-Eigen::MatrixXd facet_rows(const Shape& shape, int f, const Layout& layout, const Vec3& middle) {
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, layout.size());
-    const Vec3& n = shape.normals[f];
-    const auto basis = tangents(n);
-    const double flat = std::hypot(n.x, n.y);
-    for (int k = 0; k < 2; ++k) {
-        const Vec3& t = basis[static_cast<std::size_t>(k)];
-        if (flat > 1e-9) {
-            const Vec3 outward{n.x / flat, n.y / flat, 0};
-            // inclination = atan2(flat, |z|)
-            rows(0, layout.tilt(f) + k) =
-                std::abs(n.z) * glm::dot(outward, t) - std::copysign(flat, n.z) * t.z;
-            rows(1, layout.tilt(f) + k) = (n.x * t.y - n.y * t.x) / (flat * flat);
-        } else {
-            rows(0, layout.tilt(f) + k) = 1;
-        }
-        rows(2, layout.tilt(f) + k) = -glm::dot(middle, t);
-    }
-    rows(2, layout.offset(f)) = 1;
-    return rows;
-}
-
-double size_of(const Eigen::MatrixXd& factor, const Eigen::RowVectorXd& row) {
-    return (row * factor).norm();
-}
-
-void find_open_freedoms(const System& system, const Shape& shape, const Modes& modes,
+void find_open_freedoms(const System& system, const Shape& shape, const Covariance& covariance,
                         const Vec3& middle, Diagnosis& diagnosis) {
-    diagnosis.undetermined_freedoms = static_cast<int>(modes.open.cols());
-    if (modes.open.cols() == 0) return;
+    diagnosis.undetermined_freedoms = covariance.open_freedoms();
+    if (diagnosis.undetermined_freedoms == 0) return;
     const Layout layout = layout_of(shape);
     // A freedom is named when the open directions together may move it by a tenth of what the mesh
-    // itself is trusted for; of a single direction, at least its largest mover is named.
+    // itself is trusted for.
     for (int f = 0; f < layout.facets; ++f) {
-        const Eigen::MatrixXd rows = facet_rows(shape, f, layout, middle);
+        const auto rows = facet_functions(shape, f, layout, middle);
         static constexpr std::array<const char*, 3> names{"inclination", "azimuth", "offset"};
         const double flat = std::hypot(shape.normals[f].x, shape.normals[f].y);
-        for (int k = 0; k < 3; ++k) {
+        for (std::size_t k = 0; k < 3; ++k) {
             if (k == 1 && flat < 1e-9) continue;
-            if (size_of(modes.open, rows.row(k)) > 0.02) {
-                diagnosis.undetermined.push_back(
-                    {system.stone().solid.facets[f].name, names[static_cast<std::size_t>(k)]});
+            if (std::sqrt(covariance.open_variance(rows[k])) > 0.02) {
+                diagnosis.undetermined.push_back({system.stone().solid.facets[f].name, names[k]});
             }
         }
     }
 }
 
-// Baarda's data snooping: the worst equation is set aside, the residuals of the others follow in
-// closed form (rank-one update), until none stands out.
-void snoop(const System& system, const Linearised& linear, const std::vector<Eigen::Index>& counted,
-           const Eigen::MatrixXd& projected, double limit, Diagnosis& diagnosis) {
+// Baarda's data snooping, for several errors at once, and where that is not the whole story the
+// smallest set of readings that disagrees.
+void snoop(const System& system, const Linearised& linear, const Covariance& covariance,
+           const DiagnosisOptions& options, Diagnosis& diagnosis) {
+    std::vector<Eigen::Index> counted;
+    for (std::size_t i = 0; i < linear.soft.size(); ++i) {
+        if (linear.soft[i].is_counted()) counted.push_back(Eigen::Index(i));
+    }
     const Eigen::Index count = static_cast<Eigen::Index>(counted.size());
-    // R = 1 - J C J'; the residuals are R times the errors.
-    Eigen::MatrixXd r = Eigen::MatrixXd::Identity(count, count) - projected;
-    Eigen::VectorXd e(count);
-    for (Eigen::Index i = 0; i < count; ++i) e(i) = linear.soft_residuals(counted[std::size_t(i)]);
-    std::vector<bool> removed(system.readings().size(), false);
-    const std::size_t most = std::max<std::size_t>(3, counted.size() / 10);
-    while (diagnosis.suspects.size() < most) {
-        Eigen::Index worst = -1;
-        double largest = limit;
-        for (Eigen::Index i = 0; i < count; ++i) {
-            if (!(r(i, i) > 1e-4)) continue;
-            const double w = std::abs(e(i)) / std::sqrt(r(i, i));
-            if (w > largest) {
-                largest = w;
-                worst = i;
+    // At the optimum the residuals are R times the errors; elsewhere what a step would take away
+    // comes off first.
+    const Eigen::VectorXd settled =
+        linear.soft_residuals - covariance.fitted_part(linear.soft_residuals);
+    Residuals residuals;
+    residuals.values.resize(count);
+    residuals.redundancy.resize(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        residuals.values(i) = settled(counted[std::size_t(i)]);
+        residuals.redundancy(i) = 1 - covariance.leverages()(counted[std::size_t(i)]);
+    }
+    residuals.column = [&](Eigen::Index i) {
+        const Eigen::VectorXd all = covariance.leverage_column(counted[std::size_t(i)]);
+        Eigen::VectorXd column(count);
+        for (Eigen::Index k = 0; k < count; ++k) column(k) = -all(counted[std::size_t(k)]);
+        column(i) = residuals.redundancy(i);
+        return column;
+    };
+    const double pairs = std::max(1.0, 0.5 * double(count) * double(count - 1));
+    const std::vector<Outlier> outliers = find_outliers(
+        residuals, diagnosis.suspect_limit, chi2_quantile(options.significance / pairs, 2),
+        std::max<std::size_t>(3, counted.size() / 10));
+    const auto reading_of = [&](Eigen::Index i) {
+        return linear.soft[std::size_t(counted[std::size_t(i)])].reading;
+    };
+    for (const Outlier& outlier : outliers) {
+        const int reading = reading_of(outlier.equation);
+        if (reading < 0 || diagnosis.readings[std::size_t(reading)].suspect) continue;
+        diagnosis.readings[std::size_t(reading)].suspect = true;
+        diagnosis.suspects.push_back(reading);
+        const Equation& e = linear.soft[std::size_t(counted[std::size_t(outlier.equation)])];
+        const Reading& named = system.readings()[std::size_t(reading)];
+        const double unit = e.sigma * system.unit_of(named);
+        Suspicion suspicion{
+            reading, named.value - outlier.error * unit, outlier.error_sigma * unit, {}};
+        for (const Eigen::Index other : outlier.alternatives) {
+            const int alternative = reading_of(other);
+            if (alternative >= 0 && alternative != reading) {
+                suspicion.alternatives.push_back(alternative);
             }
         }
-        if (worst < 0) return;
-        const int reading = linear.soft[std::size_t(counted[std::size_t(worst)])].reading;
-        if (reading >= 0 && !removed[std::size_t(reading)]) {
-            removed[std::size_t(reading)] = true;
-            diagnosis.suspects.push_back(reading);
-            diagnosis.readings[std::size_t(reading)].suspect = true;
-        }
-        const Eigen::VectorXd column = r.col(worst) / r(worst, worst);
-        e -= column * e(worst);
-        r -= column * Eigen::RowVectorXd(r.row(worst));
-        r.row(worst).setZero();
-        r.col(worst).setZero();
+        diagnosis.suspicions.push_back(std::move(suspicion));
     }
+    if (!(chi2_tail(diagnosis.chi2, diagnosis.dof) < options.significance) || count > 1500) return;
+    Eigen::MatrixXd matrix(count, count);
+    std::vector<int> owner;
+    for (Eigen::Index i = 0; i < count; ++i) {
+        matrix.col(i) = residuals.column(i);
+        owner.push_back(reading_of(i));
+    }
+    diagnosis.disagreeing =
+        disagreeing_readings(residuals.values, std::move(matrix), owner, options.significance);
 }
 
-// A stone too large for dense algebra: what every reading came to, and nothing of how sure that is.
+// Without a covariance: what every reading came to, and nothing of how sure that is.
 void residuals_only(const System& system, const Linearised& linear,
                     const std::vector<Eigen::Index>& counted, Diagnosis& diagnosis) {
     constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
@@ -208,21 +150,14 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     for (std::size_t i = 0; i < linear.soft.size(); ++i) {
         if (linear.soft[i].is_counted()) counted.push_back(Eigen::Index(i));
     }
-    if (layout.size() > k_most_dense) {
+    const auto covariance = std::make_shared<const Covariance>(linear);
+    if (!covariance->usable()) {
         residuals_only(system, linear, counted, diagnosis);
         return diagnosis;
     }
-    const Modes modes = modes_of(linear);
-    Eigen::MatrixXd seen(Eigen::Index(counted.size()), modes.held.cols());
-    {
-        const Eigen::MatrixXd all = linear.soft_rows * modes.held;
-        for (std::size_t i = 0; i < counted.size(); ++i) {
-            seen.row(Eigen::Index(i)) = all.row(counted[i]);
-        }
-    }
     std::vector<double> redundancy(counted.size());
     for (std::size_t i = 0; i < counted.size(); ++i) {
-        redundancy[i] = 1 - seen.row(Eigen::Index(i)).squaredNorm();
+        redundancy[i] = 1 - covariance->leverages()(counted[i]);
         if (redundancy[i] < k_no_redundancy) redundancy[i] = 0;
         diagnosis.dof += redundancy[i];
         const Equation& e = linear.soft[std::size_t(counted[i])];
@@ -233,6 +168,7 @@ Diagnosis diagnose(const System& system, const Shape& shape,
         }
     }
     if (!options.full) return diagnosis;
+    diagnosis.covariance = covariance;
 
     // Every reading's equations together; the worst of them speaks for the reading.
     diagnosis.suspect_limit = two_sided_normal_quantile(
@@ -267,33 +203,47 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     for (std::size_t r = 0; r < terms.size(); ++r) {
         if (terms[r] > 0) diagnosis.readings[r].redundancy /= terms[r];
     }
-    snoop(system, linear, counted, seen * seen.transpose(), diagnosis.suspect_limit, diagnosis);
+    if (options.seen_from) {
+        const Linearised there = linearise(system, options.seen_from->shape,
+                                           options.seen_from->outline, false);
+        const Covariance from_there(there);
+        snoop(system, there, from_there.usable() ? from_there : *covariance, options, diagnosis);
+    } else {
+        snoop(system, linear, *covariance, options, diagnosis);
+    }
+    if (linear.worst_hard() > k_hard_limit) {
+        diagnosis.disagreeing = disagreeing_exact_readings(system, shape, outline);
+    }
 
-    Vec3 middle(0);
-    for (const Vec3& p : shape.points) middle += p / double(shape.points.size());
+    const Vec3 middle = middle_of(shape);
+    const RowWriter writer(shape);
+    // Azimuths are told in the result's frame, which turns to lie as the mesh does.
+    const FunctionRow turn = writer.function(system.turn_of(shape));
+    const Eigen::VectorXd with_turn = covariance->with_all(turn, true);
+    const double turn_variance = turn.dot(with_turn);
     for (int f = 0; f < layout.facets; ++f) {
-        const Eigen::MatrixXd rows = facet_rows(shape, f, layout, middle);
-        Eigen::MatrixXd both = rows * modes.held;
-        const Eigen::MatrixXd open = rows * modes.open;
-        const auto total = [&](int k) {
-            return std::sqrt(both.row(k).squaredNorm() + open.row(k).squaredNorm());
+        const auto rows = facet_functions(shape, f, layout, middle);
+        const auto total = [&](std::size_t k) {
+            return std::sqrt(covariance->variance(rows[k]) + covariance->open_variance(rows[k]));
         };
         FacetSigma& sigma = diagnosis.facets[std::size_t(f)];
         sigma.inclination = total(0);
         sigma.offset = total(2);
         const double flat = std::hypot(shape.normals[f].x, shape.normals[f].y);
-        sigma.azimuth = flat > 1e-9 ? total(1) : std::numeric_limits<double>::quiet_NaN();
+        sigma.azimuth =
+            flat > 1e-9 ? std::sqrt(std::max(0.0, total(1) * total(1) + turn_variance +
+                                                      2 * rows[1].dot(with_turn)))
+                        : std::numeric_limits<double>::quiet_NaN();
     }
-    const RowWriter writer(shape);
     for (int f = 0; f < layout.facets; ++f) {
         if (outline->loops[f].size() < 3) continue;
         std::vector<Corner> loop;
         for (int c : outline->loops[f]) loop.push_back(outline->corners[c]);
-        const Eigen::RowVectorXd row = writer.row(enclosed_area(loop)(shape));
+        const FunctionRow row = writer.function(enclosed_area(loop)(shape));
         diagnosis.facets[std::size_t(f)].area =
-            std::hypot(size_of(modes.held, row), size_of(modes.open, row));
+            std::sqrt(covariance->variance(row) + covariance->open_variance(row));
     }
-    find_open_freedoms(system, shape, modes, middle, diagnosis);
+    find_open_freedoms(system, shape, *covariance, middle, diagnosis);
     return diagnosis;
 }
 

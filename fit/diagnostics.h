@@ -6,9 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "fit/finish.h"
 #include "fit/system.h"
 
 namespace culet {
+
+class Covariance;
 
 /// Standard uncertainties of one facet's freedoms and area, radians and half diameters.
 struct FacetSigma {
@@ -23,14 +26,26 @@ struct ReadingCheck {
     bool suspect = false;
 };
 
+/// A reading that stands out, and what the others say it should have been.
+struct Suspicion {
+    int reading = -1;
+    double estimate = 0, sigma = 0;  ///< of its value from the others; its unit
+    std::vector<int> alternatives;   ///< readings that would explain the misfit as well
+};
+
 struct Diagnosis {
     std::vector<FacetSigma> facets;
     std::vector<ReadingCheck> readings;
-    std::vector<int> suspects;  ///< indices of readings, in the order of their removal
-    /// False for a stone too large for dense algebra: uncertainties, redundancies and normalized
+    std::vector<int> suspects;          ///< indices of readings, the gravest first
+    std::vector<Suspicion> suspicions;  ///< one each
+    /// The smallest set of readings that cannot hold together, where chi2 fails or exact readings
+    /// contradict each other.
+    std::vector<int> disagreeing;
+    /// False when the equations could not be factored: uncertainties, redundancies and normalized
     /// residuals are then NaN, suspects are not looked for, and `dof` (at most) and
     /// `undetermined_freedoms` (at least) are bounds by counting.
     bool analysed = true;
+    std::shared_ptr<const Covariance> covariance;  ///< of the unknowns; null for `full` = false
     double chi2 = 0, dof = 0;
     double suspect_limit = 0;
     std::vector<Undetermined> undetermined;
@@ -43,6 +58,8 @@ struct Diagnosis {
 struct DiagnosisOptions {
     double significance = 0.001;
     bool full = true;  ///< false: only what variance components need
+    /// Look for wrong readings from this fit, which they did not bend; same readings.
+    const Finished* seen_from = nullptr;
 };
 
 Diagnosis diagnose(const System& system, const Shape& shape,

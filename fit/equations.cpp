@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <numbers>
 
 #include "fit/system.h"
@@ -50,14 +51,17 @@ Corner farthest(const Shape& shape, const std::vector<Corner>& corners, const Ve
     return best;
 }
 
+bool is_nearly_upright(const Vec3& normal) {
+    return std::abs(normal.z) < std::sin(radians(5));
+}
+
 // Whether an inclination counts from above or from below. A reading of a nearly upright facet does
 // not say on which side of upright it is: the nearer one is meant.
 int side_of(const Vec3& normal, double inclination_read) {
     const int side = normal.z < 0 ? -1 : 1;
     const double from_up = std::atan2(std::hypot(normal.x, normal.y), side * normal.z);
     const double from_down = std::numbers::pi - from_up;
-    const bool near_upright = std::abs(from_up - std::numbers::pi / 2) < radians(5);
-    return near_upright &&
+    return is_nearly_upright(normal) &&
                    std::abs(from_down - inclination_read) < std::abs(from_up - inclination_read)
                ? -side
                : side;
@@ -100,9 +104,7 @@ std::vector<Equation> System::equations(const Shape& shape,
         e.role = incidence.how == MeetTreatment::released ? Equation::Role::released
                                                           : Equation::Role::incidence;
         e.exact = incidence.how == MeetTreatment::exact;
-        e.sigma = incidence.how == MeetTreatment::released ? k_released_sigma
-                  : incidence.sigma > 0                    ? incidence.sigma
-                                        : group_sigmas_[is_girdle(incidence.facet)];
+        e.sigma = incidence_sigma(incidence);
         if (e.role == Equation::Role::incidence && !e.exact && incidence.sigma == 0 &&
             estimates_meets_) {
             e.group = is_girdle(incidence.facet);
@@ -110,7 +112,27 @@ std::vector<Equation> System::equations(const Shape& shape,
         e.formula = height(incidence.facet, Corner{incidence.point, {-1, -1, -1}});
         all.push_back(std::move(e));
     }
+    std::vector<Equation> of_readings = reading_equations(shape, outline);
+    std::move(of_readings.begin(), of_readings.end(), std::back_inserter(all));
+    return all;
+}
 
+double System::incidence_sigma(const Incidence& incidence) const {
+    return incidence.how == MeetTreatment::exact      ? 0
+           : incidence.how == MeetTreatment::released ? k_released_sigma
+           : incidence.sigma > 0                      ? incidence.sigma
+                                                      : group_sigmas_[is_girdle(incidence.facet)];
+}
+
+bool System::has_exact_readings() const {
+    return std::any_of(readings_.begin(), readings_.end(),
+                       [](const Reading& r) { return r.exact && r.kind != ReadingKind::meet; });
+}
+
+std::vector<Equation> System::reading_equations(const Shape& shape,
+                                                const std::shared_ptr<const Outline>& outline,
+                                                bool reduced) const {
+    std::vector<Equation> all;
     // Corners, loops and edges as they are now; of a facet that is not there, as in the mesh.
     const auto loop_of = [&](int f) {
         return outline->loops[f].size() >= 3 ? corners_of(*outline, f)
@@ -146,6 +168,7 @@ std::vector<Equation> System::equations(const Shape& shape,
 
     for (std::size_t r = 0; r < readings_.size(); ++r) {
         const Reading& reading = readings_[r];
+        if (reduced && first_extra_[r] >= 0 && fixed_extras_[first_extra_[r]]) continue;
         const double unit = unit_of(reading);
         Equation base;
         base.reading = static_cast<int>(r);
@@ -157,6 +180,13 @@ std::vector<Equation> System::equations(const Shape& shape,
             e.formula = std::move(formula);
             e.value = value;
             all.push_back(std::move(e));
+        };
+        const auto put_caliper = [&](const std::vector<Corner>& corners, const Vec3& direction) {
+            const std::array<Corner, 2> touched{farthest(shape, corners, direction),
+                                                farthest(shape, corners, -direction)};
+            put(extent(touched[0], touched[1], direction), base.value);
+            all.back().touched = touched;
+            all.back().caliper = direction;
         };
         switch (reading.kind) {
             case ReadingKind::inclination: {
@@ -193,6 +223,10 @@ std::vector<Equation> System::equations(const Shape& shape,
                     }
                 }
                 put(aggregated(reading, std::move(terms), shape), base.value);
+                if (reading.aggregate == Aggregate::single &&
+                    reading.datum.kind == Datum::Kind::up) {
+                    all.back().other_value = std::numbers::pi - base.value;
+                }
                 break;
             }
             case ReadingKind::azimuth:
@@ -249,17 +283,13 @@ std::vector<Equation> System::equations(const Shape& shape,
                 } else if (reading.kind == ReadingKind::width) {
                     direction = inside_direction(reading.direction);
                 }
-                put(extent(farthest(shape, outline->corners, direction),
-                           farthest(shape, outline->corners, -direction), direction),
-                    base.value);
+                put_caliper(outline->corners, direction);
                 break;
             }
             case ReadingKind::table_width: {
                 const Vec3 direction{std::cos(reading.azimuth), std::sin(reading.azimuth), 0};
                 const std::vector<Corner> loop = loop_of(up_facet_);
-                put(extent(farthest(shape, loop, direction), farthest(shape, loop, -direction),
-                           direction),
-                    base.value);
+                put_caliper(loop, direction);
                 break;
             }
             case ReadingKind::volume:

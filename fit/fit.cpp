@@ -8,11 +8,18 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "fit/assess.h"
+#include "fit/describe.h"
 #include "fit/diagnostics.h"
+#include "fit/find_symmetry.h"
 #include "fit/finish.h"
-#include "fit/solver.h"
+#include "fit/mending.h"
+#include "fit/portfolio.h"
+#include "fit/refit.h"
+#include "fit/robust.h"
 #include "fit/statistics.h"
 #include "fit/system.h"
+#include "fit/topology.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
 
@@ -39,31 +46,6 @@ namespace {
 constexpr double k_hard_limit = 1e-9;
 // Contract with the user: corners lie on their planes to this part of the diameter.
 constexpr double k_planarity = 1e-9;
-
-struct Candidate {
-    Finished finished;
-    bool sound = false;
-};
-
-bool is_sound(const System& system, const Finished& finished) {
-    if (system.splits()) {
-        const System::Enclosed enclosed = system.enclosed(finished.shape);
-        return enclosed.closed && enclosed.missing.empty();
-    }
-    for (const Equation& e : system.hinges()) {
-        if (e.formula(finished.shape).value > 0) return false;
-    }
-    return true;
-}
-
-Candidate from_start(const System& system, const GradedStart& start, const FitOptions& options,
-                     const Progress& progress) {
-    const Graded graded = graded_fit(system, start, progress);
-    Candidate candidate;
-    candidate.finished = finish(system, graded.shape, options.iterations);
-    candidate.sound = is_sound(system, candidate.finished);
-    return candidate;
-}
 
 // Foerstner (1979): each group's uncertainty is the one that its residuals show, sum of squares /
 // redundancy, repeated until it agrees with the one they were weighted by.
@@ -151,6 +133,69 @@ std::string names(const std::vector<std::string>& list) {
     return text;
 }
 
+// A gross error: beyond this the equations' bend matters.
+bool needs_robust_view(const Diagnosis& diagnosis) {
+    return std::any_of(diagnosis.readings.begin(), diagnosis.readings.end(),
+                       [](const ReadingCheck& c) { return std::abs(c.normalized) > 8; });
+}
+
+std::string words(const NextReading& reading) {
+    std::string of;
+    for (const std::string& name : reading.of) of += (of.empty() ? "" : "/") + name;
+    return name_of(reading.kind) + (of.empty() ? "" : " of " + of);
+}
+
+// Who is to blame, as far as one can tell.
+std::string contradiction(const FitResult& result) {
+    std::string text;
+    if (!result.suspects.empty()) {
+        text = "; look at " + names(result.suspects);
+        const Proposal& first = result.proposals.front();
+        if (!first.slip.empty()) {
+            text += fmt::format(" ({}: {:g}?)", first.slip,
+                                first.in_radians ? degrees(first.corrected) : first.corrected);
+        } else if (!first.alternatives.empty()) {
+            text += " (or at " + names(first.alternatives) + " instead)";
+        }
+    } else if (!result.disagreeing.empty()) {
+        text = "; the fewest that cannot hold together: " + names(result.disagreeing);
+    }
+    return text;
+}
+
+// The edges whose turning over held corners prevent.
+std::vector<std::string> vanishing(const System& system, const std::vector<Held>& held) {
+    const std::vector<Facet>& facets = system.stone().solid.facets;
+    std::vector<std::string> edges;
+    for (const Held& h : held) {
+        const std::vector<int>& loop = facets[h.facet].corners;
+        for (const Edge& e : system.edges().edges) {
+            const int other = e.from == h.point ? e.to : e.to == h.point ? e.from : -1;
+            if (other < 0 || std::find(loop.begin(), loop.end(), other) == loop.end()) continue;
+            std::string name = facets[e.left].name + "/" + facets[e.right].name;
+            if (std::find(edges.begin(), edges.end(), name) == edges.end()) {
+                edges.push_back(std::move(name));
+            }
+        }
+    }
+    return edges;
+}
+
+// The mesh was drawn in another unit, most likely.
+std::string other_size(const System& system) {
+    const double factor = system.mesh_scale(), apart = std::max(factor, 1 / factor);
+    if (apart < 3) return {};
+    std::string guess;
+    for (double known : {10.0, 25.4, 100.0, 1000.0}) {
+        if (apart > known / 1.6 && apart < known * 1.6) guess = fmt::format("{:g} ", known);
+    }
+    return fmt::format(
+        "the mesh is {} times too {} for the lengths that were read{}: it was scaled; check `unit` "
+        "of [stone]",
+        guess.empty() ? fmt::format("{:.3g}", apart) : "about " + guess.substr(0, guess.size() - 1),
+        factor > 1 ? "small" : "large", guess.empty() ? "" : ", as if drawn in another unit");
+}
+
 void judge(const System& system, const Finished& finished, const Diagnosis& diagnosis,
            FitResult& result) {
     std::vector<std::string> broken;
@@ -164,6 +209,11 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
     const auto end = [&](FitStatus status, std::string message) {
         result.status = status;
         result.message = std::move(message);
+        if (!result.vanishing_edges.empty() && status != FitStatus::not_converged) {
+            result.message += fmt::format("; the readings want edge {} to have no length",
+                                          names(result.vanishing_edges));
+        }
+        for (const std::string& note : result.notes) result.message += "; " + note;
         if (!diagnosis.analysed) {
             result.message +=
                 "; the stone is too large for uncertainties and suspects: none are given";
@@ -171,15 +221,39 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
     };
     if (!broken.empty()) {
         return end(FitStatus::contradictory,
-                   fmt::format("exact readings contradict each other: {}", names(broken)));
+                   fmt::format("exact readings contradict each other: {}",
+                               names(result.disagreeing.empty() ? broken : result.disagreeing)));
     }
     if (!result.missing_facets.empty()) {
         return end(FitStatus::not_converged,
                    fmt::format("the fitted planes leave no room for facet {}",
                                names(result.missing_facets)));
     }
+    for (const ShapeFinding& f : result.shape_findings) {
+        if (f.kind == ShapeFinding::Kind::facet_vanishes) {
+            return end(FitStatus::not_converged,
+                       f.what + "; leave it out of the mesh, or allow the topology to change");
+        }
+    }
     if (finished.worst_hard > k_hard_limit) {
         return end(FitStatus::not_converged, "the facets and meets could not be brought together");
+    }
+    // Under the hypothesis that an edge has a length at all, chi-square with one freedom for each.
+    if (!result.vanishing_edges.empty() &&
+        chi2_tail(result.vanishing_chi2, double(result.vanishing_edges.size())) <
+            result.options.significance) {
+        return end(FitStatus::not_converged,
+                   fmt::format("the readings want edge {} to have no length, and agree with the "
+                               "mesh's facets only at a loss (chi2 {:.1f} more)",
+                               names(result.vanishing_edges), result.vanishing_chi2));
+    }
+    if (!system.stone().convex) {
+        const std::vector<Fault> faults =
+            find_faults(result.solid, {.planarity = k_planarity, .must_be_convex = false});
+        if (!faults.empty()) {
+            return end(FitStatus::not_converged,
+                       "the fitted stone is not sound: " + faults.front().what);
+        }
     }
     if (!result.closed || (!result.convex && system.stone().convex)) {
         const std::vector<Fault> faults = find_faults(
@@ -198,18 +272,21 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
                    fmt::format("no end after {} steps; raise the limit, or look at the suspects",
                                finished.iterations));
     }
+    for (const ShapeFinding& f : result.shape_findings) {
+        if (f.kind == ShapeFinding::Kind::edge_vanishes && f.p < result.options.significance) {
+            return end(FitStatus::contradictory, f.what + "; allow the topology to change");
+        }
+    }
     if (result.dof > 0 && result.chi2_p < result.options.significance) {
-        return end(
-            FitStatus::contradictory,
-            fmt::format("the readings do not agree within their uncertainties: chi2 {:.1f} "
-                        "for {:.1f} degrees of freedom (limit {:.1f} at the {:g} level){}",
-                        result.chi2, result.dof, result.chi2_limit, result.options.significance,
-                        result.suspects.empty() ? "" : "; look at " + names(result.suspects)));
+        return end(FitStatus::contradictory,
+                   fmt::format("the readings do not agree within their uncertainties: chi2 {:.1f} "
+                               "for {:.1f} degrees of freedom (limit {:.1f} at the {:g} level){}",
+                               result.chi2, result.dof, result.chi2_limit,
+                               result.options.significance, contradiction(result)));
     }
     if (!result.suspects.empty()) {
-        return end(
-            FitStatus::contradictory,
-            fmt::format("readings that cannot belong to the others: {}", names(result.suspects)));
+        return end(FitStatus::contradictory,
+                   "readings that cannot belong to the others" + contradiction(result));
     }
     if (result.undetermined_freedoms > 0) {
         std::vector<std::string> facets;
@@ -221,7 +298,8 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
                                "readings{}",
                                result.undetermined_freedoms,
                                result.undetermined_freedoms == 1 ? " is" : "s are",
-                               facets.empty() ? "" : " (facets " + names(facets) + ")"));
+                               facets.empty() ? "" : " (facets " + names(facets) + ")") +
+                       (result.help.empty() ? "" : "; most would help: " + words(result.help[0])));
     }
     end(FitStatus::converged,
         fmt::format("chi2 {:.1f} for {:.1f} degrees of freedom", result.chi2, result.dof));
@@ -229,30 +307,43 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
 
 }  // namespace
 
-FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
+FitResult fit_stone(const Stone& drawn, const std::vector<Reading>& readings,
                     const FitOptions& options, const Progress& progress) {
     const auto begin = std::chrono::steady_clock::now();
+    const std::optional<Stone> mirrored = mirrored_to_azimuths(drawn, readings);
+    const Stone& stone = mirrored ? *mirrored : drawn;
     System system(stone, readings, options);
     FitResult result;
     result.options = options;
+    if (options.allow_topology) result.options.findings = true;
     result.unit = stone.unit;
 
-    // Starts in the order of trust: the mesh as it is, then the angles that were read.
-    Candidate best = from_start(system, {system.mesh_shape(), false}, options, progress);
-    const auto passes = [&](const Candidate& c) {
-        if (!c.sound || !c.finished.converged) return false;
-        if (system.has_estimated_groups()) return true;
-        const Diagnosis d = diagnose(system, c.finished.shape, c.finished.outline, {.full = false});
-        return chi2_tail(d.chi2, d.dof) > options.significance;
-    };
-    if (!passes(best)) {
-        Candidate other = from_start(system, start_from_angles(system), options, progress);
-        const auto rank = [](const Candidate& c) {
-            return std::make_tuple(!c.sound, !(c.finished.worst_hard < k_hard_limit),
-                                   !c.finished.converged, c.finished.chi2);
-        };
-        if (rank(other) < rank(best)) best = std::move(other);
+    std::optional<Candidate> again;
+    if (const auto shape = options.start ? shape_of(system, *options.start) : std::nullopt) {
+        again = finish_from(system, *shape, options.iterations);
     }
+    const bool goes_on = again && again->sound && again->finished.converged &&
+                         again->finished.worst_hard < k_hard_limit;
+    Portfolio portfolio;
+    if (goes_on) {
+        portfolio.best = std::move(*again);
+        portfolio.best.start = "earlier result";
+    } else {
+        portfolio = fit_from_starts(system, options, progress);
+    }
+    Candidate& best = portfolio.best;
+    const std::vector<double> weights =
+        options.loss == Loss::none ? std::vector<double>()
+                                   : reweight(system, best, options.loss, options.iterations);
+    result.starts = portfolio.starts;
+    result.start = best.start;
+    result.vanishing_edges = vanishing(system, best.held);
+    result.vanishing_chi2 = best.cost_of_holding;
+    if (mirrored) {
+        result.notes.push_back(
+            "by the azimuths read, the mesh is the mirror image of the stone: it was mirrored");
+    }
+    if (const std::string note = other_size(system); !note.empty()) result.notes.push_back(note);
     if (progress && !progress(0.7)) throw Interrupted();
     if (system.has_estimated_groups()) {
         estimate_sigmas(system, best.finished, options, progress);
@@ -260,8 +351,18 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     if (progress && !progress(0.95)) throw Interrupted();
 
     const Finished& finished = best.finished;
-    const Diagnosis diagnosis =
-        diagnose(system, finished.shape, finished.outline, {.significance = options.significance});
+    const Diagnosis diagnosis = [&] {
+        Diagnosis plain = diagnose(system, finished.shape, finished.outline,
+                                   {.significance = options.significance});
+        if (!needs_robust_view(plain) || options.loss != Loss::none) return plain;
+        // A gross error bends the whole stone: look for it from a fit that it does not pull.
+        System reweighted = system;
+        Candidate robust = best;
+        reweight(reweighted, robust, Loss::cauchy, options.iterations);
+        if (!robust.sound || !robust.finished.outline) return plain;
+        return diagnose(system, finished.shape, finished.outline,
+                        {.significance = options.significance, .seen_from = &robust.finished});
+    }();
     const System::Pose pose = system.pose_of(finished.shape);
     result.missing_facets = make_solid(system, finished.shape, pose, result);
     result.planarity_max = planarity(result.solid);
@@ -317,12 +418,29 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
         fitted.detectable = c.detectable;
         fitted.suspect = c.suspect;
         fitted.exact = reading.exact;
+        fitted.rounding = reading.rounding;
+        if (!weights.empty()) fitted.weight = weights[r];
         result.readings.push_back(std::move(fitted));
     }
     for (int s : diagnosis.suspects) result.suspects.push_back(readings[s].id);
+    assess(system, finished, diagnosis, result);
+    std::vector<HeldCorner> held;
+    for (const Held& h : best.held) held.push_back({h.facet, h.point});
+    describe_findings(system, finished, held, diagnosis, pose, result);
+    const auto declares = [](const Reading& r) {
+        return r.kind == ReadingKind::rotation || r.kind == ReadingKind::mirror;
+    };
+    if (options.find_symmetry && std::any_of(readings.begin(), readings.end(), declares)) {
+        result.symmetry = find_symmetry(stone, readings, options, progress);
+    }
     judge(system, finished, diagnosis, result);
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    if (options.allow_topology) {
+        result = fit_with_changes(stone, readings, options, std::move(result), progress);
+        result.seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    }
     if (progress) progress(1);
     return result;
 }

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "fit/assessment.h"
+#include "fit/findings.h"
 #include "fit/measurement.h"
 #include "stone/progress.h"
 #include "stone/stone.h"
@@ -23,6 +25,10 @@ enum class MeetTreatment {
     released  ///< meets of more than three planes come apart freely
 };
 
+/// How readings that are far off count: as least squares has it, or less (see robust.h).
+enum class Loss { none, huber, cauchy };
+const char* name_of(Loss loss);
+
 struct FitOptions {
     /// Of meets of more than three facets that no `meet` reading speaks of.
     MeetTreatment meets = MeetTreatment::exact;
@@ -31,13 +37,26 @@ struct FitOptions {
     std::optional<double> meet_sigma;
     /// Largest number of steps of the last stage.
     int iterations = 100;
+    /// Most starts that are tried before the best of what they gave is returned; see starts.h.
+    int starts = 13;
     /// Family level of both tests: the chi-square test of all readings, and (shared out among them
     /// by Bonferroni) the test of each.
     double significance = 0.001;
+    Loss loss = Loss::none;
+    /// An earlier result of the same mesh and nearly the same readings: the fit goes on from there
+    /// and looks for no other start, unless it cannot get there.
+    std::optional<Solid> start;
+    /// Find out about the stone's own axis, contradicted meets, and edges and facets that the
+    /// readings leave open or deny.
+    bool findings = true;
+    /// Propose the stone's symmetry.
+    bool find_symmetry = false;
+    /// Edges and facets that the readings deny may change or go, contradicted meets come apart.
+    bool allow_topology = false;
 };
 
 /// The [fit] table of a stone file: `meets` = "exact" | "soft" | "released", `meet_sigma`,
-/// `iterations`, `significance`. Throws InputError.
+/// `iterations`, `starts`, `significance`, `loss` = "none" | "huber" | "cauchy". Throws InputError.
 FitOptions read_fit_options(const std::filesystem::path& stone_file,
                             const std::vector<std::string>& overrides = {});
 
@@ -53,6 +72,7 @@ struct FittedFacet {
     std::string name;
     Plane plane;
     double inclination = 0, azimuth = 0;  ///< radians; azimuth in the frame of the fitted solid
+    double inclination_own_axis = 0;      ///< NaN when the stone has no axis of its own
     double sigma_inclination = 0, sigma_azimuth = 0;  ///< radians; azimuth: NaN for level facets
     double sigma_offset = 0;  ///< of the plane's distance from the middle of the stone
     double area = 0;          ///< of the facet in the result; 0: not there
@@ -68,6 +88,8 @@ struct FittedReading {
     double redundancy = 0;  ///< 0: nothing checks this reading; 1: it adds nothing
     double detectable = 0;  ///< smallest error that the test would find, 80 times in 100; 0: none
     bool suspect = false, exact = false;
+    double rounding = 0;  ///< step of the instrument; 0: none
+    double weight = 1;    ///< left to it by a robust loss
 };
 
 struct Undetermined {
@@ -93,8 +115,28 @@ struct FitResult {
     std::vector<FittedReading> readings;
     std::vector<Undetermined> undetermined;
     std::vector<std::string> suspects;  ///< ids, the worst first
+    std::vector<Proposal> proposals;    ///< for the suspects
+    /// The smallest set of readings that cannot hold together, where there is a contradiction.
+    std::vector<std::string> disagreeing;
+    std::vector<std::string> undetermined_words;  ///< what nothing fixes, one sentence each
+    std::vector<NextReading> help;                ///< the best further readings, the best first
+    std::vector<FittedProportion> proportions;
     std::vector<std::string> missing_facets;
+    /// Edges that the readings want to have no length, as `A/B`: they are kept at a hair's.
+    std::vector<std::string> vanishing_edges;
+    double vanishing_chi2 = 0;  ///< what keeping them costs
+    int starts = 0;             ///< tried
+    std::string start;          ///< that the result came from
+    /// What was done to the mesh before it could be fitted: turned round, scaled, ...
+    std::vector<std::string> notes;
     MeetReport meets;
+    OwnAxis own_axis;
+    std::vector<Tier> tiers;
+    std::vector<MeetFinding> meet_findings;
+    std::vector<ShapeFinding> shape_findings;
+    std::vector<ExtraFacet> extra_facets;
+    std::optional<SymmetryReport> symmetry;  ///< when it was looked for
+    std::vector<std::string> changes;        ///< of the topology, in their order
     double planarity_max = 0;
     bool closed = false, convex = false;
     double chi2 = 0, dof = 0, chi2_limit = 0, chi2_p = 1;

@@ -7,12 +7,25 @@
 
 namespace culet {
 
+const char* name_of(Loss loss) {
+    switch (loss) {
+        case Loss::none:
+            return "none";
+        case Loss::huber:
+            return "huber";
+        case Loss::cauchy:
+            return "cauchy";
+    }
+    return "none";
+}
+
 FitOptions read_fit_options(const std::filesystem::path& stone_file,
                             const std::vector<std::string>& overrides) {
     FitOptions options;
     const auto table = read_toml(stone_file, overrides).table("fit");
     if (!table) return options;
-    table->refuse_unknown({"meets", "meet_sigma", "iterations", "significance"});
+    table->refuse_unknown({"meets", "meet_sigma", "iterations", "starts", "significance", "loss",
+                           "find_symmetry", "allow_topology"});
     if (const auto meets = table->text("meets")) {
         if (*meets == "exact") {
             options.meets = MeetTreatment::exact;
@@ -24,6 +37,17 @@ FitOptions read_fit_options(const std::filesystem::path& stone_file,
             table->fail("meets", "`meets` of [fit] must be \"exact\", \"soft\" or \"released\"");
         }
     }
+    if (const auto loss = table->text("loss")) {
+        if (*loss == "huber") {
+            options.loss = Loss::huber;
+        } else if (*loss == "cauchy") {
+            options.loss = Loss::cauchy;
+        } else if (*loss != "none") {
+            table->fail("loss", "`loss` of [fit] must be \"none\", \"huber\" or \"cauchy\"");
+        }
+    }
+    options.find_symmetry = table->boolean("find_symmetry").value_or(false);
+    options.allow_topology = table->boolean("allow_topology").value_or(false);
     if (table->kind("meet_sigma") == TomlTable::Kind::number) {
         options.meet_sigma = table->number("meet_sigma");
     }
@@ -40,6 +64,12 @@ FitOptions read_fit_options(const std::filesystem::path& stone_file,
                         "`iterations` of [fit] must be a whole number of steps, 1 or more");
         }
         options.iterations = static_cast<int>(*iterations);
+    }
+    if (const auto starts = table->integer("starts")) {
+        if (*starts < 1 || *starts > 1000) {
+            table->fail("starts", "`starts` of [fit] must be a whole number from 1 to 1000");
+        }
+        options.starts = static_cast<int>(*starts);
     }
     if (const auto significance = table->number("significance")) {
         if (!(*significance > 0 && *significance < 0.5)) {

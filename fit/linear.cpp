@@ -13,6 +13,7 @@ using Triplets = RowWriter::Triplets;
 // What a step of one means for each unknown: a mesh may be off by 20 % of its width in its points;
 // tilts, offsets and extras are of the order of one.
 constexpr double k_point_weight = 1 / (0.4 * 0.4);
+constexpr double k_loose_point_weight = 1e-3;
 constexpr double k_repeat = 1e-13;
 constexpr double k_hinge_sigma = 1e-4;
 
@@ -66,7 +67,9 @@ bool unseen(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows, const Eige
         double sum = 0, size = 0;
         for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, i); it; ++it) {
             sum += it.value() * g(it.col());
-            size += std::abs(it.value() * g(it.col()));
+            // A level facet's normal is off the vertical by rounding: what a turn does to that is
+            // no sight of it.
+            size += std::abs(it.value()) * std::max(std::abs(g(it.col())), 1e-6);
         }
         if (std::abs(sum) > 1e-9 * size) return false;
     }
@@ -120,12 +123,12 @@ void RowWriter::write(const Quantity& quantity, int row, double factor, Triplets
     }
 }
 
-Eigen::RowVectorXd RowWriter::row(const Quantity& quantity) const {
+Eigen::SparseVector<double> RowWriter::function(const Quantity& quantity) const {
     Triplets entries;
     write(quantity, 0, 1, entries);
-    Eigen::RowVectorXd dense = Eigen::RowVectorXd::Zero(layout_.size());
-    for (const auto& entry : entries) dense(entry.col()) += entry.value();
-    return dense;
+    Eigen::SparseVector<double> row(layout_.size());
+    for (const auto& entry : entries) row.coeffRef(entry.col()) += entry.value();
+    return row;
 }
 
 Linearised linearise(const System& system, const Shape& shape,
@@ -170,7 +173,19 @@ Linearised linearise(const System& system, const Shape& shape,
     linear.metric = Eigen::VectorXd::Ones(unknowns);
     linear.metric.segment(linear.layout.point(0), 3 * linear.layout.points)
         .setConstant(k_point_weight);
-    for (Eigen::VectorXd& g : rigid_motions(system, shape)) {
+    // The point of a meet that was let go belongs to nothing: wherever it lies, nothing is open.
+    std::vector<bool> held_point(std::size_t(linear.layout.points), false);
+    for (const Incidence& incidence : system.incidences()) {
+        if (incidence.how != MeetTreatment::released)
+            held_point[std::size_t(incidence.point)] = true;
+    }
+    for (int p = 0; p < linear.layout.points; ++p) {
+        if (held_point[std::size_t(p)]) continue;
+        linear.metric.segment(linear.layout.point(p), 3).setConstant(k_loose_point_weight);
+    }
+    std::vector<Eigen::VectorXd> motions = rigid_motions(system, shape);
+    linear.turn = motions[5];
+    for (Eigen::VectorXd& g : motions) {
         if (unseen(linear.soft_rows, g) && unseen(linear.hard_rows, g)) {
             linear.gauge_rows.push_back(linear.metric.cwiseProduct(g));
             linear.gauge_rows.back().normalize();
@@ -223,6 +238,11 @@ ConstrainedSolver::ConstrainedSolver(const Linearised& linear, double damping, b
 
 Eigen::VectorXd ConstrainedSolver::solve(const Eigen::VectorXd& unknowns,
                                          const Eigen::VectorXd& hard) const {
+    return solve_with_multipliers(unknowns, hard).head(unknowns_);
+}
+
+Eigen::VectorXd ConstrainedSolver::solve_with_multipliers(const Eigen::VectorXd& unknowns,
+                                                          const Eigen::VectorXd& hard) const {
     Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns_ + hard_ + gauges_);
     right.head(unknowns_) = unknowns;
     right.segment(unknowns_, hard_) = hard;
@@ -230,7 +250,7 @@ Eigen::VectorXd ConstrainedSolver::solve(const Eigen::VectorXd& unknowns,
     // One refinement: the weights span many powers of ten.
     const Eigen::VectorXd rest = right - matrix_ * solution;
     solution += factors_->solve(rest);
-    return solution.head(unknowns_);
+    return solution.head(unknowns_ + hard_);
 }
 
 }  // namespace culet

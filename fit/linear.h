@@ -17,7 +17,7 @@ public:
     using Triplets = std::vector<Eigen::Triplet<double>>;
     explicit RowWriter(const Shape& shape);
     void write(const Quantity& quantity, int row, double factor, Triplets& to) const;
-    Eigen::RowVectorXd row(const Quantity& quantity) const;
+    Eigen::SparseVector<double> function(const Quantity& quantity) const;
 
 private:
     Layout layout_;
@@ -33,6 +33,8 @@ struct Linearised {
     Eigen::VectorXd hard_residuals;
     /// Motions that no equation sees (shifts, turns), weighted: held at zero.
     std::vector<Eigen::VectorXd> gauge_rows;
+    /// The turn of the whole stone about up, seen or not; steps.
+    Eigen::VectorXd turn;
     Eigen::VectorXd metric;  ///< diagonal: what counts as a step of one, for each unknown
 
     double chi2() const;   ///< of the counted equations
@@ -53,6 +55,10 @@ public:
     bool usable() const { return usable_; }
     /// Solves for the unknowns with right-hand sides for unknowns and hard equations.
     Eigen::VectorXd solve(const Eigen::VectorXd& unknowns, const Eigen::VectorXd& hard) const;
+    /// The same, with the multipliers of the hard equations below the unknowns: at a minimum of the
+    /// soft equations, gradient + A' multipliers = 0.
+    Eigen::VectorXd solve_with_multipliers(const Eigen::VectorXd& unknowns,
+                                           const Eigen::VectorXd& hard) const;
 
 private:
     Eigen::Index unknowns_ = 0, hard_ = 0, gauges_ = 0;

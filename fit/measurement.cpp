@@ -124,7 +124,7 @@ bool truth(const std::filesystem::path& file, long line, const std::string& colu
 
 WrittenReading reading_of_table(const TomlTable& table) {
     table.refuse_unknown(
-        {"kind", "of", "value", "sigma", "exact", "released", "datum", "id", "note"});
+        {"kind", "of", "value", "sigma", "exact", "released", "datum", "id", "note", "rounding"});
     WrittenReading reading;
     reading.file = table.file();
     reading.line = table.line();
@@ -136,6 +136,7 @@ WrittenReading reading_of_table(const TomlTable& table) {
     }
     reading.value = table.number("value");
     reading.sigma = table.number("sigma");
+    reading.rounding = table.number("rounding");
     reading.exact = table.boolean("exact").value_or(false);
     reading.released = table.boolean("released").value_or(false);
     reading.datum = table.text("datum").value_or(std::string());
@@ -177,9 +178,9 @@ std::vector<WrittenReading> read_readings_csv(const std::filesystem::path& file)
         throw InputError(file, "no readings: expected the header kind,of,value,sigma");
     }
     const std::vector<std::string>& header = rows.front().fields;
-    static constexpr std::array<const char*, 9> columns{
-        "kind", "of", "value", "sigma", "exact", "released", "datum", "id", "note"};
-    std::array<int, 9> at{};
+    static constexpr std::array<const char*, 10> columns{
+        "kind", "of", "value", "sigma", "exact", "released", "datum", "id", "note", "rounding"};
+    std::array<int, 10> at{};
     at.fill(-1);
     for (std::size_t i = 0; i < header.size(); ++i) {
         bool known = false;
@@ -196,7 +197,7 @@ std::vector<WrittenReading> read_readings_csv(const std::filesystem::path& file)
             throw InputError(file, rows.front().line,
                              "unknown column '" + header[i] +
                                  "'; expected the header kind,of,value,sigma (and exact, released, "
-                                 "datum, id, note)");
+                                 "datum, id, note, rounding)");
         }
     }
     for (std::size_t c = 0; c < 4; ++c) {
@@ -234,6 +235,7 @@ std::vector<WrittenReading> read_readings_csv(const std::filesystem::path& file)
         reading.datum = field(6);
         reading.id = field(7);
         reading.note = field(8);
+        if (!field(9).empty()) reading.rounding = number(file, row.line, "rounding", field(9));
         readings.push_back(std::move(reading));
     }
     return readings;

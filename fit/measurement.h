@@ -44,7 +44,7 @@ struct WrittenReading {
     std::string id;  ///< empty: none given
     std::string kind;
     std::vector<std::string> of;
-    std::optional<double> value, sigma;
+    std::optional<double> value, sigma, rounding;
     bool exact = false, released = false;
     std::string datum, note;
     std::filesystem::path file;
@@ -57,7 +57,8 @@ std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_fil
                                           const std::vector<std::string>& overrides = {});
 
 /// The rows of a readings.csv: header `kind,of,value,sigma` and any of `exact`, `released`,
-/// `datum`, `id`, `note`, in any order. Fields may be quoted; `#` starts a comment line.
+/// `datum`, `id`, `note`, `rounding`, in any order. Fields may be quoted; `#` starts a comment
+/// line.
 std::vector<WrittenReading> read_readings_csv(const std::filesystem::path& file);
 
 /// Several facets may share one reading through mean(), min() and max().
@@ -94,6 +95,7 @@ struct Reading {
     /// In the same unit; relations: length (meet, coplanar) or radians. 0 of a meet
     /// that is neither exact nor released: estimated from the data.
     double sigma = 0;
+    double rounding = 0;  ///< step to which the instrument rounds, in the same unit; 0: none
     bool exact = false, released = false;
     std::string note;
     std::filesystem::path file;

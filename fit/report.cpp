@@ -4,6 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "fit/fit.h"
+#include "fit/report_assessment.h"
+#include "fit/report_findings.h"
+#include "fit/summary.h"
 #include "stone/units.h"
 
 namespace culet {
@@ -41,6 +44,7 @@ std::string fit_report(const FitResult& result) {
     report["schema"] = 1;
     report["status"] = name_of(result.status);
     report["message"] = result.message;
+    report["summary"] = fit_summary(result);
     report["unit"] = std::string(name_of(result.unit));
     Json facets = Json::array();
     for (const FittedFacet& f : result.facets) {
@@ -76,6 +80,7 @@ std::string fit_report(const FitResult& result) {
              {"redundancy", number(r.redundancy)},
              {"detectable", r.detectable > 0 ? number(unit * r.detectable) : Json(nullptr)},
              {"suspect", r.suspect}});
+        if (r.rounding > 0) readings.back()["rounding"] = number(unit * r.rounding);
     }
     report["readings"] = readings;
     Json undetermined = Json::array();
@@ -87,6 +92,10 @@ std::string fit_report(const FitResult& result) {
     report["suspects"] = result.suspects;
     report["suspect_limit"] = result.suspect_limit;
     report["missing_facets"] = result.missing_facets;
+    report["vanishing_edges"] = result.vanishing_edges;
+    report["starts"] = result.starts;
+    report["start"] = result.start;
+    report["notes"] = result.notes;
     report["meets"] = {{"exact", result.meets.exact},
                        {"soft", result.meets.soft},
                        {"released", result.meets.released},
@@ -95,6 +104,7 @@ std::string fit_report(const FitResult& result) {
                        {"sigma_estimated", result.meets.estimated},
                        {"miss_rms", result.meets.miss_rms},
                        {"miss_max", result.meets.miss_max}};
+    add_findings(result, report);
     report["planarity_max"] = result.planarity_max;
     report["closed"] = result.closed;
     report["convex"] = result.convex;
@@ -110,6 +120,7 @@ std::string fit_report(const FitResult& result) {
         {"meet_sigma", result.options.meet_sigma ? Json(*result.options.meet_sigma) : Json("auto")},
         {"iterations", result.options.iterations},
         {"significance", result.options.significance}};
+    report_assessment(result, report);
     return report.dump(1) + "\n";
 }
 

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <set>
 
+#include "fit/canonical.h"
+#include "fit/rounding.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
 
@@ -52,15 +54,22 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
                          (faults.empty() ? std::string() : ": " + faults.front().what) +
                          "; `culet info` lists its faults");
     }
-    if (!(volume(solid_) > 0)) {
+    edges_ = half_edges(solid_);
+    if (!(volume(solid_) > 0) && (!stone.convex || lies_mirrored(solid_, edges_))) {
         throw InputError(
             "the mesh is inside out: its facets run clockwise seen from outside; turn them round");
     }
-    edges_ = half_edges(solid_);
     bring_upright();
     list_incidences(options);
     add_extras();
+    find_exchanges();
     pair_facets();
+    list_exact_motions();
+    std::vector<std::pair<int, int>> alike;
+    for (std::size_t r = 0; r < readings_.size(); ++r) {
+        if (readings_[r].exact) alike.insert(alike.end(), pairs_[r].begin(), pairs_[r].end());
+    }
+    widen_for_rounding(readings_, alike, int(solid_.facets.size()));
 }
 
 void System::bring_upright() {
@@ -106,6 +115,28 @@ void System::bring_upright() {
         if (mine > 0 && r.value > 0) {
             log_sum += std::log(r.value / mine);
             ++lengths;
+        }
+    }
+    if (lengths == 0) {
+        // Single edges say less: the middle one of what they say.
+        std::vector<double> ratios;
+        for (const Reading& r : readings_) {
+            if (r.kind != ReadingKind::edge || r.facets.size() != 2 || !(r.value > 0)) continue;
+            for (const Edge& e : edges_.edges) {
+                if (std::minmax(e.left, e.right) != std::minmax(r.facets[0], r.facets[1])) continue;
+                const double mine = glm::length(solid_.vertices[e.from] - solid_.vertices[e.to]);
+                if (mine > 0) ratios.push_back(std::log(r.value / mine));
+                break;
+            }
+        }
+        if (!ratios.empty()) {
+            const auto middle = ratios.begin() + std::ptrdiff_t(ratios.size() / 2);
+            std::nth_element(ratios.begin(), middle, ratios.end());
+            // Within the errors of a drawing, the mesh's own size is as good.
+            if (std::abs(*middle) > std::log(3.0)) {
+                log_sum = *middle;
+                lengths = 1;
+            }
         }
     }
     mesh_scale_ = lengths > 0 ? std::exp(log_sum / lengths) : 1;
@@ -283,6 +314,11 @@ std::vector<int> all_facets(const Shape& shape) {
 std::vector<int> System::rotation_partners(const Reading& reading) const {
     const std::vector<int> facets =
         reading.facets.empty() ? all_facets(mesh_shape_) : reading.facets;
+    if (const auto& exchange = exchanges_[std::size_t(&reading - readings_.data())]) {
+        std::vector<int> images;
+        for (int f : facets) images.push_back(exchange->facets[f]);
+        return images;
+    }
     const double angle = 2 * std::numbers::pi / reading.order;
     std::vector<int> found = partners(mesh_shape_, facets, [&](const Plane& plane) {
         return Plane{about_z(plane.normal, angle), plane.offset};
@@ -314,6 +350,11 @@ std::vector<int> System::rotation_partners(const Reading& reading) const {
 std::vector<int> System::mirror_partners(const Reading& reading) const {
     const std::vector<int> facets =
         reading.facets.empty() ? all_facets(mesh_shape_) : reading.facets;
+    if (const auto& exchange = exchanges_[std::size_t(&reading - readings_.data())]) {
+        std::vector<int> images;
+        for (int f : facets) images.push_back(exchange->facets[f]);
+        return images;
+    }
     const Vec3 m{std::cos(reading.azimuth), std::sin(reading.azimuth), 0};
     const std::vector<int> found = partners(mesh_shape_, facets, [&](const Plane& plane) {
         return Plane{plane.normal - 2 * glm::dot(m, plane.normal) * m, plane.offset};
@@ -384,22 +425,36 @@ double System::unit_of(const Reading& reading) const {
     }
 }
 
+Quantity System::turn_of(const Shape& shape) const {
+    Quantity turn;
+    if (stone_.azimuth_from_mesh) return turn;
+    // Kabsch (1976) about one axis.
+    const std::size_t count = solid_.vertices.size();
+    Vec3 mean(0), mesh_mean(0);
+    for (std::size_t v = 0; v < count; ++v) {
+        mean += shape.points[v] / double(count);
+        mesh_mean += solid_.vertices[v] / double(count);
+    }
+    double east = 0, north = 0;
+    for (std::size_t v = 0; v < count; ++v) {
+        const Vec3 p = shape.points[v] - mean, q = solid_.vertices[v] - mesh_mean;
+        east += p.x * q.x + p.y * q.y;
+        north += p.x * q.y - p.y * q.x;
+    }
+    turn.value = std::atan2(north, east) - turn_;
+    const double size = east * east + north * north;
+    for (std::size_t v = 0; v < count && size > 0; ++v) {
+        const Vec3 q = solid_.vertices[v] - mesh_mean;
+        turn.add(Quantity::By::point, int(v),
+                 Vec3{east * q.y - north * q.x, -east * q.x - north * q.y, 0} / size);
+    }
+    return turn;
+}
+
 System::Pose System::pose_of(const Shape& shape) const {
     Pose pose;
-    pose.turn = 0;
     const std::size_t count = solid_.vertices.size();
-    if (!stone_.azimuth_from_mesh) {
-        // Kabsch (1976) about one axis.
-        Vec3 mean(0);
-        for (std::size_t v = 0; v < count; ++v) mean += shape.points[v] / double(count);
-        double east = 0, north = 0;
-        for (std::size_t v = 0; v < count; ++v) {
-            const Vec3 p = shape.points[v] - mean, q = solid_.vertices[v];
-            east += p.x * q.x + p.y * q.y;
-            north += p.x * q.y - p.y * q.x;
-        }
-        pose.turn = std::atan2(north, east) - turn_;
-    }
+    pose.turn = turn_of(shape).value;
     Vec3 mean(0);
     for (std::size_t v = 0; v < count; ++v) mean += shape.points[v] / double(count);
     pose.shift = middle_ - times_transposed(outward_, about_z(mean, pose.turn)) * scale_;

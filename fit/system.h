@@ -2,10 +2,12 @@
 // The equations of one fit: which readings, meets and relations bind which unknowns.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "fit/fit.h"
+#include "fit/freedoms.h"
 #include "fit/measurement.h"
 #include "fit/residuals.h"
 #include "stone/half_edges.h"
@@ -25,10 +27,17 @@ struct Equation {
     Role role = Role::reading;
     int reading = -1;  ///< index, or -1
     int incidence = -1;
-    int group = -1;  ///< of estimated uncertainty, or -1
+    int facet = -1, point = -1;  ///< of held corners: which stays below which
+    int group = -1;              ///< of estimated uncertainty, or -1
     bool exact = false;
     double value = 0, sigma = 1;
     double size = 1;  ///< of the quantity, by which early stages soften it
+    /// What the reading may as well mean: of a nearly upright facet an inclination does not say
+    /// whether it leans in or out.
+    std::optional<double> other_value;
+    /// Of a caliper: the corners that its jaws touch, the upper one first, along this direction.
+    std::array<Corner, 2> touched{};
+    Vec3 caliper{0, 0, 0};
     Formula formula;
 
     /// Takes part in chi-square and in the count of redundancy.
@@ -68,10 +77,28 @@ public:
     const std::array<double, 2>& group_sigmas() const { return group_sigmas_; }
     void set_group_sigma(int group, double sigma) { group_sigmas_[std::size_t(group)] = sigma; }
     bool has_estimated_groups() const;
+    /// Of a reading from now on, in its unit (robust weights).
+    void set_reading_sigma(int reading, double sigma) {
+        readings_[std::size_t(reading)].sigma = sigma;
+    }
 
     /// All equations but prior and hinges, for the corners that carry them at this shape.
     std::vector<Equation> equations(const Shape& shape,
                                     const std::shared_ptr<const Outline>& outline) const;
+    /// Of these, what the readings say; `reduced`: but for symmetry that `freedoms` takes care of.
+    std::vector<Equation> reading_equations(const Shape& shape,
+                                            const std::shared_ptr<const Outline>& outline,
+                                            bool reduced = false) const;
+    /// By how much a plane may pass its meet: 0 when exact.
+    double incidence_sigma(const Incidence& incidence) const;
+    bool has_exact_readings() const;
+    /// The motions of exact rotations and mirrors of the whole stone. Empty when a reading would
+    /// see how they are turned about the axis (a mirror of facets in pairs, beside azimuths), or
+    /// when some meet is not exact.
+    const std::vector<SymmetryMotion>& exact_motions() const { return exact_motions_; }
+    /// What the solver varies.
+    Freedoms freedoms() const;
+
     /// Every corner of a neighbour stays below every facet (mesh outline, points).
     std::vector<Equation> hinges() const;
     /// The mesh's points, as far as a hand-made mesh may be off.
@@ -88,6 +115,8 @@ public:
     /// The solid of the mesh's own facets and the shape's points.
     Solid met_solid(const Shape& shape) const;
 
+    /// By how much the mesh was made larger to suit the lengths read.
+    double mesh_scale() const { return mesh_scale_; }
     /// Length of the stone's unit that is 1 inside.
     double scale() const { return scale_; }
     /// Within 10 degrees of upright in the mesh.
@@ -101,6 +130,8 @@ public:
         Vec3 shift{0, 0, 0};
     };
     Pose pose_of(const Shape& shape) const;
+    /// The pose's turn, with its derivatives by the points; none when azimuths count from the mesh.
+    Quantity turn_of(const Shape& shape) const;
     Vec3 outside_point(const Vec3& p, const Pose& pose) const;
     Plane outside_plane(const Plane& plane, const Pose& pose) const;
     /// Where azimuth 0 of the readings lies in the outside frame.
@@ -118,6 +149,8 @@ private:
     void pair_facets();
     std::vector<int> rotation_partners(const Reading& reading) const;
     std::vector<int> mirror_partners(const Reading& reading) const;
+    void find_exchanges();
+    void list_exact_motions();
 
     const Stone& stone_;
     std::vector<Reading> readings_;
@@ -128,6 +161,9 @@ private:
     std::vector<Incidence> incidences_;
     std::vector<int> first_extra_;
     std::vector<std::vector<std::pair<int, int>>> pairs_;  // facets, of symmetry readings
+    std::vector<std::optional<Automorphism>> exchanges_;   // of symmetry readings of all facets
+    std::vector<SymmetryMotion> exact_motions_;
+    std::vector<bool> fixed_extras_;
     int up_facet_ = -1;
     bool splits_ = false;
     std::array<double, 2> group_sigmas_{};

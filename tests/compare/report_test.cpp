@@ -9,8 +9,6 @@
 #include <set>
 #include <sstream>
 
-#include "compare/drawing.h"
-#include "compare/html.h"
 #include "stone/errors.h"
 #include "tests/compare/synthetic_pictures.h"
 
@@ -244,75 +242,6 @@ TEST(Report, survives_json_of_unexpected_shape) {
 
 TEST(Report, is_the_same_bytes_each_time) {
     EXPECT_EQ(report_page(full_report()), report_page(full_report()));
-}
-
-// A cube with a bevelled edge: from above one sees its top and the bevel, from below its base.
-TEST(Drawing, shows_the_facets_that_face_the_viewer) {
-    const Solid solid = cube();
-    const std::string crown = draw_facets_svg(solid, ViewSide::crown);
-    const std::string pavilion = draw_facets_svg(solid, ViewSide::pavilion);
-    EXPECT_THAT(crown, HasSubstr("aria-label=\"T\""));
-    EXPECT_THAT(crown, HasSubstr("aria-label=\"C\""));
-    EXPECT_THAT(crown, Not(HasSubstr("aria-label=\"B\"")));
-    EXPECT_THAT(crown, Not(HasSubstr("aria-label=\"E\"")));  // on edge
-    EXPECT_THAT(pavilion, HasSubstr("aria-label=\"B\""));
-    EXPECT_THAT(pavilion, Not(HasSubstr("aria-label=\"T\"")));
-}
-
-// The bevel lies at +x: right of the top as seen from above, and a square fills the drawing.
-TEST(Drawing, has_x_to_the_right_seen_from_above) {
-    const std::string crown = draw_facets_svg(cube(), ViewSide::crown);
-    EXPECT_THAT(crown, HasSubstr("viewBox=\"0 0 1000 1000\""));
-    const std::size_t at = crown.find("points=\"", crown.find("aria-label=\"C\""));
-    std::istringstream points(crown.substr(at + 8, 60));
-    double x = 0;
-    points >> x;
-    EXPECT_GT(x, 500);
-}
-
-TEST(Drawing, of_a_broken_solid_is_empty_or_whole) {
-    Solid solid = cube();
-    EXPECT_EQ(draw_facets_svg(Solid{}, ViewSide::crown), "");
-    solid.vertices[0].x = std::nan("");
-    solid.facets[0].corners.push_back(999);
-    solid.facets[0].corners.push_back(-4);
-    EXPECT_EQ(nesting_fault(draw_facets_svg(solid, ViewSide::crown)), "");
-    for (Vec3& v : solid.vertices) v = Vec3(1, 1, 1);
-    EXPECT_EQ(draw_facets_svg(solid, ViewSide::crown), "");
-}
-
-// RFC 4648, section 10.
-TEST(Html, base64_of_the_published_vectors) {
-    EXPECT_EQ(base64(""), "");
-    EXPECT_EQ(base64("f"), "Zg==");
-    EXPECT_EQ(base64("fo"), "Zm8=");
-    EXPECT_EQ(base64("foo"), "Zm9v");
-    EXPECT_EQ(base64("foob"), "Zm9vYg==");
-    EXPECT_EQ(base64("fooba"), "Zm9vYmE=");
-    EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
-}
-
-TEST(Html, numbers_are_written_for_readers) {
-    EXPECT_EQ(decimals(-0.001, 2), "0.00");
-    EXPECT_EQ(decimals(-1.5, 1),
-              "\xe2\x88\x92"
-              "1.5");
-    EXPECT_EQ(decimals(std::nullopt, 1), "\xe2\x80\x93");
-    EXPECT_EQ(decimals(std::nan(""), 1), "\xe2\x80\x93");
-    EXPECT_EQ(significant(0.00123456), "0.00123");
-    EXPECT_EQ(significant(1234.5), "1234");
-    EXPECT_EQ(significant(0.0), "0");
-    EXPECT_EQ(significant(1e-13),
-              "1.00e\xe2\x88\x92"
-              "13");
-}
-
-TEST(Html, escapes_text_and_replaces_what_is_not_utf8) {
-    EXPECT_EQ(escaped("a<b>&\"'"), "a&lt;b&gt;&amp;&quot;&#39;");
-    EXPECT_EQ(escaped("\xc3\xa9\xe2\x82\xac"), "\xc3\xa9\xe2\x82\xac");
-    EXPECT_EQ(escaped("\xc3"), "\xef\xbf\xbd");
-    EXPECT_EQ(escaped("\xed\xa0\x80"), "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd");  // a surrogate
-    EXPECT_EQ(escaped(std::string("\x1b[2J")), "\xef\xbf\xbd[2J");
 }
 
 }  // namespace

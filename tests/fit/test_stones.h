@@ -207,4 +207,51 @@ inline std::vector<Reading> noisy(std::vector<Reading> readings, unsigned seed) 
     return readings;
 }
 
+/// What an instrument says of the true planes, without lengths that belong to other corners: angles
+/// and distances of each plane from the table's middle, as a scan gives them.
+inline std::vector<Reading> plane_readings(const Solid& design, const Solid& truth,
+                                           double sigma_deg, double sigma) {
+    std::vector<Reading> readings;
+    for (std::size_t f = 0; f < design.facets.size(); ++f) {
+        const int t = find_facet(truth, design.facets[f].name);
+        if (t < 0 || design.facets[f].name == "T") continue;
+        const Vec3& n = truth.facets[std::size_t(t)].plane.normal;
+        if (std::abs(n.z) > 0.1) {
+            readings.push_back(reading(ReadingKind::inclination, {int(f)},
+                                       inclination(n, Vec3{0, 0, 1}), radians(sigma_deg)));
+        } else {
+            // Of facets near upright an inclination does not say to which side they lean; the
+            // angle to a neighbour does.
+            for (const Edge& e : half_edges(design).edges) {
+                if (e.left != int(f) && e.right != int(f)) continue;
+                const int g = e.left == int(f) ? e.right : e.left;
+                const int u = find_facet(truth, design.facets[std::size_t(g)].name);
+                if (u < 0 || std::abs(design.facets[std::size_t(g)].plane.normal.z) < 0.1) continue;
+                const double c = glm::dot(n, truth.facets[std::size_t(u)].plane.normal);
+                readings.push_back(reading(ReadingKind::dihedral, {int(f), g},
+                                           std::numbers::pi - std::acos(c), radians(sigma_deg)));
+                break;
+            }
+        }
+        readings.push_back(reading(ReadingKind::azimuth, {int(f)}, azimuth(n), radians(sigma_deg)));
+    }
+    readings.push_back(depth(truth, sigma));
+    for (int k = 0; k < 16; ++k) readings.push_back(width(truth, 11.25 * k, sigma));
+    // Edges that both have, by name.
+    for (const Edge& e : half_edges(design).edges) {
+        const std::string a = design.facets[std::size_t(e.left)].name,
+                          b = design.facets[std::size_t(e.right)].name;
+        for (const Edge& t : half_edges(truth).edges) {
+            const std::string c = truth.facets[std::size_t(t.left)].name,
+                              d = truth.facets[std::size_t(t.right)].name;
+            if (!((a == c && b == d) || (a == d && b == c))) continue;
+            readings.push_back(reading(ReadingKind::edge, {e.left, e.right},
+                                       glm::length(truth.vertices[std::size_t(t.from)] -
+                                                   truth.vertices[std::size_t(t.to)]),
+                                       sigma));
+        }
+    }
+    return readings;
+}
+
 }  // namespace culet::test

@@ -16,10 +16,11 @@ namespace fs = std::filesystem;
 
 const std::map<std::string, std::set<std::string>> k_may_see = {
     {"stone", {"stone"}},
+    {"page", {"page", "stone"}},
     {"fit", {"fit", "stone"}},
     {"render", {"render", "stone"}},
-    {"compare", {"compare", "render", "stone"}},
-    {"app", {"app", "compare", "render", "fit", "stone"}},
+    {"compare", {"compare", "page", "render", "stone"}},
+    {"app", {"app", "compare", "page", "render", "fit", "stone"}},
 };
 
 bool is_source(const fs::path& file) {

@@ -1,0 +1,133 @@
+// culet study STONE.toml -o DIR: what accuracy costs in time.
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <system_error>
+
+#include "app/options.h"
+#include "app/terminal.h"
+#include "fit/mending.h"
+#include "fit/study.h"
+#include "page/study_page.h"
+#include "stone/errors.h"
+#include "stone/output_file.h"
+#include "stone/stone_io.h"
+#include "stone/toml_file.h"
+
+namespace culet {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudyCommand {
+    CommonOptions common;
+    std::string input, out, json, only;
+    int draws = 8;
+    double budget = 60;
+};
+
+int run_study(const StudyCommand& command) {
+    const TomlTable root = read_toml(command.input, command.common.set);
+    const bool is_stone = root.kind("stone") == TomlTable::Kind::table;
+    if (!is_stone && (root.has("stone") || root.has("camera") || root.has("mesh"))) {
+        throw InputError(command.input,
+                         "is a scene: this version studies fits only; give a stone file with its "
+                         "readings");
+    }
+    StoneFile file = read_stone(command.input, command.common.set);
+    for (const std::string& note : file.notes) say(note, !command.common.verbose);
+    if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
+    const Mended mesh = mended(file.stone);
+    file.stone = mesh.stone;
+    for (const std::string& note : mesh.notes) say(note, command.common.quiet);
+    const auto readings =
+        bind_readings(read_readings(command.input, command.common.set), file.stone);
+    if (readings.empty()) {
+        throw InputError(command.input, "has no readings: there is nothing to study");
+    }
+    StudyOptions options;
+    options.fit = read_fit_options(command.input, command.common.set);
+    options.seed = command.common.seed;
+    options.draws = command.draws;
+    options.budget_seconds = command.budget;
+    options.times = command.only != "limit";
+    options.limits = command.only != "time";
+
+    const fs::path folder = command.out;
+    std::error_code problem;
+    if (fs::exists(folder, problem) && !fs::is_directory(folder, problem)) {
+        throw InputError(folder, "is a file: -o names the folder for the results");
+    }
+    fs::create_directories(folder, problem);
+    if (problem) throw InputError(folder, fmt::format("cannot be made: {}", problem.message()));
+    require_writable(folder / "study.json");
+    require_writable(command.json);
+
+    const Study study = [&] {
+        try {
+            return study_fit(file.stone, readings, options,
+                             progress_line("study", command.common.quiet));
+        } catch (const InputError& error) {
+            throw InputError(file.mesh_file, error.what());
+        }
+    }();
+    const std::string json = study_json(study);
+    write_text(folder / "study.json", json);
+    write_text(folder / "time.csv", study_time_csv(study));
+    write_text(folder / "limit.csv", study_limit_csv(study));
+    write_text(folder / "time.svg", study_time_chart(json));
+    write_text(folder / "limit.svg", study_limit_chart(json));
+    write_text(folder / "report.html",
+               study_page({json, file.stone.name, CULET_VERSION,
+                           fmt::format("culet study {} -o {} --seed {} --draws {} --budget {:g}",
+                                       command.input, command.out, options.seed, options.draws,
+                                       options.budget_seconds)}));
+    if (!command.json.empty()) write_text(command.json, json);
+    if (command.json != "-") fmt::print("{}", study_table(json));
+    say(fmt::format("{}: {}", name_of(study.status), study.message), command.common.quiet);
+    if (!study.limit_message.empty()) {
+        say(fmt::format("limit: {}", study.limit_message), command.common.quiet);
+    }
+    if (!study.left_out.empty()) {
+        say(fmt::format("{} rows not reached within {:g} s; raise --budget, or lower --draws",
+                        study.left_out.size(), options.budget_seconds),
+            command.common.quiet);
+    }
+    say(fmt::format("pages: {}", (folder / "report.html").string()), command.common.quiet);
+    return study.usable() ? exit_good : exit_untrusted;
+}
+
+}  // namespace
+
+void add_command_study(CLI::App& program, int& exit_code) {
+    auto command = std::make_shared<StudyCommand>();
+    CLI::App* study = program.add_subcommand(
+        "study", "what accuracy costs in time, and how near it comes to the theoretical limit");
+    study->add_option("stone", command->input, "stone file with its readings")
+        ->required()
+        ->type_name("STONE.toml");
+    study->add_option("-o,--output", command->out, "folder for study.json, tables, charts, page")
+        ->required()
+        ->type_name("DIR");
+    study->add_option("--json", command->json, "study.json here too (- is stdout)")
+        ->type_name("FILE");
+    study->add_option("--draws", command->draws, "how often readings are drawn anew (8)")
+        ->check(CLI::Range(1, 100000))
+        ->type_name("N");
+    study->add_option("--budget", command->budget, "seconds of processor time (60; 0: no limit)")
+        ->check(CLI::Range(0.0, 1e9))
+        ->type_name("S");
+    study->add_option("--only", command->only, "one half: time, or limit")
+        ->check(CLI::IsMember({"time", "limit"}))
+        ->type_name("HALF");
+    add_common(*study, command->common, true);
+    study->footer(
+        "Examples:\n"
+        "  culet study samples/dravite-step/stone.toml -o out/study\n"
+        "  culet study stone.toml -o out/study --draws 50 --budget 600 --seed 7");
+    study->callback([command, &exit_code] { exit_code = run_study(*command); });
+}
+
+}  // namespace culet

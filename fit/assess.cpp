@@ -1,0 +1,73 @@
+#include "fit/assess.h"
+
+#include <cmath>
+
+#include "fit/covariance.h"
+#include "fit/cut_quantities.h"
+#include "fit/next_reading.h"
+#include "fit/open_freedoms.h"
+#include "fit/slips.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+// In the unit of files.
+double written(const Reading& reading, double value) {
+    return is_angle(reading.kind) ? degrees(value) : value;
+}
+
+// An estimate is trusted for this many of its own sigmas and the reading's.
+constexpr double k_trust = 3.5;
+
+Proposal proposal_of(const System& system, const Suspicion& suspicion) {
+    const Reading& reading = system.readings()[std::size_t(suspicion.reading)];
+    Proposal proposal;
+    proposal.id = reading.id;
+    proposal.in_radians = is_angle(reading.kind);
+    proposal.estimate = suspicion.estimate;
+    proposal.sigma = suspicion.sigma;
+    for (const int other : suspicion.alternatives) {
+        proposal.alternatives.push_back(system.readings()[std::size_t(other)].id);
+    }
+    if (is_relation(reading.kind)) return proposal;
+    const double value = written(reading, reading.value),
+                 wanted = written(reading, suspicion.estimate);
+    const double tolerance =
+        k_trust * std::hypot(written(reading, suspicion.sigma), written(reading, reading.sigma));
+    // A slip is an explanation only where the tolerance is small beside what it explains.
+    if (!(tolerance < 0.25 * std::abs(value - wanted))) return proposal;
+    if (const auto slip = find_slip(value, wanted, tolerance, is_angle(reading.kind))) {
+        proposal.slip = slip->what;
+        proposal.corrected =
+            is_angle(reading.kind) ? radians(slip->corrected) : slip->corrected;
+    }
+    return proposal;
+}
+
+}  // namespace
+
+void assess(const System& system, const Finished& finished, const Diagnosis& diagnosis,
+            FitResult& result) {
+    for (const Suspicion& s : diagnosis.suspicions) {
+        result.proposals.push_back(proposal_of(system, s));
+    }
+    for (const int r : diagnosis.disagreeing) {
+        result.disagreeing.push_back(system.readings()[std::size_t(r)].id);
+    }
+    if (!diagnosis.covariance || !finished.outline) return;
+    const Covariance& covariance = *diagnosis.covariance;
+    const RowWriter writer(finished.shape);
+    for (const CutQuantity& q : cut_quantities(system, finished.shape, finished.outline)) {
+        const FunctionRow row = writer.function(q.quantity);
+        result.proportions.push_back(
+            {q.name, q.unit, q.factor * q.quantity.value,
+             q.factor * std::sqrt(covariance.variance(row) + covariance.open_variance(row))});
+    }
+    result.undetermined_words =
+        describe_open_freedoms(system, finished.shape, covariance, diagnosis.undetermined);
+    result.help = next_readings(system, finished.shape, finished.outline, covariance);
+}
+
+}  // namespace culet

@@ -1,0 +1,349 @@
+#include "fit/covariance.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fit/elimination.h"
+#include "fit/selected_inverse.h"
+
+namespace culet {
+
+namespace {
+
+// Freedoms held less than twice as tightly by the readings as by the mesh (lambda = 4 in
+// variance) count as not determined.
+constexpr double k_determined = 4;
+// Dense algebra grows with the cube of the unknowns; beyond this many it is the slower one.
+constexpr Eigen::Index k_most_dense = 1300;
+// For the question what is open, a reading is tight enough at this weight: squares of larger ones
+// would drown a weight of one in rounding.
+constexpr double k_tight = 1e6;
+// Normal equations square the spread of weights; beyond this spread QR keeps what they lose.
+constexpr double k_most_spread = 1e5;
+
+// Gauge motions, orthonormal in the metric. The turn about up is one of them also where readings see
+// it (widths along azimuths) but hold it less than the mesh does: no freedom of the stone's shape.
+Eigen::MatrixXd gauge_motions(const Linearised& linear,
+                              const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows) {
+    Eigen::MatrixXd motions(linear.layout.size(), Eigen::Index(linear.gauge_rows.size()) + 1);
+    Eigen::Index count = 0;
+    std::vector<Eigen::VectorXd> all;
+    for (const Eigen::VectorXd& row : linear.gauge_rows) {
+        all.push_back(row.cwiseQuotient(linear.metric));
+    }
+    if (linear.turn.size() > 0) {
+        const double size = linear.turn.dot(linear.metric.cwiseProduct(linear.turn));
+        const double hard = (linear.hard_rows * linear.turn).norm();
+        if ((rows * linear.turn).squaredNorm() < k_determined * size &&
+            hard < 1e-9 * linear.turn.norm()) {
+            all.push_back(linear.turn);
+        }
+    }
+    for (Eigen::VectorXd& g : all) {
+        g /= g.norm();
+        for (int twice = 0; twice < 2; ++twice) {
+            for (Eigen::Index k = 0; k < count; ++k) {
+                g -= motions.col(k) * motions.col(k).dot(linear.metric.cwiseProduct(g));
+            }
+        }
+        const double size = std::sqrt(g.dot(linear.metric.cwiseProduct(g)));
+        if (!(size > 1e-6)) continue;
+        motions.col(count++) = g / size;
+    }
+    return motions.leftCols(count);
+}
+
+// Weights on as many unknowns as there are motions, those that move most (elimination with complete
+// pivoting).
+Eigen::VectorXd pins(Eigen::MatrixXd motions, double weight) {
+    Eigen::VectorXd result = Eigen::VectorXd::Zero(motions.rows());
+    for (Eigen::Index k = 0; k < motions.cols(); ++k) {
+        Eigen::Index row = 0, column = 0;
+        if (!(motions.cwiseAbs().maxCoeff(&row, &column) > 0)) break;
+        result(row) = weight;
+        const Eigen::VectorXd pivot = motions.col(column) / motions(row, column);
+        motions -= pivot * Eigen::RowVectorXd(motions.row(row));
+        motions.row(row).setZero();
+    }
+    return result;
+}
+
+Eigen::SparseMatrix<double, Eigen::RowMajor> without_hinges(const Linearised& linear) {
+    Eigen::SparseMatrix<double, Eigen::RowMajor> rows = linear.soft_rows;
+    for (std::size_t i = 0; i < linear.soft.size(); ++i) {
+        if (linear.soft[i].role != Equation::Role::hinge) continue;
+        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, Eigen::Index(i));
+             it; ++it) {
+            it.valueRef() = 0;
+        }
+    }
+    return rows;
+}
+
+FunctionRow function_row(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows, Eigen::Index i) {
+    FunctionRow row(rows.cols());
+    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, i); it; ++it) {
+        row.coeffRef(it.col()) += it.value();
+    }
+    return row;
+}
+
+// R^-1 of a QR of rows in the order of their size, with column pivoting: stable row by row whatever
+// the weights (Cox & Higham 1998). Columns: P R^-1, so that (B'B)^-1 = F F'.
+Eigen::MatrixXd inverse_factor(const Eigen::MatrixXd& seen) {
+    std::vector<Eigen::Index> order(std::size_t(seen.rows()));
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = Eigen::Index(i);
+    Eigen::VectorXd size(seen.rows());
+    for (Eigen::Index i = 0; i < seen.rows(); ++i) size(i) = seen.row(i).cwiseAbs().maxCoeff();
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Eigen::Index a, Eigen::Index b) { return size(a) > size(b); });
+    Eigen::MatrixXd sorted(seen.rows(), seen.cols());
+    for (std::size_t i = 0; i < order.size(); ++i) sorted.row(Eigen::Index(i)) = seen.row(order[i]);
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(sorted);
+    const Eigen::Index n = seen.cols();
+    Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(n, n);
+    qr.matrixR().topLeftCorner(n, n).triangularView<Eigen::Upper>().solveInPlace(inverse);
+    return qr.colsPermutation() * inverse;
+}
+
+}  // namespace
+
+// The factor of the penalised normal equations. The gauge is held by pins (as many unknowns as
+// motions), and inner constraints follow from them (Baarda's S-transformation): the covariance is
+// P C P' with P = 1 - G G' M.
+struct Covariance::Sparse {
+    struct Held {
+        SelectedInverse inverse;
+        Eigen::MatrixXd gauge_solved;  // U = C M G
+        Eigen::MatrixXd gauge_part;    // G' M U
+    };
+    Held tight;    // a weak prior: what the readings hold
+    Held trusted;  // the mesh's own trust as prior, where something is open
+    bool has_open = false;
+    Eigen::MatrixXd gauge;       // G, orthonormal in the metric
+    Eigen::MatrixXd gauge_rows;  // M G
+    Eigen::VectorXd pins;
+    double prior = 0;
+
+    bool compute(Held& held, const NormalEquations& equations) const {
+        if (!held.inverse.compute(equations)) return false;
+        held.gauge_solved.resize(gauge.rows(), gauge.cols());
+        for (Eigen::Index k = 0; k < gauge.cols(); ++k) {
+            held.gauge_solved.col(k) = held.inverse.solve(gauge_rows.col(k));
+        }
+        held.gauge_part = gauge_rows.transpose() * held.gauge_solved;
+        return true;
+    }
+
+    double of(const Held& held, const FunctionRow& function) const {
+        double value = held.inverse.quadratic(function);
+        if (gauge.cols() > 0) {
+            const Eigen::VectorXd along = gauge.transpose() * function;
+            const Eigen::VectorXd solved = held.gauge_solved.transpose() * function;
+            value += along.dot(held.gauge_part * along) - 2 * solved.dot(along);
+        }
+        return std::max(0.0, value);
+    }
+
+    Eigen::VectorXd with_all(const Held& held, const FunctionRow& function) const {
+        const Eigen::VectorXd along = gauge.transpose() * function;
+        Eigen::VectorXd all =
+            held.inverse.solve(Eigen::VectorXd(function)) - held.gauge_solved * along;
+        all -= gauge * (gauge_rows.transpose() * all);
+        return all;
+    }
+};
+
+Covariance::Covariance(const Linearised& linear, Algorithm algorithm)
+    : rows_(without_hinges(linear)) {
+    const bool small = linear.layout.size() <= k_most_dense;
+    if (algorithm == Algorithm::dense || (algorithm == Algorithm::by_size && small)) {
+        find_dense(linear);
+    } else {
+        find_sparse(linear);
+    }
+    if (!usable_) {
+        leverages_ =
+            Eigen::VectorXd::Constant(rows_.rows(), std::numeric_limits<double>::quiet_NaN());
+    }
+}
+
+Covariance::~Covariance() = default;
+
+void Covariance::find_dense(const Linearised& linear) {
+    const Eigen::Index unknowns = linear.layout.size();
+    const FreeDirections free =
+        free_directions(linear.hard_rows, linear.layout.point(0), linear.layout.extra(0));
+    const Eigen::MatrixXd gauge = gauge_motions(linear, rows_);
+    const Eigen::Index size = free.basis.cols();
+    held_.resize(unknowns, 0);
+    open_.resize(unknowns, 0);
+    seen_.resize(rows_.rows(), 0);
+    leverages_ = Eigen::VectorXd::Zero(rows_.rows());
+    usable_ = true;
+    if (size == 0) return;  // exact readings leave nothing free
+
+    // Whitened by the metric, so that eigenvalues compare readings with the mesh.
+    const Eigen::SparseMatrix<double, Eigen::RowMajor> weighted =
+        linear.metric.cwiseSqrt().asDiagonal() * free.basis;
+    const Eigen::MatrixXd metric =
+        Eigen::MatrixXd(Eigen::SparseMatrix<double>(weighted.transpose()) * weighted);
+    const Eigen::LLT<Eigen::MatrixXd> chol(metric);
+    if (chol.info() != Eigen::Success) {
+        usable_ = false;
+        return;
+    }
+    const auto whitened = [&](const Eigen::MatrixXd& rows) -> Eigen::MatrixXd {
+        if (rows.rows() == 0) return Eigen::MatrixXd(0, size);
+        return chol.matrixU().solve<Eigen::OnTheRight>(rows);
+    };
+    Eigen::MatrixXd seen = whitened(Eigen::MatrixXd(rows_ * free.basis));
+    // Along the gauge nothing is seen: it counts as held, and is taken out at the end.
+    const Eigen::MatrixXd along =
+        whitened(Eigen::MatrixXd((linear.metric.asDiagonal() * gauge).transpose() * free.basis));
+
+    const Eigen::VectorXd norms = seen.rowwise().norm();
+    double largest = 0, smallest = 1e300;
+    for (Eigen::Index i = 0; i < norms.size(); ++i) {
+        largest = std::max(largest, norms(i));
+        if (norms(i) > 0) smallest = std::min(smallest, norms(i));
+    }
+    const double gauge_weight = std::max(1e3, std::min(largest, k_tight));
+    Eigen::MatrixXd clipped = seen;
+    for (Eigen::Index i = 0; i < norms.size(); ++i) {
+        if (norms(i) > k_tight) clipped.row(i) *= k_tight / norms(i);
+    }
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size, size);
+    if (clipped.rows() > 0) normal.selfadjointView<Eigen::Lower>().rankUpdate(clipped.transpose());
+    if (along.rows() > 0) {
+        normal.selfadjointView<Eigen::Lower>().rankUpdate(along.transpose(),
+                                                          gauge_weight * gauge_weight);
+    }
+    const bool spread = largest > k_tight || largest > k_most_spread * std::max(smallest, 1e-3);
+
+    const Eigen::MatrixXd shifted = normal - k_determined * Eigen::MatrixXd::Identity(size, size);
+    const bool all_held = Eigen::LLT<Eigen::MatrixXd>(shifted).info() == Eigen::Success;
+    const auto unwhitened = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {
+        return free.basis * Eigen::MatrixXd(chol.matrixU().solve(columns));
+    };
+    if (all_held && !spread) {
+        const Eigen::LLT<Eigen::MatrixXd> factor(normal);
+        const Eigen::MatrixXd upper =
+            factor.matrixU().solve(Eigen::MatrixXd::Identity(size, size));  // (S^-1) = U^-1 U^-T
+        held_ = unwhitened(upper);
+        seen_ = seen * upper.triangularView<Eigen::Upper>();
+    } else {
+        Eigen::MatrixXd held_basis = Eigen::MatrixXd::Identity(size, size);
+        if (!all_held) {
+            normal = Eigen::MatrixXd(normal.selfadjointView<Eigen::Lower>());
+            const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal);
+            Eigen::Index count = 0;
+            while (count < size && eigen.eigenvalues()(count) < k_determined) ++count;
+            open_freedoms_ = int(count);
+            open_ = unwhitened(eigen.eigenvectors().leftCols(count));
+            held_basis = eigen.eigenvectors().rightCols(size - count);
+        }
+        if (held_basis.cols() > 0) {
+            Eigen::MatrixXd stacked(seen.rows() + along.rows(), held_basis.cols());
+            stacked.topRows(seen.rows()) = seen * held_basis;
+            stacked.bottomRows(along.rows()) = gauge_weight * along * held_basis;
+            const Eigen::MatrixXd factor = inverse_factor(stacked);
+            held_ = unwhitened(held_basis * factor);
+            seen_ = stacked.topRows(seen.rows()) * factor;
+        } else {
+            seen_ = Eigen::MatrixXd::Zero(rows_.rows(), 0);
+        }
+    }
+    const auto off_gauge = [&](Eigen::MatrixXd& columns) {
+        if (columns.cols() == 0 || gauge.cols() == 0) return;
+        columns -= gauge * ((linear.metric.asDiagonal() * gauge).transpose() * columns);
+    };
+    off_gauge(held_);
+    off_gauge(open_);
+    leverages_ = seen_.rowwise().squaredNorm();
+}
+
+void Covariance::find_sparse(const Linearised& linear) {
+    // Hard equations as very tight soft ones: their own variance stays far below the readings', and
+    // the matrix positive definite whatever repeats.
+    double tightest = 0;
+    Eigen::SparseMatrix<double, Eigen::RowMajor> rows = rows_;
+    Eigen::VectorXd norms(rows.rows());
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+        norms(i) = rows.innerVector(i).norm();
+        if (norms(i) > k_tight) {
+            rows.innerVector(i) *= k_tight / norms(i);
+            norms(i) = k_tight;
+        }
+        tightest = std::max(tightest, norms(i));
+    }
+    const double hard = std::clamp(1e3 * tightest, 1e4, 1e6);
+    sparse_ = std::make_unique<Sparse>();
+    sparse_->gauge = gauge_motions(linear, rows_);
+    sparse_->gauge_rows = linear.metric.asDiagonal() * sparse_->gauge;
+    sparse_->pins = pins(sparse_->gauge, std::max(1e6, tightest * tightest));
+    sparse_->prior = 1e-3;
+    const auto equations = [&](double prior) {
+        return NormalEquations{rows, linear.hard_rows, hard, prior * linear.metric + sparse_->pins};
+    };
+    if (!sparse_->compute(sparse_->tight, equations(sparse_->prior))) return;
+    usable_ = true;
+    rows_ = rows;
+    // By Sylvester's law the number of negative pivots counts the directions below the bound.
+    open_freedoms_ = negative_pivots(equations(-k_determined));
+    if (open_freedoms_ > 0) {
+        sparse_->has_open = sparse_->compute(sparse_->trusted, equations(1.0));
+        usable_ = sparse_->has_open;
+    }
+    if (!usable_) return;
+    leverages_.resize(rows_.rows());
+    for (Eigen::Index i = 0; i < rows_.rows(); ++i) {
+        leverages_(i) =
+            norms(i) > 0 ? std::min(1.0, sparse_->of(sparse_->tight, function_row(rows_, i))) : 0;
+    }
+}
+
+double Covariance::variance(const FunctionRow& function) const {
+    if (!usable_) return std::numeric_limits<double>::quiet_NaN();
+    if (!sparse_) return (function.transpose() * held_).squaredNorm();
+    const double loose = sparse_->of(sparse_->tight, function);
+    if (!sparse_->has_open) return loose;
+    const double trusted = sparse_->of(sparse_->trusted, function);
+    return std::max(0.0, trusted - std::max(0.0, loose - trusted) * sparse_->prior);
+}
+
+double Covariance::open_variance(const FunctionRow& function) const {
+    if (!usable_) return std::numeric_limits<double>::quiet_NaN();
+    if (!sparse_) return (function.transpose() * open_).squaredNorm();
+    if (!sparse_->has_open) return 0;
+    // An open direction of length q has the variance q^2 / (lambda + prior): what the two priors
+    // disagree on.
+    const double loose = sparse_->of(sparse_->tight, function),
+                 trusted = sparse_->of(sparse_->trusted, function);
+    return std::max(0.0, loose - trusted) * sparse_->prior;
+}
+
+Eigen::VectorXd Covariance::with_all(const FunctionRow& function, bool open) const {
+    if (!sparse_) {
+        Eigen::VectorXd all = held_ * (function.transpose() * held_).transpose();
+        if (open) all += open_ * (function.transpose() * open_).transpose();
+        return all;
+    }
+    return sparse_->with_all(open && sparse_->has_open ? sparse_->trusted : sparse_->tight,
+                             function);
+}
+
+Eigen::VectorXd Covariance::fitted_part(const Eigen::VectorXd& residuals) const {
+    if (!sparse_) return seen_ * (seen_.transpose() * residuals);
+    const Eigen::VectorXd all = rows_.transpose() * residuals;
+    return rows_ * sparse_->with_all(sparse_->tight, FunctionRow(all.sparseView()));
+}
+
+Eigen::VectorXd Covariance::leverage_column(Eigen::Index equation) const {
+    if (!sparse_) return seen_ * seen_.row(equation).transpose();
+    return rows_ * with_all(function_row(rows_, equation), false);
+}
+
+}  // namespace culet

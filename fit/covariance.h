@@ -1,0 +1,65 @@
+#pragma once
+// Covariance of the unknowns of a fit under its hard equations, and what no reading holds.
+// Private to the room: shows Eigen.
+//
+// Readings count with their sigma, hard equations hold exactly, and motions of the whole stone that
+// nothing sees are left out (inner constraints). Directions that the readings hold less than twice
+// as tightly as the mesh is trusted (20 % of its width) are `open`; along them the mesh's own
+// uncertainty is reported.
+// Two algorithms: dense algebra in a basis of the free directions (exact but for rounding, also for
+// uncertainties that span many powers of ten), and for large stones the entries of the inverse on
+// the pattern of a sparse factor (Takahashi, Fagan & Chen 1973; Erisman & Tinney 1975).
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+#include <memory>
+#include <vector>
+
+#include "fit/linear.h"
+
+namespace culet {
+
+/// Coefficients of a linear function of the unknowns.
+using FunctionRow = Eigen::SparseVector<double>;
+
+class Covariance {
+public:
+    enum class Algorithm { by_size, dense, sparse };
+    explicit Covariance(const Linearised& linear, Algorithm algorithm = Algorithm::by_size);
+    ~Covariance();
+
+    /// False: the equations could not be factored; every number is then NaN.
+    bool usable() const { return usable_; }
+    /// Of a function, as far as readings hold it, and the part that comes from open directions.
+    double variance(const FunctionRow& function) const;
+    double open_variance(const FunctionRow& function) const;
+    /// Covariance of a function with every unknown (open directions included when asked).
+    Eigen::VectorXd with_all(const FunctionRow& function, bool open) const;
+    /// Variance of every soft equation's fitted value, in units of its own: the diagonal of the hat
+    /// matrix. Hinges: 0.
+    const Eigen::VectorXd& leverages() const { return leverages_; }
+    /// One column of the hat matrix.
+    Eigen::VectorXd leverage_column(Eigen::Index equation) const;
+    /// Hat matrix times residuals of the soft equations.
+    Eigen::VectorXd fitted_part(const Eigen::VectorXd& residuals) const;
+    int open_freedoms() const { return open_freedoms_; }
+    bool is_dense() const { return sparse_ == nullptr; }
+    /// Open directions, of length one in the mesh's metric; dense only (else no columns).
+    const Eigen::MatrixXd& open() const { return open_; }
+    /// Factor of the covariance of what is held: held held'; dense only.
+    const Eigen::MatrixXd& held() const { return held_; }
+
+private:
+    struct Sparse;
+    void find_dense(const Linearised& linear);
+    void find_sparse(const Linearised& linear);
+
+    bool usable_ = false;
+    Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;  // soft, without hinges
+    Eigen::MatrixXd held_, open_, seen_;                 // dense; seen = rows * held
+    std::unique_ptr<Sparse> sparse_;
+    Eigen::VectorXd leverages_;
+    int open_freedoms_ = 0;
+};
+
+}  // namespace culet

@@ -1,0 +1,20 @@
+#pragma once
+// Puts what was found out about the stone into the result of its fit. Private to the room.
+
+#include "fit/diagnostics.h"
+#include "fit/finish.h"
+#include "fit/fit.h"
+#include "fit/system.h"
+
+namespace culet {
+
+/// Own axis, tiers, meets, edges and facets. `result` holds facets, readings and tests already.
+/// `held` are corners (point below facet) that the fit had to hold down.
+struct HeldCorner {
+    int facet = -1, point = -1;
+};
+void describe_findings(const System& system, const Finished& finished,
+                       const std::vector<HeldCorner>& held, const Diagnosis& diagnosis,
+                       const System::Pose& pose, FitResult& result);
+
+}  // namespace culet

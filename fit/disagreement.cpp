@@ -1,0 +1,158 @@
+#include "fit/disagreement.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "fit/linear.h"
+#include "fit/statistics.h"
+
+namespace culet {
+
+namespace {
+
+// Beyond this many equations R and its updates would take minutes.
+constexpr Eigen::Index k_most_equations = 1500;
+constexpr double k_checked = 1e-6;
+
+// What remains of a least-squares fit as equations are left out one by one.
+struct Rest {
+    Eigen::VectorXd residuals;
+    Eigen::MatrixXd matrix;
+    double chi2 = 0, dof = 0;
+
+    void leave_out(Eigen::Index i) {
+        const double own = matrix(i, i);
+        if (own > k_checked) {
+            const Eigen::VectorXd column = matrix.col(i) / own;
+            chi2 -= residuals(i) * residuals(i) / own;
+            residuals -= column * residuals(i);
+            matrix.noalias() -= own * column * column.transpose();
+            dof -= 1;
+        }
+        residuals(i) = 0;
+        matrix.row(i).setZero();
+        matrix.col(i).setZero();
+    }
+};
+
+}  // namespace
+
+std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::MatrixXd matrix,
+                                      const std::vector<int>& owner, double level) {
+    if (residuals.size() > k_most_equations) return {};
+    Rest rest{residuals, std::move(matrix), residuals.squaredNorm(), 0};
+    rest.dof = rest.matrix.trace();
+    const auto fails = [&](const Rest& r) {
+        return r.dof > 0.5 && chi2_tail(std::max(0.0, r.chi2), r.dof) < level;
+    };
+    if (!fails(rest)) return {};
+    std::map<int, std::vector<Eigen::Index>> equations;
+    for (std::size_t i = 0; i < owner.size(); ++i) {
+        if (owner[i] >= 0) equations[owner[i]].push_back(Eigen::Index(i));
+    }
+    // Those that take the least part in the contradiction go first.
+    std::vector<std::pair<double, int>> order;
+    for (const auto& [reading, mine] : equations) {
+        double part = 0;
+        for (const Eigen::Index i : mine) {
+            const double r = rest.matrix(i, i);
+            if (r > k_checked) part = std::max(part, std::abs(residuals(i)) / std::sqrt(r));
+        }
+        order.emplace_back(part, reading);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<int> left;
+    for (const auto& [part, reading] : order) left.push_back(reading);
+    // By halves of what remains first, then one by one until none can be spared.
+    for (std::size_t chunk = std::max<std::size_t>(1, left.size() / 2);;) {
+        bool spared = false;
+        for (std::size_t at = 0; at < left.size();) {
+            const std::size_t end = std::min(left.size(), at + chunk);
+            Rest fewer = rest;
+            for (std::size_t k = at; k < end; ++k) {
+                for (const Eigen::Index i : equations[left[k]]) fewer.leave_out(i);
+            }
+            if (fails(fewer)) {
+                rest = std::move(fewer);
+                left.erase(left.begin() + std::ptrdiff_t(at), left.begin() + std::ptrdiff_t(end));
+                spared = true;
+            } else {
+                at = end;
+            }
+        }
+        if (chunk == 1 && !spared) break;
+        chunk = std::max<std::size_t>(1, std::min(chunk, left.size()) / 2);
+        if (left.empty()) break;
+    }
+    std::sort(left.begin(), left.end());
+    return left;
+}
+
+std::vector<int> disagreeing_exact_readings(const System& system, const Shape& shape,
+                                            const std::shared_ptr<const Outline>& outline) {
+    const Linearised linear = linearise(system, shape, outline, false);
+    // What rounding leaves, against what a contradiction leaves.
+    constexpr double k_rounding = 1e-9;
+    if (!(linear.worst_hard() > k_rounding)) return {};
+    const Eigen::Index unknowns = linear.layout.size();
+    // Where nothing more can be done the misses stand across all directions: A' miss = 0. The
+    // equations that miss are those that take part.
+    std::set<int> readings;
+    std::vector<std::size_t> meets;
+    std::map<int, std::vector<std::size_t>> equations;
+    for (std::size_t i = 0; i < linear.hard.size(); ++i) {
+        const int reading = linear.hard[i].reading;
+        if (reading < 0) {
+            meets.push_back(i);
+        } else {
+            equations[reading].push_back(i);
+            if (std::abs(linear.hard_residuals(Eigen::Index(i))) > 1e-3 * linear.worst_hard()) {
+                readings.insert(reading);
+            }
+        }
+    }
+    const auto fails = [&](const std::vector<int>& kept) {
+        std::vector<std::size_t> used = meets;
+        for (const int reading : kept) {
+            used.insert(used.end(), equations[reading].begin(), equations[reading].end());
+        }
+        Eigen::MatrixXd columns(unknowns, Eigen::Index(used.size()));
+        Eigen::VectorXd miss(Eigen::Index(used.size()));
+        for (std::size_t k = 0; k < used.size(); ++k) {
+            columns.col(Eigen::Index(k)) =
+                Eigen::VectorXd(linear.hard_rows.row(Eigen::Index(used[k])).transpose());
+            miss(Eigen::Index(k)) = linear.hard_residuals(Eigen::Index(used[k]));
+        }
+        // Misses that some step could mend lie in the range of A; what lies across it cannot be.
+        Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns.transpose());
+        qr.setThreshold(1e-9);
+        const Eigen::VectorXd across = qr.householderQ().transpose() * miss;
+        if (qr.rank() == across.size()) return false;
+        return across.tail(across.size() - qr.rank()).cwiseAbs().maxCoeff() >
+               0.01 * linear.worst_hard() / std::sqrt(double(used.size()));
+    };
+    std::vector<int> left(readings.begin(), readings.end());
+    if (left.empty() || meets.size() > 4000) return left;
+    for (std::size_t chunk = std::max<std::size_t>(1, left.size() / 2);;) {
+        bool spared = false;
+        for (std::size_t at = 0; at < left.size();) {
+            const std::size_t end = std::min(left.size(), at + chunk);
+            std::vector<int> fewer = left;
+            fewer.erase(fewer.begin() + std::ptrdiff_t(at), fewer.begin() + std::ptrdiff_t(end));
+            if (!fewer.empty() && fails(fewer)) {
+                left = std::move(fewer);
+                spared = true;
+            } else {
+                at = end;
+            }
+        }
+        if (chunk == 1 && !spared) break;
+        chunk = std::max<std::size_t>(1, std::min(chunk, left.size()) / 2);
+    }
+    return left;
+}
+
+}  // namespace culet

@@ -1,0 +1,229 @@
+#include "fit/exact_finish.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/leaning.h"
+
+namespace culet {
+
+namespace {
+
+// Freedoms that the readings hold to better than the mesh does are moved by all but this part of
+// their way in each step; those that no reading holds do not move.
+constexpr double k_first_damping = 1e-2;
+constexpr double k_least_damping = 1e-6;
+
+constexpr double k_nearly_met = 1e-10;
+// Facets that may lean either way at the end.
+constexpr double k_nearly_upright = 0.1;
+constexpr int k_most_choices = 12;
+
+std::span<const double> steps(const Eigen::VectorXd& step) {
+    return {step.data(), static_cast<std::size_t>(step.size())};
+}
+
+Eigen::VectorXd residuals(const SparseRows& rows) {
+    return Eigen::Map<const Eigen::VectorXd>(rows.residual.data(),
+                                             Eigen::Index(rows.residual.size()));
+}
+
+// Smallest steps onto the hard equations, until rounding is all that is left.
+Shape onto_constraints(const Relaxation& relaxation, Shape shape, const std::vector<Held>& held) {
+    Sheet sheet = relaxation.hard_sheet(shape, held);
+    SaddleSolver solver;
+    if (!solver.factor(sheet.rows, relaxation.metric())) return shape;
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(relaxation.freedoms().size());
+    for (int i = 0; i < 10 && sheet.hard_worst > 1e-16; ++i) {
+        // The same factors do: what they miss is of second order in steps of rounding size.
+        if (i == 1 && !solver.factor(sheet.rows, relaxation.metric())) break;
+        const auto s = solver.solve(none, -residuals(sheet.rows));
+        if (!s.good) break;
+        const Shape next = relaxation.freedoms().moved(shape, steps(s.unknowns));
+        Sheet there = relaxation.hard_sheet(next, held);
+        if (!there.finite || there.hard_worst >= sheet.hard_worst) break;
+        shape = next;
+        sheet = std::move(there);
+    }
+    return shape;
+}
+
+struct Settled {
+    Shape shape;
+    bool converged = false;
+    int iterations = 0;
+    double chi2 = 0, worst_hard = 0;
+};
+
+Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Held>& held,
+               int iterations) {
+    const Freedoms& freedoms = relaxation.freedoms();
+    Softness softness;
+    softness.with_priors = false;
+    Settled result;
+    Shape shape = start;
+    relaxation.forget_ties();
+    relaxation.choose(shape);
+    Sheet sheet = relaxation.sheet(shape, softness, held);
+    const Eigen::VectorXd metric = relaxation.metric();
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(freedoms.size());
+    // One for each pattern of the matrix, with and without second derivatives.
+    SaddleSolver plain, with_curvature;
+    double damping = k_first_damping;
+    int quiet = 0, choices = 0;
+    bool curved = false;
+    // At an end, the readings are asked again what they mean there. At a kink (a caliper's jaw that
+    // touches two corners at once) they would change their mind for ever; `choose` ties the two.
+    const auto ends = [&](bool settled) {
+        if (choices > k_most_choices) {
+            result.converged = settled;
+            return true;
+        }
+        relaxation.choose(shape);
+        Sheet fresh = relaxation.sheet(shape, softness, held);
+        if (std::abs(fresh.merit - sheet.merit) < 1e-9 * (1 + sheet.merit)) {
+            result.converged = settled;
+            return true;
+        }
+        ++choices;
+        sheet = std::move(fresh);
+        quiet = 0;
+        damping = std::max(damping, 1e-4);
+        if (damping > 1) damping = 1e-2;
+        return false;
+    };
+    Eigen::VectorXd forces;
+    for (int i = 0; i < iterations; ++i) {
+        result.iterations = i + 1;
+        bool factored = false;
+        if (curved) {
+            factored = with_curvature.factor(sheet.rows, damping * metric,
+                                             relaxation.curvature(shape, forces));
+        }
+        if (!factored) {
+            curved = false;
+            factored = plain.factor(sheet.rows, damping * metric);
+        }
+        const SaddleSolver& solver = curved ? with_curvature : plain;
+        bool better = false;
+        double length = 0;
+        if (factored) {
+            const auto s = solver.solve(none, -residuals(sheet.rows));
+            if (s.good) {
+                Eigen::VectorXd step = s.unknowns;
+                length = step.cwiseAbs().maxCoeff();
+                // Half a unit is half the stone's radius: no linearisation holds so far.
+                if (length > 0.2) step *= 0.2 / length;
+                Shape next = freedoms.moved_with_turn(shape, steps(step));
+
+                // Second-order correction: back onto the curved constraints, same factors.
+                Sheet there = relaxation.sheet(next, softness, held);
+                double off_before = 1e300;
+                for (int k = 0; k < 4; ++k) {
+                    const double worst = there.hard_worst;
+                    if (worst < 1e-13 || !(worst < 0.5 * off_before)) break;
+                    off_before = worst;
+                    Eigen::VectorXd back = Eigen::VectorXd::Zero(sheet.rows.count());
+                    const int common = std::min(sheet.rows.count(), there.rows.count());
+                    for (int e = 0; e < common; ++e) {
+                        if (there.rows.variance[e] == 0 && sheet.rows.variance[e] == 0) {
+                            back(e) = -there.rows.residual[e];
+                        }
+                    }
+                    const auto correction = solver.solve(none, back);
+                    if (!correction.good) break;
+                    next = freedoms.moved(next, steps(correction.unknowns));
+                    there = relaxation.sheet(next, softness, held);
+                }
+                // The hard equations first: their size is the size of what they leave undone.
+                // Hard equations are brought to rounding at the end; so little does not count.
+                const double before =
+                                 sheet.merit + 1e6 * std::max(0.0, sheet.hard_sum - k_nearly_met),
+                             after =
+                                 there.merit + 1e6 * std::max(0.0, there.hard_sum - k_nearly_met);
+                better = there.finite && after <= before * (1 + 1e-12) + 1e-9;
+                if (better) {
+                    const double gain = before - after;
+                    quiet = gain < 1e-8 * (1 + before) || length < 1e-12 ? quiet + 1 : 0;
+                    shape = std::move(next);
+                    // The exact Hessian near the end: weak freedoms would creep.
+                    if (length < 1e-2) {
+                        forces = s.forces;
+                        curved = true;
+                    }
+                    sheet = std::move(there);
+                    damping = std::max(k_least_damping, damping / 5);
+                }
+            }
+        }
+        if (!better) {
+            curved = false;
+            damping *= 10;
+            // Nothing more to gain at the size of rounding; or no step is better.
+            if ((factored && length < 1e-9) || damping > 1e8) {
+                if (ends(factored)) break;
+            }
+        }
+        if (quiet >= 2 && ends(true)) break;
+    }
+    result.shape = onto_constraints(relaxation, std::move(shape), held);
+    relaxation.forget_ties();
+    relaxation.choose(result.shape);
+    const Sheet end = relaxation.sheet(result.shape, softness, held);
+    result.chi2 = end.chi2;
+    result.worst_hard = relaxation.hard_sheet(result.shape, {}).hard_worst;
+    return result;
+}
+
+}  // namespace
+
+ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterations,
+                         double hopeless) {
+    ExactFinish result;
+    Settled settled = settle(relaxation, start, {}, iterations);
+    Softness softness;
+    softness.with_priors = false;
+    for (int round = 0; round < 4; ++round) {
+        const auto leaning = leaning_better(relaxation, settled.shape, softness, k_nearly_upright);
+        if (!leaning) break;
+        Settled other = settle(relaxation, *leaning, {}, iterations);
+        other.iterations += settled.iterations;
+        if (!(other.chi2 < settled.chi2 - 1e-3)) break;
+        settled = std::move(other);
+    }
+    const double free_chi2 = settled.chi2;
+    // Penalties let corners stand a hair above their neighbours. Those are held just below from now
+    // on: an active set that only grows, since a corner that readings push out will be pushed
+    // again.
+    const std::vector<Facet>& facets = relaxation.system().stone().solid.facets;
+    const auto is_corner = [&](int facet, int point) {
+        const std::vector<int>& loop = facets[facet].corners;
+        return std::find(loop.begin(), loop.end(), point) != loop.end();
+    };
+    for (int round = 0; round < 8 && settled.chi2 < hopeless; ++round) {
+        const std::size_t before = result.held.size();
+        for (const Held& h : relaxation.above(settled.shape)) {
+            // An edge that would turn over shows at both its ends: one of them is enough.
+            const bool known =
+                std::any_of(result.held.begin(), result.held.end(), [&](const Held& other) {
+                    return other == h ||
+                           (is_corner(h.facet, other.point) && is_corner(other.facet, h.point));
+                });
+            if (!known) result.held.push_back(h);
+        }
+        if (result.held.size() == before) break;
+        const int earlier = settled.iterations;
+        settled = settle(relaxation, settled.shape, result.held, iterations);
+        settled.iterations += earlier;
+    }
+    result.cost_of_holding = result.held.empty() ? 0 : std::max(0.0, settled.chi2 - free_chi2);
+    result.finished.shape = std::move(settled.shape);
+    result.finished.outline = relaxation.system().mesh_outline();
+    result.finished.converged = settled.converged;
+    result.finished.iterations = settled.iterations;
+    result.finished.chi2 = settled.chi2;
+    result.finished.worst_hard = settled.worst_hard;
+    return result;
+}
+
+}  // namespace culet

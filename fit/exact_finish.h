@@ -1,0 +1,23 @@
+#pragma once
+// The last stage where no meet comes apart: Gauss-Newton with hard constraints (Nocedal & Wright
+// 2006, chapter 18) in the freedoms, from a shape that already is nearly right to planes and
+// symmetry that hold to rounding.
+
+#include "fit/finish.h"
+#include "fit/relaxation.h"
+
+namespace culet {
+
+struct ExactFinish {
+    Finished finished;
+    /// Corners that the readings want above a neighbour facet, held a hair below it.
+    std::vector<Held> held;
+    /// By how much holding them made chi-square larger.
+    double cost_of_holding = 0;
+};
+
+/// Ends early, with corners above their neighbours, where chi-square is larger than `hopeless`.
+ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterations,
+                         double hopeless = 1e300);
+
+}  // namespace culet

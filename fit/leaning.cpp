@@ -1,0 +1,93 @@
+#include "fit/leaning.h"
+
+#include <Eigen/Dense>
+#include <cmath>
+
+namespace culet {
+
+namespace {
+
+constexpr double k_damping = 1e-6;
+// Of chi-square; less is not worth another round.
+constexpr double k_least_gain = 0.01;
+// A step this long in one of the freedoms is no longer linear.
+constexpr double k_longest = 0.5;
+
+}  // namespace
+
+std::optional<Shape> leaning_better(Relaxation& relaxation, const Shape& shape,
+                                    const Softness& softness, double within) {
+    relaxation.choose(shape);
+    const std::vector<Relaxation::Folded> folded = relaxation.folded(shape, within);
+    if (folded.empty()) return std::nullopt;
+    const Sheet sheet = relaxation.sheet(shape, softness);
+    SaddleSolver solver;
+    if (!solver.factor(sheet.rows, sheet.prior_stiffness + k_damping * relaxation.metric()))
+        return std::nullopt;
+    const auto count = static_cast<Eigen::Index>(folded.size());
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(relaxation.freedoms().size());
+    // In units of sigma; the value grows by the shift, the residual shrinks by it.
+    Eigen::VectorXd r(count), d(count), sigma(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        sigma(i) = std::sqrt(sheet.rows.variance[folded[std::size_t(i)].row]);
+    }
+    Eigen::MatrixXd big(count, count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const Relaxation::Folded& f = folded[std::size_t(i)];
+        r(i) = sheet.rows.residual[f.row] / sigma(i);
+        d(i) = -f.shift / sigma(i);
+        Eigen::VectorXd one = Eigen::VectorXd::Zero(sheet.rows.count());
+        one(f.row) = -sigma(i);
+        const auto s = solver.solve(none, one);
+        if (!s.good) return std::nullopt;
+        for (Eigen::Index k = 0; k < count; ++k) {
+            // forces = (J x - b) / variance
+            big(k, i) = s.forces(folded[std::size_t(k)].row) * sigma(k);
+        }
+    }
+    std::vector<bool> turned(std::size_t(count), false);
+    const auto shift_of = [&](Eigen::Index i) { return turned[std::size_t(i)] ? -d(i) : d(i); };
+    bool any = false;
+    for (int round = 0; round < 4 * count; ++round) {
+        double best = -k_least_gain;
+        Eigen::Index first = -1, second = -1;
+        for (Eigen::Index i = 0; i < count; ++i) {
+            const double a = shift_of(i);
+            const double alone = 2 * a * r(i) + a * a * big(i, i);
+            if (alone < best) {
+                best = alone;
+                first = i;
+                second = -1;
+            }
+            for (Eigen::Index k = 0; k < i; ++k) {
+                const double b = shift_of(k);
+                const double both =
+                    alone + 2 * b * r(k) + b * b * big(k, k) + 2 * a * b * big(i, k);
+                if (both < best) {
+                    best = both;
+                    first = i;
+                    second = k;
+                }
+            }
+        }
+        if (first < 0) break;
+        any = true;
+        for (Eigen::Index i : {first, second}) {
+            if (i < 0) continue;
+            r += big.col(i) * shift_of(i);
+            turned[std::size_t(i)] = !turned[std::size_t(i)];
+        }
+    }
+    if (!any) return std::nullopt;
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(sheet.rows.count());
+    for (Eigen::Index i = 0; i < count; ++i) {
+        if (turned[std::size_t(i)])
+            right(folded[std::size_t(i)].row) = folded[std::size_t(i)].shift;
+    }
+    const auto s = solver.solve(none, right);
+    if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > k_longest) return std::nullopt;
+    return relaxation.freedoms().moved(
+        shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())});
+}
+
+}  // namespace culet

@@ -1,0 +1,19 @@
+#pragma once
+// Which way facets lean. A reading of an inclination does not say whether a facet looks up or down:
+// it has two meanings, and each has an optimum of its own.
+
+#include <optional>
+
+#include "fit/relaxation.h"
+
+namespace culet {
+
+/// By how much the merit changes when some readings are taken the other way follows from the
+/// residuals r and the matrix R = 1 - J C J' of their redundancies (both in units of sigma),
+/// exactly where equations are linear: 2 d'r + d'R d for shifts d of the values. One and two at a
+/// time are turned over as long as that gains. Returns the shape moved to where the others are
+/// meant; nothing when none should be. Only facets within this sine of upright are asked.
+std::optional<Shape> leaning_better(Relaxation& relaxation, const Shape& shape,
+                                    const Softness& softness, double within);
+
+}  // namespace culet

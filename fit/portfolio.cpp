@@ -1,0 +1,101 @@
+#include "fit/portfolio.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "fit/diagnostics.h"
+#include "fit/graded.h"
+#include "fit/statistics.h"
+
+namespace culet {
+
+namespace {
+
+// What is left of hard equations after the last stage is rounding; an exact reading that misses by
+// more than this part of the half diameter contradicts another.
+constexpr double k_hard_limit = 1e-9;
+// Two starts that end in the same stone have the same chi-square to this part.
+constexpr double k_same = 1e-6;
+constexpr double k_agrees_well = 0.2;
+
+// The chi-square test by counting: the least redundancy that there can be decides what is accepted
+// at once, and only in between is it counted out.
+bool agrees(const System& system, const Candidate& candidate, int free, int counted,
+            double significance) {
+    if (system.has_estimated_groups()) return true;
+    const double chi2 = candidate.finished.chi2;
+    if (chi2_tail(chi2, std::max(0, counted - free)) > significance && counted > free) return true;
+    if (!(chi2_tail(chi2, counted) > significance)) return false;
+    const Diagnosis d =
+        diagnose(system, candidate.finished.shape, candidate.finished.outline, {.full = false});
+    return chi2_tail(d.chi2, d.dof) > significance;
+}
+
+auto rank(const Candidate& c) {
+    return std::make_tuple(!c.sound, !(c.finished.worst_hard < k_hard_limit), !c.finished.converged,
+                           c.finished.chi2);
+}
+
+}  // namespace
+
+Portfolio fit_from_starts(const System& system, const FitOptions& options,
+                          const Progress& progress) {
+    const Freedoms freedoms = system.freedoms();
+    Relaxation relaxation(system, freedoms);
+    // Free directions: freedoms less hard equations, less shifts (and a turn) that nothing sees.
+    const Relaxation::Counts counts = relaxation.counts();
+    const int counted = counts.soft, hard = counts.hard;
+    const int shifts = freedoms.orbits().empty() ? 3 : 1;
+    const int free = std::max(0, freedoms.size() - hard - shifts);
+
+    Portfolio result;
+    Starts starts(system);
+    std::vector<double> ends;
+    while (result.starts < options.starts) {
+        const std::optional<Start> start = starts.next();
+        if (!start) break;
+        const double begin = 0.7 * result.starts / (result.starts + 1.0);
+        const Progress part = [&](double fraction) {
+            return !progress || progress(begin + (0.7 - begin) * fraction);
+        };
+        const Graded graded = graded_fit(relaxation, *start, part);
+        Candidate candidate;
+        candidate.start = start->name;
+        if (system.splits()) {
+            candidate.finished = finish(system, graded.shape, options.iterations);
+            const System::Enclosed enclosed = system.enclosed(candidate.finished.shape);
+            candidate.sound = enclosed.closed && enclosed.missing.empty();
+        } else {
+            ExactFinish exact = exact_finish(relaxation, graded.shape, options.iterations,
+                                             result.best.sound ? result.best.finished.chi2 : 1e300);
+            candidate.finished = std::move(exact.finished);
+            candidate.held = std::move(exact.held);
+            candidate.cost_of_holding = exact.cost_of_holding;
+            candidate.sound = relaxation.is_convex(candidate.finished.shape);
+        }
+        candidate.finished.iterations += graded.steps;
+        const bool good = candidate.sound && candidate.finished.converged &&
+                          candidate.finished.worst_hard < k_hard_limit;
+        candidate.agrees = good && agrees(system, candidate, free, counted, options.significance);
+        const double chi2 = candidate.finished.chi2;
+        // An optimum that agrees but poorly may be a lesser one: others get a chance. Holding a
+        // corner that hardly wants to pass its neighbour is no fault of the start.
+        const bool accept = candidate.agrees && candidate.cost_of_holding < 1 &&
+                            (system.has_estimated_groups() ||
+                             chi2_tail(chi2, std::max(1, counted - free)) > k_agrees_well);
+        const bool again = good && std::any_of(ends.begin(), ends.end(), [&](double other) {
+                               return std::abs(other - chi2) < k_same * (1 + chi2);
+                           });
+        if (good) ends.push_back(chi2);
+        if (result.starts++ == 0 || rank(candidate) < rank(result.best)) {
+            result.best = std::move(candidate);
+        }
+        // Ending twice where it ended before is no accident, if nothing better was seen.
+        if (accept || (again && result.best.finished.chi2 > chi2 - k_same * (1 + chi2))) break;
+    }
+    return result;
+}
+
+}  // namespace culet

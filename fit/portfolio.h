@@ -1,0 +1,34 @@
+#pragma once
+// Several starts, one after another, until one of them ends in a stone that could be cut and that
+// the readings agree with.
+
+#include <string>
+#include <vector>
+
+#include "fit/exact_finish.h"
+#include "fit/fit.h"
+#include "fit/system.h"
+
+namespace culet {
+
+struct Candidate {
+    Finished finished;
+    std::string start;       ///< its name
+    bool sound = false;      ///< closed, convex where it must be, with all facets
+    bool agrees = false;     ///< passes the chi-square test
+    std::vector<Held> held;  ///< corners that the readings want above a neighbour facet
+    double cost_of_holding = 0;
+};
+
+struct Portfolio {
+    Candidate best;
+    int starts = 0;  ///< tried
+};
+
+/// Accepts the first candidate that is sound and agrees, or two that end in the same sound stone
+/// (then the readings contradict each other, and no start will help); else the best of
+/// `options.starts`. Throws Interrupted when progress says so.
+Portfolio fit_from_starts(const System& system, const FitOptions& options,
+                          const Progress& progress = {});
+
+}  // namespace culet

@@ -1,0 +1,113 @@
+#include "fit/refit.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+namespace culet {
+
+namespace {
+
+// The shortest turn that brings `up` to +z.
+glm::dmat3 turn_to_z(const Vec3& up) {
+    if (up.z < -1 + 1e-12) return {1, 0, 0, 0, -1, 0, 0, 0, -1};
+    const double s = 1 / (1 + up.z);
+    return glm::transpose(glm::dmat3{1 - up.x * up.x * s, -up.x * up.y * s, -up.x,
+                                     -up.x * up.y * s, 1 - up.y * up.y * s, -up.y, up.x, up.y,
+                                     up.z});
+}
+
+glm::dmat3 about_up(double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return {c, s, 0, -s, c, 0, 0, 0, 1};
+}
+
+// Where planes of a corner come nearest to each other, near `guess` where they leave it open.
+Vec3 meet_of(const std::vector<Plane>& planes, const Vec3& guess) {
+    glm::dmat3 normals(0.0);
+    Vec3 right(0);
+    for (const Plane& plane : planes) {
+        normals += glm::outerProduct(plane.normal, plane.normal);
+        right += (plane.offset - glm::dot(plane.normal, guess)) * plane.normal;
+    }
+    normals += glm::dmat3(1e-9);
+    return guess + glm::inverse(normals) * right;
+}
+
+}  // namespace
+
+Candidate finish_from(const System& system, const Shape& shape, int iterations) {
+    Candidate candidate;
+    candidate.start = "last result";
+    if (system.splits()) {
+        candidate.finished = finish(system, shape, iterations);
+        const System::Enclosed enclosed = system.enclosed(candidate.finished.shape);
+        candidate.sound = enclosed.closed && enclosed.missing.empty();
+        return candidate;
+    }
+    const Freedoms freedoms = system.freedoms();
+    Relaxation relaxation(system, freedoms);
+    ExactFinish exact = exact_finish(relaxation, shape, iterations);
+    candidate.finished = std::move(exact.finished);
+    candidate.held = std::move(exact.held);
+    candidate.cost_of_holding = exact.cost_of_holding;
+    candidate.sound = relaxation.is_convex(candidate.finished.shape);
+    return candidate;
+}
+
+std::optional<Shape> shape_of(const System& system, const Solid& solid) {
+    Shape shape = system.mesh_shape();
+    const std::vector<Facet>& mesh = system.stone().solid.facets;
+    std::vector<Plane> planes;
+    for (const Facet& facet : mesh) {
+        const int there = find_facet(solid, facet.name);
+        if (there < 0) return std::nullopt;
+        planes.push_back(solid.facets[std::size_t(there)].plane);
+    }
+    Vec3 mean(0);
+    for (const Vec3& v : solid.vertices) mean += v / double(solid.vertices.size());
+    for (Plane& plane : planes) {
+        plane.offset = (plane.offset - glm::dot(plane.normal, mean)) / system.scale();
+    }
+
+    const int up = system.up_facet();
+    glm::dmat3 turn = turn_to_z(up >= 0 ? planes[std::size_t(up)].normal
+                                        : glm::normalize(system.stone().up));
+    // About up: as most facets of the mesh stand, then as the azimuths that were read say.
+    double east = 0, north = 0;
+    for (std::size_t f = 0; f < planes.size(); ++f) {
+        const Vec3 n = turn * planes[f].normal;
+        const Vec3& m = shape.normals[f];
+        east += n.x * m.x + n.y * m.y;
+        north += n.x * m.y - n.y * m.x;
+    }
+    if (east != 0 || north != 0) turn = about_up(std::atan2(north, east)) * turn;
+    if (!system.stone().azimuth_from_mesh) {
+        east = north = 0;
+        for (const Reading& r : system.readings()) {
+            if (r.kind != ReadingKind::azimuth || r.datum.kind == Datum::Kind::facet) continue;
+            const Vec3 n = turn * planes[std::size_t(r.facets[0])].normal;
+            const double difference = r.value - std::atan2(n.y, n.x);
+            east += std::cos(difference);
+            north += std::sin(difference);
+        }
+        if (east != 0 || north != 0) turn = about_up(std::atan2(north, east)) * turn;
+    }
+    for (std::size_t f = 0; f < planes.size(); ++f) {
+        planes[f].normal = glm::normalize(turn * planes[f].normal);
+        shape.normals[f] = planes[f].normal;
+        shape.offsets[f] = planes[f].offset;
+    }
+    if (up >= 0) shape.normals[std::size_t(up)] = Vec3{0, 0, 1};
+    std::vector<std::vector<Plane>> of_point(shape.points.size());
+    for (const Incidence& incidence : system.incidences()) {
+        of_point[std::size_t(incidence.point)].push_back(planes[std::size_t(incidence.facet)]);
+    }
+    for (std::size_t p = 0; p < shape.points.size(); ++p) {
+        shape.points[p] = meet_of(of_point[p], shape.points[p]);
+    }
+    return shape;
+}
+
+}  // namespace culet

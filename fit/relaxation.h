@@ -1,0 +1,106 @@
+#pragma once
+// The equations of a fit for the solver: incidences and hinges in closed form, readings by their
+// formulas, each as one row in the freedoms. Private to the room: shows Eigen.
+
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "fit/freedoms.h"
+#include "fit/saddle_solver.h"
+#include "fit/system.h"
+
+namespace culet {
+
+/// How far a stage softens what will have to hold.
+struct Softness {
+    double incidence = 0;       ///< of exact incidences and exact readings; 0: they are hard
+    double readings = 0;        ///< added to each reading's own uncertainty
+    double hinge = 1e-4;        ///< by how much a corner may stand above a neighbour facet
+    bool with_readings = true;  ///< false: only a convex stone of these meets, near the mesh
+    bool with_priors = true;    ///< the mesh's points, as far as a hand-made mesh may be off
+};
+
+/// A corner held below a facet that it wanted to pass.
+struct Held {
+    int facet = -1, point = -1;
+    bool operator==(const Held&) const = default;
+};
+
+/// All equations at one shape.
+struct Sheet {
+    SparseRows rows;  ///< incidences first, in the system's order
+    Eigen::VectorXd prior_stiffness, prior_gradient;
+    double merit = 0;     ///< sum of squares of all that is soft, priors and hinges included
+    double hard_sum = 0;  ///< sum of sizes of what is left of hard equations
+    double hard_worst = 0;
+    double chi2 = 0;     ///< of readings and soft meets, at their own uncertainties
+    bool convex = true;  ///< no hinge is positive
+    bool finite = true;
+};
+
+class Relaxation {
+public:
+    Relaxation(const System& system, const Freedoms& freedoms);
+
+    const System& system() const { return system_; }
+    const Freedoms& freedoms() const { return freedoms_; }
+
+    /// Chooses what the readings mean at this shape: which corners the caliper's jaws touch, which
+    /// way upright facets lean. Later sheets keep to it, so that they are smooth.
+    /// Where a jaw would change between two corners for ever, it rests on both: at the bottom of
+    /// a kink the two are held level.
+    void choose(const Shape& shape);
+    void forget_ties() {
+        ties_.clear();
+        left_.clear();
+    }
+
+    /// Hinges that were ever positive keep a row, so that the pattern of the matrix settles.
+    Sheet sheet(const Shape& shape, const Softness& softness, const std::vector<Held>& held = {});
+    /// Incidences and other hard equations only: variance 0, no priors.
+    Sheet hard_sheet(const Shape& shape, const std::vector<Held>& held) const;
+    /// Positive hinges.
+    std::vector<Held> above(const Shape& shape) const;
+    bool is_convex(const Shape& shape) const { return above(shape).empty(); }
+
+    /// Readings and soft meets; equations that hold exactly.
+    struct Counts {
+        int soft = 0, hard = 0;
+    };
+    Counts counts() const;
+    Eigen::VectorXd metric() const;
+    /// Rows of `sheet` that may as well mean another value, and by how much more that is: of facets
+    /// within this sine of upright.
+    struct Folded {
+        int row = -1;
+        double shift = 0;
+    };
+    std::vector<Folded> folded(const Shape& shape, double within) const;
+
+    /// Second derivatives of the Lagrangian: of the incidences, which are bilinear, and of
+    /// inclinations and edges, without which a turn of the whole stone would seem to change them.
+    std::vector<SaddleSolver::Entry> curvature(const Shape& shape,
+                                               const Eigen::VectorXd& forces) const;
+
+private:
+    double height(const Shape& shape, int facet, int point) const;
+
+    const System& system_;
+    const Freedoms& freedoms_;
+    std::vector<int> incidences_;              // one of each orbit
+    std::vector<std::pair<int, int>> hinges_;  // facet, point: likewise
+    std::vector<double> incidence_images_, hinge_images_;
+    std::vector<char> was_positive_;
+    std::vector<Equation> equations_;  // of the readings, as chosen
+    struct Tie {
+        int one, other;
+        Vec3 direction;
+    };
+    std::vector<Tie> ties_;
+    // Of each reading and jaw, the corners that it has left.
+    std::map<std::pair<int, int>, std::vector<int>> left_;
+};
+
+}  // namespace culet

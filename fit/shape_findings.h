@@ -1,0 +1,23 @@
+#pragma once
+// Edges and facets that the readings deny or leave open. Private to the room.
+
+#include <vector>
+
+#include "fit/diagnostics.h"
+#include "fit/findings.h"
+#include "fit/finish.h"
+#include "fit/inference.h"
+
+namespace culet {
+
+/// In the scale of the fit. Vanishing edges come from corners held below a neighbour facet, by the
+/// force with which the readings pull at them (as in `meet_tests.h`); open ones from lengths, areas
+/// and angles less than twice their standard uncertainty. Only edges shorter than `k_short_edge`
+/// are looked at. `level` is the level of each test of a wish to vanish.
+std::vector<ShapeFinding> find_open_shape(const System& system, const Finished& finished,
+                                          const Diagnosis& diagnosis, const Inference& inference);
+
+/// Of the half diameter.
+inline constexpr double k_short_edge = 0.05;
+
+}  // namespace culet

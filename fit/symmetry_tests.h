@@ -1,0 +1,14 @@
+#pragma once
+// The tests behind find_symmetry.h, of one fit. Private to the room.
+
+#include "fit/find_symmetry.h"
+#include "fit/inference.h"
+#include "fit/system.h"
+
+namespace culet {
+
+/// `system` must hold no rotation and no mirror reading: those would be found again.
+SymmetryReport symmetry_of(const System& system, const Shape& shape, const Inference& inference,
+                           const FitOptions& options);
+
+}  // namespace culet

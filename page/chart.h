@@ -1,0 +1,40 @@
+#pragma once
+// A chart of points and lines on logarithmic or plain axes, as SVG.
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace culet {
+
+struct ChartPoint {
+    double x = 0, y = 0;
+    std::string label;  ///< written beside the point where there is room; empty: none
+    std::string about;  ///< one line for the reader who points at it
+    /// Ends of an error bar; NaN: none.
+    double y_low = std::numeric_limits<double>::quiet_NaN();
+    double y_high = std::numeric_limits<double>::quiet_NaN();
+    bool hollow = false;  ///< drawn as an outline
+};
+
+struct ChartSeries {
+    std::string name;  ///< for the key
+    std::vector<ChartPoint> points;
+    bool line = true;     ///< points are joined in their order
+    bool markers = true;  ///< else only the line is drawn
+    bool dashed = false;
+};
+
+struct Chart {
+    std::string title, about;  ///< `about` is the text alternative: what the chart shows
+    std::string x_label, y_label;
+    bool log_x = true, log_y = true;
+    std::vector<ChartSeries> series;
+};
+
+/// An SVG of its own, 760 x 480, dark on white; series differ by shape as well as by colour (Okabe
+/// and Ito 2008). Points that are not finite, or not positive on a logarithmic axis, are left out.
+/// Empty when no point is left. Text is escaped.
+std::string draw_chart_svg(const Chart& chart);
+
+}  // namespace culet

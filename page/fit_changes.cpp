@@ -1,0 +1,127 @@
+// What a fit changed, facet by facet.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "page/drawing.h"
+#include "page/fit_page.h"
+#include "page/html.h"
+#include "page/parts.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+struct Angles {
+    double inclination_deg = 0, azimuth_deg = 0;
+};
+
+// Inclination from the horizontal, pavilion facets positive too; azimuth counter-clockwise.
+Angles angles_of(const Vec3& normal) {
+    const double level = std::hypot(normal.x, normal.y);
+    double azimuth = degrees(std::atan2(normal.y, normal.x));
+    if (azimuth < 0) azimuth += 360;
+    return {degrees(std::atan2(level, std::abs(normal.z))), azimuth};
+}
+
+std::string change_row(const Solid& before, const Facet& old_facet, const Solid& after,
+                       const Facet& new_facet) {
+    const Angles a = angles_of(old_facet.plane.normal), b = angles_of(new_facet.plane.normal);
+    const double old_area = area(before, old_facet), new_area = area(after, new_facet);
+    // A level facet has no azimuth; a turn is the short way round.
+    const bool level = std::min(a.inclination_deg, b.inclination_deg) < 0.05;
+    const double turn = std::remainder(b.azimuth_deg - a.azimuth_deg, 360.0);
+    const auto three = [](double from, double to, double change, int places) {
+        const std::string text = decimals(change, places);
+        const bool grows = change > 0 && text.find_first_of("123456789") != std::string::npos;
+        return fmt::format(
+            "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n strong\">{}{}</td>",
+            decimals(from, places), decimals(to, places), grows ? "+" : "", text);
+    };
+    const std::string no_azimuth =
+        "<td class=\"n\">–</td><td class=\"n\">–</td><td class=\"n\">–</td>";
+    return fmt::format(
+        "<tr><th scope=\"row\">{}</th>{}{}{}</tr>\n", escaped(new_facet.name),
+        three(a.inclination_deg, b.inclination_deg, b.inclination_deg - a.inclination_deg, 2),
+        level ? no_azimuth : three(a.azimuth_deg, b.azimuth_deg, turn, 2),
+        three(old_area, new_area, new_area - old_area, 3));
+}
+
+}  // namespace
+
+std::string changes_table(const Solid& before, const Solid& after, const std::string& length_unit) {
+    std::string rows;
+    double squares = 0, worst = 0, count = 0;
+    std::string worst_name;
+    for (const Facet& facet : after.facets) {
+        const int old_index = find_facet(before, facet.name);
+        if (old_index < 0) continue;
+        const Facet& old_facet = before.facets[static_cast<std::size_t>(old_index)];
+        rows += change_row(before, old_facet, after, facet);
+        const double tilt = std::abs(angles_of(facet.plane.normal).inclination_deg -
+                                     angles_of(old_facet.plane.normal).inclination_deg);
+        squares += tilt * tilt;
+        ++count;
+        if (tilt > worst) {
+            worst = tilt;
+            worst_name = facet.name;
+        }
+    }
+    if (count == 0) return {};
+    std::string body = fmt::format(
+        "<p>Inclinations differ by {}° (root mean square of {:.0f} facets), at most by {}°{}. "
+        "Volume {} → {} {}³.</p>\n",
+        decimals(std::sqrt(squares / count), 2), count, decimals(worst, 2),
+        worst_name.empty() ? "" : " at " + escaped(worst_name), significant(volume(before), 5),
+        significant(volume(after), 5), escaped(length_unit));
+    return body + table("Each facet before and after",
+                        fmt::format("<th scope=\"col\">Facet</th>"
+                                    "<th scope=\"col\" class=\"n\">Inclination, °</th>"
+                                    "<th scope=\"col\" class=\"n\">fitted</th>"
+                                    "<th scope=\"col\" class=\"n\">change</th>"
+                                    "<th scope=\"col\" class=\"n\">Azimuth, °</th>"
+                                    "<th scope=\"col\" class=\"n\">fitted</th>"
+                                    "<th scope=\"col\" class=\"n\">change</th>"
+                                    "<th scope=\"col\" class=\"n\">Area, {}²</th>"
+                                    "<th scope=\"col\" class=\"n\">fitted</th>"
+                                    "<th scope=\"col\" class=\"n\">change</th>",
+                                    escaped(length_unit)),
+                        rows);
+}
+
+std::string change_drawings(const Solid& start, const Solid& fitted) {
+    std::vector<FacetPaint> paint;
+    std::vector<double> steeper;
+    double worst = 0;
+    for (const Facet& facet : fitted.facets) {
+        const int old_index = find_facet(start, facet.name);
+        FacetPaint own{"#d9dde0", "not in the starting mesh"};
+        steeper.push_back(0);
+        if (old_index >= 0) {
+            const Facet& before = start.facets[static_cast<std::size_t>(old_index)];
+            const double from = angles_of(before.plane.normal).inclination_deg;
+            const double to = angles_of(facet.plane.normal).inclination_deg;
+            steeper.back() = to - from;
+            worst = std::max(worst, std::abs(to - from));
+            own = {"",
+                   fmt::format("inclination {}° in place of {}°, {}{}°", decimals(to, 2),
+                               decimals(from, 2), to > from ? "+" : "", decimals(to - from, 2))};
+        }
+        paint.push_back(own);
+    }
+    // Never finer than a tenth of a degree: equal stones look equal.
+    const double range = std::max(0.1, std::ceil(10 * worst) / 10);
+    for (std::size_t f = 0; f < paint.size(); ++f) {
+        if (!paint[f].colour.empty()) continue;
+        paint[f].colour = css_colour(ColourMap::difference, 0.5 + 0.5 * steeper[f] / range);
+    }
+    const std::string both = stone_views(fitted, paint);
+    if (both.empty()) return {};
+    return both + colour_bar(ColourMap::difference, "blue: flatter than designed, red: steeper",
+                             decimals(-range, 1) + "°", "0", "+" + decimals(range, 1) + "°");
+}
+
+}  // namespace culet

@@ -1,0 +1,14 @@
+#pragma once
+// What a fit found out beyond facets and readings. Private to the room: shows JSON.
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace culet {
+
+/// Proportions with uncertainties; tiers against the table and against the stone's own axis;
+/// further readings that would help; meets, edges and facets that the readings deny; symmetry.
+/// Each only where the report has it.
+std::string findings_tables(const nlohmann::json& fit);
+
+}  // namespace culet

@@ -1,0 +1,136 @@
+#include "page/fit_paint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "page/fit_fields.h"
+#include "page/html.h"
+
+namespace culet {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* k_plain = "#d9dde0";
+
+std::string pose_of(const Json& facet) {
+    return fmt::format("inclination {}° ± {}°, azimuth {}° ± {}°",
+                       decimals(number_at(facet, "inclination"), 2),
+                       significant(number_at(facet, "sigma_inclination"), 2),
+                       decimals(number_at(facet, "azimuth"), 2),
+                       significant(number_at(facet, "sigma_azimuth"), 2));
+}
+
+/// How far the normal may be off, degrees; a level facet has no azimuth.
+std::optional<double> direction_sigma(const Json& facet) {
+    const auto tilt = number_at(facet, "sigma_inclination");
+    if (!tilt) return std::nullopt;
+    const double level =
+        std::sin(number_at(facet, "inclination").value_or(0) * std::numbers::pi / 180);
+    return std::hypot(*tilt, level * number_at(facet, "sigma_azimuth").value_or(0));
+}
+
+std::string freedoms_of(const Json& fit, const std::string& facet) {
+    std::string freedoms;
+    for (const Json& one : array_at(fit, "undetermined")) {
+        if (text_at(one, "facet") != facet) continue;
+        freedoms += (freedoms.empty() ? "" : ", ") + text_at(one, "freedom");
+    }
+    return freedoms;
+}
+
+/// 1, 2 or 5 times a power of ten, not below.
+double rounded_up(double value) {
+    const double decade = std::pow(10, std::floor(std::log10(value)));
+    for (const double step : {1.0, 2.0, 5.0}) {
+        if (step * decade >= value * (1 - 1e-9)) return step * decade;
+    }
+    return 10 * decade;
+}
+
+// Nine facets of ten lie within the scale; those that the readings hardly hold would else make all
+// the others look alike.
+double top_of(std::vector<double> sigmas) {
+    std::erase_if(sigmas, [](double s) { return !(s > 0) || !std::isfinite(s); });
+    if (sigmas.empty()) return 1;
+    std::sort(sigmas.begin(), sigmas.end());
+    return rounded_up(sigmas[static_cast<std::size_t>(0.9 * double(sigmas.size() - 1))]);
+}
+
+FitPaint residuals(const Json& fit, const std::vector<std::string>& names) {
+    FitPaint paint;
+    const std::vector<Worst> worst = worst_readings(fit, names);
+    for (std::size_t f = 0; f < names.size(); ++f) {
+        FacetPaint own;
+        if (const Json* facet = facet_in(fit, names[f])) own.about = pose_of(*facet);
+        own.about += own.about.empty() ? "" : "; ";
+        own.marked = worst[f].suspect;
+        if (worst[f].reading.empty()) {
+            own.colour = k_plain;
+            own.about += "no reading of its own";
+        } else {
+            own.colour =
+                css_colour(ColourMap::residual, std::abs(worst[f].normalized) / k_worst_shown);
+            own.about +=
+                fmt::format("worst of {} readings {}, {} standard uncertainties off",
+                            worst[f].count, worst[f].reading, decimals(worst[f].normalized, 2));
+        }
+        paint.facets.push_back(std::move(own));
+    }
+    paint.legend = {ColourMap::residual,
+                    "each facet's worst reading, in standard uncertainties; grey: none of its own",
+                    "0",
+                    "2",
+                    "4 or more",
+                    ""};
+    for (const Worst& one : worst) {
+        if (one.suspect) paint.legend.mark = "dashed: has a suspect reading";
+    }
+    return paint;
+}
+
+FitPaint uncertainties(const Json& fit, const std::vector<std::string>& names) {
+    FitPaint paint;
+    std::vector<std::optional<double>> sigmas;
+    std::vector<double> known;
+    for (const std::string& name : names) {
+        const Json* facet = facet_in(fit, name);
+        sigmas.push_back(facet ? direction_sigma(*facet) : std::nullopt);
+        // What is not determined at all says nothing about the others.
+        if (sigmas.back() && freedoms_of(fit, name).empty()) known.push_back(*sigmas.back());
+    }
+    const double top = top_of(known);
+    for (std::size_t f = 0; f < names.size(); ++f) {
+        FacetPaint own;
+        const Json* facet = facet_in(fit, names[f]);
+        own.about = facet ? pose_of(*facet) : "not in the report";
+        own.colour = sigmas[f] ? css_colour(ColourMap::uncertainty, *sigmas[f] / top) : k_plain;
+        if (const std::string open = freedoms_of(fit, names[f]); !open.empty()) {
+            own.marked = true;
+            own.about += "; left open by the readings: " + open;
+            paint.legend.mark = "dashed: left open by the readings";
+        }
+        paint.facets.push_back(std::move(own));
+    }
+    paint.legend.map = ColourMap::uncertainty;
+    paint.legend.what = "how far a facet's normal may be off (one standard uncertainty), degrees";
+    paint.legend.from = "0";
+    paint.legend.middle = significant(0.5 * top, 2);
+    paint.legend.to = significant(top, 2) + " or more";
+    return paint;
+}
+
+}  // namespace
+
+FitPaint fit_paint(const Solid& solid, const std::string& fit_json, FitColour colour) {
+    const Json fit = parsed_object<Json>(fit_json, "the fit report for the drawing");
+    std::vector<std::string> names;
+    for (const Facet& facet : solid.facets) names.push_back(facet.name);
+    return colour == FitColour::residual ? residuals(fit, names) : uncertainties(fit, names);
+}
+
+}  // namespace culet

@@ -1,0 +1,133 @@
+#include "page/html.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdint>
+
+namespace culet {
+
+namespace {
+
+// Length of the valid UTF-8 sequence at the start (Unicode 15, table 3-7), or 0.
+std::size_t sequence_length(std::string_view text) {
+    const auto at = [&](std::size_t i) {
+        return i < text.size() ? static_cast<std::uint8_t>(text[i]) : std::uint8_t{0};
+    };
+    const auto follows = [&](std::size_t i, int low = 0x80, int high = 0xbf) {
+        return at(i) >= low && at(i) <= high;
+    };
+    const int first = at(0);
+    if (first < 0x80) return 1;
+    if (first >= 0xc2 && first <= 0xdf) return follows(1) ? 2 : 0;
+    if (first >= 0xe0 && first <= 0xef) {
+        const int low = first == 0xe0 ? 0xa0 : 0x80, high = first == 0xed ? 0x9f : 0xbf;
+        return follows(1, low, high) && follows(2) ? 3 : 0;
+    }
+    if (first >= 0xf0 && first <= 0xf4) {
+        const int low = first == 0xf0 ? 0x90 : 0x80, high = first == 0xf4 ? 0x8f : 0xbf;
+        return follows(1, low, high) && follows(2) && follows(3) ? 4 : 0;
+    }
+    return 0;
+}
+
+const char* const k_minus = "\xe2\x88\x92";
+const char* const k_dash = "\xe2\x80\x93";
+
+std::string with_true_minus(std::string number) {
+    // -0.00 is no smaller than 0.00.
+    if (number.find_first_of("123456789") == std::string::npos && number.starts_with('-')) {
+        number.erase(0, 1);
+    }
+    for (std::size_t at = number.find('-'); at != std::string::npos; at = number.find('-', at)) {
+        number.replace(at, 1, k_minus);
+        at += 3;
+    }
+    return number;
+}
+
+}  // namespace
+
+std::string escaped(std::string_view text) {
+    std::string result;
+    while (!text.empty()) {
+        const std::size_t length = sequence_length(text);
+        const std::string_view one = text.substr(0, std::max<std::size_t>(length, 1));
+        const char c = one.front();
+        if (length == 0) {
+            result += "\xef\xbf\xbd";
+        } else if (c == '&') {
+            result += "&amp;";
+        } else if (c == '<') {
+            result += "&lt;";
+        } else if (c == '>') {
+            result += "&gt;";
+        } else if (c == '"') {
+            result += "&quot;";
+        } else if (c == '\'') {
+            result += "&#39;";
+        } else if ((static_cast<std::uint8_t>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7f) {
+            result += "\xef\xbf\xbd";
+        } else {
+            result += one;
+        }
+        text.remove_prefix(one.size());
+    }
+    return result;
+}
+
+std::string json_for_script(std::string_view json) {
+    std::string result;
+    for (const char c : json) {
+        if (c == '<') {
+            result += "\\u003c";
+        } else {
+            result += c;
+        }
+    }
+    return result;
+}
+
+std::string base64(std::string_view bytes) {
+    const char* const alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string result;
+    result.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            group =
+                group << 8 | (i + k < bytes.size() ? static_cast<std::uint8_t>(bytes[i + k]) : 0u);
+        }
+        for (std::size_t k = 0; k < 4; ++k) {
+            const bool padding = i + k > bytes.size();
+            result += padding ? '=' : alphabet[group >> (18 - 6 * k) & 63];
+        }
+    }
+    return result;
+}
+
+std::string png_uri(std::string_view png) {
+    return "data:image/png;base64," + base64(png);
+}
+
+std::string decimals(const std::optional<double>& value, int count) {
+    if (!value || !std::isfinite(*value)) return k_dash;
+    return with_true_minus(fmt::format("{:.{}f}", *value, count));
+}
+
+std::string whole(const std::optional<double>& value) {
+    return decimals(value, 0);
+}
+
+std::string significant(const std::optional<double>& value, int count) {
+    if (!value || !std::isfinite(*value)) return k_dash;
+    if (*value == 0) return "0";
+    const double magnitude = std::floor(std::log10(std::abs(*value)));
+    if (magnitude < -5 || magnitude > 7) {
+        return with_true_minus(fmt::format("{:.{}e}", *value, count - 1));
+    }
+    const int places = std::max(0, count - 1 - static_cast<int>(magnitude));
+    return with_true_minus(fmt::format("{:.{}f}", *value, places));
+}
+
+}  // namespace culet

@@ -1,0 +1,53 @@
+#pragma once
+// Fields of a JSON object that may be missing or of another kind. Templates, so that no header of
+// the room shows a JSON library; `Json` is nlohmann::json.
+
+#include <optional>
+#include <string>
+
+#include "stone/errors.h"
+
+namespace culet {
+
+/// Throws InputError that names `what` when the text is no JSON object. Empty text: an empty
+/// object.
+template <typename Json>
+Json parsed_object(const std::string& text, const char* what) {
+    if (text.empty()) return Json::object();
+    Json json = Json::parse(text, nullptr, false);
+    if (json.is_object()) return json;
+    throw InputError(std::string(what) + ": is no JSON object");
+}
+
+template <typename Json>
+std::optional<double> number_at(const Json& object, const char* key) {
+    if (!object.is_object()) return std::nullopt;
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_number()) return std::nullopt;
+    return found->template get<double>();
+}
+
+template <typename Json>
+std::string text_at(const Json& object, const char* key) {
+    if (!object.is_object()) return {};
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_string()) return {};
+    return found->template get<std::string>();
+}
+
+template <typename Json>
+bool true_at(const Json& object, const char* key) {
+    if (!object.is_object()) return false;
+    const auto found = object.find(key);
+    return found != object.end() && found->is_boolean() && found->template get<bool>();
+}
+
+template <typename Json>
+const Json& array_at(const Json& object, const char* key) {
+    static const Json none = Json::array();
+    if (!object.is_object()) return none;
+    const auto found = object.find(key);
+    return found != object.end() && found->is_array() ? *found : none;
+}
+
+}  // namespace culet

@@ -1,0 +1,31 @@
+#pragma once
+// The parts that pages are put together from. Each returns HTML.
+
+#include <string>
+
+#include "page/colour_maps.h"
+
+namespace culet {
+
+/// A whole page in itself: loads nothing from anywhere, whatever a hostile name might contain.
+/// `data_json` is kept inside it for programs; empty: none.
+std::string html_page(const std::string& title, const std::string& body,
+                      const std::string& data_json = {});
+
+/// `<section id=... >` with its heading; nothing when the body is empty.
+std::string section(const std::string& id, const std::string& heading, const std::string& body);
+
+/// `<div class="scroll">` around a table, so that a narrow screen scrolls the table, not the page.
+std::string table(const std::string& caption, const std::string& head, const std::string& body);
+
+/// A bar with ticks: from, middle, to.
+std::string colour_bar(ColourMap map, const std::string& what, const std::string& from,
+                       const std::string& middle, const std::string& to);
+
+/// Two pictures (PNG data URIs of one size) under a slider.
+struct SliderSide {
+    std::string label, uri, alternative;
+};
+std::string slider(const std::string& id, const SliderSide& left, const SliderSide& right);
+
+}  // namespace culet

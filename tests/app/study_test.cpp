@@ -1,0 +1,139 @@
+// culet study and the drawings of culet fit as a user runs them.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/run_program.h"
+#include "tests/page/xml.h"
+
+namespace culet {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ProgramRun;
+using test::run_culet;
+using test::xml_fault;
+using ::testing::HasSubstr;
+
+class StudyCommand : public testing::Test {
+protected:
+    StudyCommand() {
+        std::string pattern = (fs::temp_directory_path() / "culet-study-XXXXXX").string();
+        folder_ = ::mkdtemp(pattern.data());
+    }
+    ~StudyCommand() override {
+        std::error_code ignored;
+        fs::remove_all(folder_, ignored);
+    }
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    std::string text(const std::string& name) const {
+        std::ifstream stream(folder_ / name, std::ios::binary);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+    // A cube with edges of 2: six facets, four upright ones tilted a little.
+    void write_cube(const std::string& readings) const {
+        std::ofstream(folder_ / "cube.obj")
+            << "v 1 1 1\nv -1 1 1\nv -1 -1 1\nv 1 -1 1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 -1\nv 1 -1 "
+               "-1\n"
+               "g T\nf 1 2 3 4\ng B\nf 8 7 6 5\ng E\nf 1 4 8 5\ng N\nf 2 1 5 6\ng W\nf 3 2 6 7\n"
+               "g S\nf 4 3 7 8\n";
+        std::ofstream(folder_ / "stone.toml")
+            << "[stone]\nname = \"Cube\"\nmesh = \"cube.obj\"\nunit = \"mm\"\nmaterial = "
+               "\"diamond\"\nup = \"T\"\nreadings = \"readings.csv\"\n";
+        std::ofstream(folder_ / "readings.csv") << "kind,of,value,sigma\n" << readings;
+    }
+    static std::string all_readings() {
+        std::string text = "inclination,B,1.02,0.1\nazimuth,B,30.0,6\ndepth,,2.05,0.01\n";
+        int k = 0;
+        for (const char* name : {"E", "N", "W", "S"}) {
+            text += "inclination," + std::string(name) + ",8" + std::to_string(6 + k % 3) +
+                    ",0.1\nazimuth," + name + "," + std::to_string(90 * k) + ",0.1\n";
+            ++k;
+        }
+        for (const char* edge : {"T/E", "T/N", "T/W", "T/S", "E/N", "N/W", "W/S", "S/E"}) {
+            text += "edge," + std::string(edge) + ",2.0,0.2\n";
+        }
+        return text + "width,0,2.02,0.05\nwidth,90,2.02,0.05\n";
+    }
+    fs::path folder_;
+};
+
+TEST_F(StudyCommand, WritesTablesChartsJsonAndPage) {
+    write_cube(all_readings());
+    const ProgramRun run = run_culet({"study", file("stone.toml"), "-o", file("out"), "--draws",
+                                      "2", "--budget", "30", "--set", "fit.significance=1e-9"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("CPU/ms"));
+    EXPECT_THAT(run.out, HasSubstr("limit/deg"));
+    const auto json = nlohmann::json::parse(text("out/study.json"));
+    EXPECT_EQ(json["schema"], 1);
+    EXPECT_EQ(json["name"], "Cube");
+    EXPECT_EQ(json["options"]["seed"], 1);
+    EXPECT_FALSE(json["settings"].empty());
+    EXPECT_FALSE(json["limits"].empty());
+    EXPECT_EQ(xml_fault(text("out/time.svg")), "");
+    EXPECT_EQ(xml_fault(text("out/limit.svg")), "");
+    EXPECT_TRUE(text("out/time.csv").starts_with("sweep,setting,as_asked,"));
+    EXPECT_TRUE(text("out/limit.csv").starts_with("readings,share,dof,"));
+    EXPECT_THAT(text("out/report.html"), HasSubstr("<h1>Cube</h1>"));
+}
+
+TEST_F(StudyCommand, GivesItsJsonOnStdoutAlone) {
+    write_cube(all_readings());
+    const ProgramRun run = run_culet({"study", file("stone.toml"), "-o", file("out"), "--draws",
+                                      "1", "--only", "limit", "--json", "-", "-q"});
+    EXPECT_TRUE(nlohmann::json::accept(run.out)) << run.out;
+    EXPECT_EQ(run.err, "");
+    EXPECT_TRUE(nlohmann::json::parse(run.out)["settings"].empty());
+}
+
+void expect_refused(const ProgramRun& run, const std::string& why) {
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(run.err, HasSubstr(why));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+TEST_F(StudyCommand, RefusesInOneLineAndWritesNothing) {
+    std::ofstream(folder_ / "scene.toml") << "stone = \"stone.toml\"\n[camera]\nposition=[0,0,9]\n";
+    expect_refused(run_culet({"study", file("scene.toml"), "-o", file("out")}), "is a scene");
+    write_cube("");
+    expect_refused(run_culet({"study", file("stone.toml"), "-o", file("out")}), "no readings");
+    expect_refused(run_culet({"study", file("none.toml"), "-o", file("out")}), "none.toml");
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+    write_cube(all_readings());
+    expect_refused(run_culet({"study", file("stone.toml"), "-o", file("cube.obj")}), "is a file");
+    expect_refused(run_culet({"study", file("stone.toml"), "-o", file("out"), "--draws", "0"}),
+                   "--draws");
+    expect_refused(run_culet({"study", file("stone.toml"), "-o", file("out"), "--budget", "-1"}),
+                   "--budget");
+}
+
+TEST_F(StudyCommand, FitDrawsTheStone) {
+    write_cube(all_readings());
+    for (const char* paint : {"residual", "sigma"}) {
+        const ProgramRun run = run_culet({"fit", file("stone.toml"), "-o", file("fitted.obj"),
+                                          "--drawing", file("fitted.svg"), "--paint", paint, "-q"});
+        EXPECT_LE(run.exit_code, 1) << run.err;
+        const std::string svg = text("fitted.svg");
+        EXPECT_EQ(xml_fault(svg), "");
+        for (const char* part : {"<title>Cube</title>", ">Crown, from above<", ">Pavilion, ",
+                                 ">Girdle, ", ">T</text>", ">B</text>", ">S</text>"}) {
+            EXPECT_THAT(svg, HasSubstr(part));
+        }
+    }
+    expect_refused(run_culet({"fit", file("stone.toml"), "-o", file("f.obj"), "--drawing",
+                              file("nowhere/fitted.svg")}),
+                   "nowhere");
+    expect_refused(run_culet({"fit", file("stone.toml"), "-o", file("f.obj"), "--paint", "blue"}),
+                   "--paint");
+    EXPECT_FALSE(fs::exists(folder_ / "f.obj"));
+}
+
+}  // namespace
+}  // namespace culet

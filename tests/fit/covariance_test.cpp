@@ -1,0 +1,192 @@
+// The covariance of a fit: each algorithm against another one.
+#include "fit/covariance.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/QR>
+#include <cmath>
+
+#include "fit/elimination.h"
+#include "fit/selected_inverse.h"
+#include "fit/system.h"
+#include "tests/fit/test_stones.h"
+
+namespace culet {
+namespace {
+
+using namespace test;
+using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+Sparse random_rows(int rows, int columns, int entries, unsigned seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    std::uniform_int_distribution<int> column(0, columns - 1);
+    std::vector<Eigen::Triplet<double>> all;
+    for (int i = 0; i < rows; ++i) {
+        for (int k = 0; k < entries; ++k) all.emplace_back(i, column(random), normal(random));
+    }
+    Sparse result(rows, columns);
+    result.setFromTriplets(all.begin(), all.end());
+    return result;
+}
+
+// Rank by a dense QR; the basis by the definition rows * Z = 0 and full column rank.
+TEST(FreeDirections, SpanTheNullSpace) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        Sparse rows = random_rows(30, 50, 4, seed);
+        // Ten equations that repeat sums of others.
+        Eigen::MatrixXd dense = rows;
+        for (int i = 0; i < 10; ++i) dense.row(20 + i) = dense.row(i) - 3 * dense.row(i + 5);
+        const Sparse repeated = dense.sparseView();
+        const FreeDirections free = free_directions(repeated, 20, 50);
+        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(dense);
+        EXPECT_EQ(free.rank, qr.rank()) << seed;
+        EXPECT_EQ(free.basis.cols(), 50 - qr.rank()) << seed;
+        const Eigen::MatrixXd basis = free.basis;
+        EXPECT_LT((dense * basis).cwiseAbs().maxCoeff(), 1e-10 * (1 + free.growth)) << seed;
+        EXPECT_EQ(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(basis).rank(), basis.cols()) << seed;
+    }
+}
+
+// f' A^-1 f by dense algebra; functions inside and outside the pattern, short rows and long ones.
+TEST(SelectedInverse, MatchesTheInverse) {
+    const int size = 150;
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+        Sparse rows = random_rows(300, size, 3, seed);
+        Eigen::MatrixXd dense_rows = rows;
+        dense_rows.row(7).setConstant(0.3);
+        dense_rows.row(9).setLinSpaced(size, -1, 1);
+        rows = dense_rows.sparseView();
+        const Sparse hard = random_rows(20, size, 3, 100 + seed);
+        const NormalEquations equations{rows, hard, 100, Eigen::VectorXd::Constant(size, 0.5)};
+        SelectedInverse inverse;
+        ASSERT_TRUE(inverse.compute(equations));
+        const Eigen::MatrixXd dense_hard = hard;
+        Eigen::MatrixXd matrix =
+            dense_rows.transpose() * dense_rows + 1e4 * dense_hard.transpose() * dense_hard;
+        matrix.diagonal().array() += 0.5;
+        const Eigen::MatrixXd full = matrix.inverse();
+        for (int i = 0; i < 60; ++i) {
+            const Eigen::VectorXd f =
+                i < 30 ? Eigen::VectorXd(dense_rows.row(i).transpose())
+                       : Eigen::VectorXd(
+                             random_rows(1, size, 9, 1000 * seed + unsigned(i)).row(0).transpose());
+            const double expected = f.dot(full * f);
+            EXPECT_NEAR(inverse.quadratic(f.sparseView()), expected, 1e-9 * expected) << i;
+            EXPECT_LT((inverse.solve(f) - full * f).norm(), 1e-9 * (full * f).norm()) << i;
+        }
+    }
+}
+
+// Sylvester's law against eigenvalues.
+TEST(SelectedInverse, CountsNegativeEigenvalues) {
+    const int size = 60;
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+        const Sparse rows = random_rows(80, size, 3, seed),
+                     hard = random_rows(5, size, 3, 50 + seed);
+        const Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(size, -1.0);
+        const Eigen::MatrixXd a = rows, h = hard;
+        Eigen::MatrixXd matrix = a.transpose() * a + 4.0 * h.transpose() * h;
+        matrix.diagonal().array() -= 1;
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix);
+        EXPECT_EQ(negative_pivots({rows, hard, 2, diagonal}),
+                  int((eigen.eigenvalues().array() < 0).count()));
+    }
+}
+
+struct Case {
+    const char* name;
+    std::vector<Reading> readings;
+};
+
+std::vector<Case> cases() {
+    const Solid truth = brilliant();
+    std::vector<Case> all;
+    std::vector<Reading> full = all_angles(truth, radians(0.1), "T");
+    for (const Reading& r : all_edges(truth, 0.01)) full.push_back(r);
+    full.push_back(depth(truth, 0.01));
+    all.push_back({"full", full});
+    std::vector<Reading> weight = full;
+    weight.push_back(reading(ReadingKind::volume, {}, volume(truth), 0.01));
+    all.push_back({"with volume", weight});
+    std::vector<Reading> few(full.begin(), full.begin() + 100);
+    few.push_back(depth(truth, 0.01));
+    all.push_back({"few", few});
+    return all;
+}
+
+// The sparse algorithm against the dense one: they share only the equations.
+TEST(Covariance, BothAlgorithmsAgree) {
+    const Stone stone = stone_of(brilliant());
+    for (const Case& c : cases()) {
+        const System system(stone, c.readings, {});
+        const Linearised linear =
+            linearise(system, system.mesh_shape(), system.mesh_outline(), false);
+        const Covariance dense(linear, Covariance::Algorithm::dense);
+        const Covariance sparse(linear, Covariance::Algorithm::sparse);
+        ASSERT_TRUE(dense.usable() && sparse.usable()) << c.name;
+        EXPECT_EQ(dense.open_freedoms(), sparse.open_freedoms()) << c.name;
+        for (Eigen::Index i = 0; i < dense.leverages().size(); ++i) {
+            EXPECT_NEAR(dense.leverages()(i), sparse.leverages()(i), 2e-3) << c.name << " " << i;
+        }
+        if (dense.open_freedoms() > 0) continue;
+        for (int f = 0; f < linear.layout.facets; ++f) {
+            for (int k = 0; k < 3; ++k) {
+                FunctionRow row(linear.layout.size());
+                row.coeffRef(linear.layout.tilt(f) + k) = 1;
+                const double d = std::sqrt(dense.variance(row)),
+                             s = std::sqrt(sparse.variance(row));
+                EXPECT_NEAR(d, s, 0.01 * d + 1e-6) << c.name << " facet " << f << " " << k;
+            }
+        }
+    }
+}
+
+// Freedoms by Steinitz: edges + 6, less what is held by the frame and by independent readings.
+TEST(Covariance, CountsWhatIsOpen) {
+    const Stone stone = stone_of(brilliant());
+    const System system(stone, {}, {});
+    const Linearised linear = linearise(system, system.mesh_shape(), system.mesh_outline(), false);
+    for (const auto algorithm : {Covariance::Algorithm::dense, Covariance::Algorithm::sparse}) {
+        // 128 edges + 6, less shifts (3), the table's tilts (2) and the turn about up.
+        EXPECT_EQ(Covariance(linear, algorithm).open_freedoms(), 128);
+    }
+}
+
+// A sum of squares of weights from 1e-12 to 1e12: an orthogonal-triangular factor in long double is
+// the reference.
+TEST(Covariance, KeepsSmallUncertaintiesApartFromLargeOnes) {
+    const Solid truth = brilliant();
+    const Stone stone = stone_of(truth);
+    std::vector<Reading> readings = cases()[0].readings;
+    const System plain(stone, readings, {});
+    readings[0].sigma = 1e-12;
+    readings[1].sigma = 1e12;
+    readings[150].sigma = 1e-12;
+    const System mixed(stone, readings, {});
+    const auto sigma_of = [](const System& system, int f) {
+        const Linearised linear =
+            linearise(system, system.mesh_shape(), system.mesh_outline(), false);
+        const Covariance covariance(linear);
+        FunctionRow row(linear.layout.size());
+        row.coeffRef(linear.layout.tilt(f)) = 1;
+        return std::sqrt(covariance.variance(row));
+    };
+    // A facet far away hardly feels it.
+    const int far = find_facet(truth, "P5");
+    EXPECT_NEAR(sigma_of(mixed, far), sigma_of(plain, far), 0.05 * sigma_of(plain, far));
+    const Linearised linear = linearise(mixed, mixed.mesh_shape(), mixed.mesh_outline(), false);
+    const Covariance covariance(linear);
+    // Tight readings are checked by nothing that is as tight; the loose one by everything.
+    const Eigen::Index first = [&] {
+        for (std::size_t i = 0; i < linear.soft.size(); ++i) {
+            if (linear.soft[i].reading == 0) return Eigen::Index(i);
+        }
+        return Eigen::Index(-1);
+    }();
+    EXPECT_NEAR(covariance.leverages()(first), 1, 1e-6);
+    EXPECT_NEAR(covariance.leverages()(first + 1), 0, 1e-6);
+}
+
+}  // namespace
+}  // namespace culet

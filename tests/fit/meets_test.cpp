@@ -1,0 +1,147 @@
+// Meets that the readings contradict, and how they come apart.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "stone/checks.h"
+#include "stone/cuts/cuts.h"
+#include "tests/fit/test_stones.h"
+
+namespace culet {
+namespace {
+
+using namespace test;
+
+/// A brilliant whose lower halves' tips stand off by `up[k]`: all meets are exact but the culet,
+/// which the mains through the moved tips miss.
+Solid with_loose_culet(const std::array<double, 8>& up) {
+    const BrilliantSize size;
+    const double r = size.radius, low = -2 * size.girdle, step = std::numbers::pi / 4;
+    const auto at = [](double radius, double azimuth, double z) {
+        return Vec3{radius * std::cos(azimuth), radius * std::sin(azimuth), z};
+    };
+    const double reach = (1 - size.lower) * r;
+    std::vector<Vec3> tips;
+    for (std::size_t k = 0; k < 8; ++k) {
+        tips.push_back(at(
+            reach, (double(k) + 0.5) * step,
+            low + up[k] - (r - reach * std::cos(step / 2)) * std::tan(radians(size.pavilion_deg))));
+    }
+    const auto outwards = [](const std::string& name, const Vec3& a, const Vec3& b, const Vec3& c) {
+        Vec3 n = glm::cross(b - a, c - a);
+        return through(name, n.z > 0 ? -n : n, a);
+    };
+    std::vector<NamedPlane> planes;
+    for (const Facet& f : brilliant(size).facets) {
+        const int number = f.name.size() > 1 ? std::stoi(f.name.substr(1)) - 1 : 0;
+        if (f.name[0] == 'P') {
+            const std::size_t k = std::size_t(number);
+            planes.push_back(
+                outwards(f.name, at(r, number * step, low), tips[(k + 7) % 8], tips[k]));
+        } else if (f.name[0] == 'L') {
+            const double end = (number / 2 + number % 2) * step, middle = (number / 2 + 0.5) * step;
+            planes.push_back(outwards(f.name, at(r, end, low), at(r, middle, low),
+                                      tips[std::size_t(number / 2)]));
+        } else {
+            planes.push_back({f.name, f.plane});
+        }
+    }
+    return enclosed(planes);
+}
+
+std::vector<std::string> sorted(std::vector<std::string> names) {
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+const MeetFinding& meet_of(const FitResult& result, const std::vector<std::string>& names) {
+    for (const MeetFinding& m : result.meet_findings) {
+        if (sorted(m.facets) == sorted(names)) return m;
+    }
+    throw std::runtime_error("no such meet");
+}
+
+const std::vector<std::string> k_culet{"P1", "P2", "P3", "P4", "P5", "P6", "P7", "P8"};
+
+// Without any misses none is claimed: each of 20 stones is tested at the 0.1 % level as a whole.
+TEST(Meets, OfASoundStoneAreNotAccused) {
+    const Solid truth = brilliant();
+    const std::vector<Reading> readings = plane_readings(truth, truth, 0.05, 0.005);
+    double p_sum = 0;
+    int accused = 0, count = 0;
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+        const FitResult result = fit_stone(stone_of(truth), noisy(readings, seed));
+        EXPECT_EQ(result.meet_findings.size(), 57u);
+        for (const MeetFinding& m : result.meet_findings) {
+            accused += m.contradicted ? 1 : 0;
+            p_sum += m.p;
+            ++count;
+            EXPECT_GT(m.tested, 0);
+        }
+    }
+    EXPECT_EQ(accused, 0);
+    // p is uniform: mean 1/2, spread 1/sqrt(12 n) were the tests independent.
+    EXPECT_NEAR(p_sum / count, 0.5, 6 / std::sqrt(12.0 * count));
+}
+
+// Mains that miss the culet by tens of micrometres, read to 5 um and 0.05 degrees: that meet is
+// named, with how much it misses by, and no other.
+TEST(Meets, ACuletThatMissesIsNamed) {
+    const Solid design = brilliant(),
+                truth = with_loose_culet({0.02, -0.01, 0.015, 0.0, -0.02, 0.01, 0.005, -0.015});
+    ASSERT_EQ(truth.facets.size(), design.facets.size());
+    const std::vector<Reading> readings = plane_readings(design, truth, 0.05, 0.005);
+    const FitResult result = fit_stone(stone_of(design), noisy(readings, 2));
+    EXPECT_EQ(result.status, FitStatus::contradictory) << result.message;
+    const MeetFinding& culet = meet_of(result, k_culet);
+    EXPECT_TRUE(culet.contradicted);
+    EXPECT_THAT(culet.advice, ::testing::HasSubstr("release it"));
+    EXPECT_LT(culet.p, 1e-6);
+}
+
+// Let go, it comes apart into the corners and small edges that the planes enclose (computed here by
+// exact half-space intersection of the true planes: 5 corners more), all names stay, and nothing is
+// left of the contradiction.
+TEST(Meets, AReleasedCuletComesApart) {
+    const Solid design = brilliant(),
+                truth = with_loose_culet({0.02, -0.01, 0.015, 0.0, -0.02, 0.01, 0.005, -0.015});
+    ASSERT_EQ(truth.vertices.size(), design.vertices.size() + 5);
+    std::vector<Reading> readings = noisy(plane_readings(design, truth, 0.02, 0.002), 2);
+    Reading meet = reading(ReadingKind::meet, {}, 0, 0);
+    for (const std::string& name : k_culet) meet.facets.push_back(find_facet(design, name));
+    meet.released = true;
+    readings.push_back(meet);
+    const FitResult result = fit_stone(stone_of(design), readings);
+    EXPECT_EQ(result.status, FitStatus::converged) << result.message;
+    EXPECT_TRUE(result.closed && result.convex);
+    EXPECT_THAT(find_faults(result.solid), ::testing::IsEmpty());
+    EXPECT_EQ(result.solid.facets.size(), design.facets.size());
+    EXPECT_EQ(result.solid.vertices.size(), truth.vertices.size());
+    for (const Facet& f : design.facets) EXPECT_GE(find_facet(result.solid, f.name), 0) << f.name;
+    const MeetFinding& culet = meet_of(result, k_culet);
+    EXPECT_EQ(culet.how, "released");
+    EXPECT_LT(culet.p, 1e-6);
+    EXPECT_GT(culet.miss, 0.002);
+}
+
+// The same without being told which: allowed to, the fit lets go what the readings contradict, says
+// so, and ends where every reading agrees.
+TEST(Meets, AContradictedCuletComesApartWhereThatIsAllowed) {
+    const Solid design = brilliant(),
+                truth = with_loose_culet({0.02, -0.01, 0.015, 0.0, -0.02, 0.01, 0.005, -0.015});
+    FitOptions options;
+    options.allow_topology = true;
+    const FitResult result = fit_stone(
+        stone_of(design), noisy(plane_readings(design, truth, 0.02, 0.002), 2), options);
+    EXPECT_EQ(result.status, FitStatus::converged) << result.message;
+    EXPECT_EQ(result.solid.vertices.size(), truth.vertices.size());
+    EXPECT_THAT(find_faults(result.solid), ::testing::IsEmpty());
+    EXPECT_THAT(result.changes,
+                ::testing::Contains(::testing::AllOf(::testing::HasSubstr("came apart"),
+                                                     ::testing::HasSubstr("P1, P8, P7"))));
+    EXPECT_THAT(result.changes, ::testing::Contains(::testing::HasSubstr("edges new")));
+}
+
+}  // namespace
+}  // namespace culet

@@ -1,0 +1,142 @@
+#include "fit/summary.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "stone/units.h"
+
+namespace culet {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+FittedFacet facet(const std::string& name, double sigma_deg) {
+    FittedFacet f;
+    f.name = name;
+    f.inclination = radians(90);
+    f.sigma_inclination = radians(0.6 * sigma_deg);
+    f.sigma_azimuth = radians(0.8 * sigma_deg);
+    return f;
+}
+
+FitResult result() {
+    FitResult r;
+    r.status = FitStatus::converged;
+    r.chi2 = 48.9;
+    r.dof = 94;
+    r.chi2_limit = 142.1;
+    r.facets = {facet("P1", 0.1), facet("P2", 0.3), facet("P3", 0.2)};
+    FittedReading reading;
+    reading.id = "r0";
+    reading.of = {"P1"};
+    reading.value = radians(43.4);
+    reading.residual = radians(-4.5);
+    reading.redundancy = 0.5;
+    reading.normalized = -12.34;
+    r.readings = {reading};
+    return r;
+}
+
+TEST(Summary, names_the_least_sure_facets) {
+    const auto lines = fit_summary(result());
+    EXPECT_THAT(lines.front(), HasSubstr("chi-square 48.9, where 94.0 is expected"));
+    EXPECT_THAT(lines, Contains(HasSubstr("Least sure are P2 (0.3 degrees), P3 (0.2 degrees)")));
+    EXPECT_THAT(lines, Not(Contains(HasSubstr("Look again"))));
+}
+
+// Without its own reading of 43.4 the facet would come to 43.4 - 4.5 / 0.5 = 34.4: the residual is
+// the redundancy's part of the error.
+TEST(Summary, says_what_the_others_say_of_a_suspect) {
+    FitResult r = result();
+    r.status = FitStatus::contradictory;
+    r.suspects = {"r0"};
+    EXPECT_THAT(
+        fit_summary(r),
+        Contains(HasSubstr(
+            "Look again at r0 (inclination of P1: read 43.4, the others say 34.4, off by 12.3")));
+}
+
+TEST(Summary, names_the_slip_that_would_explain_a_suspect) {
+    FitResult r = result();
+    r.suspects = {"r0"};
+    r.proposals = {{"r0", true, radians(34.41), radians(0.1), "digits swapped", radians(34.4), {}}};
+    EXPECT_THAT(fit_summary(r),
+                Contains(HasSubstr("the others say 34.41 +- 0.1 (digits swapped: 34.4?)")));
+}
+
+TEST(Summary, names_a_set_only_where_no_single_reading_explains) {
+    FitResult r = result();
+    r.disagreeing = {"a", "b", "c"};
+    EXPECT_THAT(fit_summary(r),
+                Contains("The fewest readings that cannot hold together: a, b, c."));
+    r.suspects = {"r0"};
+    EXPECT_THAT(fit_summary(r), Not(Contains(HasSubstr("cannot hold together"))));
+}
+
+TEST(Summary, tells_what_was_found_out) {
+    FitResult r = result();
+    r.undetermined_words = {"nothing measured fixes the azimuth of star S3"};
+    r.help = {{ReadingKind::azimuth, {"S3"}, 0.1, 0.02, true}, {}};
+    r.changes = {"edges gone: A|B"};
+    r.own_axis.known = true;
+    r.own_axis.tilt = radians(0.8);
+    r.own_axis.sigma = radians(0.04);
+    r.own_axis.azimuth = radians(120);
+    MeetFinding meet;
+    meet.contradicted = true;
+    meet.advice = "meet of P1..P8: planes miss by 20 um: release it";
+    r.meet_findings = {meet, {}};
+    r.symmetry.emplace();
+    r.symmetry->message = "C8v is supported";
+    const auto lines = fit_summary(r);
+    for (const char* words :
+         {"Nothing measured fixes the azimuth of star S3.", "Changed: edges gone: A|B.",
+          "Meet of P1..P8: planes miss by 20 um: release it.", "Symmetry: C8v is supported."}) {
+        EXPECT_THAT(lines, Contains(words));
+    }
+    EXPECT_THAT(lines, Contains(HasSubstr("The table leans 0.8 +- 0.04 degrees")));
+    EXPECT_THAT(lines, Contains("The reading that would help most: azimuth of S3 (it would settle "
+                                "something that is open)."));
+    // A tilt that its uncertainty explains is none; a reading that brings little is not asked for.
+    r.own_axis.sigma = radians(0.4);
+    r.help[0].closes = false;
+    for (const std::string& line : fit_summary(r)) {
+        EXPECT_THAT(line, Not(HasSubstr("leans")));
+        EXPECT_THAT(line, Not(HasSubstr("help most")));
+    }
+}
+
+TEST(Summary, says_what_is_open_and_what_nothing_checks) {
+    FitResult r = result();
+    r.status = FitStatus::undetermined;
+    r.message = "2 freedoms";
+    r.readings[0].redundancy = 0;
+    r.undetermined = {{"P3", "azimuth"}, {"P3", "offset"}, {"P1", "offset"}};
+    const auto lines = fit_summary(r);
+    EXPECT_THAT(lines, Contains("Nothing measured fixes the azimuth and offset of P3, the offset "
+                                "of P1."));
+    EXPECT_THAT(lines, Contains(HasSubstr("Nothing checks 1 of 1 readings (r0)")));
+}
+
+TEST(Summary, of_a_failure_says_not_to_rely_on_it) {
+    FitResult r;
+    r.message = "the fitted stone is not closed";
+    const auto lines = fit_summary(r);
+    ASSERT_EQ(lines.size(), 1u);
+    EXPECT_EQ(lines[0], "Do not rely on this stone: the fitted stone is not closed.");
+}
+
+TEST(Summary, survives_what_is_not_known) {
+    FitResult r = result();
+    for (FittedFacet& f : r.facets) f.sigma_inclination = f.sigma_azimuth = std::nan("");
+    r.readings[0].redundancy = std::nan("");
+    r.suspects = {"gone"};
+    for (const std::string& line : fit_summary(r)) EXPECT_THAT(line, Not(HasSubstr("nan")));
+}
+
+}  // namespace
+}  // namespace culet

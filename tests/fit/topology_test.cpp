@@ -1,0 +1,215 @@
+// Edges and facets that the readings deny or leave open, by name.
+#include "fit/topology.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "stone/checks.h"
+#include "tests/fit/test_stones.h"
+
+namespace culet {
+namespace {
+
+using namespace test;
+
+/// A hip roof over a box: the ridge lies between N and S when `along` > `across`, between E and W
+/// when it is less, and where all four planes meet when they are equal.
+Solid roof(double along, double across) {
+    const double s = std::sqrt(0.5);
+    // Slopes of 45 degrees whose eaves stand at +-along and +-across at z = 0.
+    return enclosed({{"E", {{s, 0, s}, s * along}},
+                     {"W", {{-s, 0, s}, s * along}},
+                     {"N", {{0, s, s}, s * across}},
+                     {"S", {{0, -s, s}, s * across}},
+                     {"B", {{0, 0, -1}, 0}}});
+}
+
+Stone standing(Solid solid) {
+    Stone stone = stone_of(std::move(solid), "");
+    stone.up_facet.clear();
+    stone.azimuth_from_mesh = true;
+    return stone;
+}
+
+/// Angles and eaves: they place the four slopes and say nothing of the ridge itself.
+std::vector<Reading> roof_readings(const Solid& mesh, const Solid& truth, double sigma_deg,
+                                   double sigma) {
+    std::vector<Reading> readings;
+    const int bottom = find_facet(mesh, "B");
+    for (const Reading& r : plane_readings(mesh, truth, sigma_deg, sigma)) {
+        const bool is_length = r.kind == ReadingKind::edge || r.kind == ReadingKind::depth;
+        const bool is_eave =
+            r.kind == ReadingKind::edge && (r.facets[0] == bottom || r.facets[1] == bottom);
+        if (!is_length || is_eave) readings.push_back(r);
+    }
+    return readings;
+}
+
+const ShapeFinding* finding(const FitResult& result, ShapeFinding::Kind kind) {
+    for (const ShapeFinding& f : result.shape_findings) {
+        if (f.kind == kind) return &f;
+    }
+    return nullptr;
+}
+
+bool has_edge(const Solid& solid, const std::string& a, const std::string& b) {
+    const int f = find_facet(solid, a), g = find_facet(solid, b);
+    for (const Edge& e : half_edges(solid).edges) {
+        if ((e.left == f && e.right == g) || (e.left == g && e.right == f)) return true;
+    }
+    return false;
+}
+
+TEST(Topology, ARidgeThatWantsToLieAcrossIsNamed) {
+    const Solid mesh = roof(1.1, 1), truth = roof(1, 1.1);
+    ASSERT_TRUE(has_edge(mesh, "N", "S"));
+    ASSERT_TRUE(has_edge(truth, "E", "W"));
+    const std::vector<Reading> readings = noisy(roof_readings(mesh, truth, 0.1, 0.005), 1);
+    const FitResult result = fit_stone(standing(mesh), readings);
+    const ShapeFinding* edge = finding(result, ShapeFinding::Kind::edge_vanishes);
+    ASSERT_NE(edge, nullptr) << result.message;
+    EXPECT_THAT(std::vector<std::string>(edge->facets.begin(), edge->facets.begin() + 2),
+                ::testing::UnorderedElementsAre("N", "S"));
+    EXPECT_LT(edge->p, 1e-6);
+    EXPECT_EQ(result.status, FitStatus::contradictory);
+    EXPECT_THAT(result.message,
+                ::testing::AnyOf(::testing::HasSubstr("N|S"), ::testing::HasSubstr("S|N")));
+    EXPECT_TRUE(result.closed && result.convex);
+    // The ridge of the mesh shrinks as the other grows: by simple geometry its length is
+    // 2 (along - across) of the truth.
+    EXPECT_NEAR(edge->value, -0.2, 0.05);
+    EXPECT_TRUE(result.changes.empty());
+}
+
+TEST(Topology, ARidgeIsTurnedWhereThatIsAllowed) {
+    const Solid mesh = roof(1.1, 1), truth = roof(1, 1.1);
+    FitOptions options;
+    options.allow_topology = true;
+    // With hips and depth read as well no edge is driven to zero: the readings contradict each
+    // other on the mesh's own topology, and short edges are tried.
+    for (const bool all : {false, true}) {
+        const std::vector<Reading> readings = noisy(
+            all ? plane_readings(mesh, truth, 0.1, 0.005) : roof_readings(mesh, truth, 0.1, 0.005),
+            1);
+        const FitResult result = fit_stone(standing(mesh), readings, options);
+        EXPECT_EQ(result.status, FitStatus::converged) << result.message;
+        EXPECT_TRUE(has_edge(result.solid, "E", "W"));
+        EXPECT_FALSE(has_edge(result.solid, "N", "S"));
+        EXPECT_THAT(find_faults(result.solid), ::testing::IsEmpty());
+        EXPECT_THAT(result.changes, ::testing::Contains("edges gone: N|S"));
+        EXPECT_THAT(result.changes, ::testing::Contains("edges new: E|W"));
+        EXPECT_EQ(result.readings.size(), readings.size());
+        EXPECT_NEAR(width_along(result.solid, {0, 0, 1}), width_along(truth, {0, 0, 1}), 0.02);
+    }
+}
+
+/// A box with a bevel that the readings put outside of it.
+Solid bevelled(double offset) {
+    const double s = std::sqrt(0.5);
+    return enclosed({{"T", {{0, 0, 1}, 1}},
+                     {"bevel", {{s, 0, s}, offset * s}},
+                     {"X+", {{1, 0, 0}, 1}},
+                     {"Y+", {{0, 1, 0}, 1}},
+                     {"X-", {{-1, 0, 0}, 1}},
+                     {"Y-", {{0, -1, 0}, 1}},
+                     {"B", {{0, 0, -1}, 1}}});
+}
+
+std::vector<Reading> readings_without_bevel(const Solid& mesh) {
+    const Solid box = cube();
+    std::vector<Reading> readings = plane_readings(mesh, box, 0.05, 0.002);
+    readings.push_back(
+        reading(ReadingKind::inclination, {find_facet(mesh, "bevel")}, radians(45), radians(0.05)));
+    readings.push_back(
+        reading(ReadingKind::azimuth, {find_facet(mesh, "bevel")}, 0, radians(0.05)));
+    for (const char* side : {"X+", "Y+", "X-", "Y-"}) {
+        readings.push_back(reading(ReadingKind::inclination, {find_facet(mesh, side)}, radians(90),
+                                   radians(0.05)));
+    }
+    return readings;
+}
+
+// Edges, angles and depth of a whole box: the bevel may or may not be there.
+TEST(Topology, AFacetThatMayNotBeThereIsNamed) {
+    const Solid mesh = bevelled(1.9);
+    std::vector<Reading> readings = readings_without_bevel(mesh);
+    readings.push_back(reading(ReadingKind::table_width, {}, 2, 0.002));
+    const FitResult result = fit_stone(stone_of(mesh), noisy(readings, 2));
+    const ShapeFinding* facet = finding(result, ShapeFinding::Kind::facet_open);
+    ASSERT_NE(facet, nullptr) << result.message;
+    EXPECT_THAT(facet->facets, ::testing::ElementsAre("bevel"));
+    EXPECT_THAT(facet->what, ::testing::HasSubstr("may not be there"));
+}
+
+// A reading that puts its plane 20 um outside the box: no room is left for it.
+TEST(Topology, AFacetWithoutRoomIsNamedAndGoesWhereThatIsAllowed) {
+    const Solid mesh = bevelled(1.9);
+    std::vector<Reading> readings = readings_without_bevel(mesh);
+    readings.push_back(reading(ReadingKind::table_width, {}, 2, 0.002));
+    Reading apart = reading(ReadingKind::distance, {}, 4 * std::sqrt(0.5) + 0.02, 0.002);
+    apart.places = {Place{Place::Kind::facet, find_facet(mesh, "bevel"), -1, -1},
+                    Place{Place::Kind::edge, find_facet(mesh, "X-"), find_facet(mesh, "B"), -1}};
+    readings.push_back(apart);
+    readings = noisy(readings, 2);
+    const FitResult result = fit_stone(stone_of(mesh), readings);
+    EXPECT_NE(result.status, FitStatus::converged) << result.message;
+    EXPECT_THAT(result.message, ::testing::HasSubstr("bevel"));
+    EXPECT_TRUE(result.closed);
+    FitOptions options;
+    options.allow_topology = true;
+    const FitResult changed = fit_stone(stone_of(mesh), readings, options);
+    EXPECT_EQ(changed.status, FitStatus::converged) << changed.message;
+    EXPECT_LT(find_facet(changed.solid, "bevel"), 0);
+    EXPECT_EQ(changed.solid.facets.size(), 6u);
+    EXPECT_THAT(find_faults(changed.solid), ::testing::IsEmpty());
+    EXPECT_THAT(changed.changes,
+                ::testing::Contains("facets gone, the readings leave no room for them: bevel"));
+    EXPECT_THAT(changed.changes, ::testing::Contains(::testing::HasSubstr("no longer apply")));
+    EXPECT_EQ(changed.readings.size(), readings.size());
+    EXPECT_TRUE(std::isnan(changed.readings.back().fitted));
+}
+
+TEST(Topology, TwoFacetsThatCannotBeToldApartAreNamed) {
+    // Two halves of one side of a box, 0.02 degrees apart and read to 0.1.
+    std::vector<NamedPlane> planes{{"T", {{0, 0, 1}, 1}},
+                                   {"Y+", {{0, 1, 0}, 1}},
+                                   {"X-", {{-1, 0, 0}, 1}},
+                                   {"Y-", {{0, -1, 0}, 1}},
+                                   {"B", {{0, 0, -1}, 1}}};
+    planes.push_back(through("A", direction(90, 0.01), {1, 0, 0}));
+    planes.push_back(through("C", direction(90, -0.01), {1, 0, 0}));
+    const Solid truth = enclosed(planes);
+    ASSERT_EQ(truth.facets.size(), 7u);
+    std::vector<Reading> readings = all_angles(truth, radians(0.1), "T");
+    for (const Reading& r : all_edges(truth, 0.005)) readings.push_back(r);
+    const FitResult result = fit_stone(stone_of(truth), readings);
+    const ShapeFinding* same = finding(result, ShapeFinding::Kind::same_plane);
+    ASSERT_NE(same, nullptr) << result.message;
+    EXPECT_THAT(same->facets, ::testing::UnorderedElementsAre("A", "C"));
+    EXPECT_NEAR(degrees(same->value), 0.02, 1e-6);
+    EXPECT_GT(degrees(same->sigma), 0.01);
+}
+
+TEST(Topology, AnEdgeShorterThanItsUncertaintyIsOpen) {
+    const Solid truth = roof(1.002, 1);
+    const FitResult result = fit_stone(standing(truth), plane_readings(truth, truth, 0.1, 0.01));
+    const ShapeFinding* edge = finding(result, ShapeFinding::Kind::edge_open);
+    ASSERT_NE(edge, nullptr) << result.message;
+    EXPECT_THAT(std::vector<std::string>(edge->facets.begin(), edge->facets.begin() + 2),
+                ::testing::UnorderedElementsAre("N", "S"));
+    EXPECT_NEAR(edge->value, 0.004, 1e-6);
+    EXPECT_THAT(edge->what, ::testing::HasSubstr("zero"));
+}
+
+// A sound stone has nothing of the kind.
+TEST(Topology, ASoundStoneHasNothingToSay) {
+    const Solid truth = brilliant();
+    const FitResult result =
+        fit_stone(stone_of(truth), noisy(plane_readings(truth, truth, 0.05, 0.005), 4));
+    for (const ShapeFinding& f : result.shape_findings) ADD_FAILURE() << f.what;
+}
+
+}  // namespace
+}  // namespace culet
