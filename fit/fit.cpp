@@ -208,17 +208,15 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
                                finished.iterations));
     }
     if (result.dof > 0 && result.chi2_p < result.options.significance) {
-        return end(
-            FitStatus::contradictory,
-            fmt::format("the readings do not agree within their uncertainties: chi2 {:.1f} "
-                        "for {:.1f} degrees of freedom (limit {:.1f} at the {:g} level){}",
-                        result.chi2, result.dof, result.chi2_limit, result.options.significance,
-                        contradiction(result)));
+        return end(FitStatus::contradictory,
+                   fmt::format("the readings do not agree within their uncertainties: chi2 {:.1f} "
+                               "for {:.1f} degrees of freedom (limit {:.1f} at the {:g} level){}",
+                               result.chi2, result.dof, result.chi2_limit,
+                               result.options.significance, contradiction(result)));
     }
     if (!result.suspects.empty()) {
-        return end(
-            FitStatus::contradictory,
-            "readings that cannot belong to the others" + contradiction(result));
+        return end(FitStatus::contradictory,
+                   "readings that cannot belong to the others" + contradiction(result));
     }
     if (result.undetermined_freedoms > 0) {
         std::vector<std::string> facets;
@@ -253,8 +251,7 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     }
     const bool goes_on = again && again->sound && again->finished.converged &&
                          again->finished.worst_hard < k_hard_limit;
-    Candidate best = goes_on ? std::move(*again)
-                             : fit_from_starts(system, options, progress).best;
+    Candidate best = goes_on ? std::move(*again) : fit_from_starts(system, options, progress).best;
     const std::vector<double> weights =
         options.loss == Loss::none ? std::vector<double>()
                                    : reweight(system, best, options.loss, options.iterations);

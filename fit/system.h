@@ -155,7 +155,7 @@ private:
     std::vector<Incidence> incidences_;
     std::vector<int> first_extra_;
     std::vector<std::vector<std::pair<int, int>>> pairs_;  // facets, of symmetry readings
-    std::vector<std::optional<Automorphism>> exchanges_;  // of symmetry readings of all facets
+    std::vector<std::optional<Automorphism>> exchanges_;   // of symmetry readings of all facets
     std::vector<SymmetryMotion> exact_motions_;
     std::vector<bool> fixed_extras_;
     int up_facet_ = -1;
