@@ -40,8 +40,7 @@ Proposal proposal_of(const System& system, const Suspicion& suspicion) {
     if (!(tolerance < 0.25 * std::abs(value - wanted))) return proposal;
     if (const auto slip = find_slip(value, wanted, tolerance, is_angle(reading.kind))) {
         proposal.slip = slip->what;
-        proposal.corrected =
-            is_angle(reading.kind) ? radians(slip->corrected) : slip->corrected;
+        proposal.corrected = is_angle(reading.kind) ? radians(slip->corrected) : slip->corrected;
     }
     return proposal;
 }

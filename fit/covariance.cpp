@@ -23,8 +23,9 @@ constexpr double k_tight = 1e6;
 // Normal equations square the spread of weights; beyond this spread QR keeps what they lose.
 constexpr double k_most_spread = 1e5;
 
-// Gauge motions, orthonormal in the metric. The turn about up is one of them also where readings see
-// it (widths along azimuths) but hold it less than the mesh does: no freedom of the stone's shape.
+// Gauge motions, orthonormal in the metric. The turn about up is one of them also where readings
+// see it (widths along azimuths) but hold it less than the mesh does: no freedom of the stone's
+// shape.
 Eigen::MatrixXd gauge_motions(const Linearised& linear,
                               const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows) {
     Eigen::MatrixXd motions(linear.layout.size(), Eigen::Index(linear.gauge_rows.size()) + 1);

@@ -48,6 +48,15 @@ public:
         return q;
     }
 
+    // The table where it is the top: level facets' corners are all the highest at once.
+    Quantity top() const {
+        const int highest = extreme(1);
+        if (table_ < 0) return height_of(highest);
+        const std::vector<int>& loop = table_corners();
+        if (std::find(loop.begin(), loop.end(), highest) == loop.end()) return height_of(highest);
+        return mean_height(std::set<int>(loop.begin(), loop.end()));
+    }
+
     int extreme(double sign) const {
         return *std::max_element(corners_.begin(), corners_.end(), [&](int a, int b) {
             return sign * places_[std::size_t(a)].z < sign * places_[std::size_t(b)].z;
@@ -325,7 +334,7 @@ std::vector<CutQuantity> cut_quantities(const System& system, const Shape& shape
     put("width", unit, width, system.scale());
     put("length", unit, length, system.scale());
     put("length/width", "", ratio(length, width), 1);
-    const Quantity top = cut.height_of(cut.extreme(1)), bottom = cut.height_of(cut.extreme(-1));
+    const Quantity top = cut.top(), bottom = cut.height_of(cut.extreme(-1));
     Quantity depth = top;
     depth.add(bottom, -1);
     put("depth", unit, depth, system.scale());

@@ -204,8 +204,8 @@ Diagnosis diagnose(const System& system, const Shape& shape,
         if (terms[r] > 0) diagnosis.readings[r].redundancy /= terms[r];
     }
     if (options.seen_from) {
-        const Linearised there = linearise(system, options.seen_from->shape,
-                                           options.seen_from->outline, false);
+        const Linearised there =
+            linearise(system, options.seen_from->shape, options.seen_from->outline, false);
         const Covariance from_there(there);
         snoop(system, there, from_there.usable() ? from_there : *covariance, options, diagnosis);
     } else {
@@ -230,10 +230,9 @@ Diagnosis diagnose(const System& system, const Shape& shape,
         sigma.inclination = total(0);
         sigma.offset = total(2);
         const double flat = std::hypot(shape.normals[f].x, shape.normals[f].y);
-        sigma.azimuth =
-            flat > 1e-9 ? std::sqrt(std::max(0.0, total(1) * total(1) + turn_variance +
-                                                      2 * rows[1].dot(with_turn)))
-                        : std::numeric_limits<double>::quiet_NaN();
+        sigma.azimuth = flat > 1e-9 ? std::sqrt(std::max(0.0, total(1) * total(1) + turn_variance +
+                                                                  2 * rows[1].dot(with_turn)))
+                                    : std::numeric_limits<double>::quiet_NaN();
     }
     for (int f = 0; f < layout.facets; ++f) {
         if (outline->loops[f].size() < 3) continue;

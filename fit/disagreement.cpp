@@ -98,8 +98,7 @@ std::vector<int> disagreeing_exact_readings(const System& system, const Shape& s
     constexpr double k_rounding = 1e-9;
     if (!(linear.worst_hard() > k_rounding)) return {};
     const Eigen::Index unknowns = linear.layout.size();
-    // Where nothing more can be done the misses stand across all directions: A' miss = 0. The
-    // equations that miss are those that take part.
+    // Where nothing more can be done, the equations that miss are those that take part.
     std::set<int> readings;
     std::vector<std::size_t> meets;
     std::map<int, std::vector<std::size_t>> equations;
@@ -109,7 +108,9 @@ std::vector<int> disagreeing_exact_readings(const System& system, const Shape& s
             meets.push_back(i);
         } else {
             equations[reading].push_back(i);
-            if (std::abs(linear.hard_residuals(Eigen::Index(i))) > 1e-3 * linear.worst_hard()) {
+            // Symmetry is built into the unknowns and never misses itself.
+            if (is_relation(system.readings()[std::size_t(reading)].kind) ||
+                std::abs(linear.hard_residuals(Eigen::Index(i))) > 1e-3 * linear.worst_hard()) {
                 readings.insert(reading);
             }
         }
@@ -135,7 +136,18 @@ std::vector<int> disagreeing_exact_readings(const System& system, const Shape& s
                0.01 * linear.worst_hard() / std::sqrt(double(used.size()));
     };
     std::vector<int> left(readings.begin(), readings.end());
-    if (left.empty() || meets.size() > 4000) return left;
+    if (left.empty() || meets.size() > 4000 || !fails(left)) {
+        left.clear();
+        for (const auto& [reading, mine] : equations) {
+            for (const std::size_t i : mine) {
+                if (std::abs(linear.hard_residuals(Eigen::Index(i))) > 1e-3 * linear.worst_hard()) {
+                    left.push_back(reading);
+                    break;
+                }
+            }
+        }
+        return left;
+    }
     for (std::size_t chunk = std::max<std::size_t>(1, left.size() / 2);;) {
         bool spared = false;
         for (std::size_t at = 0; at < left.size();) {

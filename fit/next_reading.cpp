@@ -120,8 +120,8 @@ std::vector<Candidate> candidates(const System& system, const Shape& shape,
         }
     }
     if (up >= 0) {
-        // Heights of the table over the corners of the mesh that still are corners; of a large stone
-        // over some, since each costs a solution of its own.
+        // Heights of the table over the corners of the mesh that still are corners; of a large
+        // stone over some, since each costs a solution of its own.
         const std::size_t corner_count = system.stone().solid.vertices.size();
         for (std::size_t v = 0; v < corner_count; v += 1 + corner_count / 200) {
             const std::vector<int>& own = system.edges().facets_of_vertex[v];

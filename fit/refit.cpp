@@ -13,9 +13,8 @@ namespace {
 glm::dmat3 turn_to_z(const Vec3& up) {
     if (up.z < -1 + 1e-12) return {1, 0, 0, 0, -1, 0, 0, 0, -1};
     const double s = 1 / (1 + up.z);
-    return glm::transpose(glm::dmat3{1 - up.x * up.x * s, -up.x * up.y * s, -up.x,
-                                     -up.x * up.y * s, 1 - up.y * up.y * s, -up.y, up.x, up.y,
-                                     up.z});
+    return glm::transpose(glm::dmat3{1 - up.x * up.x * s, -up.x * up.y * s, -up.x, -up.x * up.y * s,
+                                     1 - up.y * up.y * s, -up.y, up.x, up.y, up.z});
 }
 
 glm::dmat3 about_up(double angle) {
@@ -72,8 +71,8 @@ std::optional<Shape> shape_of(const System& system, const Solid& solid) {
     }
 
     const int up = system.up_facet();
-    glm::dmat3 turn = turn_to_z(up >= 0 ? planes[std::size_t(up)].normal
-                                        : glm::normalize(system.stone().up));
+    glm::dmat3 turn =
+        turn_to_z(up >= 0 ? planes[std::size_t(up)].normal : glm::normalize(system.stone().up));
     // About up: as most facets of the mesh stand, then as the azimuths that were read say.
     double east = 0, north = 0;
     for (std::size_t f = 0; f < planes.size(); ++f) {

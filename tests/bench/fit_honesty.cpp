@@ -77,8 +77,7 @@ void report_coverage(const Sample& which, int repetitions) {
                 tilt.add(mine.inclination - inclination(n, {0, 0, 1}), mine.sigma_inclination,
                          best.sigma_inclination);
             }
-            turn.add(folded(mine.azimuth - azimuth(n)), mine.sigma_azimuth,
-                     best.sigma_azimuth);
+            turn.add(folded(mine.azimuth - azimuth(n)), mine.sigma_azimuth, best.sigma_azimuth);
         }
         for (std::size_t p = 0; p < result.proportions.size(); ++p) {
             if (p >= limit.proportions.size()) break;
@@ -94,10 +93,11 @@ void report_coverage(const Sample& which, int repetitions) {
     line("inclination", tilt);
     line("azimuth", turn);
     line("proportions", proportion);
-    fmt::print("{:16} {} readings, chi2/dof {:.3f}, false alarms {:.1f} %, unsound {}, "
-               "{:.1f} ms CPU\n",
-               which.name, limit.readings.size(), tilt.chi2 / tilt.dof,
-               100.0 * alarms / repetitions, unsound, 1e3 * cpu[cpu.size() / 2]);
+    fmt::print(
+        "{:16} {} readings, chi2/dof {:.3f}, false alarms {:.1f} %, unsound {}, "
+        "{:.1f} ms CPU\n",
+        which.name, limit.readings.size(), tilt.chi2 / tilt.dof, 100.0 * alarms / repetitions,
+        unsound, 1e3 * cpu[cpu.size() / 2]);
     std::fflush(stdout);
 }
 
@@ -161,11 +161,12 @@ void report_detection(const Sample& which, int repetitions, double size) {
     }
     if (one.tried == 0) return;
     const auto percent = [](int part, int whole) { return 100.0 * part / whole; };
-    fmt::print("{:16} {:4.0f} sigma, {} of {} readings can be checked: seen {:.1f} %, named first "
-               "{:.1f} %, named {:.1f} %, as alternative {:.1f} %; of two both named {:.1f} %\n",
-               which.name, size, checked.size(), valued, percent(one.seen, one.tried),
-               percent(one.named_first, one.tried), percent(one.named, one.tried),
-               percent(one.alternative, one.tried), percent(two.named, two.tried));
+    fmt::print(
+        "{:16} {:4.0f} sigma, {} of {} readings can be checked: seen {:.1f} %, named first "
+        "{:.1f} %, named {:.1f} %, as alternative {:.1f} %; of two both named {:.1f} %\n",
+        which.name, size, checked.size(), valued, percent(one.seen, one.tried),
+        percent(one.named_first, one.tried), percent(one.named, one.tried),
+        percent(one.alternative, one.tried), percent(two.named, two.tried));
     std::fflush(stdout);
 }
 
@@ -182,23 +183,23 @@ int main(int argc, char** argv) {
     app.add_option("--plants", plants, "planted errors of each stone");
     app.add_option("--only", only, "stones whose name contains this");
     CLI11_PARSE(app, argc, argv);
-    const std::vector<Sample> stones{{"round, 8-fold", TruthKind::round, true},
-                                     {"round, none", TruthKind::round, false},
-                                     {"step, 2-fold", TruthKind::step, true},
-                                     {"step, none", TruthKind::step, false},
-                                     {"pear", TruthKind::pear, false},
-                                     {"trillion", TruthKind::trillion, true}};
-    fmt::print("{} noisy repetitions. To reach: within 1 sigma 68 +- 3 %, 2 sigma 95 +- 2 %, error "
-               "over Cramer-Rao <= 1.05, false alarms <= 2 %\n",
-               repetitions);
+    const std::vector<Sample> stones{
+        {"round, 8-fold", TruthKind::round, true}, {"round, none", TruthKind::round, false},
+        {"step, 2-fold", TruthKind::step, true},   {"step, none", TruthKind::step, false},
+        {"pear", TruthKind::pear, false},          {"trillion", TruthKind::trillion, true}};
+    fmt::print(
+        "{} noisy repetitions. To reach: within 1 sigma 68 +- 3 %, 2 sigma 95 +- 2 %, error "
+        "over Cramer-Rao <= 1.05, false alarms <= 2 %\n",
+        repetitions);
     fmt::print("{:16} {:12} {:>7} {:>7} {:>9}\n", "stone", "of", "1 sigma", "2 sigma", "/limit");
     for (const Sample& s : stones) {
         if (s.name.find(only) != std::string::npos && repetitions > 0) {
             report_coverage(s, repetitions);
         }
     }
-    fmt::print("Errors planted. To reach: one of 10 sigma named wherever its redundancy allows, of "
-               "two both named in 80 %\n");
+    fmt::print(
+        "Errors planted. To reach: one of 10 sigma named wherever its redundancy allows, of "
+        "two both named in 80 %\n");
     for (const Sample& s : stones) {
         if (s.name.find(only) != std::string::npos && plants > 0) report_detection(s, plants, 10);
     }
