@@ -234,11 +234,6 @@ ConstrainedSolver::ConstrainedSolver(const Linearised& linear, double damping, b
 
 Eigen::VectorXd ConstrainedSolver::solve(const Eigen::VectorXd& unknowns,
                                          const Eigen::VectorXd& hard) const {
-    return solve_with_multipliers(unknowns, hard).head(unknowns_);
-}
-
-Eigen::VectorXd ConstrainedSolver::solve_with_multipliers(const Eigen::VectorXd& unknowns,
-                                                          const Eigen::VectorXd& hard) const {
     Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns_ + hard_ + gauges_);
     right.head(unknowns_) = unknowns;
     right.segment(unknowns_, hard_) = hard;
@@ -246,7 +241,7 @@ Eigen::VectorXd ConstrainedSolver::solve_with_multipliers(const Eigen::VectorXd&
     // One refinement: the weights span many powers of ten.
     const Eigen::VectorXd rest = right - matrix_ * solution;
     solution += factors_->solve(rest);
-    return solution.head(unknowns_ + hard_);
+    return solution.head(unknowns_);
 }
 
 }  // namespace culet
