@@ -13,7 +13,7 @@ using Triplets = RowWriter::Triplets;
 // What a step of one means for each unknown: a mesh may be off by 20 % of its width in its points;
 // tilts, offsets and extras are of the order of one.
 constexpr double k_point_weight = 1 / (0.4 * 0.4);
-constexpr double k_loose_point_weight = 1e-3;
+constexpr double k_loose_point_weight = 0.5;
 constexpr double k_repeat = 1e-13;
 constexpr double k_hinge_sigma = 1e-4;
 

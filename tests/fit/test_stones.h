@@ -235,7 +235,10 @@ inline std::vector<Reading> plane_readings(const Solid& design, const Solid& tru
                 break;
             }
         }
-        readings.push_back(reading(ReadingKind::azimuth, {int(f)}, azimuth(n), radians(sigma_deg)));
+        if (std::hypot(n.x, n.y) > 1e-6) {
+            readings.push_back(
+                reading(ReadingKind::azimuth, {int(f)}, azimuth(n), radians(sigma_deg)));
+        }
     }
     readings.push_back(depth(truth, sigma));
     for (int k = 0; k < 16; ++k) readings.push_back(width(truth, 11.25 * k, sigma));
@@ -244,8 +247,8 @@ inline std::vector<Reading> plane_readings(const Solid& design, const Solid& tru
     for (const Edge& t : half_edges(truth).edges) {
         const int a = find_facet(design, truth.facets[std::size_t(t.left)].name),
                   b = find_facet(design, truth.facets[std::size_t(t.right)].name);
-        lengths[std::minmax(a, b)] = glm::length(truth.vertices[std::size_t(t.from)] -
-                                                 truth.vertices[std::size_t(t.to)]);
+        lengths[std::minmax(a, b)] =
+            glm::length(truth.vertices[std::size_t(t.from)] - truth.vertices[std::size_t(t.to)]);
     }
     for (const Edge& e : design_edges) {
         const auto found = lengths.find(std::minmax(e.left, e.right));
