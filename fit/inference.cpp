@@ -6,17 +6,55 @@
 
 namespace culet {
 
+namespace {
+
+using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+// Exact equations are factored with a variance of 1e-9 and refined to none; so much larger, that
+// is small beside what the best readings know, and still far above rounding.
+constexpr double k_hard_scale = 30;
+
+void add_rows(const Rows& from, double scale, double variance, SparseRows& to) {
+    for (Eigen::Index i = 0; i < from.rows(); ++i) {
+        for (Rows::InnerIterator it(from, i); it; ++it) {
+            to.add(static_cast<int>(it.col()), scale * it.value());
+        }
+        to.close(0, variance);
+    }
+}
+
+// Hard equations first, then motions that nothing sees, then, if asked, what was read.
+bool factor(const Linearised& linear, double stiffness, bool with_soft, SaddleSolver& solver) {
+    SparseRows rows;
+    add_rows(linear.hard_rows, k_hard_scale, 0, rows);
+    for (const Eigen::VectorXd& gauge : linear.gauge_rows) {
+        for (Eigen::Index i = 0; i < gauge.size(); ++i) {
+            if (gauge(i) != 0) rows.add(static_cast<int>(i), gauge(i));
+        }
+        rows.close(0, 0);
+    }
+    if (with_soft) add_rows(linear.soft_rows, 1, 1, rows);
+    return solver.factor(rows, stiffness * linear.metric);
+}
+
+Eigen::Index equations_of(const Linearised& linear, bool with_soft) {
+    return linear.hard_rows.rows() + Eigen::Index(linear.gauge_rows.size()) +
+           (with_soft ? linear.soft_rows.rows() : 0);
+}
+
+}  // namespace
+
 Inference::Inference(const System& system, const Shape& shape,
                      const std::shared_ptr<const Outline>& outline,
                      const std::vector<Equation>& held)
-    : linear_(linearise(system, shape, outline, false, held)),
-      writer_(shape),
-      solver_(linear_, 1 / k_unheld_variance) {
-    if (!solver_.usable()) return;
-    const Eigen::VectorXd gradient = linear_.soft_rows.transpose() * linear_.soft_residuals;
-    multipliers_ =
-        solver_.solve_with_multipliers(-gradient, Eigen::VectorXd::Zero(linear_.hard_rows.rows()))
-            .tail(linear_.hard_rows.rows());
+    : linear_(linearise(system, shape, outline, false, held)), writer_(shape) {
+    usable_ = factor(linear_, 1 / k_unheld_variance, true, solver_);
+    if (!usable_) return;
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(equations_of(linear_, true));
+    right.tail(linear_.soft_rows.rows()) = -linear_.soft_residuals;
+    const auto solved = solver_.solve(Eigen::VectorXd::Zero(linear_.layout.size()), right);
+    usable_ = solved.good;
+    multipliers_ = k_hard_scale * solved.forces.head(linear_.hard_rows.rows());
 }
 
 Eigen::MatrixXd Inference::rows_of(const std::vector<Quantity>& quantities) const {
@@ -29,11 +67,23 @@ Eigen::MatrixXd Inference::rows_of(const std::vector<Quantity>& quantities) cons
 
 Eigen::MatrixXd Inference::times_covariance(const Eigen::MatrixXd& rows) const {
     Eigen::MatrixXd result(linear_.layout.size(), rows.rows());
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(linear_.hard_rows.rows());
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(equations_of(linear_, true));
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-        result.col(i) = solver_.solve(rows.row(i).transpose(), none);
+        result.col(i) = solver_.solve(rows.row(i).transpose(), none).unknowns;
     }
     return result;
+}
+
+Eigen::MatrixXd Inference::reach(const Eigen::MatrixXd& rows) const {
+    SaddleSolver solver;
+    if (!factor(linear_, 1, false, solver)) return Eigen::MatrixXd();
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(equations_of(linear_, false));
+    Eigen::MatrixXd moved(rows.cols(), rows.rows());
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+        moved.col(i) = solver.solve(rows.row(i).transpose(), none).unknowns;
+    }
+    const Eigen::MatrixXd product = rows * moved;
+    return 0.5 * (product + product.transpose());
 }
 
 Eigen::MatrixXd Inference::covariance(const Eigen::MatrixXd& rows) const {
@@ -44,10 +94,11 @@ Eigen::MatrixXd Inference::covariance(const Eigen::MatrixXd& rows) const {
 Eigen::MatrixXd Inference::multiplier_covariance(const Eigen::MatrixXd& combinations) const {
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(linear_.layout.size());
     Eigen::MatrixXd solved(combinations.rows(), combinations.cols());
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(equations_of(linear_, true));
     for (Eigen::Index i = 0; i < combinations.cols(); ++i) {
+        right.head(combinations.rows()) = k_hard_scale * combinations.col(i);
         // The lower right block of the inverse is minus the covariance.
-        solved.col(i) =
-            -solver_.solve_with_multipliers(none, combinations.col(i)).tail(combinations.rows());
+        solved.col(i) = -k_hard_scale * solver_.solve(none, right).forces.head(combinations.rows());
     }
     const Eigen::MatrixXd product = combinations.transpose() * solved;
     return 0.5 * (product + product.transpose());

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fit/linear.h"
+#include "fit/saddle_solver.h"
 
 namespace culet {
 
@@ -23,7 +24,7 @@ public:
               const std::shared_ptr<const Outline>& outline,
               const std::vector<Equation>& held = {});
     /// False when the equations cannot be factored; nothing else may then be asked.
-    bool usable() const { return solver_.usable(); }
+    bool usable() const { return usable_; }
 
     const Linearised& linear() const { return linear_; }
     /// Rows of small steps of the unknowns, one for each quantity.
@@ -32,6 +33,10 @@ public:
     Eigen::MatrixXd times_covariance(const Eigen::MatrixXd& rows) const;
     /// rows C rows': symmetric. Costs one sparse solve a row.
     Eigen::MatrixXd covariance(const Eigen::MatrixXd& rows) const;
+
+    /// What the hard equations alone leave open, whatever was read: rows Z (Z' M Z)^-1 Z' rows'
+    /// with Z their null space and M the mesh's metric.
+    Eigen::MatrixXd reach(const Eigen::MatrixXd& rows) const;
 
     /// The force with which the readings pull at each hard equation (in the order of
     /// `linear().hard`): gradient + A' multipliers = 0. If the condition holds in truth,
@@ -45,7 +50,8 @@ public:
 private:
     Linearised linear_;
     RowWriter writer_;
-    ConstrainedSolver solver_;
+    SaddleSolver solver_;
+    bool usable_ = false;
     Eigen::VectorXd multipliers_;
 };
 

@@ -13,7 +13,7 @@ using Triplets = RowWriter::Triplets;
 // What a step of one means for each unknown: a mesh may be off by 20 % of its width in its points;
 // tilts, offsets and extras are of the order of one.
 constexpr double k_point_weight = 1 / (0.4 * 0.4);
-constexpr double k_loose_point_weight = 1e-3;
+constexpr double k_loose_point_weight = 0.5;
 constexpr double k_repeat = 1e-13;
 constexpr double k_hinge_sigma = 1e-4;
 
@@ -238,11 +238,6 @@ ConstrainedSolver::ConstrainedSolver(const Linearised& linear, double damping, b
 
 Eigen::VectorXd ConstrainedSolver::solve(const Eigen::VectorXd& unknowns,
                                          const Eigen::VectorXd& hard) const {
-    return solve_with_multipliers(unknowns, hard).head(unknowns_);
-}
-
-Eigen::VectorXd ConstrainedSolver::solve_with_multipliers(const Eigen::VectorXd& unknowns,
-                                                          const Eigen::VectorXd& hard) const {
     Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns_ + hard_ + gauges_);
     right.head(unknowns_) = unknowns;
     right.segment(unknowns_, hard_) = hard;
@@ -250,7 +245,7 @@ Eigen::VectorXd ConstrainedSolver::solve_with_multipliers(const Eigen::VectorXd&
     // One refinement: the weights span many powers of ten.
     const Eigen::VectorXd rest = right - matrix_ * solution;
     solution += factors_->solve(rest);
-    return solution.head(unknowns_ + hard_);
+    return solution.head(unknowns_);
 }
 
 }  // namespace culet

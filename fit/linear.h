@@ -55,10 +55,6 @@ public:
     bool usable() const { return usable_; }
     /// Solves for the unknowns with right-hand sides for unknowns and hard equations.
     Eigen::VectorXd solve(const Eigen::VectorXd& unknowns, const Eigen::VectorXd& hard) const;
-    /// The same, with the multipliers of the hard equations below the unknowns: at a minimum of the
-    /// soft equations, gradient + A' multipliers = 0.
-    Eigen::VectorXd solve_with_multipliers(const Eigen::VectorXd& unknowns,
-                                           const Eigen::VectorXd& hard) const;
 
 private:
     Eigen::Index unknowns_ = 0, hard_ = 0, gauges_ = 0;

@@ -18,6 +18,8 @@ namespace {
 
 // Dense algebra on three numbers a facet; beyond this it would take minutes.
 constexpr std::size_t k_most_facets = 700;
+// From here on each test costs a good part of a second.
+constexpr std::size_t k_many_facets = 150, k_most_groups = 8;
 // Told by the readings: better than half of the half diameter.
 constexpr double k_told = 0.25;
 // Tested at least to this part, a group counts as determined.
@@ -212,22 +214,21 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Infer
     const PolarCoordinates coordinates = polar_coordinates(system, shape, inference, tiers);
     const Eigen::MatrixXd covariance = inference.covariance(coordinates.rows);
     // What the meets and exact readings leave open at all, whatever was read.
-    const ConstrainedSolver free(inference.linear(), 1, false);
-    if (!free.usable()) {
+    const Eigen::MatrixXd reach = inference.reach(coordinates.rows);
+    if (reach.size() == 0) {
         report.proposed = "C1";
         report.message = "the meets could not be analysed";
         return report;
     }
-    Eigen::MatrixXd moved(coordinates.rows.cols(), coordinates.rows.rows());
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(inference.linear().hard_rows.rows());
-    for (Eigen::Index i = 0; i < coordinates.rows.rows(); ++i) {
-        moved.col(i) = free.solve(coordinates.rows.row(i).transpose(), none);
-    }
-    const Eigen::MatrixXd reach = coordinates.rows * moved;
     for (const AxisGroup& group : subgroups_of(form)) {
-        report.groups.push_back(test_group(system, group, coordinates, covariance,
-                                           0.5 * (reach + reach.transpose()),
-                                           options.significance));
+        // Subgroups of what is supported follow from it; of large stones they are not asked for one
+        // by one.
+        if (shape.normals.size() > k_many_facets && !report.groups.empty() &&
+            (report.groups.size() >= k_most_groups || report.groups.back().supported)) {
+            break;
+        }
+        report.groups.push_back(
+            test_group(system, group, coordinates, covariance, reach, options.significance));
     }
     const SymmetricModel model = symmetric_model(coordinates, form);
     Contrasts pooled;

@@ -132,8 +132,8 @@ TEST(Meets, AContradictedCuletComesApartWhereThatIsAllowed) {
                 truth = with_loose_culet({0.02, -0.01, 0.015, 0.0, -0.02, 0.01, 0.005, -0.015});
     FitOptions options;
     options.allow_topology = true;
-    const FitResult result = fit_stone(
-        stone_of(design), noisy(plane_readings(design, truth, 0.02, 0.002), 2), options);
+    const FitResult result =
+        fit_stone(stone_of(design), noisy(plane_readings(design, truth, 0.02, 0.002), 2), options);
     EXPECT_EQ(result.status, FitStatus::converged) << result.message;
     EXPECT_EQ(result.solid.vertices.size(), truth.vertices.size());
     EXPECT_THAT(find_faults(result.solid), ::testing::IsEmpty());

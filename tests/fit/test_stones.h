@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 #include <numbers>
 #include <random>
 #include <string>
@@ -211,6 +212,7 @@ inline std::vector<Reading> noisy(std::vector<Reading> readings, unsigned seed) 
 /// and distances of each plane from the table's middle, as a scan gives them.
 inline std::vector<Reading> plane_readings(const Solid& design, const Solid& truth,
                                            double sigma_deg, double sigma) {
+    const std::vector<Edge> design_edges = half_edges(design).edges;
     std::vector<Reading> readings;
     for (std::size_t f = 0; f < design.facets.size(); ++f) {
         const int t = find_facet(truth, design.facets[f].name);
@@ -222,7 +224,7 @@ inline std::vector<Reading> plane_readings(const Solid& design, const Solid& tru
         } else {
             // Of facets near upright an inclination does not say to which side they lean; the
             // angle to a neighbour does.
-            for (const Edge& e : half_edges(design).edges) {
+            for (const Edge& e : design_edges) {
                 if (e.left != int(f) && e.right != int(f)) continue;
                 const int g = e.left == int(f) ? e.right : e.left;
                 const int u = find_facet(truth, design.facets[std::size_t(g)].name);
@@ -233,23 +235,25 @@ inline std::vector<Reading> plane_readings(const Solid& design, const Solid& tru
                 break;
             }
         }
-        readings.push_back(reading(ReadingKind::azimuth, {int(f)}, azimuth(n), radians(sigma_deg)));
+        if (std::hypot(n.x, n.y) > 1e-6) {
+            readings.push_back(
+                reading(ReadingKind::azimuth, {int(f)}, azimuth(n), radians(sigma_deg)));
+        }
     }
     readings.push_back(depth(truth, sigma));
     for (int k = 0; k < 16; ++k) readings.push_back(width(truth, 11.25 * k, sigma));
     // Edges that both have, by name.
-    for (const Edge& e : half_edges(design).edges) {
-        const std::string a = design.facets[std::size_t(e.left)].name,
-                          b = design.facets[std::size_t(e.right)].name;
-        for (const Edge& t : half_edges(truth).edges) {
-            const std::string c = truth.facets[std::size_t(t.left)].name,
-                              d = truth.facets[std::size_t(t.right)].name;
-            if (!((a == c && b == d) || (a == d && b == c))) continue;
-            readings.push_back(reading(ReadingKind::edge, {e.left, e.right},
-                                       glm::length(truth.vertices[std::size_t(t.from)] -
-                                                   truth.vertices[std::size_t(t.to)]),
-                                       sigma));
-        }
+    std::map<std::pair<int, int>, double> lengths;
+    for (const Edge& t : half_edges(truth).edges) {
+        const int a = find_facet(design, truth.facets[std::size_t(t.left)].name),
+                  b = find_facet(design, truth.facets[std::size_t(t.right)].name);
+        lengths[std::minmax(a, b)] =
+            glm::length(truth.vertices[std::size_t(t.from)] - truth.vertices[std::size_t(t.to)]);
+    }
+    for (const Edge& e : design_edges) {
+        const auto found = lengths.find(std::minmax(e.left, e.right));
+        if (found == lengths.end()) continue;
+        readings.push_back(reading(ReadingKind::edge, {e.left, e.right}, found->second, sigma));
     }
     return readings;
 }
