@@ -73,16 +73,17 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
             candidate.finished = std::move(exact.finished);
             candidate.held = std::move(exact.held);
             candidate.cost_of_holding = exact.cost_of_holding;
-            candidate.sound = relaxation.is_convex(candidate.finished.shape);
+            candidate.sound = relaxation.is_convex(candidate.finished.shape) &&
+                              volume(system.met_solid(candidate.finished.shape)) > 0;
         }
         candidate.finished.iterations += graded.steps;
         const bool good = candidate.sound && candidate.finished.converged &&
                           candidate.finished.worst_hard < k_hard_limit;
         candidate.agrees = good && agrees(system, candidate, free, counted, options.significance);
         const double chi2 = candidate.finished.chi2;
-        // An optimum that agrees but poorly may be a lesser one: others get a chance. Holding a
-        // corner that hardly wants to pass its neighbour is no fault of the start.
-        const bool accept = candidate.agrees && candidate.cost_of_holding < 1 &&
+        // An optimum that agrees but poorly, or that lies where an edge has no length, may be a
+        // lesser one: others get a chance.
+        const bool accept = candidate.agrees && candidate.held.empty() &&
                             (system.has_estimated_groups() ||
                              chi2_tail(chi2, std::max(1, counted - free)) > k_agrees_well);
         const bool again = good && std::any_of(ends.begin(), ends.end(), [&](double other) {
