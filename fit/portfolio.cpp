@@ -19,6 +19,8 @@ constexpr double k_hard_limit = 1e-9;
 // Two starts that end in the same stone have the same chi-square to this part.
 constexpr double k_same = 1e-6;
 constexpr double k_agrees_well = 0.2;
+// Starts in a row that gave nothing better.
+constexpr int k_patience = 6, k_patience_good = 2;
 
 // The chi-square test by counting: the least redundancy that there can be decides what is accepted
 // at once, and only in between is it counted out.
@@ -53,6 +55,7 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
     Portfolio result;
     Starts starts(system);
     std::vector<double> ends;
+    int fruitless = 0;
     while (result.starts < options.starts) {
         const std::optional<Start> start = starts.next();
         if (!start) break;
@@ -90,11 +93,17 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
                                return std::abs(other - chi2) < k_same * (1 + chi2);
                            });
         if (good) ends.push_back(chi2);
+        ++fruitless;
         if (result.starts++ == 0 || rank(candidate) < rank(result.best)) {
             result.best = std::move(candidate);
+            fruitless = 0;
         }
+        // Readings that contradict each other do so from every start.
+        const bool tired = result.best.sound && result.best.finished.converged &&
+                           fruitless >= (starts.mesh_is_good() ? k_patience_good : k_patience);
         // Ending twice where it ended before is no accident, if nothing better was seen.
-        if (accept || (again && result.best.finished.chi2 > chi2 - k_same * (1 + chi2))) break;
+        if (accept || tired || (again && result.best.finished.chi2 > chi2 - k_same * (1 + chi2)))
+            break;
     }
     return result;
 }
