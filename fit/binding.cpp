@@ -633,8 +633,8 @@ bool mesh_is_in_another_unit(const std::vector<Reading>& readings, const Stone& 
     if (ratios.size() < 3) return false;
     std::sort(ratios.begin(), ratios.end());
     const double middle = ratios[ratios.size() / 2];
-    return std::max(middle, 1 / middle) > 5 && ratios.back() < 2.5 * middle &&
-           ratios.front() > middle / 2.5;
+    // Proportions that are drawn wrong by half and more count for less than that.
+    return std::max(middle, 1 / middle) > 2.5 && ratios.back() < 8 * ratios.front();
 }
 
 }  // namespace

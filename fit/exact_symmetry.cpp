@@ -61,6 +61,12 @@ void System::find_exchanges() {
             double off = 0;
             if (reading.kind == ReadingKind::rotation) {
                 if (a.turns_over || order_of(a) != reading.order) continue;
+                // Round the up facet, by one part of the full turn.
+                if (up_facet_ >= 0 &&
+                    steps_of_turn(solid_, up_facet_, a) * reading.order !=
+                        static_cast<int>(solid_.facets[up_facet_].corners.size())) {
+                    continue;
+                }
                 off = misfit(solid_.vertices, a.vertices,
                              turn_about_z(2 * std::numbers::pi / reading.order));
             } else if (!a.turns_over || order_of(a) != 2) {

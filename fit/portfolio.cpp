@@ -19,6 +19,8 @@ constexpr double k_hard_limit = 1e-9;
 // Two starts that end in the same stone have the same chi-square to this part.
 constexpr double k_same = 1e-6;
 constexpr double k_agrees_well = 0.2;
+// Starts in a row that gave nothing better.
+constexpr int k_patience = 6, k_patience_good = 2;
 
 // The chi-square test by counting: the least redundancy that there can be decides what is accepted
 // at once, and only in between is it counted out.
@@ -53,6 +55,7 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
     Portfolio result;
     Starts starts(system);
     std::vector<double> ends;
+    int fruitless = 0;
     while (result.starts < options.starts) {
         const std::optional<Start> start = starts.next();
         if (!start) break;
@@ -73,27 +76,34 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
             candidate.finished = std::move(exact.finished);
             candidate.held = std::move(exact.held);
             candidate.cost_of_holding = exact.cost_of_holding;
-            candidate.sound = relaxation.is_convex(candidate.finished.shape);
+            candidate.sound = relaxation.is_convex(candidate.finished.shape) &&
+                              volume(system.met_solid(candidate.finished.shape)) > 0;
         }
         candidate.finished.iterations += graded.steps;
         const bool good = candidate.sound && candidate.finished.converged &&
                           candidate.finished.worst_hard < k_hard_limit;
         candidate.agrees = good && agrees(system, candidate, free, counted, options.significance);
         const double chi2 = candidate.finished.chi2;
-        // An optimum that agrees but poorly may be a lesser one: others get a chance. Holding a
-        // corner that hardly wants to pass its neighbour is no fault of the start.
-        const bool accept = candidate.agrees && candidate.cost_of_holding < 1 &&
+        // An optimum that agrees but poorly, or that lies where an edge has no length, may be a
+        // lesser one: others get a chance.
+        const bool accept = candidate.agrees && candidate.held.empty() &&
                             (system.has_estimated_groups() ||
                              chi2_tail(chi2, std::max(1, counted - free)) > k_agrees_well);
         const bool again = good && std::any_of(ends.begin(), ends.end(), [&](double other) {
                                return std::abs(other - chi2) < k_same * (1 + chi2);
                            });
         if (good) ends.push_back(chi2);
+        ++fruitless;
         if (result.starts++ == 0 || rank(candidate) < rank(result.best)) {
             result.best = std::move(candidate);
+            fruitless = 0;
         }
+        // Readings that contradict each other do so from every start.
+        const bool tired = result.best.sound && result.best.finished.converged &&
+                           fruitless >= (starts.mesh_is_good() ? k_patience_good : k_patience);
         // Ending twice where it ended before is no accident, if nothing better was seen.
-        if (accept || (again && result.best.finished.chi2 > chi2 - k_same * (1 + chi2))) break;
+        if (accept || tired || (again && result.best.finished.chi2 > chi2 - k_same * (1 + chi2)))
+            break;
     }
     return result;
 }

@@ -26,8 +26,9 @@ struct Portfolio {
 };
 
 /// Accepts the first candidate that is sound and agrees, or two that end in the same sound stone
-/// (then the readings contradict each other, and no start will help); else the best of
-/// `options.starts`. Throws Interrupted when progress says so.
+/// (then the readings contradict each other, and no start will help); gives up after several
+/// starts in a row that gave nothing better; else the best of `options.starts`. Throws Interrupted
+/// when progress says so.
 Portfolio fit_from_starts(const System& system, const FitOptions& options,
                           const Progress& progress = {});
 

@@ -30,6 +30,8 @@ public:
     explicit Starts(const System& system);
     /// Nothing when there are no more.
     std::optional<Start> next();
+    /// Planar and convex but for a small part: then the first starts should do.
+    bool mesh_is_good() const { return mesh_is_good_; }
 
 private:
     void make_canonical();

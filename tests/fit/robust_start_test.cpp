@@ -1,0 +1,173 @@
+// How far the fit may begin from the stone, in a quick form; tests/bench/fit_bench.cpp has the long
+// one. Expected is what the fit finds when it begins from the truth itself.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "fit/canonical.h"
+#include "fit/mending.h"
+#include "stone/checks.h"
+#include "tests/bench/fit_trials.h"
+
+namespace culet {
+namespace {
+
+using namespace bench;
+
+void expect_found(const Truth& truth, const Stone& mesh, const std::string& what) {
+    const auto readings = read_by_instruments(truth, 17);
+    const Trial reference = fit_mesh(truth.stone, readings);
+    const Trial trial = fit_mesh(mesh, readings);
+    EXPECT_TRUE(succeeds(truth.stone, trial, reference))
+        << what << ": chi2 " << trial.result.chi2 << " against " << reference.result.chi2 << "; "
+        << trial.result.message << trial.refusal;
+}
+
+TEST(RobustStart, FromNoiseOfAFifthOfTheDiameter) {
+    for (unsigned seed = 1; seed <= 2; ++seed) {
+        for (const bool symmetric : {true, false}) {
+            for (const TruthKind kind : {TruthKind::round, TruthKind::step}) {
+                const Truth truth = make_truth(kind, symmetric, seed);
+                expect_found(truth, noisy_mesh(truth.stone, 0.2, seed + 50),
+                             std::string(name_of(kind)) + " " + std::to_string(seed));
+            }
+        }
+    }
+}
+
+TEST(RobustStart, FromWrongProportions) {
+    const Truth truth = make_truth(TruthKind::round, true, 4);
+    expect_found(truth, wrongly_drawn(truth.stone, 0.2, 9), "wrongly drawn");
+}
+
+TEST(RobustStart, KicksBreakNothing) {
+    const Truth truth = make_truth(TruthKind::step, false, 3);
+    for (unsigned seed = 1; seed <= 8; ++seed) {
+        expect_found(truth, kicked_mesh(truth.stone, seed), "kick " + std::to_string(seed));
+    }
+}
+
+// Symmetry that is exact holds to rounding: every facet has its image among the others.
+TEST(RobustStart, ExactSymmetryHoldsToRounding) {
+    const Truth truth = make_truth(TruthKind::round, true, 5);
+    const Trial trial = fit_mesh(noisy_mesh(truth.stone, 0.1, 5), read_by_instruments(truth, 8));
+    ASSERT_TRUE(is_valid(truth.stone, trial.result)) << trial.result.message;
+    const Solid& solid = trial.result.solid;
+    Vec3 axis(0);
+    for (const Facet& f : solid.facets) {
+        if (f.name[0] == 'P') axis += f.plane.normal;
+    }
+    ASSERT_LT(std::hypot(axis.x, axis.y), 1e-12);
+    const double turn = radians(45), c = std::cos(turn), s = std::sin(turn);
+    for (const Facet& f : solid.facets) {
+        const Vec3& n = f.plane.normal;
+        const Vec3 image{c * n.x - s * n.y, s * n.x + c * n.y, n.z};
+        double nearest = 1;
+        for (const Facet& g : solid.facets) {
+            nearest = std::min(nearest, glm::length(image - g.plane.normal));
+        }
+        EXPECT_LT(nearest, 1e-12) << f.name;
+    }
+}
+
+// The definition: planes pass their points, edges touch the unit sphere, and the touching points
+// have their mean in the middle (Springborn 2005).
+TEST(Canonical, EdgesTouchTheSphere) {
+    for (const TruthKind kind : {TruthKind::round, TruthKind::pear}) {
+        const Solid solid = make_truth(kind, false, 2).stone.solid;
+        const HalfEdges half = half_edges(solid);
+        const auto shape = canonical_polyhedron(solid, half);
+        ASSERT_TRUE(shape);
+        Vec3 mean(0);
+        for (const Edge& e : half.edges) {
+            const Vec3 a = shape->points[e.from], b = shape->points[e.to];
+            const Vec3 along = glm::normalize(b - a);
+            const Vec3 foot = a - glm::dot(a, along) * along;
+            EXPECT_NEAR(glm::length(foot), 1, 1e-9);
+            mean += foot / double(half.edges.size());
+        }
+        EXPECT_LT(glm::length(mean), 1e-9);
+        for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+            for (int corner : solid.facets[f].corners) {
+                EXPECT_NEAR(glm::dot(shape->normals[f], shape->points[corner]), shape->offsets[f],
+                            1e-9);
+            }
+        }
+    }
+}
+
+// Every facet with corners of its own, each a little off.
+TEST(Mending, WeldsPrivateCorners) {
+    const Truth truth = make_truth(TruthKind::round, false, 6);
+    const Stone jittered = noisy_mesh(truth.stone, 0, 1);
+    Stone split = jittered;
+    split.solid.vertices.clear();
+    unsigned count = 0;
+    for (Facet& f : split.solid.facets) {
+        for (int& corner : f.corners) {
+            const double off = 0.01 * std::sin(double(++count));
+            split.solid.vertices.push_back(jittered.solid.vertices[corner] +
+                                           Vec3{off, -off, 0.5 * off});
+            corner = static_cast<int>(split.solid.vertices.size()) - 1;
+        }
+    }
+    EXPECT_FALSE(is_closed(split.solid));
+    const Mended result = mended(split);
+    EXPECT_EQ(result.stone.solid.vertices.size(), truth.stone.solid.vertices.size());
+    EXPECT_EQ(result.notes.size(), 1u);
+    expect_found(truth, split, "private corners");
+}
+
+TEST(Mending, TurnsASurfaceRound) {
+    const Truth truth = make_truth(TruthKind::round, false, 7);
+    Stone inside_out = truth.stone;
+    for (Facet& f : inside_out.solid.facets) std::reverse(f.corners.begin(), f.corners.end());
+    EXPECT_GT(volume(mended(inside_out).stone.solid), 0);
+    expect_found(truth, inside_out, "inside out");
+}
+
+// Facets with four corners and more drawn as a fan of triangles that bear the facet's name, as an
+// OBJ file tells repeated names apart.
+TEST(Mending, JoinsPiecesOfAFacet) {
+    const Truth truth = make_truth(TruthKind::step, false, 8);
+    Stone pieces = truth.stone;
+    pieces.solid.facets.clear();
+    for (const Facet& f : truth.stone.solid.facets) {
+        for (std::size_t k = 1; k + 1 < f.corners.size(); ++k) {
+            Facet piece = f;
+            piece.corners = {f.corners[0], f.corners[k], f.corners[k + 1]};
+            if (k > 1) piece.name += "." + std::to_string(k - 1);
+            pieces.solid.facets.push_back(piece);
+        }
+    }
+    const Mended result = mended(pieces);
+    EXPECT_EQ(result.stone.solid.facets.size(), truth.stone.solid.facets.size());
+    expect_found(truth, pieces, "pieces");
+}
+
+TEST(Mending, LeavesASoundMeshAsItIs) {
+    const Truth truth = make_truth(TruthKind::pear, false, 1);
+    const Mended result = mended(truth.stone);
+    EXPECT_THAT(result.notes, ::testing::IsEmpty());
+    EXPECT_EQ(result.stone.solid.vertices, truth.stone.solid.vertices);
+}
+
+// Only shape counts: a mesh in inches for lengths in millimetres is scaled, and that is said.
+TEST(RobustStart, FromAnotherUnit) {
+    const Truth truth = make_truth(TruthKind::round, false, 9);
+    for (const double factor : {1 / 25.4, 10.0, 1000.0}) {
+        Stone mesh = truth.stone;
+        for (Vec3& v : mesh.solid.vertices) v *= factor;
+        for (Facet& f : mesh.solid.facets) f.plane.offset *= factor;
+        const Trial trial = fit_mesh(mesh, read_by_instruments(truth, 3));
+        EXPECT_EQ(trial.refusal, "");
+        EXPECT_TRUE(is_valid(truth.stone, trial.result));
+        EXPECT_THAT(trial.result.message, ::testing::HasSubstr("drawn in another unit")) << factor;
+    }
+}
+
+}  // namespace
+}  // namespace culet
