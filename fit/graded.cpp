@@ -12,7 +12,7 @@ namespace {
 
 constexpr int k_most_steps = 40;
 // Stages only have to lead to the next one.
-constexpr double k_enough = 1e-3;
+constexpr double k_enough = 1e-3, k_step_precision = 1e-8;
 // As long as incidences are this soft, facets within this sine of upright may turn out to look the
 // other way.
 constexpr double k_leaning_until = 0.005, k_may_lean = 0.6;
@@ -59,7 +59,8 @@ int solve_stage(Relaxation& relaxation, SaddleSolver& solver, Shape& shape,
             const SaddleSolver::Solution s = solver.solve(
                 -sheet.prior_gradient,
                 -Eigen::Map<const Eigen::VectorXd>(sheet.rows.residual.data(),
-                                                   Eigen::Index(sheet.rows.residual.size())));
+                                                   Eigen::Index(sheet.rows.residual.size())),
+                k_step_precision);
             if (s.good && s.unknowns.cwiseAbs().maxCoeff() < 10) {
                 const Shape next = freedoms.moved(
                     shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())});

@@ -92,8 +92,8 @@ bool SaddleSolver::factor(const SparseRows& rows, const Eigen::VectorXd& stiffne
     return true;
 }
 
-SaddleSolver::Solution SaddleSolver::solve(const Eigen::VectorXd& a,
-                                           const Eigen::VectorXd& b) const {
+SaddleSolver::Solution SaddleSolver::solve(const Eigen::VectorXd& a, const Eigen::VectorXd& b,
+                                           double precision) const {
     Eigen::VectorXd right(unknowns_ + equations_);
     right << a, b;
     // The matrix as it is meant: exact equations have no variance.
@@ -110,7 +110,7 @@ SaddleSolver::Solution SaddleSolver::solve(const Eigen::VectorXd& a,
     Eigen::VectorXd x = factors_.solve(right);
     Eigen::VectorXd left = right - times(x);
     double size = left.lpNorm<Eigen::Infinity>();
-    const double enough = 1e-13 * right.lpNorm<Eigen::Infinity>();
+    const double enough = precision * right.lpNorm<Eigen::Infinity>();
     for (int i = 0; i < k_refinements && size > enough; ++i) {
         const Eigen::VectorXd next = x + factors_.solve(left);
         const Eigen::VectorXd next_left = right - times(next);

@@ -46,8 +46,9 @@ public:
         Eigen::VectorXd unknowns, forces;
         bool good = false;
     };
-    /// Refined until what is left is rounding, or gets no smaller.
-    Solution solve(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const;
+    /// Refined until what is left is this part of the right-hand side, or gets no smaller.
+    Solution solve(const Eigen::VectorXd& a, const Eigen::VectorXd& b,
+                   double precision = 1e-13) const;
 
 private:
     void lay_out(const SparseRows& rows, const std::vector<Entry>& curvature);
