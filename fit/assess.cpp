@@ -60,9 +60,8 @@ void assess(const System& system, const Finished& finished, const Diagnosis& dia
     const RowWriter writer(finished.shape);
     for (const CutQuantity& q : cut_quantities(system, finished.shape, finished.outline)) {
         const FunctionRow row = writer.function(q.quantity);
-        result.proportions.push_back(
-            {q.name, q.unit, q.factor * q.quantity.value,
-             q.factor * std::sqrt(covariance.variance(row) + covariance.open_variance(row))});
+        result.proportions.push_back({q.name, q.unit, q.factor * q.quantity.value,
+                                      q.factor * std::sqrt(covariance.total_variance(row))});
     }
     result.undetermined_words =
         describe_open_freedoms(system, finished.shape, covariance, diagnosis.undetermined);

@@ -315,6 +315,12 @@ double Covariance::variance(const FunctionRow& function) const {
     return std::max(0.0, trusted - std::max(0.0, loose - trusted) * sparse_->prior);
 }
 
+double Covariance::total_variance(const FunctionRow& function) const {
+    if (!usable_) return std::numeric_limits<double>::quiet_NaN();
+    if (!sparse_) return variance(function) + open_variance(function);
+    return sparse_->of(sparse_->has_open ? sparse_->trusted : sparse_->tight, function);
+}
+
 double Covariance::open_variance(const FunctionRow& function) const {
     if (!usable_) return std::numeric_limits<double>::quiet_NaN();
     if (!sparse_) return (function.transpose() * open_).squaredNorm();

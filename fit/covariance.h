@@ -33,6 +33,8 @@ public:
     /// Of a function, as far as readings hold it, and the part that comes from open directions.
     double variance(const FunctionRow& function) const;
     double open_variance(const FunctionRow& function) const;
+    /// Both parts together.
+    double total_variance(const FunctionRow& function) const;
     /// Covariance of a function with every unknown (open directions included when asked).
     Eigen::VectorXd with_all(const FunctionRow& function, bool open) const;
     /// Variance of every soft equation's fitted value, in units of its own: the diagonal of the hat

@@ -224,7 +224,7 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     for (int f = 0; f < layout.facets; ++f) {
         const auto rows = facet_functions(shape, f, layout, middle);
         const auto total = [&](std::size_t k) {
-            return std::sqrt(covariance->variance(rows[k]) + covariance->open_variance(rows[k]));
+            return std::sqrt(covariance->total_variance(rows[k]));
         };
         FacetSigma& sigma = diagnosis.facets[std::size_t(f)];
         sigma.inclination = total(0);
@@ -239,8 +239,7 @@ Diagnosis diagnose(const System& system, const Shape& shape,
         std::vector<Corner> loop;
         for (int c : outline->loops[f]) loop.push_back(outline->corners[c]);
         const FunctionRow row = writer.function(enclosed_area(loop)(shape));
-        diagnosis.facets[std::size_t(f)].area =
-            std::sqrt(covariance->variance(row) + covariance->open_variance(row));
+        diagnosis.facets[std::size_t(f)].area = std::sqrt(covariance->total_variance(row));
     }
     find_open_freedoms(system, shape, *covariance, middle, diagnosis);
     return diagnosis;
