@@ -116,7 +116,8 @@ void add_findings(const FitResult& result, Json& report) {
                          {"p", number(facet.p)},
                          {"what", facet.what}});
     }
-    report["extra_facets"] = extra;
+    // Not looked for yet: nothing is claimed.
+    if (!result.extra_facets.empty()) report["extra_facets"] = extra;
     report["changes"] = result.changes;
     if (result.symmetry) report["symmetry"] = symmetry_of(*result.symmetry);
 }

@@ -331,10 +331,13 @@ void put_readings_back(const std::vector<Reading>& first, const Stage& stage, Fi
     });
 }
 
-// The better of two results: a stone that could be cut first, then one that the readings support.
+// The better of two results: a closed stone with all its facets first, then one that the readings
+// agree with, then one where the steps came to an end.
 bool is_better(const FitResult& a, const FitResult& b) {
     const auto rank = [](const FitResult& r) {
-        return std::tuple(r.status == FitStatus::not_converged, !r.closed, -r.chi2_p);
+        return std::tuple(!r.closed || !r.missing_facets.empty(),
+                          !(r.chi2_p > r.options.significance),
+                          r.status == FitStatus::not_converged, -r.chi2_p);
     };
     return rank(a) < rank(b);
 }
