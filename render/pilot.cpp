@@ -12,7 +12,7 @@ namespace {
 // Crystals: a path splits in two at every hit while it carries more than this.
 constexpr double k_split_weight = 0.02;
 constexpr double k_gambled_weight = 1e-3;
-constexpr int k_pilot_pixels = 24;  // along the picture's longer side
+constexpr int k_pilot_pixels = 16;  // along the picture's longer side
 constexpr int k_spectral_pixels = 10, k_spectral_samples = 16;
 constexpr int k_spectral_depth = 12, k_spectral_crystal_depth = 6;  // of trees that double
 

@@ -61,8 +61,7 @@ public:
     ~FrameRenderer();
     FrameRenderer(FrameRenderer&&) noexcept;
 
-    /// Another view: beams are grown anew (milliseconds). What the tolerance lets be cut stays as it
-    /// was chosen for the first view.
+    /// Another view: beams are grown anew (milliseconds).
     void look_from(const Camera& camera);
     /// Other lights: the beams stay, and are only shaded anew, unless the lights' colours call for
     /// other wavelengths.

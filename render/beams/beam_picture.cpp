@@ -128,11 +128,12 @@ struct Called {
     CrystalBeams crystal = CrystalBeams::merged;
     std::string why;  // of that, where it matters
 
-    /// Another camera, with the wavelengths and the limits that were chosen.
+    /// Another camera, with the wavelengths that were chosen.
     void look(const Scene& scene) {
         Plan anew = make_plan(scene, colours.size());
         require_beams(scene, anew);
         plan = std::move(anew);
+        limits = limits_for(scene, plan, lights, colours);
         choose_crystal(scene);
     }
 
