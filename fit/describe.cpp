@@ -10,6 +10,7 @@
 #include "fit/meet_tests.h"
 #include "fit/own_axis.h"
 #include "fit/shape_findings.h"
+#include "fit/statistics.h"
 #include "fit/symmetry_tests.h"
 
 namespace culet {
@@ -132,6 +133,18 @@ void describe_meets(const System& system, const Shape& shape, const Inference& i
 void describe_shape(const System& system, const Finished& finished, const Diagnosis& diagnosis,
                     const Inference& inference, FitResult& result) {
     result.shape_findings = find_open_shape(system, finished, diagnosis, inference);
+    // A facet that is shut at no loss may as well be there.
+    const bool denied =
+        result.vanishing_edges.empty() ||
+        chi2_tail(result.vanishing_chi2, static_cast<double>(result.vanishing_edges.size())) <
+            result.options.significance;
+    for (ShapeFinding& finding : result.shape_findings) {
+        if (denied || finding.kind != ShapeFinding::Kind::facet_vanishes) continue;
+        finding.kind = ShapeFinding::Kind::facet_open;
+        finding.value = 0;
+        const int facet = find_facet(system.stone().solid, finding.facets[0]);
+        finding.sigma = diagnosis.facets[static_cast<std::size_t>(facet)].area;
+    }
     for (ShapeFinding& finding : result.shape_findings) {
         const std::string first = finding.facets[0];
         const std::string ends =

@@ -267,15 +267,16 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
                    fmt::format("corners lie up to {:.2g} {} off their facets' planes",
                                result.planarity_max, name_of(result.unit)));
     }
-    if (!finished.converged) {
-        return end(FitStatus::not_converged,
-                   fmt::format("no end after {} steps; raise the limit, or look at the suspects",
-                               finished.iterations));
-    }
+    // Before the steps: next to an edge that has no length they creep.
     for (const ShapeFinding& f : result.shape_findings) {
         if (f.kind == ShapeFinding::Kind::edge_vanishes && f.p < result.options.significance) {
             return end(FitStatus::contradictory, f.what + "; allow the topology to change");
         }
+    }
+    if (!finished.converged) {
+        return end(FitStatus::not_converged,
+                   fmt::format("no end after {} steps; raise the limit, or look at the suspects",
+                               finished.iterations));
     }
     if (result.dof > 0 && result.chi2_p < result.options.significance) {
         return end(FitStatus::contradictory,

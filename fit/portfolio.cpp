@@ -35,9 +35,13 @@ bool agrees(const System& system, const Candidate& candidate, int free, int coun
     return chi2_tail(d.chi2, d.dof) > significance;
 }
 
+// A stone whose last steps creep is still the better one where it agrees better by more than
+// chi-square's own noise: so at an edge that the readings want to have no length.
 auto rank(const Candidate& c) {
-    return std::make_tuple(!c.sound, !(c.finished.worst_hard < k_hard_limit), !c.finished.converged,
-                           c.finished.chi2);
+    constexpr double k_part = 1.05, k_noise = 4;
+    const double chi2 = c.finished.chi2;
+    return std::make_tuple(!c.sound, !(c.finished.worst_hard < k_hard_limit),
+                           c.finished.converged ? chi2 : k_part * chi2 + k_noise);
 }
 
 }  // namespace
