@@ -295,10 +295,11 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
             if (facets.empty() || facets.back() != u.facet) facets.push_back(u.facet);
         }
         return end(FitStatus::undetermined,
-                   fmt::format("{} freedom{} of the stone left as in the mesh, for want of "
-                               "readings{}",
-                               result.undetermined_freedoms,
-                               result.undetermined_freedoms == 1 ? " is" : "s are",
+                   fmt::format("{} of the stone {} left as in the mesh, for want of readings{}",
+                               result.undetermined_freedoms == 1
+                                   ? std::string("one freedom")
+                                   : fmt::format("{} freedoms", result.undetermined_freedoms),
+                               result.undetermined_freedoms == 1 ? "is" : "are",
                                facets.empty() ? "" : " (facets " + names(facets) + ")") +
                        (result.help.empty() ? "" : "; most would help: " + words(result.help[0])));
     }
