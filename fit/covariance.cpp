@@ -234,7 +234,9 @@ void Covariance::find_dense(const Linearised& linear) {
         const Eigen::MatrixXd upper =
             factor.matrixU().solve(Eigen::MatrixXd::Identity(size, size));  // (S^-1) = U^-1 U^-T
         held_ = unwhitened(upper);
-        seen_ = seen * upper.triangularView<Eigen::Upper>();
+        // Eigen's triangular product looks at the first element of what may have none.
+        seen_ = seen.size() > 0 ? Eigen::MatrixXd(seen * upper.triangularView<Eigen::Upper>())
+                                : Eigen::MatrixXd(seen);
     } else {
         Eigen::MatrixXd held_basis = Eigen::MatrixXd::Identity(size, size);
         if (!all_held) {
