@@ -21,6 +21,11 @@ constexpr double k_nearly_met = 1e-10;
 // Facets that may lean either way at the end.
 constexpr double k_nearly_upright = 0.1;
 constexpr int k_most_choices = 12;
+// Along kinks (edges of no length, corners about to rise) steps may creep for ever. Where so many
+// of them, taken or refused, together gain no more than this in chi-square, what is left is a tenth
+// of a sigma or less.
+constexpr std::size_t k_creeping = 6;
+constexpr double k_crumb = 0.01, k_all_but_met = 1e-6;
 
 std::span<const double> steps(const Eigen::VectorXd& step) {
     return {step.data(), static_cast<std::size_t>(step.size())};
@@ -85,6 +90,7 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
     SaddleSolver plain, with_curvature;
     double damping = k_first_damping;
     int quiet = 0, choices = 0;
+    std::vector<double> merits;
     bool curved = false;
     // At an end, the readings are asked again what they mean there. At a kink (a caliper's jaw that
     // touches two corners at once) they would change their mind for ever; `choose` ties the two.
@@ -100,6 +106,7 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
             return true;
         }
         ++choices;
+        merits.clear();
         sheet = std::move(fresh);
         quiet = 0;
         damping = std::max(damping, 1e-4);
@@ -180,7 +187,10 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
                 if (ends(factored)) break;
             }
         }
-        if (quiet >= 2 && ends(true)) break;
+        merits.push_back(sheet.merit);
+        const bool creeps = merits.size() > k_creeping && sheet.hard_sum < k_all_but_met &&
+                            merits[merits.size() - 1 - k_creeping] - sheet.merit < k_crumb;
+        if ((quiet >= 2 || creeps) && ends(true)) break;
     }
     result.shape = onto_constraints(relaxation, std::move(shape), held);
     relaxation.forget_ties();

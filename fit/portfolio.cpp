@@ -22,7 +22,7 @@ constexpr double k_same = 0.1;
 constexpr double k_agrees_well = 0.2;
 // What holding edges at no length may cost in chi-square before another start is asked.
 constexpr double k_cheap = 1;
-// Starts in a row that gave nothing better.
+// Starts in a row that gave nothing better; good: the best agrees, or the mesh was drawn with care.
 constexpr int k_patience = 6, k_patience_good = 2;
 
 // The chi-square test by counting: the least redundancy that there can be decides what is accepted
@@ -138,8 +138,10 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
             fruitless = 0;
         }
         // Readings that contradict each other do so from every start.
-        const bool tired = result.best.sound && result.best.finished.converged &&
-                           fruitless >= (starts.mesh_is_good() ? k_patience_good : k_patience);
+        const bool tired =
+            result.best.sound && result.best.finished.converged &&
+            fruitless >=
+                (result.best.agrees || starts.mesh_is_good() ? k_patience_good : k_patience);
         // Ending twice where it ended before is no accident, if nothing better was seen.
         if (accept || tired || (again && result.best.finished.chi2 > chi2 - k_same)) break;
     }
