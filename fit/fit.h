@@ -90,6 +90,7 @@ struct FittedReading {
     bool suspect = false, exact = false;
     double rounding = 0;  ///< step of the instrument; 0: none
     double weight = 1;    ///< left to it by a robust loss
+    std::string left_out;  ///< why it takes no part; empty: it does
 };
 
 struct Undetermined {
@@ -103,6 +104,7 @@ struct MeetReport {
     double sigma = 0;                   ///< of soft meets
     double girdle_sigma = 0;            ///< of girdle facets in soft meets
     bool estimated = false;             ///< sigma comes from the data
+    int ends = 0;  ///< of the estimate: how many local ones were found; the likeliest is taken
     double miss_rms = 0, miss_max = 0;  ///< distance of planes from their meets
 };
 

@@ -114,10 +114,11 @@ void add_findings(const FitResult& result, Json& report) {
                          {"sigma", number(facet.sigma)},
                          {"chi2", number(facet.chi2)},
                          {"p", number(facet.p)},
+                         {"shown_by", facet.shown_by},
                          {"what", facet.what}});
+        if (!facet.or_wrong.empty()) extra.back()["or_wrong"] = facet.or_wrong;
     }
-    // Not looked for yet: nothing is claimed.
-    if (!result.extra_facets.empty()) report["extra_facets"] = extra;
+    report["extra_facets"] = extra;
     report["changes"] = result.changes;
     if (result.symmetry) report["symmetry"] = symmetry_of(*result.symmetry);
 }
