@@ -325,20 +325,25 @@ std::vector<Equation> System::reading_equations(const Shape& shape,
                 const int extra = first_extra_[r];
                 const MirrorPlane plane{reading.has_direction ? -1 : extra + 1, extra,
                                         reading.azimuth};
-                const bool about = reading.kind == ReadingKind::rotation && !reading.exact;
-                if (about) {
+                // Within sigma: directions each with an error of its own, distances each by its
+                // image's, so that a round girdle may be slowly out of round.
+                const bool is_loose = reading.kind == ReadingKind::rotation && !reading.exact;
+                if (is_loose) {
                     for (const std::vector<int>& orbit : orbits_of_pairs(pairs_[r])) {
-                        for (Formula& formula :
-                             turn_contrasts(mesh_shape_, *mesh_outline_, orbit, angle, extra)) {
-                            put(std::move(formula), 0);
+                        for (Formula& contrast : turn_contrasts(mesh_shape_, orbit, angle)) {
+                            put(std::move(contrast), 0);
                         }
                     }
                 }
                 for (const auto& [f, g] : pairs_[r]) {
-                    if (about && f != g) continue;
                     // Two facets, each with an error of its own, differ by more.
-                    base.sigma = (f == g ? 1 : std::numbers::sqrt2) *
-                                 (reading.exact ? 1 : reading.sigma / unit);
+                    if (!reading.exact) {
+                        base.sigma = (f == g ? 1 : std::numbers::sqrt2) * reading.sigma / unit;
+                    }
+                    if (is_loose && f != g) {
+                        put(turned_height(corners_of(*mesh_outline_, f), g, angle, extra), 0);
+                        continue;
+                    }
                     if (reading.kind == ReadingKind::mirror && f == g) {
                         if (f != up_facet_) put(across_mirror(f, plane), 0);
                         continue;

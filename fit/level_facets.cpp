@@ -8,12 +8,15 @@
 #include <map>
 
 #include "stone/errors.h"
+#include "stone/units.h"
 
 namespace culet {
 
 namespace {
 
 constexpr double k_level_sigmas = 3;
+// However little was read: facets that lean more are not level.
+constexpr double k_level_deg = 5;
 
 bool is_plain(const Reading& r, ReadingKind kind) {
     return r.kind == kind && r.aggregate == Aggregate::single && r.facets.size() == 1;
@@ -59,7 +62,8 @@ std::vector<std::size_t> meaningless_azimuths(const std::vector<Reading>& readin
     for (const Reading& r : readings) {
         if (!is_plain(r, ReadingKind::inclination) || r.datum.kind != Datum::Kind::up) continue;
         const double sigma = std::hypot(r.sigma, r.rounding / std::sqrt(12.0));
-        const bool is_level = !r.exact && r.value < k_level_sigmas * sigma;
+        const bool is_level =
+            !r.exact && r.value < std::min(k_level_sigmas * sigma, radians(k_level_deg));
         const auto [at, fresh] = level.emplace(r.facets[0], is_level);
         if (!fresh) at->second = at->second && is_level;
     }
@@ -94,7 +98,8 @@ void put_left_out(const std::vector<Reading>& readings, const std::vector<std::s
             std::numeric_limits<double>::quiet_NaN();
         fitted.left_out = "the facet lies level within its uncertainty and has no azimuth";
         result.readings.insert(result.readings.begin() + std::ptrdiff_t(i), std::move(fitted));
-        ids += fmt::format("{}{} (of {})", ids.empty() ? "" : ", ", r.id, r.of.front());
+        ids += (ids.empty() ? "" : ", ") + r.id;
+        if (!r.of.empty()) ids += fmt::format(" (of {})", r.of.front());
     }
     result.notes.push_back(
         fmt::format("azimuth {} left out: the facet lies level within its uncertainty, and a level "

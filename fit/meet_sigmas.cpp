@@ -146,6 +146,13 @@ Sigmas best_of_scan(RestrictedLikelihood& likelihood, const Sigmas& from, double
     return best;
 }
 
+// An end where the planes leave no room for a facet is no stone of this mesh.
+bool has_all_facets(const System& system, const Finished& finished) {
+    if (!finished.enclosed) return false;
+    const System::Enclosed enclosed = system.enclosed(finished.shape);
+    return enclosed.closed && enclosed.missing.empty();
+}
+
 bool is_same(const Sigmas& a, const Sigmas& b) {
     return std::abs(std::log(a[0] / b[0])) < k_same_end &&
            std::abs(std::log(a[1] / b[1])) < k_same_end;
@@ -179,7 +186,7 @@ int estimate_meet_sigmas(System& system, Finished& finished, const FitOptions& o
         const bool known = std::any_of(ends.begin(), ends.end(), [&](const End& other) {
             return is_same(other.sigmas, end.sigmas);
         });
-        if (!known && end.finished.enclosed) ends.push_back(std::move(end));
+        if (!known && has_all_facets(system, end.finished)) ends.push_back(std::move(end));
     }
     system.set_group_sigma(0, ends[best].sigmas[0]);
     system.set_group_sigma(1, ends[best].sigmas[1]);

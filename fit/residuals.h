@@ -97,8 +97,6 @@ Formula turned_normal(int f, int g, double angle, const Vec3& direction);
 Formula turned_height(std::vector<Corner> corners, int g, double angle, int centre);
 /// direction . (normal f turned by `angle` about +z)
 Formula turned_component(int f, double angle, const Vec3& direction);
-/// Height of plane f over a place that goes with the axis at extras (centre, centre + 1).
-Formula offset_from_axis(int f, const Vec3& place, int centre);
 /// The mirror plane m . x = e has its azimuth in extra `azimuth` and e in extra `offset`, where an
 /// `azimuth` of -1 means the fixed angle.
 struct MirrorPlane {

@@ -16,37 +16,27 @@ Vec3 about_axis(const Vec3& v, double angle) {
 
 }  // namespace
 
-std::vector<Formula> turn_contrasts(const Shape& mesh, const Outline& outline,
-                                    const std::vector<int>& orbit, double angle, int centre) {
-    const std::size_t count = orbit.size();
-    // All facets turned back to the first: the mean of their normals and of their middles.
-    Vec3 normal(0), middle(0);
-    for (std::size_t k = 0; k < count; ++k) {
-        const double back = -angle * double(k);
-        normal += about_axis(mesh.normals[std::size_t(orbit[k])], back);
-        const std::vector<int>& loop = outline.loops[std::size_t(orbit[k])];
-        for (const int c : loop) {
-            middle += about_axis(place_of(mesh, outline.corners[std::size_t(c)]), back) /
-                      double(loop.size() * count);
-        }
+std::vector<Formula> turn_contrasts(const Shape& mesh, const std::vector<int>& orbit,
+                                    double angle) {
+    // All facets turned back to the first: the mean of their normals.
+    Vec3 mean(0);
+    for (std::size_t k = 0; k < orbit.size(); ++k) {
+        mean += about_axis(mesh.normals[std::size_t(orbit[k])], -angle * double(k));
     }
     const std::array<Vec3, 2> across =
-        tangents(glm::length(normal) > 0 ? glm::normalize(normal) : Vec3{0, 0, 1});
+        tangents(glm::length(mean) > 0 ? glm::normalize(mean) : Vec3{0, 0, 1});
     std::vector<Formula> formulas;
-    for (std::size_t k = 1; k < count; ++k) {
+    for (std::size_t k = 1; k < orbit.size(); ++k) {
         // Helmert: the sum of the first k less k times the next.
         const double length = std::sqrt(double(k * (k + 1)));
-        std::array<std::vector<std::pair<double, Formula>>, 3> terms;
-        for (std::size_t i = 0; i <= k; ++i) {
-            const double weight = (i < k ? 1.0 : -double(k)) / length;
-            const double turn = angle * double(i);
-            for (std::size_t d = 0; d < 2; ++d) {
-                terms[d].emplace_back(weight, turned_component(orbit[i], -turn, across[d]));
+        for (const Vec3& direction : across) {
+            std::vector<std::pair<double, Formula>> terms;
+            for (std::size_t i = 0; i <= k; ++i) {
+                terms.emplace_back((i < k ? 1.0 : -double(k)) / length,
+                                   turned_component(orbit[i], -angle * double(i), direction));
             }
-            terms[2].emplace_back(weight,
-                                  offset_from_axis(orbit[i], about_axis(middle, turn), centre));
+            formulas.push_back(weighted_sum(std::move(terms)));
         }
-        for (auto& one : terms) formulas.push_back(weighted_sum(std::move(one)));
     }
     return formulas;
 }

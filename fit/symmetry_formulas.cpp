@@ -117,17 +117,4 @@ Formula turned_component(int f, double angle, const Vec3& direction) {
     };
 }
 
-Formula offset_from_axis(int f, const Vec3& place, int centre) {
-    return [=](const Shape& shape) {
-        const Vec3 at = place + Vec3{shape.extras[centre], shape.extras[centre + 1], 0};
-        const Vec3& n = shape.normals[f];
-        Quantity q{shape.offsets[f] - glm::dot(n, at), {}};
-        q.add(By::offset, f, 1.0);
-        q.add(By::normal, f, -at);
-        q.add(By::extra, centre, -n.x);
-        q.add(By::extra, centre + 1, -n.y);
-        return q;
-    };
-}
-
 }  // namespace culet
