@@ -181,9 +181,8 @@ std::string Binder::meant_inclination(double value) const {
 
 Vec3 Binder::stone_up() const {
     const auto up = facet_of_name_.find(stone_.up_facet);
-    return up == facet_of_name_.end()
-               ? stone_.up
-               : stone_.solid.facets[std::size_t(up->second)].plane.normal;
+    return up == facet_of_name_.end() ? stone_.up
+                                      : stone_.solid.facets[std::size_t(up->second)].plane.normal;
 }
 
 Datum Binder::datum(ReadingKind kind) const {

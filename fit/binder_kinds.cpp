@@ -102,11 +102,11 @@ Reading Binder::of_two_places(const Reading& base) const {
         // A rough mesh does not tell what is parallel.
         const bool rough = planarity(stone_.solid) > 0.01 * diameter(stone_.solid);
         if (!rough && glm::length(glm::cross(m, n)) > 0.35) {
-            fail(fmt::format(
-                "facets '{}' and '{}' are not parallel in the mesh (they stand {:.0f} "
-                "degrees apart); name a vertex or an edge instead",
-                written_->of[0], written_->of[1],
-                degrees(std::acos(std::min(1.0, std::abs(glm::dot(m, n)))))));
+            fail(
+                fmt::format("facets '{}' and '{}' are not parallel in the mesh (they stand {:.0f} "
+                            "degrees apart); name a vertex or an edge instead",
+                            written_->of[0], written_->of[1],
+                            degrees(std::acos(std::min(1.0, std::abs(glm::dot(m, n)))))));
         }
     }
     return reading;
@@ -137,8 +137,7 @@ Reading Binder::along_direction(const Reading& base) const {
     } else if (numbers.size() == 3 && base.kind == ReadingKind::width) {
         const Vec3 direction{numbers[0], numbers[1], numbers[2]};
         const double length = glm::length(direction);
-        if (!(length > 0) || !std::isfinite(length))
-            fail("the vector in `of` has no direction");
+        if (!(length > 0) || !std::isfinite(length)) fail("the vector in `of` has no direction");
         reading.direction = direction / length;
         reading.has_direction = true;
     } else {
@@ -167,8 +166,7 @@ Reading Binder::of_many_facets(const Reading& base) const {
         const NamedFacets named = facets(name);
         if (named.aggregate != Aggregate::single) fail("takes no mean, min or max");
         for (int f : named.facets) {
-            if (!seen.insert(f).second)
-                fail(fmt::format("names facet '{}' twice", facet_name(f)));
+            if (!seen.insert(f).second) fail(fmt::format("names facet '{}' twice", facet_name(f)));
             reading.facets.push_back(f);
             reading.of.push_back(facet_name(f));
         }
@@ -184,8 +182,7 @@ Reading Binder::of_symmetry(const Reading& base) const {
     Reading reading = base;
     reading.of = written_->of;
     std::size_t begin = 0;
-    const auto number =
-        written_->of.empty() ? std::nullopt : plain_number(written_->of.front());
+    const auto number = written_->of.empty() ? std::nullopt : plain_number(written_->of.front());
     if (base.kind == ReadingKind::rotation) {
         if (!number || *number != std::floor(*number) || *number < 2 || *number > 1000) {
             fail("expected the order first in `of`: a whole number from 2, such as 8");
@@ -209,8 +206,7 @@ Reading Binder::of_symmetry(const Reading& base) const {
     } else {
         std::set<int> seen;
         for (int f : reading.facets) {
-            if (!seen.insert(f).second)
-                fail(fmt::format("names facet '{}' twice", facet_name(f)));
+            if (!seen.insert(f).second) fail(fmt::format("names facet '{}' twice", facet_name(f)));
         }
     }
     return reading;

@@ -79,9 +79,8 @@ Binder::NamedFacets Binder::facets(const std::string& name) const {
         const std::size_t end = std::min(inside.find_first_of("/,", begin), inside.size());
         std::string one = inside.substr(begin, end - begin);
         const auto first = one.find_first_not_of(' ');
-        one = first == std::string::npos
-                  ? std::string()
-                  : one.substr(first, one.find_last_not_of(' ') - first + 1);
+        one = first == std::string::npos ? std::string()
+                                         : one.substr(first, one.find_last_not_of(' ') - first + 1);
         add_facets(one, result);
         begin = end + 1;
     }
@@ -102,8 +101,7 @@ void Binder::add_facets(const std::string& name, NamedFacets& to) const {
         ++found;
     }
     if (found == 0) {
-        fail(fmt::format("no facet matches '{}' (near: {})", name,
-                         near_names(stone_.solid, name)));
+        fail(fmt::format("no facet matches '{}' (near: {})", name, near_names(stone_.solid, name)));
     }
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "fit/extra_facets.h"
+#include "fit/find_symmetry.h"
 #include "fit/meet_tests.h"
 #include "fit/own_axis.h"
 #include "fit/shape_findings.h"
@@ -201,18 +202,19 @@ void describe_extra_facets(const System& system, const Finished& finished,
     for (ExtraFacet& facet : result.extra_facets) {
         facet.depth *= system.scale();
         facet.sigma *= system.scale();
-        const std::string place =
-            fmt::format("{} {}, {} deep (sigma {})",
-                        facet.at.size() == 2 ? "along the edge" : "at the corner",
-                        list_of(facet.at), length_text(facet.depth, result.unit),
-                        length_text(facet.sigma, result.unit));
+        const std::string place = fmt::format(
+            "{} {}, {} deep (sigma {})", facet.at.size() == 2 ? "along the edge" : "at the corner",
+            list_of(facet.at), length_text(facet.depth, result.unit),
+            length_text(facet.sigma, result.unit));
         facet.what = facet.or_wrong.empty()
-                         ? fmt::format("the stone may have a facet that the mesh lacks, {}: it "
-                                       "would explain {} (chi2 {:.1f} less)",
-                                       place, list_of(facet.shown_by), facet.chi2)
-                         : fmt::format("{} is wrong, or the stone has a facet that the mesh lacks, "
-                                       "{}",
-                                       facet.or_wrong, place);
+                         ? fmt::format(
+                               "the stone may have a facet that the mesh lacks, {}: it "
+                               "would explain {} (chi2 {:.1f} less)",
+                               place, list_of(facet.shown_by), facet.chi2)
+                         : fmt::format(
+                               "{} is wrong, or the stone has a facet that the mesh lacks, "
+                               "{}",
+                               facet.or_wrong, place);
     }
 }
 
@@ -240,9 +242,7 @@ void describe_findings(const System& system, const Finished& finished,
     describe_shape(system, finished, diagnosis, inference, result);
     describe_extra_facets(system, finished, diagnosis, inference, result);
     const bool declared =
-        std::any_of(system.readings().begin(), system.readings().end(), [](const Reading& r) {
-            return r.kind == ReadingKind::rotation || r.kind == ReadingKind::mirror;
-        });
+        std::any_of(system.readings().begin(), system.readings().end(), declares_whole_symmetry);
     // Declared symmetry would only be found again: `fit_stone` asks a fit without it.
     if (result.options.find_symmetry && !declared) {
         result.symmetry = symmetry_of(system, finished.shape, inference, result.options);

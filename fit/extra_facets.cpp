@@ -42,8 +42,8 @@ public:
         std::set<Index> touched;
         for (const int corner : off.gone) {
             const auto found = by_corner_.find(corner);
-            if (found != by_corner_.end()) touched.insert(found->second.begin(),
-                                                          found->second.end());
+            if (found != by_corner_.end())
+                touched.insert(found->second.begin(), found->second.end());
         }
         touched.insert(volumes_.begin(), volumes_.end());
         std::vector<std::pair<Index, double>> signature;
@@ -83,9 +83,8 @@ private:
             case ReadingKind::table_width:
                 for (const Corner& touched : e.touched) {
                     const Vec3 side = &touched == e.touched.data() ? e.caliper : -e.caliper;
-                    const int facet = reading.kind == ReadingKind::table_width
-                                          ? system_.up_facet()
-                                          : -1;
+                    const int facet =
+                        reading.kind == ReadingKind::table_width ? system_.up_facet() : -1;
                     const double most = net_.reach(side, {}, facet);
                     for (std::size_t c = 0; c < net_.places().size(); ++c) {
                         // Corners as far out stand for each other.
@@ -287,8 +286,8 @@ void try_direction(const Signatures& signatures, const Remains& remains, const C
     for (const int f : candidate.facets) {
         const int bottom = net.highest({f}, -direction);
         if (bottom < 0) return;
-        deepest = std::min(deepest,
-                           highest - glm::dot(direction, net.places()[std::size_t(bottom)]));
+        deepest =
+            std::min(deepest, highest - glm::dot(direction, net.places()[std::size_t(bottom)]));
     }
     const auto try_depth = [&](double depth) {
         const Plane plane{direction, highest - depth};
@@ -308,7 +307,7 @@ void try_direction(const Signatures& signatures, const Remains& remains, const C
         const double gain = -2 * along - square;
         if (gain > std::max(least, best.gain)) {
             // Signatures grow in proportion to the depth, nearly.
-            best = {&candidate, gain, depth, depth / std::sqrt(std::max(1e-300, square)),
+            best = {&candidate,           gain,  depth, depth / std::sqrt(std::max(1e-300, square)),
                     std::move(signature), change};
         }
         return square > 0 ? -along / square : 0.0;  // by which to multiply the depth
@@ -357,8 +356,8 @@ std::vector<ExtraFacet> suspect_extra_facets(const System& system, const Finishe
         if (best.candidate == nullptr && single < 0) break;
         const double gain_of_single = single < 0 ? 0 : remains.gain_of(single);
         // As good as one wrong reading: both are said, and the reading is believed.
-        const bool is_rival = best.candidate != nullptr &&
-                              best.gain - handicap > gain_of_single - k_alternative;
+        const bool is_rival =
+            best.candidate != nullptr && best.gain - handicap > gain_of_single - k_alternative;
         ExtraFacet facet;
         if (is_rival) {
             Index strongest = -1;
@@ -370,9 +369,7 @@ std::vector<ExtraFacet> suspect_extra_facets(const System& system, const Finishe
             }
             if (strongest >= 0 && remains.gain_of(strongest) > best.gain - k_alternative) {
                 facet.or_wrong =
-                    system
-                        .readings()[std::size_t(linear.soft[std::size_t(strongest)].reading)]
-                        .id;
+                    system.readings()[std::size_t(linear.soft[std::size_t(strongest)].reading)].id;
             }
             for (const int f : best.candidate->facets) {
                 facet.at.push_back(system.stone().solid.facets[std::size_t(f)].name);

@@ -149,11 +149,12 @@ FitResult fit_stone(const Stone& drawn, const std::vector<Reading>& readings,
     fill_in(system, finished.shape, diagnosis, pose, weights, result);
     assess(system, finished, diagnosis, result);
     describe_findings(system, finished, best.held, diagnosis, pose, result);
-    const auto declares = [](const Reading& r) {
-        return r.kind == ReadingKind::rotation || r.kind == ReadingKind::mirror;
-    };
-    if (options.find_symmetry && std::any_of(readings.begin(), readings.end(), declares)) {
-        result.symmetry = find_symmetry(stone, readings, options, progress);
+    if (options.find_symmetry &&
+        std::any_of(readings.begin(), readings.end(), declares_whole_symmetry)) {
+        FitOptions from_here = options;
+        from_here.start = result.solid;
+        from_here.allow_topology = false;
+        result.symmetry = find_symmetry(stone, readings, from_here, progress);
     }
     judge(system, finished, diagnosis, result);
     result.seconds =

@@ -57,8 +57,8 @@ std::string shortest_edge(const System& system, const Shape& shape, LengthUnit u
     const Edge* shortest = nullptr;
     double least = k_no_length;
     for (const Edge& edge : system.edges().edges) {
-        const double length = glm::length(shape.points[std::size_t(edge.from)] -
-                                          shape.points[std::size_t(edge.to)]);
+        const double length =
+            glm::length(shape.points[std::size_t(edge.from)] - shape.points[std::size_t(edge.to)]);
         if (!(length < least)) continue;
         least = length;
         shortest = &edge;

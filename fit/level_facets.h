@@ -13,8 +13,8 @@ namespace culet {
 void refuse_level_azimuths(const std::vector<Reading>& readings, const Stone& stone);
 
 /// Azimuth readings of facets whose inclination was read as less than three of its sigmas (and less
-/// than 5 degrees): the direction in which such a facet leans is not known to within a third of a right angle, whatever
-/// sigma the azimuth was given. Indices.
+/// than 5 degrees): the direction in which such a facet leans is not known to within a third of a
+/// right angle, whatever sigma the azimuth was given. Indices.
 std::vector<std::size_t> meaningless_azimuths(const std::vector<Reading>& readings);
 
 /// The result of a fit without some readings, with these in their places again, marked as left out.

@@ -107,8 +107,7 @@ public:
         right.segment(first, count) = -linear_.soft_residuals;
         const auto solved = solver_.solve(Eigen::VectorXd::Zero(linear_.layout.size()), right);
         if (!solved.good) return k_none;
-        const Eigen::VectorXd left =
-            linear_.soft_residuals + linear_.soft_rows * solved.unknowns;
+        const Eigen::VectorXd left = linear_.soft_residuals + linear_.soft_rows * solved.unknowns;
         return solver_.log_determinant() + logarithms +
                left.cwiseAbs2().cwiseQuotient(variance).sum() +
                solved.unknowns.cwiseAbs2().dot(stiffness_);

@@ -14,8 +14,8 @@
 
 namespace culet {
 
-/// Two formulas a contrast, each 0 in perfect symmetry. `orbit` are facets each the image of the one
-/// before under a turn by `angle` about up; `mesh` tells where they look.
+/// Two formulas a contrast, each 0 in perfect symmetry. `orbit` are facets each the image of the
+/// one before under a turn by `angle` about up; `mesh` tells where they look.
 std::vector<Formula> turn_contrasts(const Shape& mesh, const std::vector<int>& orbit, double angle);
 
 /// The chains that pairs (facet, image) make up, longer than one.

@@ -33,8 +33,8 @@ struct Frame {
 
 Frame upright(const Stone& stone) {
     const int table = find_facet(stone.solid, stone.up_facet);
-    const Vec3 up = glm::normalize(
-        table >= 0 ? stone.solid.facets[std::size_t(table)].plane.normal : stone.up);
+    const Vec3 up =
+        glm::normalize(table >= 0 ? stone.solid.facets[std::size_t(table)].plane.normal : stone.up);
     const Vec3 aside = std::abs(up.x) < 0.9 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
     const Vec3 x = glm::normalize(aside - glm::dot(aside, up) * up);
     return {x, glm::cross(up, x), up};
@@ -80,9 +80,8 @@ std::string where_it_may_lie(const std::string& name, const std::vector<WrittenR
                        side * std::cos(i) * frame.up;
         for (const Facet& facet : stone.solid.facets) {
             if (read.count(facet.name) > 0 || facet.name == stone.up_facet) continue;
-            const double off =
-                std::atan2(glm::length(glm::cross(n, facet.plane.normal)),
-                           glm::dot(n, facet.plane.normal));
+            const double off = std::atan2(glm::length(glm::cross(n, facet.plane.normal)),
+                                          glm::dot(n, facet.plane.normal));
             if (off < least) {
                 least = off;
                 nearest = facet.name;

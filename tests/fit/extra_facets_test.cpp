@@ -66,9 +66,9 @@ TEST(ExtraFacets, OneOnACornerOfTheGirdleIsSuspected) {
         const Solid truth = with_extra(mesh, direction(inclination_deg, 0), 0.05);
         const FitResult result = fit_stone(stone_of(mesh), readings_of(mesh, truth, 7));
         ASSERT_FALSE(result.extra_facets.empty()) << inclination_deg << " " << result.message;
-        EXPECT_THAT(places(result).front(), testing::AnyOf(testing::HasSubstr(" C1 "),
-                                                           testing::HasSubstr(" G1 "),
-                                                           testing::HasSubstr(" G16 ")))
+        EXPECT_THAT(places(result).front(),
+                    testing::AnyOf(testing::HasSubstr(" C1 "), testing::HasSubstr(" G1 "),
+                                   testing::HasSubstr(" G16 ")))
             << inclination_deg;
     }
 }
