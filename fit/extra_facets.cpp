@@ -339,6 +339,7 @@ std::vector<ExtraFacet> suspect_extra_facets(const System& system, const Finishe
     const double z = two_sided_normal_quantile(2 * significance / std::max(1.0, planes));
     const double enough = z * z, enough_single = diagnosis.suspect_limit * diagnosis.suspect_limit;
     const double handicap = 2 * std::log(std::max(1.0, planes / (2 * std::max(1.0, equations))));
+    double taken = 0;
     for (int round = 0; round < k_most_rounds; ++round) {
         Index single = -1;
         for (Index i = 0; i < remains.size(); ++i) {
@@ -358,6 +359,7 @@ std::vector<ExtraFacet> suspect_extra_facets(const System& system, const Finishe
         // As good as one wrong reading: both are said, and the reading is believed.
         const bool is_rival =
             best.candidate != nullptr && best.gain - handicap > gain_of_single - k_alternative;
+        ++taken;
         ExtraFacet facet;
         if (is_rival) {
             Index strongest = -1;
@@ -391,6 +393,9 @@ std::vector<ExtraFacet> suspect_extra_facets(const System& system, const Finishe
             remains.add(best.change);
         }
     }
+    // What is left must agree: where many readings contradict each other anything looks better.
+    const double left = remains.values().squaredNorm();
+    if (chi2_tail(left, std::max(1.0, diagnosis.dof - taken)) < significance) return {};
     std::stable_sort(found.begin(), found.end(),
                      [](const ExtraFacet& a, const ExtraFacet& b) { return a.chi2 > b.chi2; });
     return found;

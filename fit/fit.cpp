@@ -14,6 +14,7 @@
 #include "fit/find_symmetry.h"
 #include "fit/finish.h"
 #include "fit/fitted_parts.h"
+#include "fit/gross_angles.h"
 #include "fit/judge.h"
 #include "fit/level_facets.h"
 #include "fit/meet_sigmas.h"
@@ -51,6 +52,34 @@ bool needs_robust_view(const Diagnosis& diagnosis) {
                        [](const ReadingCheck& c) { return std::abs(c.normalized) > 8; });
 }
 
+std::vector<Reading> without(const std::vector<Reading>& readings,
+                             const std::vector<std::size_t>& left_out) {
+    std::vector<Reading> others;
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        if (!std::binary_search(left_out.begin(), left_out.end(), i)) {
+            others.push_back(readings[i]);
+        }
+    }
+    return others;
+}
+
+// A fit that angles far off the mesh have spoilt, again without those that it then contradicts.
+std::optional<FitResult> fit_without_gross(const Stone& stone, const std::vector<Reading>& readings,
+                                           std::vector<std::size_t> far, const FitOptions& options,
+                                           const Progress& progress) {
+    while (!far.empty()) {
+        FitResult result = fit_stone(stone, without(readings, far), options, progress);
+        if (result.status == FitStatus::not_converged) return std::nullopt;
+        const std::vector<std::size_t> wrong = contradicted_angles(result, readings, far);
+        if (wrong.size() == far.size()) {
+            put_back_gross(readings, far, result);
+            return result;
+        }
+        far = wrong;
+    }
+    return std::nullopt;
+}
+
 // The mesh was drawn in another unit, most likely.
 std::string other_size(const System& system) {
     const double factor = system.mesh_scale(), apart = std::max(factor, 1 / factor);
@@ -71,15 +100,7 @@ std::string other_size(const System& system) {
 FitResult fit_stone(const Stone& drawn, const std::vector<Reading>& readings,
                     const FitOptions& options, const Progress& progress) {
     if (const auto left_out = meaningless_azimuths(readings); !left_out.empty()) {
-        std::vector<Reading> others;
-        for (std::size_t i = 0, k = 0; i < readings.size(); ++i) {
-            if (k < left_out.size() && left_out[k] == i) {
-                ++k;
-            } else {
-                others.push_back(readings[i]);
-            }
-        }
-        FitResult result = fit_stone(drawn, others, options, progress);
+        FitResult result = fit_stone(drawn, without(readings, left_out), options, progress);
         put_left_out(readings, left_out, result);
         return result;
     }
@@ -157,6 +178,14 @@ FitResult fit_stone(const Stone& drawn, const std::vector<Reading>& readings,
         result.symmetry = find_symmetry(stone, readings, from_here, progress);
     }
     judge(system, finished, diagnosis, result);
+    if (const auto far = angles_far_from_mesh(system); may_be_bent(result, readings, far)) {
+        auto better = fit_without_gross(drawn, readings, far, options, progress);
+        // What explains a contradiction takes most of chi-square with it.
+        if (better &&
+            (result.status == FitStatus::not_converged || better->chi2 < 0.5 * result.chi2)) {
+            result = std::move(*better);
+        }
+    }
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (options.allow_topology) {

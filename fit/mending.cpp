@@ -21,6 +21,8 @@ namespace {
 
 // Pieces of one facet that a hand drew with slightly different planes.
 constexpr double k_piece_tilt_deg = 15;
+// Of the diameter: pieces less wide, and less out of one plane, may face anywhere.
+constexpr double k_narrow = 0.02;
 // Welding looks at all pairs of corners.
 constexpr std::size_t k_most_corners = 8000;
 // Corners further apart than this part of the diameter are not meant as one.
@@ -45,6 +47,62 @@ void drop_unused(Solid& solid) {
         }
     }
     solid.vertices = std::move(used);
+}
+
+// Neighbours run along their common side in opposite ways: from one facet to all, then outwards.
+// How many were turned round; nothing when some side is not of two facets, or no turning helps.
+std::optional<int> orient(Solid& solid) {
+    std::map<std::pair<int, int>, std::vector<int>> of_side;
+    for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+        const std::vector<int>& loop = solid.facets[f].corners;
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            of_side[std::minmax(loop[k], loop[(k + 1) % loop.size()])].push_back(int(f));
+        }
+    }
+    const auto runs = [&](int f, int from, int to) {
+        const std::vector<int>& loop = solid.facets[f].corners;
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            if (loop[k] == from && loop[(k + 1) % loop.size()] == to) return true;
+        }
+        return false;
+    };
+    std::map<int, std::vector<std::pair<int, bool>>> next;  // and whether it must be turned
+    for (const auto& [side, facets] : of_side) {
+        if (facets.size() != 2 || facets[0] == facets[1]) return std::nullopt;
+        const bool alike =
+            runs(facets[0], side.first, side.second) == runs(facets[1], side.first, side.second);
+        next[facets[0]].emplace_back(facets[1], alike);
+        next[facets[1]].emplace_back(facets[0], alike);
+    }
+    std::vector<int> turn(solid.facets.size(), -1);
+    std::vector<int> order{0};
+    turn[0] = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        for (const auto& [g, alike] : next[order[i]]) {
+            const int wanted = turn[order[i]] ^ (alike ? 1 : 0);
+            if (turn[g] < 0) {
+                turn[g] = wanted;
+                order.push_back(g);
+            } else if (turn[g] != wanted) {
+                return std::nullopt;
+            }
+        }
+    }
+    if (order.size() != solid.facets.size()) return std::nullopt;
+    const int turned = static_cast<int>(std::count(turn.begin(), turn.end(), 1));
+    if (turned == 0) return 0;
+    const auto apply = [&](int which) {
+        for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+            if (turn[f] != which) continue;
+            std::reverse(solid.facets[f].corners.begin(), solid.facets[f].corners.end());
+            renew_plane(solid, solid.facets[f]);
+        }
+    };
+    apply(1);
+    if (volume(solid) > 0) return turned;
+    apply(0);
+    apply(1);
+    return static_cast<int>(solid.facets.size()) - turned;
 }
 
 // Kruskal (1956) with the rule that no facet has a corner twice.
@@ -109,7 +167,7 @@ std::optional<Solid> welded(const Solid& solid) {
     }
     drop_unused(result);
     for (Facet& facet : result.facets) renew_plane(result, facet);
-    if (!is_closed(result)) return std::nullopt;
+    if (!orient(result) || !is_closed(result)) return std::nullopt;
     return result;
 }
 
@@ -118,6 +176,27 @@ std::string base_name(const std::string& name) {
     if (dot == std::string::npos || dot == 0 || dot + 1 == name.size()) return name;
     return name.find_first_not_of("0123456789", dot + 1) == std::string::npos ? name.substr(0, dot)
                                                                               : name;
+}
+
+// Pieces so narrow that a rough mesh does not tell which way they face: they lie in one plane as
+// far as it tells.
+bool lie_flat(const Solid& solid, const std::vector<int>& pieces, const Vec3& normal, double size) {
+    double low = 1e300, high = -1e300, longest = 0;
+    for (const int f : pieces) {
+        const Facet& facet = solid.facets[f];
+        if (!(glm::dot(normal, facet.plane.normal) > 0)) return false;
+        double length = 0;
+        for (const int a : facet.corners) {
+            low = std::min(low, glm::dot(normal, solid.vertices[a]));
+            high = std::max(high, glm::dot(normal, solid.vertices[a]));
+            for (const int b : facet.corners) {
+                length = std::max(length, glm::length(solid.vertices[a] - solid.vertices[b]));
+            }
+        }
+        if (!(area(solid, facet) < k_narrow * size * length)) return false;
+        longest = std::max(longest, length);
+    }
+    return high - low < k_narrow * size && high - low < 0.1 * longest;
 }
 
 // The one outline of several facets, or nothing.
@@ -154,6 +233,7 @@ std::vector<std::string> join_pieces(Solid& solid) {
     }
     std::vector<std::string> joined;
     std::set<int> gone;
+    const double size = diameter(solid);
     for (const auto& [name, pieces] : groups) {
         if (pieces.size() < 2 || solid.facets[pieces[0]].name != name) continue;
         Vec3 mean(0);
@@ -164,7 +244,9 @@ std::vector<std::string> join_pieces(Solid& solid) {
             return glm::dot(mean, solid.facets[f].plane.normal) >
                    std::cos(radians(k_piece_tilt_deg));
         });
-        const std::vector<int> outline = alike ? outline_of(solid, pieces) : std::vector<int>();
+        const std::vector<int> outline = alike || lie_flat(solid, pieces, mean, size)
+                                             ? outline_of(solid, pieces)
+                                             : std::vector<int>();
         if (outline.size() < 3) continue;
         solid.facets[pieces[0]].corners = outline;
         gone.insert(pieces.begin() + 1, pieces.end());
@@ -236,6 +318,14 @@ Mended mended(const Stone& stone) {
             solid = std::move(*closed);
             result.notes.push_back(fmt::format("the mesh was open: {} corners were welded into {}",
                                                before, solid.vertices.size()));
+        }
+    }
+    if (!is_closed(solid)) {
+        Solid turned = solid;
+        if (const auto count = orient(turned); count && *count > 0 && is_closed(turned)) {
+            solid = std::move(turned);
+            result.notes.push_back(fmt::format("{} facet{} drawn inside out: turned round", *count,
+                                               *count == 1 ? " was" : "s were"));
         }
     }
     if (is_closed(solid)) {
