@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "fit/canonical.h"
+#include "fit/orientation.h"
 #include "stone/checks.h"
 #include "stone/half_edges.h"
 
@@ -21,18 +22,15 @@ namespace {
 
 // Pieces of one facet that a hand drew with slightly different planes.
 constexpr double k_piece_tilt_deg = 15;
+// A polygon cut into triangles is warped as far as its corners are off. One whose name is read, and
+// its pieces' are not, is one facet.
+constexpr double k_triangle_tilt_deg = 40;
 // Of the diameter: pieces less wide, and less out of one plane, may face anywhere.
 constexpr double k_narrow = 0.02;
 // Welding looks at all pairs of corners.
 constexpr std::size_t k_most_corners = 8000;
 // Corners further apart than this part of the diameter are not meant as one.
 constexpr double k_weld = 0.25;
-
-void renew_plane(Solid& solid, Facet& facet) {
-    std::vector<Vec3> loop;
-    for (int corner : facet.corners) loop.push_back(solid.vertices[corner]);
-    facet.plane = plane_through(loop);
-}
 
 void drop_unused(Solid& solid) {
     std::vector<int> index(solid.vertices.size(), -1);
@@ -47,62 +45,6 @@ void drop_unused(Solid& solid) {
         }
     }
     solid.vertices = std::move(used);
-}
-
-// Neighbours run along their common side in opposite ways: from one facet to all, then outwards.
-// How many were turned round; nothing when some side is not of two facets, or no turning helps.
-std::optional<int> orient(Solid& solid) {
-    std::map<std::pair<int, int>, std::vector<int>> of_side;
-    for (std::size_t f = 0; f < solid.facets.size(); ++f) {
-        const std::vector<int>& loop = solid.facets[f].corners;
-        for (std::size_t k = 0; k < loop.size(); ++k) {
-            of_side[std::minmax(loop[k], loop[(k + 1) % loop.size()])].push_back(int(f));
-        }
-    }
-    const auto runs = [&](int f, int from, int to) {
-        const std::vector<int>& loop = solid.facets[f].corners;
-        for (std::size_t k = 0; k < loop.size(); ++k) {
-            if (loop[k] == from && loop[(k + 1) % loop.size()] == to) return true;
-        }
-        return false;
-    };
-    std::map<int, std::vector<std::pair<int, bool>>> next;  // and whether it must be turned
-    for (const auto& [side, facets] : of_side) {
-        if (facets.size() != 2 || facets[0] == facets[1]) return std::nullopt;
-        const bool alike =
-            runs(facets[0], side.first, side.second) == runs(facets[1], side.first, side.second);
-        next[facets[0]].emplace_back(facets[1], alike);
-        next[facets[1]].emplace_back(facets[0], alike);
-    }
-    std::vector<int> turn(solid.facets.size(), -1);
-    std::vector<int> order{0};
-    turn[0] = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        for (const auto& [g, alike] : next[order[i]]) {
-            const int wanted = turn[order[i]] ^ (alike ? 1 : 0);
-            if (turn[g] < 0) {
-                turn[g] = wanted;
-                order.push_back(g);
-            } else if (turn[g] != wanted) {
-                return std::nullopt;
-            }
-        }
-    }
-    if (order.size() != solid.facets.size()) return std::nullopt;
-    const int turned = static_cast<int>(std::count(turn.begin(), turn.end(), 1));
-    if (turned == 0) return 0;
-    const auto apply = [&](int which) {
-        for (std::size_t f = 0; f < solid.facets.size(); ++f) {
-            if (turn[f] != which) continue;
-            std::reverse(solid.facets[f].corners.begin(), solid.facets[f].corners.end());
-            renew_plane(solid, solid.facets[f]);
-        }
-    };
-    apply(1);
-    if (volume(solid) > 0) return turned;
-    apply(0);
-    apply(1);
-    return static_cast<int>(solid.facets.size()) - turned;
 }
 
 // Kruskal (1956) with the rule that no facet has a corner twice.
@@ -226,7 +168,7 @@ std::vector<int> outline_of(const Solid& solid, const std::vector<int>& pieces) 
 }
 
 // Facets in pieces, each made one; their names.
-std::vector<std::string> join_pieces(Solid& solid) {
+std::vector<std::string> join_pieces(Solid& solid, const std::set<std::string>& read) {
     std::map<std::string, std::vector<int>> groups;
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
         groups[base_name(solid.facets[f].name)].push_back(static_cast<int>(f));
@@ -236,17 +178,23 @@ std::vector<std::string> join_pieces(Solid& solid) {
     const double size = diameter(solid);
     for (const auto& [name, pieces] : groups) {
         if (pieces.size() < 2 || solid.facets[pieces[0]].name != name) continue;
+        // Who reads NAME.1 means a facet of its own.
+        if (std::any_of(pieces.begin() + 1, pieces.end(),
+                        [&](int f) { return read.count(solid.facets[f].name) > 0; })) {
+            continue;
+        }
         Vec3 mean(0);
         for (int f : pieces) mean += area(solid, solid.facets[f]) * solid.facets[f].plane.normal;
         if (!(glm::length(mean) > 0)) continue;
         mean = glm::normalize(mean);
+        const std::vector<int> outline = outline_of(solid, pieces);
+        // A polygon cut into triangles between its own corners, or pieces of a facet.
+        const bool cut = outline.size() == pieces.size() + 2 && read.count(name) > 0;
+        const double limit = std::cos(radians(cut ? k_triangle_tilt_deg : k_piece_tilt_deg));
         const bool alike = std::all_of(pieces.begin(), pieces.end(), [&](int f) {
-            return glm::dot(mean, solid.facets[f].plane.normal) >
-                   std::cos(radians(k_piece_tilt_deg));
+            return glm::dot(mean, solid.facets[f].plane.normal) > limit;
         });
-        const std::vector<int> outline = alike || lie_flat(solid, pieces, mean, size)
-                                             ? outline_of(solid, pieces)
-                                             : std::vector<int>();
+        if (!alike && !lie_flat(solid, pieces, mean, size)) continue;
         if (outline.size() < 3) continue;
         solid.facets[pieces[0]].corners = outline;
         gone.insert(pieces.begin() + 1, pieces.end());
@@ -273,42 +221,9 @@ std::vector<std::string> join_pieces(Solid& solid) {
 
 }  // namespace
 
-std::optional<Stone> mirrored_to_azimuths(const Stone& stone,
-                                          const std::vector<Reading>& readings) {
-    // Azimuths read less those drawn agree up to one turn, or their sums do: mean directions.
-    const Vec3 up = [&] {
-        const int f = stone.up_facet.empty() ? -1 : find_facet(stone.solid, stone.up_facet);
-        return f < 0 ? glm::normalize(stone.up) : stone.solid.facets[f].plane.normal;
-    }();
-    const Vec3 side =
-        glm::normalize(glm::cross(std::abs(up.x) < 0.8 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, up));
-    const Vec3 other = glm::cross(up, side);
-    double ways[2][2] = {{0, 0}, {0, 0}};
-    int count = 0;
-    for (const Reading& r : readings) {
-        if (r.kind != ReadingKind::azimuth || r.datum.kind == Datum::Kind::facet) continue;
-        const Vec3& n = stone.solid.facets[r.facets[0]].plane.normal;
-        const double drawn = std::atan2(glm::dot(n, other), glm::dot(n, side));
-        for (int way = 0; way < 2; ++way) {
-            const double angle = r.value + (way == 0 ? -drawn : drawn);
-            ways[way][0] += std::cos(angle);
-            ways[way][1] += std::sin(angle);
-        }
-        ++count;
-    }
-    const double straight = std::hypot(ways[0][0], ways[0][1]),
-                 turned = std::hypot(ways[1][0], ways[1][1]);
-    if (count < 3 || turned < 0.5 * count || straight > 0.7 * turned) return std::nullopt;
-    Stone result = stone;
-    for (Vec3& v : result.solid.vertices) v -= 2 * glm::dot(v, side) * side;
-    for (Facet& facet : result.solid.facets) {
-        std::reverse(facet.corners.begin(), facet.corners.end());
-        renew_plane(result.solid, facet);
-    }
-    return result;
-}
-
-Mended mended(const Stone& stone) {
+Mended mended(const Stone& stone, const std::vector<WrittenReading>& readings) {
+    std::set<std::string> read;
+    for (const WrittenReading& r : readings) read.insert(r.of.begin(), r.of.end());
     Mended result{stone, {}};
     Solid& solid = result.stone.solid;
     if (solid.facets.size() < 4) return result;
@@ -330,7 +245,7 @@ Mended mended(const Stone& stone) {
     }
     if (is_closed(solid)) {
         Solid whole = solid;
-        const std::vector<std::string> joined = join_pieces(whole);
+        const std::vector<std::string> joined = join_pieces(whole, read);
         if (!joined.empty() && whole.facets.size() >= 4 && is_closed(whole)) {
             solid = std::move(whole);
             result.notes.push_back(
@@ -339,10 +254,7 @@ Mended mended(const Stone& stone) {
         }
     }
     if (is_closed(solid) && volume(solid) < 0 && lies_mirrored(solid, half_edges(solid))) {
-        for (Facet& facet : solid.facets) {
-            std::reverse(facet.corners.begin(), facet.corners.end());
-            renew_plane(solid, facet);
-        }
+        turn_round(solid);
         result.notes.push_back("the mesh was inside out: its facets were turned round");
     }
     return result;
