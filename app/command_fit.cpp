@@ -57,9 +57,9 @@ int run_fit(const FitCommand& command) {
     StoneFile file = read_stone(command.stone, command.common.set);
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
-    const Mended mesh = mended(file.stone);
-    file.stone = mesh.stone;
     const auto written = read_readings(command.stone, command.common.set);
+    const Mended mesh = mended(file.stone, written);
+    file.stone = mesh.stone;
     const auto readings = bind_readings(written, file.stone);
     FitOptions options = read_fit_options(command.stone, command.common.set);
     if (command.iterations > 0) options.iterations = command.iterations;

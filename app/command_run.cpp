@@ -78,8 +78,9 @@ int run_job(const RunOptions& options) {
     // Everything that can be wrong with the inputs is found before the first output is written.
     StoneFile file = read_stone(job.stone);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
-    file.stone = mended(file.stone).stone;
-    const auto readings = bind_readings(read_readings(job.stone), file.stone);
+    const auto written = read_readings(job.stone);
+    file.stone = mended(file.stone, written).stone;
+    const auto readings = bind_readings(written, file.stone);
     const FitOptions fit_options = read_fit_options(job.stone);
     Scene scene = read_scene(job.scene, {}, &file.stone);
     scene.settings.threads = options.common.threads;

@@ -39,11 +39,11 @@ int run_study(const StudyCommand& command) {
     StoneFile file = read_stone(command.input, command.common.set);
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
-    const Mended mesh = mended(file.stone);
+    const auto written = read_readings(command.input, command.common.set);
+    const Mended mesh = mended(file.stone, written);
     file.stone = mesh.stone;
     for (const std::string& note : mesh.notes) say(note, command.common.quiet);
-    const auto readings =
-        bind_readings(read_readings(command.input, command.common.set), file.stone);
+    const auto readings = bind_readings(written, file.stone);
     if (readings.empty()) {
         throw InputError(command.input, "has no readings: there is nothing to study");
     }

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "fit/extra_facets.h"
+#include "fit/find_symmetry.h"
 #include "fit/meet_tests.h"
 #include "fit/own_axis.h"
 #include "fit/shape_findings.h"
@@ -138,6 +140,11 @@ void describe_shape(const System& system, const Finished& finished, const Diagno
         result.vanishing_edges.empty() ||
         chi2_tail(result.vanishing_chi2, static_cast<double>(result.vanishing_edges.size())) <
             result.options.significance;
+    result.vanishing_edges.clear();
+    for (const ShapeFinding& finding : result.shape_findings) {
+        if (finding.kind != ShapeFinding::Kind::edge_vanishes) continue;
+        result.vanishing_edges.push_back(finding.facets[0] + "/" + finding.facets[1]);
+    }
     for (ShapeFinding& finding : result.shape_findings) {
         if (denied || finding.kind != ShapeFinding::Kind::facet_vanishes) continue;
         finding.kind = ShapeFinding::Kind::facet_open;
@@ -187,14 +194,38 @@ void describe_shape(const System& system, const Finished& finished, const Diagno
     }
 }
 
+void describe_extra_facets(const System& system, const Finished& finished,
+                           const Diagnosis& diagnosis, const Inference& inference,
+                           FitResult& result) {
+    result.extra_facets = suspect_extra_facets(system, finished, inference.linear(), diagnosis,
+                                               result.options.significance);
+    for (ExtraFacet& facet : result.extra_facets) {
+        facet.depth *= system.scale();
+        facet.sigma *= system.scale();
+        const std::string place = fmt::format(
+            "{} {}, {} deep (sigma {})", facet.at.size() == 2 ? "along the edge" : "at the corner",
+            list_of(facet.at), length_text(facet.depth, result.unit),
+            length_text(facet.sigma, result.unit));
+        facet.what = facet.or_wrong.empty()
+                         ? fmt::format(
+                               "the stone may have a facet that the mesh lacks, {}: it "
+                               "would explain {} (chi2 {:.1f} less)",
+                               place, list_of(facet.shown_by), facet.chi2)
+                         : fmt::format(
+                               "{} is wrong, or the stone has a facet that the mesh lacks, "
+                               "{}",
+                               facet.or_wrong, place);
+    }
+}
+
 }  // namespace
 
 void describe_findings(const System& system, const Finished& finished,
-                       const std::vector<HeldCorner>& held, const Diagnosis& diagnosis,
+                       const std::vector<Held>& held, const Diagnosis& diagnosis,
                        const System::Pose& pose, FitResult& result) {
     if (!result.options.findings || !finished.outline) return;
     std::vector<Equation> conditions;
-    for (const HeldCorner& corner : held) {
+    for (const Held& corner : held) {
         Equation e;
         e.role = Equation::Role::relation;
         e.exact = true;
@@ -209,10 +240,9 @@ void describe_findings(const System& system, const Finished& finished,
     if (!inference.usable()) return;
     describe_meets(system, finished.shape, inference, result);
     describe_shape(system, finished, diagnosis, inference, result);
+    describe_extra_facets(system, finished, diagnosis, inference, result);
     const bool declared =
-        std::any_of(system.readings().begin(), system.readings().end(), [](const Reading& r) {
-            return r.kind == ReadingKind::rotation || r.kind == ReadingKind::mirror;
-        });
+        std::any_of(system.readings().begin(), system.readings().end(), declares_whole_symmetry);
     // Declared symmetry would only be found again: `fit_stone` asks a fit without it.
     if (result.options.find_symmetry && !declared) {
         result.symmetry = symmetry_of(system, finished.shape, inference, result.options);

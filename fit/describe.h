@@ -2,6 +2,7 @@
 // Puts what was found out about the stone into the result of its fit. Private to the room.
 
 #include "fit/diagnostics.h"
+#include "fit/exact_finish.h"
 #include "fit/finish.h"
 #include "fit/fit.h"
 #include "fit/system.h"
@@ -10,11 +11,8 @@ namespace culet {
 
 /// Own axis, tiers, meets, edges and facets. `result` holds facets, readings and tests already.
 /// `held` are corners (point below facet) that the fit had to hold down.
-struct HeldCorner {
-    int facet = -1, point = -1;
-};
 void describe_findings(const System& system, const Finished& finished,
-                       const std::vector<HeldCorner>& held, const Diagnosis& diagnosis,
+                       const std::vector<Held>& held, const Diagnosis& diagnosis,
                        const System::Pose& pose, FitResult& result);
 
 }  // namespace culet

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "fit/symmetry_contrasts.h"
 #include "fit/system.h"
 
 namespace culet {
@@ -328,7 +329,25 @@ std::vector<Equation> System::reading_equations(const Shape& shape,
                 const int extra = first_extra_[r];
                 const MirrorPlane plane{reading.has_direction ? -1 : extra + 1, extra,
                                         reading.azimuth};
+                // Within sigma: directions each with an error of its own, distances each by its
+                // image's, so that a round girdle may be slowly out of round.
+                const bool is_loose = reading.kind == ReadingKind::rotation && !reading.exact;
+                if (is_loose) {
+                    for (const std::vector<int>& orbit : orbits_of_pairs(pairs_[r])) {
+                        for (Formula& contrast : turn_contrasts(mesh_shape_, orbit, angle)) {
+                            put(std::move(contrast), 0);
+                        }
+                    }
+                }
                 for (const auto& [f, g] : pairs_[r]) {
+                    // Two facets, each with an error of its own, differ by more.
+                    if (!reading.exact) {
+                        base.sigma = (f == g ? 1 : std::numbers::sqrt2) * reading.sigma / unit;
+                    }
+                    if (is_loose && f != g) {
+                        put(turned_height(corners_of(*mesh_outline_, f), g, angle, extra), 0);
+                        continue;
+                    }
                     if (reading.kind == ReadingKind::mirror && f == g) {
                         if (f != up_facet_) put(across_mirror(f, plane), 0);
                         continue;

@@ -89,8 +89,9 @@ struct FittedReading {
     double redundancy = 0;  ///< 0: nothing checks this reading; 1: it adds nothing
     double detectable = 0;  ///< smallest error that the test would find, 80 times in 100; 0: none
     bool suspect = false, exact = false;
-    double rounding = 0;  ///< step of the instrument; 0: none
-    double weight = 1;    ///< left to it by a robust loss
+    double rounding = 0;   ///< step of the instrument; 0: none
+    double weight = 1;     ///< left to it by a robust loss
+    std::string left_out;  ///< why it takes no part; empty: it does
 };
 
 struct Undetermined {
@@ -101,9 +102,10 @@ struct Undetermined {
 /// How the meets of more than three facets were treated, and by how much they miss.
 struct MeetReport {
     int exact = 0, soft = 0, released = 0;
-    double sigma = 0;                   ///< of soft meets
-    double girdle_sigma = 0;            ///< of girdle facets in soft meets
-    bool estimated = false;             ///< sigma comes from the data
+    double sigma = 0;         ///< of soft meets
+    double girdle_sigma = 0;  ///< of girdle facets in soft meets
+    bool estimated = false;   ///< sigma comes from the data
+    int ends = 0;  ///< of the estimate: how many local ones were found; the likeliest is taken
     double miss_rms = 0, miss_max = 0;  ///< distance of planes from their meets
 };
 

@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "fit/canonical.h"
+#include "fit/orientation.h"
 #include "stone/checks.h"
 #include "stone/half_edges.h"
 
@@ -21,16 +22,15 @@ namespace {
 
 // Pieces of one facet that a hand drew with slightly different planes.
 constexpr double k_piece_tilt_deg = 15;
+// A polygon cut into triangles is warped as far as its corners are off. One whose name is read, and
+// its pieces' are not, is one facet.
+constexpr double k_triangle_tilt_deg = 40;
+// Of the diameter: pieces less wide, and less out of one plane, may face anywhere.
+constexpr double k_narrow = 0.02;
 // Welding looks at all pairs of corners.
 constexpr std::size_t k_most_corners = 8000;
 // Corners further apart than this part of the diameter are not meant as one.
 constexpr double k_weld = 0.25;
-
-void renew_plane(Solid& solid, Facet& facet) {
-    std::vector<Vec3> loop;
-    for (int corner : facet.corners) loop.push_back(solid.vertices[corner]);
-    facet.plane = plane_through(loop);
-}
 
 void drop_unused(Solid& solid) {
     std::vector<int> index(solid.vertices.size(), -1);
@@ -109,7 +109,7 @@ std::optional<Solid> welded(const Solid& solid) {
     }
     drop_unused(result);
     for (Facet& facet : result.facets) renew_plane(result, facet);
-    if (!is_closed(result)) return std::nullopt;
+    if (!orient(result) || !is_closed(result)) return std::nullopt;
     return result;
 }
 
@@ -118,6 +118,27 @@ std::string base_name(const std::string& name) {
     if (dot == std::string::npos || dot == 0 || dot + 1 == name.size()) return name;
     return name.find_first_not_of("0123456789", dot + 1) == std::string::npos ? name.substr(0, dot)
                                                                               : name;
+}
+
+// Pieces so narrow that a rough mesh does not tell which way they face: they lie in one plane as
+// far as it tells.
+bool lie_flat(const Solid& solid, const std::vector<int>& pieces, const Vec3& normal, double size) {
+    double low = 1e300, high = -1e300, longest = 0;
+    for (const int f : pieces) {
+        const Facet& facet = solid.facets[f];
+        if (!(glm::dot(normal, facet.plane.normal) > 0)) return false;
+        double length = 0;
+        for (const int a : facet.corners) {
+            low = std::min(low, glm::dot(normal, solid.vertices[a]));
+            high = std::max(high, glm::dot(normal, solid.vertices[a]));
+            for (const int b : facet.corners) {
+                length = std::max(length, glm::length(solid.vertices[a] - solid.vertices[b]));
+            }
+        }
+        if (!(area(solid, facet) < k_narrow * size * length)) return false;
+        longest = std::max(longest, length);
+    }
+    return high - low < k_narrow * size && high - low < 0.1 * longest;
 }
 
 // The one outline of several facets, or nothing.
@@ -147,24 +168,33 @@ std::vector<int> outline_of(const Solid& solid, const std::vector<int>& pieces) 
 }
 
 // Facets in pieces, each made one; their names.
-std::vector<std::string> join_pieces(Solid& solid) {
+std::vector<std::string> join_pieces(Solid& solid, const std::set<std::string>& read) {
     std::map<std::string, std::vector<int>> groups;
     for (std::size_t f = 0; f < solid.facets.size(); ++f) {
         groups[base_name(solid.facets[f].name)].push_back(static_cast<int>(f));
     }
     std::vector<std::string> joined;
     std::set<int> gone;
+    const double size = diameter(solid);
     for (const auto& [name, pieces] : groups) {
         if (pieces.size() < 2 || solid.facets[pieces[0]].name != name) continue;
+        // Who reads NAME.1 means a facet of its own.
+        if (std::any_of(pieces.begin() + 1, pieces.end(),
+                        [&](int f) { return read.count(solid.facets[f].name) > 0; })) {
+            continue;
+        }
         Vec3 mean(0);
         for (int f : pieces) mean += area(solid, solid.facets[f]) * solid.facets[f].plane.normal;
         if (!(glm::length(mean) > 0)) continue;
         mean = glm::normalize(mean);
+        const std::vector<int> outline = outline_of(solid, pieces);
+        // A polygon cut into triangles between its own corners, or pieces of a facet.
+        const bool cut = outline.size() == pieces.size() + 2 && read.count(name) > 0;
+        const double limit = std::cos(radians(cut ? k_triangle_tilt_deg : k_piece_tilt_deg));
         const bool alike = std::all_of(pieces.begin(), pieces.end(), [&](int f) {
-            return glm::dot(mean, solid.facets[f].plane.normal) >
-                   std::cos(radians(k_piece_tilt_deg));
+            return glm::dot(mean, solid.facets[f].plane.normal) > limit;
         });
-        const std::vector<int> outline = alike ? outline_of(solid, pieces) : std::vector<int>();
+        if (!alike && !lie_flat(solid, pieces, mean, size)) continue;
         if (outline.size() < 3) continue;
         solid.facets[pieces[0]].corners = outline;
         gone.insert(pieces.begin() + 1, pieces.end());
@@ -191,42 +221,9 @@ std::vector<std::string> join_pieces(Solid& solid) {
 
 }  // namespace
 
-std::optional<Stone> mirrored_to_azimuths(const Stone& stone,
-                                          const std::vector<Reading>& readings) {
-    // Azimuths read less those drawn agree up to one turn, or their sums do: mean directions.
-    const Vec3 up = [&] {
-        const int f = stone.up_facet.empty() ? -1 : find_facet(stone.solid, stone.up_facet);
-        return f < 0 ? glm::normalize(stone.up) : stone.solid.facets[f].plane.normal;
-    }();
-    const Vec3 side =
-        glm::normalize(glm::cross(std::abs(up.x) < 0.8 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}, up));
-    const Vec3 other = glm::cross(up, side);
-    double ways[2][2] = {{0, 0}, {0, 0}};
-    int count = 0;
-    for (const Reading& r : readings) {
-        if (r.kind != ReadingKind::azimuth || r.datum.kind == Datum::Kind::facet) continue;
-        const Vec3& n = stone.solid.facets[r.facets[0]].plane.normal;
-        const double drawn = std::atan2(glm::dot(n, other), glm::dot(n, side));
-        for (int way = 0; way < 2; ++way) {
-            const double angle = r.value + (way == 0 ? -drawn : drawn);
-            ways[way][0] += std::cos(angle);
-            ways[way][1] += std::sin(angle);
-        }
-        ++count;
-    }
-    const double straight = std::hypot(ways[0][0], ways[0][1]),
-                 turned = std::hypot(ways[1][0], ways[1][1]);
-    if (count < 3 || turned < 0.5 * count || straight > 0.7 * turned) return std::nullopt;
-    Stone result = stone;
-    for (Vec3& v : result.solid.vertices) v -= 2 * glm::dot(v, side) * side;
-    for (Facet& facet : result.solid.facets) {
-        std::reverse(facet.corners.begin(), facet.corners.end());
-        renew_plane(result.solid, facet);
-    }
-    return result;
-}
-
-Mended mended(const Stone& stone) {
+Mended mended(const Stone& stone, const std::vector<WrittenReading>& readings) {
+    std::set<std::string> read;
+    for (const WrittenReading& r : readings) read.insert(r.of.begin(), r.of.end());
     Mended result{stone, {}};
     Solid& solid = result.stone.solid;
     if (solid.facets.size() < 4) return result;
@@ -238,9 +235,17 @@ Mended mended(const Stone& stone) {
                                                before, solid.vertices.size()));
         }
     }
+    if (!is_closed(solid)) {
+        Solid turned = solid;
+        if (const auto count = orient(turned); count && *count > 0 && is_closed(turned)) {
+            solid = std::move(turned);
+            result.notes.push_back(fmt::format("{} facet{} drawn inside out: turned round", *count,
+                                               *count == 1 ? " was" : "s were"));
+        }
+    }
     if (is_closed(solid)) {
         Solid whole = solid;
-        const std::vector<std::string> joined = join_pieces(whole);
+        const std::vector<std::string> joined = join_pieces(whole, read);
         if (!joined.empty() && whole.facets.size() >= 4 && is_closed(whole)) {
             solid = std::move(whole);
             result.notes.push_back(
@@ -249,10 +254,7 @@ Mended mended(const Stone& stone) {
         }
     }
     if (is_closed(solid) && volume(solid) < 0 && lies_mirrored(solid, half_edges(solid))) {
-        for (Facet& facet : solid.facets) {
-            std::reverse(facet.corners.begin(), facet.corners.end());
-            renew_plane(solid, facet);
-        }
+        turn_round(solid);
         result.notes.push_back("the mesh was inside out: its facets were turned round");
     }
     return result;

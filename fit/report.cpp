@@ -74,6 +74,7 @@ std::string fit_report(const FitResult& result) {
              {"redundancy", json_number(r.redundancy)},
              {"detectable", r.detectable > 0 ? json_number(unit * r.detectable) : Json(nullptr)},
              {"suspect", r.suspect}});
+        if (!r.left_out.empty()) readings.back()["left_out"] = r.left_out;
         if (r.rounding > 0) readings.back()["rounding"] = json_number(unit * r.rounding);
     }
     report["readings"] = readings;
@@ -96,6 +97,7 @@ std::string fit_report(const FitResult& result) {
                        {"sigma", result.meets.sigma},
                        {"girdle_sigma", result.meets.girdle_sigma},
                        {"sigma_estimated", result.meets.estimated},
+                       {"sigma_ends", result.meets.ends},
                        {"miss_rms", result.meets.miss_rms},
                        {"miss_max", result.meets.miss_max}};
     add_findings(result, report);

@@ -110,10 +110,11 @@ void add_findings(const FitResult& result, Json& report) {
                          {"sigma", json_number(facet.sigma)},
                          {"chi2", json_number(facet.chi2)},
                          {"p", json_number(facet.p)},
+                         {"shown_by", facet.shown_by},
                          {"what", facet.what}});
+        if (!facet.or_wrong.empty()) extra.back()["or_wrong"] = facet.or_wrong;
     }
-    // Not looked for yet: nothing is claimed.
-    if (!result.extra_facets.empty()) report["extra_facets"] = extra;
+    report["extra_facets"] = extra;
     report["changes"] = result.changes;
     if (result.symmetry) report["symmetry"] = symmetry_of(*result.symmetry);
 }

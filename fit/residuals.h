@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "fit/parameters.h"
@@ -92,11 +93,14 @@ Formula enclosed_volume(std::shared_ptr<const Outline> outline);
 /// Area of a planar loop of corners.
 Formula enclosed_area(std::vector<Corner> loop);
 Formula mean_of(std::vector<Formula> terms);
+Formula weighted_sum(std::vector<std::pair<double, Formula>> terms);
 /// A constant unit direction . (rotation by `angle` about +z of normal f, less normal g).
 Formula turned_normal(int f, int g, double angle, const Vec3& direction);
 /// Height over plane g of the mean of corners, turned by `angle` about the axis at extras
 /// (centre, centre + 1).
 Formula turned_height(std::vector<Corner> corners, int g, double angle, int centre);
+/// direction . (normal f turned by `angle` about +z)
+Formula turned_component(int f, double angle, const Vec3& direction);
 /// The mirror plane m . x = e has its azimuth in extra `azimuth` and e in extra `offset`, where an
 /// `azimuth` of -1 means the fixed angle.
 struct MirrorPlane {

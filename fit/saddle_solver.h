@@ -49,6 +49,8 @@ public:
     /// Refined until what is left is this part of the right-hand side, or gets no smaller.
     Solution solve(const Eigen::VectorXd& a, const Eigen::VectorXd& b,
                    double precision = 1e-13) const;
+    /// log |det| of the matrix as it was factored: log det C + log det (P + J'C^-1 J).
+    double log_determinant() const { return factors_.vectorD().array().abs().log().sum(); }
 
 private:
     void lay_out(const SparseRows& rows, const std::vector<Entry>& curvature);

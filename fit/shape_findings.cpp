@@ -38,6 +38,15 @@ std::vector<std::string> names_of(const System& system, const Edge& edge) {
     return names;
 }
 
+// Whether holding a corner below a facet keeps this edge, which ends at both, from turning over.
+bool keeps_open(const System& system, const Edge& edge, int point, int facet) {
+    if (edge.from != point && edge.to != point) return false;
+    if (edge.left == facet || edge.right == facet) return false;
+    const int far_end = edge.from == point ? edge.to : edge.from;
+    const std::vector<int>& there = system.edges().facets_of_vertex[std::size_t(far_end)];
+    return std::find(there.begin(), there.end(), facet) != there.end();
+}
+
 // Corners held below the facet at the other end of an edge keep the edge from turning round. Let
 // go, it would be as long as the readings want it.
 void add_vanishing(const System& system, const Finished& finished, const Inference& inference,
@@ -59,11 +68,7 @@ void add_vanishing(const System& system, const Finished& finished, const Inferen
         Eigen::VectorXd column = Eigen::VectorXd::Zero(Eigen::Index(hard.size()));
         for (const Eigen::Index k : held) {
             const Equation& e = hard[std::size_t(k)];
-            if (edge.from != e.point && edge.to != e.point) continue;
-            if (edge.left == e.facet || edge.right == e.facet) continue;
-            const int far_end = edge.from == e.point ? edge.to : edge.from;
-            const std::vector<int>& there = system.edges().facets_of_vertex[std::size_t(far_end)];
-            if (std::find(there.begin(), there.end(), e.facet) == there.end()) continue;
+            if (!keeps_open(system, edge, e.point, e.facet)) continue;
             column(k) = std::abs(glm::dot(along, finished.shape.normals[std::size_t(e.facet)]));
         }
         if (column.maxCoeff() < 1e-9) continue;
@@ -211,6 +216,20 @@ void add_same_planes(const System& system, const Finished& finished, const Diagn
 }
 
 }  // namespace
+
+std::vector<std::string> edges_kept_open(const System& system, const std::vector<Held>& held) {
+    std::vector<std::string> edges;
+    for (const Held& h : held) {
+        for (const Edge& edge : system.edges().edges) {
+            if (!keeps_open(system, edge, h.point, h.facet)) continue;
+            std::string both = name(system, edge.left) + "/" + name(system, edge.right);
+            if (std::find(edges.begin(), edges.end(), both) == edges.end()) {
+                edges.push_back(std::move(both));
+            }
+        }
+    }
+    return edges;
+}
 
 std::vector<ShapeFinding> find_open_shape(const System& system, const Finished& finished,
                                           const Diagnosis& diagnosis, const Inference& inference) {

@@ -1,9 +1,11 @@
 #pragma once
 // Edges and facets that the readings deny or leave open. Private to the room.
 
+#include <string>
 #include <vector>
 
 #include "fit/diagnostics.h"
+#include "fit/exact_finish.h"
 #include "fit/findings.h"
 #include "fit/finish.h"
 #include "fit/inference.h"
@@ -16,6 +18,9 @@ namespace culet {
 /// are looked at. `level` is the level of each test of a wish to vanish.
 std::vector<ShapeFinding> find_open_shape(const System& system, const Finished& finished,
                                           const Diagnosis& diagnosis, const Inference& inference);
+
+/// The edges, as `A/B`, that corners held below a facet keep from turning over.
+std::vector<std::string> edges_kept_open(const System& system, const std::vector<Held>& held);
 
 /// Of the half diameter.
 inline constexpr double k_short_edge = 0.05;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -18,10 +19,10 @@ namespace {
 
 // Dense algebra on three numbers a facet; beyond this it would take minutes.
 constexpr std::size_t k_most_facets = 700;
-// From here on each test costs a good part of a second.
-constexpr std::size_t k_many_facets = 150, k_most_groups = 8;
 // Told by the readings: better than half of the half diameter.
 constexpr double k_told = 0.25;
+// Exact by other conditions.
+constexpr double k_exact = 1e-18;
 // Tested at least to this part, a group counts as determined.
 constexpr double k_enough = 0.5;
 
@@ -39,41 +40,101 @@ int edge_conditions(const System& system, const AxisGroup& group) {
     return static_cast<int>(system.edges().edges.size()) - orbits;
 }
 
-Eigen::MatrixXd with(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-    Eigen::MatrixXd both(a.rows(), a.cols() + b.cols());
-    both << a, b;
-    return both;
+// Orthonormal columns for the range of a matrix: at most `most`, none below `least`.
+Eigen::MatrixXd range_of(const Eigen::MatrixXd& matrix, double least,
+                         Eigen::Index most = std::numeric_limits<int>::max()) {
+    if (matrix.size() == 0) return Eigen::MatrixXd(matrix.rows(), 0);
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix);
+    most = std::min({most, matrix.rows(), matrix.cols()});
+    Eigen::Index rank = 0;
+    while (rank < most && std::abs(qr.matrixR()(rank, rank)) > least) ++rank;
+    return qr.householderQ() * Eigen::MatrixXd::Identity(matrix.rows(), rank);
 }
 
+// What the tests of all groups share.
+struct Space {
+    Eigen::MatrixXd placement;  // orthonormal: of the symmetry's axis in the stone
+    Eigen::MatrixXd open;       // orthonormal: what the meets leave open, but for placement
+    Eigen::MatrixXd told;       // of the ways to miss the form's symmetry those that the readings
+    Eigen::VectorXd values;     // tell, uncorrelated; the stone's place along them
+    Eigen::VectorXd variance;   // and its variance
+    Eigen::Index form_freedoms = 0;
+
+    Eigen::MatrixXd without_placement(const Eigen::MatrixXd& matrix) const {
+        return matrix - placement * (placement.transpose() * matrix);
+    }
+};
+
+// Changes of shape that keep a group's symmetry and all meets. A symmetric mean of what the meets
+// leave open is open itself, but for as much as the shape is not symmetric: the number of such
+// changes is known (edges less conditions), which tells them from that.
+Eigen::MatrixXd symmetric_changes(const System& system, const Space& space,
+                                  const Eigen::MatrixXd& columns, int edge_conditions) {
+    const Eigen::MatrixXd symmetric = range_of(space.without_placement(columns), 1e-9);
+    const Eigen::Index most =
+        system.splits() ? symmetric.cols() : space.open.cols() - Eigen::Index(edge_conditions);
+    return symmetric *
+           range_of(symmetric.transpose() * space.open, 1e-6, std::max<Eigen::Index>(0, most));
+}
+
+Space space_of(const System& system, const AxisGroup& form, const PolarCoordinates& coordinates,
+               const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& reach) {
+    Space space;
+    space.placement = range_of(coordinates.placement, 1e-9);
+    const Eigen::MatrixXd seen = space.without_placement(reach);
+    // The number of ways that exact meets leave open is known: without it small asymmetry of the
+    // fitted shape itself would show as more.
+    space.open =
+        range_of(space.without_placement(seen.transpose()), 1e-6,
+                 system.splits() ? reach.rows() : Eigen::Index(system.edges().edges.size()));
+    const SymmetricModel model = symmetric_model(coordinates, form);
+    const Eigen::MatrixXd symmetric =
+        symmetric_changes(system, space, model.columns, edge_conditions(system, form));
+    space.form_freedoms = symmetric.cols();
+    // Across all that is symmetric, reachable or not.
+    const Eigen::MatrixXd columns = range_of(space.without_placement(model.columns), 1e-9);
+    const Eigen::MatrixXd ways = range_of(space.open - columns * (columns.transpose() * space.open),
+                                          1e-6, space.open.cols() - symmetric.cols());
+    if (ways.cols() == 0) return space;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(ways.transpose() * covariance *
+                                                               ways);
+    std::vector<Eigen::Index> told;
+    for (Eigen::Index i = 0; i < ways.cols(); ++i) {
+        const double variance = eigen.eigenvalues()(i);
+        if (variance >= k_exact && variance <= k_told) told.push_back(i);
+    }
+    space.told = ways * eigen.eigenvectors()(Eigen::all, told);
+    space.values = space.told.transpose() * model.deviations;
+    space.variance = eigen.eigenvalues()(told);
+    return space;
+}
+
+// Chi-square of the stone nearest to this one that has the group's symmetry: what a part of the
+// form's group leaves free beyond the form's own freedoms is fitted by weighted least squares.
 GroupTest test_group(const System& system, const AxisGroup& group,
-                     const PolarCoordinates& coordinates, const Eigen::MatrixXd& covariance,
-                     const Eigen::MatrixXd& reach, double level) {
+                     const PolarCoordinates& coordinates, const Space& space, double level) {
     GroupTest test;
     test.group = group.name();
     test.order = group.order;
     test.mirrors = group.mirrors;
     test.mirror_azimuth = std::remainder(group.plane + 0.5 * std::numbers::pi, std::numbers::pi);
-    const SymmetricModel model = symmetric_model(coordinates, group);
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(with(model.columns, coordinates.placement));
-    qr.setThreshold(1e-9);
-    const Eigen::MatrixXd q = qr.householderQ();
-    const Eigen::MatrixXd rest = q.rightCols(q.cols() - qr.rank());
-    // Of all ways of not being symmetric only those that the meets leave open. Their number is
-    // known: without it small asymmetry of the fitted shape itself would show as more.
-    const Eigen::MatrixXd open = rest.transpose() * reach * rest;
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> range(open);
-    range.setThreshold(1e-6);
-    Eigen::Index rank = range.rank();
-    if (!system.splits()) rank = std::min<Eigen::Index>(rank, edge_conditions(system, group));
-    test.conditions = static_cast<int>(rank);
-    if (rank == 0) return test;
-    const Eigen::MatrixXd all = range.householderQ();
-    const Eigen::MatrixXd ways = rest * all.leftCols(rank);
-    const QuadraticTest result = quadratic_test(
-        ways.transpose() * model.deviations, ways.transpose() * covariance * ways, 1e-18, k_told);
-    test.tested = result.tested;
-    test.chi2 = result.statistic;
-    test.p = result.p;
+    const Eigen::MatrixXd changes = symmetric_changes(
+        system, space, symmetric_model(coordinates, group).columns, edge_conditions(system, group));
+    test.conditions = static_cast<int>(space.open.cols() - changes.cols());
+    if (space.told.cols() == 0) return test;
+    // Where readings tell nothing of a freedom it is next to nothing here.
+    const Eigen::MatrixXd fitted =
+        range_of(space.told.transpose() * changes, 1e-4, changes.cols() - space.form_freedoms);
+    const Eigen::VectorXd weights = space.variance.cwiseSqrt().cwiseInverse();
+    Eigen::VectorXd left = space.values.cwiseProduct(weights);
+    if (fitted.cols() > 0) {
+        const Eigen::HouseholderQR<Eigen::MatrixXd> qr(weights.asDiagonal() * fitted);
+        left.applyOnTheLeft(qr.householderQ().adjoint());
+    }
+    const Eigen::Index over = left.size() - fitted.cols();
+    test.tested = std::min(static_cast<int>(over), test.conditions);
+    test.chi2 = left.tail(over).squaredNorm();
+    test.p = chi2_tail(test.chi2, test.tested);
     test.determined = test.tested >= k_enough * test.conditions;
     test.supported = test.tested > 0 && test.p >= level;
     return test;
@@ -220,15 +281,10 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Infer
         report.message = "the meets could not be analysed";
         return report;
     }
+    const Space space = space_of(system, form, coordinates, covariance, reach);
     for (const AxisGroup& group : subgroups_of(form)) {
-        // Subgroups of what is supported follow from it; of large stones they are not asked for one
-        // by one.
-        if (shape.normals.size() > k_many_facets && !report.groups.empty() &&
-            (report.groups.size() >= k_most_groups || report.groups.back().supported)) {
-            break;
-        }
         report.groups.push_back(
-            test_group(system, group, coordinates, covariance, reach, options.significance));
+            test_group(system, group, coordinates, space, options.significance));
     }
     const SymmetricModel model = symmetric_model(coordinates, form);
     Contrasts pooled;
@@ -252,11 +308,16 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Infer
     return report;
 }
 
+bool declares_whole_symmetry(const Reading& reading) {
+    if (reading.kind != ReadingKind::rotation && reading.kind != ReadingKind::mirror) return false;
+    return reading.exact || reading.facets.empty();
+}
+
 SymmetryReport find_symmetry(const Stone& stone, const std::vector<Reading>& readings,
                              const FitOptions& options, const Progress& progress) {
     std::vector<Reading> free;
     for (const Reading& r : readings) {
-        if (r.kind != ReadingKind::rotation && r.kind != ReadingKind::mirror) free.push_back(r);
+        if (!declares_whole_symmetry(r)) free.push_back(r);
     }
     FitOptions asking = options;
     asking.find_symmetry = true;

@@ -7,7 +7,8 @@
 
 namespace culet {
 
-/// `system` must hold no rotation and no mirror reading: those would be found again.
+/// `system` must hold no reading that declares its symmetry (`declares_whole_symmetry`): that would
+/// be found again.
 SymmetryReport symmetry_of(const System& system, const Shape& shape, const Inference& inference,
                            const FitOptions& options);
 

@@ -1,0 +1,18 @@
+#pragma once
+// What a fit came to, in the words of its result: solid, facets, readings, meets. Private to the
+// room.
+
+#include <vector>
+
+#include "fit/diagnostics.h"
+#include "fit/fit.h"
+#include "fit/system.h"
+
+namespace culet {
+
+/// The solid that is written (corners from the fit, or what the planes enclose), its faults, every
+/// facet and every reading. `weights` of the readings under a robust loss, or none.
+void fill_in(const System& system, const Shape& shape, const Diagnosis& diagnosis,
+             const System::Pose& pose, const std::vector<double>& weights, FitResult& result);
+
+}  // namespace culet

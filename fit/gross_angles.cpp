@@ -1,0 +1,174 @@
+#include "fit/gross_angles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "fit/slips.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+constexpr double k_times_median = 6, k_least_deg = 10;
+// What the others leave of such an error.
+constexpr double k_still_deg = 5;
+
+bool is_plain_angle(const Reading& r) {
+    return (r.kind == ReadingKind::inclination || r.kind == ReadingKind::azimuth) &&
+           r.aggregate == Aggregate::single && r.facets.size() == 1 &&
+           r.datum.kind == Datum::Kind::up && !r.exact;
+}
+
+double wrapped(double angle) {
+    return std::remainder(angle, 2 * std::numbers::pi);
+}
+
+// What a fit says of a reading, and how surely.
+struct Estimate {
+    double value = 0, sigma = 0;
+};
+
+Estimate estimate_of(const FitResult& result, const Reading& r) {
+    const FittedFacet& facet = result.facets[std::size_t(r.facets[0])];
+    if (r.kind == ReadingKind::inclination) return {facet.inclination, facet.sigma_inclination};
+    // In the turn of the reading, so that both read alike.
+    const double azimuth = facet.azimuth - result.azimuth_zero;
+    return {r.value + wrapped(azimuth - r.value), facet.sigma_azimuth};
+}
+
+// The narrow width of each facet of the mesh: area over length.
+std::vector<double> facet_sizes(const System& system) {
+    const Solid mesh = system.met_solid(system.mesh_shape());
+    std::vector<double> sizes;
+    for (const Facet& facet : mesh.facets) {
+        double longest = 1e-12;
+        for (const int a : facet.corners) {
+            for (const int b : facet.corners) {
+                longest = std::max(longest, glm::length(mesh.vertices[std::size_t(a)] -
+                                                        mesh.vertices[std::size_t(b)]));
+            }
+        }
+        sizes.push_back(area(mesh, facet) / longest);
+    }
+    return sizes;
+}
+
+}  // namespace
+
+std::vector<std::size_t> angles_far_from_mesh(const System& system) {
+    const Shape& mesh = system.mesh_shape();
+    // A rough mesh's small facets are turned further than its large ones.
+    const std::vector<double> sizes = facet_sizes(system);
+    std::vector<double> sorted = sizes;
+    std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2),
+                     sorted.end());
+    const double usual = sorted[sorted.size() / 2];
+    std::vector<std::pair<double, std::size_t>> off;
+    for (std::size_t i = 0; i < system.readings().size(); ++i) {
+        const Reading& r = system.readings()[i];
+        if (!is_plain_angle(r)) continue;
+        const Vec3& n = mesh.normals[std::size_t(r.facets[0])];
+        const double flat = std::hypot(n.x, n.y);
+        const double d = r.kind == ReadingKind::inclination
+                             ? std::atan2(flat, std::abs(n.z)) - r.value
+                             : flat * wrapped(std::atan2(n.y, n.x) - r.value);
+        const double share = std::min(1.0, sizes[std::size_t(r.facets[0])] / usual);
+        off.emplace_back(std::abs(d) * share, i);
+    }
+    std::vector<std::size_t> far;
+    if (off.size() < 10) return far;
+    std::sort(off.begin(), off.end(), std::greater<>());
+    const double limit = std::max(k_times_median * off[off.size() / 2].first, radians(k_least_deg));
+    for (const auto& [d, i] : off) {
+        if (d > limit) far.push_back(i);
+    }
+    if (far.size() > off.size() / 10) far.clear();
+    std::sort(far.begin(), far.end());
+    return far;
+}
+
+bool may_be_bent(const FitResult& result, const std::vector<Reading>& readings,
+                 const std::vector<std::size_t>& far) {
+    if (far.empty()) return false;
+    if (result.status == FitStatus::not_converged) return true;
+    if (result.status != FitStatus::contradictory) return false;
+    if (result.suspects.empty()) return true;
+    return std::none_of(far.begin(), far.end(),
+                        [&](std::size_t i) { return readings[i].id == result.suspects.front(); });
+}
+
+std::vector<std::size_t> contradicted_angles(const FitResult& without,
+                                             const std::vector<Reading>& readings,
+                                             const std::vector<std::size_t>& far) {
+    std::vector<std::size_t> wrong;
+    for (const std::size_t i : far) {
+        const Estimate e = estimate_of(without, readings[i]);
+        const double apart = std::abs(e.value - readings[i].value);
+        const double limit =
+            std::max(4.0, without.suspect_limit) * std::hypot(e.sigma, readings[i].sigma);
+        if (apart > std::max(limit, radians(k_still_deg))) {
+            wrong.push_back(i);
+        }
+    }
+    return wrong;
+}
+
+void put_back_gross(const std::vector<Reading>& readings, const std::vector<std::size_t>& gross,
+                    FitResult& result) {
+    std::vector<Proposal> proposals;
+    std::vector<std::string> ids;
+    std::string text;
+    for (const std::size_t i : gross) {
+        const Reading& r = readings[i];
+        const Estimate e = estimate_of(result, r);
+        FittedReading fitted;
+        fitted.id = r.id;
+        fitted.kind = r.kind;
+        fitted.of = r.of;
+        fitted.value = r.value;
+        fitted.sigma = r.sigma;
+        fitted.rounding = r.rounding;
+        fitted.fitted = e.value;
+        fitted.residual = e.value - r.value;
+        fitted.normalized = fitted.residual / std::hypot(e.sigma, r.sigma);
+        fitted.redundancy = 1;
+        fitted.suspect = true;
+        fitted.left_out = "no stone could be found with it";
+        result.readings.insert(result.readings.begin() + std::ptrdiff_t(i), std::move(fitted));
+        Proposal proposal;
+        proposal.id = r.id;
+        proposal.in_radians = true;
+        proposal.estimate = e.value;
+        proposal.sigma = e.sigma;
+        const double tolerance = 3.5 * degrees(std::hypot(e.sigma, r.sigma));
+        if (const auto slip = find_slip(degrees(r.value), degrees(e.value), tolerance, true)) {
+            proposal.slip = slip->what;
+            proposal.corrected = radians(slip->corrected);
+        }
+        text += fmt::format(
+            "{}{} ({} of {}: read {:g}, the others say {:.4g}{})", text.empty() ? "" : ", ", r.id,
+            name_of(r.kind), r.of.empty() ? result.facets[std::size_t(r.facets[0])].name : r.of[0],
+            degrees(r.value), degrees(e.value),
+            proposal.slip.empty()
+                ? ""
+                : fmt::format("; {}: {:g}?", proposal.slip, degrees(proposal.corrected)));
+        proposals.push_back(std::move(proposal));
+        ids.push_back(r.id);
+    }
+    result.suspects.insert(result.suspects.begin(), ids.begin(), ids.end());
+    result.proposals.insert(result.proposals.begin(), proposals.begin(), proposals.end());
+    const std::string left_out = fmt::format("{} cannot belong to the others and {} left out", text,
+                                             gross.size() == 1 ? "is" : "are");
+    result.message = result.status == FitStatus::converged
+                         ? left_out
+                         : left_out + "; without: " + result.message;
+    if (result.status != FitStatus::not_converged) result.status = FitStatus::contradictory;
+    result.notes.push_back(left_out);
+}
+
+}  // namespace culet

@@ -1,0 +1,14 @@
+#pragma once
+// Lengths that look like another unit. Private to the room.
+
+#include <vector>
+
+#include "fit/measurement.h"
+
+namespace culet {
+
+/// Throws InputError for an overall length that is many times off the mesh's, with the unit that
+/// would explain it; not when all of them agree that it is the mesh that has another size.
+void refuse_other_units(const std::vector<Reading>& readings, const Stone& stone);
+
+}  // namespace culet

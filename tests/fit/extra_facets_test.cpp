@@ -1,0 +1,103 @@
+// Facets that the stone has and the mesh lacks: planted ones are suspected at their place, clean
+// stones are left alone.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "tests/fit/test_stones.h"
+
+namespace culet {
+namespace {
+
+using namespace test;
+using ::testing::Contains;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+constexpr double k_sigma_deg = 0.1, k_sigma = 0.01;
+
+/// The brilliant with one more facet, `depth` below the corner that lies furthest along `normal`.
+Solid with_extra(const Solid& solid, const Vec3& normal, double depth) {
+    std::vector<NamedPlane> planes;
+    for (const Facet& f : solid.facets) planes.push_back({f.name, f.plane});
+    const Vec3 n = glm::normalize(normal);
+    double highest = -1e300;
+    for (const Vec3& v : solid.vertices) highest = std::max(highest, glm::dot(n, v));
+    planes.push_back({"extra", {n, highest - depth}});
+    return enclosed(planes);
+}
+
+/// Readings of the true stone by someone who holds the mesh for it: nothing of the extra facet.
+std::vector<Reading> readings_of(const Solid& mesh, const Solid& truth, unsigned seed) {
+    return noisy(plane_readings(mesh, truth, k_sigma_deg, k_sigma), seed);
+}
+
+std::vector<std::string> places(const FitResult& result) {
+    std::vector<std::string> all;
+    for (const ExtraFacet& f : result.extra_facets) {
+        all.push_back("");
+        for (const std::string& name : f.at) all.back() += " " + name;
+        all.back() += " ";
+    }
+    return all;
+}
+
+TEST(ExtraFacets, ABrutedCuletIsSuspected) {
+    const Solid mesh = brilliant();
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+        const Solid truth = with_extra(mesh, {0, 0, -1}, 0.06);
+        const FitResult result = fit_stone(stone_of(mesh), readings_of(mesh, truth, seed));
+        ASSERT_FALSE(result.extra_facets.empty()) << seed << " " << result.message;
+        const ExtraFacet& first = result.extra_facets.front();
+        EXPECT_THAT(first.at, Contains("P1"));
+        EXPECT_NEAR(first.depth, 0.06, 5 * first.sigma);
+        EXPECT_LT(first.sigma, 0.02);
+        EXPECT_THAT(first.shown_by, Contains("depth"));
+        EXPECT_THAT(result.message, testing::HasSubstr("a facet that the mesh lacks"));
+    }
+}
+
+TEST(ExtraFacets, OneOnACornerOfTheGirdleIsSuspected) {
+    const Solid mesh = brilliant();
+    // Over the corner where C1 reaches the girdle, slanting like a crown facet.
+    for (const double inclination_deg : {60.0, 75.0, 90.0}) {
+        const Solid truth = with_extra(mesh, direction(inclination_deg, 0), 0.05);
+        const FitResult result = fit_stone(stone_of(mesh), readings_of(mesh, truth, 7));
+        ASSERT_FALSE(result.extra_facets.empty()) << inclination_deg << " " << result.message;
+        EXPECT_THAT(places(result).front(),
+                    testing::AnyOf(testing::HasSubstr(" C1 "), testing::HasSubstr(" G1 "),
+                                   testing::HasSubstr(" G16 ")))
+            << inclination_deg;
+    }
+}
+
+TEST(ExtraFacets, ACleanStoneHasNone) {
+    // The level of the test is 0.001 a stone, in the linear model.
+    const Solid mesh = brilliant();
+    int alarms = 0;
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        const FitResult result = fit_stone(stone_of(mesh), readings_of(mesh, mesh, seed));
+        alarms += result.extra_facets.empty() ? 0 : 1;
+    }
+    EXPECT_EQ(alarms, 0);
+}
+
+TEST(ExtraFacets, AWrongReadingIsNotTakenForOne) {
+    const Solid mesh = brilliant();
+    for (const char* id_kind : {"inclination", "edge", "width"}) {
+        std::vector<Reading> readings = readings_of(mesh, mesh, 3);
+        for (std::size_t i = 0; i < readings.size(); ++i) {
+            if (std::string(name_of(readings[i].kind)) != id_kind || i < 20) continue;
+            readings[i].value += (id_kind[0] == 'i' ? 40 : 60) * readings[i].sigma;  // longer
+            break;
+        }
+        const FitResult result = fit_stone(stone_of(mesh), readings);
+        EXPECT_FALSE(result.suspects.empty()) << id_kind;
+        EXPECT_THAT(places(result), IsEmpty()) << id_kind;
+    }
+}
+
+}  // namespace
+}  // namespace culet
