@@ -33,7 +33,9 @@ struct Fault {
 };
 
 struct CheckLimits {
-    double planarity = 1e-9;  ///< as a fraction of the diameter
+    /// As a fraction of the diameter; where the coordinates are so large that their own rounding is
+    /// more, that is allowed.
+    double planarity = 1e-9;
     bool must_be_convex = true;
 };
 

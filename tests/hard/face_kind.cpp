@@ -154,9 +154,18 @@ Subject face_subject(const HardCase&, const HardPoint&, const TomlTable& paramet
     is["reversed"] = [c] {
         if (c->found.total) return Measured{};
         const FaceAmplitudes back = fresnel(c->n2, c->n1, c->found.q2);
-        return Measured{std::max(std::abs(back.t_s - c->found.t_s),
-                                 std::abs(back.t_p - c->found.t_p)),
-                        against_truth(*c, amplitude_distance).condition, ""};
+        // What the last place of q2 does to the way back: from grazing it is nearly all.
+        double sensitivity = 0;
+        for (const int sign : {-1, 1}) {
+            const Real q2 = sqrt(Real(c->n2) * c->n2 - Real(c->n1) * c->n1 + Real(c->q1) * c->q1) *
+                            (1 + sign * Real(2.220446049250313e-16));
+            sensitivity = std::max(
+                sensitivity, amplitude_distance(exact_face(c->n2, c->n1, q2 > c->n2 ? Real(c->n2) : q2),
+                                                exact_face(c->n2, c->n1, Real(c->found.q2))));
+        }
+        return Measured{
+            std::max(std::abs(back.t_s - c->found.t_s), std::abs(back.t_p - c->found.t_p)),
+            sensitivity / 2.220446049250313e-16, ""};
     };
     is["finite"] = [c] {
         // What a person would call the call: same numbers, none of them NaN, no invalid operation.

@@ -121,38 +121,49 @@ std::vector<HardCase> read_corpus(const fs::path& folder) {
     return corpus;
 }
 
+namespace {
+
+// As read_toml does with a setting: a number, or else a word.
+void set(toml::table& root, const std::string& setting) {
+    const std::size_t equals = setting.find('=');
+    std::vector<std::string> names;
+    std::istringstream keys(setting.substr(0, equals));
+    for (std::string key; std::getline(keys, key, '.');) names.push_back(key);
+    toml::table parsed;
+    const std::string value = setting.substr(equals + 1);
+    try {
+        parsed = toml::parse("value = " + value);
+    } catch (const toml::parse_error&) {
+        parsed.insert_or_assign("value", value);
+    }
+    toml::node* at = &root;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const bool last = i + 1 == names.size();
+        if (toml::array* list = at->as_array()) {
+            const std::size_t index = std::stoul(names[i]);
+            if (last) {
+                list->erase(list->begin() + static_cast<std::ptrdiff_t>(index));
+                list->insert(list->begin() + static_cast<std::ptrdiff_t>(index),
+                             *parsed.get("value"));
+            } else {
+                at = list->get(index);
+            }
+        } else if (last) {
+            at->as_table()->insert_or_assign(names[i], *parsed.get("value"));
+        } else {
+            at = &at->as_table()->insert(names[i], toml::table{}).first->second;
+        }
+    }
+}
+
+}  // namespace
+
 std::string scene_text(const HardCase& hard_case, const HardPoint& point,
                        const std::string& mesh) {
     std::ifstream text(hard_case.file);
     toml::table root = toml::parse(text, hard_case.file.string());
     for (const std::string& setting : point.overrides) {
-        const std::size_t equals = setting.find('=');
-        const std::string path = setting.substr(0, equals), value = setting.substr(equals + 1);
-        if (!path.starts_with("scene.")) continue;
-        toml::node* at = &root;
-        std::istringstream keys(path);
-        std::vector<std::string> names;
-        for (std::string key; std::getline(keys, key, '.');) names.push_back(key);
-        for (std::size_t i = 0; i + 1 < names.size(); ++i) {
-            if (toml::array* list = at->as_array()) {
-                at = list->get(static_cast<std::size_t>(std::stoul(names[i])));
-            } else {
-                auto [entry, added] = at->as_table()->insert(names[i], toml::table{});
-                at = &entry->second;
-            }
-        }
-        char* end = nullptr;
-        const double number = std::strtod(value.c_str(), &end);
-        const bool is_number = end != value.c_str() && *end == '\0';
-        const bool whole = is_number && value.find_first_not_of("-0123456789") == std::string::npos;
-        if (whole) {
-            at->as_table()->insert_or_assign(names.back(),
-                                             static_cast<std::int64_t>(std::stoll(value)));
-        } else if (is_number) {
-            at->as_table()->insert_or_assign(names.back(), number);
-        } else {
-            at->as_table()->insert_or_assign(names.back(), value);
-        }
+        if (setting.starts_with("scene.")) set(root, setting);
     }
     toml::table* scene = root["scene"].as_table();
     if (scene == nullptr) throw InputError(hard_case.file, "a case of this kind needs a [scene]");

@@ -203,6 +203,7 @@ Solid scaled(Solid solid, double factor) {
 
 double nudged(double value, unsigned& state) {
     state = state * 1664525u + 1013904223u;
+    if (value == 0) return 0;
     const double far = std::numeric_limits<double>::infinity();
     switch ((state >> 24) % 3) {
         case 0:

@@ -34,7 +34,7 @@ Plane turned(const Plane& plane, const Turn& turn);
 Solid turned(Solid solid, const Turn& turn);
 Solid scaled(Solid solid, double factor);
 
-/// One unit in the last place up or down, by turns.
+/// One unit in the last place up, down or not at all; 0 stays.
 double nudged(double value, unsigned& state);
 Vec3 nudged(const Vec3& value, unsigned& state);
 
