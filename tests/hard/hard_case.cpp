@@ -42,7 +42,7 @@ Allowed allowed_in(const TomlTable& invariants, const std::string& name) {
 }
 
 std::vector<HardPoint> points_of(const TomlTable& sweep) {
-    sweep.refuse_unknown({"parameter", "values", "label", "log"});
+    sweep.refuse_unknown({"parameter", "values", "x", "label", "log"});
     const auto parameters = sweep.words("parameter");
     const auto values = sweep.words("values");
     if (!parameters || !values || values->empty()) {
@@ -54,11 +54,21 @@ std::vector<HardPoint> points_of(const TomlTable& sweep) {
         point.label = value;
         char* end = nullptr;
         point.x = std::strtod(value.c_str(), &end);
-        if (end == value.c_str() || *end != '\0') point.x = std::nan("");
+        if (end == value.c_str() || *end != '\0' || !std::isfinite(point.x)) {
+            point.x = std::nan("");
+        }
         for (const std::string& parameter : *parameters) {
-            point.overrides.push_back(fmt::format("{}={}", parameter, value));
+            // Words stay words, though TOML knows `nan` and `inf` as numbers.
+            point.overrides.push_back(std::isnan(point.x)
+                                          ? fmt::format("{}=\"{}\"", parameter, value)
+                                          : fmt::format("{}={}", parameter, value));
         }
         points.push_back(std::move(point));
+    }
+    // Where the values do not say how hard they are.
+    if (const auto x = sweep.numbers("x")) {
+        if (x->size() != points.size()) sweep.fail("x", "as many `x` as `values`");
+        for (std::size_t i = 0; i < points.size(); ++i) points[i].x = (*x)[i];
     }
     return points;
 }
@@ -83,6 +93,7 @@ HardCase read_case(const fs::path& file) {
     const TomlTable root = read_toml(file);
     result.title = root.text("title").value_or(result.name);
     result.kind = root.text("kind").value_or("");
+    result.highlight = root.text("highlight").value_or("");
     result.seconds = root.number("seconds").value_or(result.seconds);
     result.no_invalid_operations =
         root.boolean("no_invalid_operations").value_or(result.no_invalid_operations);

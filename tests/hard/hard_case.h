@@ -33,6 +33,7 @@ struct HardCase {
     bool log_x = true;
     std::vector<HardPoint> points;
     std::map<std::string, Allowed> invariants;
+    std::string highlight;  ///< the invariant whose chart stands at the top of the page
     double seconds = 60;  ///< after which it counts as hanging
     /// False: a library behind it computes with NaN or the like on purpose; `why` says which.
     bool no_invalid_operations = true;

@@ -113,7 +113,7 @@ std::string chart_of(const Json& result, const std::vector<std::string>& invaria
     chart.title = title;
     chart.about = title + ", against " + text_at(result, "x_label");
     chart.x_label = text_at(result, "x_label");
-    chart.y_label = "error";
+    chart.y_label = invariants.size() == 1 ? plain(invariants.front()) + ", error" : "error";
     chart.log_x = true_at(result, "log_x");
     std::map<std::string, ChartSeries> contrasts;
     for (const std::string& name : invariants) {
@@ -286,6 +286,12 @@ std::string stability_page(const std::vector<HardCase>& corpus,
         : tally.failed == 0 ? "<span class=\"badge good\">all hold</span>"
                             : fmt::format("<span class=\"badge bad\">{} do not hold</span>",
                                           tally.failed));
+    std::string highlights;
+    for (std::size_t i = 0; i < corpus.size(); ++i) {
+        if (corpus[i].highlight.empty() || parsed[i].is_null()) continue;
+        highlights += chart_of(parsed[i], {corpus[i].highlight}, corpus[i].title, true);
+    }
+    body += section("beside", "Beside the textbook", highlights);
     body += section("all", "All cases at a glance", table_of_all);
     for (const std::string& name : sections()) {
         std::string text;
