@@ -69,8 +69,10 @@ std::vector<Reading> make_readings(const TomlTable& t, const Solid& truth,
         for (std::int64_t k = 0; k < repeat; ++k) {
             all.push_back(r);
             if (repeat > 1) all.back().id += fmt::format("#{}", k);
-            all.back().value += by_turns * r.sigma * (k % 2 == 0 ? 1 : -1);
-            // Instruments do not say more than 90 degrees.
+            // Instruments do not say more than 90 degrees: there a pair cannot lie on both sides.
+            const bool upright = r.kind == ReadingKind::inclination &&
+                                 r.value + by_turns * r.sigma > radians(90);
+            if (!upright) all.back().value += by_turns * r.sigma * (k % 2 == 0 ? 1 : -1);
             if (r.kind == ReadingKind::inclination) {
                 all.back().value = radians(90) - std::abs(radians(90) - all.back().value);
             }
@@ -153,7 +155,8 @@ Subject fit_subject(const HardCase&, const HardPoint&, const TomlTable& paramete
     };
     is["closed_and_convex"] = [c] {
         const FitResult& r = c->result();
-        const auto faults = find_faults(r.solid, {.planarity = 1e-9});
+        auto faults = find_faults(r.solid, {.planarity = 1e-9});
+        std::erase_if(faults, [](const Fault& f) { return f.kind == FaultKind::repeated_plane; });
         return Measured{double(faults.size()) + !r.closed + !r.convex, std::nan(""),
                         faults.empty() ? r.message : faults.front().what};
     };

@@ -2,13 +2,15 @@
 // light of 1 from everywhere nothing but what was cut is darker), and what moving everything
 // together must leave as it is.
 //
-// Scenes name their engine; comparisons draw with the reference beside it.
+// Scenes name their engine; comparisons draw with the reference beside it. [view] fill: the field of
+// view is that of the stone, times this.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <optional>
 
@@ -73,6 +75,13 @@ Subject picture_subject(const HardCase& hard_case, const HardPoint& point,
     try {
         c->scene = hard_scene(hard_case, point, parameters);
         c->scene.settings.threads = 1;  // floating-point flags are a thread's own
+        // [view] fill: a lens that fits the picture to the stone, and that much more.
+        if (const auto view = parameters.table("view")) {
+            const double radius = 0.5 * diameter(c->scene.stone.solid);
+            const double distance = glm::length(c->scene.camera.position - c->scene.camera.look_at);
+            c->scene.camera.fov =
+                2 * std::asin(view->number("fill").value_or(1) * radius / distance);
+        }
     } catch (const InputError& error) {
         refusal = error.what();
     }
