@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -149,11 +148,7 @@ private:
 
     void check_shape(bool whole_surface) {
         const double size = diameter(solid_);
-        // Far from the origin the coordinates themselves are coarser than the limit: a corner may
-        // lie off by the rounding of three of them and of the plane's offset.
-        double reach = 0;
-        for (const Vec3& v : solid_.vertices) reach = std::max(reach, glm::length(v));
-        const double rounding = 4 * std::numeric_limits<double>::epsilon() * reach;
+        const double allowed = std::max(limits_.planarity * size, coordinate_rounding(solid_));
         for (const Facet& facet : solid_.facets) {
             if (!has_distinct_corners(facet)) continue;
             std::vector<Vec3> loop;
@@ -167,11 +162,11 @@ private:
             for (const Vec3& corner : loop) {
                 worst = std::max(worst, std::abs(height_above(facet.plane, corner)));
             }
-            if (!(worst <= std::max(limits_.planarity * size, rounding))) {
+            if (!(worst <= allowed)) {
                 add(FaultKind::not_planar,
                     fmt::format("a corner of facet {} lies {:.3g} off its plane ({:.2g} of the "
                                 "diameter; {:.2g} is allowed)",
-                                facet.name, worst, worst / size, limits_.planarity));
+                                facet.name, worst, worst / size, allowed / size));
             }
             // Not by the area vector, which is zero for a figure of eight.
             const Vec3 across = glm::cross(corners.b - corners.a, corners.c - corners.a);
