@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -281,6 +282,12 @@ bool is_closed(const Solid& solid) {
         }
     }
     return pinched_vertices(solid, edges).empty();
+}
+
+double coordinate_rounding(const Solid& solid) {
+    double reach = 0;
+    for (const Vec3& v : solid.vertices) reach = std::max(reach, glm::length(v));
+    return 4 * std::numeric_limits<double>::epsilon() * reach;
 }
 
 const char* name_of(FaultKind kind) {

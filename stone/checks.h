@@ -59,6 +59,10 @@ bool is_convex(const Solid& solid);
 /// files that we know miss by up to 3e-4 of the width).
 inline constexpr double k_largest_miss = 3e-4;
 
+/// How far a corner may lie off its plane because coordinates are rounded to doubles, and for no
+/// other reason: four units in the last place of the largest. It matters far from the origin.
+double coordinate_rounding(const Solid& solid);
+
 const char* name_of(FaultKind kind);
 
 }  // namespace culet

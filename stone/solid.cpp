@@ -133,12 +133,6 @@ double planarity(const Solid& solid) {
     return worst;
 }
 
-double coordinate_rounding(const Solid& solid) {
-    double reach = 0;
-    for (const Vec3& v : solid.vertices) reach = std::max(reach, glm::length(v));
-    return 4 * std::numeric_limits<double>::epsilon() * reach;
-}
-
 int edge_count(const Solid& solid) {
     std::vector<std::pair<int, int>> edges;
     for (const Facet& facet : solid.facets) {

@@ -65,10 +65,6 @@ Plane plane_through(std::span<const Vec3> loop);
 /// Largest distance of a corner from its facet's plane.
 double planarity(const Solid& solid);
 
-/// How far a corner may lie off its plane because coordinates are rounded to doubles, and for no
-/// other reason: four units in the last place of the largest. It matters far from the origin.
-double coordinate_rounding(const Solid& solid);
-
 /// Number of distinct edges, open ones included.
 int edge_count(const Solid& solid);
 

@@ -19,6 +19,7 @@
 #include <memory>
 #include <vector>
 
+#include "render/complex_vector.h"
 #include "tests/hard/hard_kinds.h"
 #include "tests/hard/textbook.h"
 #include "tests/render/face_judge.h"
@@ -118,14 +119,16 @@ void judge_textbook(Case& c) {
         for (const oracle::Wave& w : truth.towards) {
             if (!w.propagates) continue;
             double nearest = 1e300, field = 1;
-            const double length = std::sqrt(std::norm(w.E.x) + std::norm(w.E.y) + std::norm(w.E.z));
+            const ComplexVec3 unit =
+                (1 / std::sqrt(std::norm(w.E.x) + std::norm(w.E.y) + std::norm(w.E.z))) * w.E;
             for (const TextbookWave& t : waves) {
                 nearest = std::min(nearest, std::abs(t.q - w.q));
-                const Complex overlap = (t.E.x * std::conj(w.E.x) + t.E.y * std::conj(w.E.y) +
-                                         t.E.z * std::conj(w.E.z)) /
-                                        length;
                 // Sine of the angle between the vibrations.
-                field = std::min(field, std::sqrt(std::max(0.0, 1 - std::norm(overlap))));
+                const Complex along = t.E.x * std::conj(unit.x) + t.E.y * std::conj(unit.y) +
+                                      t.E.z * std::conj(unit.z);
+                field = std::min(field, std::sqrt(std::norm(t.E.x - along * unit.x) +
+                                                  std::norm(t.E.y - along * unit.y) +
+                                                  std::norm(t.E.z - along * unit.z)));
             }
             c.textbook_wave = std::max(c.textbook_wave, nearest);
             c.textbook_field = std::max(c.textbook_field, field);

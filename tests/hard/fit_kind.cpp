@@ -168,7 +168,27 @@ Subject fit_subject(const HardCase&, const HardPoint&, const TomlTable& paramete
         return Measured{shape_error(c->result().solid, c->truth), std::nan(""),
                         c->result().message};
     };
-    is["finite"] = [c] { return Measured{double(not_numbers(c->result())), std::nan(""), ""}; };
+    is["finite"] = [c] {
+        try {
+            return Measured{double(not_numbers(c->result())), std::nan(""), ""};
+        } catch (const InputError& error) {
+            return Measured{0, std::nan(""), error.what()};
+        }
+    };
+    // Whatever the readings: a stone that could be cut, or the word that it is none. Input that is
+    // refused says so, too.
+    is["sound_or_says_so"] = [c] {
+        try {
+            if (c->result().status == FitStatus::not_converged) return Measured{};
+        } catch (const InputError& error) {
+            return Measured{0, std::nan(""), error.what()};
+        }
+        const FitResult& r = c->result();
+        const double off = std::max(1e-12 * diameter(r.solid), coordinate_rounding(r.solid));
+        return Measured{double(!is_closed(r.solid)) + !is_convex(r.solid) +
+                            !(planarity(r.solid) <= off),
+                        std::nan(""), std::string(name_of(r.status)) + ": " + r.message};
+    };
     // Says that it is not to be trusted: any status but `converged`.
     is["admits_it"] = [c] {
         return Measured{c->result().status == FitStatus::converged ? 1.0 : 0.0, std::nan(""),

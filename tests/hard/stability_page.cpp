@@ -289,7 +289,9 @@ std::string stability_page(const std::vector<HardCase>& corpus,
     std::string highlights;
     for (std::size_t i = 0; i < corpus.size(); ++i) {
         if (corpus[i].highlight.empty() || parsed[i].is_null()) continue;
-        highlights += chart_of(parsed[i], {corpus[i].highlight}, corpus[i].title, true);
+        highlights += fmt::format("<h3><a href=\"#{}\">{}</a></h3>\n", id_of(corpus[i]),
+                                  escaped(corpus[i].title)) +
+                      chart_of(parsed[i], {corpus[i].highlight}, corpus[i].title, true);
     }
     body += section("beside", "Beside the textbook", highlights);
     body += section("all", "All cases at a glance", table_of_all);
