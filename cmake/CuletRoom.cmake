@@ -29,6 +29,7 @@ if(CULET_FUZZ)
   # Coverage for the fuzzers in tests/fuzz.
   target_compile_options(culet_flags INTERFACE -fsanitize=fuzzer-no-link,address,undefined
     -fno-sanitize-recover=undefined -Wno-error)
+  target_compile_definitions(culet_flags INTERFACE HWY_COMPILE_ONLY_STATIC)
 endif()
 
 function(culet_room name)

@@ -168,22 +168,11 @@ Subject fit_subject(const HardCase&, const HardPoint&, const TomlTable& paramete
         return Measured{shape_error(c->result().solid, c->truth), std::nan(""),
                         c->result().message};
     };
-    is["finite"] = [c] {
-        try {
-            return Measured{double(not_numbers(c->result())), std::nan(""), ""};
-        } catch (const InputError& error) {
-            return Measured{0, std::nan(""), error.what()};
-        }
-    };
-    // Whatever the readings: a stone that could be cut, or the word that it is none. Input that is
-    // refused says so, too.
+    is["finite"] = [c] { return Measured{double(not_numbers(c->result())), std::nan(""), ""}; };
+    // Whatever the readings: a stone that could be cut, or the word that it is none.
     is["sound_or_says_so"] = [c] {
-        try {
-            if (c->result().status == FitStatus::not_converged) return Measured{};
-        } catch (const InputError& error) {
-            return Measured{0, std::nan(""), error.what()};
-        }
         const FitResult& r = c->result();
+        if (r.status == FitStatus::not_converged) return Measured{};
         const double off = std::max(1e-12 * diameter(r.solid), coordinate_rounding(r.solid));
         return Measured{double(!is_closed(r.solid)) + !is_convex(r.solid) +
                             !(planarity(r.solid) <= off),

@@ -97,6 +97,7 @@ HardCase read_case(const fs::path& file) {
     result.seconds = root.number("seconds").value_or(result.seconds);
     result.no_invalid_operations =
         root.boolean("no_invalid_operations").value_or(result.no_invalid_operations);
+    result.may_be_refused = root.boolean("may_be_refused").value_or(false);
     if (const auto sweep = root.table("sweep")) {
         result.points = points_of(*sweep);
         result.x_label = sweep->text("label").value_or(sweep->words("parameter")->front());

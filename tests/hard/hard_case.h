@@ -37,6 +37,7 @@ struct HardCase {
     double seconds = 60;  ///< after which it counts as hanging
     /// False: a library behind it computes with NaN or the like on purpose; `why` says which.
     bool no_invalid_operations = true;
+    bool may_be_refused = false;  ///< an InputError is as good an answer
 };
 
 /// Sections in the order of the page.

@@ -47,9 +47,12 @@ Json number(double value) {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-Measured measured(const Measure& measure) {
+Measured measured(const Measure& measure, bool may_be_refused = false) {
     try {
         return measure();
+    } catch (const InputError& error) {
+        return {may_be_refused ? 0 : std::nan(""), std::nan(""),
+                fmt::format("was refused: {}", error.what())};
     } catch (const std::exception& error) {
         return {std::nan(""), std::nan(""), fmt::format("threw: {}", error.what())};
     }
@@ -68,6 +71,9 @@ Json run_point(const HardCase& hard_case, const HardPoint& point) {
     try {
         subject = kinds().at(hard_case.kind)(hard_case, point,
                                              read_toml(hard_case.file, point.overrides));
+    } catch (const InputError& error) {
+        if (!hard_case.may_be_refused) ADD_FAILURE() << where << ": was refused: " << error.what();
+        return row;
     } catch (const std::exception& error) {
         ADD_FAILURE() << where << ": could not be made: " << error.what();
         return row;
@@ -79,7 +85,7 @@ Json run_point(const HardCase& hard_case, const HardPoint& point) {
             continue;
         }
         std::feclearexcept(FE_INVALID);
-        const Measured m = measured(found->second);
+        const Measured m = measured(found->second, hard_case.may_be_refused);
         const bool invalid = hard_case.no_invalid_operations && invalid_operation();
         const double inherent =
             std::isfinite(m.condition) ? allowed.per_condition * m.condition * k_last_place : 0;

@@ -42,7 +42,8 @@ private:
     std::mt19937_64 random_;
 };
 
-std::string stone(Draw& draw) {
+// `scale`: of shapes whose diameter is some 2 to 3.5.
+std::string stone(Draw& draw, double scale = 1) {
     const std::string shape = draw.one_of(
         {"random", "twins", "nick", "culet", "box", "bipyramid", "sphere", "cut", "culet"});
     std::string text = fmt::format("\n[stone]\nshape = \"{}\"\n", shape);
@@ -64,10 +65,11 @@ std::string stone(Draw& draw) {
     } else if (shape == "sphere") {
         text += fmt::format("facets = {}\n", draw.whole(20, 150));
     } else {
-        text += fmt::format("cut = \"{}\"\nscale = 0.3\nfacet = \"{}\"\ntilt_deg = {}\n",
+        text += fmt::format("cut = \"{}\"\nfacet = \"{}\"\ntilt_deg = {}\n",
                             draw.one_of({"round-brilliant", "step", "princess"}),
                             draw.one_of({"T", "P1", "C1", "G1"}), draw.power(-13, 0));
     }
+    text += fmt::format("scale = {}\n", shape == "cut" ? 0.3 * scale : scale);
     if (draw.chance(0.7)) text += fmt::format("turn = {}\n", draw.whole(1, 1 << 30));
     return text;
 }
@@ -132,8 +134,7 @@ std::string framed(Draw& draw, const std::string& material_text) {
 std::string ray_case(Draw& draw) {
     const std::string of = material(draw);
     const bool coherent = draw.chance(0.3);
-    return "kind = \"ray\"\n" + stone(draw) +
-           fmt::format("scale = {}\n", draw.chance(0.5) ? 1 : draw.power(-6, 6)) +
+    return "kind = \"ray\"\n" + stone(draw, draw.chance(0.5) ? 1 : draw.power(-6, 6)) +
            fmt::format("\n[ray]\naim = \"{}\"\nmiss = {}\nfrom = {}\ndraws = 6\nseed = {}\n",
                        draw.one_of({"vertex", "edge", "facet", "facet_plane", "down", "random"}),
                        draw.chance(0.3) ? 0 : draw.power(-17, -1), draw.power(0.2, 7),
@@ -146,12 +147,12 @@ std::string ray_case(Draw& draw) {
 
 std::string picture_case(Draw& draw) {
     const std::string of = material(draw);
-    const double distance = draw.power(0.65, 3);
     const double z = draw.uniform(-1, 1), a = draw.uniform(0, 6.28), r = std::sqrt(1 - z * z);
-    return "kind = \"picture\"\n" + stone(draw) + "\n[view]\nfill = 1.05\n" + framed(draw, of) +
+    return "kind = \"picture\"\n" + stone(draw) + fmt::format("\n[view]\nfrom = {}\nfill = 1.05\n", draw.power(-0.2, 4)) +
+           framed(draw, of) +
            fmt::format("\n[scene.camera]\nposition = [{}, {}, {}]\nlook_at = [0, 0, 0]\nup = [0.1, "
                        "1, 0.3]\nfov = 40\nsize = [24, 24]\n",
-                       distance * r * std::cos(a), distance * r * std::sin(a), distance * z) +
+                       r * std::cos(a), r * std::sin(a), z) +
            of + lights(draw) +
            fmt::format("\n[scene.render]\nengine = \"{}\"\ndepth = {}\ntolerance = {}\nsamples = "
                        "{}\nwavelengths = [589.3]\n",
@@ -185,9 +186,9 @@ std::string crystal_case(Draw& draw) {
 }
 
 std::string fit_case(Draw& draw) {
-    return "kind = \"fit\"\n" + stone(draw) + "contract = 1e-9\n" +
-           fmt::format("scale = {}\nshift = {}\n", draw.chance(0.5) ? 1 : draw.power(-9, 9),
-                       draw.chance(0.7) ? 0 : draw.power(0, 6)) +
+    return "kind = \"fit\"\n" + stone(draw, draw.chance(0.5) ? 1 : draw.power(-9, 9)) +
+           "contract = 1e-9\n" +
+           fmt::format("shift = {}\n", draw.chance(0.7) ? 0 : draw.power(0, 6)) +
            fmt::format("\n[mesh]\nshaken = {}\n", draw.chance(0.5) ? 0 : draw.power(-6, -1)) +
            fmt::format("\n[readings]\nset = \"{}\"\nsigma = {}\nnoise = {}\nrepeat = {}\n",
                        draw.one_of({"all", "all", "all", "angles", "lengths", "one", "none"}),
@@ -239,7 +240,8 @@ public:
             const std::uint64_t seed = options_.seed * 1000003u + static_cast<std::uint64_t>(tried);
             Draw draw(seed);
             const auto file = options_.keep / fmt::format("found_{}.toml", seed);
-            culet::write_text(file, fmt::format("# Found by hard_search, seed {}.\n", seed) +
+            culet::write_text(file, fmt::format("# Found by hard_search, seed {}.\nmay_be_refused = true\n",
+                                                    seed) +
                                         any_case(draw));
             const int before = failures();
             run_case(read_case(file), std::filesystem::path(CULET_HARD_RESULTS) / "search");

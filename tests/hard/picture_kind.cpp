@@ -2,8 +2,7 @@
 // light of 1 from everywhere nothing but what was cut is darker), and what moving everything
 // together must leave as it is.
 //
-// Scenes name their engine; comparisons draw with the reference beside it. [view] fill: the field of
-// view is that of the stone, times this.
+// Scenes name their engine; comparisons draw with the reference beside it. [view]: look_at_stone.
 
 #include <fmt/format.h>
 
@@ -64,6 +63,22 @@ RenderResult with_threads(Scene scene, int threads) {
     return render(scene);
 }
 
+// The camera's own direction, at `from` diameters when given, and a lens that fits the picture to the
+// stone times `fill`.
+void look_at_stone(const TomlTable& view, Scene& scene) {
+    view.refuse_unknown({"from", "fill"});
+    Camera& camera = scene.camera;
+    const double size = diameter(scene.stone.solid);
+    if (const auto from = view.number("from")) {
+        const Vec3 direction = glm::normalize(camera.position - camera.look_at);
+        camera.look_at = centroid(scene.stone.solid);
+        camera.position = camera.look_at + *from * size * direction;
+    }
+    const double distance = glm::length(camera.position - camera.look_at);
+    camera.fov = 2 * std::asin(std::min(
+                         0.95, 0.5 * view.number("fill").value_or(1) * size / distance));
+}
+
 }  // namespace
 
 Subject picture_subject(const HardCase& hard_case, const HardPoint& point,
@@ -75,13 +90,7 @@ Subject picture_subject(const HardCase& hard_case, const HardPoint& point,
     try {
         c->scene = hard_scene(hard_case, point, parameters);
         c->scene.settings.threads = 1;  // floating-point flags are a thread's own
-        // [view] fill: a lens that fits the picture to the stone, and that much more.
-        if (const auto view = parameters.table("view")) {
-            const double radius = 0.5 * diameter(c->scene.stone.solid);
-            const double distance = glm::length(c->scene.camera.position - c->scene.camera.look_at);
-            c->scene.camera.fov =
-                2 * std::asin(view->number("fill").value_or(1) * radius / distance);
-        }
+        if (const auto view = parameters.table("view")) look_at_stone(*view, c->scene);
     } catch (const InputError& error) {
         refusal = error.what();
     }

@@ -112,6 +112,9 @@ Subject ray_subject(const HardCase& hard_case, const HardPoint& point,
     c->scene = hard_scene(hard_case, point, parameters);
     c->size = diameter(c->scene.stone.solid);
     c->rays = make_rays(parameters.table("ray").value(), c->scene.stone.solid);
+    // Rays have their own eyes; the camera only has to stand somewhere outside.
+    c->scene.camera.look_at = centroid(c->scene.stone.solid);
+    c->scene.camera.position = c->scene.camera.look_at + 40 * c->size * Vec3{0, 0, 1};
     Subject subject;
     auto& is = subject.invariants;
     is["energy"] = [c] {
