@@ -136,7 +136,8 @@ std::string ray_case(Draw& draw) {
     const bool coherent = draw.chance(0.3);
     return "kind = \"ray\"\n" + stone(draw, draw.chance(0.5) ? 1 : draw.power(-6, 6)) +
            fmt::format("\n[ray]\naim = \"{}\"\nmiss = {}\nfrom = {}\ndraws = 6\nseed = {}\n",
-                       draw.one_of({"vertex", "edge", "facet", "facet_plane", "down", "random"}),
+                       draw.one_of({"vertex", "edge", "facet", "facet_plane", "down", "random",
+                                    "edge_line", "leaves_by_vertex", "leaves_by_edge"}),
                        draw.chance(0.3) ? 0 : draw.power(-17, -1), draw.power(0.2, 7),
                        draw.whole(1, 1 << 30)) +
            framed(draw, of) + "\n[scene.camera]\nposition = [0, 0, 40]\n" + of + lights(draw) +

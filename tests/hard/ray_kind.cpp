@@ -1,9 +1,11 @@
 // Cases of kind "ray": the whole tree of light paths behind eye rays. Expectations: energy balance,
 // and what turning, scaling and reordering must leave as it is.
 //
-// [ray]: aim = vertex | edge | facet | facet_plane | down | random; `miss`: beside it by so many
-// diameters (facet_plane: out of the plane by so many radians; down: off the vertical by so many).
-// `from`: distance of the eye in diameters (5). draws, seed.
+// [ray]: aim = vertex | edge | facet | facet_plane | down | random | edge_line | leaves_by_vertex |
+// leaves_by_edge; `miss`: beside it by so many diameters (facet_plane, edge_line: out of the plane
+// or line by so many radians; down: off the vertical by so many). edge_line: along an edge, from a
+// point of its line. leaves_by_...: the ray refracted at the first facet goes there. `from`:
+// distance of the eye in diameters (5). draws, seed.
 
 #include <fmt/format.h>
 
@@ -11,6 +13,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
+#include <optional>
 
 #include "render/probe.h"
 #include "stone/errors.h"
@@ -27,7 +30,31 @@ struct Case {
     double size = 1;
 };
 
-std::vector<EyeRay> make_rays(const TomlTable& t, const Solid& solid) {
+// An eye ray whose refracted ray runs from the inside of a facet to a point of the surface.
+std::optional<EyeRay> through_to(const Vec3& goal, const Solid& solid, double n, double from,
+                                 RandomAttitudes& random) {
+    for (int attempt = 0; attempt < 400; ++attempt) {
+        const Facet& facet =
+            solid.facets[std::size_t(random.one_of(static_cast<int>(solid.facets.size())))];
+        const Vec3& out = facet.plane.normal;
+        const Vec3 across = random.across(out, 1);
+        const double lean = random.between(0.05, 1.3), sine = std::sin(lean) / n;
+        const Vec3 inside = sine * across - std::sqrt(1 - sine * sine) * out;
+        const double steep = glm::dot(inside, out);
+        const Vec3 at = goal + (height_above(facet.plane, goal) / -steep) * inside;
+        bool on_facet = height_above(facet.plane, goal) < -1e-3 * diameter(solid);
+        for (const Facet& other : solid.facets) {
+            on_facet &= &other == &facet ||
+                        height_above(other.plane, at) < -1e-6 * diameter(solid);
+        }
+        if (!on_facet) continue;
+        const Vec3 direction = std::sin(lean) * across - std::cos(lean) * out;
+        return EyeRay{at - from * direction, direction};
+    }
+    return std::nullopt;
+}
+
+std::vector<EyeRay> make_rays(const TomlTable& t, const Solid& solid, double n) {
     t.refuse_unknown({"aim", "miss", "from", "draws", "seed"});
     const std::string aim = t.text("aim").value_or("random");
     RandomAttitudes random(static_cast<unsigned>(t.integer("seed").value_or(1)));
@@ -42,6 +69,20 @@ std::vector<EyeRay> make_rays(const TomlTable& t, const Solid& solid) {
         const Vec3 &a = solid.vertices[std::size_t(facet.corners[std::size_t(k)])],
                    &b = solid.vertices[std::size_t(facet.corners[std::size_t((k + 1) % count)])];
         Vec3 target = corner_mean(solid, facet), eye;
+        if (aim == "leaves_by_vertex" || aim == "leaves_by_edge") {
+            const Vec3 goal = aim == "leaves_by_edge" ? a + random.between(0.1, 0.9) * (b - a) : a;
+            const auto ray =
+                through_to(goal + miss * size * random.direction(), solid, n, from, random);
+            if (ray) rays.push_back(*ray);
+            continue;
+        }
+        if (aim == "edge_line") {
+            const Vec3 along = glm::normalize(b - a);
+            const Vec3 lean =
+                std::cos(miss) * along + std::sin(miss) * random.across(along, 1);
+            rays.push_back({0.5 * (a + b) - from * lean, lean});
+            continue;
+        }
         if (aim == "vertex") target = a;
         if (aim == "edge") target = a + random.between(0.1, 0.9) * (b - a);
         if (aim == "random") target += 0.2 * (a - target);
@@ -62,7 +103,7 @@ std::vector<EyeRay> make_rays(const TomlTable& t, const Solid& solid) {
         }
         if (aim != "vertex" && aim != "edge" && aim != "facet" && aim != "facet_plane" &&
             aim != "down" && aim != "random") {
-            t.fail("aim", "is none of vertex, edge, facet, facet_plane, down, random");
+            t.fail("aim", "is no aim of rays");
         }
         rays.push_back({eye, glm::normalize(target - eye)});
     }
@@ -111,7 +152,8 @@ Subject ray_subject(const HardCase& hard_case, const HardPoint& point,
     const auto c = std::make_shared<Case>();
     c->scene = hard_scene(hard_case, point, parameters);
     c->size = diameter(c->scene.stone.solid);
-    c->rays = make_rays(parameters.table("ray").value(), c->scene.stone.solid);
+    c->rays = make_rays(parameters.table("ray").value(), c->scene.stone.solid,
+                        c->scene.stone.material.index[0].at(589.3));
     // Rays have their own eyes; the camera only has to stand somewhere outside.
     c->scene.camera.look_at = centroid(c->scene.stone.solid);
     c->scene.camera.position = c->scene.camera.look_at + 40 * c->size * Vec3{0, 0, 1};
