@@ -17,8 +17,7 @@ namespace culet {
 template <class Read>
 int fuzz_file(const std::uint8_t* data, std::size_t size, const char* extension, Read read) {
     static const std::filesystem::path file =
-        std::filesystem::path("/dev/shm") /
-        ("culet-fuzz-" + std::to_string(getpid()) + extension);
+        std::filesystem::path("/dev/shm") / ("culet-fuzz-" + std::to_string(getpid()) + extension);
     {
         std::ofstream out(file, std::ios::binary);
         out.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));

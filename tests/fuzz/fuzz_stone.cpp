@@ -9,6 +9,5 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     culet::fuzz_file(data, size, ".toml", [](const auto& file) { culet::read_readings(file); });
     culet::fuzz_file(data, size, ".toml", [](const auto& file) { culet::read_fit_options(file); });
-    return culet::fuzz_file(data, size, ".toml",
-                            [](const auto& file) { culet::read_stone(file); });
+    return culet::fuzz_file(data, size, ".toml", [](const auto& file) { culet::read_stone(file); });
 }

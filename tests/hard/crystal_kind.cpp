@@ -51,8 +51,8 @@ Vec3 optic_axis(const oracle::Face& face) {
 }
 
 std::vector<oracle::Face> make_faces(const TomlTable& t) {
-    t.refuse_unknown({"n", "spread", "pattern", "outside", "lies", "off", "wave", "past", "draws",
-                      "seed"});
+    t.refuse_unknown(
+        {"n", "spread", "pattern", "outside", "lies", "off", "wave", "past", "draws", "seed"});
     RandomAttitudes random(static_cast<unsigned>(t.integer("seed").value_or(1)));
     const double n = t.number("n").value_or(1.7), spread = t.number("spread").value_or(0);
     const Vec3 pattern = t.vector("pattern").value_or(Vec3{1, 0, 0});
@@ -69,9 +69,8 @@ std::vector<oracle::Face> make_faces(const TomlTable& t) {
             face.axes = random.frame();
         } else if (lies == "axis_along_normal" || lies == "axis_in_facet") {
             const Vec3 across = random.across(face.normal, 1);
-            face.axes = frame_about(lies == "axis_in_facet"
-                                        ? leaning(across, face.normal, off)
-                                        : leaning(face.normal, across, off),
+            face.axes = frame_about(lies == "axis_in_facet" ? leaning(across, face.normal, off)
+                                                            : leaning(face.normal, across, off),
                                     random);
         } else {
             t.fail("lies", "is none of random, axis_along_normal, axis_in_facet");

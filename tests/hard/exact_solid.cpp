@@ -68,8 +68,8 @@ ExactJudgement judge_solid(std::span<const NamedPlane> planes, const Solid& soli
         }
         vertices.push_back(point);
         judgement.vertex_error =
-            std::max(judgement.vertex_error, glm::length(oracle::rounded(
-                                                 point - oracle::exact(solid.vertices[v]))));
+            std::max(judgement.vertex_error,
+                     glm::length(oracle::rounded(point - oracle::exact(solid.vertices[v]))));
         for (const NamedPlane& p : planes) {
             // Far below is far below in doubles too.
             if (height_above(p.plane, solid.vertices[v]) < -1e-9 * reach) continue;

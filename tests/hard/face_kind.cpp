@@ -38,9 +38,9 @@ ExactFace exact_face(const Real& n1, const Real& n2, const Real& q1) {
     const Number q2 = q2_squared >= 0 ? Number(root, 0) : Number(0, root);
     ExactFace face;
     face.r_s = q1 + root == 0 ? Number(-1) : (Number(q1) - q2) / (Number(q1) + q2);
-    face.r_p = q1 + root == 0 ? Number(-1)
-                              : (Number(e2 * q1) - Number(e1) * q2) /
-                                    (Number(e2 * q1) + Number(e1) * q2);
+    face.r_p = q1 + root == 0
+                   ? Number(-1)
+                   : (Number(e2 * q1) - Number(e1) * q2) / (Number(e2 * q1) + Number(e1) * q2);
     if (q2_squared > 0) {
         face.t_s = 2 * sqrt(q1 * root) / (q1 + root);
         face.t_p = 2 * n1 * n2 * sqrt(q1 * root) / (e2 * q1 + e1 * root);
@@ -59,7 +59,9 @@ struct Case {
 };
 
 double amplitude_distance(const ExactFace& a, const ExactFace& b) {
-    const auto apart = [](const Number& x) { return static_cast<double>(sqrt(oracle::norm_of(x))); };
+    const auto apart = [](const Number& x) {
+        return static_cast<double>(sqrt(oracle::norm_of(x)));
+    };
     return std::max({apart(a.r_s - b.r_s), apart(a.r_p - b.r_p),
                      static_cast<double>(abs(a.t_s - b.t_s)),
                      static_cast<double>(abs(a.t_p - b.t_p))});
@@ -159,9 +161,10 @@ Subject face_subject(const HardCase&, const HardPoint&, const TomlTable& paramet
         for (const int sign : {-1, 1}) {
             const Real q2 = sqrt(Real(c->n2) * c->n2 - Real(c->n1) * c->n1 + Real(c->q1) * c->q1) *
                             (1 + sign * Real(2.220446049250313e-16));
-            sensitivity = std::max(
-                sensitivity, amplitude_distance(exact_face(c->n2, c->n1, q2 > c->n2 ? Real(c->n2) : q2),
-                                                exact_face(c->n2, c->n1, Real(c->found.q2))));
+            sensitivity =
+                std::max(sensitivity,
+                         amplitude_distance(exact_face(c->n2, c->n1, q2 > c->n2 ? Real(c->n2) : q2),
+                                            exact_face(c->n2, c->n1, Real(c->found.q2))));
         }
         return Measured{
             std::max(std::abs(back.t_s - c->found.t_s), std::abs(back.t_p - c->found.t_p)),

@@ -59,7 +59,8 @@ std::vector<Reading> make_readings(const TomlTable& t, const Solid& truth,
         readings.push_back(test::depth(truth, length));
     }
     if (set == "one") readings.push_back(test::depth(truth, length));
-    const double noise = t.number("noise").value_or(0), by_turns = t.number("alternate").value_or(0);
+    const double noise = t.number("noise").value_or(0),
+                 by_turns = t.number("alternate").value_or(0);
     std::mt19937_64 random(static_cast<unsigned>(t.integer("seed").value_or(1)));
     std::normal_distribution<double> normal;
     for (Reading& r : readings) r.value += noise * r.sigma * normal(random);
@@ -70,8 +71,8 @@ std::vector<Reading> make_readings(const TomlTable& t, const Solid& truth,
             all.push_back(r);
             if (repeat > 1) all.back().id += fmt::format("#{}", k);
             // Instruments do not say more than 90 degrees: there a pair cannot lie on both sides.
-            const bool upright = r.kind == ReadingKind::inclination &&
-                                 r.value + by_turns * r.sigma > radians(90);
+            const bool upright =
+                r.kind == ReadingKind::inclination && r.value + by_turns * r.sigma > radians(90);
             if (!upright) all.back().value += by_turns * r.sigma * (k % 2 == 0 ? 1 : -1);
             if (r.kind == ReadingKind::inclination) {
                 all.back().value = radians(90) - std::abs(radians(90) - all.back().value);
@@ -98,10 +99,9 @@ double shape_error(const Solid& solid, const Solid& truth, double scale = 1) {
         const int other = find_facet(solid, f.name);
         if (other < 0) return 1e300;
         const Facet& g = solid.facets[std::size_t(other)];
-        worst = std::max({worst,
-                          std::abs(area(solid, g) / (scale * scale) - area(truth, f)) /
-                              (size * size),
-                          std::abs(glm::length(g.plane.normal) - 1)});
+        worst = std::max(
+            {worst, std::abs(area(solid, g) / (scale * scale) - area(truth, f)) / (size * size),
+             std::abs(glm::length(g.plane.normal) - 1)});
     }
     return std::max(worst, std::abs(volume(solid) / (scale * scale * scale * volume(truth)) - 1));
 }
@@ -174,9 +174,9 @@ Subject fit_subject(const HardCase&, const HardPoint&, const TomlTable& paramete
         const FitResult& r = c->result();
         if (r.status == FitStatus::not_converged) return Measured{};
         const double off = std::max(1e-12 * diameter(r.solid), coordinate_rounding(r.solid));
-        return Measured{double(!is_closed(r.solid)) + !is_convex(r.solid) +
-                            !(planarity(r.solid) <= off),
-                        std::nan(""), std::string(name_of(r.status)) + ": " + r.message};
+        return Measured{
+            double(!is_closed(r.solid)) + !is_convex(r.solid) + !(planarity(r.solid) <= off),
+            std::nan(""), std::string(name_of(r.status)) + ": " + r.message};
     };
     // Says that it is not to be trusted: any status but `converged`.
     is["admits_it"] = [c] {
@@ -227,12 +227,12 @@ Subject fit_subject(const HardCase&, const HardPoint&, const TomlTable& paramete
         if (other.status != c->result().status) return Measured{1e300, std::nan(""), other.message};
         return Measured{shape_error(other.solid, c->result().solid), std::nan(""), ""};
     };
-    subject.contrasts.push_back({"planar", "vertex-by-vertex relaxation, 2000 sweeps", [c] {
-                                     Solid solid = c->mesh.solid;
-                                     relax_vertices(solid, 2000);
-                                     return Measured{planarity(solid) / diameter(solid),
-                                                     std::nan(""), ""};
-                                 }});
+    subject.contrasts.push_back(
+        {"planar", "vertex-by-vertex relaxation, 2000 sweeps", [c] {
+             Solid solid = c->mesh.solid;
+             relax_vertices(solid, 2000);
+             return Measured{planarity(solid) / diameter(solid), std::nan(""), ""};
+         }});
     return subject;
 }
 

@@ -170,8 +170,7 @@ void set(toml::table& root, const std::string& setting) {
 
 }  // namespace
 
-std::string scene_text(const HardCase& hard_case, const HardPoint& point,
-                       const std::string& mesh) {
+std::string scene_text(const HardCase& hard_case, const HardPoint& point, const std::string& mesh) {
     std::ifstream text(hard_case.file);
     toml::table root = toml::parse(text, hard_case.file.string());
     for (const std::string& setting : point.overrides) {

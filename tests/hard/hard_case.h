@@ -1,6 +1,6 @@
 #pragma once
-// The corpus: each case is a small TOML file in a folder that names its section. tests/hard/README.md
-// says what stands in it.
+// The corpus: each case is a small TOML file in a folder that names its section.
+// tests/hard/README.md says what stands in it.
 
 #include <filesystem>
 #include <map>
@@ -34,7 +34,7 @@ struct HardCase {
     std::vector<HardPoint> points;
     std::map<std::string, Allowed> invariants;
     std::string highlight;  ///< the invariant whose chart stands at the top of the page
-    double seconds = 60;  ///< after which it counts as hanging
+    double seconds = 60;    ///< after which it counts as hanging
     /// False: a library behind it computes with NaN or the like on purpose; `why` says which.
     bool no_invalid_operations = true;
     bool may_be_refused = false;  ///< an InputError is as good an answer

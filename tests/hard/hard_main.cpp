@@ -24,7 +24,8 @@ private:
 // A corpus that was not found must not pass for one that holds.
 TEST(HardCorpus, has_cases_in_every_section) {
     std::set<std::string> found;
-    for (const HardCase& one : read_corpus(CULET_SOURCE_DIR "/tests/hard")) found.insert(one.section);
+    for (const HardCase& one : read_corpus(CULET_SOURCE_DIR "/tests/hard"))
+        found.insert(one.section);
     for (const std::string& section : sections()) EXPECT_TRUE(found.contains(section)) << section;
 }
 

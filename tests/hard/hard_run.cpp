@@ -30,9 +30,9 @@ constexpr double k_patience = 1;
 
 const std::map<std::string, MakeSubject>& kinds() {
     static const std::map<std::string, MakeSubject> all{
-        {"solid", solid_subject},     {"face", face_subject},
-        {"crystal", crystal_subject}, {"ray", ray_subject},
-        {"picture", picture_subject}, {"fit", fit_subject},
+        {"solid", solid_subject},          {"face", face_subject},
+        {"crystal", crystal_subject},      {"ray", ray_subject},
+        {"picture", picture_subject},      {"fit", fit_subject},
         {"photograph", photograph_subject}};
     return all;
 }
@@ -64,8 +64,8 @@ bool invalid_operation() {
     return std::fetestexcept(FE_INVALID) != 0;
 }
 
-// Counts the program's own time, so that a busy machine is no hang; what waits for ever is caught by
-// the time limit of the test.
+// Counts the program's own time, so that a busy machine is no hang; what waits for ever is caught
+// by the time limit of the test.
 void set_limit(double seconds) {
     std::signal(SIGPROF, give_up);
     itimerval limit{};
@@ -129,9 +129,12 @@ void run_case(const HardCase& hard_case, const std::filesystem::path& results) {
     Json rows = Json::array();
     for (const HardPoint& point : hard_case.points) rows.push_back(run_point(hard_case, point));
     set_limit(0);
-    const Json result{{"section", hard_case.section}, {"name", hard_case.name},
-                      {"title", hard_case.title},     {"why", hard_case.why},
-                      {"x_label", hard_case.x_label}, {"log_x", hard_case.log_x},
+    const Json result{{"section", hard_case.section},
+                      {"name", hard_case.name},
+                      {"title", hard_case.title},
+                      {"why", hard_case.why},
+                      {"x_label", hard_case.x_label},
+                      {"log_x", hard_case.log_x},
                       {"points", rows}};
     std::filesystem::create_directories(results);
     write_text(results / fmt::format("{}.{}.json", hard_case.section, hard_case.name),

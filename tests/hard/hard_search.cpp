@@ -85,9 +85,9 @@ std::string material(Draw& draw) {
     } else if (rays == 2) {
         text += fmt::format("optic = \"uniaxial\"\nindex = {{ o = {}, e = {} }}\n", n, second);
     } else {
-        text += fmt::format(
-            "optic = \"biaxial\"\nindex = {{ alpha = {}, beta = {}, gamma = {} }}\n", n,
-            n + split * draw.uniform(0, 1), n + split);
+        text +=
+            fmt::format("optic = \"biaxial\"\nindex = {{ alpha = {}, beta = {}, gamma = {} }}\n", n,
+                        n + split * draw.uniform(0, 1), n + split);
     }
     if (draw.chance(0.3)) {
         const char* names[] = {"n", "o", "alpha"};
@@ -102,13 +102,14 @@ std::string material(Draw& draw) {
 std::string lights(Draw& draw) {
     std::string text = fmt::format("\n[scene.light]\nconstant = {}\n", draw.uniform(0.1, 1));
     for (int k = draw.whole(0, 3); k > 0; --k) {
-        text += fmt::format("\n[[scene.light.lobe]]\ndirection = {}\nexponent = {}\nradiance = {}\n",
-                            draw.direction(), draw.power(-1, 2), draw.uniform(0.1, 3));
+        text +=
+            fmt::format("\n[[scene.light.lobe]]\ndirection = {}\nexponent = {}\nradiance = {}\n",
+                        draw.direction(), draw.power(-1, 2), draw.uniform(0.1, 3));
     }
     if (draw.chance(0.3)) {
-        text += fmt::format(
-            "\n[[scene.light.cap]]\ndirection = {}\nhalf_angle = {}\nradiance = {}\n",
-            draw.direction(), draw.power(-1, 1.5), draw.power(-1, 1));
+        text +=
+            fmt::format("\n[[scene.light.cap]]\ndirection = {}\nhalf_angle = {}\nradiance = {}\n",
+                        draw.direction(), draw.power(-1, 1.5), draw.power(-1, 1));
     }
     return text;
 }
@@ -149,16 +150,19 @@ std::string ray_case(Draw& draw) {
 std::string picture_case(Draw& draw) {
     const std::string of = material(draw);
     const double z = draw.uniform(-1, 1), a = draw.uniform(0, 6.28), r = std::sqrt(1 - z * z);
-    return "kind = \"picture\"\n" + stone(draw) + fmt::format("\n[view]\nfrom = {}\nfill = 1.05\n", draw.power(-0.2, 4)) +
+    return "kind = \"picture\"\n" + stone(draw) +
+           fmt::format("\n[view]\nfrom = {}\nfill = 1.05\n", draw.power(-0.2, 4)) +
            framed(draw, of) +
-           fmt::format("\n[scene.camera]\nposition = [{}, {}, {}]\nlook_at = [0, 0, 0]\nup = [0.1, "
-                       "1, 0.3]\nfov = 40\nsize = [24, 24]\n",
-                       r * std::cos(a), r * std::sin(a), z) +
+           fmt::format(
+               "\n[scene.camera]\nposition = [{}, {}, {}]\nlook_at = [0, 0, 0]\nup = [0.1, "
+               "1, 0.3]\nfov = 40\nsize = [24, 24]\n",
+               r * std::cos(a), r * std::sin(a), z) +
            of + lights(draw) +
-           fmt::format("\n[scene.render]\nengine = \"{}\"\ndepth = {}\ntolerance = {}\nsamples = "
-                       "{}\nwavelengths = [589.3]\n",
-                       draw.one_of({"beams", "beams", "preview", "reference"}), draw.whole(2, 6),
-                       draw.chance(0.5) ? 0 : 0.01, draw.chance(0.5) ? 1 : 4) +
+           fmt::format(
+               "\n[scene.render]\nengine = \"{}\"\ndepth = {}\ntolerance = {}\nsamples = "
+               "{}\nwavelengths = [589.3]\n",
+               draw.one_of({"beams", "beams", "preview", "reference"}), draw.whole(2, 6),
+               draw.chance(0.5) ? 0 : 0.01, draw.chance(0.5) ? 1 : 4) +
            "\n[invariants]\nfinite = 0\nlost_area = 4e-5\nfaces = 1e-6\n";
 }
 
@@ -241,9 +245,10 @@ public:
             const std::uint64_t seed = options_.seed * 1000003u + static_cast<std::uint64_t>(tried);
             Draw draw(seed);
             const auto file = options_.keep / fmt::format("found_{}.toml", seed);
-            culet::write_text(file, fmt::format("# Found by hard_search, seed {}.\nmay_be_refused = true\n",
-                                                    seed) +
-                                        any_case(draw));
+            culet::write_text(
+                file,
+                fmt::format("# Found by hard_search, seed {}.\nmay_be_refused = true\n", seed) +
+                    any_case(draw));
             const int before = failures();
             run_case(read_case(file), std::filesystem::path(CULET_HARD_RESULTS) / "search");
             if (failures() == before) {

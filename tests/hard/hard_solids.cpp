@@ -24,8 +24,8 @@ NamedPlane plane(const std::string& name, const Vec3& normal, double offset) {
 }
 
 std::vector<NamedPlane> box(double x, double y, double z) {
-    return {plane("T", {0, 0, 1}, z / 2),  plane("B", {0, 0, -1}, z / 2),
-            plane("E", {1, 0, 0}, x / 2),  plane("W", {-1, 0, 0}, x / 2),
+    return {plane("T", {0, 0, 1}, z / 2), plane("B", {0, 0, -1}, z / 2),
+            plane("E", {1, 0, 0}, x / 2), plane("W", {-1, 0, 0}, x / 2),
             plane("N", {0, 1, 0}, y / 2), plane("S", {0, -1, 0}, y / 2)};
 }
 

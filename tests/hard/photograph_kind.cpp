@@ -138,10 +138,9 @@ Subject photograph_subject(const HardCase& hard_case, const HardPoint&,
         Report report;
         report.comparison = c->result();
         const std::string page = report_page(report);
-        const bool sound = nlohmann::json::accept(scores) &&
-                           page.find("</html>") != std::string::npos &&
-                           page.find(">nan<") == std::string::npos &&
-                           page.find(">inf<") == std::string::npos;
+        const bool sound =
+            nlohmann::json::accept(scores) && page.find("</html>") != std::string::npos &&
+            page.find(">nan<") == std::string::npos && page.find(">inf<") == std::string::npos;
         return Measured{sound ? 0.0 : 1.0, std::nan(""), ""};
     };
     is["no_match"] = [c] {

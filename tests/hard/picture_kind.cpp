@@ -63,8 +63,8 @@ RenderResult with_threads(Scene scene, int threads) {
     return render(scene);
 }
 
-// The camera's own direction, at `from` diameters when given, and a lens that fits the picture to the
-// stone times `fill`.
+// The camera's own direction, at `from` diameters when given, and a lens that fits the picture to
+// the stone times `fill`.
 void look_at_stone(const TomlTable& view, Scene& scene) {
     view.refuse_unknown({"from", "fill"});
     Camera& camera = scene.camera;
@@ -75,8 +75,8 @@ void look_at_stone(const TomlTable& view, Scene& scene) {
         camera.position = camera.look_at + *from * size * direction;
     }
     const double distance = glm::length(camera.position - camera.look_at);
-    camera.fov = 2 * std::asin(std::min(
-                         0.95, 0.5 * view.number("fill").value_or(1) * size / distance));
+    camera.fov =
+        2 * std::asin(std::min(0.95, 0.5 * view.number("fill").value_or(1) * size / distance));
 }
 
 }  // namespace
@@ -167,9 +167,9 @@ Subject picture_subject(const HardCase& hard_case, const HardPoint& point,
         return worst;
     };
     is["turned"] = [c] {
-        return Measured{apart(render(turned(c->scene, random_turn(7))).picture,
-                              c->result().picture),
-                        std::nan(""), ""};
+        return Measured{
+            apart(render(turned(c->scene, random_turn(7))).picture, c->result().picture),
+            std::nan(""), ""};
     };
     is["reordered"] = [c] {
         return Measured{apart(render(reordered(c->scene, 3)).picture, c->result().picture),

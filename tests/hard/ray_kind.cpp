@@ -44,8 +44,7 @@ std::optional<EyeRay> through_to(const Vec3& goal, const Solid& solid, double n,
         const Vec3 at = goal + (height_above(facet.plane, goal) / -steep) * inside;
         bool on_facet = height_above(facet.plane, goal) < -1e-3 * diameter(solid);
         for (const Facet& other : solid.facets) {
-            on_facet &= &other == &facet ||
-                        height_above(other.plane, at) < -1e-6 * diameter(solid);
+            on_facet &= &other == &facet || height_above(other.plane, at) < -1e-6 * diameter(solid);
         }
         if (!on_facet) continue;
         const Vec3 direction = std::sin(lean) * across - std::cos(lean) * out;
@@ -78,8 +77,7 @@ std::vector<EyeRay> make_rays(const TomlTable& t, const Solid& solid, double n) 
         }
         if (aim == "edge_line") {
             const Vec3 along = glm::normalize(b - a);
-            const Vec3 lean =
-                std::cos(miss) * along + std::sin(miss) * random.across(along, 1);
+            const Vec3 lean = std::cos(miss) * along + std::sin(miss) * random.across(along, 1);
             rays.push_back({0.5 * (a + b) - from * lean, lean});
             continue;
         }
@@ -89,8 +87,7 @@ std::vector<EyeRay> make_rays(const TomlTable& t, const Solid& solid, double n) 
         // From outside the facet, at up to 60 degrees to its normal.
         const Vec3 across = random.across(facet.plane.normal, 1);
         const double lean = random.between(0.02, 1);
-        eye = target +
-              from * (std::cos(lean) * facet.plane.normal + std::sin(lean) * across);
+        eye = target + from * (std::cos(lean) * facet.plane.normal + std::sin(lean) * across);
         if (aim == "facet_plane") {
             eye = target + from * (std::cos(miss) * across + std::sin(miss) * facet.plane.normal);
         } else if (aim == "down") {
@@ -128,10 +125,10 @@ Measured worst_ray(const Case& c, Each each) {
         const double error = each(c.rays[i], static_cast<unsigned>(i));
         if (!(error <= worst.error)) {
             const EyeRay& r = c.rays[i];
-            worst = {error, worst.condition,
-                     fmt::format("--ray {:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}",
-                                 r.origin.x, r.origin.y, r.origin.z, r.direction.x, r.direction.y,
-                                 r.direction.z)};
+            worst = {
+                error, worst.condition,
+                fmt::format("--ray {:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}", r.origin.x,
+                            r.origin.y, r.origin.z, r.direction.x, r.direction.y, r.direction.z)};
         }
     }
     return worst;
@@ -160,9 +157,8 @@ Subject ray_subject(const HardCase& hard_case, const HardPoint& point,
     Subject subject;
     auto& is = subject.invariants;
     is["energy"] = [c] {
-        return worst_ray(*c, [&](const EyeRay& ray, unsigned) {
-            return imbalance(probe(c->scene, ray));
-        });
+        return worst_ray(
+            *c, [&](const EyeRay& ray, unsigned) { return imbalance(probe(c->scene, ray)); });
     };
     is["finite"] = [c] {
         return worst_ray(*c, [&](const EyeRay& ray, unsigned) {
@@ -178,9 +174,8 @@ Subject ray_subject(const HardCase& hard_case, const HardPoint& point,
         });
     };
     is["faces"] = [c] {
-        return worst_ray(*c, [&](const EyeRay& ray, unsigned) {
-            return probe(c->scene, ray).worst_imbalance;
-        });
+        return worst_ray(
+            *c, [&](const EyeRay& ray, unsigned) { return probe(c->scene, ray).worst_imbalance; });
     };
     is["refused"] = [c] {
         return worst_ray(*c, [&](const EyeRay& ray, unsigned) {
@@ -242,9 +237,8 @@ Subject ray_subject(const HardCase& hard_case, const HardPoint& point,
     is["shaken_by_1e-12"] = [c] {
         return worst_ray(*c, [&](const EyeRay& ray, unsigned i) {
             RandomAttitudes random(i);
-            const EyeRay beside{
-                ray.origin + 1e-12 * c->size * random.direction(),
-                glm::normalize(ray.direction + 1e-12 * random.direction())};
+            const EyeRay beside{ray.origin + 1e-12 * c->size * random.direction(),
+                                glm::normalize(ray.direction + 1e-12 * random.direction())};
             return apart(radiance(c->scene, ray), radiance(c->scene, beside));
         });
     };

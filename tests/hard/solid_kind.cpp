@@ -1,5 +1,6 @@
-// Cases of kind "solid": planes in, a solid out. Expectations: 100-digit arithmetic (exact_solid.h),
-// and that moving, turning, scaling or reordering the input moves the answer and nothing else.
+// Cases of kind "solid": planes in, a solid out. Expectations: 100-digit arithmetic
+// (exact_solid.h), and that moving, turning, scaling or reordering the input moves the answer and
+// nothing else.
 
 #include <algorithm>
 #include <cmath>
@@ -142,8 +143,7 @@ double misses(const Case& c, const Vec3& from, const Vec3& direction, const Body
     double worst = std::abs(height(c.solid.facets[std::size_t(hit.facet)].plane));
     for (const Facet& f : c.solid.facets) worst = std::max(worst, height(f.plane));
     // The distance has the rounding of what it is made of over how steeply the ray runs.
-    const double steep =
-        glm::dot(c.solid.facets[std::size_t(hit.facet)].plane.normal, direction);
+    const double steep = glm::dot(c.solid.facets[std::size_t(hit.facet)].plane.normal, direction);
     return worst * std::max(steep, 1e-3);
 }
 
@@ -229,7 +229,9 @@ Subject solid_subject(const HardCase&, const HardPoint&, const TomlTable& parame
     Subject subject;
     auto& is = subject.invariants;
     is["closed_and_convex"] = [c] { return sound(*c); };
-    is["exact_topology"] = [c] { return Measured{double(c->judgement.misplaced), std::nan(""), ""}; };
+    is["exact_topology"] = [c] {
+        return Measured{double(c->judgement.misplaced), std::nan(""), ""};
+    };
     is["corners"] = [c] {
         return Measured{c->judgement.vertex_error / c->reach, std::nan(""), ""};
     };
@@ -248,11 +250,11 @@ Subject solid_subject(const HardCase&, const HardPoint&, const TomlTable& parame
             parameters.table("stone")->number("facets").value_or(1));
         const double extra = expect.number("and").value_or(0);
         const auto faults = find_faults(joined.solid, {.planarity = 1e-9 + within / c->reach});
-        return Measured{std::abs(corners - meant - extra) + double(faults.size()) +
-                            (planarity(joined.solid) > 2 * within + 4e-16 * c->reach),
-                        std::nan(""),
-                        fmt::format("{} corners, {}", corners,
-                                    faults.empty() ? "" : faults.front().what)};
+        return Measured{
+            std::abs(corners - meant - extra) + double(faults.size()) +
+                (planarity(joined.solid) > 2 * within + 4e-16 * c->reach),
+            std::nan(""),
+            fmt::format("{} corners, {}", corners, faults.empty() ? "" : faults.front().what)};
     };
     is["reordered"] = [c] {
         return worst_of(3, [&](unsigned k) {
@@ -264,8 +266,7 @@ Subject solid_subject(const HardCase&, const HardPoint&, const TomlTable& parame
     is["binary_units"] = [c] {
         return worst_of(2, [&](unsigned k) {
             const double factor = k == 0 ? 0x1p-40 : 0x1p+40;
-            const Solid other =
-                solid_of(by(c->planes, [&](Plane& p) { p.offset *= factor; }));
+            const Solid other = solid_of(by(c->planes, [&](Plane& p) { p.offset *= factor; }));
             return same_solid(c->solid, scaled(other, 1 / factor), c->reach);
         });
     };
@@ -284,10 +285,12 @@ Subject solid_subject(const HardCase&, const HardPoint&, const TomlTable& parame
     is["last_digit"] = [c] {
         return worst_of(3, [&](unsigned k) {
             unsigned state = k;
-            return volume_after(*c, by(c->planes, [&](Plane& p) {
-                                    p.normal = nudged(p.normal, state);
-                                    p.offset = nudged(p.offset, state);
-                                }),
+            return volume_after(*c,
+                                by(c->planes,
+                                   [&](Plane& p) {
+                                       p.normal = nudged(p.normal, state);
+                                       p.offset = nudged(p.offset, state);
+                                   }),
                                 1);
         });
     };
@@ -295,10 +298,13 @@ Subject solid_subject(const HardCase&, const HardPoint&, const TomlTable& parame
         return worst_of(3, [&](unsigned k) {
             std::mt19937_64 random(k);
             std::uniform_real_distribution<double> some(-1e-12, 1e-12);
-            Measured m = volume_after(*c, by(c->planes, [&](Plane& p) {
-                                          for (int i = 0; i < 3; ++i) p.normal[i] += some(random);
-                                          p.offset *= 1 + some(random);
-                                      }),
+            Measured m = volume_after(*c,
+                                      by(c->planes,
+                                         [&](Plane& p) {
+                                             for (int i = 0; i < 3; ++i)
+                                                 p.normal[i] += some(random);
+                                             p.offset *= 1 + some(random);
+                                         }),
                                       1);
             m.error /= 1e-12 * m.condition;  // of what the change may do
             return m;

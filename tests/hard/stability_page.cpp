@@ -127,10 +127,10 @@ std::string chart_of(const Json& result, const std::vector<std::string>& invaria
             if (!point.contains("invariants") || !point["invariants"].contains(name)) continue;
             const Json& value = point["invariants"][name];
             const double error = number_at(value, "error").value_or(1e300);
-            found.points.push_back(point_at(
-                place, error,
-                fmt::format("{} at {}: {}", plain(name), text_at(point, "label"),
-                            significant(error, 2))));
+            found.points.push_back(
+                point_at(place, error,
+                         fmt::format("{} at {}: {}", plain(name), text_at(point, "label"),
+                                     significant(error, 2))));
             if (found.points.back().hollow || !place.label.empty()) {
                 found.points.back().label = place.label;
             }
@@ -143,9 +143,10 @@ std::string chart_of(const Json& result, const std::vector<std::string>& invaria
                 series.name = way;
                 const auto off = number_at(contrast, "error");
                 if (!off) continue;
-                series.points.push_back(point_at(
-                    place, *off, fmt::format("{} at {}: {}", way, text_at(point, "label"),
-                                             significant(off, 2))));
+                series.points.push_back(
+                    point_at(place, *off,
+                             fmt::format("{} at {}: {}", way, text_at(point, "label"),
+                                         significant(off, 2))));
             }
         }
         chart.series.push_back(std::move(found));
@@ -168,8 +169,8 @@ std::string charts_of(const Json& result) {
             const std::string name = text_at(contrast, "invariant");
             const bool measured =
                 point.contains("invariants") && point["invariants"].contains(name);
-            if (measured && std::find(contrasted.begin(), contrasted.end(), name) ==
-                                contrasted.end()) {
+            if (measured &&
+                std::find(contrasted.begin(), contrasted.end(), name) == contrasted.end()) {
                 contrasted.push_back(name);
             }
         }
@@ -180,8 +181,8 @@ std::string charts_of(const Json& result) {
     }
     // What is counted, and must be 0, is no curve.
     for (const auto& [name, w] : worst_of(result)) {
-        if (w.limit > 0 && std::find(contrasted.begin(), contrasted.end(), name) ==
-                               contrasted.end()) {
+        if (w.limit > 0 &&
+            std::find(contrasted.begin(), contrasted.end(), name) == contrasted.end()) {
             others.push_back(name);
         }
     }
@@ -206,12 +207,13 @@ std::string table_of(const Json& result) {
             w.limit == 0 ? "0" : significant(w.limit, 2), margin_words(w), escaped(w.at),
             std::isfinite(w.condition) ? significant(w.condition, 2) : "");
     }
-    return table("What must hold",
-                 "<th scope=\"col\">Invariant</th><th scope=\"col\">Verdict</th>"
-                 "<th scope=\"col\" class=\"n\">Error</th><th scope=\"col\" class=\"n\">Allowed</th>"
-                 "<th scope=\"col\" class=\"n\">Margin</th><th scope=\"col\">Narrowest at</th>"
-                 "<th scope=\"col\" class=\"n\">Condition</th>",
-                 rows);
+    return table(
+        "What must hold",
+        "<th scope=\"col\">Invariant</th><th scope=\"col\">Verdict</th>"
+        "<th scope=\"col\" class=\"n\">Error</th><th scope=\"col\" class=\"n\">Allowed</th>"
+        "<th scope=\"col\" class=\"n\">Margin</th><th scope=\"col\">Narrowest at</th>"
+        "<th scope=\"col\" class=\"n\">Condition</th>",
+        rows);
 }
 
 std::string id_of(const HardCase& one) {
@@ -243,14 +245,15 @@ std::string overview(const std::vector<HardCase>& corpus, const std::vector<Json
                 }
             }
             // A point that could not be made has no invariants.
-            for (const Json& p : array_at(results[i], "points")) failed += !p.contains("invariants");
+            for (const Json& p : array_at(results[i], "points"))
+                failed += !p.contains("invariants");
         }
         tally.failed += failed;
         rows += fmt::format(
             "<tr><td>{}</td><th scope=\"row\"><a href=\"#{}\">{}</a></th><td>{}</td>"
             "<td class=\"n\">{}</td><td class=\"n strong\">{}</td><td>{}</td></tr>\n",
-            one.section, id_of(one), escaped(one.title), badge(failed == 0, run),
-            one.points.size(), of.empty() ? (run ? "exact" : "") : margin_words(narrowest),
+            one.section, id_of(one), escaped(one.title), badge(failed == 0, run), one.points.size(),
+            of.empty() ? (run ? "exact" : "") : margin_words(narrowest),
             of.empty() ? "" : escaped(plain(of) + " at " + narrowest.at));
     }
     return table("All cases",
@@ -283,9 +286,9 @@ std::string stability_page(const std::vector<HardCase>& corpus,
         tally.run < tally.cases
             ? fmt::format("<span class=\"badge bad\">{} cases were not run</span>",
                           tally.cases - tally.run)
-        : tally.failed == 0 ? "<span class=\"badge good\">all hold</span>"
-                            : fmt::format("<span class=\"badge bad\">{} do not hold</span>",
-                                          tally.failed));
+        : tally.failed == 0
+            ? "<span class=\"badge good\">all hold</span>"
+            : fmt::format("<span class=\"badge bad\">{} do not hold</span>", tally.failed));
     std::string highlights;
     for (std::size_t i = 0; i < corpus.size(); ++i) {
         if (corpus[i].highlight.empty() || parsed[i].is_null()) continue;

@@ -64,8 +64,7 @@ std::array<TextbookWave, 4> textbook_waves(const std::array<Vec3, 3>& axes,
         }
     }
     const auto minor = [&](int j, int k) { return m[1][j] * m[2][k] - m[1][k] * m[2][j]; };
-    const Coefficients c =
-        m[0][0] * minor(1, 2) - m[0][1] * minor(0, 2) + m[0][2] * minor(0, 1);
+    const Coefficients c = m[0][0] * minor(1, 2) - m[0][1] * minor(0, 2) + m[0][2] * minor(0, 1);
     Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();
     for (int i = 0; i < 3; ++i) companion(i + 1, i) = 1;
     for (int i = 0; i < 4; ++i) companion(i, 3) = -c[std::size_t(i)] / c[4];

@@ -42,9 +42,7 @@ public:
         /// beyond the tolerance.
         double sensitivity = 0;
     };
-    Worst worst() const {
-        return {amplitude_, power_, wave_, ray_, imbalance_, sensitivity_};
-    }
+    Worst worst() const { return {amplitude_, power_, wave_, ray_, imbalance_, sensitivity_}; }
 
 private:
     struct Column;
