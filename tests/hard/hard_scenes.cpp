@@ -39,10 +39,11 @@ void write_map(const TomlTable& map, const std::filesystem::path& file) {
 }  // namespace
 
 Scene hard_scene(const HardCase& hard_case, const HardPoint& point, const TomlTable& parameters) {
-    const std::filesystem::path folder = std::filesystem::path(CULET_HARD_RESULTS) / "scenes";
+    // A folder for each case: several may run at once.
+    const std::filesystem::path folder = std::filesystem::path(CULET_HARD_RESULTS) / "scenes" /
+                                         (hard_case.section + "." + hard_case.name);
     std::filesystem::create_directories(folder);
-    const std::string name = fmt::format("{}.{}{}{}", hard_case.section, hard_case.name,
-                                         point.label.empty() ? "" : ".", point.label);
+    const std::string name = point.label.empty() ? "scene" : point.label;
     const Solid solid = hard_solid(parameters.table("stone").value());
     write_mesh(solid, folder / (name + ".obj"));
     // A case's [environment] is the file "environment.pfm" of its scene.

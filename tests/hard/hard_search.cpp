@@ -253,6 +253,11 @@ public:
             run_case(read_case(file), std::filesystem::path(CULET_HARD_RESULTS) / "search");
             if (failures() == before) {
                 std::filesystem::remove(file);
+                const std::filesystem::path results = CULET_HARD_RESULTS;
+                const std::string name =
+                    fmt::format("{}.found_{}", options_.keep.filename().string(), seed);
+                std::filesystem::remove_all(results / "scenes" / name);
+                std::filesystem::remove(results / "search" / (name + ".json"));
             } else {
                 ++kept;
                 std::printf("found %s\n", file.c_str());

@@ -195,12 +195,12 @@ Subject picture_subject(const HardCase& hard_case, const HardPoint& point,
         plain.lights.constant = 1;
         return Measured{apart(c->result().picture, render(plain).picture, was), std::nan(""), ""};
     };
-    is["files"] = [c] {
-        const auto folder = std::filesystem::path(CULET_HARD_RESULTS) / "pictures";
-        std::filesystem::create_directories(folder);
+    const std::string of = hard_case.section + "." + hard_case.name;
+    is["files"] = [c, of] {
+        const auto folder = std::filesystem::path(CULET_HARD_RESULTS) / "scenes" / of;
         double worst = 0;
         for (const char* kind : {"exr", "hdr", "png"}) {
-            const auto file = folder / fmt::format("{}.{}", fmt::ptr(c.get()), kind);
+            const auto file = folder / fmt::format("picture.{}", kind);
             write_picture(c->result().picture, file);
             const Picture back = read_picture(file).picture;
             std::filesystem::remove(file);

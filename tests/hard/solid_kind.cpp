@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <glm/geometric.hpp>
 #include <map>
 #include <memory>
@@ -15,7 +14,6 @@
 #include "render/convex_body.h"
 #include "render/polyhedron_body.h"
 #include "stone/checks.h"
-#include "stone/gemcad_io.h"
 #include "stone/mesh_io.h"
 #include "tests/hard/exact_solid.h"
 #include "tests/hard/hard_kinds.h"
@@ -110,23 +108,6 @@ Measured read_back(const Case& c) {
         if (!(m.error <= worst.error)) worst = m;
     }
     return worst;
-}
-
-Measured read_back_as_cut(const Case& c) {
-    const auto file = std::filesystem::temp_directory_path() /
-                      fmt::format("culet-hard-{}.asc", reinterpret_cast<std::uintptr_t>(&c));
-    CutSheet sheet;
-    write_gemcad_asc(c.solid, sheet, file);
-    const ReadCut cut = read_gemcad_asc(file, {.meet_tolerance = 0});
-    std::filesystem::remove(file);
-    double worst = 0;
-    for (const Facet& f : c.solid.facets) {
-        const int other = find_facet(cut.solid, f.name);
-        if (other < 0) return {1e300, std::nan(""), f.name + " is lost"};
-        const Plane& p = cut.solid.facets[std::size_t(other)].plane;
-        worst = std::max(worst, glm::length(p.normal - f.plane.normal));
-    }
-    return {worst, std::nan(""), ""};
 }
 
 // A ray from inside leaves where the stone ends: in long double the point lies on the plane that it
@@ -311,7 +292,6 @@ Subject solid_subject(const HardCase&, const HardPoint&, const TomlTable& parame
         });
     };
     is["files"] = [c] { return read_back(*c); };
-    is["cut_file"] = [c] { return read_back_as_cut(*c); };
     is["rays_leave"] = [c] { return rays_leave(*c); };
     is["bodies_agree"] = [c] { return bodies_agree(*c); };
     subject.contrasts.push_back(
