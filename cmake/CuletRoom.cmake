@@ -7,7 +7,14 @@ target_compile_options(culet_flags INTERFACE
   # g++ 12 sees overlapping copies in std::string's operator+ that are not there (its bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   # One result on every machine: no fused multiply-add that the source does not ask for.
-  -ffp-contract=off)
+  $<$<NOT:$<BOOL:${CULET_CONTRACT}>>:-ffp-contract=off>)
+if(CULET_CONTRACT)
+  target_compile_options(culet_flags INTERFACE -ffp-contract=fast)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+    target_compile_options(culet_flags INTERFACE -march=x86-64-v3)
+  endif()
+  target_compile_definitions(culet_flags INTERFACE HWY_COMPILE_ONLY_STATIC)
+endif()
 if(CULET_SANITIZE)
   target_compile_options(culet_flags INTERFACE -fsanitize=address,undefined
     -fno-sanitize-recover=undefined -fno-omit-frame-pointer
@@ -22,6 +29,7 @@ if(CULET_FUZZ)
   # Coverage for the fuzzers in tests/fuzz.
   target_compile_options(culet_flags INTERFACE -fsanitize=fuzzer-no-link,address,undefined
     -fno-sanitize-recover=undefined -Wno-error)
+  target_compile_definitions(culet_flags INTERFACE HWY_COMPILE_ONLY_STATIC)
 endif()
 
 function(culet_room name)

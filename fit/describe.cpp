@@ -72,6 +72,7 @@ void describe_axis(const System& system, const Shape& shape, const System::Pose&
             tier.mean_own_axis += facet.inclination_own_axis / count;
             low = std::min(low, facet.inclination);
             high = std::max(high, facet.inclination);
+            if (!axis.known) continue;
             own_low = std::min(own_low, facet.inclination_own_axis);
             own_high = std::max(own_high, facet.inclination_own_axis);
         }

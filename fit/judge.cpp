@@ -147,7 +147,8 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
                    fmt::format("the fitted stone is not {}{}", result.closed ? "convex" : "closed",
                                faults.empty() ? "" : ": " + faults.front().what));
     }
-    if (result.planarity_max > k_planarity * diameter(result.solid)) {
+    if (result.planarity_max >
+        std::max(k_planarity * diameter(result.solid), coordinate_rounding(result.solid))) {
         return end(FitStatus::not_converged,
                    fmt::format("corners lie up to {:.2g} {} off their facets' planes",
                                result.planarity_max, name_of(result.unit)));

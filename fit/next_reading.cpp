@@ -170,9 +170,11 @@ std::vector<NextReading> next_readings(const System& system, const Shape& shape,
     if (!(total > 0) || !std::isfinite(total)) return {};
     std::vector<Candidate> all = candidates(system, shape, *outline);
     for (Candidate& c : all) c.variance = variance_of(c.function);
+    // 0 where readings say so little that the variance is no number: an order needs numbers.
     const auto promise = [](const Candidate& c) {
-        return c.variance * c.variance / (c.sigma * c.sigma + c.variance) /
-               c.function.squaredNorm();
+        const double squares = c.function.squaredNorm();
+        if (!std::isfinite(c.variance) || !(c.variance > 0) || !(squares > 0)) return 0.0;
+        return c.variance * (c.variance / (c.sigma * c.sigma + c.variance)) / squares;
     };
     std::stable_sort(all.begin(), all.end(), [&](const Candidate& a, const Candidate& b) {
         return promise(a) > promise(b);
@@ -182,7 +184,7 @@ std::vector<NextReading> next_readings(const System& system, const Shape& shape,
     std::map<std::string, int> of_group;
     for (Candidate& c : all) {
         if (tried.size() >= k_tried) break;
-        if (++of_group[c.group] <= 2 && c.variance > 0) tried.push_back(std::move(c));
+        if (++of_group[c.group] <= 2 && promise(c) > 0) tried.push_back(std::move(c));
     }
     for (Candidate& c : tried) {
         const Eigen::VectorXd with = covariance.with_all(c.function, true);
@@ -193,7 +195,8 @@ std::vector<NextReading> next_readings(const System& system, const Shape& shape,
             const double o = with(layout.offset(f)) - glm::dot(middle, a * t + b * u);
             drop += a * a + b * b + o * o;
         }
-        c.reading.reduces = std::clamp(drop / (c.sigma * c.sigma + c.variance) / total, 0.0, 1.0);
+        const double share = drop / (c.sigma * c.sigma + c.variance) / total;
+        c.reading.reduces = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
         // Tighter than what the mesh says, where only the mesh said something.
         c.reading.closes = covariance.open_freedoms() > 0 &&
                            covariance.open_variance(c.function) > 4 * c.sigma * c.sigma &&

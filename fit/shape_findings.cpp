@@ -62,9 +62,11 @@ void add_vanishing(const System& system, const Finished& finished, const Inferen
     std::vector<const Edge*> edges;
     std::vector<Eigen::VectorXd> columns;
     for (const Edge& edge : system.edges().edges) {
-        const Vec3 along =
-            glm::normalize(glm::cross(finished.shape.normals[std::size_t(edge.left)],
-                                      finished.shape.normals[std::size_t(edge.right)]));
+        const Vec3 across = glm::cross(finished.shape.normals[std::size_t(edge.left)],
+                                       finished.shape.normals[std::size_t(edge.right)]);
+        // Facets of one plane have no edge that could vanish.
+        if (!(glm::dot(across, across) > 0)) continue;
+        const Vec3 along = glm::normalize(across);
         Eigen::VectorXd column = Eigen::VectorXd::Zero(Eigen::Index(hard.size()));
         for (const Eigen::Index k : held) {
             const Equation& e = hard[std::size_t(k)];
@@ -85,6 +87,8 @@ void add_vanishing(const System& system, const Finished& finished, const Inferen
     for (std::size_t k = 0; k < edges.size(); ++k) {
         const double pull = pulls(Eigen::Index(k));
         const double information = v(Eigen::Index(k), Eigen::Index(k));
+        // Readings so vague that what they say is no number say nothing.
+        if (!std::isfinite(pull) || !std::isfinite(information)) continue;
         // Drawn apart, or pulled so loosely that rounding decides: not what shapes the stone.
         if (!(pull > 0) || !(information > 4)) continue;
         ShapeFinding finding;

@@ -52,6 +52,14 @@ private:
     std::vector<Tick> decades() const {
         std::vector<Tick> ticks;
         const double span = high_ - low_;
+        if (span > 6) {
+            // Powers of ten alone, and of these as many labelled as there is room for.
+            const double every = std::ceil(span / 9);
+            for (double decade = std::ceil(low_); decade <= high_; ++decade) {
+                ticks.push_back({std::pow(10, decade), std::fmod(decade, every) == 0});
+            }
+            return ticks;
+        }
         for (double decade = std::floor(low_); decade <= high_; ++decade) {
             for (int digit = 1; digit <= 9; ++digit) {
                 const double at = decade + std::log10(digit);

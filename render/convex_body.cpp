@@ -194,7 +194,8 @@ std::optional<BodyHit> ConvexBody::entry(const Vec3& origin, const Vec3& directi
         double t[k_block], b[k_block], distance[k_block];
         const std::size_t size = std::min(k_block, count - start);
         measure(start, size, origin, direction, t, b);
-        for (std::size_t i = 0; i < size; ++i) distance[i] = b[i] / t[i];
+        // Of a ray along a plane no distance is looked at; nothing over nothing would be no number.
+        for (std::size_t i = 0; i < size; ++i) distance[i] = b[i] / (t[i] == 0 ? 1 : t[i]);
         for (std::size_t i = 0; i < size; ++i) {
             if (t[i] < 0) {
                 if (distance[i] > enter) {

@@ -270,7 +270,15 @@ CrystalHit hit_face(const Crystal& crystal, double n_outside, const CrystalMode&
         // A ray in the face itself: nothing crosses, it goes on as it is.
         hit.out = {};
         hit.amplitude = {};
-        hit.amplitude[hit.modes[0].kind == incident.kind ? 0 : 1] = 1;
+        const std::size_t same = hit.modes[0].kind == incident.kind ? 0 : 1;
+        hit.amplitude[same] = 1;
+        // By the last digit of K its own reflection may be said not to travel: then it is the
+        // incident wave that does, turned back from the face by as little as it ran towards it.
+        if (!hit.modes[same].propagates) {
+            CrystalMode on = incident;
+            on.ray = glm::normalize(on.ray - 2 * std::max(0.0, glm::dot(on.ray, n_out)) * n_out);
+            hit.modes[same] = on;
+        }
     } else {
         hit.imbalance = imbalance;
     }

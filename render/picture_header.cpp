@@ -1,5 +1,6 @@
 #include "render/picture_header.h"
 
+#include <array>
 #include <charconv>
 
 namespace culet {
@@ -76,24 +77,36 @@ void read_exr(std::string_view bytes, PictureHeader& header) {
     header.height = height > 0 ? static_cast<std::uint64_t>(height) : 0;
 }
 
+// The first two whole numbers of a text; 0 0 when there are not so many.
+std::array<std::uint64_t, 2> two_numbers(std::string_view text) {
+    std::array<std::uint64_t, 2> found{};
+    std::size_t at = 0;
+    for (std::uint64_t& value : found) {
+        at = text.find_first_of("0123456789", at);
+        if (at == std::string_view::npos) return {};
+        const auto [stop, error] =
+            std::from_chars(text.data() + at, text.data() + text.size(), value);
+        if (error != std::errc()) return {};
+        at = static_cast<std::size_t>(stop - text.data());
+    }
+    return found;
+}
+
 // Radiance: the resolution line `-Y rows +X columns` after an empty line.
 void read_hdr(std::string_view bytes, PictureHeader& header) {
     const std::size_t end = bytes.substr(0, 65536).find("\n\n");
     if (end == std::string_view::npos) return;
-    std::string_view line = bytes.substr(end + 2, 128);
-    line = line.substr(0, line.find('\n'));
-    std::uint64_t found[2] = {0, 0};
-    std::size_t at = 0;
-    for (std::uint64_t& value : found) {
-        at = line.find_first_of("0123456789", at);
-        if (at == std::string_view::npos) return;
-        const auto [stop, error] =
-            std::from_chars(line.data() + at, line.data() + line.size(), value);
-        if (error != std::errc()) return;
-        at = static_cast<std::size_t>(stop - line.data());
-    }
-    header.height = found[0];
-    header.width = found[1];
+    const std::string_view line = bytes.substr(end + 2, 128);
+    const auto [rows, columns] = two_numbers(line.substr(0, line.find('\n')));
+    header.height = rows;
+    header.width = columns;
+}
+
+// PFM (Debevec): `PF` or `Pf`, columns and rows, scale, each on a line.
+void read_pfm(std::string_view bytes, PictureHeader& header) {
+    const auto [columns, rows] = two_numbers(bytes.substr(3, 64));
+    header.width = columns;
+    header.height = rows;
 }
 
 }  // namespace
@@ -118,6 +131,7 @@ PictureHeader picture_header(std::string_view bytes) {
         read_hdr(bytes, header);
     } else if (bytes.starts_with("PF\n"sv) || bytes.starts_with("Pf\n"sv)) {
         header.format = "PFM";
+        read_pfm(bytes, header);
     }
     return header;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -148,6 +149,7 @@ private:
 
     void check_shape(bool whole_surface) {
         const double size = diameter(solid_);
+        const double allowed = std::max(limits_.planarity * size, coordinate_rounding(solid_));
         for (const Facet& facet : solid_.facets) {
             if (!has_distinct_corners(facet)) continue;
             std::vector<Vec3> loop;
@@ -161,11 +163,11 @@ private:
             for (const Vec3& corner : loop) {
                 worst = std::max(worst, std::abs(height_above(facet.plane, corner)));
             }
-            if (!(worst <= limits_.planarity * size)) {
+            if (!(worst <= allowed)) {
                 add(FaultKind::not_planar,
                     fmt::format("a corner of facet {} lies {:.3g} off its plane ({:.2g} of the "
                                 "diameter; {:.2g} is allowed)",
-                                facet.name, worst, worst / size, limits_.planarity));
+                                facet.name, worst, worst / size, allowed / size));
             }
             // Not by the area vector, which is zero for a figure of eight.
             const Vec3 across = glm::cross(corners.b - corners.a, corners.c - corners.a);
@@ -280,6 +282,12 @@ bool is_closed(const Solid& solid) {
         }
     }
     return pinched_vertices(solid, edges).empty();
+}
+
+double coordinate_rounding(const Solid& solid) {
+    double reach = 0;
+    for (const Vec3& v : solid.vertices) reach = std::max(reach, glm::length(v));
+    return 4 * std::numeric_limits<double>::epsilon() * reach;
 }
 
 const char* name_of(FaultKind kind) {

@@ -33,7 +33,9 @@ struct Fault {
 };
 
 struct CheckLimits {
-    double planarity = 1e-9;  ///< as a fraction of the diameter
+    /// As a fraction of the diameter; where the coordinates are so large that their own rounding is
+    /// more, that is allowed.
+    double planarity = 1e-9;
     bool must_be_convex = true;
 };
 
@@ -56,6 +58,10 @@ bool is_convex(const Solid& solid);
 /// As far as the meets of a real cut design miss, as a fraction of the diameter (the published
 /// files that we know miss by up to 3e-4 of the width).
 inline constexpr double k_largest_miss = 3e-4;
+
+/// How far a corner may lie off its plane because coordinates are rounded to doubles, and for no
+/// other reason: four units in the last place of the largest. It matters far from the origin.
+double coordinate_rounding(const Solid& solid);
 
 const char* name_of(FaultKind kind);
 

@@ -54,6 +54,16 @@ struct VolumeMoments {
     Vec3 reference{0, 0, 0};
 };
 
+// Twice the area vector of a triangle from its two shorter edges: of a needle's facet the product
+// of two long edges would be a difference of numbers that are larger by its aspect.
+Vec3 twice_area(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 ab = b - a, bc = c - b, ca = a - c;
+    const double of_ab = glm::dot(ab, ab), of_bc = glm::dot(bc, bc), of_ca = glm::dot(ca, ca);
+    if (of_ca >= of_ab && of_ca >= of_bc) return glm::cross(ab, bc);
+    if (of_ab >= of_bc) return glm::cross(bc, ca);
+    return glm::cross(ca, ab);
+}
+
 VolumeMoments volume_moments(const Solid& solid) {
     VolumeMoments sum;
     if (solid.vertices.empty()) return sum;
@@ -63,7 +73,7 @@ VolumeMoments volume_moments(const Solid& solid) {
             const Vec3 a = solid.vertices[facet.corners[0]] - sum.reference;
             const Vec3 b = solid.vertices[facet.corners[i]] - sum.reference;
             const Vec3 c = solid.vertices[facet.corners[i + 1]] - sum.reference;
-            const double six = glm::dot(a, glm::cross(b, c));
+            const double six = glm::dot(a, twice_area(a, b, c));
             sum.six_volumes += six;
             sum.weighted += six * (a + b + c);
         }

@@ -315,7 +315,9 @@ private:
     HWY_INLINE void meet(const V3& a, const V& cosine) {
         const float n = optics_.n;
         const V e = number(n * n), one = number(1.0f), half = number(0.5f), zero = number(0.0f);
-        const V q1 = number(n) * hn::Max(cosine, zero);
+        // Never quite 0: of rays that do not meet this facet no amplitude is used, but 0 over 0
+        // would be an invalid operation.
+        const V q1 = number(n) * hn::Max(cosine, number(1e-20f));
         const V q2_squared = hn::MulAdd(q1, q1, number(-(n - 1) * (n + 1)));
         const M out = q2_squared > zero;
         V R_s = one, R_p = one, re = one, im = zero;

@@ -153,7 +153,9 @@ void FindSpans(const PixelCoverage::Side* sides, std::size_t count, const SpanRo
     const D half = hn::Set(k_doubles, 0.5), zero = hn::Zero(k_doubles),
             width = hn::Set(k_doubles, rows.width), by = hn::Set(k_doubles, margin);
     const auto first_middle = [&](const D& x) HWY_ATTR {
-        return hn::Min(hn::Max(hn::Ceil(x - half), zero), width);
+        // Bounded first: a side that is all but level leaves the picture by more than the integers
+        // hold through which some processors round.
+        return hn::Ceil(hn::Min(hn::Max(x - half, zero), width));
     };
     for (std::size_t row0 = 0; row0 < rows.count; row0 += lanes) {
         const D y = hn::Iota(k_doubles, rows.first + static_cast<double>(row0) + 0.5);

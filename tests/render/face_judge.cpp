@@ -260,6 +260,7 @@ void FaceJudge::judge(const Face& face, const Column& column) {
     double sensitivity = 0;
     for (const Answer& nudged : nudged_)
         sensitivity = std::max(sensitivity, between(column.oracles(nudged), truth).largest());
+    sensitivity_ = std::max(sensitivity_, sensitivity);
     const double allowance = std::max(tolerance_, 8 * sensitivity);
     of_allowance_ = std::max(of_allowance_, worst / allowance);
     EXPECT_LE(worst, allowance) << fmt::format(

@@ -35,6 +35,15 @@ public:
     int faces() const { return faces_; }
     int excused() const { return excused_; }
 
+    /// The largest deviations met.
+    struct Worst {
+        double amplitude = 0, power = 0, wave = 0, ray = 0, imbalance = 0;
+        /// Largest change of the oracle's answers by the rounding of the input, where it was asked:
+        /// beyond the tolerance.
+        double sensitivity = 0;
+    };
+    Worst worst() const { return {amplitude_, power_, wave_, ray_, imbalance_, sensitivity_}; }
+
 private:
     struct Column;
     void judge(const oracle::Face& face, const Column& column);
@@ -42,7 +51,8 @@ private:
     double tolerance_;
     std::vector<oracle::Answer> nudged_;  ///< of the face at hand, when it came to that
     int faces_ = 0, columns_ = 0, excused_ = 0;
-    double amplitude_ = 0, power_ = 0, wave_ = 0, ray_ = 0, imbalance_ = 0, of_allowance_ = 0;
+    double amplitude_ = 0, power_ = 0, wave_ = 0, ray_ = 0, imbalance_ = 0, of_allowance_ = 0,
+           sensitivity_ = 0;
 };
 
 std::string described(const oracle::Face& face);

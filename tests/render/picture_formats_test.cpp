@@ -174,6 +174,25 @@ TEST_F(PictureFormats, every_pixel_that_is_no_number_is_written_as_a_colour) {
     for (float v : read_picture(folder_ / "a.hdr").picture.rgb) EXPECT_TRUE(std::isfinite(v));
 }
 
+// Rows from the bottom, little endian where the scale is negative (Debevec's format).
+TEST_F(PictureFormats, a_pfm_is_read_from_the_bottom_up) {
+    const float pixels[2][2][3] = {{{1, 2, 3}, {4, 5, 6}}, {{1e-30f, 0.5f, 7}, {1e30f, 8, 9}}};
+    std::string bytes = "PF\n2 2\n-1.0\n";
+    bytes.append(reinterpret_cast<const char*>(pixels), sizeof pixels);
+    std::ofstream(folder_ / "a.pfm", std::ios::binary) << bytes;
+    const ReadPicture read = read_picture(folder_ / "a.pfm");
+    ASSERT_EQ(read.picture.width, 2);
+    ASSERT_EQ(read.picture.height, 2);
+    EXPECT_FALSE(read.was_encoded);
+    EXPECT_EQ(read.picture.rgb,
+              (std::vector<float>{1e-30f, 0.5f, 7, 1e30f, 8, 9, 1, 2, 3, 4, 5, 6}));
+    // A header that promises more than there is, or no size at all.
+    for (const char* head : {"PF\n100000 100000\n-1.0\n", "PF\n-1.0\n", "PF\n", "PF\n9 9\n-1\n"}) {
+        std::ofstream(folder_ / "b.pfm", std::ios::binary) << head << "abcd";
+        EXPECT_THROW(read_picture(folder_ / "b.pfm"), InputError) << head;
+    }
+}
+
 TEST_F(PictureFormats, text_beyond_ascii_is_stored_as_utf8) {
     Picture picture;
     picture.width = picture.height = 1;

@@ -1,0 +1,13 @@
+// A stone file: [stone], [material], [[reading]] and [fit]. Its mesh is not there, so that what is
+// read before it counts; the readings are read by themselves.
+
+#include "fit/fit.h"
+#include "fit/measurement.h"
+#include "stone/stone_io.h"
+#include "tests/fuzz/fuzz_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    culet::fuzz_file(data, size, ".toml", [](const auto& file) { culet::read_readings(file); });
+    culet::fuzz_file(data, size, ".toml", [](const auto& file) { culet::read_fit_options(file); });
+    return culet::fuzz_file(data, size, ".toml", [](const auto& file) { culet::read_stone(file); });
+}

@@ -1,0 +1,24 @@
+#pragma once
+// The solid of planes given in doubles, judged in 100 digits.
+
+#include <span>
+
+#include "stone/solid.h"
+
+namespace culet::hard {
+
+struct ExactJudgement {
+    /// Exact meets of the facets that share a corner which lie outside some half-space, or are no
+    /// point at all. A closed surface without any is the boundary of the planes' common part.
+    int misplaced = 0;
+    double vertex_error = 0;  ///< farthest corner from its exact meet; a length
+    double volume = 0;        ///< exact, rounded
+    double volume_error = 0;  ///< of culet::volume, relative
+    /// Relative change of the volume per relative change of the planes' numbers: surface times
+    /// distance from the origin over volume.
+    double volume_condition = 0;
+};
+/// `planes`: all that were given. The solid's facets must carry their planes.
+ExactJudgement judge_solid(std::span<const NamedPlane> planes, const Solid& solid);
+
+}  // namespace culet::hard

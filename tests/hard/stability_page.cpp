@@ -1,0 +1,333 @@
+#include "tests/hard/stability_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "page/chart.h"
+#include "page/html.h"
+#include "page/json_fields.h"
+#include "page/parts.h"
+
+namespace culet::hard {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Errors of nothing are drawn here, below one rounding unit.
+constexpr double k_floor = 1e-17;
+
+// The worst of one invariant over a case's sweep.
+struct Worst {
+    double error = 0, limit = 0, condition = std::nan("");
+    double margin = std::numeric_limits<double>::infinity();  // limit over error, the smallest
+    std::string at;
+    int points = 0, failed = 0;
+};
+
+std::map<std::string, Worst> worst_of(const Json& result) {
+    std::map<std::string, Worst> all;
+    for (const Json& point : array_at(result, "points")) {
+        if (!point.contains("invariants")) continue;
+        for (const auto& [name, value] : point["invariants"].items()) {
+            Worst& w = all[name];
+            const double error = number_at(value, "error").value_or(1e300);
+            const double limit = number_at(value, "limit").value_or(0);
+            const double condition = number_at(value, "condition").value_or(std::nan(""));
+            const bool holds = true_at(value, "holds");
+            const double margin =
+                error > 0 ? limit / error : std::numeric_limits<double>::infinity();
+            ++w.points;
+            w.failed += !holds;
+            if (!(w.condition >= condition)) w.condition = condition;
+            if (w.points > 1 && !(margin < w.margin)) continue;
+            w.margin = margin;
+            w.error = error;
+            w.limit = limit;
+            w.at = text_at(point, "label");
+        }
+    }
+    return all;
+}
+
+std::string title_of(const std::string& section) {
+    std::string title = section;
+    title[0] = static_cast<char>(title[0] - 'a' + 'A');
+    return title;
+}
+
+std::string plain(const std::string& name) {
+    std::string text = name;
+    std::replace(text.begin(), text.end(), '_', ' ');
+    return text;
+}
+
+std::string badge(bool good, bool run = true) {
+    return run ? fmt::format("<span class=\"badge {}\">{}</span>", good ? "good" : "bad",
+                             good ? "holds" : "fails")
+               : "<span class=\"badge\">not run</span>";
+}
+
+std::string margin_words(const Worst& w) {
+    if (w.limit == 0) return w.failed == 0 ? "exact" : "–";
+    if (!std::isfinite(w.margin)) return "exact";
+    return fmt::format("× {}", significant(w.margin, 2));
+}
+
+struct Place {
+    double x;
+    std::string label;  // where the axis does not say it
+};
+
+// Where a point stands on the axis: 0 a decade to the left of the least on a logarithmic one, where
+// all stands by its size.
+Place place_of(const Json& point, const Json& result) {
+    const double x = number_at(point, "x").value_or(std::nan(""));
+    if (!true_at(result, "log_x")) return {x, ""};
+    if (x != 0) return {std::abs(x), ""};
+    double least = 1e300;
+    for (const Json& other : array_at(result, "points")) {
+        const double size = std::abs(number_at(other, "x").value_or(0));
+        if (size > 0) least = std::min(least, size);
+    }
+    return {least / 10, "0"};
+}
+
+ChartPoint point_at(const Place& place, double error, const std::string& about) {
+    ChartPoint p;
+    p.x = place.x;
+    p.y = std::max(error, k_floor);
+    p.hollow = !(error > 0);
+    p.about = about;
+    return p;
+}
+
+// One chart: an invariant with its limit and the textbook's ways, or several invariants together.
+std::string chart_of(const Json& result, const std::vector<std::string>& invariants,
+                     const std::string& title, bool with_contrasts) {
+    Chart chart;
+    chart.title = title;
+    chart.about = title + ", against " + text_at(result, "x_label");
+    chart.x_label = text_at(result, "x_label");
+    chart.y_label = invariants.size() == 1 ? plain(invariants.front()) + ", error" : "error";
+    chart.log_x = true_at(result, "log_x");
+    std::map<std::string, ChartSeries> contrasts;
+    for (const std::string& name : invariants) {
+        ChartSeries found, limit;
+        found.name = with_contrasts ? "culet" : plain(name);
+        limit.name = "allowed";
+        limit.dashed = true;
+        limit.markers = false;
+        for (const Json& point : array_at(result, "points")) {
+            const Place place = place_of(point, result);
+            if (!point.contains("invariants") || !point["invariants"].contains(name)) continue;
+            const Json& value = point["invariants"][name];
+            const double error = number_at(value, "error").value_or(1e300);
+            found.points.push_back(
+                point_at(place, error,
+                         fmt::format("{} at {}: {}", plain(name), text_at(point, "label"),
+                                     significant(error, 2))));
+            if (found.points.back().hollow || !place.label.empty()) {
+                found.points.back().label = place.label;
+            }
+            limit.points.push_back(
+                point_at(place, number_at(value, "limit").value_or(0), "allowed"));
+            for (const Json& contrast : array_at(point, "contrasts")) {
+                if (!with_contrasts || text_at(contrast, "invariant") != name) continue;
+                const std::string way = text_at(contrast, "name");
+                ChartSeries& series = contrasts[way];
+                series.name = way;
+                const auto off = number_at(contrast, "error");
+                if (!off) continue;
+                series.points.push_back(
+                    point_at(place, *off,
+                             fmt::format("{} at {}: {}", way, text_at(point, "label"),
+                                         significant(off, 2))));
+            }
+        }
+        chart.series.push_back(std::move(found));
+        if (with_contrasts) chart.series.push_back(std::move(limit));
+    }
+    for (auto& [way, series] : contrasts) chart.series.push_back(std::move(series));
+    const std::string svg = draw_chart_svg(chart);
+    if (svg.empty()) return {};
+    return "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Chart\"><figure "
+           "class=\"chart-figure\">" +
+           svg + "</figure></div>\n";
+}
+
+std::string charts_of(const Json& result) {
+    const Json& points = array_at(result, "points");
+    if (points.size() < 2 || !number_at(points[0], "x")) return {};
+    std::vector<std::string> contrasted, others;
+    for (const Json& point : points) {
+        for (const Json& contrast : array_at(point, "contrasts")) {
+            const std::string name = text_at(contrast, "invariant");
+            const bool measured =
+                point.contains("invariants") && point["invariants"].contains(name);
+            if (measured &&
+                std::find(contrasted.begin(), contrasted.end(), name) == contrasted.end()) {
+                contrasted.push_back(name);
+            }
+        }
+    }
+    std::string text;
+    for (const std::string& name : contrasted) {
+        text += chart_of(result, {name}, "Beside the textbook: " + plain(name), true);
+    }
+    // What is counted, and must be 0, is no curve.
+    for (const auto& [name, w] : worst_of(result)) {
+        if (w.limit > 0 &&
+            std::find(contrasted.begin(), contrasted.end(), name) == contrasted.end()) {
+            others.push_back(name);
+        }
+    }
+    // As many series as a reader, and the palette, can tell apart.
+    constexpr std::size_t k_most = 6;
+    for (std::size_t first = 0; first < others.size(); first += k_most) {
+        const std::vector<std::string> some(
+            others.begin() + static_cast<std::ptrdiff_t>(first),
+            others.begin() + static_cast<std::ptrdiff_t>(std::min(first + k_most, others.size())));
+        text += chart_of(result, some, "Error against difficulty", false);
+    }
+    return text;
+}
+
+std::string table_of(const Json& result) {
+    std::string rows;
+    for (const auto& [name, w] : worst_of(result)) {
+        rows += fmt::format(
+            "<tr><th scope=\"row\">{}</th><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+            "<td class=\"n strong\">{}</td><td>{}</td><td class=\"n\">{}</td></tr>\n",
+            escaped(plain(name)), badge(w.failed == 0), significant(w.error, 2),
+            w.limit == 0 ? "0" : significant(w.limit, 2), margin_words(w), escaped(w.at),
+            std::isfinite(w.condition) ? significant(w.condition, 2) : "");
+    }
+    return table(
+        "What must hold",
+        "<th scope=\"col\">Invariant</th><th scope=\"col\">Verdict</th>"
+        "<th scope=\"col\" class=\"n\">Error</th><th scope=\"col\" class=\"n\">Allowed</th>"
+        "<th scope=\"col\" class=\"n\">Margin</th><th scope=\"col\">Narrowest at</th>"
+        "<th scope=\"col\" class=\"n\">Condition</th>",
+        rows);
+}
+
+std::string id_of(const HardCase& one) {
+    return one.section + "-" + one.name;
+}
+
+struct Tally {
+    int cases = 0, run = 0, checks = 0, failed = 0;
+};
+
+std::string overview(const std::vector<HardCase>& corpus, const std::vector<Json>& results,
+                     Tally& tally) {
+    std::string rows;
+    for (std::size_t i = 0; i < corpus.size(); ++i) {
+        const HardCase& one = corpus[i];
+        ++tally.cases;
+        const bool run = !results[i].is_null();
+        tally.run += run;
+        Worst narrowest;
+        std::string of;
+        int failed = 0;
+        if (run) {
+            for (const auto& [name, w] : worst_of(results[i])) {
+                tally.checks += w.points;
+                failed += w.failed;
+                if (w.limit > 0 && w.margin < narrowest.margin) {
+                    narrowest = w;
+                    of = name;
+                }
+            }
+            // A point that could not be made has no invariants.
+            for (const Json& p : array_at(results[i], "points"))
+                failed += !p.contains("invariants");
+        }
+        tally.failed += failed;
+        rows += fmt::format(
+            "<tr><td>{}</td><th scope=\"row\"><a href=\"#{}\">{}</a></th><td>{}</td>"
+            "<td class=\"n\">{}</td><td class=\"n strong\">{}</td><td>{}</td></tr>\n",
+            one.section, id_of(one), escaped(one.title), badge(failed == 0, run), one.points.size(),
+            of.empty() ? (run ? "exact" : "") : margin_words(narrowest),
+            of.empty() ? "" : escaped(plain(of) + " at " + narrowest.at));
+    }
+    return table("All cases",
+                 "<th scope=\"col\">Section</th><th scope=\"col\">Case</th><th scope=\"col\">"
+                 "Verdict</th><th scope=\"col\" class=\"n\">Points</th><th scope=\"col\" "
+                 "class=\"n\">Narrowest margin</th><th scope=\"col\">Of</th>",
+                 rows);
+}
+
+}  // namespace
+
+std::string stability_page(const std::vector<HardCase>& corpus,
+                           const std::vector<std::string>& results) {
+    std::vector<Json> parsed;
+    for (const std::string& text : results) {
+        parsed.push_back(text.empty() ? Json() : parsed_object<Json>(text, "a result"));
+    }
+    Tally tally;
+    const std::string table_of_all = overview(corpus, parsed, tally);
+    std::string body = fmt::format(
+        "<header class=\"headline\"><h1>Hard cases</h1>\n<p>{} cases, {} checks. {}</p>\n"
+        "<p>A case is a sweep from easy to hard, and beyond what anyone would cut, read or "
+        "photograph. A line that stays flat to the right or left edge is a computation that does "
+        "not care; one that climbs with the dashed line climbs because the question itself does: "
+        "there the last digit of the input moves the true answer by as much. Margin is the error "
+        "allowed over the error found, condition how many units in the last place of the answer "
+        "one unit in the last place of the input is worth. Errors of nothing are hollow, at the "
+        "bottom.</p></header>\n",
+        tally.cases, tally.checks,
+        tally.run < tally.cases
+            ? fmt::format("<span class=\"badge bad\">{} cases were not run</span>",
+                          tally.cases - tally.run)
+        : tally.failed == 0
+            ? "<span class=\"badge good\">all hold</span>"
+            : fmt::format("<span class=\"badge bad\">{} do not hold</span>", tally.failed));
+    std::string highlights;
+    for (std::size_t i = 0; i < corpus.size(); ++i) {
+        if (corpus[i].highlight.empty() || parsed[i].is_null()) continue;
+        highlights += fmt::format("<h3><a href=\"#{}\">{}</a></h3>\n", id_of(corpus[i]),
+                                  escaped(corpus[i].title)) +
+                      chart_of(parsed[i], {corpus[i].highlight}, corpus[i].title, true);
+    }
+    body += section("beside", "Beside the textbook", highlights);
+    body += section("all", "All cases at a glance", table_of_all);
+    for (const std::string& name : sections()) {
+        std::string text;
+        for (std::size_t i = 0; i < corpus.size(); ++i) {
+            const HardCase& one = corpus[i];
+            if (one.section != name) continue;
+            text += fmt::format("<h3 id=\"{}\">{}</h3>\n<p>{}</p>\n", id_of(one),
+                                escaped(one.title), escaped(one.why));
+            if (parsed[i].is_null()) continue;
+            text += charts_of(parsed[i]) + table_of(parsed[i]);
+        }
+        body += section(name, title_of(name), text);
+    }
+    return html_page("Hard cases: how stable culet's numbers are", body);
+}
+
+std::string verdicts(const std::vector<std::string>& results) {
+    std::string lines;
+    for (const std::string& text : results) {
+        if (text.empty()) continue;
+        const Json result = parsed_object<Json>(text, "a result");
+        for (const Json& point : array_at(result, "points")) {
+            if (!point.contains("invariants")) continue;
+            for (const auto& [name, value] : point["invariants"].items()) {
+                lines += fmt::format("{}.{} {} {} {}\n", text_at(result, "section"),
+                                     text_at(result, "name"), text_at(point, "label"), name,
+                                     true_at(value, "holds") ? "holds" : "fails");
+            }
+        }
+    }
+    return lines;
+}
+
+}  // namespace culet::hard
