@@ -70,6 +70,8 @@ public:
     /// are then split no further, as much as the last frame's time asks for: the picture depends on
     /// the machine, and its `remainder` grows. Guy & Soler (2004) call it the frame-rate limit.
     void keep_within(double milliseconds);
+    /// Told how far a frame is; may stop it, and `draw` then throws Interrupted.
+    void report_to(const Progress& progress);
 
     /// The picture stays valid until the next call. Without `check` no pixels are compared with the
     /// reference, and `error_bound` is NaN.

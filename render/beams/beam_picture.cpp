@@ -330,6 +330,10 @@ void FrameRenderer::keep_within(double milliseconds) {
     if (!(milliseconds > 0)) state_->cut = 0;
 }
 
+void FrameRenderer::report_to(const Progress& progress) {
+    state_->progress = progress;
+}
+
 const RenderResult& FrameRenderer::draw(bool check) {
     state_->draw(check);
     return state_->result;
