@@ -46,6 +46,24 @@ auto rank(const Candidate& c) {
 
 }  // namespace
 
+Candidate finish_candidate(const System& system, Relaxation& relaxation, const Shape& shape,
+                           int iterations, double hopeless) {
+    Candidate candidate;
+    if (system.splits()) {
+        candidate.finished = finish(system, shape, iterations);
+        const System::Enclosed enclosed = system.enclosed(candidate.finished.shape);
+        candidate.sound = enclosed.closed && enclosed.missing.empty();
+        return candidate;
+    }
+    ExactFinish exact = exact_finish(relaxation, shape, iterations, hopeless);
+    candidate.finished = std::move(exact.finished);
+    candidate.held = std::move(exact.held);
+    candidate.cost_of_holding = exact.cost_of_holding;
+    candidate.sound = relaxation.is_convex(candidate.finished.shape) &&
+                      volume(system.met_solid(candidate.finished.shape)) > 0;
+    return candidate;
+}
+
 Portfolio fit_from_starts(const System& system, const FitOptions& options,
                           const Progress& progress) {
     const Freedoms freedoms = system.freedoms();
@@ -68,21 +86,10 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
             return !progress || progress(begin + (0.7 - begin) * fraction);
         };
         const Graded graded = graded_fit(relaxation, *start, part);
-        Candidate candidate;
+        Candidate candidate =
+            finish_candidate(system, relaxation, graded.shape, options.iterations,
+                             result.best.sound ? result.best.finished.chi2 : 1e300);
         candidate.start = start->name;
-        if (system.splits()) {
-            candidate.finished = finish(system, graded.shape, options.iterations);
-            const System::Enclosed enclosed = system.enclosed(candidate.finished.shape);
-            candidate.sound = enclosed.closed && enclosed.missing.empty();
-        } else {
-            ExactFinish exact = exact_finish(relaxation, graded.shape, options.iterations,
-                                             result.best.sound ? result.best.finished.chi2 : 1e300);
-            candidate.finished = std::move(exact.finished);
-            candidate.held = std::move(exact.held);
-            candidate.cost_of_holding = exact.cost_of_holding;
-            candidate.sound = relaxation.is_convex(candidate.finished.shape) &&
-                              volume(system.met_solid(candidate.finished.shape)) > 0;
-        }
         candidate.finished.iterations += graded.steps;
         const bool good = candidate.sound && candidate.finished.converged &&
                           candidate.finished.worst_hard < k_hard_limit;
