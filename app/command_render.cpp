@@ -19,7 +19,7 @@ struct RenderOptions {
     std::string scene, out, stats, engine, effects, tonemap = "none";
     int depth = -1;
     double tolerance = -1, exposure = 1;
-    bool spectral = false;
+    bool spectral = false, explain = false;
 };
 
 // `--effects dispersion,absorption` is a list in the scene file.
@@ -38,6 +38,19 @@ int run_render(const RenderOptions& options) {
     if (options.depth >= 0) settings.push_back(fmt::format("render.depth={}", options.depth));
     if (options.tolerance >= 0)
         settings.push_back(fmt::format("render.tolerance={}", options.tolerance));
+    if (options.explain) {
+        require_writable(options.stats);
+        Scene scene = read_scene(options.scene, settings);
+        scene.settings.threads = options.common.threads;
+        scene.settings.seed = options.common.seed;
+        scene.settings.spectral = options.spectral;
+        for (const std::string& note : scene.notes) say(note, options.common.quiet);
+        const ScenePlan plan = plan_scene(scene);
+        if (options.stats != "-") fmt::print("{}", explain(plan));
+        if (!options.stats.empty()) write_text(options.stats, plan_json(plan));
+        return exit_good;
+    }
+    if (options.out.empty()) throw InputError("render needs -o IMAGE, or --explain");
     const std::string extension = std::filesystem::path(options.out).extension().string();
     if (extension != ".exr" && extension != ".png" && extension != ".hdr") {
         throw InputError(options.out, "pictures are written as .exr, .png or .hdr");
@@ -90,7 +103,6 @@ void add_command_render(CLI::App& program, int& exit_code) {
         ->required()
         ->type_name("SCENE.toml");
     command->add_option("-o,--output", options->out, "picture: .exr (linear), .hdr or .png")
-        ->required()
         ->type_name("IMAGE");
     command
         ->add_option("--stats,--json", options->stats,
@@ -101,6 +113,8 @@ void add_command_render(CLI::App& program, int& exit_code) {
                         "auto, all, none, or a list: dispersion,absorption,...");
     command->add_option("--depth", options->depth, "faces on a path at most (0: by tolerance)");
     command->add_option("--tolerance", options->tolerance, "of the picture's mean radiance");
+    command->add_flag("--explain", options->explain,
+                      "print what would be simulated, left out, and why; draw nothing");
     command->add_flag("--spectral", options->spectral,
                       "Stokes parameters S0 to S3 at every wavelength in the .exr");
     command->add_option("--exposure", options->exposure, "factor on linear light, for .png")

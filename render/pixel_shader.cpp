@@ -1,6 +1,7 @@
 #include "render/pixel_shader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "render/crystal_paths.h"
@@ -100,10 +101,12 @@ PixelSums& PixelSums::operator+=(const PixelSums& more) {
     absorbed += more.absorbed;
     cut += more.cut;
     variance += more.variance;
+    halves_apart += more.halves_apart;
     worst_imbalance = std::max(worst_imbalance, more.worst_imbalance);
     deepest = std::max(deepest, more.deepest);
     rays += more.rays;
     sampled += more.sampled;
+    events += more.events;
     return *this;
 }
 
@@ -118,7 +121,14 @@ PixelShader::PixelShader(const Scene& scene, const Plan& plan, const LightField&
                               scene.settings.filter_radius)),
       nodes_(colours.size()),
       luminance_(luminance_weights(colours, scene.camera.optics, plan.stokes ? 4 : 1)),
-      usual_(usual_radiance(lights, scene.camera.look_at, nodes_)) {}
+      usual_(usual_radiance(lights, scene.camera.look_at, nodes_)) {
+    // The black and the white squares of a chessboard, where samples are on a square grid.
+    const std::size_t side = static_cast<std::size_t>(std::lround(std::sqrt(samples)));
+    for (std::size_t i = 0; i < pattern_.size(); ++i) {
+        half_.push_back(side * side == pattern_.size() ? (i % side + i / side) % 2 : i % 2);
+        in_half_[half_.back()] += 1;
+    }
+}
 
 void PixelShader::background(const EyeRay& ray, double* stokes) const {
     if (!plan_.stokes) {
@@ -136,6 +146,13 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
     behind.assign(values, 0.0);
     PixelSums sums;
     const double share = 1.0 / static_cast<double>(pattern_.size());
+    const auto luminance_of = [&](const double* of) {
+        double sum = 0;
+        for (std::size_t i = 0; i < values; ++i) sum += luminance_[i] * of[i];
+        return sum;
+    };
+    double so_far = 0;
+    std::array<double, 2> halves{};
     for (std::size_t i = 0; i < pattern_.size(); ++i) {
         const SamplePoint& p = pattern_[i];
         if (!eyes_.sees(x + size * p.x, y + size * p.y)) continue;
@@ -143,6 +160,9 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
         const auto entry = body_.entry(ray.origin, ray.direction, memory.entry);
         if (!entry || lights_.nearest_distance(ray.origin, ray.direction) < entry->distance) {
             background(ray, behind.data());
+            const double now = luminance_of(stokes) + luminance_of(behind.data());
+            halves[half_[i]] += now - so_far;
+            so_far = now;
             continue;
         }
         sums.hit += share;
@@ -163,19 +183,26 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
                 paths.trace(ray, frame.x, frame.y, *entry);
                 sums.worst_imbalance = std::max(sums.worst_imbalance, paths.worst_imbalance());
                 sums.sampled += paths.sampled();
+                sums.events += paths.events();
                 sums.variance += share * share * gather.variance();
                 take(gather);
             } else {
                 Gather gather(lights_, band, stokes);
                 LightPaths<Gather>(body_.planes(), band, limits, gather, memory.trace)
                     .trace(ray, *entry);
+                sums.events += memory.trace.length;
                 take(gather);
             }
             ++sums.rays;
         }
+        const double now = luminance_of(stokes) + luminance_of(behind.data());
+        halves[half_[i]] += now - so_far;
+        so_far = now;
     }
-    for (std::size_t i = 0; i < values; ++i) sums.luminance += luminance_[i] * stokes[i];
-    sums.luminance *= share;
+    sums.luminance = share * luminance_of(stokes);
+    if (pattern_.size() > 1 && sums.hit > 0) {
+        sums.halves_apart = 0.5 * std::abs(halves[0] / in_half_[0] - halves[1] / in_half_[1]);
+    }
     for (std::size_t i = 0; i < values; ++i) stokes[i] = share * (stokes[i] + behind[i]);
     return sums;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // One pixel of the reference renderer: eye rays, their light paths, and the sums over them.
 
+#include <array>
 #include <vector>
 
 #include "render/path.h"
@@ -16,9 +17,13 @@ struct PixelSums {
     double luminance = 0;  ///< that these bring, as a share of the pixel
     double remainder = 0, absorbed = 0, cut = 0;
     double variance = 0;  ///< of the luminance, from paths chosen at random
+    /// Half the difference in luminance between every other ray and the rest: about as large as
+    /// what the mean of all is off by for being of so few rays.
+    double halves_apart = 0;
     double worst_imbalance = 0;
     int deepest = 0;  ///< faces on the longest path that brought light
     long long rays = 0, sampled = 0;
+    long long events = 0;  ///< faces that light met on its ways
 
     PixelSums& operator+=(const PixelSums& more);
 };
@@ -53,6 +58,8 @@ private:
     const LightField& lights_;
     PathLimits limits_;
     std::vector<SamplePoint> pattern_;
+    std::vector<std::size_t> half_;  // of the samples, 0 or 1
+    std::array<double, 2> in_half_{};
     int nodes_;
     std::vector<double> luminance_;  // of S[plane] at each node, as seen behind the eye's optics
     std::vector<double> usual_;      // mean radiance of the lights at each node

@@ -2,11 +2,13 @@
 // Front door of the room: a scene in, a picture out, and what was left out of it.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "render/picture.h"
 #include "render/plan.h"
+#include "render/plan/scene_plan.h"
 #include "render/scene.h"
 #include "stone/progress.h"
 
@@ -28,6 +30,12 @@ struct RenderStats {
     /// pixels of the standard error of a pixel, relative to the mean. Each choice is made twice,
     /// independently, and the differences tell it without bias.
     double standard_error = 0;
+    /// Reference: mean over the stone's pixels of about what their few rays are off by, relative to
+    /// the mean: half the difference between every other ray and the rest.
+    double sampling_error = 0;
+    /// What was decided, where the scene left it open; then `error_bound` is that of the plan with
+    /// what the picture shows of its sampling, or of the beams.
+    std::optional<ScenePlan> plan;
     /// Largest |sum of powers - 1| met at a crystal's face before it was put right.
     double worst_imbalance = 0;
     /// Beams: mean of |difference to the reference| over pixels of the stone, relative to the mean,

@@ -1,0 +1,72 @@
+#pragma once
+// How a plan is made: what is known beforehand, then pilots of the scene with this or that left
+// out.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/plan.h"
+#include "render/plan/pilot_picture.h"
+#include "render/plan/price.h"
+#include "render/plan/scene_plan.h"
+
+namespace culet {
+
+// How the tolerance is shared out.
+constexpr double k_share_of_cut = 0.15, k_share_of_effects = 0.5, k_share_of_wavelengths = 0.35;
+// Effects that cost next to nothing go only where they change next to nothing.
+constexpr double k_share_of_cheap = 0.05;
+// Rays of a pilot in each pixel; behind a lens. A mean over so few differs by more than one over
+// the pixel.
+constexpr int k_pilot_rays = 4, k_lens_rays = 16;
+
+class Planner {
+public:
+    explicit Planner(const Scene& whole);
+    ScenePlan run();
+
+private:
+    PlanItem& item(Effects effect) { return plan_.items[static_cast<std::size_t>(effect)]; }
+    bool on(Effects effect) const { return plan_.items[static_cast<std::size_t>(effect)].on; }
+
+    // The scene with the effects that are on, less one.
+    Scene with_effects(bool dispersion, std::optional<Effects> without = {}) const;
+    Scene at_pilot_wavelengths(Scene scene) const;
+    PilotDrawing draw(const Scene& scene, int samples) const;
+    PathLimits limits(double cut) const;
+    // Of one eye ray.
+    PathWork work_of(const Scene& scene, const PilotDrawing& drawing, int samples) const;
+
+    void say_what_is_known();
+    void settle_without_pilot();
+    void choose_pixels();
+    void choose_cut();
+    void choose_effects();
+    void try_without(Effects effect, double share);
+    void choose_wavelengths();
+    void choose_engine_and_samples();
+    int samples_for(double room) const;
+    void estimate_times();
+    void add_resolutions();
+
+    Scene scene_;                // of one window
+    const RenderSettings user_;  // as the scene has them
+    double tolerance_;
+    ScenePlan plan_;
+    StonePixels pixels_;
+    bool branches_ = false;  // trees of light paths double
+    double cut_ = 0;
+    double spent_ = 0;       // of the tolerance
+    PilotDrawing first_;     // with the effects that are on, without dispersion
+    PathWork work_, whole_;  // of one of its eye rays; the same with everything on
+    double cut_bound_ = 0, cut_delta_e_ = 0;
+    double wavelength_bound_ = 0, wavelength_delta_e_ = 0;
+    bool spectrum_ = false;  // the wavelengths were chosen
+    double whole_bands_ = 1, bands_ = 1;
+    double noise_at_4_ = 0, noise_delta_e_at_4_ = 0;  // of four rays a pixel
+    int reference_samples_ = 0;
+    double machine_ = 1;  // nanoseconds of this one over those of price.h
+};
+
+}  // namespace culet
