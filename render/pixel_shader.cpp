@@ -169,7 +169,7 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
         for (const Band& band : plan_.bands) {
             PathLimits limits = limits_;
             limits.seed = limits_.seed + 0x9e3779b97f4a7c15ull * (pixel * pattern_.size() + i + 1) +
-                          static_cast<std::uint64_t>(band.first);
+                          (limits_.alike ? 0 : static_cast<std::uint64_t>(band.first));
             const auto take = [&](const Lost& lost) {
                 sums.remainder += share * lost.remainder_ / nodes_;
                 sums.absorbed += share * lost.absorbed_ / nodes_;

@@ -14,6 +14,22 @@
 
 namespace culet {
 
+/// How a finished picture compares with the truth: the reference with everything on at some pixels
+/// of the stone. Errors as in plan/scene_plan.h.
+struct Verification {
+    int pixels = 0, samples = 0;
+    double difference = 0;                ///< to the truth as drawn
+    double spread = 0;                    ///< standard error of it, as of pixels chosen at random
+    double noise = 0;                     ///< what the truth's few rays are off by
+    double measured = 0;                  ///< the difference less the noise
+    double delta_e = 0;                   ///< CIEDE2000, with the noise in it
+    double bound = 0, bound_delta_e = 0;  ///< what the picture says of itself
+    double seconds = 0;
+
+    /// The bound is not below what was measured, as far as that is certain.
+    bool holds() const { return measured - 3 * spread - noise <= bound; }
+};
+
 struct RenderStats {
     std::string engine = "reference";
     int depth = 0;  ///< faces on the longest path that brought light
@@ -36,6 +52,7 @@ struct RenderStats {
     /// What was decided, where the scene left it open; then `error_bound` is that of the plan with
     /// what the picture shows of its sampling, or of the beams.
     std::optional<ScenePlan> plan;
+    std::optional<Verification> verification;  ///< where asked for
     /// Largest |sum of powers - 1| met at a crystal's face before it was put right.
     double worst_imbalance = 0;
     /// Beams: mean of |difference to the reference| over pixels of the stone, relative to the mean,
@@ -59,6 +76,9 @@ struct RenderResult {
 /// bytes, whatever the number of threads. Throws InputError (stone not closed, camera inside the
 /// stone) and Interrupted.
 RenderResult render(const Scene& scene, const Progress& progress = {});
+
+/// Draws some pixels anew with everything on: the time of about 128 pixels of 64 rays each.
+Verification verify(const Scene& scene, const RenderResult& result);
 
 /// Frame after frame by beams (engine "beams" or "preview"), for programs that draw while a person
 /// watches: what is kept from frame to frame is memory and whatever the changes left valid.

@@ -44,6 +44,20 @@ std::string stats_json(const RenderStats& stats) {
                  {"lost_area", stats.lost_area},
                  {"rays", stats.rays}};
     if (stats.plan) json["plan"] = Json::parse(plan_json(*stats.plan));
+    if (stats.verification) {
+        const Verification& v = *stats.verification;
+        json["verification"] = {{"pixels", v.pixels},
+                                {"samples", v.samples},
+                                {"measured", v.measured},
+                                {"difference", v.difference},
+                                {"noise", v.noise},
+                                {"spread", v.spread},
+                                {"deltaE00", v.delta_e},
+                                {"error_bound", v.bound},
+                                {"error_bound_deltaE00", v.bound_delta_e},
+                                {"holds", v.holds()},
+                                {"seconds", v.seconds}};
+    }
     return json.dump(2) + "\n";
 }
 

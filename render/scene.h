@@ -217,8 +217,8 @@ struct RenderSettings {
     Refraction refraction = Refraction::astigmatic;
     /// Beams in crystals: nothing: whichever the scene calls for.
     std::optional<CrystalBeams> crystal_beams;
-    int depth = 0;             ///< 0: by tolerance. Depth d has d - 1 inner segments
-    double tolerance = 0.01;   ///< of the picture's mean radiance; 0: nothing is cut
+    int depth = 0;            ///< 0: by tolerance. Depth d has d - 1 inner segments
+    double tolerance = 0.01;  ///< of the picture's mean radiance; 0: nothing is cut
     /// Weight below which a path is not followed (crystals: gambled on), and above which both
     /// branches of a crystal's tree are; nothing: by tolerance.
     std::optional<double> cut_weight, split_weight;

@@ -80,9 +80,9 @@ StonePixels stone_pixels(const Scene& scene, int wanted) {
 }
 
 PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const PathLimits& limits,
-                        int samples) {
+                        int samples, int nodes) {
     using Clock = std::chrono::steady_clock;
-    const Plan plan = make_plan(scene);
+    const Plan plan = make_plan(scene, nodes);
     const WavelengthSet colours(plan.wavelengths_nm);
     const LightField lights(scene.lights, colours);
     PathLimits own = limits;
@@ -133,6 +133,7 @@ PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const Pat
     if (whole.hit > 0) {
         drawing.remainder = whole.remainder / whole.hit;
         drawing.absorbed = whole.absorbed / whole.hit;
+        drawing.few_rays = whole.luminance > 0 ? whole.halves_apart / whole.luminance : 0;
     }
     drawing.seconds = 1e-9 * static_cast<double>(nanoseconds);
     return drawing;

@@ -26,13 +26,14 @@ struct PilotDrawing {
     double events = 0;     ///< faces that light met
     double remainder = 0;  ///< at the depth limit, mean weight
     double absorbed = 0;
+    double few_rays = 0;  ///< about what the pixels are off by for their few rays, over the mean
     double brightest = 0;
     double seconds = 0;  ///< that it took, of all threads together
 };
 
-/// `scene`: with the settings to draw with; their
-/// depth and tolerance are left aside for `limits`.
+/// `nodes`: wavelengths where a spectrum is called for and the scene names none. `scene`: with the
+/// settings to draw with; their depth and tolerance are left aside for `limits`.
 PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const PathLimits& limits,
-                        int samples);
+                        int samples, int nodes = k_node_counts[1]);
 
 }  // namespace culet

@@ -18,7 +18,9 @@ const std::vector<double> k_pilot_nm{450, 550, 610};
 constexpr int k_least_pixels = 48, k_most_pixels = 400;
 // Of the picture's price that a plan may cost, and what it may cost in any case.
 constexpr double k_planning_share = 0.04, k_planning_ns = 1.5e6;
-constexpr double k_split_weight = 0.02, k_gambled_weight = 1e-3;
+// Trees that branch: far below the noise of a pixel's few rays, and half as dear as following
+// paths of a tenth of these weights.
+constexpr double k_split_weight = 0.1, k_gambled_weight = 0.01;
 
 }  // namespace
 
@@ -93,6 +95,7 @@ PathLimits Planner::limits(double cut) const {
     limits.cut_weight = branches_ ? std::max(cut, k_gambled_weight) : cut;
     limits.split_weight = std::max(k_split_weight, cut);
     limits.roulette = branches_;
+    limits.alike = true;
     return limits;
 }
 
@@ -140,7 +143,7 @@ void Planner::choose_pixels() {
     const double by_paths = pixels_.in_picture * 16 * bands * price_ns(work);
     const double picture = work.general ? by_paths : std::min(by_paths, price_ns(beams));
     // Rays of one pilot pixel: of the cuts and effects, of the wavelengths, of the samples.
-    const double rays = 4 * 8 + (spectral ? 4 * 28 : 8) + 20;
+    const double rays = 4 * 8 + (spectral ? k_spectral_rays * 28 : 8) + 20;
     const double affordable = std::max(k_planning_share * picture, k_planning_ns) /
                               (rays * std::max(price_ns(work), 1.0));
     const int wanted =
@@ -154,7 +157,7 @@ void Planner::choose_cut() {
     double cut = std::min(0.25 * tolerance_, 0.02);
     if (branches_) {
         // Nothing is cut: small paths gamble, and that makes noise and no bias.
-        cut_ = 1e-3;
+        cut_ = k_gambled_weight;
         first_ = draw(scene, k_pilot_rays);
         work_ = whole_ = work_of(scene, first_, k_pilot_rays);
         return;

@@ -19,7 +19,8 @@ constexpr double k_share_of_cut = 0.15, k_share_of_effects = 0.5, k_share_of_wav
 constexpr double k_share_of_cheap = 0.05;
 // Rays of a pilot in each pixel; behind a lens. A mean over so few differs by more than one over
 // the pixel.
-constexpr int k_pilot_rays = 4, k_lens_rays = 16;
+constexpr int k_pilot_rays = 4, k_spectral_rays = 9, k_lens_rays = 16;
+constexpr const char* k_same_light = "the light is the same from everywhere: nothing changes";
 
 class Planner {
 public:

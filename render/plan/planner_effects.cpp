@@ -91,8 +91,8 @@ void Planner::try_without(Effects effect, double share) {
     line.on = false;
     line.bound = bound;
     line.bound_delta_e = exact ? 0 : error.bound_delta_e();
-    line.why = exact ? "the light is the same from everywhere: nothing changes"
-                     : fmt::format("bound {:.2g} under tolerance {:g}", bound, tolerance_);
+    line.why =
+        exact ? k_same_light : fmt::format("bound {:.2g} under tolerance {:g}", bound, tolerance_);
     spent_ += bound;
     first_ = gone;
     work_ = work_of(without, gone, samples);

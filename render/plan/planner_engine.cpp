@@ -40,7 +40,8 @@ int Planner::samples_for(double room) const {
 
 void Planner::choose_engine_and_samples() {
     RenderSettings& settings = plan_.settings;
-    settings.cut_weight = branches_ ? std::max(cut_, 1e-3) : cut_;
+    settings.cut_weight = limits(cut_).cut_weight;
+    settings.split_weight = limits(cut_).split_weight;
     const Scene flat = at_pilot_wavelengths(with_effects(false));
     // What a few rays in a pixel are off by.
     const ColourError noise = colour_error(draw(flat, 4).rgb, draw(flat, 16).rgb);
