@@ -13,8 +13,8 @@ namespace culet {
 
 namespace {
 
-// Share of the stone's pixels that are brighter than white.
-constexpr double k_brighter = 0.01;
+// As colour_error.h has it: middle grey is a fifth of white.
+constexpr double k_white = 5;
 
 cv::Mat colour_of(const Picture& picture) {
     return cv::Mat(picture.height, picture.width, CV_32FC3, const_cast<float*>(picture.rgb.data()));
@@ -42,9 +42,11 @@ PictureJudge::PictureJudge(Picture truth) : truth_(std::move(truth)) {
     }
     stone_pixels_ = cv::countNonZero(matched_.mask);
     matched_.diameter = 2 * std::sqrt(stone_pixels_ / M_PI);
-    const cv::Mat light = luminance(matched_.photo);
-    mean_ = stone_pixels_ > 0 ? cv::mean(light, matched_.mask)[0] : 0;
-    matched_.white = quantile(light, matched_.mask, 1 - k_brighter);
+    if (stone_pixels_ > 0) {
+        const cv::Scalar mean = cv::mean(matched_.photo, matched_.mask);
+        mean_ = (mean[0] + mean[1] + mean[2]) / 3;
+    }
+    matched_.white = k_white * mean_;
     if (!(matched_.white > 0)) matched_.white = 1;
 }
 

@@ -16,8 +16,7 @@ namespace culet {
 class PictureJudge {
 public:
     /// The stone's pixels are those that the truth's coverage says it touches; all, when it has
-    /// none. White, for the scores of what is shown, is what 1 % of the stone's pixels are brighter
-    /// than.
+    /// none. White, for the scores of what is shown, is five times their mean.
     explicit PictureJudge(Picture truth);
 
     PictureError error_of(const Picture& picture) const;
@@ -26,7 +25,7 @@ public:
 
     const Picture& truth() const { return truth_; }
     int stone_pixels() const { return stone_pixels_; }
-    double mean_radiance() const { return mean_; }  ///< of the stone's pixels, luminance
+    double mean_radiance() const { return mean_; }  ///< of R, G and B over the stone's pixels
     double white() const { return matched_.white; }
 
 private:

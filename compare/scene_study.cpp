@@ -13,6 +13,7 @@
 #include "compare/study_clock.h"
 #include "compare/study_design.h"
 #include "compare/study_reference.h"
+#include "render/beams/beam_picture.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -21,7 +22,7 @@ namespace {
 
 constexpr double k_reference_share = 0.4, k_drawing_share = 0.85;
 // Of the budget: for the first drawing of one setting, and of one that the study needs.
-constexpr double k_row_share = 0.06, k_needed_share = 0.25;
+constexpr double k_row_share = 0.06, k_needed_share = 0.15;
 // Settings whose first run took up to this times as long as the front's are timed again: their
 // median might be quicker.
 constexpr double k_perhaps_quicker = 1.3;
@@ -43,11 +44,34 @@ StudyTime of_runs(std::vector<double> times) {
 
 // Without the beams' check against the reference renderer: what it finds, the study finds itself.
 RenderResult drawn(const Scene& scene, const Progress& progress) {
-    const std::string& engine = scene.settings.engine;
-    if (engine != "beams" && engine != "preview") return render(scene, progress);
+    if (!drawn_by_beams(scene.settings)) return render(scene, progress);
     FrameRenderer frames(scene);
     frames.report_to(progress);
     return frames.draw(false);
+}
+
+// The settings that a picture was drawn with in the end.
+RenderSettings settled_by(const RenderSettings& asked, const RenderStats& stats) {
+    if (!stats.plan) return asked;
+    RenderSettings settled = stats.plan->settings;
+    if (settled.engine != stats.engine) {
+        settled.engine = stats.engine;
+        settled.samples = stats.plan->reference_samples;
+    }
+    settled.checked_pixels = settled.checked_samples = 0;
+    return settled;
+}
+
+// What one has to do to draw so: automatic settings are planned first.
+void draw_for_time(const Scene& scene, const RenderStats& known, const Progress& progress) {
+    if (!known.plan || known.plan->settings.engine != known.engine) {
+        // Or nothing was to be planned; or its beams were drawn and checked in vain.
+        drawn(scene, progress);
+        return;
+    }
+    Scene settled = scene;
+    settled.settings = plan_scene(scene).settings;
+    drawn(settled, progress);
 }
 
 class SceneStudier {
@@ -71,6 +95,7 @@ public:
     SceneStudy study() {
         prepare();
         for (const StudyCandidate& candidate : study_design(ground_)) try_out(candidate);
+        try_by_hand();
         search();
         time_again();
         advise();
@@ -81,6 +106,8 @@ public:
 private:
     void prepare();
     const StudiedRender* try_out(const StudyCandidate& candidate);
+    void time_once(const RenderSettings& settings, const RenderStats& known, DrawnTimes& times);
+    void try_by_hand();
     void search();
     void time_again();
     void advise();
@@ -123,15 +150,11 @@ void SceneStudier::prepare() {
                                        clock_.share(k_reference_share) - clock_.spent(), clock_);
     ground_.exact = study_.reference.stats;
     judge_.emplace(study_.reference.picture);
-    try {
-        Scene by_beams = ground_.scene;
-        by_beams.settings = exact_settings(scene_, ground_.tolerance);
-        by_beams.settings.engine = "beams";
-        const FrameRenderer refuses_what_it_cannot_draw(by_beams);
-    } catch (const InputError& error) {
-        ground_.beams = false;
-        study_.notes.push_back(fmt::format("engines beams and preview: {}", error.what()));
-    }
+    Scene by_beams = ground_.scene;
+    by_beams.settings = exact_settings(scene_, ground_.tolerance, k_node_counts.front());
+    const std::string refused = refused_by_beams(by_beams, make_plan(by_beams));
+    ground_.beams = refused.empty();
+    if (!ground_.beams) study_.notes.push_back("engines beams and preview: " + refused);
 }
 
 // Draws and judges a setting that was not drawn yet; nothing when there is no time for it.
@@ -147,7 +170,8 @@ const StudiedRender* SceneStudier::try_out(const StudyCandidate& candidate) {
     };
     if (!candidate.needed && clock_.spent() > clock_.share(k_drawing_share))
         return leave_out("not reached within the budget");
-    const double allowed = clock_.share(candidate.needed ? k_needed_share : k_row_share);
+    const double allowed =
+        clock_.share(candidate.automatic || candidate.needed ? k_needed_share : k_row_share);
     const Scene scene = scene_with(candidate.settings);
     RenderResult result;
     const auto wall = std::chrono::steady_clock::now();
@@ -164,10 +188,17 @@ const StudiedRender* SceneStudier::try_out(const StudyCandidate& candidate) {
     times.wall.push_back(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count());
     StudiedRender render;
+    if (candidate.automatic) {
+        // The first time was with the check.
+        render.checked_cpu = times.cpu.front();
+        times = {};
+        time_once(candidate.settings, result.stats, times);
+    }
     render.id = static_cast<int>(study_.renders.size());
     render.sweep = candidate.sweep;
     render.setting = candidate.setting;
-    render.words = words_of(ground_, candidate.settings);
+    render.settled = settled_by(candidate.settings, result.stats);
+    render.words = words_of(ground_, render.settled);
     render.automatic = candidate.automatic;
     render.settings = candidate.settings;
     render.stats = std::move(result.stats);
@@ -186,6 +217,19 @@ const StudiedRender* SceneStudier::try_out(const StudyCandidate& candidate) {
     update_front();
     clock_.report();
     return &study_.renders.back();
+}
+
+// One more drawing, for its time.
+void SceneStudier::time_once(const RenderSettings& settings, const RenderStats& known,
+                             DrawnTimes& times) {
+    const Scene scene = scene_with(settings);
+    const auto wall = std::chrono::steady_clock::now();
+    const double cpu = clock_.spent();
+    clock_.within(std::numeric_limits<double>::infinity(),
+                  [&](const Progress& progress) { draw_for_time(scene, known, progress); });
+    times.cpu.push_back(clock_.spent() - cpu);
+    times.wall.push_back(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count());
 }
 
 // Quickest first; each is nearer to the truth than all before it. Pictures of others are let go.
@@ -230,13 +274,22 @@ std::optional<int> SceneStudier::cheapest_within(double tolerance) const {
     return best == nullptr ? std::nullopt : std::optional(best->id);
 }
 
+// What the plans chose, as somebody would who knows it: without planning.
+void SceneStudier::try_by_hand() {
+    std::vector<StudyCandidate> chosen;
+    for (const StudiedRender& render : study_.renders) {
+        if (render.automatic) chosen.push_back({"by hand", render.setting, render.settled});
+    }
+    for (const StudyCandidate& candidate : chosen) try_out(candidate);
+}
+
 // From the cheapest setting known for each tolerance to cheaper ones that still meet it.
 void SceneStudier::search() {
     for (const double tolerance : study_.options.tolerances) {
         for (;;) {
             const std::optional<int> at = cheapest_within(tolerance);
             if (!at || clock_.spent() > clock_.share(k_drawing_share)) break;
-            const RenderSettings settings = study_.render(*at).settings;
+            const RenderSettings settings = study_.render(*at).settled;
             const RenderStats stats = study_.render(*at).stats;
             const double before = study_.render(*at).cpu.median;
             for (const StudyCandidate& neighbour : cheaper_neighbours(ground_, settings, stats)) {
@@ -259,16 +312,8 @@ void SceneStudier::time_again() {
         for (const int id : chosen) {
             StudiedRender& render = study_.renders[static_cast<std::size_t>(id)];
             if (clock_.spent() + render.cpu.median > clock_.share(1)) continue;
-            const Scene scene = scene_with(render.settings);
             DrawnTimes& times = times_[static_cast<std::size_t>(id)];
-            const auto wall = std::chrono::steady_clock::now();
-            const double cpu = clock_.spent();
-            if (!clock_.within(std::numeric_limits<double>::infinity(),
-                               [&](const Progress& progress) { drawn(scene, progress); }))
-                continue;
-            times.cpu.push_back(clock_.spent() - cpu);
-            times.wall.push_back(
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count());
+            time_once(render.settings, render.stats, times);
             render.runs = static_cast<int>(times.cpu.size());
             render.cpu = of_runs(times.cpu);
             render.wall = of_runs(times.wall);
@@ -280,7 +325,7 @@ void SceneStudier::time_again() {
         StudiedRender& render = study_.renders[static_cast<std::size_t>(id)];
         if (!render.picture.rgb.empty()) continue;
         clock_.within(std::numeric_limits<double>::infinity(), [&](const Progress& progress) {
-            render.picture = drawn(scene_with(render.settings), progress).picture;
+            render.picture = drawn(scene_with(render.settled), progress).picture;
         });
         render.difference = judge_->difference(render.picture);
     }

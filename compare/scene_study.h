@@ -32,7 +32,8 @@ struct SceneStudyOptions {
 
 /// Errors of one picture over the stone's pixels.
 struct PictureError {
-    /// Mean absolute difference of R, G and B over the mean luminance: what `tolerance` speaks of.
+    /// Mean absolute difference of R, G and B over their mean: what `tolerance` speaks of
+    /// (render/plan/scene_plan.h).
     double mean = 0;
     double rmse = 0;  ///< root mean square, likewise
     /// Of the encoded picture, peak at white, decibel; nothing for equal pictures.
@@ -54,13 +55,17 @@ struct StudiedRender {
     std::string words;    ///< all of it: "beams, depth 8, tolerance 0.01, without dispersion"
     bool automatic = false;
     RenderSettings settings;  ///< as asked
+    RenderSettings settled;   ///< as drawn; automatic: what the plan made of them
     RenderStats stats;        ///< of the drawing
     PictureError error;
     /// `error.mean`, or what the reference itself may be off by where that is more.
     double claimed_error = 0;
     bool at_noise = false;  ///< the error is less than twice what the reference is off by
     int runs = 0;
-    StudyTime cpu, wall;  ///< of the drawing, without its check against the reference renderer
+    /// Of the drawing, without the beams' check against the reference renderer; automatic: with its
+    /// planning, and with the beams and their check where these did not prove near enough.
+    StudyTime cpu, wall;
+    double checked_cpu = 0;  ///< automatic: all that `render` does, the check too
     bool on_front = false;
     Picture picture;      ///< of those on the front
     PixelMap difference;  ///< likewise; luminance relative to the mean

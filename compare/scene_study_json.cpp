@@ -59,7 +59,7 @@ std::string effects_on(const RenderStats& stats) {
 
 // The fields of a table's row.
 Json row_of(const StudiedRender& render) {
-    const RenderSettings& asked = render.settings;
+    const RenderSettings& asked = render.settled;
     Json row = {{"id", render.id},
                 {"sweep", render.sweep},
                 {"setting", render.setting},
@@ -71,24 +71,27 @@ Json row_of(const StudiedRender& render) {
                 {"depth", render.stats.depth},
                 {"samples", asked.samples},
                 {"wavelengths", render.stats.wavelengths_nm.size()},
-                {"effects_asked", effects_asked(asked)},
+                {"cut_weight", asked.cut_weight ? Json(*asked.cut_weight) : Json(nullptr)},
+                {"effects_asked", effects_asked(render.settings)},
                 {"effects_on", effects_on(render.stats)},
                 {"crystal_beams", !asked.crystal_beams                           ? "auto"
                                   : *asked.crystal_beams == CrystalBeams::merged ? "merged"
                                                                                  : "parted"}};
     row.update(errors(render.error));
-    row.update(Json{{"claimed_error", number(render.claimed_error)},
-                    {"at_noise", render.at_noise},
-                    {"runs", render.runs},
-                    {"cpu_seconds", render.cpu.median},
-                    {"cpu_least", render.cpu.least},
-                    {"cpu_most", render.cpu.most},
-                    {"wall_seconds", render.wall.median},
-                    {"wall_least", render.wall.least},
-                    {"wall_most", render.wall.most},
-                    {"beams", render.stats.beams},
-                    {"rays", render.stats.rays},
-                    {"front", render.on_front}});
+    row.update(
+        Json{{"claimed_error", number(render.claimed_error)},
+             {"at_noise", render.at_noise},
+             {"runs", render.runs},
+             {"cpu_seconds", render.cpu.median},
+             {"cpu_least", render.cpu.least},
+             {"cpu_most", render.cpu.most},
+             {"checked_cpu_seconds", render.automatic ? Json(render.checked_cpu) : Json(nullptr)},
+             {"wall_seconds", render.wall.median},
+             {"wall_least", render.wall.least},
+             {"wall_most", render.wall.most},
+             {"beams", render.stats.beams},
+             {"rays", render.stats.rays},
+             {"front", render.on_front}});
     return row;
 }
 
@@ -125,6 +128,8 @@ std::string scene_study_json(const SceneStudy& study) {
     for (const StudiedRender& render : study.renders) {
         Json row = row_of(render);
         row["effects"] = effects_of(render.stats);
+        row["error_bound"] = render.automatic ? number(render.stats.error_bound) : Json(nullptr);
+        if (render.stats.plan) row["plan"] = Json::parse(plan_json(*render.stats.plan));
         rows.push_back(std::move(row));
     }
     object["settings"] = std::move(rows);

@@ -53,7 +53,7 @@ std::vector<std::vector<double>> wavelength_sets(const StudyGround& ground) {
 
 // From the engine's own choices to everything on at this tolerance.
 RenderSettings with_all(const Scene& scene, const std::string& engine, double tolerance) {
-    RenderSettings settings = exact_settings(scene, tolerance);
+    RenderSettings settings = exact_settings(scene, tolerance, k_node_counts[1]);
     settings.engine = engine;
     if (engine == "reference") settings.samples = 4;
     return settings;
@@ -70,15 +70,11 @@ public:
 
     void automatic() {
         for (const double tolerance : ground_.tolerances) {
-            RenderSettings settings = ground_.scene.settings;
-            settings.engine = "auto";
-            settings.tolerance = tolerance;
+            RenderSettings settings = with_all(ground_.scene, "auto", tolerance);
             settings.effects_auto = true;
-            settings.depth = 0;
-            settings.samples = 0;
-            settings.crystal_beams.reset();
-            if (settings.wavelengths_nm.size() != 1) settings.wavelengths_nm.clear();
-            add("automatic", fmt::format("tolerance {:g}", tolerance), settings, true, true);
+            if (ground_.scene.settings.wavelengths_nm.size() != 1) settings.wavelengths_nm.clear();
+            add("automatic", fmt::format("tolerance {:g}", tolerance), settings, true,
+                tolerance == ground_.tolerance);
         }
     }
     // The engine, and how finely it cuts.
@@ -161,7 +157,7 @@ private:
 
 }  // namespace
 
-RenderSettings exact_settings(const Scene& scene, double tolerance) {
+RenderSettings exact_settings(const Scene& scene, double tolerance, int nodes) {
     RenderSettings settings = scene.settings;
     settings.engine = "reference";
     settings.tolerance = tolerance;
@@ -171,11 +167,19 @@ RenderSettings exact_settings(const Scene& scene, double tolerance) {
     // As "all" in a scene file: where the scene calls for it.
     settings.effects[static_cast<std::size_t>(Effects::coherence)] = false;
     settings.crystal_beams.reset();
+    settings.cut_weight.reset();
+    settings.split_weight.reset();
+    settings.checked_pixels = settings.checked_samples = 0;
     settings.refraction = Refraction::astigmatic;
     settings.samples = 0;
     settings.spectral = false;
     // A single wavelength is what the scene shows; several are how finely it is computed.
-    if (settings.wavelengths_nm.size() != 1) settings.wavelengths_nm.clear();
+    if (settings.wavelengths_nm.size() != 1) {
+        settings.wavelengths_nm.clear();
+        Scene exact = scene;
+        exact.settings = settings;
+        settings.wavelengths_nm = make_plan(exact, nodes).wavelengths_nm;
+    }
     return settings;
 }
 
@@ -200,6 +204,11 @@ std::vector<StudyCandidate> cheaper_neighbours(const StudyGround& ground,
     if (coarser != k_tolerances.rend()) {
         RenderSettings changed = settings;
         changed.tolerance = *coarser;
+        add(changed);
+    }
+    if (settings.cut_weight) {
+        RenderSettings changed = settings;
+        changed.cut_weight = 3 * *settings.cut_weight;
         add(changed);
     }
     const auto sets = wavelength_sets(ground);
@@ -278,6 +287,7 @@ std::string words_of(const StudyGround& ground, const RenderSettings& settings) 
     }
     if (settings.depth > 0) words += fmt::format(", depth {}", settings.depth);
     words += fmt::format(", tolerance {:g}", settings.tolerance);
+    if (settings.cut_weight) words += fmt::format(", weights over {:.2g}", *settings.cut_weight);
     if (settings.crystal_beams) {
         words +=
             *settings.crystal_beams == CrystalBeams::merged ? ", waves merged" : ", waves parted";
@@ -288,10 +298,11 @@ std::string words_of(const StudyGround& ground, const RenderSettings& settings) 
 }
 
 std::string key_of(const StudyGround& ground, const RenderSettings& settings) {
-    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}", settings.engine, settings.samples,
+    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", settings.engine, settings.samples,
                        settings.tolerance, settings.depth, settings.effects_auto,
                        fmt::join(settings.wavelengths_nm, " "),
                        settings.crystal_beams ? static_cast<int>(*settings.crystal_beams) : -1,
+                       settings.cut_weight.value_or(-1), settings.split_weight.value_or(-1),
                        fmt::join(effects_left_out(ground, settings), " "));
 }
 

@@ -24,9 +24,9 @@ struct StudyGround {
     std::vector<double> tolerances;  ///< falling
 };
 
-/// What the reference is drawn with, but for samples and seed: everything on, nothing left to the
-/// engine's choice but the number of wavelengths and the depth.
-RenderSettings exact_settings(const Scene& scene, double tolerance);
+/// Everything on, and nothing left open for a plan: what the reference is drawn with, but for
+/// samples and seed. `nodes`: wavelengths, where a spectrum is called for.
+RenderSettings exact_settings(const Scene& scene, double tolerance, int nodes);
 
 /// Automatic settings at each tolerance, engines, and one thing varied at a time about the
 /// scene's tolerance; the most telling first.

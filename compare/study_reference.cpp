@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::array k_sizes{256, 192, 128, 96, 64};
 // Rays a pixel of each half are this number squared, on a regular grid, and one less, which are
-// spread otherwise. None is among those that settings are tried with.
-constexpr std::array k_sides{3, 5, 7, 9, 11, 13, 17, 21, 27, 33, 43, 55};
+// spread otherwise.
+constexpr std::array k_sides{2, 3, 4, 5, 7, 9, 11, 13, 17, 21, 27, 33, 43, 55};
 constexpr int k_most_side = 64;
 constexpr int k_wanted_rays = 64;
 constexpr int k_probe = 24, k_probe_rays = 4;
@@ -30,7 +30,7 @@ constexpr double k_of_finest = 1.0 / 3, k_quiet = 0.1, k_rough_tolerance = 0.03;
 
 Scene exact_scene(const Scene& scene, double finest_tolerance, int samples) {
     Scene exact = scene;
-    exact.settings = exact_settings(scene, k_of_finest * finest_tolerance);
+    exact.settings = exact_settings(scene, k_of_finest * finest_tolerance, k_node_counts.back());
     exact.settings.samples = samples;
     return exact;
 }
@@ -38,10 +38,7 @@ Scene exact_scene(const Scene& scene, double finest_tolerance, int samples) {
 // Few wavelengths and short paths: near to the exact picture ray by ray, for a small part of the
 // time. Nothing where that would save little.
 std::optional<RenderSettings> rough_settings(const Scene& scene, const RenderStats& exact) {
-    RenderSettings rough = exact_settings(scene, k_rough_tolerance);
-    Scene few = scene;
-    few.settings = rough;
-    rough.wavelengths_nm = make_plan(few, k_node_counts[0]).wavelengths_nm;
+    const RenderSettings rough = exact_settings(scene, k_rough_tolerance, k_node_counts.front());
     if (2 * rough.wavelengths_nm.size() > exact.wavelengths_nm.size() + 1) return std::nullopt;
     return rough;
 }

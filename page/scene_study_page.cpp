@@ -202,38 +202,45 @@ std::string front_section(const Json& study, const SceneStudyView& view) {
         return std::find_if(view.pictures.begin(), view.pictures.end(),
                             [&](const SceneStudyPicture& p) { return p.id == id; });
     };
-    std::string figures;
-    const auto figure = [&](const std::string& uri, const std::string& title,
-                            const std::string& about, const std::string& more) {
-        figures += fmt::format(
-            "<figure class=\"map\"><img src=\"{}\" alt=\"{}\"><figcaption><b>{}</b> {}"
-            "</figcaption>{}</figure>\n",
-            escaped(uri), escaped(title), escaped(title), about, more);
+    // Two pictures beside each other, or one.
+    const auto figure = [](const std::string& uri, const std::string& difference,
+                           const std::string& title, const std::string& about,
+                           const std::string& bar) {
+        return fmt::format(
+            "<figure class=\"pair\"><img src=\"{}\" alt=\"{}\">{}<figcaption><b>{}</b> {}{}"
+            "</figcaption></figure>\n",
+            escaped(uri), escaped(title),
+            difference.empty() ? ""
+                               : fmt::format("<img src=\"{}\" alt=\"Difference to the reference\">",
+                                             escaped(difference)),
+            escaped(title), about, bar);
     };
+    std::string figures;
     if (const auto truth = pictures_of(-1); truth != view.pictures.end()) {
-        figure(truth->picture, "Reference",
-               fmt::format("{} rays a pixel, {} s",
-                           whole(number_at(object_at(study, "reference"), "samples")),
-                           significant(number_at(object_at(study, "reference"), "cpu_seconds"))),
-               "");
+        const Json reference = object_at(study, "reference");
+        figures +=
+            figure(truth->picture, "", "The reference",
+                   fmt::format("{} s, noise {}", significant(number_at(reference, "cpu_seconds")),
+                               significant(noise_of(study), 2)),
+                   "");
     }
     for (const Json* row : front_of(study)) {
         const auto shown = pictures_of(value_at(*row, "id"));
         if (shown == view.pictures.end()) continue;
-        figure(shown->picture, fmt::format("{} ms, error {}", ms(*row), error_of(*row)),
-               escaped(words_in(*row)), "");
         const std::string scale = significant(shown->difference_scale, 2);
-        figure(shown->difference, "Its difference",
-               fmt::format("in luminance; effects {}", escaped(effects_words(*row))),
-               colour_bar(ColourMap::difference, "of the mean radiance", "−" + scale, "0",
-                          "+" + scale));
+        figures += figure(shown->picture, shown->difference,
+                          fmt::format("{} ms, error {}", ms(*row), error_of(*row)),
+                          fmt::format("{}<br><small>{}</small>", escaped(words_in(*row)),
+                                      escaped(effects_words(*row))),
+                          colour_bar(ColourMap::difference, "difference, of the mean radiance",
+                                     "−" + scale, "0", "+" + scale));
     }
     if (figures.empty()) return {};
     return section("front", "The pictures along the front",
                    "<p class=\"note\">From quick to exact. No other setting that was drawn is both "
-                   "quicker and nearer to the reference. White is what 1 % of the stone's pixels "
-                   "are brighter than; each difference has its own scale.</p>\n<div "
-                   "class=\"maps pairs\">" +
+                   "quicker and nearer to the reference. White is five times the mean; "
+                   "differences are in luminance, each with its own scale.</p>\n<div "
+                   "class=\"pairs\">" +
                        figures + "</div>\n");
 }
 
@@ -272,11 +279,12 @@ std::string settings_section(const Json& study) {
     const Json noise = object_at(object_at(study, "reference"), "noise");
     body += fmt::format(
         "<p class=\"note\">Error: mean absolute difference of R, G and B over the stone, relative "
-        "to its mean luminance, which is what a tolerance speaks of; ≤ where it is less than twice "
+        "to their mean, which is what a tolerance speaks of; ≤ where it is less than twice "
         "the reference's own. RMSE likewise. PSNR, ΔE00 (mean and 95 %) and FLIP are of the "
         "picture as shown. The reference's own noise in these: {}, {}, {} dB, {}, {}. Time: median "
-        "(least and most) of the drawing, without the beams' check against the reference, which "
-        "<code>culet render</code> adds.</p>\n",
+        "(least and most) of the drawing; of automatic settings, with planning. The beams' check "
+        "against the reference, which <code>culet render</code> adds, is in it only where it made "
+        "the automatic settings take the reference.</p>\n",
         significant(number_at(noise, "error"), 2), significant(number_at(noise, "rmse"), 2),
         decimals(number_at(noise, "psnr"), 1), decimals(number_at(noise, "deltaE00_mean"), 2),
         decimals(number_at(noise, "flip_mean"), 4));
