@@ -304,6 +304,34 @@ std::string settings_section(const Json& study) {
     return section("settings", "All settings", body);
 }
 
+// What the automatic settings decided, tolerance by tolerance.
+std::string plans_section(const Json& study) {
+    std::string body;
+    for (const Json& row : array_at(study, "settings")) {
+        const Json plan = object_at(row, "plan");
+        std::string rows;
+        for (const Json& item : array_at(plan, "items")) {
+            rows += fmt::format(
+                "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}{}{}</td><td class=\"n\">{}</td>"
+                "</tr>\n",
+                escaped(text_at(item, "name")), true_at(item, "on") ? "on" : "off",
+                escaped(text_at(item, "fidelity")), text_at(item, "fidelity").empty() ? "" : "; ",
+                escaped(text_at(item, "why")), significant(number_at(item, "error_bound"), 2));
+        }
+        if (rows.empty()) continue;
+        body += fmt::format(
+            "<details><summary>Tolerance {}: {}; error {}, bound {}; {} ms</summary>{}</details>\n",
+            significant(number_at(row, "tolerance")), escaped(words_in(row)), error_of(row),
+            significant(number_at(row, "error_bound"), 2), ms(row),
+            table(
+                "Engine: " + escaped(text_at(plan, "engine") + ", " + text_at(plan, "engine_why")),
+                "<th scope=\"col\">What</th><th scope=\"col\"></th><th scope=\"col\">How, and "
+                "why</th><th scope=\"col\" class=\"n\">Error bound</th>",
+                rows));
+    }
+    return section("plans", "What the automatic settings decided", body);
+}
+
 std::string reference_section(const Json& study) {
     const Json reference = object_at(study, "reference");
     std::string rows;
@@ -377,6 +405,7 @@ std::string scene_study_page(const SceneStudyView& view) {
             "reference as can be told (noise). Numbers beside the automatic settings are their "
             "tolerances.</p>\n");
     body += front_section(study, view);
+    body += plans_section(study);
     body += settings_section(study);
     body += reference_section(study);
     body += study_provenance(study, view.version, view.command);

@@ -121,8 +121,9 @@ TEST_F(StudyCommand, RefusesInOneLineAndWritesNothing) {
 TEST_F(StudyCommand, OfASceneWritesTablesChartJsonPicturesAndPage) {
     write_cube(all_readings());
     write_scene();
-    const ProgramRun run = run_culet({"study", file("scene.toml"), "-o", file("out"), "--size",
-                                      "20", "--runs", "2", "--budget", "3", "-q"});
+    const ProgramRun run =
+        run_culet({"study", file("scene.toml"), "-o", file("out"), "--size", "16", "--runs", "2",
+                   "--budget", "2", "--threads", "1", "-q"});
     EXPECT_LE(run.exit_code, 1) << run.err;
     EXPECT_EQ(run.err, "");
     EXPECT_THAT(run.out, HasSubstr("setting on the front"));
@@ -130,7 +131,7 @@ TEST_F(StudyCommand, OfASceneWritesTablesChartJsonPicturesAndPage) {
     const auto json = nlohmann::json::parse(text("out/study.json"));
     EXPECT_EQ(json["kind"], "scene");
     EXPECT_EQ(json["name"], "Cube");
-    EXPECT_EQ(json["size"], nlohmann::json({20, 15}));
+    EXPECT_EQ(json["size"], nlohmann::json({16, 12}));
     EXPECT_EQ(json["scene_size"], nlohmann::json({80, 60}));
     EXPECT_FALSE(json["front"].empty());
     EXPECT_EQ(xml_fault(text("out/time.svg")), "");

@@ -27,7 +27,9 @@ nlohmann::json study() {
            "claimed_error": 0.008, "at_noise": false, "rmse": 0.02, "psnr": 40, "runs": 5,
            "deltaE00_mean": 0.5, "deltaE00_p95": 2, "flip_mean": 0.01, "cpu_seconds": 0.13,
            "cpu_least": 0.12, "cpu_most": 0.15, "wall_seconds": 0.1, "front": false,
-           "effects": [{"name": "dispersion", "on": true}, {"name": "absorption", "on": false}]},
+           "effects": [{"name": "dispersion", "on": true}, {"name": "absorption", "on": false}],
+           "plan": {"engine": "beams", "engine_why": "quicker", "items": [{"name": "depth",
+             "on": true, "fidelity": "8 faces", "why": "<enough>", "error_bound": 0.001}]}},
           {"id": 1, "sweep": "search", "setting": "x", "words": "preview, 3 wavelengths",
            "engine": "preview", "claimed_error": 0.009, "cpu_seconds": 0.12, "front": true},
           {"id": 2, "sweep": "samples", "setting": "64", "words": "reference, 64 rays a pixel",
@@ -55,6 +57,7 @@ TEST(SceneStudyPage, shows_advice_front_and_settings) {
     EXPECT_THAT(page, HasSubstr("src=\"data:,d\""));
     EXPECT_THAT(page, HasSubstr("≤ 0.0020"));
     EXPECT_THAT(page, HasSubstr("on: dispersion; off: absorption"));
+    EXPECT_THAT(page, HasSubstr("8 faces; &lt;enough&gt;"));
     EXPECT_THAT(page, HasSubstr("1 settings were not drawn"));
     EXPECT_THAT(page, HasSubstr("culet study s"));
     EXPECT_EQ(xml_fault(scene_study_chart(study().dump())), "");
