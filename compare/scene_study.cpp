@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 
 #include "compare/picture_error.h"
@@ -20,7 +19,7 @@ namespace culet {
 
 namespace {
 
-constexpr double k_reference_share = 0.4, k_drawing_share = 0.85;
+constexpr double k_reference_share = 0.4, k_design_share = 0.65, k_search_share = 0.85;
 // Of the budget: for the first drawing of one setting, and of one that the study needs.
 constexpr double k_row_share = 0.06, k_needed_share = 0.15;
 // Settings whose first run took up to this times as long as the front's are timed again: their
@@ -65,7 +64,7 @@ RenderSettings settled_by(const RenderSettings& asked, const RenderStats& stats)
 // What one has to do to draw so: automatic settings are planned first.
 void draw_for_time(const Scene& scene, const RenderStats& known, const Progress& progress) {
     if (!known.plan || known.plan->settings.engine != known.engine) {
-        // Or nothing was to be planned; or its beams were drawn and checked in vain.
+        // Nothing was open; or the plan's beams were not near enough, which takes all of `render`.
         drawn(scene, progress);
         return;
     }
@@ -81,8 +80,7 @@ public:
         study_.options = options;
         std::vector<double>& tolerances = study_.options.tolerances;
         const double asked = scene.settings.tolerance > 0 ? scene.settings.tolerance : 0.01;
-        if (std::none_of(tolerances.begin(), tolerances.end(),
-                         [&](double t) { return std::abs(t / asked - 1) < 1e-9; }))
+        if (std::find(tolerances.begin(), tolerances.end(), asked) == tolerances.end())
             tolerances.push_back(asked);
         std::sort(tolerances.rbegin(), tolerances.rend());
         study_.name = scene.stone.name;
@@ -95,6 +93,7 @@ public:
     SceneStudy study() {
         prepare();
         for (const StudyCandidate& candidate : study_design(ground_)) try_out(candidate);
+        drawing_share_ = k_search_share;
         try_by_hand();
         search();
         time_again();
@@ -105,7 +104,7 @@ public:
 
 private:
     void prepare();
-    const StudiedRender* try_out(const StudyCandidate& candidate);
+    void try_out(const StudyCandidate& candidate);
     void time_once(const RenderSettings& settings, const RenderStats& known, DrawnTimes& times);
     void try_by_hand();
     void search();
@@ -129,8 +128,8 @@ private:
     SceneStudy study_;
     std::optional<PictureJudge> judge_;
     std::vector<DrawnTimes> times_;  // of each render
-    std::map<std::string, int> by_key_;
     std::set<std::string> tried_;
+    double drawing_share_ = k_design_share;  // of the budget: until when settings are tried
 };
 
 void SceneStudier::prepare() {
@@ -157,18 +156,15 @@ void SceneStudier::prepare() {
     if (!ground_.beams) study_.notes.push_back("engines beams and preview: " + refused);
 }
 
-// Draws and judges a setting that was not drawn yet; nothing when there is no time for it.
-const StudiedRender* SceneStudier::try_out(const StudyCandidate& candidate) {
+// Draws and judges a setting that was not tried yet, if there is time for it.
+void SceneStudier::try_out(const StudyCandidate& candidate) {
     const std::string key = key_of(ground_, candidate.settings);
-    if (const auto found = by_key_.find(key); found != by_key_.end())
-        return &study_.renders[static_cast<std::size_t>(found->second)];
-    if (!tried_.insert(key).second) return nullptr;
+    if (!tried_.insert(key).second) return;
     const auto leave_out = [&](const std::string& why) {
         study_.left_out.push_back(fmt::format("{} {} ({}): {}", candidate.sweep, candidate.setting,
                                               words_of(ground_, candidate.settings), why));
-        return nullptr;
     };
-    if (!candidate.needed && clock_.spent() > clock_.share(k_drawing_share))
+    if (!candidate.needed && clock_.spent() > clock_.share(drawing_share_))
         return leave_out("not reached within the budget");
     const double allowed =
         clock_.share(candidate.automatic || candidate.needed ? k_needed_share : k_row_share);
@@ -189,10 +185,12 @@ const StudiedRender* SceneStudier::try_out(const StudyCandidate& candidate) {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count());
     StudiedRender render;
     if (candidate.automatic) {
-        // The first time was with the check.
+        // All that `render` does: where it drew by beams, with their check.
         render.checked_cpu = times.cpu.front();
-        times = {};
-        time_once(candidate.settings, result.stats, times);
+        if (result.stats.engine != "reference") {
+            times = {};
+            time_once(candidate.settings, result.stats, times);
+        }
     }
     render.id = static_cast<int>(study_.renders.size());
     render.sweep = candidate.sweep;
@@ -211,12 +209,10 @@ const StudiedRender* SceneStudier::try_out(const StudyCandidate& candidate) {
     render.wall = of_runs(times.wall);
     render.difference = judge_->difference(result.picture);
     render.picture = std::move(result.picture);
-    by_key_[key] = render.id;
     study_.renders.push_back(std::move(render));
     times_.push_back(std::move(times));
     update_front();
     clock_.report();
-    return &study_.renders.back();
 }
 
 // One more drawing, for its time.
@@ -288,12 +284,12 @@ void SceneStudier::search() {
     for (const double tolerance : study_.options.tolerances) {
         for (;;) {
             const std::optional<int> at = cheapest_within(tolerance);
-            if (!at || clock_.spent() > clock_.share(k_drawing_share)) break;
+            if (!at || clock_.spent() > clock_.share(drawing_share_)) break;
             const RenderSettings settings = study_.render(*at).settled;
             const RenderStats stats = study_.render(*at).stats;
             const double before = study_.render(*at).cpu.median;
             for (const StudyCandidate& neighbour : cheaper_neighbours(ground_, settings, stats)) {
-                if (clock_.spent() > clock_.share(k_drawing_share)) break;
+                if (clock_.spent() > clock_.share(drawing_share_)) break;
                 try_out(neighbour);
             }
             const std::optional<int> next = cheapest_within(tolerance);

@@ -22,8 +22,8 @@ struct SceneStudyOptions {
     /// The longer side of the pictures, pixels; 0: from 64 to 256, as large as a reference of 64
     /// rays a pixel is expected to be within its share of the budget.
     int size = 0;
-    /// Seconds of processor time; 0: no limit. References of ever more rays take up to 40 % of it,
-    /// settings and the search 45 %, repeated timing the rest. One that is too small is overrun:
+    /// Seconds of processor time; 0: no limit. The reference takes up to 40 % of it, the
+    /// design 25 %, the search 20 %, repeated timing the rest. One that is too small is overrun:
     /// the automatic settings and each engine are drawn at least once.
     double budget_seconds = 120;
     std::vector<double> tolerances{0.1, 0.03, 0.01, 0.003};
