@@ -64,6 +64,11 @@ std::string error_of(const Json& row) {
     return (true_at(row, "at_noise") ? "≤ " : "") + significant(number_at(row, "claimed_error"), 2);
 }
 
+// As people write tolerances: 0.1, 0.003.
+std::string tolerance_of(const Json& row) {
+    return fmt::format("{:g}", value_at(row, "tolerance"));
+}
+
 double noise_of(const Json& study) {
     return value_at(object_at(object_at(study, "reference"), "noise"), "error");
 }
@@ -99,8 +104,7 @@ Chart time_chart(const Json& study) {
     }
     ChartSeries automatic{"automatic", {}, true, true, false};
     for (const Json& row : array_at(study, "settings")) {
-        if (true_at(row, "automatic"))
-            automatic.points.push_back(point(row, significant(number_at(row, "tolerance"))));
+        if (true_at(row, "automatic")) automatic.points.push_back(point(row, tolerance_of(row)));
     }
     if (!automatic.points.empty()) chart.series.push_back(std::move(automatic));
     // As wide as the settings are.
@@ -167,9 +171,9 @@ std::string advice_section(const Json& study) {
             "<tr><th scope=\"row\" class=\"n\">{}</th><td>{}</td><td class=\"n\">{}</td>"
             "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}{}</td>"
             "<td class=\"n strong\">{}</td></tr>\n",
-            significant(number_at(advice, "tolerance")),
-            cheapest ? escaped(words_in(*cheapest)) : "none", cheapest ? ms(*cheapest) : "–",
-            cheapest ? error_of(*cheapest) : "–", own ? ms(*own) : "–", own ? error_of(*own) : "–",
+            tolerance_of(advice), cheapest ? escaped(words_in(*cheapest)) : "none",
+            cheapest ? ms(*cheapest) : "–", cheapest ? error_of(*cheapest) : "–",
+            own ? ms(*own) : "–", own ? error_of(*own) : "–",
             own && !true_at(advice, "automatic_meets") ? " <span class=\"badge\">over</span>" : "",
             ratio ? decimals(ratio, 2) + "×" : "–");
         std::string line = text_at(advice, "words");
@@ -321,7 +325,7 @@ std::string plans_section(const Json& study) {
         if (rows.empty()) continue;
         body += fmt::format(
             "<details><summary>Tolerance {}: {}; error {}, bound {}; {} ms</summary>{}</details>\n",
-            significant(number_at(row, "tolerance")), escaped(words_in(row)), error_of(row),
+            tolerance_of(row), escaped(words_in(row)), error_of(row),
             significant(number_at(row, "error_bound"), 2), ms(row),
             table(
                 "Engine: " + escaped(text_at(plan, "engine") + ", " + text_at(plan, "engine_why")),
