@@ -13,6 +13,9 @@ namespace culet {
 
 namespace {
 
+// Half the difference of the halves of a pixel's rays is not quite what all of them are off by.
+constexpr double k_sampling_bound = 1.3;
+
 bool leaves_something_open(const RenderSettings& settings) {
     return settings.tolerance > 0 &&
            (settings.engine == "auto" || settings.effects_auto || settings.wavelengths_nm.empty());
@@ -37,9 +40,10 @@ void add_plan(const ScenePlan& plan, RenderStats& stats) {
     }
     stats.seconds_setup += plan.seconds_planning;
     if (plan.pilot_pixels == 0) return;
-    stats.error_bound = plan.bound + (beams                      ? stats.engine_error
-                                      : stats.sampling_error > 0 ? stats.sampling_error
-                                                                 : plan.bound_of_sampling);
+    stats.error_bound =
+        plan.bound + (beams                      ? stats.engine_error
+                      : stats.sampling_error > 0 ? k_sampling_bound * stats.sampling_error
+                                                 : plan.bound_of_sampling);
     std::erase_if(stats.notes, [](const std::string& note) {
         return note.find("over the tolerance") != std::string::npos;
     });
@@ -65,8 +69,8 @@ RenderResult render(const Scene& scene, const Progress& progress) {
         const double took =
             result.stats.seconds_build + result.stats.seconds_shade + result.stats.seconds_check;
         const double measured = result.stats.engine_error;
-        settled.settings.engine = "reference";
-        settled.settings.samples = plan.reference_samples;
+        settled.settings = plan.reference;
+        settled.settings.effects = plan.settings.effects;
         result = render_with_reference(settled, progress);
         result.stats.seconds_setup += took;
         add_plan(plan, result.stats);

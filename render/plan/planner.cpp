@@ -135,7 +135,7 @@ void Planner::choose_pixels() {
     const PilotDrawing glance = draw_pilot(scene, pixels_, limits(mean_guess), 1);
     const PathWork work = work_of(scene, glance, 1);
     const bool spectral = on(Effects::dispersion) && user_.wavelengths_nm.empty();
-    const double bands = spectral ? 12 : 1;
+    const double bands = spectral ? 4 : 1;
     BeamWork beams;
     beams.pixels = pixels_.in_picture;
     beams.bands = bands;
@@ -143,7 +143,7 @@ void Planner::choose_pixels() {
     const double by_paths = pixels_.in_picture * 16 * bands * price_ns(work);
     const double picture = work.general ? by_paths : std::min(by_paths, price_ns(beams));
     // Rays of one pilot pixel: of the cuts and effects, of the wavelengths, of the samples.
-    const double rays = 4 * 8 + (spectral ? k_spectral_rays * 28 : 8) + 20;
+    const double rays = 4 * 8 + (spectral ? 4 * (36 + 16) + 16 : 8) + 20;
     const double affordable = std::max(k_planning_share * picture, k_planning_ns) /
                               (rays * std::max(price_ns(work), 1.0));
     const int wanted =

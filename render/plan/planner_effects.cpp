@@ -67,6 +67,11 @@ void Planner::try_without(Effects effect, double share) {
     const int samples = on(Effects::aperture) ? k_lens_rays : k_pilot_rays;
     const Scene with = at_pilot_wavelengths(with_effects(false)),
                 without = at_pilot_wavelengths(with_effects(false, effect));
+    const Plan still = make_plan(without);
+    if (still.on(effect)) {
+        line.why = still.effects[static_cast<std::size_t>(effect)].why;
+        return;
+    }
     const PilotDrawing there = samples == k_pilot_rays ? first_ : draw(with, samples);
     const PilotDrawing gone = draw(without, samples);
     const ColourError error = colour_error(gone.rgb, there.rgb);

@@ -44,9 +44,9 @@ struct ScenePlan {
     double seconds = 0;                   ///< estimated processor time of the picture
     double seconds_everything = 0;        ///< the same with everything on, by the reference
     double seconds_planning = 0;          ///< that this plan took
-    int reference_samples = 0;            ///< rays a pixel that the reference would need
-    double mean_radiance = 0;             ///< of the stone, as the pilot sees it
-    int pilot_pixels = 0;                 ///< 0: nothing was open, or tolerance 0: no pilot
+    RenderSettings reference;  ///< what the reference would need, where beams do not hold
+    double mean_radiance = 0;  ///< of the stone, as the pilot sees it
+    int pilot_pixels = 0;      ///< 0: nothing was open, or tolerance 0: no pilot
 
     const PlanItem& item(const std::string& name) const;
 };

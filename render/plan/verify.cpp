@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/colour_error.h"
+#include "render/plan/planner.h"
 
 namespace culet {
 
@@ -22,6 +23,7 @@ Truth draw_truth(const Scene& scene, const ScenePlan& plan, int pixels, int samp
     if (whole.camera.optics.two_windows) whole.camera.width /= 2;
     RenderSettings& settings = whole.settings;
     settings.effects_auto = true;
+    settings.wavelength_turns = turns_for(samples, k_node_counts.back());
     PathLimits limits;
     limits.seed = settings.seed + 1;
     limits.depth = k_deepest;
@@ -65,7 +67,7 @@ Verification verify(const Scene& scene, const RenderResult& result) {
     plan.settings = scene.settings;
     if (result.stats.plan) plan = *result.stats.plan;
     plan.settings.wavelengths_nm = result.stats.wavelengths_nm;
-    const int samples = std::clamp(4 * plan.reference_samples, k_verified_samples, 256);
+    const int samples = std::clamp(4 * plan.reference.samples, k_verified_samples, 256);
     const Truth truth = draw_truth(scene, plan, k_verified_pixels, samples);
     Verification found = hold_against(truth, result.picture);
     found.bound = result.stats.error_bound;
