@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "render/colour_error.h"
 #include "render/plan.h"
 #include "render/plan/pilot_picture.h"
 #include "render/plan/price.h"
@@ -26,6 +27,11 @@ std::vector<double> even_wavelengths(int count);
 /// Turns that the rays of a pixel take with so many wavelengths: four at a time bring nearly as
 /// much as all of them, and each at least twice.
 int turns_for(int rays, int wavelengths);
+
+/// Of noise, which the finished picture shows anew: with one and a half standard errors.
+inline double likely(const ColourError& noise) {
+    return noise.radiance + 1.5 * noise.radiance_spread;
+}
 
 class Planner {
 public:

@@ -51,8 +51,8 @@ void Planner::say_what_is_known() {
     }
     if (on(Effects::pleochroism)) {
         item(Effects::pleochroism).why =
-            fmt::format("{}'s two waves differ by up to {:.2g} % on one way across", stone,
-                        100 * pleochroism_across(scene_));
+            fmt::format("{}'s waves differ by up to {:.2g} in absorbance on one way across", stone,
+                        absorbance_apart(scene_));
     }
     if (on(Effects::aperture)) {
         item(Effects::aperture).why =

@@ -50,7 +50,7 @@ void Planner::choose_engine_and_samples() {
     if (!dispersed_) {
         const Scene flat = at_pilot_wavelengths(with_effects(false));
         const ColourError noise = colour_error(draw(flat, 4).rgb, draw(flat, 16).rgb);
-        noise_ = {4, k_of_four * noise.bound(), k_of_four * noise.bound_delta_e(), 0.7};
+        noise_ = {4, k_of_four * likely(noise), k_of_four * noise.bound_delta_e(), 0.7};
     }
     const bool open = user_.wavelengths_nm.empty();
     const double room = std::max(tolerance_ - spent_, 0.25 * tolerance_);
@@ -61,7 +61,7 @@ void Planner::choose_engine_and_samples() {
     double bands = 1, bands_of_ray = 1;
     if (dispersed_) {
         if (open) {
-            const bool few = reference.samples < 16 && !on(Effects::coherence);
+            const bool few = reference.samples <= 4 && !on(Effects::coherence);
             reference.wavelengths_nm = even_wavelengths(few                      ? 15
                                                         : reference.samples < 36 ? 29
                                                                                  : 57);
@@ -121,9 +121,9 @@ void Planner::choose_engine_and_samples() {
             fmt::format("{} rays a pixel do: beams would take about {:.2g} times as long",
                         reference.samples, by_beams / by_paths);
     }
+    plan_.bound_of_sampling = noise_.at(reference.samples);
     if (settings.engine == "reference") {
         settings = reference;
-        plan_.bound_of_sampling = noise_.at(reference.samples);
         noise_.delta_e *= noise_.at(reference.samples) / std::max(noise_.radiance, 1e-300);
         plan_.seconds = by_paths;
     } else {
@@ -213,7 +213,9 @@ void Planner::add_resolutions() {
                                       : "a guess",
         piloted ? wavelength_bound_ : unknown, wavelength_delta_e_);
     const bool edges = hard_edged(scene_.lights);
-    add("samples", !beams, beams ? "exact areas" : fmt::format("{} rays a pixel", settings.samples),
+    add("samples", !beams,
+        beams ? "exact areas"
+              : fmt::format("{} ray{} a pixel", settings.samples, settings.samples == 1 ? "" : "s"),
         beams               ? "beams tile the picture"
         : user_.samples > 0 ? "as the scene says"
         : piloted           ? fmt::format("{} would be off by {:.2g}", noise_.rays, noise_.radiance)

@@ -105,7 +105,7 @@ void Planner::choose_wavelengths() {
         if (open) rough.settings.wavelengths_nm = even_wavelengths(29);
         rough.settings.wavelength_turns = turns_for(k_lens_rays, 29);
         const ColourError noise = colour_error(draw(rough, k_lens_rays).rgb, fine.rgb);
-        noise_ = {k_lens_rays, k_of_sixteen * noise.bound(), k_of_sixteen * noise.bound_delta_e(),
+        noise_ = {k_lens_rays, k_of_sixteen * likely(noise), k_of_sixteen * noise.bound_delta_e(),
                   0.6};
         if (on(Effects::dispersion)) {
             if (flat_spectrum) flat = finest(flat);

@@ -84,6 +84,13 @@ Drawn drawn(const Scene& scene, const Truth& truth) {
     return result;
 }
 
+// As render() has it.
+double bound_of(const ScenePlan& plan, const Drawn& result) {
+    return plan.bound + (result.engine == "reference"
+                             ? std::max(plan.bound_of_sampling, result.bound)
+                             : result.bound);
+}
+
 double median(std::vector<double> values) {
     if (values.empty()) return 0;
     std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2),
@@ -150,8 +157,7 @@ int run(const Options& options) {
             Scene settled = item.scene;
             settled.settings = plan.settings;
             Drawn result = drawn(settled, truth);
-            double bound =
-                plan.bound + (std::isnan(result.bound) ? plan.bound_of_sampling : result.bound);
+            double bound = bound_of(plan, result);
             if (result.engine != "reference" && bound > tolerance && options.beams_only) {
                 fmt::print(
                     "    beams: {:.2g} by their check with {} rays at {} pixels, measured "
@@ -170,8 +176,7 @@ int run(const Options& options) {
                 result = drawn(settled, truth);
                 result.engine = "ref. after";
                 result.cpu += before;
-                bound =
-                    plan.bound + (std::isnan(result.bound) ? plan.bound_of_sampling : result.bound);
+                bound = bound_of(plan, result);
             }
             const Verification& found = result.found;
             std::string off;
