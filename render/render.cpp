@@ -64,7 +64,7 @@ void add_plan(const ScenePlan& plan, int samples, RenderStats& stats) {
 RenderResult render(const Scene& scene, const Progress& progress) {
     if (!leaves_something_open(scene.settings)) return drawn(scene, progress);
     require_renderable(scene);
-    const ScenePlan plan = plan_scene(scene);
+    ScenePlan plan = plan_scene(scene);
     Scene settled = scene;
     settled.settings = plan.settings;
     RenderResult best = drawn(settled, progress);
@@ -81,7 +81,7 @@ RenderResult render(const Scene& scene, const Progress& progress) {
         if (drawn_by_beams(settled.settings)) {
             if (!beams_are_open || plan.bound + plan.bound_of_sampling >= stats.error_bound) break;
             settled.settings = plan.reference;
-            settled.settings.effects = plan.settings.effects;
+
             why = fmt::format("beams came to within {:.2g} only: drawn by the reference instead",
                               stats.engine_error);
         } else {
@@ -99,7 +99,9 @@ RenderResult render(const Scene& scene, const Progress& progress) {
         next.stats.seconds_setup +=
             stats.seconds_setup + stats.seconds_build + stats.seconds_shade + stats.seconds_check;
         next.stats.notes.push_back(why);
-        if (next.stats.error_bound < stats.error_bound) best = std::move(next);
+        if (!(next.stats.error_bound < stats.error_bound)) break;
+        best = std::move(next);
+        plan.settings = settled.settings;
     }
     best.stats.plan = plan;
     return best;

@@ -52,6 +52,14 @@ ScenePlan Planner::run() {
         choose_pixels();
         choose_cut();
         choose_effects();
+        if (branches_ && scene_.stone.convex && !on(Effects::birefringence)) {
+            // Without the split there is one way through the stone, which is cut and not gambled
+            // on.
+            branches_ = false;
+            const PathWork whole = whole_;
+            choose_cut();
+            whole_ = whole;
+        }
         choose_wavelengths();
         choose_engine_and_samples();
         estimate_times();
@@ -59,6 +67,7 @@ ScenePlan Planner::run() {
     for (int e = 0; e < k_effect_count; ++e)
         plan_.settings.effects[static_cast<std::size_t>(e)] =
             plan_.items[static_cast<std::size_t>(e)].on;
+    plan_.reference.effects = plan_.settings.effects;
     add_resolutions();
     plan_.bound = spent_;
     for (const PlanItem& line : plan_.items) plan_.bound_delta_e += line.bound_delta_e;

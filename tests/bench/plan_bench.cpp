@@ -172,7 +172,6 @@ int run(const Options& options) {
                     result.bound, plan.settings.checked_samples, plan.settings.checked_pixels,
                     result.found.measured, plan.bound, 1e3 * before);
                 settled.settings = plan.reference;
-                settled.settings.effects = plan.settings.effects;
                 result = drawn(settled, truth);
                 result.engine = "ref. after";
                 result.cpu += before;
