@@ -24,6 +24,7 @@ enum class MeetTreatment {
     soft,     ///< each plane of a meet passes the common point within a standard uncertainty
     released  ///< meets of more than three planes come apart freely
 };
+const char* name_of(MeetTreatment treatment);
 
 /// How readings that are far off count: as least squares has it, or less (see robust.h).
 enum class Loss { none, huber, cauchy };

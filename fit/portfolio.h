@@ -25,6 +25,11 @@ struct Portfolio {
     int starts = 0;  ///< tried
 };
 
+/// The last stage from a shape that is nearly right; ends early where chi-square is larger than
+/// `hopeless`.
+Candidate finish_candidate(const System& system, Relaxation& relaxation, const Shape& shape,
+                           int iterations, double hopeless = 1e300);
+
 /// Accepts the first candidate that is sound and agrees, or two that end in the same sound stone
 /// (then the readings contradict each other, and no start will help); gives up after several
 /// starts in a row that gave nothing better; else the best of `options.starts`. Throws Interrupted

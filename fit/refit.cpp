@@ -5,6 +5,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "fit/azimuth_turn.h"
+
 namespace culet {
 
 namespace {
@@ -37,21 +39,10 @@ Vec3 meet_of(const std::vector<Plane>& planes, const Vec3& guess) {
 }  // namespace
 
 Candidate finish_from(const System& system, const Shape& shape, int iterations) {
-    Candidate candidate;
-    candidate.start = "last result";
-    if (system.splits()) {
-        candidate.finished = finish(system, shape, iterations);
-        const System::Enclosed enclosed = system.enclosed(candidate.finished.shape);
-        candidate.sound = enclosed.closed && enclosed.missing.empty();
-        return candidate;
-    }
     const Freedoms freedoms = system.freedoms();
     Relaxation relaxation(system, freedoms);
-    ExactFinish exact = exact_finish(relaxation, shape, iterations);
-    candidate.finished = std::move(exact.finished);
-    candidate.held = std::move(exact.held);
-    candidate.cost_of_holding = exact.cost_of_holding;
-    candidate.sound = relaxation.is_convex(candidate.finished.shape);
+    Candidate candidate = finish_candidate(system, relaxation, shape, iterations);
+    candidate.start = "last result";
     return candidate;
 }
 
@@ -83,15 +74,10 @@ std::optional<Shape> shape_of(const System& system, const Solid& solid) {
     }
     if (east != 0 || north != 0) turn = about_up(std::atan2(north, east)) * turn;
     if (!system.stone().azimuth_from_mesh) {
-        east = north = 0;
-        for (const Reading& r : system.readings()) {
-            if (r.kind != ReadingKind::azimuth || r.datum.kind == Datum::Kind::facet) continue;
-            const Vec3 n = turn * planes[std::size_t(r.facets[0])].normal;
-            const double difference = r.value - std::atan2(n.y, n.x);
-            east += std::cos(difference);
-            north += std::sin(difference);
-        }
-        if (east != 0 || north != 0) turn = about_up(std::atan2(north, east)) * turn;
+        turn = about_up(azimuth_turn(
+                   system.readings(),
+                   [&](int facet) { return turn * planes[std::size_t(facet)].normal; })) *
+               turn;
     }
     for (std::size_t f = 0; f < planes.size(); ++f) {
         planes[f].normal = glm::normalize(turn * planes[f].normal);

@@ -1,9 +1,7 @@
 // The fit report: the keys of docs/stone-files.md, and a few more.
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-
 #include "fit/fit.h"
+#include "fit/json_number.h"
 #include "fit/report_assessment.h"
 #include "fit/report_findings.h"
 #include "fit/summary.h"
@@ -16,14 +14,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // JSON has no infinity and no NaN.
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 bool in_degrees(ReadingKind kind) {
     return is_angle(kind) || kind == ReadingKind::parallel || kind == ReadingKind::rotation ||
            kind == ReadingKind::mirror;
 }
+
+}  // namespace
 
 const char* name_of(MeetTreatment treatment) {
     switch (treatment) {
@@ -36,8 +32,6 @@ const char* name_of(MeetTreatment treatment) {
     }
     return "exact";
 }
-
-}  // namespace
 
 std::string fit_report(const FitResult& result) {
     Json report;
@@ -54,11 +48,11 @@ std::string fit_report(const FitResult& result) {
                           {"offset", f.plane.offset},
                           {"inclination", degrees(f.inclination)},
                           {"azimuth", degrees(f.azimuth)},
-                          {"sigma_inclination", number(degrees(f.sigma_inclination))},
-                          {"sigma_azimuth", number(degrees(f.sigma_azimuth))},
-                          {"sigma_offset", number(f.sigma_offset)},
+                          {"sigma_inclination", json_number(degrees(f.sigma_inclination))},
+                          {"sigma_azimuth", json_number(degrees(f.sigma_azimuth))},
+                          {"sigma_offset", json_number(f.sigma_offset)},
                           {"area", f.area},
-                          {"sigma_area", number(f.sigma_area)}});
+                          {"sigma_area", json_number(f.sigma_area)}});
     }
     report["facets"] = facets;
     Json areas = Json::object();
@@ -71,16 +65,16 @@ std::string fit_report(const FitResult& result) {
             {{"id", r.id},
              {"kind", name_of(r.kind)},
              {"of", r.of},
-             {"value", is_relation(r.kind) ? Json(nullptr) : number(unit * r.value)},
-             {"sigma", number(unit * r.sigma)},
+             {"value", is_relation(r.kind) ? Json(nullptr) : json_number(unit * r.value)},
+             {"sigma", json_number(unit * r.sigma)},
              {"exact", r.exact},
-             {"fitted", number(unit * r.fitted)},
-             {"residual", number(unit * r.residual)},
-             {"normalized", number(r.normalized)},
-             {"redundancy", number(r.redundancy)},
-             {"detectable", r.detectable > 0 ? number(unit * r.detectable) : Json(nullptr)},
+             {"fitted", json_number(unit * r.fitted)},
+             {"residual", json_number(unit * r.residual)},
+             {"normalized", json_number(r.normalized)},
+             {"redundancy", json_number(r.redundancy)},
+             {"detectable", r.detectable > 0 ? json_number(unit * r.detectable) : Json(nullptr)},
              {"suspect", r.suspect}});
-        if (r.rounding > 0) readings.back()["rounding"] = number(unit * r.rounding);
+        if (r.rounding > 0) readings.back()["rounding"] = json_number(unit * r.rounding);
     }
     report["readings"] = readings;
     Json undetermined = Json::array();
@@ -108,10 +102,10 @@ std::string fit_report(const FitResult& result) {
     report["planarity_max"] = result.planarity_max;
     report["closed"] = result.closed;
     report["convex"] = result.convex;
-    report["chi2"] = number(result.chi2);
-    report["dof"] = number(result.dof);
-    report["chi2_limit"] = number(result.chi2_limit);
-    report["chi2_p"] = number(result.chi2_p);
+    report["chi2"] = json_number(result.chi2);
+    report["dof"] = json_number(result.dof);
+    report["chi2_limit"] = json_number(result.chi2_limit);
+    report["chi2_p"] = json_number(result.chi2_p);
     report["azimuth_zero"] = degrees(result.azimuth_zero);
     report["iterations"] = result.iterations;
     report["seconds"] = result.seconds;

@@ -1,8 +1,6 @@
 #include "fit/report_assessment.h"
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-
+#include "fit/json_number.h"
 #include "stone/units.h"
 
 namespace culet {
@@ -11,18 +9,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 }  // namespace
 
 void report_assessment(const FitResult& result, Json& report) {
     Json proportions = Json::array();
     for (const FittedProportion& p : result.proportions) {
         proportions.push_back({{"name", p.name},
-                               {"value", number(p.value)},
-                               {"sigma", number(p.sigma)},
+                               {"value", json_number(p.value)},
+                               {"sigma", json_number(p.sigma)},
                                {"unit", p.unit}});
     }
     report["proportions"] = proportions;
@@ -31,11 +25,11 @@ void report_assessment(const FitResult& result, Json& report) {
     for (const Proposal& p : result.proposals) {
         const double unit = p.in_radians ? degrees(1) : 1;
         Json one = {{"id", p.id},
-                    {"estimate", number(unit * p.estimate)},
-                    {"sigma", number(unit * p.sigma)}};
+                    {"estimate", json_number(unit * p.estimate)},
+                    {"sigma", json_number(unit * p.sigma)}};
         if (!p.slip.empty()) {
             one["slip"] = p.slip;
-            one["corrected"] = number(unit * p.corrected);
+            one["corrected"] = json_number(unit * p.corrected);
         }
         one["alternatives"] = p.alternatives;
         proposals.push_back(std::move(one));
@@ -47,15 +41,15 @@ void report_assessment(const FitResult& result, Json& report) {
         const double unit = is_angle(h.kind) ? degrees(1) : 1;
         help.push_back({{"kind", name_of(h.kind)},
                         {"of", h.of},
-                        {"sigma", number(unit * h.sigma)},
-                        {"reduces", number(h.reduces)},
+                        {"sigma", json_number(unit * h.sigma)},
+                        {"reduces", json_number(h.reduces)},
                         {"closes", h.closes}});
     }
     report["help"] = help;
     report["options"]["loss"] = name_of(result.options.loss);
     if (result.options.loss == Loss::none) return;
     for (std::size_t r = 0; r < result.readings.size(); ++r) {
-        report["readings"][r]["weight"] = number(result.readings[r].weight);
+        report["readings"][r]["weight"] = json_number(result.readings[r].weight);
     }
 }
 

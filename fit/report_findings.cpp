@@ -1,7 +1,6 @@
 #include "fit/report_findings.h"
 
-#include <cmath>
-
+#include "fit/json_number.h"
 #include "stone/units.h"
 
 namespace culet {
@@ -10,10 +9,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json axis_of(const OwnAxis& axis) {
     if (!axis.known) return {{"known", false}, {"basis", axis.basis}};
     return {{"known", true},
@@ -21,8 +16,8 @@ Json axis_of(const OwnAxis& axis) {
             {"direction", {axis.direction.x, axis.direction.y, axis.direction.z}},
             {"tilt", degrees(axis.tilt)},
             {"azimuth", degrees(axis.azimuth)},
-            {"sigma", number(degrees(axis.sigma))},
-            {"scatter_sigma", number(degrees(axis.scatter_sigma))}};
+            {"sigma", json_number(degrees(axis.sigma))},
+            {"scatter_sigma", json_number(degrees(axis.scatter_sigma))}};
 }
 
 Json symmetry_of(const SymmetryReport& symmetry) {
@@ -32,27 +27,27 @@ Json symmetry_of(const SymmetryReport& symmetry) {
                           {"mirror_azimuth", g.mirrors ? Json(degrees(g.mirror_azimuth)) : Json()},
                           {"conditions", g.conditions},
                           {"tested", g.tested},
-                          {"chi2", number(g.chi2)},
-                          {"p", number(g.p)},
+                          {"chi2", json_number(g.chi2)},
+                          {"p", json_number(g.p)},
                           {"supported", g.supported},
                           {"determined", g.determined}});
     }
     for (const TierSymmetry& t : symmetry.tiers) {
         tiers.push_back({{"tier", t.tier},
                          {"facets", t.facets},
-                         {"deviation", number(degrees(t.deviation))},
-                         {"sigma", number(degrees(t.sigma))},
-                         {"sigma_sigma", number(degrees(t.sigma_sigma))},
-                         {"at_most", number(degrees(t.at_most))},
-                         {"p", number(t.p)},
+                         {"deviation", json_number(degrees(t.deviation))},
+                         {"sigma", json_number(degrees(t.sigma))},
+                         {"sigma_sigma", json_number(degrees(t.sigma_sigma))},
+                         {"at_most", json_number(degrees(t.at_most))},
+                         {"p", json_number(t.p)},
                          {"worst", t.worst},
-                         {"worst_off", number(degrees(t.worst_off))}});
+                         {"worst_off", json_number(degrees(t.worst_off))}});
     }
     return {{"form", symmetry.form},
             {"proposed", symmetry.proposed},
             {"message", symmetry.message},
-            {"sigma", number(degrees(symmetry.sigma))},
-            {"sigma_sigma", number(degrees(symmetry.sigma_sigma))},
+            {"sigma", json_number(degrees(symmetry.sigma))},
+            {"sigma_sigma", json_number(degrees(symmetry.sigma_sigma))},
             {"readings", symmetry.readings},
             {"groups", groups},
             {"tiers", tiers}};
@@ -64,7 +59,8 @@ void add_findings(const FitResult& result, Json& report) {
     if (!result.options.findings) return;
     Json& facets = report["facets"];
     for (std::size_t f = 0; f < result.facets.size(); ++f) {
-        facets[f]["inclination_own_axis"] = number(degrees(result.facets[f].inclination_own_axis));
+        facets[f]["inclination_own_axis"] =
+            json_number(degrees(result.facets[f].inclination_own_axis));
     }
     report["own_axis"] = axis_of(result.own_axis);
     Json tiers = Json::array();
@@ -73,23 +69,23 @@ void add_findings(const FitResult& result, Json& report) {
         for (int f : tier.facets) names.push_back(result.facets[std::size_t(f)].name);
         tiers.push_back({{"name", tier.name},
                          {"facets", names},
-                         {"inclination", number(degrees(tier.mean))},
-                         {"spread", number(degrees(tier.spread))},
-                         {"inclination_own_axis", number(degrees(tier.mean_own_axis))},
-                         {"spread_own_axis", number(degrees(tier.spread_own_axis))},
-                         {"rms_own_axis", number(degrees(tier.rms_own_axis))}});
+                         {"inclination", json_number(degrees(tier.mean))},
+                         {"spread", json_number(degrees(tier.spread))},
+                         {"inclination_own_axis", json_number(degrees(tier.mean_own_axis))},
+                         {"spread_own_axis", json_number(degrees(tier.spread_own_axis))},
+                         {"rms_own_axis", json_number(degrees(tier.rms_own_axis))}});
     }
     report["tiers"] = tiers;
     Json meets = Json::array(), proposals = Json::array();
     for (const MeetFinding& meet : result.meet_findings) {
         meets.push_back({{"facets", meet.facets},
                          {"how", meet.how},
-                         {"miss", number(meet.miss)},
-                         {"sigma", number(meet.sigma)},
-                         {"chi2", number(meet.chi2)},
+                         {"miss", json_number(meet.miss)},
+                         {"sigma", json_number(meet.sigma)},
+                         {"chi2", json_number(meet.chi2)},
                          {"conditions", meet.conditions},
                          {"tested", meet.tested},
-                         {"p", number(meet.p)},
+                         {"p", json_number(meet.p)},
                          {"contradicted", meet.contradicted}});
         if (!meet.advice.empty()) meets.back()["advice"] = meet.advice;
         if (meet.contradicted) proposals.push_back(meet.advice);
@@ -101,19 +97,19 @@ void add_findings(const FitResult& result, Json& report) {
         const double unit = finding.kind == ShapeFinding::Kind::same_plane ? degrees(1) : 1;
         shape.push_back({{"kind", name_of(finding.kind)},
                          {"facets", finding.facets},
-                         {"value", number(unit * finding.value)},
-                         {"sigma", number(unit * finding.sigma)},
-                         {"p", number(finding.p)},
+                         {"value", json_number(unit * finding.value)},
+                         {"sigma", json_number(unit * finding.sigma)},
+                         {"p", json_number(finding.p)},
                          {"what", finding.what}});
     }
     report["shape"] = shape;
     Json extra = Json::array();
     for (const ExtraFacet& facet : result.extra_facets) {
         extra.push_back({{"at", facet.at},
-                         {"depth", number(facet.depth)},
-                         {"sigma", number(facet.sigma)},
-                         {"chi2", number(facet.chi2)},
-                         {"p", number(facet.p)},
+                         {"depth", json_number(facet.depth)},
+                         {"sigma", json_number(facet.sigma)},
+                         {"chi2", json_number(facet.chi2)},
+                         {"p", json_number(facet.p)},
                          {"what", facet.what}});
     }
     // Not looked for yet: nothing is claimed.

@@ -7,6 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <numbers>
 
+#include "fit/azimuth_turn.h"
 #include "fit/canonical.h"
 #include "stone/checks.h"
 
@@ -95,19 +96,19 @@ std::optional<Start> Starts::next() {
                 start = similar();
                 break;
             case 2:
-                start = from_angles(similar(), "canonical with the angles read");
+                if (!mesh_is_good_) start = mesh();
                 break;
             case 3:
+                start = from_angles(similar(), "canonical with the angles read");
+                break;
+            case 4:
                 without_sides = true;
                 if (std::any_of(sides_.begin(), sides_.end(), [](int s) { return s != 0; })) {
                     start = similar();
                 }
                 break;
-            case 4:
-                start = affine();
-                break;
             case 5:
-                if (!mesh_is_good_) start = mesh();
+                start = affine();
                 break;
             case 6:
                 start = from_angles(mesh(), "mesh with the angles read");
@@ -210,16 +211,10 @@ Shape Starts::upright(Shape shape) const {
         }
         shape.normals[system_.up_facet()] = Vec3{0, 0, 1};
     }
-    double east = 0, north = 0;
-    for (const Reading& r : system_.readings()) {
-        if (r.kind != ReadingKind::azimuth || r.datum.kind == Datum::Kind::facet) continue;
-        const Vec3& n = shape.normals[r.facets[0]];
-        const double difference = r.value - std::atan2(n.y, n.x);
-        east += std::cos(difference);
-        north += std::sin(difference);
-    }
-    if (east != 0 || north != 0) {
-        const Eigen::AngleAxisd turn(std::atan2(north, east), Eigen::Vector3d::UnitZ());
+    const double angle =
+        azimuth_turn(system_.readings(), [&](int facet) { return shape.normals[facet]; });
+    if (angle != 0) {
+        const Eigen::AngleAxisd turn(angle, Eigen::Vector3d::UnitZ());
         shape = mapped(std::move(shape), turn.toRotationMatrix(), Vec3(0));
         if (system_.up_facet() >= 0) shape.normals[system_.up_facet()] = Vec3{0, 0, 1};
     }
@@ -239,7 +234,13 @@ std::optional<Start> Starts::similar() {
     if (!(scale > 0) || !std::isfinite(scale)) return std::nullopt;
     const Eigen::Matrix3d map =
         scale * (svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose());
-    Start start{"canonical", mapped(*canonical_, map, m.to - times(map, m.from)), false, true, {}};
+    return over_mesh("canonical", mapped(*canonical_, map, m.to - times(map, m.from)));
+}
+
+// A canonical polyhedron that was laid over the mesh; points that it has not are the mesh's.
+Start Starts::over_mesh(const std::string& name, Shape shape) const {
+    const Shape& mesh = system_.mesh_shape();
+    Start start{name, std::move(shape), false, true, {}};
     start.shape.extras = mesh.extras;
     for (std::size_t p = start.shape.points.size(); p < mesh.points.size(); ++p) {
         start.shape.points.push_back(mesh.points[p]);
@@ -260,18 +261,8 @@ std::optional<Start> Starts::affine() {
     if (!(map.determinant() > 0) || !(svd.singularValues()(2) > 0.15 * svd.singularValues()(0))) {
         return std::nullopt;
     }
-    Start start{"canonical, as long and wide as the mesh",
-                mapped(*canonical_, map, m.to - times(map, m.from)),
-                false,
-                true,
-                {}};
-    start.shape.extras = mesh.extras;
-    for (std::size_t p = start.shape.points.size(); p < mesh.points.size(); ++p) {
-        start.shape.points.push_back(mesh.points[p]);
-        start.is_convex = false;
-    }
-    start.shape = upright(std::move(start.shape));
-    return start;
+    return over_mesh("canonical, as long and wide as the mesh",
+                     mapped(*canonical_, map, m.to - times(map, m.from)));
 }
 
 std::optional<Start> Starts::stretched(double along_up) {

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-
+#include "fit/json_number.h"
 #include "fit/study.h"
 #include "stone/units.h"
 
@@ -14,45 +12,32 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-const char* word(MeetTreatment meets) {
-    switch (meets) {
-        case MeetTreatment::exact:
-            return "exact";
-        case MeetTreatment::soft:
-            return "soft";
-        case MeetTreatment::released:
-            return "released";
-    }
-    return "exact";
-}
-
 Json object_of(const StudySetting& row) {
     // Without a sound stone there is no error to tell.
     const auto if_sound = [&](double value) {
-        return row.sound > 0 ? number(value) : Json(nullptr);
+        return row.sound > 0 ? json_number(value) : Json(nullptr);
     };
-    return {{"sweep", row.sweep},
-            {"setting", row.setting},
-            {"as_asked", row.as_asked},
-            {"fits", row.fits},
-            {"sound", row.sound},
-            {"settled", row.settled},
-            {"best", row.best < 0 ? Json(nullptr) : Json(row.best)},
-            {"angle_error", if_sound(degrees(row.angle_error))},
-            {"angle_left", row.angle_left < 0 ? Json(nullptr) : number(degrees(row.angle_left))},
-            {"offset_error", if_sound(row.offset_error)},
-            {"seconds", row.seconds},
-            {"seconds_low", row.seconds_low},
-            {"seconds_high", row.seconds_high}};
+    return {
+        {"sweep", row.sweep},
+        {"setting", row.setting},
+        {"as_asked", row.as_asked},
+        {"fits", row.fits},
+        {"sound", row.sound},
+        {"settled", row.settled},
+        {"best", row.best < 0 ? Json(nullptr) : Json(row.best)},
+        {"angle_error", if_sound(degrees(row.angle_error))},
+        {"angle_left", row.angle_left < 0 ? Json(nullptr) : json_number(degrees(row.angle_left))},
+        {"offset_error", if_sound(row.offset_error)},
+        {"seconds", row.seconds},
+        {"seconds_low", row.seconds_low},
+        {"seconds_high", row.seconds_high}};
 }
 
 Json object_of(const StudyLimit& row) {
     const bool measured = row.draws > row.failed;
-    const auto if_measured = [&](double value) { return measured ? number(value) : Json(nullptr); };
+    const auto if_measured = [&](double value) {
+        return measured ? json_number(value) : Json(nullptr);
+    };
     return {
         {"readings", row.readings},
         {"share", row.share},
@@ -60,12 +45,12 @@ Json object_of(const StudyLimit& row) {
         {"draws", row.draws},
         {"failed", row.failed},
         {"angle_error", if_measured(degrees(row.angle_error))},
-        {"angle_limit", number(degrees(row.angle_limit))},
+        {"angle_limit", json_number(degrees(row.angle_limit))},
         {"ratio", if_measured(row.ratio)},
         // One draw does not scatter.
         {"ratio_sigma", row.draws - row.failed > 1 ? if_measured(row.ratio_sigma) : Json(nullptr)},
         {"offset_error", if_measured(row.offset_error)},
-        {"offset_limit", number(row.offset_limit)}};
+        {"offset_limit", json_number(row.offset_limit)}};
 }
 
 // Columns by the keys of the first row; null is empty.
@@ -114,7 +99,7 @@ std::string study_json(const Study& study) {
     object["options"] = {{"seed", study.options.seed},
                          {"draws", study.options.draws},
                          {"budget", study.options.budget_seconds},
-                         {"meets", word(fit.meets)},
+                         {"meets", name_of(fit.meets)},
                          {"meet_sigma", fit.meet_sigma ? Json(*fit.meet_sigma) : Json("auto")},
                          {"iterations", fit.iterations},
                          {"starts", fit.starts},

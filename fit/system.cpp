@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "fit/azimuth_turn.h"
 #include "fit/canonical.h"
 #include "fit/rounding.h"
 #include "stone/checks.h"
@@ -150,14 +151,7 @@ void System::bring_upright() {
     for (Facet& facet : solid_.facets) facet.plane = plane_of(facet);
 
     // Where the readings' azimuths begin on the mesh: the mean direction of their differences.
-    double east = 0, north = 0;
-    for (const Reading& r : readings_) {
-        if (r.kind != ReadingKind::azimuth || r.datum.kind == Datum::Kind::facet) continue;
-        const double difference = r.value - azimuth(solid_.facets[r.facets[0]].plane.normal);
-        east += std::cos(difference);
-        north += std::sin(difference);
-    }
-    turn_ = east == 0 && north == 0 ? 0 : std::atan2(north, east);
+    turn_ = azimuth_turn(readings_, [&](int facet) { return solid_.facets[facet].plane.normal; });
     for (Vec3& v : solid_.vertices) v = about_z(v, turn_);
     mesh_shape_.points = solid_.vertices;
     auto outline = std::make_shared<Outline>();

@@ -351,7 +351,6 @@ bool drawn_by_beams(const RenderSettings& settings) {
 
 RenderResult render_with_beams(const Scene& scene, const Progress& progress) {
     const auto start = Clock::now();
-    require_renderable(scene);
     FrameRenderer frames(scene);
     frames.state_->progress = progress;
     frames.state_->draw(true);

@@ -150,12 +150,8 @@ bool StripPainter::retrace(int pixel, const ShadingPass& pass, std::size_t longe
     return true;
 }
 
-// Every pixel along the beam's facets; the first `to_verify` are looked at again.
-void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, int to_verify,
-                                const std::uint16_t* facets, const ShadedEye& eye,
-                                const ShadingPass& pass) {
-    const int nodes = pass.lights.nodes;
-    const std::size_t count = static_cast<std::size_t>(covered.count);
+// With room for what shading finds; radiance is all that is wanted yet.
+Fragments StripPainter::fragments_of(const CoveredPixels& covered, int nodes) {
     reserve(covered.count, nodes);
     Fragments fragments;
     fragments.x = covered.x.data();
@@ -163,6 +159,40 @@ void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, 
     fragments.count = covered.count;
     fragments.radiance = radiance_.data();
     fragments.stride = static_cast<int>(left_.size());
+    return fragments;
+}
+
+// The radiance found last, and with `before` that of what stands before the stone.
+void StripPainter::add_light(const CoveredPixels& covered, const float* shares,
+                             const ShadingPass& pass, bool before) {
+    const float of_picture = static_cast<float>(options_.share);
+    const int stride = static_cast<int>(left_.size());
+    for (int node = 0; node < pass.lights.nodes; ++node) {
+        const float* radiance = radiance_.data() + node * stride;
+        add_to_runs(covered.runs, radiance, shares, of_picture, plane(pass, node));
+        if (before)
+            add_to_runs(covered.runs, before_.data() + node * stride, shares, of_picture,
+                        plane(pass, node));
+        sums_.luminance += options_.share * pass.luminance[static_cast<std::size_t>(node)] *
+                           static_cast<double>(sum_of_shared(radiance, shares, covered.count));
+    }
+}
+
+// `unhidden`: which part of each pixel's share is seen; null: all.
+void StripPainter::add_cover(const CoveredPixels& covered, const float* shares,
+                             const float* unhidden) {
+    add_to_runs(covered.runs, nullptr, shares, 1, strip(cover_));
+    if (hides_) add_to_runs(covered.runs, unhidden, shares, 1, strip(visible_));
+    sums_.filled +=
+        options_.share * static_cast<double>(sum_of_shared(unhidden, shares, covered.count));
+}
+
+// Every pixel along the beam's facets; the first `to_verify` are looked at again.
+void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, int to_verify,
+                                const std::uint16_t* facets, const ShadedEye& eye,
+                                const ShadingPass& pass) {
+    const int nodes = pass.lights.nodes;
+    Fragments fragments = fragments_of(covered, nodes);
     fragments.left = left_.data();
     fragments.absorbed = absorbed_.data();
     if (hides_) {
@@ -184,29 +214,14 @@ void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, 
     const float* share = covered.share.data();
     if (options_.shading == BeamShading::single) {
         // Where rounding gives a pixel's middle to two beams, the first has it.
-        std::copy_n(covered.share.data(), count, share_.data());
+        std::copy_n(covered.share.data(), covered.count, share_.data());
         claim_runs(covered.runs, strip(taken_), share_.data());
         share = share_.data();
     }
     if (any_unmarked_whole(follows_.data(), share, verified))
         retrace_astray(covered, verified, beam, pass, share);
-    const float of_picture = static_cast<float>(options_.share);
-    for (int node = 0; node < nodes; ++node) {
-        const float* radiance = radiance_.data() + node * fragments.stride;
-        add_to_runs(covered.runs, radiance, share, of_picture, plane(pass, node));
-        if (hides_)
-            add_to_runs(covered.runs, before_.data() + node * fragments.stride, share, of_picture,
-                        plane(pass, node));
-        sums_.luminance += options_.share * pass.luminance[static_cast<std::size_t>(node)] *
-                           static_cast<double>(sum_of_shared(radiance, share, covered.count));
-    }
-    if (pass.counts_area) {
-        add_to_runs(covered.runs, nullptr, share, 1, strip(cover_));
-        if (hides_) add_to_runs(covered.runs, unhidden_.data(), share, 1, strip(visible_));
-        sums_.filled +=
-            options_.share * static_cast<double>(sum_of_shared(hides_ ? unhidden_.data() : nullptr,
-                                                               share, covered.count));
-    }
+    add_light(covered, share, pass, hides_);
+    if (pass.counts_area) add_cover(covered, share, hides_ ? unhidden_.data() : nullptr);
     const double of_sums = options_.share * pass.weight * nodes;
     sums_.remainder +=
         of_sums * static_cast<double>(sum_of_shared(left_.data(), share, covered.count));

@@ -90,6 +90,10 @@ private:
     void paint_beam(const SortedBeams& beams, LeafNumber number, const ShadingPass& pass);
     void paint_flat(const CoveredPixels& covered, const Beam& beam, const std::uint16_t* facets,
                     const ShadedEye& eye, const ShadingPass& pass);
+    Fragments fragments_of(const CoveredPixels& covered, int nodes);
+    void add_light(const CoveredPixels& covered, const float* shares, const ShadingPass& pass,
+                   bool before);
+    void add_cover(const CoveredPixels& covered, const float* shares, const float* unhidden);
     void paint_pixels(const CoveredPixels& covered, const Beam& beam, int to_verify,
                       const std::uint16_t* facets, const ShadedEye& eye, const ShadingPass& pass);
     bool retrace(int pixel, const ShadingPass& pass, std::size_t longest, float* radiance,

@@ -33,7 +33,6 @@ void StripPainter::paint_leaving(const LeavingBeam& beam, const ScreenPoint* cor
             : coverage_.areas(corners, count, beam.reference, row_begin_, row_end_);
     if (covered.count == 0) return;
     const int nodes = pass.lights.nodes;
-    reserve(covered.count, nodes);
     const auto store = [](const std::array<Vec3, 3>& from, float to[3][3], const Vec3& about) {
         for (int i = 0; i < 3; ++i) {
             for (int k = 0; k < 3; ++k)
@@ -55,29 +54,14 @@ void StripPainter::paint_leaving(const LeavingBeam& beam, const ScreenPoint* cor
         for (std::size_t i = 0; i < 3; ++i)
             leaving.transmitted.push_back(static_cast<float>(beam.transmitted[i][node]));
     }
-    Fragments fragments;
-    fragments.x = covered.x.data();
-    fragments.y = covered.y.data();
-    fragments.count = covered.count;
-    fragments.radiance = radiance_.data();
-    fragments.stride = static_cast<int>(left_.size());
+    Fragments fragments = fragments_of(covered, nodes);
     fragments.soft = options_.shading != BeamShading::single;
     shade_leaving(pass.lights, leaving, fragments);
     sums_.fragments += covered.count;
     sums_.deepest = std::max(sums_.deepest, beam.facets);
-    const float *shares = covered.share.data(), of_picture = static_cast<float>(options_.share);
-    for (int node = 0; node < nodes; ++node) {
-        const float* radiance = radiance_.data() + node * fragments.stride;
-        add_to_runs(covered.runs, radiance, shares, of_picture, plane(pass, node));
-        sums_.luminance += options_.share * pass.luminance[static_cast<std::size_t>(node)] *
-                           static_cast<double>(sum_of_shared(radiance, shares, covered.count));
-    }
+    add_light(covered, covered.share.data(), pass, false);
     // What is mirrored at the front covers each pixel once.
-    if (!pass.counts_area || beam.facets > 1) return;
-    add_to_runs(covered.runs, nullptr, shares, 1, strip(cover_));
-    if (hides_) add_to_runs(covered.runs, nullptr, shares, 1, strip(visible_));
-    sums_.filled +=
-        options_.share * static_cast<double>(sum_of_shared(nullptr, shares, covered.count));
+    if (pass.counts_area && beam.facets == 1) add_cover(covered, covered.share.data(), nullptr);
 }
 
 // Cell by cell of every front facet.

@@ -18,13 +18,6 @@ namespace {
 
 using namespace test;
 
-std::vector<Reading> readings_of(const Solid& truth, double sigma_deg, double sigma) {
-    std::vector<Reading> readings = all_angles(truth, radians(sigma_deg), "T");
-    for (const Reading& r : all_edges(truth, sigma)) readings.push_back(r);
-    readings.push_back(depth(truth, sigma));
-    return readings;
-}
-
 const GroupTest& group(const SymmetryReport& report, const std::string& name) {
     for (const GroupTest& g : report.groups) {
         if (g.group == name) return g;

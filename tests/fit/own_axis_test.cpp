@@ -68,13 +68,6 @@ Solid levelled(Solid solid) {
     return solid;
 }
 
-std::vector<Reading> readings_of(const Solid& truth, double sigma_deg, double sigma) {
-    std::vector<Reading> readings = all_angles(truth, radians(sigma_deg), "T");
-    for (const Reading& r : all_edges(truth, sigma)) readings.push_back(r);
-    readings.push_back(depth(truth, sigma));
-    return readings;
-}
-
 const Tier& tier(const FitResult& result, const std::string& name) {
     for (const Tier& t : result.tiers) {
         if (t.name == name) return t;

@@ -14,6 +14,7 @@
 #include "fit/fit.h"
 #include "stone/half_edges.h"
 #include "stone/stone.h"
+#include "tests/stone/enclosed.h"
 
 namespace culet::test {
 
@@ -25,11 +26,6 @@ inline Vec3 direction(double inclination_deg, double azimuth_deg, bool below = f
 inline NamedPlane through(const std::string& name, const Vec3& normal, const Vec3& point) {
     const Vec3 n = glm::normalize(normal);
     return {name, {n, glm::dot(n, point)}};
-}
-
-inline Solid enclosed(const std::vector<NamedPlane>& planes) {
-    const HalfSpaceSolid cut = intersect_half_spaces(planes);
-    return contract_near_meets(cut.solid, 1e-9 * diameter(cut.solid)).solid;
 }
 
 /// A cube with edges of 2 about the origin: T above, B below, X+, Y+, X-, Y- around.
@@ -255,6 +251,14 @@ inline std::vector<Reading> plane_readings(const Solid& design, const Solid& tru
         if (found == lengths.end()) continue;
         readings.push_back(reading(ReadingKind::edge, {e.left, e.right}, found->second, sigma));
     }
+    return readings;
+}
+
+/// Every facet's angles and every edge, as they are, and the depth.
+inline std::vector<Reading> readings_of(const Solid& truth, double sigma_deg, double sigma) {
+    std::vector<Reading> readings = all_angles(truth, radians(sigma_deg), "T");
+    for (const Reading& r : all_edges(truth, sigma)) readings.push_back(r);
+    readings.push_back(depth(truth, sigma));
     return readings;
 }
 

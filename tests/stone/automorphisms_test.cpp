@@ -12,23 +12,14 @@
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
 #include "stone/half_edges.h"
+#include "tests/stone/enclosed.h"
+#include "tests/stone/synthetic_solids.h"
 
 namespace culet {
 namespace {
 
-Solid enclosed(const std::vector<NamedPlane>& planes) {
-    const HalfSpaceSolid cut = intersect_half_spaces(planes);
-    return contract_near_meets(cut.solid, 1e-9 * diameter(cut.solid)).solid;
-}
-
-Solid cube() {
-    return enclosed({{"T", {{0, 0, 1}, 1}},
-                     {"X+", {{1, 0, 0}, 1}},
-                     {"Y+", {{0, 1, 0}, 1}},
-                     {"X-", {{-1, 0, 0}, 1}},
-                     {"Y-", {{0, -1, 0}, 1}},
-                     {"B", {{0, 0, -1}, 1}}});
-}
+using test::cube;
+using test::enclosed;
 
 // Every edge goes to an edge, and every facet's loop to the image's loop, forward or backward.
 void expect_is_automorphism(const Solid& solid, const Automorphism& a) {

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "stone/solid.h"
+
+namespace culet::test {
+
+/// What planes enclose, with corners that rounding parted brought together again.
+inline Solid enclosed(const std::vector<NamedPlane>& planes) {
+    const HalfSpaceSolid cut = intersect_half_spaces(planes);
+    return contract_near_meets(cut.solid, 1e-9 * diameter(cut.solid)).solid;
+}
+
+}  // namespace culet::test
