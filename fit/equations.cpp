@@ -131,7 +131,7 @@ bool System::has_exact_readings() const {
 
 std::vector<Equation> System::reading_equations(const Shape& shape,
                                                 const std::shared_ptr<const Outline>& outline,
-                                                bool reduced) const {
+                                                bool reduced, bool meets_hold) const {
     std::vector<Equation> all;
     // Corners, loops and edges as they are now; of a facet that is not there, as in the mesh.
     const auto loop_of = [&](int f) {
@@ -245,10 +245,14 @@ std::vector<Equation> System::reading_equations(const Shape& shape,
                         terms.push_back(interior_angle(a, b));
                     } else {
                         const std::vector<Corner> ends = edge_of(a, b);
-                        terms.push_back(corner_distance(ends[0], ends[1]));
+                        terms.push_back(meets_hold && stone_.convex && ends[0].point >= 0 &&
+                                                ends[1].point >= 0
+                                            ? edge_length(a, b, ends[0], ends[1])
+                                            : corner_distance(ends[0], ends[1]));
                     }
                 }
                 put(aggregated(reading, std::move(terms), shape), base.value);
+                all.back().has_kink = reading.kind == ReadingKind::edge;
                 break;
             }
             case ReadingKind::distance: {

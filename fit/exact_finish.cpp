@@ -14,6 +14,9 @@ namespace {
 constexpr double k_first_damping = 1e-2;
 constexpr double k_least_damping = 1e-6;
 
+// Variance of equations whose bend is mended within a step: exact ones, corners that are held, and
+// readings sharper than rounding.
+constexpr double k_all_but_exact = 1e-15;
 constexpr double k_nearly_met = 1e-10;
 // Facets that may lean either way at the end.
 constexpr double k_nearly_upright = 0.1;
@@ -26,6 +29,17 @@ std::span<const double> steps(const Eigen::VectorXd& step) {
 Eigen::VectorXd residuals(const SparseRows& rows) {
     return Eigen::Map<const Eigen::VectorXd>(rows.residual.data(),
                                              Eigen::Index(rows.residual.size()));
+}
+
+// Of a step: the next one mends what it leaves, and hard equations end in rounding; but of a
+// reading it leaves no more than a hundredth of its uncertainty.
+double step_precision(const SparseRows& rows) {
+    double sharpest = 1, largest = 0;
+    for (int i = 0; i < rows.count(); ++i) {
+        if (rows.variance[i] > 0) sharpest = std::min(sharpest, rows.variance[i]);
+        largest = std::max(largest, std::abs(rows.residual[i]));
+    }
+    return largest > 0 ? std::clamp(0.01 * std::sqrt(sharpest) / largest, 1e-13, 1e-9) : 1e-9;
 }
 
 // Smallest steps onto the hard equations, until rounding is all that is left.
@@ -63,7 +77,7 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
     Settled result;
     Shape shape = start;
     relaxation.forget_ties();
-    relaxation.choose(shape);
+    relaxation.choose(shape, true);
     Sheet sheet = relaxation.sheet(shape, softness, held);
     const Eigen::VectorXd metric = relaxation.metric();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(freedoms.size());
@@ -79,7 +93,7 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
             result.converged = settled;
             return true;
         }
-        relaxation.choose(shape);
+        relaxation.choose(shape, true);
         Sheet fresh = relaxation.sheet(shape, softness, held);
         if (std::abs(fresh.merit - sheet.merit) < 1e-9 * (1 + sheet.merit)) {
             result.converged = settled;
@@ -108,7 +122,8 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
         bool better = false;
         double length = 0;
         if (factored) {
-            const auto s = solver.solve(none, -residuals(sheet.rows));
+            const double precision = step_precision(sheet.rows);
+            const auto s = solver.solve(none, -residuals(sheet.rows), precision);
             if (s.good) {
                 Eigen::VectorXd step = s.unknowns;
                 length = step.cwiseAbs().maxCoeff();
@@ -126,11 +141,12 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
                     Eigen::VectorXd back = Eigen::VectorXd::Zero(sheet.rows.count());
                     const int common = std::min(sheet.rows.count(), there.rows.count());
                     for (int e = 0; e < common; ++e) {
-                        if (there.rows.variance[e] == 0 && sheet.rows.variance[e] == 0) {
+                        if (there.rows.variance[e] < k_all_but_exact &&
+                            sheet.rows.variance[e] < k_all_but_exact) {
                             back(e) = -there.rows.residual[e];
                         }
                     }
-                    const auto correction = solver.solve(none, back);
+                    const auto correction = solver.solve(none, back, precision);
                     if (!correction.good) break;
                     next = freedoms.moved(next, steps(correction.unknowns));
                     there = relaxation.sheet(next, softness, held);
@@ -168,7 +184,7 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
     }
     result.shape = onto_constraints(relaxation, std::move(shape), held);
     relaxation.forget_ties();
-    relaxation.choose(result.shape);
+    relaxation.choose(result.shape, true);
     const Sheet end = relaxation.sheet(result.shape, softness, held);
     result.chi2 = end.chi2;
     result.worst_hard = relaxation.hard_sheet(result.shape, {}).hard_worst;

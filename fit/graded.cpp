@@ -13,6 +13,10 @@ namespace {
 constexpr int k_most_steps = 40;
 // Stages only have to lead to the next one.
 constexpr double k_enough = 1e-3, k_step_precision = 1e-8;
+// Of a sum of squares in units of the stage's own softness.
+constexpr double k_little = 0.01;
+// In how many rounds a step may find out which corners it has to stop.
+constexpr int k_most_rounds = 4;
 // As long as incidences are this soft, facets within this sine of upright may turn out to look the
 // other way.
 constexpr double k_leaning_until = 0.005, k_may_lean = 0.6;
@@ -26,6 +30,12 @@ struct Stage {
 constexpr std::array<Stage, 5> k_stages{
     {{0.1, 0.05}, {0.03, 0.02}, {0.01, 0.005}, {0.003, 0.0}, {0.001, 0.0}}};
 
+// The best of a stage trades misfit for nearness to the mesh: of a rough mesh about this part of
+// what the priors leave. It only decides which starts are finished first.
+constexpr double k_traded = 0.2;
+// A good start takes fewer to find its place in the first stage.
+constexpr int k_first_steps = 15;
+
 Softness softness_of(const Stage& stage, bool with_readings) {
     Softness s;
     s.incidence = stage.incidence;
@@ -36,85 +46,133 @@ Softness softness_of(const Stage& stage, bool with_readings) {
 }
 
 int solve_stage(Relaxation& relaxation, SaddleSolver& solver, Shape& shape,
-                const Softness& softness, bool keep_normals, const Progress& progress,
-                double fraction) {
+                const Softness& softness, bool keep_normals, int most_steps,
+                const Progress& progress, double fraction) {
     const Freedoms& freedoms = relaxation.freedoms();
     Eigen::VectorXd metric = relaxation.metric();
     Eigen::VectorXd kept = Eigen::VectorXd::Zero(metric.size());
     for (int i = 0; keep_normals && i < freedoms.size(); ++i) {
         if (freedoms.is_tilt(i)) kept(i) = k_keep;
     }
-    relaxation.choose(shape);
+    relaxation.choose(shape, false);
     Sheet sheet = relaxation.sheet(shape, softness);
     double damping = 1e-3;
     int steps = 0;
-    while (steps < k_most_steps) {
+    while (steps < most_steps) {
         if (progress && !progress(fraction)) throw Interrupted();
         ++steps;
-        const bool factored =
-            solver.factor(sheet.rows, sheet.prior_stiffness + kept + damping * metric);
-        bool better = false;
-        double gain = 0;
-        if (factored) {
+        bool better = false, enough = false;
+        std::vector<int> pressed = sheet.above;
+        for (int round = 0; round < k_most_rounds && !better; ++round) {
+            if (!solver.factor(sheet.rows, sheet.prior_stiffness + kept + damping * metric)) break;
             const SaddleSolver::Solution s = solver.solve(
                 -sheet.prior_gradient,
                 -Eigen::Map<const Eigen::VectorXd>(sheet.rows.residual.data(),
                                                    Eigen::Index(sheet.rows.residual.size())),
                 k_step_precision);
-            if (s.good && s.unknowns.cwiseAbs().maxCoeff() < 10) {
-                const Shape next = freedoms.moved(
-                    shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())});
-                Sheet there = relaxation.sheet(next, softness);
-                if (there.finite && there.merit <= sheet.merit) {
-                    better = true;
-                    gain = sheet.merit - there.merit;
-                    shape = next;
-                    sheet = std::move(there);
-                }
+            if (!s.good || !(s.unknowns.cwiseAbs().maxCoeff() < 10)) break;
+            Shape next = freedoms.moved(
+                shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())});
+            Sheet there = relaxation.sheet(next, softness);
+            if (!there.finite) break;
+            if (there.merit <= sheet.merit) {
+                better = true;
+                enough = sheet.merit - there.merit <= k_enough * sheet.merit + k_little;
+                shape = std::move(next);
+                sheet = std::move(there);
+            } else if (there.above == pressed) {
+                break;
+            } else {
+                pressed = std::move(there.above);
+                sheet = relaxation.sheet(shape, softness, {}, &pressed);
             }
         }
         if (better) {
             damping = std::max(1e-7, damping / 5);
-            if (gain <= k_enough * sheet.merit) break;
+            if (enough) break;
         } else {
             damping *= 8;
             if (damping > 1e6) break;
+            sheet = relaxation.sheet(shape, softness);
         }
     }
     return steps;
 }
 
+struct StageRunner {
+    Relaxation& relaxation;
+    const Progress& progress;
+    SaddleSolver solver{};
+    int steps = 0;
+
+    struct Kind {
+        bool with_readings = false, keep = false;
+        int most_steps = k_most_steps;
+    };
+    void once(Shape& shape, const Stage& stage, Kind kind, double fraction) {
+        steps += solve_stage(relaxation, solver, shape, softness_of(stage, kind.with_readings),
+                             kind.keep, kind.most_steps, progress, fraction);
+    }
+    void stage(Shape& shape, const Stage& stage, double fraction) {
+        once(shape, stage, {.with_readings = true}, fraction);
+        let_lean(shape, stage, fraction);
+    }
+    void let_lean(Shape& shape, const Stage& stage, double fraction) {
+        if (stage.incidence <= k_leaning_until) return;
+        for (int round = 0; round < 3; ++round) {
+            const auto other =
+                leaning_better(relaxation, shape, softness_of(stage, true), k_may_lean);
+            if (!other) break;
+            shape = relaxation.freedoms().symmetrised(*other);
+            once(shape, stage, {.with_readings = true}, fraction);
+        }
+    }
+};
+
 }  // namespace
 
-Graded graded_fit(Relaxation& relaxation, const Start& start, const Progress& progress) {
-    Graded result;
+Approach approach(Relaxation& relaxation, const Start& start, const Progress& progress) {
+    Approach result;
+    result.start = start.name;
     result.shape = relaxation.freedoms().symmetrised(start.shape);
-    SaddleSolver solver;
-    const auto run = [&](const Stage& stage, bool with_readings, bool keep, double fraction) {
-        result.steps += solve_stage(relaxation, solver, result.shape,
-                                    softness_of(stage, with_readings), keep, progress, fraction);
-    };
+    relaxation.forget_ties();  // of another start
+    StageRunner run{relaxation, progress};
     // First a convex stone with planar facets, whatever its size: lengths of edges that a rough
     // mesh has inside out would hold it there.
     const bool keep = start.keep_normals_at_first;
-    if (!start.is_convex) run({0.03, 0.0}, false, keep, 0.05);
+    if (!start.is_convex) run.once(result.shape, {0.03, 0.0}, {.keep = keep}, 0.05);
     result.shape = relaxation.freedoms().symmetrised(
         looking_as(relaxation.system(), std::move(result.shape), start.sides));
-    if (keep) run({0.03, 0.02}, true, true, 0.08);
-    double fraction = 0.1;
-    for (const Stage& stage : k_stages) {
-        run(stage, true, false, fraction);
-        if (stage.incidence > k_leaning_until) {
-            for (int round = 0; round < 3; ++round) {
-                const auto other =
-                    leaning_better(relaxation, result.shape, softness_of(stage, true), k_may_lean);
-                if (!other) break;
-                result.shape = relaxation.freedoms().symmetrised(*other);
-                run(stage, true, false, fraction);
-            }
-        }
-        fraction += 0.1;
+    if (keep) run.once(result.shape, {0.03, 0.02}, {.with_readings = true, .keep = true}, 0.1);
+    const auto judge = [&] {
+        const Softness softness = softness_of(k_stages[result.stages], true);
+        const Sheet sheet = relaxation.sheet(result.shape, softness);
+        result.misfit = sheet.merit - sheet.prior;
+        result.is_plausible =
+            result.misfit <= relaxation.expected_misfit(softness) + k_traded * sheet.prior;
+    };
+    run.once(result.shape, k_stages[0], {.with_readings = true, .most_steps = k_first_steps}, 0.2);
+    judge();
+    if (result.is_plausible) {
+        run.let_lean(result.shape, k_stages[0], 0.25);
+        ++result.stages;
+        run.stage(result.shape, k_stages[1], 0.3);
+        judge();
+        ++result.stages;
     }
+    result.steps = run.steps;
+    return result;
+}
+
+Graded graded_fit(Relaxation& relaxation, const Approach& rough, const Progress& progress) {
+    Graded result;
+    result.shape = rough.shape;
+    relaxation.forget_ties();
+    StageRunner run{relaxation, progress};
+    for (std::size_t i = rough.stages; i < k_stages.size(); ++i) {
+        run.stage(result.shape, k_stages[i], 0.2 + 0.1 * double(i));
+    }
+    result.steps = rough.steps + run.steps;
     result.convex = relaxation.is_convex(result.shape);
     return result;
 }

@@ -3,11 +3,25 @@
 // Incidences, exact readings and the readings themselves begin soft and are tightened stage by
 // stage, so that a bad start can still change its mind; hinges keep the stone convex on the way.
 
+#include <string>
+
 #include "fit/relaxation.h"
 #include "fit/starts.h"
 #include "stone/progress.h"
 
 namespace culet {
+
+/// After the first stages, which tell good starts from hopeless ones at a part of the cost.
+struct Approach {
+    std::string start;  ///< its name
+    Shape shape;
+    std::size_t stages = 0;     ///< that it has gone through
+    double misfit = 0;          ///< what is left of the latest stage's merit, but for its priors
+    bool is_plausible = false;  ///< no more than the true stone would leave
+    int steps = 0;
+};
+/// Throws Interrupted when progress says so.
+Approach approach(Relaxation& relaxation, const Start& start, const Progress& progress = {});
 
 struct Graded {
     Shape shape;
@@ -15,7 +29,7 @@ struct Graded {
     int steps = 0;
 };
 
-/// Throws Interrupted when progress says so.
-Graded graded_fit(Relaxation& relaxation, const Start& start, const Progress& progress = {});
+/// The stages that follow. Throws Interrupted when progress says so.
+Graded graded_fit(Relaxation& relaxation, const Approach& rough, const Progress& progress = {});
 
 }  // namespace culet

@@ -17,7 +17,7 @@ constexpr double k_longest = 0.5;
 
 std::optional<Shape> leaning_better(Relaxation& relaxation, const Shape& shape,
                                     const Softness& softness, double within) {
-    relaxation.choose(shape);
+    relaxation.choose(shape, softness.incidence == 0);
     const std::vector<Relaxation::Folded> folded = relaxation.folded(shape, within);
     if (folded.empty()) return std::nullopt;
     const Sheet sheet = relaxation.sheet(shape, softness);

@@ -16,9 +16,12 @@ namespace {
 // What is left of hard equations after the last stage is rounding; an exact reading that misses by
 // more than this part of the half diameter contradicts another.
 constexpr double k_hard_limit = 1e-9;
-// Two starts that end in the same stone have the same chi-square to this part.
-constexpr double k_same = 1e-6;
+// Two starts whose chi-squares differ by less have ended in the same stone: a third of a sigma in
+// one reading.
+constexpr double k_same = 0.1;
 constexpr double k_agrees_well = 0.2;
+// What holding edges at no length may cost in chi-square before another start is asked.
+constexpr double k_cheap = 1;
 // Starts in a row that gave nothing better.
 constexpr int k_patience = 6, k_patience_good = 2;
 
@@ -42,6 +45,27 @@ auto rank(const Candidate& c) {
     const double chi2 = c.finished.chi2;
     return std::make_tuple(!c.sound, !(c.finished.worst_hard < k_hard_limit),
                            c.finished.converged ? chi2 : k_part * chi2 + k_noise);
+}
+
+// The next start that may well lead home; when there is none, the best of those that have waited.
+// No more than `most` are tried for it.
+std::optional<Approach> best_approach(Relaxation& relaxation, Starts& starts,
+                                      std::vector<Approach>& waiting, int most, bool only_plausible,
+                                      const Progress& progress) {
+    while (static_cast<int>(waiting.size()) < most) {
+        const std::optional<Start> start = starts.next();
+        if (!start) break;
+        Approach next = approach(relaxation, *start, progress);
+        if (next.is_plausible) return next;
+        waiting.push_back(std::move(next));
+    }
+    if (waiting.empty() || only_plausible) return std::nullopt;
+    const auto best =
+        std::min_element(waiting.begin(), waiting.end(),
+                         [](const Approach& a, const Approach& b) { return a.misfit < b.misfit; });
+    Approach found = std::move(*best);
+    waiting.erase(best);
+    return found;
 }
 
 }  // namespace
@@ -78,18 +102,22 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
     Starts starts(system);
     std::vector<double> ends;
     int fruitless = 0;
+    std::vector<Approach> waiting;
     while (result.starts < options.starts) {
-        const std::optional<Start> start = starts.next();
-        if (!start) break;
         const double begin = 0.7 * result.starts / (result.starts + 1.0);
         const Progress part = [&](double fraction) {
             return !progress || progress(begin + (0.7 - begin) * fraction);
         };
-        const Graded graded = graded_fit(relaxation, *start, part);
+        // Beside a stone that agrees, only another that may agree as well is worth the time.
+        const bool only_plausible = result.best.agrees;
+        const std::optional<Approach> rough = best_approach(
+            relaxation, starts, waiting, options.starts - result.starts, only_plausible, part);
+        if (!rough) break;
+        const Graded graded = graded_fit(relaxation, *rough, part);
         Candidate candidate =
             finish_candidate(system, relaxation, graded.shape, options.iterations,
                              result.best.sound ? result.best.finished.chi2 : 1e300);
-        candidate.start = start->name;
+        candidate.start = rough->start;
         candidate.finished.iterations += graded.steps;
         const bool good = candidate.sound && candidate.finished.converged &&
                           candidate.finished.worst_hard < k_hard_limit;
@@ -97,11 +125,11 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
         const double chi2 = candidate.finished.chi2;
         // An optimum that agrees but poorly, or that lies where an edge has no length, may be a
         // lesser one: others get a chance.
-        const bool accept = candidate.agrees && candidate.held.empty() &&
+        const bool accept = candidate.agrees && candidate.cost_of_holding < k_cheap &&
                             (system.has_estimated_groups() ||
                              chi2_tail(chi2, std::max(1, counted - free)) > k_agrees_well);
         const bool again = good && std::any_of(ends.begin(), ends.end(), [&](double other) {
-                               return std::abs(other - chi2) < k_same * (1 + chi2);
+                               return std::abs(other - chi2) < k_same;
                            });
         if (good) ends.push_back(chi2);
         ++fruitless;
@@ -113,8 +141,7 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
         const bool tired = result.best.sound && result.best.finished.converged &&
                            fruitless >= (starts.mesh_is_good() ? k_patience_good : k_patience);
         // Ending twice where it ended before is no accident, if nothing better was seen.
-        if (accept || tired || (again && result.best.finished.chi2 > chi2 - k_same * (1 + chi2)))
-            break;
+        if (accept || tired || (again && result.best.finished.chi2 > chi2 - k_same)) break;
     }
     return result;
 }

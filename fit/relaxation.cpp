@@ -20,6 +20,9 @@ constexpr double k_hold_sigma = 1e-8;
 // Corners that share a caliper's jaw are level to this part of the half diameter.
 constexpr double k_tie_sigma = 1e-6;
 
+// Lengths are rounded off over this many times the softness of the stage, or the kink still shows.
+constexpr double k_round = 3;
+
 // One pair of facet and point of each orbit, and how many go with it.
 class OrbitPairs {
 public:
@@ -57,7 +60,7 @@ Relaxation::Relaxation(const System& system, const Freedoms& freedoms)
             incidence_images_.push_back(images);
         }
     }
-    choose(system.mesh_shape());
+    choose(system.mesh_shape(), false);
     if (!system.stone().convex) return;
     const std::vector<Facet>& facets = system.stone().solid.facets;
     const std::size_t points = system.mesh_shape().points.size();
@@ -83,12 +86,11 @@ Relaxation::Relaxation(const System& system, const Freedoms& freedoms)
             }
         }
     }
-    was_positive_.assign(hinges_.size(), false);
 }
 
-void Relaxation::choose(const Shape& shape) {
+void Relaxation::choose(const Shape& shape, bool meets_hold) {
     std::vector<Equation> before = std::move(equations_);
-    equations_ = system_.reading_equations(shape, system_.mesh_outline(), true);
+    equations_ = system_.reading_equations(shape, system_.mesh_outline(), true, meets_hold);
     if (before.size() != equations_.size()) return;
     for (std::size_t i = 0; i < before.size(); ++i) {
         const Equation &was = before[i], &is = equations_[i];
@@ -123,6 +125,18 @@ Relaxation::Counts Relaxation::counts() const {
     return counts;
 }
 
+double Relaxation::expected_misfit(const Softness& softness) const {
+    double sum = 0;
+    const auto add = [&](double sigma, double soft) {
+        if (sigma > 0) sum += sigma * sigma / (sigma * sigma + soft * soft);
+    };
+    for (int i : incidences_) {
+        add(system_.incidence_sigma(system_.incidences()[i]), softness.incidence);
+    }
+    for (const Equation& e : equations_) add(e.exact ? 0 : e.sigma, softness.readings);
+    return sum;
+}
+
 Eigen::VectorXd Relaxation::metric() const {
     const std::vector<double>& m = freedoms_.metric();
     return Eigen::Map<const Eigen::VectorXd>(m.data(), Eigen::Index(m.size()));
@@ -136,8 +150,8 @@ std::vector<Held> Relaxation::above(const Shape& shape) const {
     return result;
 }
 
-Sheet Relaxation::sheet(const Shape& shape, const Softness& softness,
-                        const std::vector<Held>& held) {
+Sheet Relaxation::sheet(const Shape& shape, const Softness& softness, const std::vector<Held>& held,
+                        const std::vector<int>* pressed) {
     Sheet sheet;
     const Freedoms::Chart chart = freedoms_.chart(shape);
     const int size = freedoms_.size();
@@ -171,42 +185,52 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness,
     if (softness.with_readings) {
         for (const Equation& e : equations_) {
             const Quantity q = e.formula(shape);
-            const double residual = q.value - e.value;
-            row.quantity(q);
+            double residual = q.value - e.value;
+            if (e.has_kink && softness.incidence > 0) {
+                // sqrt(l^2 + s^2) on both sides: what is shorter than s is all the same to the
+                // stage, and has no direction to be held to.
+                const double round = std::hypot(q.value, k_round * softness.incidence);
+                Quantity rounded;
+                rounded.add(q, q.value / round);
+                row.quantity(rounded);
+                residual = round - std::hypot(e.value, k_round * softness.incidence);
+            } else {
+                row.quantity(q);
+            }
             if (!e.exact) sheet.chi2 += residual * residual / (e.sigma * e.sigma);
             close(residual,
                   e.exact ? soft2 : e.sigma * e.sigma + softness.readings * softness.readings);
         }
     }
+    // Hard but for what an edge's other end asks: squares of such weight would forbid every step
+    // that bends.
     for (const Held& h : held) {
+        const double residual = height(shape, h.facet, h.point) + k_hold_below;
         incident(h.facet, h.point);
-        close(height(shape, h.facet, h.point) + k_hold_below, k_hold_sigma * k_hold_sigma);
+        row.close(sheet.rows, residual, k_hold_sigma * k_hold_sigma);
+        if (!std::isfinite(residual)) sheet.finite = false;
+        sheet.hard_sum += std::abs(residual);
+        sheet.hard_worst = std::max(sheet.hard_worst, std::abs(residual));
     }
     for (const Tie& tie : ties_) {
         row.point(tie.one, tie.direction);
         row.point(tie.other, -tie.direction);
         close(glm::dot(tie.direction, shape.points[tie.one] - shape.points[tie.other]),
-              k_tie_sigma * k_tie_sigma);
+              k_tie_sigma * k_tie_sigma + soft2);
     }
-    for (std::size_t i = 0; i < hinges_.size(); ++i) {
-        const auto& [f, p] = hinges_[i];
+    for (int i = 0; i < static_cast<int>(hinges_.size()); ++i) {
+        const auto& [f, p] = hinges_[std::size_t(i)];
         const double residual = height(shape, f, p);
-        if (residual > 0) {
-            was_positive_[i] = true;
-            sheet.convex = false;
-        }
-        if (!was_positive_[i]) continue;
-        if (std::find(held.begin(), held.end(), Held{f, p}) != held.end()) continue;
-        if (residual > 0) {
-            incident(f, p);
-            close(residual, softness.hinge * softness.hinge / hinge_images_[i]);
-        } else {
-            // Keeps its place in the pattern and says nothing.
-            row.normal(f, Vec3(0));
-            row.offset(f, 0);
-            row.point(p, Vec3(0));
-            close(0, 1);
-        }
+        const double variance = softness.hinge * softness.hinge / hinge_images_[std::size_t(i)];
+        if (!std::isfinite(residual)) sheet.finite = false;
+        if (residual > 0) sheet.above.push_back(i);
+        const bool counts =
+            pressed ? std::binary_search(pressed->begin(), pressed->end(), i) : residual > 0;
+        const bool is_held = std::find(held.begin(), held.end(), Held{f, p}) != held.end();
+        if (residual > 0 && !is_held) sheet.merit += residual * residual / variance;
+        if (!counts || is_held) continue;
+        incident(f, p);
+        row.close(sheet.rows, residual, variance);
     }
     sheet.prior_stiffness = Eigen::VectorXd::Zero(size);
     sheet.prior_gradient = Eigen::VectorXd::Zero(size);
@@ -215,7 +239,7 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness,
         for (int p = 0; p < static_cast<int>(shape.points.size()); ++p) {
             const Freedoms::Slots& slots = chart.points[p];
             const Vec3 off = (shape.points[p] - mesh.points[p]) / (k_mesh_sigma * k_mesh_sigma);
-            sheet.merit += glm::dot(off, shape.points[p] - mesh.points[p]);
+            sheet.prior += glm::dot(off, shape.points[p] - mesh.points[p]);
             for (int k = 0; k < slots.count; ++k) {
                 sheet.prior_stiffness(slots.column + k) += 1 / (k_mesh_sigma * k_mesh_sigma);
                 sheet.prior_gradient(slots.column + k) +=
@@ -223,6 +247,7 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness,
             }
         }
     }
+    sheet.merit += sheet.prior;
     if (!std::isfinite(sheet.merit)) sheet.finite = false;
     return sheet;
 }
@@ -275,82 +300,6 @@ std::vector<Relaxation::Folded> Relaxation::folded(const Shape& shape, double wi
         ++row;
     }
     return result;
-}
-
-std::vector<SaddleSolver::Entry> Relaxation::curvature(const Shape& shape,
-                                                       const Eigen::VectorXd& forces) const {
-    // force * (normal . point - offset): mixed derivatives of tilts and points, and the turn of the
-    // normal itself.
-    std::vector<SaddleSolver::Entry> entries;
-    const Freedoms::Chart chart = freedoms_.chart(shape);
-    for (std::size_t i = 0; i < incidences_.size(); ++i) {
-        const Incidence& incidence = system_.incidences()[incidences_[i]];
-        const double force = forces(Eigen::Index(i));
-        const Freedoms::Slots &n = chart.normals[incidence.facet],
-                              &x = chart.points[incidence.point];
-        const double out = glm::dot(shape.normals[incidence.facet], shape.points[incidence.point]);
-        for (int a = 0; a < n.count; ++a) {
-            entries.push_back({n.column + a, n.column + a, -force * out});
-            for (int b = 0; b < x.count; ++b) {
-                const int row = std::max(n.column + a, x.column + b),
-                          column = std::min(n.column + a, x.column + b);
-                entries.push_back(
-                    {row, column,
-                     force * glm::dot(n.along[std::size_t(a)], x.along[std::size_t(b)])});
-            }
-        }
-    }
-    const auto add = [&](int a, int b, double value) {
-        entries.push_back({std::max(a, b), std::min(a, b), value});
-    };
-    for (std::size_t i = 0; i < equations_.size(); ++i) {
-        const Equation& e = equations_[i];
-        const double force = forces(Eigen::Index(incidences_.size() + i));
-        const Reading& reading = system_.readings()[std::size_t(e.reading)];
-        if (reading.aggregate != Aggregate::single) continue;
-        if (reading.kind == ReadingKind::inclination && reading.datum.kind == Datum::Kind::up) {
-            const int f = reading.facets[0];
-            const Freedoms::Slots& n = chart.normals[f];
-            const Vec3& normal = shape.normals[f];
-            const double flat = std::hypot(normal.x, normal.y);
-            if (n.count != 2 || flat < 1e-3) continue;
-            // An angle from z grows by half its cotangent for a step across.
-            const Vec3 across{-normal.y / flat, normal.x / flat, 0};
-            const Quantity q = e.formula(shape);
-            const double side = q.slopes.empty() || q.slopes[0].slope.z <= 0 ? 1 : -1;
-            const double bend = force * side * normal.z / flat;
-            for (int a = 0; a < 2; ++a) {
-                for (int b = 0; b <= a; ++b) {
-                    add(n.column + a, n.column + b,
-                        bend * glm::dot(across, n.along[std::size_t(a)]) *
-                            glm::dot(across, n.along[std::size_t(b)]));
-                }
-            }
-        } else if (reading.kind == ReadingKind::edge) {
-            const Quantity q = e.formula(shape);
-            if (q.slopes.size() != 2 || !(q.value > 1e-6) || q.slopes[0].by != Quantity::By::point)
-                continue;
-            const Vec3 along = q.slopes[0].slope;
-            const double bend = force / q.value;
-            for (int one = 0; one < 2; ++one) {
-                for (int other = 0; other < 2; ++other) {
-                    const Freedoms::Slots &x = chart.points[q.slopes[std::size_t(one)].index],
-                                          &y = chart.points[q.slopes[std::size_t(other)].index];
-                    for (int a = 0; a < x.count; ++a) {
-                        for (int b = 0; b < y.count; ++b) {
-                            const int row = x.column + a, column = y.column + b;
-                            if (row < column) continue;
-                            const Vec3 &u = x.along[std::size_t(a)], &v = y.along[std::size_t(b)];
-                            add(row, column,
-                                (one == other ? bend : -bend) *
-                                    (glm::dot(u, v) - glm::dot(u, along) * glm::dot(v, along)));
-                        }
-                    }
-                }
-            }
-        }
-    }
-    return entries;
 }
 
 }  // namespace culet

@@ -33,10 +33,12 @@ struct Sheet {
     SparseRows rows;  ///< incidences first, in the system's order
     Eigen::VectorXd prior_stiffness, prior_gradient;
     double merit = 0;     ///< sum of squares of all that is soft, priors and hinges included
+    double prior = 0;     ///< the priors' part of it
     double hard_sum = 0;  ///< sum of sizes of what is left of hard equations
     double hard_worst = 0;
-    double chi2 = 0;     ///< of readings and soft meets, at their own uncertainties
-    bool convex = true;  ///< no hinge is positive
+    double chi2 = 0;  ///< of readings and soft meets, at their own uncertainties
+    /// Hinges that are positive: corners above a neighbour facet. Indices of the relaxation's own.
+    std::vector<int> above;
     bool finite = true;
 };
 
@@ -49,16 +51,21 @@ public:
 
     /// Chooses what the readings mean at this shape: which corners the caliper's jaws touch, which
     /// way upright facets lean. Later sheets keep to it, so that they are smooth.
+    /// `meets_hold`: of `System::reading_equations`.
     /// Where a jaw would change between two corners for ever, it rests on both: at the bottom of
     /// a kink the two are held level.
-    void choose(const Shape& shape);
+    void choose(const Shape& shape, bool meets_hold);
     void forget_ties() {
         ties_.clear();
         left_.clear();
     }
 
-    /// Hinges that were ever positive keep a row, so that the pattern of the matrix settles.
-    Sheet sheet(const Shape& shape, const Softness& softness, const std::vector<Held>& held = {});
+    /// Rows are of incidences, readings, corners that are held, and last of hinges that count: a
+    /// hinge that says nothing would fill the factors all the same.
+    /// `pressed`: hinges whose rows count instead of those that are positive here. A step that
+    /// stops corners before they rise above a facet has to know which will (semismooth Newton).
+    Sheet sheet(const Shape& shape, const Softness& softness, const std::vector<Held>& held = {},
+                const std::vector<int>* pressed = nullptr);
     /// Incidences and other hard equations only: variance 0, no priors.
     Sheet hard_sheet(const Shape& shape, const std::vector<Held>& held) const;
     /// Positive hinges.
@@ -70,6 +77,8 @@ public:
         int soft = 0, hard = 0;
     };
     Counts counts() const;
+    /// What the true stone is expected to leave of such a stage's merit, but for its priors.
+    double expected_misfit(const Softness& softness) const;
     Eigen::VectorXd metric() const;
     /// Rows of `sheet` that may as well mean another value, and by how much more that is: of facets
     /// within this sine of upright.
@@ -92,7 +101,6 @@ private:
     std::vector<int> incidences_;              // one of each orbit
     std::vector<std::pair<int, int>> hinges_;  // facet, point: likewise
     std::vector<double> incidence_images_, hinge_images_;
-    std::vector<char> was_positive_;
     std::vector<Equation> equations_;  // of the readings, as chosen
     struct Tie {
         int one, other;

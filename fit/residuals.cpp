@@ -13,6 +13,9 @@ namespace culet {
 
 namespace {
 
+// Sine between planes below which rounding has half the digits of the line they share.
+constexpr double k_one_plane = 1e-8;
+
 using By = Quantity::By;
 
 // Angle between unit vectors, folded to 0..pi/2, and its slopes. Both atan2 arguments keep full
@@ -227,6 +230,24 @@ Formula corner_distance(const Corner& a, const Corner& b) {
         const Vec3 along = length > 0 ? between / length : Vec3(0);
         add_corner(q, shape, a, along);
         add_corner(q, shape, b, -along);
+        return q;
+    };
+}
+
+Formula edge_length(int left, int right, const Corner& from, const Corner& to) {
+    return [=](const Shape& shape) {
+        const Vec3 &l = shape.normals[left], &r = shape.normals[right];
+        const Vec3 across = glm::cross(l, r);
+        const double sine = glm::length(across);
+        // Planes this near to one plane cross along a line that rounding chooses.
+        if (sine < k_one_plane) return corner_distance(from, to)(shape);
+        const Vec3 along = across / sine, edge = place_of(shape, to) - place_of(shape, from);
+        Quantity q{glm::dot(along, edge), {}};
+        add_corner(q, shape, to, along);
+        add_corner(q, shape, from, -along);
+        const Vec3 aside = (edge - q.value * along) / sine;
+        q.add(By::normal, left, glm::cross(r, aside));
+        q.add(By::normal, right, glm::cross(aside, l));
         return q;
     };
 }

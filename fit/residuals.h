@@ -72,6 +72,10 @@ Formula interior_angle(int facet, int other);
 Formula extent(const Corner& a, const Corner& b, const Vec3& direction);
 /// |a - b|
 Formula corner_distance(const Corner& a, const Corner& b);
+/// From one corner to the other along the line in which two planes cross, left's corners running
+/// counter-clockwise: the edge's length, which goes smoothly through zero and is negative where the
+/// edge is inside out. |from - to| has a kink there, and holds such an edge inside out.
+Formula edge_length(int left, int right, const Corner& from, const Corner& to);
 /// normal . x - offset
 Formula height(int facet, const Corner& corner);
 /// |height|

@@ -96,19 +96,19 @@ std::optional<Start> Starts::next() {
                 start = similar();
                 break;
             case 2:
-                start = from_angles(similar(), "canonical with the angles read");
+                if (!mesh_is_good_) start = mesh();
                 break;
             case 3:
+                start = from_angles(similar(), "canonical with the angles read");
+                break;
+            case 4:
                 without_sides = true;
                 if (std::any_of(sides_.begin(), sides_.end(), [](int s) { return s != 0; })) {
                     start = similar();
                 }
                 break;
-            case 4:
-                start = affine();
-                break;
             case 5:
-                if (!mesh_is_good_) start = mesh();
+                start = affine();
                 break;
             case 6:
                 start = from_angles(mesh(), "mesh with the angles read");

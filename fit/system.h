@@ -35,6 +35,8 @@ struct Equation {
     /// What the reading may as well mean: of a nearly upright facet an inclination does not say
     /// whether it leans in or out.
     std::optional<double> other_value;
+    /// A length |x|, with a kink at zero that an early stage rounds off.
+    bool has_kink = false;
     /// Of a caliper: the corners that its jaws touch, the upper one first, along this direction.
     std::array<Corner, 2> touched{};
     Vec3 caliper{0, 0, 0};
@@ -86,9 +88,11 @@ public:
     std::vector<Equation> equations(const Shape& shape,
                                     const std::shared_ptr<const Outline>& outline) const;
     /// Of these, what the readings say; `reduced`: but for symmetry that `freedoms` takes care of.
+    /// `meets_hold`: corners lie on their planes, so that the line in which two planes cross is the
+    /// edge, with its direction. On a rough shape that line says nothing.
     std::vector<Equation> reading_equations(const Shape& shape,
                                             const std::shared_ptr<const Outline>& outline,
-                                            bool reduced = false) const;
+                                            bool reduced = false, bool meets_hold = true) const;
     /// By how much a plane may pass its meet: 0 when exact.
     double incidence_sigma(const Incidence& incidence) const;
     bool has_exact_readings() const;

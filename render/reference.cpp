@@ -129,7 +129,7 @@ RenderResult render_with_reference(const Scene& whole, const Progress& progress)
         stats.error_bound =
             (stats.remainder + stats.cut) * lights.max_radiance() / stats.mean_radiance;
         stats.standard_error = std::sqrt(variance / weight) / stats.mean_radiance;
-        stats.sampling_error = whole_picture.halves_apart / weight / stats.mean_radiance;
+        stats.sampling_error = whole_picture.halves_apart / whole_picture.radiance;
     }
     result.picture = film.take(variance > 0);
     stats.notes = notes_on_drawing(scene);

@@ -77,8 +77,9 @@ struct RenderResult {
 /// stone) and Interrupted.
 RenderResult render(const Scene& scene, const Progress& progress = {});
 
-/// Draws some pixels anew with everything on: the time of about 128 pixels of 64 rays each.
-Verification verify(const Scene& scene, const RenderResult& result);
+/// Draws some pixels anew with everything on: the time of so many pixels of 64 to 256 rays
+/// each.
+Verification verify(const Scene& scene, const RenderResult& result, int pixels = 128);
 
 /// Frame after frame by beams (engine "beams" or "preview"), for programs that draw while a person
 /// watches: what is kept from frame to frame is memory and whatever the changes left valid.

@@ -222,6 +222,9 @@ struct RenderSettings {
     /// Weight below which a path is not followed (crystals: gambled on), and above which both
     /// branches of a crystal's tree are; nothing: by tolerance.
     std::optional<double> cut_weight, split_weight;
+    /// Reference: the rays of a pixel take turns, so that each carries every so manieth of the
+    /// wavelengths that go ways of their own; at most `samples`.
+    int wavelength_turns = 1;
     /// Beams: pixels that are held against the reference, and its rays in each; 0: some 2000, 16.
     int checked_pixels = 0, checked_samples = 0;
     bool effects_auto = true;  ///< all that can matter; else `effects`

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 namespace culet {
 
@@ -84,7 +85,7 @@ double absorbed_across(const Scene& scene) {
     return 1 - std::exp(-strongest * diameter(scene.stone.solid) * mm_per(scene.stone.unit));
 }
 
-double pleochroism_across(const Scene& scene) {
+double absorbance_apart(const Scene& scene) {
     const Material& material = scene.stone.material;
     double apart = 0;
     for (int ray = 1; ray < ray_count(material.optic); ++ray) {
@@ -95,7 +96,7 @@ double pleochroism_across(const Scene& scene) {
                                                  material.absorption_per_mm[other].at(nm)));
         }
     }
-    return std::exp(apart * diameter(scene.stone.solid) * mm_per(scene.stone.unit)) - 1;
+    return apart * diameter(scene.stone.solid) * mm_per(scene.stone.unit) / std::numbers::ln10;
 }
 
 }  // namespace culet

@@ -35,7 +35,7 @@ double aperture_blur(const Scene& scene);
 
 /// Largest share of light that one pass through the stone loses: 1 - exp(-K d).
 double absorbed_across(const Scene& scene);
-/// exp(|difference of the principal absorptions| d) - 1.
-double pleochroism_across(const Scene& scene);
+/// Largest difference of two principal rays' absorbance (decadic) on one way across.
+double absorbance_apart(const Scene& scene);
 
 }  // namespace culet

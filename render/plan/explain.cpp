@@ -46,9 +46,10 @@ std::string explain(const ScenePlan& plan) {
         text += "\n";
     }
     if (plan.pilot_pixels > 0) {
-        text +=
-            fmt::format("{:<19}{:<5}{:.2g} of the mean radiance, CIEDE2000 {:.2g}", "error bound",
-                        "", plan.bound + plan.bound_of_sampling, plan.bound_delta_e);
+        text += fmt::format(
+            "{:<19}{:<5}{:.2g} of the mean radiance, CIEDE2000 {:.2g}", "error bound", "",
+            plan.bound + (plan.settings.engine == "reference" ? plan.bound_of_sampling : 0),
+            plan.bound_delta_e);
         if (plan.settings.engine != "reference")
             text += "; to it comes what the beams are off by, measured on the finished picture";
         text += fmt::format("\n{:<19}{:<5}{} of processor time; with everything on {}\n", "time",

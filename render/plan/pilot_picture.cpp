@@ -133,7 +133,7 @@ PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const Pat
     if (whole.hit > 0) {
         drawing.remainder = whole.remainder / whole.hit;
         drawing.absorbed = whole.absorbed / whole.hit;
-        drawing.few_rays = whole.luminance > 0 ? whole.halves_apart / whole.luminance : 0;
+        drawing.few_rays = whole.radiance > 0 ? whole.halves_apart / whole.radiance : 0;
     }
     drawing.seconds = 1e-9 * static_cast<double>(nanoseconds);
     return drawing;

@@ -52,6 +52,14 @@ ScenePlan Planner::run() {
         choose_pixels();
         choose_cut();
         choose_effects();
+        if (branches_ && scene_.stone.convex && !on(Effects::birefringence)) {
+            // Without the split there is one way through the stone, which is cut and not gambled
+            // on.
+            branches_ = false;
+            const PathWork whole = whole_;
+            choose_cut();
+            whole_ = whole;
+        }
         choose_wavelengths();
         choose_engine_and_samples();
         estimate_times();
@@ -59,6 +67,7 @@ ScenePlan Planner::run() {
     for (int e = 0; e < k_effect_count; ++e)
         plan_.settings.effects[static_cast<std::size_t>(e)] =
             plan_.items[static_cast<std::size_t>(e)].on;
+    plan_.reference.effects = plan_.settings.effects;
     add_resolutions();
     plan_.bound = spent_;
     for (const PlanItem& line : plan_.items) plan_.bound_delta_e += line.bound_delta_e;
@@ -135,7 +144,7 @@ void Planner::choose_pixels() {
     const PilotDrawing glance = draw_pilot(scene, pixels_, limits(mean_guess), 1);
     const PathWork work = work_of(scene, glance, 1);
     const bool spectral = on(Effects::dispersion) && user_.wavelengths_nm.empty();
-    const double bands = spectral ? 12 : 1;
+    const double bands = spectral ? 4 : 1;
     BeamWork beams;
     beams.pixels = pixels_.in_picture;
     beams.bands = bands;
@@ -143,7 +152,7 @@ void Planner::choose_pixels() {
     const double by_paths = pixels_.in_picture * 16 * bands * price_ns(work);
     const double picture = work.general ? by_paths : std::min(by_paths, price_ns(beams));
     // Rays of one pilot pixel: of the cuts and effects, of the wavelengths, of the samples.
-    const double rays = 4 * 8 + (spectral ? k_spectral_rays * 28 : 8) + 20;
+    const double rays = 4 * 8 + (spectral ? 4 * (36 + 16) + 16 : 8) + 20;
     const double affordable = std::max(k_planning_share * picture, k_planning_ns) /
                               (rays * std::max(price_ns(work), 1.0));
     const int wanted =

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "render/colour_error.h"
 #include "render/plan.h"
 #include "render/plan/pilot_picture.h"
 #include "render/plan/price.h"
@@ -21,6 +22,16 @@ constexpr double k_share_of_cheap = 0.05;
 // the pixel.
 constexpr int k_pilot_rays = 4, k_spectral_rays = 9, k_lens_rays = 16;
 constexpr const char* k_same_light = "the light is the same from everywhere: nothing changes";
+
+std::vector<double> even_wavelengths(int count);
+/// Turns that the rays of a pixel take with so many wavelengths: four at a time bring nearly as
+/// much as all of them, and each at least twice.
+int turns_for(int rays, int wavelengths);
+
+/// Of noise, which the finished picture shows anew: with one and a half standard errors.
+inline double likely(const ColourError& noise) {
+    return noise.radiance + 1.5 * noise.radiance_spread;
+}
 
 class Planner {
 public:
@@ -47,6 +58,8 @@ private:
     void try_without(Effects effect, double share);
     void choose_wavelengths();
     void choose_engine_and_samples();
+    void choose_beam_wavelengths();
+    double room_for_wavelengths() const;
     int samples_for(double room) const;
     void estimate_times();
     void add_resolutions();
@@ -65,8 +78,15 @@ private:
     double wavelength_bound_ = 0, wavelength_delta_e_ = 0;
     bool spectrum_ = false;  // the wavelengths were chosen
     double whole_bands_ = 1, bands_ = 1;
-    double noise_at_4_ = 0, noise_delta_e_at_4_ = 0;  // of four rays a pixel
-    int reference_samples_ = 0;
+    bool dispersed_ = false;  // wavelengths go ways of their own
+    // What a pixel is off by for its few rays.
+    struct Noise {
+        double rays = 4, radiance = 0, delta_e = 0;
+        // Of rays: N^-0.75 on a grid where edges cross the pixel, N^-0.5 where chance decides.
+        double power = 0.7;
+
+        double at(double count) const;
+    } noise_;
     double machine_ = 1;  // nanoseconds of this one over those of price.h
 };
 

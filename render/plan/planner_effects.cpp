@@ -51,8 +51,8 @@ void Planner::say_what_is_known() {
     }
     if (on(Effects::pleochroism)) {
         item(Effects::pleochroism).why =
-            fmt::format("{}'s two waves differ by up to {:.2g} % on one way across", stone,
-                        100 * pleochroism_across(scene_));
+            fmt::format("{}'s waves differ by up to {:.2g} in absorbance on one way across", stone,
+                        absorbance_apart(scene_));
     }
     if (on(Effects::aperture)) {
         item(Effects::aperture).why =
@@ -67,6 +67,11 @@ void Planner::try_without(Effects effect, double share) {
     const int samples = on(Effects::aperture) ? k_lens_rays : k_pilot_rays;
     const Scene with = at_pilot_wavelengths(with_effects(false)),
                 without = at_pilot_wavelengths(with_effects(false, effect));
+    const Plan still = make_plan(without);
+    if (still.on(effect)) {
+        line.why = still.effects[static_cast<std::size_t>(effect)].why;
+        return;
+    }
     const PilotDrawing there = samples == k_pilot_rays ? first_ : draw(with, samples);
     const PilotDrawing gone = draw(without, samples);
     const ColourError error = colour_error(gone.rgb, there.rgb);

@@ -40,13 +40,13 @@ struct ScenePlan {
     std::vector<PlanItem> items;  ///< the effects in the order of `Effects`, then the rest
     std::string engine_why;
     double bound = 0, bound_delta_e = 0;  ///< of all together, but for samples and beams
-    double bound_of_sampling = 0;         ///< reference: of finite samples a pixel
+    double bound_of_sampling = 0;         ///< the reference's: of few rays in a pixel
     double seconds = 0;                   ///< estimated processor time of the picture
     double seconds_everything = 0;        ///< the same with everything on, by the reference
     double seconds_planning = 0;          ///< that this plan took
-    int reference_samples = 0;            ///< rays a pixel that the reference would need
-    double mean_radiance = 0;             ///< of the stone, as the pilot sees it
-    int pilot_pixels = 0;                 ///< 0: nothing was open, or tolerance 0: no pilot
+    RenderSettings reference;  ///< what the reference would need, where beams do not hold
+    double mean_radiance = 0;  ///< of the stone, as the pilot sees it
+    int pilot_pixels = 0;      ///< 0: nothing was open, or tolerance 0: no pilot
 
     const PlanItem& item(const std::string& name) const;
 };

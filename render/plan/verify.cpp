@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "render/colour_error.h"
+#include "render/plan/planner.h"
 
 namespace culet {
 
 namespace {
 
-constexpr int k_verified_pixels = 128, k_verified_samples = 64, k_least_nodes = 29;
+constexpr int k_verified_samples = 64, k_least_nodes = 29;
 // Half the difference between every other ray of a grid and the rest is larger than what all of
 // them are off by: 2^(3/4) / 2^(1/2), where that falls with the number of rays as N^-3/4.
 constexpr double k_halves_over_noise = 1.19;
@@ -22,6 +23,7 @@ Truth draw_truth(const Scene& scene, const ScenePlan& plan, int pixels, int samp
     if (whole.camera.optics.two_windows) whole.camera.width /= 2;
     RenderSettings& settings = whole.settings;
     settings.effects_auto = true;
+    settings.wavelength_turns = turns_for(samples, k_node_counts.back());
     PathLimits limits;
     limits.seed = settings.seed + 1;
     limits.depth = k_deepest;
@@ -59,14 +61,14 @@ Verification hold_against(const Truth& truth, const Picture& picture) {
     return result;
 }
 
-Verification verify(const Scene& scene, const RenderResult& result) {
+Verification verify(const Scene& scene, const RenderResult& result, int pixels) {
     const auto start = std::chrono::steady_clock::now();
     ScenePlan plan;
     plan.settings = scene.settings;
     if (result.stats.plan) plan = *result.stats.plan;
     plan.settings.wavelengths_nm = result.stats.wavelengths_nm;
-    const int samples = std::clamp(4 * plan.reference_samples, k_verified_samples, 256);
-    const Truth truth = draw_truth(scene, plan, k_verified_pixels, samples);
+    const int samples = std::clamp(4 * plan.reference.samples, k_verified_samples, 256);
+    const Truth truth = draw_truth(scene, plan, pixels, samples);
     Verification found = hold_against(truth, result.picture);
     found.bound = result.stats.error_bound;
     if (result.stats.plan) found.bound_delta_e = result.stats.plan->bound_delta_e;
