@@ -19,7 +19,7 @@ struct RenderOptions {
     std::string scene, out, stats, engine, effects, tonemap = "none";
     int depth = -1;
     double tolerance = -1, exposure = 1;
-    bool spectral = false;
+    bool spectral = false, explain = false, verify = false;
 };
 
 // `--effects dispersion,absorption` is a list in the scene file.
@@ -38,6 +38,19 @@ int run_render(const RenderOptions& options) {
     if (options.depth >= 0) settings.push_back(fmt::format("render.depth={}", options.depth));
     if (options.tolerance >= 0)
         settings.push_back(fmt::format("render.tolerance={}", options.tolerance));
+    if (options.explain) {
+        require_writable(options.stats);
+        Scene scene = read_scene(options.scene, settings);
+        scene.settings.threads = options.common.threads;
+        scene.settings.seed = options.common.seed;
+        scene.settings.spectral = options.spectral;
+        for (const std::string& note : scene.notes) say(note, options.common.quiet);
+        const ScenePlan plan = plan_scene(scene);
+        if (options.stats != "-") fmt::print("{}", explain(plan));
+        if (!options.stats.empty()) write_text(options.stats, plan_json(plan));
+        return exit_good;
+    }
+    if (options.out.empty()) throw InputError("render needs -o IMAGE, or --explain");
     const std::string extension = std::filesystem::path(options.out).extension().string();
     if (extension != ".exr" && extension != ".png" && extension != ".hdr") {
         throw InputError(options.out, "pictures are written as .exr, .png or .hdr");
@@ -53,7 +66,8 @@ int run_render(const RenderOptions& options) {
     scene.settings.spectral = options.spectral;
     for (const std::string& note : scene.notes) say(note, options.common.quiet);
 
-    const RenderResult result = render(scene, progress_line("rendering", options.common.quiet));
+    RenderResult result = render(scene, progress_line("rendering", options.common.quiet));
+    if (options.verify) result.stats.verification = verify(scene, result);
     for (const std::string& note : result.stats.notes) say(note, options.common.quiet);
     PngLook look;
     look.exposure = options.exposure;
@@ -63,6 +77,13 @@ int run_render(const RenderOptions& options) {
                   {{"culet:scene", std::filesystem::path(options.scene).filename().string()},
                    {"culet:seed", std::to_string(options.common.seed)}});
     if (!options.stats.empty()) write_text(options.stats, stats);
+    if (options.verify) {
+        const Verification& found = *result.stats.verification;
+        say(fmt::format("measured error {:.2g} of the mean radiance at {} pixels (their own noise "
+                        "{:.2g}), error bound {:.2g}",
+                        found.measured, found.pixels, found.noise, found.bound),
+            options.common.quiet);
+    }
     if (options.common.verbose) {
         for (const EffectDecision& decision : result.stats.effects) {
             say(fmt::format("{:<14}{:<4} {}", name_of(decision.effect), decision.on ? "on" : "off",
@@ -78,7 +99,9 @@ int run_render(const RenderOptions& options) {
                         result.stats.remainder, result.stats.cut, result.stats.error_bound),
             options.common.quiet);
     }
-    return exit_good;
+    const bool trusted = !options.verify || result.stats.verification->holds();
+    if (!trusted) say("the error bound does not hold", options.common.quiet);
+    return trusted ? exit_good : exit_untrusted;
 }
 
 }  // namespace
@@ -90,7 +113,6 @@ void add_command_render(CLI::App& program, int& exit_code) {
         ->required()
         ->type_name("SCENE.toml");
     command->add_option("-o,--output", options->out, "picture: .exr (linear), .hdr or .png")
-        ->required()
         ->type_name("IMAGE");
     command
         ->add_option("--stats,--json", options->stats,
@@ -101,6 +123,10 @@ void add_command_render(CLI::App& program, int& exit_code) {
                         "auto, all, none, or a list: dispersion,absorption,...");
     command->add_option("--depth", options->depth, "faces on a path at most (0: by tolerance)");
     command->add_option("--tolerance", options->tolerance, "of the picture's mean radiance");
+    command->add_flag("--explain", options->explain,
+                      "print what would be simulated, left out, and why; draw nothing");
+    command->add_flag("--verify", options->verify,
+                      "hold some pixels against the reference with everything on");
     command->add_flag("--spectral", options->spectral,
                       "Stokes parameters S0 to S3 at every wavelength in the .exr");
     command->add_option("--exposure", options->exposure, "factor on linear light, for .png")
@@ -113,6 +139,7 @@ void add_command_render(CLI::App& program, int& exit_code) {
         "  culet render scene.toml -o picture.exr --stats stats.json\n"
         "  culet render scene.toml -o quick.png --set render.samples=4 --set "
         "camera.size=[200,200]\n"
+        "  culet render scene.toml --explain --tolerance 0.03\n"
         "  culet render scene.toml -o frame.png --engine beams\n"
         "  culet render samples/instruments/conoscope.toml -o conoscope.png --exposure 2");
     command->callback([options, &exit_code] { exit_code = run_render(*options); });

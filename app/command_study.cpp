@@ -1,11 +1,13 @@
-// culet study STONE.toml -o DIR: what accuracy costs in time.
+// culet study SCENE.toml|STONE.toml -o DIR: what accuracy costs in time.
 
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 #include <system_error>
 
 #include "app/options.h"
+#include "app/study_scene.h"
 #include "app/terminal.h"
 #include "fit/mending.h"
 #include "fit/study.h"
@@ -17,25 +19,36 @@
 
 namespace culet {
 
-namespace {
-
 namespace fs = std::filesystem;
+
+namespace {
 
 struct StudyCommand {
     CommonOptions common;
     std::string input, out, json, only;
-    int draws = 8;
-    double budget = 60;
+    int draws = 8, size = 0, runs = 5;
+    std::optional<double> budget;
+    const CLI::Option *draws_given = nullptr, *only_given = nullptr, *size_given = nullptr,
+                      *runs_given = nullptr;
 };
+
+void refuse(const StudyCommand& command, const CLI::Option* given, const char* kind) {
+    if (given->count() == 0) return;
+    throw InputError(command.input,
+                     fmt::format("{} is for studies of {}", given->get_name(), kind));
+}
 
 int run_study(const StudyCommand& command) {
     const TomlTable root = read_toml(command.input, command.common.set);
     const bool is_stone = root.kind("stone") == TomlTable::Kind::table;
     if (!is_stone && (root.has("stone") || root.has("camera") || root.has("mesh"))) {
-        throw InputError(command.input,
-                         "is a scene: this version studies fits only; give a stone file with its "
-                         "readings");
+        refuse(command, command.draws_given, "stones");
+        refuse(command, command.only_given, "stones");
+        return study_scene_file({command.common, command.input, command.out, command.json,
+                                 command.size, command.runs, command.budget.value_or(120)});
     }
+    refuse(command, command.size_given, "scenes");
+    refuse(command, command.runs_given, "scenes");
     StoneFile file = read_stone(command.input, command.common.set);
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
@@ -51,17 +64,11 @@ int run_study(const StudyCommand& command) {
     options.fit = read_fit_options(command.input, command.common.set);
     options.seed = command.common.seed;
     options.draws = command.draws;
-    options.budget_seconds = command.budget;
+    options.budget_seconds = command.budget.value_or(60);
     options.times = command.only != "limit";
     options.limits = command.only != "time";
 
-    const fs::path folder = command.out;
-    std::error_code problem;
-    if (fs::exists(folder, problem) && !fs::is_directory(folder, problem)) {
-        throw InputError(folder, "is a file: -o names the folder for the results");
-    }
-    fs::create_directories(folder, problem);
-    if (problem) throw InputError(folder, fmt::format("cannot be made: {}", problem.message()));
+    const fs::path folder = study_folder(command.out);
     require_writable(folder / "study.json");
     require_writable(command.json);
 
@@ -101,30 +108,59 @@ int run_study(const StudyCommand& command) {
 
 }  // namespace
 
+fs::path study_folder(const fs::path& folder) {
+    std::error_code problem;
+    if (fs::exists(folder, problem) && !fs::is_directory(folder, problem)) {
+        throw InputError(folder, "is a file: -o names the folder for the results");
+    }
+    fs::create_directories(folder, problem);
+    if (problem) throw InputError(folder, fmt::format("cannot be made: {}", problem.message()));
+    return folder;
+}
+
 void add_command_study(CLI::App& program, int& exit_code) {
     auto command = std::make_shared<StudyCommand>();
     CLI::App* study = program.add_subcommand(
-        "study", "what accuracy costs in time, and how near it comes to the theoretical limit");
-    study->add_option("stone", command->input, "stone file with its readings")
+        "study",
+        "what accuracy costs in time: of a scene's pictures; of a stone's fit, and how near it "
+        "comes to the theoretical limit");
+    study->add_option("file", command->input, "scene, or stone file with its readings")
         ->required()
-        ->type_name("STONE.toml");
+        ->type_name("SCENE.toml|STONE.toml");
     study->add_option("-o,--output", command->out, "folder for study.json, tables, charts, page")
         ->required()
         ->type_name("DIR");
     study->add_option("--json", command->json, "study.json here too (- is stdout)")
         ->type_name("FILE");
-    study->add_option("--draws", command->draws, "how often readings are drawn anew (8)")
-        ->check(CLI::Range(1, 100000))
-        ->type_name("N");
-    study->add_option("--budget", command->budget, "seconds of processor time (60; 0: no limit)")
+    study
+        ->add_option("--budget", command->budget,
+                     "seconds of processor time (scenes 120, stones 60; 0: no limit)")
         ->check(CLI::Range(0.0, 1e9))
         ->type_name("S");
-    study->add_option("--only", command->only, "one half: time, or limit")
-        ->check(CLI::IsMember({"time", "limit"}))
-        ->type_name("HALF");
+    command->size_given =
+        study
+            ->add_option("--size", command->size,
+                         "scenes: longer side of the pictures, pixels (64 to 256, as the budget "
+                         "allows; never more than the scene's)")
+            ->check(CLI::Range(16, 8192))
+            ->type_name("N");
+    command->runs_given =
+        study->add_option("--runs", command->runs, "scenes: how often drawings are timed (5)")
+            ->check(CLI::Range(1, 1000))
+            ->type_name("N");
+    command->draws_given =
+        study
+            ->add_option("--draws", command->draws, "stones: how often readings are drawn anew (8)")
+            ->check(CLI::Range(1, 100000))
+            ->type_name("N");
+    command->only_given =
+        study->add_option("--only", command->only, "stones: one half, time or limit")
+            ->check(CLI::IsMember({"time", "limit"}))
+            ->type_name("HALF");
     add_common(*study, command->common, true);
     study->footer(
         "Examples:\n"
+        "  culet study samples/studies/diamond.toml -o out/diamond --budget 600\n"
         "  culet study samples/dravite-step/stone.toml -o out/study\n"
         "  culet study stone.toml -o out/study --draws 50 --budget 600 --seed 7");
     study->callback([command, &exit_code] { exit_code = run_study(*command); });

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "compare/colour_difference.h"
+#include "render/colour_difference.h"
 
 namespace culet {
 

@@ -104,21 +104,6 @@ cv::Mat matrix_from(const PixelMap& map) {
     return cv::Mat(map.height, map.width, CV_32F, const_cast<float*>(map.values.data()));
 }
 
-// A map as a picture with clear pixels where there is no value.
-std::string map_uri(const PixelMap& map, ColourMap colours, double low, double high) {
-    cv::Mat picture(map.height, map.width, CV_8UC4, cv::Scalar(0, 0, 0, 0));
-    const cv::Mat values = matrix_from(map);
-    for (int y = 0; y < map.height; ++y) {
-        for (int x = 0; x < map.width; ++x) {
-            const double value = static_cast<double>(values.at<float>(y, x));
-            if (std::isnan(value)) continue;
-            const auto c = colour_at(colours, (value - low) / (high - low));
-            picture.at<cv::Vec4b>(y, x) = {c[2], c[1], c[0], 255};
-        }
-    }
-    return png_uri(png_bytes(picture));
-}
-
 std::string map_figure(const PixelMap& map, ColourMap colours, double low, double high,
                        const std::string& title, const std::string& about, const std::string& bar) {
     if (map.values.empty()) return {};
@@ -229,6 +214,20 @@ std::string score_row(const Json& scores, const std::string& key, const Json& va
 }
 
 }  // namespace
+
+std::string map_uri(const PixelMap& map, ColourMap colours, double low, double high) {
+    cv::Mat picture(map.height, map.width, CV_8UC4, cv::Scalar(0, 0, 0, 0));
+    const cv::Mat values = matrix_from(map);
+    for (int y = 0; y < map.height; ++y) {
+        for (int x = 0; x < map.width; ++x) {
+            const double value = static_cast<double>(values.at<float>(y, x));
+            if (std::isnan(value)) continue;
+            const auto c = colour_at(colours, (value - low) / (high - low));
+            picture.at<cv::Vec4b>(y, x) = {c[2], c[1], c[0], 255};
+        }
+    }
+    return png_uri(png_bytes(picture));
+}
 
 std::string picture_uri(const Photo& picture, double white) {
     cv::Mat shown_now;

@@ -5,11 +5,14 @@
 #include <string>
 
 #include "compare/report.h"
+#include "page/colour_maps.h"
 
 namespace culet {
 
 /// PNG data URI of a linear picture, `white` shown as white.
 std::string picture_uri(const Photo& picture, double white);
+/// The same of a map; clear where it has no value.
+std::string map_uri(const PixelMap& map, ColourMap colours, double low, double high);
 
 std::string headline_section(const Report& report, const nlohmann::json& scores,
                              const nlohmann::json& fit);

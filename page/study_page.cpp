@@ -11,6 +11,7 @@
 #include "page/html.h"
 #include "page/json_fields.h"
 #include "page/parts.h"
+#include "page/study_sections.h"
 
 namespace culet {
 
@@ -212,32 +213,6 @@ std::string notes_of(const Json& study) {
                                       escaped(list));
 }
 
-std::string provenance(const Json& study, const StudyView& view) {
-    std::string rows;
-    const auto row = [&](const std::string& name, const std::string& value) {
-        if (value.empty()) return;
-        rows += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"path\">{}</td></tr>\n",
-                            escaped(name), escaped(value));
-    };
-    row("program", view.version.empty() ? "" : "culet " + view.version);
-    row("command", view.command);
-    if (study.contains("options") && study["options"].is_object()) {
-        for (const auto& [key, value] : study["options"].items()) {
-            row(key, value.is_string() ? value.get<std::string>() : value.dump());
-        }
-    }
-    return section(
-        "provenance", "How this page was made",
-        table("Made from", "<th scope=\"col\">What</th><th scope=\"col\">Which</th>", rows));
-}
-
-std::string figure_of(const std::string& svg) {
-    if (svg.empty()) return {};
-    return "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Chart\"><figure "
-           "class=\"chart-figure\">" +
-           svg + "</figure></div>\n";
-}
-
 }  // namespace
 
 std::string study_table(const std::string& study_json) {
@@ -299,7 +274,7 @@ std::string study_page(const StudyView& view) {
     std::string title = view.title.empty() ? text_at(study, "name") : view.title;
     if (title.empty()) title = "Study of a fit";
     std::string body = headline(study, title);
-    std::string time = figure_of(draw_chart_svg(time_chart(study))) + time_table(study, unit);
+    std::string time = chart_figure(draw_chart_svg(time_chart(study))) + time_table(study, unit);
     if (!array_at(study, "settings").empty()) {
         time +=
             "<p class=\"note\">Angles and offsets: root mean square over facets and draws, against "
@@ -311,7 +286,7 @@ std::string study_page(const StudyView& view) {
             notes_of(study);
     }
     body += section("time", "What accuracy costs in time", time);
-    std::string limit = figure_of(draw_chart_svg(limit_chart(study))) + limit_table(study, unit);
+    std::string limit = chart_figure(draw_chart_svg(limit_chart(study))) + limit_table(study, unit);
     const std::string message = text_at(study, "limit_message");
     if (!limit.empty() || !message.empty()) {
         limit += fmt::format(
@@ -326,7 +301,7 @@ std::string study_page(const StudyView& view) {
             message.empty() ? "" : " The table ends here: " + escaped(message) + ".");
     }
     body += section("limit", "How near to the theoretical limit", limit);
-    body += provenance(study, view);
+    body += study_provenance(study, view.version, view.command);
     return html_page(title, body, study.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 

@@ -59,6 +59,8 @@ public:
 
     /// True when the last tree was larger than `most_splits`.
     bool sampled() const { return splits_ > limits_.most_splits; }
+    /// Faces met so far, on all branches of all trees.
+    long long events() const { return events_; }
     /// Largest |sum of powers - 1| of a crystal's face before it was put right.
     double worst_imbalance() const { return steps_.worst_imbalance(); }
 
@@ -102,6 +104,7 @@ private:
     int step(CrystalNode& node, CrystalNode& first, CrystalNode& second) {
         char& mode = trace_.modes[trace_.length - 1];
         NodeWeights absorbed;
+        ++events_;
         if (!node.inside) {
             mode = 'a';
             node.at =
@@ -248,6 +251,7 @@ private:
     };
     std::vector<Waiting> waiting_;
     int splits_ = 0;
+    long long events_ = 0;
     bool choosing_ = false;
 };
 

@@ -22,7 +22,10 @@ struct PathLimits {
     /// unbiased.
     bool roulette = false;
     std::uint64_t seed = 0;  ///< of those choices
-    bool polarised = true;   ///< false: mean powers of s and p at every isotropic face
+    /// Every wavelength makes the same choices, so that pictures at different wavelengths differ by
+    /// little else.
+    bool alike = false;
+    bool polarised = true;  ///< false: mean powers of s and p at every isotropic face
 };
 
 /// Variance of what is chosen at random. Every choice is estimated twice, independently and with

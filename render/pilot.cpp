@@ -55,7 +55,11 @@ PathLimits limits_for(const Scene& scene, const Plan& plan, const LightField& li
     limits.seed = settings.seed;
     limits.polarised = plan.polarised;
     limits.depth = settings.depth > 0 ? settings.depth : k_deepest;
-    if (settings.tolerance > 0) {
+    if (settings.tolerance > 0 && settings.cut_weight) {
+        limits.cut_weight = *settings.cut_weight;
+        limits.roulette = plan.splits || !scene.stone.convex;
+        limits.split_weight = settings.split_weight.value_or(k_split_weight);
+    } else if (settings.tolerance > 0) {
         const double mean = pilot_mean(scene, plan, lights, colours, limits);
         const double brightest = lights.max_radiance();
         // What is cut sees at most the brightest light. Half of what that allows, because the

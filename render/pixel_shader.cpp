@@ -1,7 +1,9 @@
 #include "render/pixel_shader.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "render/crystal_paths.h"
 #include "render/eye_optics.h"
@@ -64,16 +66,19 @@ private:
     PairedEstimates estimates_;
 };
 
-std::vector<double> luminance_weights(const WavelengthSet& colours, const EyeOptics& optics,
-                                      int planes) {
+// Colour of a Stokes parameter of 1 at each node, as seen behind the eye's optics.
+std::vector<Rgb> colour_weights(const WavelengthSet& colours, const EyeOptics& optics, int planes) {
     const int nodes = colours.size();
-    std::vector<double> weights(static_cast<std::size_t>(planes * nodes)), one(nodes, 0.0);
+    std::vector<Rgb> weights(static_cast<std::size_t>(planes * nodes));
+    std::vector<double> one(nodes, 0.0);
     for (int i = 0; i < nodes; ++i) {
         one[i] = 1;
-        const double of_node = luminance(colours.rgb_of(one.data()));
+        const Rgb of_node = colours.rgb_of(one.data());
         one[i] = 0;
         const Stokes row = response(optics, colours.wavelengths_nm()[i]);
-        for (int k = 0; k < planes; ++k) weights[k * nodes + i] = of_node * row[k];
+        for (int k = 0; k < planes; ++k) {
+            for (int c = 0; c < 3; ++c) weights[k * nodes + i][c] = of_node[c] * row[k];
+        }
     }
     return weights;
 }
@@ -100,10 +105,13 @@ PixelSums& PixelSums::operator+=(const PixelSums& more) {
     absorbed += more.absorbed;
     cut += more.cut;
     variance += more.variance;
+    radiance += more.radiance;
+    halves_apart += more.halves_apart;
     worst_imbalance = std::max(worst_imbalance, more.worst_imbalance);
     deepest = std::max(deepest, more.deepest);
     rays += more.rays;
     sampled += more.sampled;
+    events += more.events;
     return *this;
 }
 
@@ -117,8 +125,69 @@ PixelShader::PixelShader(const Scene& scene, const Plan& plan, const LightField&
       pattern_(sample_pattern(samples, plan.on(Effects::aperture), scene.settings.filter,
                               scene.settings.filter_radius)),
       nodes_(colours.size()),
-      luminance_(luminance_weights(colours, scene.camera.optics, plan.stokes ? 4 : 1)),
-      usual_(usual_radiance(lights, scene.camera.look_at, nodes_)) {}
+      rgb_(colour_weights(colours, scene.camera.optics, plan.stokes ? 4 : 1)),
+      usual_(usual_radiance(lights, scene.camera.look_at, nodes_)) {
+    for (const Rgb& rgb : rgb_) luminance_.push_back(luminance(rgb));
+    take_turns(std::clamp(scene.settings.wavelength_turns, 1,
+                          static_cast<int>(std::min(pattern_.size(), plan.bands.size()))));
+}
+
+void PixelShader::take_turns(int turns) {
+    const std::size_t count = pattern_.size();
+    // Cells of a grid in an order whose every stretch is evenly spread (Roberts 2018, R2).
+    const std::size_t side = static_cast<std::size_t>(std::lround(std::sqrt(count)));
+    const bool grid = side * side == count;
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double x = static_cast<double>(i % side), y = static_cast<double>(i / side);
+        order.emplace_back(grid ? std::fmod(0.7548776662466927 * x + 0.5698402909980532 * y, 1.0)
+                                : std::fmod(0.6180339887498949 * static_cast<double>(i), 1.0),
+                           i);
+    }
+    std::sort(order.begin(), order.end());
+    // Two halves, to see what few rays are off by: the black and the white squares of a chessboard.
+    // In each of them every stretch of that order has one turn.
+    turns_ = turns;
+    turn_.assign(count, 0);
+    half_.assign(count, 0);
+    std::array<std::vector<std::size_t>, 2> halves;
+    for (const auto& [key, i] : order) {
+        half_[i] = grid ? (i % side + i / side) % 2 : i % 2;
+        halves[half_[i]].push_back(i);
+    }
+    std::vector<std::array<double, 2>> rays(static_cast<std::size_t>(turns));
+    std::array<double, 2> in_half{};
+    for (const std::vector<std::size_t>& of : halves) {
+        for (std::size_t rank = 0; rank < of.size(); ++rank) {
+            const std::size_t i = of[rank],
+                              turn = rank * static_cast<std::size_t>(turns) / of.size();
+            turn_[i] = static_cast<int>(turn);
+            rays[turn][half_[i]] += 1;
+            in_half[half_[i]] += 1;
+        }
+    }
+    halved_ = std::all_of(rays.begin(), rays.end(),
+                          [](const std::array<double, 2>& of) { return of[0] > 0 && of[1] > 0; });
+    factor_.assign(luminance_.size(), 1.0);
+    for (std::size_t half : {0, 1}) {
+        of_half_[half].assign(luminance_.size(), 0.0);
+        behind_half_[half] = in_half[half] > 0 ? 1 / in_half[half] : 0;
+    }
+    for (std::size_t b = 0; b < plan_.bands.size(); ++b) {
+        const Band& band = plan_.bands[b];
+        const std::array<double, 2>& of = rays[b % static_cast<std::size_t>(turns)];
+        band_factor_.push_back(static_cast<double>(count) / (of[0] + of[1]));
+        for (std::size_t first = 0; first < factor_.size(); first += nodes_) {
+            for (int k = 0; k < band.count; ++k) {
+                const std::size_t i = first + static_cast<std::size_t>(band.first + k);
+                factor_[i] = band_factor_.back();
+                for (std::size_t half : {0, 1}) of_half_[half][i] = of[half] > 0 ? 1 / of[half] : 0;
+            }
+        }
+    }
+    stone_luminance_ = luminance_;
+    for (std::size_t i = 0; i < factor_.size(); ++i) stone_luminance_[i] *= factor_[i];
+}
 
 void PixelShader::background(const EyeRay& ray, double* stokes) const {
     if (!plan_.stokes) {
@@ -131,9 +200,9 @@ void PixelShader::background(const EyeRay& ray, double* stokes) const {
 PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixel, double* stokes,
                              PixelMemory& memory) const {
     const std::size_t values = static_cast<std::size_t>(planes() * nodes_);
-    std::fill(stokes, stokes + values, 0.0);
-    std::vector<double>& behind = memory.behind;
-    behind.assign(values, 0.0);
+    // Sums of the two halves of the rays, of what they see of the stone and beside it.
+    memory.stone.assign(2 * values, 0.0);
+    memory.behind.assign(2 * values, 0.0);
     PixelSums sums;
     const double share = 1.0 / static_cast<double>(pattern_.size());
     for (std::size_t i = 0; i < pattern_.size(); ++i) {
@@ -142,41 +211,61 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
         const EyeRay ray = eyes_.through(x + size * p.x, y + size * p.y, p.pupil_x, p.pupil_y);
         const auto entry = body_.entry(ray.origin, ray.direction, memory.entry);
         if (!entry || lights_.nearest_distance(ray.origin, ray.direction) < entry->distance) {
-            background(ray, behind.data());
+            background(ray, memory.behind.data() + half_[i] * values);
             continue;
         }
         sums.hit += share;
-        for (const Band& band : plan_.bands) {
+        double* seen = memory.stone.data() + half_[i] * values;
+        for (std::size_t b = 0; b < plan_.bands.size(); ++b) {
+            if (static_cast<int>(b % static_cast<std::size_t>(turns_)) != turn_[i]) continue;
+            const Band& band = plan_.bands[b];
+            const double part = share * band_factor_[b];
             PathLimits limits = limits_;
             limits.seed = limits_.seed + 0x9e3779b97f4a7c15ull * (pixel * pattern_.size() + i + 1) +
-                          static_cast<std::uint64_t>(band.first);
+                          (limits_.alike ? 0 : static_cast<std::uint64_t>(band.first));
             const auto take = [&](const Lost& lost) {
-                sums.remainder += share * lost.remainder_ / nodes_;
-                sums.absorbed += share * lost.absorbed_ / nodes_;
-                sums.cut += share * lost.cut_ / nodes_;
+                sums.remainder += part * lost.remainder_ / nodes_;
+                sums.absorbed += part * lost.absorbed_ / nodes_;
+                sums.cut += part * lost.cut_ / nodes_;
                 sums.deepest = std::max(sums.deepest, lost.deepest_);
             };
             if (plan_.general) {
-                GatherStokes gather(lights_, band, luminance_, usual_, nodes_, planes(), stokes);
+                GatherStokes gather(lights_, band, stone_luminance_, usual_, nodes_, planes(),
+                                    seen);
                 CrystalPaths<GatherStokes> paths(body_, band, limits, gather);
                 const EyeFrame frame = eyes_.frame(ray.direction);
                 paths.trace(ray, frame.x, frame.y, *entry);
                 sums.worst_imbalance = std::max(sums.worst_imbalance, paths.worst_imbalance());
                 sums.sampled += paths.sampled();
+                sums.events += paths.events();
                 sums.variance += share * share * gather.variance();
                 take(gather);
             } else {
-                Gather gather(lights_, band, stokes);
+                Gather gather(lights_, band, seen);
                 LightPaths<Gather>(body_.planes(), band, limits, gather, memory.trace)
                     .trace(ray, *entry);
+                sums.events += memory.trace.length;
                 take(gather);
             }
             ++sums.rays;
         }
     }
-    for (std::size_t i = 0; i < values; ++i) sums.luminance += luminance_[i] * stokes[i];
-    sums.luminance *= share;
-    for (std::size_t i = 0; i < values; ++i) stokes[i] = share * (stokes[i] + behind[i]);
+    Rgb apart{};
+    for (std::size_t i = 0; i < values; ++i) {
+        const double *stone = &memory.stone[i], *behind = &memory.behind[i];
+        const double of_stone = factor_[i] * (stone[0] + stone[values]);
+        const double whole = share * (of_stone + (behind[0] + behind[values]));
+        const double difference = of_half_[0][i] * stone[0] - of_half_[1][i] * stone[values] +
+                                  behind_half_[0] * behind[0] - behind_half_[1] * behind[values];
+        sums.luminance += share * luminance_[i] * of_stone;
+        for (std::size_t c = 0; c < 3; ++c) {
+            apart[c] += rgb_[i][c] * difference;
+            if (sums.hit > 0) sums.radiance += rgb_[i][c] * whole / 3;
+        }
+        stokes[i] = whole;
+    }
+    if (halved_ && sums.hit > 0)
+        sums.halves_apart = (std::abs(apart[0]) + std::abs(apart[1]) + std::abs(apart[2])) / 6;
     return sums;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // One pixel of the reference renderer: eye rays, their light paths, and the sums over them.
 
+#include <array>
 #include <vector>
 
 #include "render/path.h"
@@ -16,16 +17,21 @@ struct PixelSums {
     double luminance = 0;  ///< that these bring, as a share of the pixel
     double remainder = 0, absorbed = 0, cut = 0;
     double variance = 0;  ///< of the luminance, from paths chosen at random
+    double radiance = 0;  ///< of the pixel where the stone is in it, mean of R, G and B
+    /// Half the difference of R, G and B in the mean between every other ray and the rest: about as
+    /// large as what the mean of all is off by for being of so few rays.
+    double halves_apart = 0;
     double worst_imbalance = 0;
     int deepest = 0;  ///< faces on the longest path that brought light
     long long rays = 0, sampled = 0;
+    long long events = 0;  ///< faces that light met on its ways
 
     PixelSums& operator+=(const PixelSums& more);
 };
 
 /// What one thread keeps from pixel to pixel: room, and what the last ray met.
 struct PixelMemory {
-    std::vector<double> behind;
+    std::vector<double> stone, behind;
     EntryGuess entry;
     PathTrace trace;
 };
@@ -45,6 +51,7 @@ public:
                     PixelMemory& memory) const;
 
 private:
+    void take_turns(int turns);
     void background(const EyeRay& ray, double* stokes) const;
 
     StoneBody body_;
@@ -53,9 +60,20 @@ private:
     const LightField& lights_;
     PathLimits limits_;
     std::vector<SamplePoint> pattern_;
+    std::vector<std::size_t> half_;               // of the samples, 0 or 1
+    bool halved_ = false;                         // every band is in both
+    std::array<std::vector<double>, 2> of_half_;  // weight of a ray in the half's mean, by value
+    std::array<double, 2> behind_half_{};
     int nodes_;
-    std::vector<double> luminance_;  // of S[plane] at each node, as seen behind the eye's optics
-    std::vector<double> usual_;      // mean radiance of the lights at each node
+    std::vector<Rgb> rgb_;           // of S[plane] at each node, as seen behind the eye's optics
+    std::vector<double> luminance_;  // likewise
+    // Rays and bands take turns: ray i carries band b where turn_[i] = b mod turns_. A band's few
+    // rays count `band_factor_` times.
+    int turns_ = 1;
+    std::vector<int> turn_;
+    std::vector<double> band_factor_;
+    std::vector<double> factor_, stone_luminance_;  // of each value of the Stokes parameters
+    std::vector<double> usual_;                     // mean radiance of the lights at each node
 };
 
 }  // namespace culet

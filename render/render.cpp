@@ -1,158 +1,110 @@
 #include "render/render.h"
 
 #include <fmt/format.h>
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <cmath>
-#include <mutex>
 
 #include "render/beams/beam_picture.h"
-#include "render/film.h"
-#include "render/pilot.h"
-#include "render/pixel_shader.h"
+#include "render/reference.h"
 #include "render/scene_checks.h"
-#include "render/threads.h"
-#include "stone/errors.h"
 
 namespace culet {
 
 namespace {
 
-constexpr int k_tile = 16;  // pixels
-constexpr int k_samples = 16, k_pupil_samples = 64;
+// Half the difference of the halves of a pixel's rays is not quite what all of them are off by.
+constexpr double k_sampling_bound = 1.5;
+// The mean of N rays is off by about N^-0.7.
+constexpr double k_noise_power = 0.7;
+constexpr int k_most_rays = 1600;
 
-double seconds_since(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+bool leaves_something_open(const RenderSettings& settings) {
+    return settings.tolerance > 0 &&
+           (settings.engine == "auto" || settings.effects_auto || settings.wavelengths_nm.empty());
 }
 
-// Tells how far the picture is, and hears a stop at every pixel: one may take seconds.
-class Reporter {
-public:
-    Reporter(const Progress& progress, long long pixels) : progress_(progress), pixels_(pixels) {}
+RenderResult drawn(const Scene& scene, const Progress& progress) {
+    return drawn_by_beams(scene.settings) ? render_with_beams(scene, progress)
+                                          : render_with_reference(scene, progress);
+}
 
-    /// Before each pixel; from any thread.
-    bool goes_on() {
-        if (!progress_) return true;
-        if (stopped()) return false;
-        const std::lock_guard<std::mutex> lock(mutex_);
-        if (!progress_(static_cast<double>(done_++) / static_cast<double>(pixels_)))
-            stop_.store(true, std::memory_order_relaxed);
-        return !stopped();
+bool proven(const RenderStats& stats, double tolerance) {
+    return stats.error_bound <= tolerance;
+}
+
+// What the picture itself says of its error, and what the plan says of what it left out.
+void add_plan(const ScenePlan& plan, int samples, RenderStats& stats) {
+    const bool beams = stats.engine != "reference";
+    for (EffectDecision& decision : stats.effects) {
+        const PlanItem& line = plan.item(name_of(decision.effect));
+        decision.why = line.why;
+        decision.error_bound = line.bound;
     }
-    bool stopped() const { return stop_.load(std::memory_order_relaxed); }
-
-private:
-    const Progress& progress_;
-    long long pixels_, done_ = 0;
-    std::mutex mutex_;
-    std::atomic<bool> stop_{false};
-};
+    stats.seconds_setup += plan.seconds_planning;
+    if (plan.pilot_pixels == 0) return;
+    // The pilot's word on few rays and few wavelengths, or what the picture shows if that is more.
+    const double sampling =
+        std::max(plan.bound_of_sampling *
+                     std::pow(static_cast<double>(plan.reference.samples) / std::max(1, samples),
+                              k_noise_power),
+                 k_sampling_bound * stats.sampling_error);
+    stats.error_bound = plan.bound + (beams ? stats.engine_error : sampling);
+    std::erase_if(stats.notes, [](const std::string& note) {
+        return note.find("over the tolerance") != std::string::npos;
+    });
+    if (!proven(stats, plan.settings.tolerance)) {
+        stats.notes.push_back(fmt::format("the error bound {:.3g} is over the tolerance {:.3g}",
+                                          stats.error_bound, plan.settings.tolerance));
+    }
+}
 
 }  // namespace
 
-RenderResult render(const Scene& whole, const Progress& progress) {
-    if (drawn_by_beams(whole.settings)) return render_with_beams(whole, progress);
-    const auto start = std::chrono::steady_clock::now();
-    require_renderable(whole);
-    // The two windows of a dichroscope are one view, seen twice.
-    const int windows = whole.camera.optics.two_windows ? 2 : 1;
-    Scene scene = whole;
-    scene.camera.width /= windows;
-    const Plan plan = plan_for_tolerance(scene);
-    const WavelengthSet colours(plan.wavelengths_nm);
-    const LightField lights(scene.lights, colours);
-    const Camera& camera = scene.camera;
-    const RenderSettings& settings = scene.settings;
+RenderResult render(const Scene& scene, const Progress& progress) {
+    if (!leaves_something_open(scene.settings)) return drawn(scene, progress);
+    require_renderable(scene);
+    ScenePlan plan = plan_scene(scene);
+    Scene settled = scene;
+    settled.settings = plan.settings;
+    RenderResult best = drawn(settled, progress);
+    add_plan(plan, settled.settings.samples, best.stats);
+    // Where the picture shows more error than the pilot did: the reference instead of beams, and
+    // once more rays.
+    const double tolerance = scene.settings.tolerance;
+    const bool beams_are_open = scene.settings.engine == "auto",
+               rays_are_open = scene.settings.samples == 0;
+    for (int attempt = 0; attempt < 2 && plan.pilot_pixels > 0; ++attempt) {
+        RenderStats& stats = best.stats;
+        if (proven(stats, tolerance)) break;
+        std::string why;
+        if (drawn_by_beams(settled.settings)) {
+            if (!beams_are_open || plan.bound + plan.bound_of_sampling >= stats.error_bound) break;
+            settled.settings = plan.reference;
 
-    const PathLimits limits = limits_for(scene, plan, lights, colours);
-    const int samples = settings.samples > 0         ? settings.samples
-                        : plan.on(Effects::aperture) ? k_pupil_samples
-                                                     : k_samples;
-    const PixelShader shader(scene, plan, lights, colours, limits, samples);
-    Film film(scene, camera, plan, colours, shader.planes());
-    RenderResult result;
-    result.stats.seconds_setup = seconds_since(start);
-
-    const auto shading = std::chrono::steady_clock::now();
-    const long long tiles_wide = (camera.width + k_tile - 1) / k_tile;
-    const long long tiles_high = (camera.height + k_tile - 1) / k_tile;
-    std::vector<PixelSums> sums(static_cast<std::size_t>(tiles_wide * tiles_high));
-    tbb::enumerable_thread_specific<PixelMemory> memories;
-    Reporter reporter(progress, static_cast<long long>(camera.width) * camera.height);
-    const auto shade_tile = [&](long long tile) {
-        std::vector<double> stokes(static_cast<std::size_t>(colours.size() * shader.planes()));
-        PixelMemory& memory = memories.local();
-        PixelSums& sum = sums[static_cast<std::size_t>(tile)];
-        const int x0 = static_cast<int>(tile % tiles_wide) * k_tile,
-                  y0 = static_cast<int>(tile / tiles_wide) * k_tile;
-        const int x1 = std::min(x0 + k_tile, camera.width);
-        for (int y = y0; y < std::min(y0 + k_tile, camera.height); ++y) {
-            for (int column = 0; column < x1 - x0; ++column) {
-                if (!reporter.goes_on()) return;
-                // To and fro, so that each pixel is next to the one before.
-                const int x = (y - y0) % 2 == 0 ? x0 + column : x1 - 1 - column;
-                const std::uint64_t number =
-                    static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(camera.width) +
-                    static_cast<std::uint64_t>(x);
-                const PixelSums seen = shader.shade(x, y, 1.0, number, stokes.data(), memory);
-                sum += seen;
-                film.put(x, y, seen, stokes.data());
-            }
+            why = fmt::format("beams came to within {:.2g} only: drawn by the reference instead",
+                              stats.engine_error);
+        } else {
+            const double room = tolerance - plan.bound, off = stats.error_bound - plan.bound;
+            if (!rays_are_open || !(room > 0) || settled.settings.samples >= k_most_rays) break;
+            const double more = std::pow(off / room, 1 / k_noise_power);
+            const int side = static_cast<int>(
+                std::ceil(std::sqrt(settled.settings.samples * std::min(more, 64.0))));
+            why = fmt::format("{} rays a pixel were off by {:.2g}: drawn with more",
+                              settled.settings.samples, off);
+            settled.settings.samples = std::min(side * side, k_most_rays);
         }
-    };
-    on_threads(settings.threads, [&] {
-        tbb::parallel_for(0LL, tiles_wide * tiles_high, shade_tile, tbb::simple_partitioner());
-    });
-    if (reporter.stopped()) throw Interrupted();
-
-    // Sums in the order of the tiles: the same bytes whatever the threads did.
-    RenderStats& stats = result.stats;
-    PixelSums whole_picture;
-    for (const PixelSums& sum : sums) whole_picture += sum;
-    const double weight = whole_picture.hit, variance = whole_picture.variance;
-    stats.remainder = whole_picture.remainder;
-    stats.cut = whole_picture.cut;
-    stats.absorbed = whole_picture.absorbed;
-    stats.rays = whole_picture.rays;
-    stats.depth = whole_picture.deepest;
-    stats.worst_imbalance = whole_picture.worst_imbalance;
-    if (weight > 0) {
-        stats.remainder /= weight;
-        stats.cut /= weight;
-        stats.absorbed /= weight;
-        stats.mean_radiance = whole_picture.luminance / weight;
+        RenderResult next = drawn(settled, progress);
+        add_plan(plan, settled.settings.samples, next.stats);
+        next.stats.seconds_setup +=
+            stats.seconds_setup + stats.seconds_build + stats.seconds_shade + stats.seconds_check;
+        next.stats.notes.push_back(why);
+        if (!(next.stats.error_bound < stats.error_bound)) break;
+        best = std::move(next);
+        plan.settings = settled.settings;
     }
-    if (stats.mean_radiance > 0) {
-        stats.error_bound =
-            (stats.remainder + stats.cut) * lights.max_radiance() / stats.mean_radiance;
-        stats.standard_error = std::sqrt(variance / weight) / stats.mean_radiance;
-    }
-    result.picture = film.take(variance > 0);
-    stats.notes = notes_on_drawing(scene);
-    if (whole_picture.sampled > 0) {
-        stats.notes.push_back(
-            fmt::format("the trees of {} of {} rays grew over {} splits: from there on one wave "
-                        "was followed, chosen by power",
-                        whole_picture.sampled, stats.rays, limits.most_splits));
-    }
-    if (settings.tolerance > 0 && stats.standard_error > settings.tolerance) {
-        stats.notes.push_back(
-            fmt::format("paths chosen at random leave a standard error of {:.3g} a pixel, over the "
-                        "tolerance {:.3g}: more samples lower it",
-                        stats.standard_error, settings.tolerance));
-    }
-    if (settings.tolerance > 0 && stats.error_bound > settings.tolerance) {
-        stats.notes.push_back(fmt::format("the error bound {:.3g} is over the tolerance {:.3g}",
-                                          stats.error_bound, settings.tolerance));
-    }
-    stats.effects.assign(plan.effects.begin(), plan.effects.end());
-    stats.wavelengths_nm = plan.wavelengths_nm;
-    stats.seconds_shade = seconds_since(shading);
-    return result;
+    best.stats.plan = plan;
+    return best;
 }
 
 }  // namespace culet

@@ -2,15 +2,33 @@
 // Front door of the room: a scene in, a picture out, and what was left out of it.
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "render/picture.h"
 #include "render/plan.h"
+#include "render/plan/scene_plan.h"
 #include "render/scene.h"
 #include "stone/progress.h"
 
 namespace culet {
+
+/// How a finished picture compares with the truth: the reference with everything on at some pixels
+/// of the stone. Errors as in plan/scene_plan.h.
+struct Verification {
+    int pixels = 0, samples = 0;
+    double difference = 0;                ///< to the truth as drawn
+    double spread = 0;                    ///< standard error of it, as of pixels chosen at random
+    double noise = 0;                     ///< what the truth's few rays are off by
+    double measured = 0;                  ///< the difference less the noise
+    double delta_e = 0;                   ///< CIEDE2000, with the noise in it
+    double bound = 0, bound_delta_e = 0;  ///< what the picture says of itself
+    double seconds = 0;
+
+    /// The bound is not below what was measured, as far as that is certain.
+    bool holds() const { return measured - 3 * spread - noise <= bound; }
+};
 
 struct RenderStats {
     std::string engine = "reference";
@@ -28,6 +46,13 @@ struct RenderStats {
     /// pixels of the standard error of a pixel, relative to the mean. Each choice is made twice,
     /// independently, and the differences tell it without bias.
     double standard_error = 0;
+    /// Reference: mean over the stone's pixels of about what their few rays are off by, relative to
+    /// the mean: half the difference between every other ray and the rest.
+    double sampling_error = 0;
+    /// What was decided, where the scene left it open; then `error_bound` is that of the plan with
+    /// what the picture shows of its sampling, or of the beams.
+    std::optional<ScenePlan> plan;
+    std::optional<Verification> verification;  ///< where asked for
     /// Largest |sum of powers - 1| met at a crystal's face before it was put right.
     double worst_imbalance = 0;
     /// Beams: mean of |difference to the reference| over pixels of the stone, relative to the mean,
@@ -52,6 +77,10 @@ struct RenderResult {
 /// stone) and Interrupted.
 RenderResult render(const Scene& scene, const Progress& progress = {});
 
+/// Draws some pixels anew with everything on: the time of so many pixels of 64 to 256 rays
+/// each.
+Verification verify(const Scene& scene, const RenderResult& result, int pixels = 128);
+
 /// Frame after frame by beams (engine "beams" or "preview"), for programs that draw while a person
 /// watches: what is kept from frame to frame is memory and whatever the changes left valid.
 class FrameRenderer {
@@ -70,6 +99,8 @@ public:
     /// are then split no further, as much as the last frame's time asks for: the picture depends on
     /// the machine, and its `remainder` grows. Guy & Soler (2004) call it the frame-rate limit.
     void keep_within(double milliseconds);
+    /// Told how far a frame is; may stop it, and `draw` then throws Interrupted.
+    void report_to(const Progress& progress);
 
     /// The picture stays valid until the next call. Without `check` no pixels are compared with the
     /// reference, and `error_bound` is NaN.

@@ -217,8 +217,16 @@ struct RenderSettings {
     Refraction refraction = Refraction::astigmatic;
     /// Beams in crystals: nothing: whichever the scene calls for.
     std::optional<CrystalBeams> crystal_beams;
-    int depth = 0;             ///< 0: by tolerance. Depth d has d - 1 inner segments
-    double tolerance = 0.01;   ///< of the picture's mean radiance; 0: nothing is cut
+    int depth = 0;            ///< 0: by tolerance. Depth d has d - 1 inner segments
+    double tolerance = 0.01;  ///< of the picture's mean radiance; 0: nothing is cut
+    /// Weight below which a path is not followed (crystals: gambled on), and above which both
+    /// branches of a crystal's tree are; nothing: by tolerance.
+    std::optional<double> cut_weight, split_weight;
+    /// Reference: the rays of a pixel take turns, so that each carries every so manieth of the
+    /// wavelengths that go ways of their own; at most `samples`.
+    int wavelength_turns = 1;
+    /// Beams: pixels that are held against the reference, and its rays in each; 0: some 2000, 16.
+    int checked_pixels = 0, checked_samples = 0;
     bool effects_auto = true;  ///< all that can matter; else `effects`
     std::array<bool, k_effect_count> effects{true, true, true, true, true, true, true};
     /// Coherence of a crystal's two waves: nothing: where the scene calls for it.

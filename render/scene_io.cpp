@@ -128,9 +128,10 @@ void read_filter(const TomlTable& table, RenderSettings& settings) {
 }
 
 RenderSettings read_settings(const TomlTable& table) {
-    table.refuse_unknown(with_view_keys({"engine", "depth", "tolerance", "effects", "wavelengths",
-                                         "samples", "coherence", "bandwidth", "filter",
-                                         "filter_radius", "refraction", "crystal_beams"}));
+    table.refuse_unknown(
+        with_view_keys({"engine", "depth", "tolerance", "effects", "wavelengths", "samples",
+                        "coherence", "bandwidth", "filter", "filter_radius", "refraction",
+                        "crystal_beams", "cut_weight", "split_weight"}));
     RenderSettings settings;
     read_coherence(table, settings);
     if (const auto beams = table.text("crystal_beams")) {
@@ -183,6 +184,15 @@ RenderSettings read_settings(const TomlTable& table) {
     if (settings.tolerance == 0 && settings.depth == 0) {
         table.fail("tolerance", "with tolerance = 0 nothing is cut: give a depth");
     }
+    const auto weight_in = [&](const char* key) -> std::optional<double> {
+        const auto weight = table.number(key);
+        if (weight && !(*weight > 0 && *weight <= 1))
+            table.fail(key, fmt::format("{} is a share of the light, above 0 to 1, found {}", key,
+                                        *weight));
+        return weight;
+    };
+    settings.cut_weight = weight_in("cut_weight");
+    settings.split_weight = weight_in("split_weight");
     if (const auto samples = table.integer("samples")) {
         if (*samples < 1 || *samples > 4096)
             table.fail("samples", fmt::format("samples a pixel are 1 to 4096, found {}", *samples));

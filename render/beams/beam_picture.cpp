@@ -54,23 +54,8 @@ double processor_seconds() {
 }
 
 void require_beams(const Scene& scene, const Plan& plan) {
-    const std::string remedy = ": say engine = \"reference\"";
-    if (!scene.stone.convex) throw InputError("beams are for convex stones only" + remedy);
-    for (const Band& band : plan.bands) {
-        if (!(band.n > band.n_outside)) {
-            throw InputError(
-                fmt::format("beams need a stone denser than what surrounds it, found "
-                            "{} in {}{}",
-                            band.n, band.n_outside, remedy));
-        }
-    }
-    if (scene.camera.optics.two_windows)
-        throw InputError("beams draw one window, a dichroscope has two" + remedy);
-    if (scene.settings.filter != PixelFilter::box || scene.settings.filter_radius != 0.5)
-        throw InputError("beams average over the pixel's square: say filter = \"box\"" + remedy);
-    if (scene.lights.spheres.size() + scene.lights.planes.size() > k_most_near_lights)
-        throw InputError(
-            fmt::format("beams take at most {} near lights{}", k_most_near_lights, remedy));
+    const std::string why = refused_by_beams(scene, plan);
+    if (!why.empty()) throw InputError(why + ": say engine = \"reference\"");
 }
 
 BeamSettings beam_settings(const Scene& scene, const PathLimits& limits) {
@@ -186,7 +171,7 @@ struct FrameRenderer::State {
     Progress progress;
 
     void draw(bool check);
-    void check();
+    void check(double filled);
 };
 
 void FrameRenderer::State::draw(bool with_check) {
@@ -215,7 +200,7 @@ void FrameRenderer::State::draw(bool with_check) {
     stats.seconds_shade = report.seconds_shade;
     stats.notes = notes;
     stats.error_bound = std::numeric_limits<double>::quiet_NaN();
-    if (with_check) check();
+    if (with_check) check(report.filled);
     if (limit_ms > 0) {
         // The number of beams falls about with the root of the cut: steps towards the limit.
         const double ratio = took_ms / limit_ms;
@@ -226,16 +211,24 @@ void FrameRenderer::State::draw(bool with_check) {
 }
 
 // Pixels on a grid, jittered by the golden ratio, as the reference sees them at the same depth.
-void FrameRenderer::State::check() {
+void FrameRenderer::State::check(double filled) {
     const auto start = Clock::now();
     RenderStats& stats = result.stats;
     const Picture& picture = result.picture;
     const bool single = scene.settings.samples == 1;
+    const int wanted = scene.settings.checked_pixels > 0 ? scene.settings.checked_pixels
+                                                         : k_checked_across * k_checked_across;
+    const int samples =
+        scene.settings.checked_samples > 0 ? scene.settings.checked_samples : k_check_samples;
     const PixelShader shader(scene, called->plan, called->lights, called->colours, called->limits,
-                             single && scene.camera.aperture_radius == 0 ? 1 : k_check_samples);
+                             single && scene.camera.aperture_radius == 0 ? 1 : samples);
     std::vector<std::size_t> pixels;
-    const double step = std::max(
-        1.0, static_cast<double>(std::max(picture.width, picture.height)) / k_checked_across);
+    // A grid over the picture, or of so many pixels on the stone.
+    const double area =
+        scene.settings.checked_pixels > 0
+            ? filled
+            : std::pow(static_cast<double>(std::max(picture.width, picture.height)), 2);
+    const double step = std::max(1.0, std::sqrt(area / wanted));
     int number = 0;
     for (double y = 0; y < picture.height; y += step) {
         for (double x = 0; x < picture.width; x += step, ++number) {
@@ -330,9 +323,30 @@ void FrameRenderer::keep_within(double milliseconds) {
     if (!(milliseconds > 0)) state_->cut = 0;
 }
 
+void FrameRenderer::report_to(const Progress& progress) {
+    state_->progress = progress;
+}
+
 const RenderResult& FrameRenderer::draw(bool check) {
     state_->draw(check);
     return state_->result;
+}
+
+std::string refused_by_beams(const Scene& scene, const Plan& plan) {
+    if (!scene.stone.convex) return "beams are for convex stones only";
+    for (const Band& band : plan.bands) {
+        if (!(band.n > band.n_outside)) {
+            return fmt::format("beams need a stone denser than what surrounds it, found {} in {}",
+                               band.n, band.n_outside);
+        }
+    }
+    if (scene.camera.optics.two_windows) return "beams draw one window, a dichroscope has two";
+    if (scene.camera.cone) return "beams draw points of the stone, a conoscope shows directions";
+    if (scene.settings.filter != PixelFilter::box || scene.settings.filter_radius != 0.5)
+        return "beams average over the pixel's square: say filter = \"box\"";
+    if (scene.lights.spheres.size() + scene.lights.planes.size() > k_most_near_lights)
+        return fmt::format("beams take at most {} near lights", k_most_near_lights);
+    return {};
 }
 
 bool drawn_by_beams(const RenderSettings& settings) {

@@ -5,6 +5,9 @@
 
 namespace culet {
 
+/// Why beams cannot draw this, in words; empty: they can.
+std::string refused_by_beams(const Scene& scene, const Plan& plan);
+
 bool drawn_by_beams(const RenderSettings& settings);
 RenderResult render_with_beams(const Scene& scene, const Progress& progress);
 

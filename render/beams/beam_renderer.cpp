@@ -4,8 +4,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <mutex>
 #include <utility>
 
 #include "render/beams/shading_passes.h"
@@ -227,9 +229,18 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
     StripSums whole;
     double lost = 0;
     int trees = 0;
+    std::mutex listening;
+    std::atomic<bool> stop{false};
+    int painted = 0;
+    const auto goes_on = [&] {
+        if (!progress || stop) return !stop;
+        const std::lock_guard<std::mutex> lock(listening);
+        const double done = static_cast<double>(painted++) /
+                            (static_cast<double>(views.size()) * static_cast<double>(strips));
+        if (!progress(done)) stop = true;
+        return !stop;
+    };
     for (std::size_t v = 0; v < views.size(); ++v) {
-        if (progress && !progress(static_cast<double>(v) / static_cast<double>(views.size())))
-            throw Interrupted();
         SortedBeams* beams = work.beams.data() + v * bands;
         std::vector<StripSums> sums(static_cast<std::size_t>(strips));
         const std::vector<FrontFacet> fronts = front_facets(work.stone.net, views[v]);
@@ -250,6 +261,7 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
             tbb::parallel_for(
                 0, strips,
                 [&](int strip) {
+                    if (!goes_on()) return;
                     if (v == 0) work.clear(strip);
                     sums[static_cast<std::size_t>(strip)] = work.painters.local().paint(
                         strip, views[v], beams, fronts, passes, options);
@@ -258,6 +270,7 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
                 tbb::simple_partitioner());
             report.seconds_shade += seconds_since(shading);
         });
+        if (stop) throw Interrupted();
         for (const StripSums& sum : sums) whole += sum;
         const bool kept = settings.crystal == CrystalBeams::merged || !plan.splits;
         for (std::size_t b = 0; kept && b < bands; ++b) {

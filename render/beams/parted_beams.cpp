@@ -13,6 +13,9 @@ namespace {
 // Pixels between the ray of reference and those beside it: differences over it hold about half of
 // the digits of double precision.
 constexpr double k_beside = 1e-3;
+// Every face is a call within a call, of 5 kB of stack each, and threads have 4 MB (8 at most).
+// What is left of a beam then counts as remainder.
+constexpr int k_deepest_call = 200;
 
 std::array<double, 3> with_changes(const std::array<double, 3>& v) {
     return {v[0], (v[1] - v[0]) / k_beside, (v[2] - v[0]) / k_beside};
@@ -34,6 +37,7 @@ double seen(const Stokes& response, const Complex& x, const Complex& y) {
 PartedBeams::PartedBeams(const FacetNet& net, const Band& band, const PartedLimits& limits,
                          const Stokes& response)
     : net_(net), band_(band), limits_(limits), response_(response) {
+    limits_.depth = std::min(limits_.depth, k_deepest_call);
     splitter_.prepare(net);
 }
 

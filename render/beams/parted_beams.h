@@ -31,7 +31,7 @@ struct LeavingBeam {
 };
 
 struct PartedLimits {
-    int depth = 8;
+    int depth = 8;  ///< at most 200
     double cut_weight = 1e-3;
 };
 

@@ -60,6 +60,12 @@ protected:
         }
         return text + "width,0,2.02,0.05\nwidth,90,2.02,0.05\n";
     }
+    void write_scene() const {
+        std::ofstream(folder_ / "scene.toml")
+            << "stone = \"stone.toml\"\n[camera]\nposition = [6, 5, 9]\nsize = [80, 60]\n"
+               "[light]\nconstant = 0.2\n[[light.lobe]]\ndirection = [0, 0, 1]\nexponent = 4\n"
+               "[render]\ntolerance = 0.1\n";
+    }
     fs::path folder_;
 };
 
@@ -100,8 +106,6 @@ void expect_refused(const ProgramRun& run, const std::string& why) {
 }
 
 TEST_F(StudyCommand, RefusesInOneLineAndWritesNothing) {
-    std::ofstream(folder_ / "scene.toml") << "stone = \"stone.toml\"\n[camera]\nposition=[0,0,9]\n";
-    expect_refused(run_culet({"study", file("scene.toml"), "-o", file("out")}), "is a scene");
     write_cube("");
     expect_refused(run_culet({"study", file("stone.toml"), "-o", file("out")}), "no readings");
     expect_refused(run_culet({"study", file("none.toml"), "-o", file("out")}), "none.toml");
@@ -112,6 +116,49 @@ TEST_F(StudyCommand, RefusesInOneLineAndWritesNothing) {
                    "--draws");
     expect_refused(run_culet({"study", file("stone.toml"), "-o", file("out"), "--budget", "-1"}),
                    "--budget");
+}
+
+TEST_F(StudyCommand, OfASceneWritesTablesChartJsonPicturesAndPage) {
+    write_cube(all_readings());
+    write_scene();
+    const ProgramRun run =
+        run_culet({"study", file("scene.toml"), "-o", file("out"), "--size", "16", "--runs", "2",
+                   "--budget", "2", "--threads", "1", "-q"});
+    EXPECT_LE(run.exit_code, 1) << run.err;
+    EXPECT_EQ(run.err, "");
+    EXPECT_THAT(run.out, HasSubstr("setting on the front"));
+    EXPECT_THAT(run.out, HasSubstr("automatic settings took"));
+    const auto json = nlohmann::json::parse(text("out/study.json"));
+    EXPECT_EQ(json["kind"], "scene");
+    EXPECT_EQ(json["name"], "Cube");
+    EXPECT_EQ(json["size"], nlohmann::json({16, 12}));
+    EXPECT_EQ(json["scene_size"], nlohmann::json({80, 60}));
+    EXPECT_FALSE(json["front"].empty());
+    EXPECT_EQ(xml_fault(text("out/time.svg")), "");
+    EXPECT_TRUE(text("out/time.csv").starts_with("id,sweep,setting,"));
+    const std::string page = text("out/report.html");
+    EXPECT_THAT(page, HasSubstr("<h1>Cube</h1>"));
+    EXPECT_EQ(page.find("src=\"http"), std::string::npos);
+    EXPECT_TRUE(fs::exists(folder_ / "out/reference.exr"));
+}
+
+TEST_F(StudyCommand, OfASceneRefusesInOneLine) {
+    write_cube(all_readings());
+    write_scene();
+    const auto study = [&](std::vector<std::string> more) {
+        std::vector<std::string> arguments{"study", file("scene.toml"), "-o", file("out")};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_culet(arguments);
+    };
+    expect_refused(study({"--draws", "3"}), "--draws is for studies of stones");
+    expect_refused(study({"--only", "time"}), "--only is for studies of stones");
+    expect_refused(study({"--size", "3"}), "--size");
+    expect_refused(study({"--runs", "0"}), "--runs");
+    expect_refused(study({"--set", "camera.look_at=[0,900,0]", "--budget", "5"}),
+                   "does not see the stone");
+    expect_refused(run_culet({"study", file("stone.toml"), "-o", file("out"), "--size", "64"}),
+                   "--size is for studies of scenes");
+    EXPECT_FALSE(fs::exists(folder_ / "out/study.json"));
 }
 
 TEST_F(StudyCommand, FitDrawsTheStone) {

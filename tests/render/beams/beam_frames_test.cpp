@@ -80,7 +80,7 @@ TEST(Frames, with_lights_that_call_for_other_wavelengths_are_those_of_a_fresh_re
     changed.lights.lobes.push_back({{0, 0, 1}, 3, {"A", {}}});
     changed.lights.environment = smooth_environment();
     frames.light_with(changed.lights);
-    EXPECT_EQ(frames.draw().picture.rgb, render(changed).picture.rgb);
+    EXPECT_EQ(frames.draw().picture.rgb, FrameRenderer(changed).draw().picture.rgb);
 }
 
 TEST(Frames, from_another_view_and_back_are_the_first) {
@@ -136,7 +136,8 @@ void expect_bound_holds(Scene scene, const std::string& engine, int samples) {
     const Difference d = difference(beams.picture, exact.picture);
     EXPECT_EQ(d.not_finite, 0);
     EXPECT_TRUE(std::isfinite(beams.stats.error_bound));
-    EXPECT_LE(d.mean, beams.stats.error_bound) << engine << ", " << d;
+    // The 256 samples are themselves a little off.
+    EXPECT_LE(d.mean, beams.stats.error_bound + exact.stats.sampling_error) << engine << ", " << d;
 }
 
 TEST(ErrorBounds, hold_for_every_refraction_and_engine) {

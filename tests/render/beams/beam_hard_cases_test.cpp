@@ -225,7 +225,8 @@ TEST(HardCases, a_frame_from_elsewhere_has_the_limits_of_a_fresh_renderer) {
     frames.draw();
     look(scene, {1, 0.2, -1}, 4);
     frames.look_from(scene.camera);
-    const RenderResult moved = frames.draw(true), fresh = render(scene);
+    FrameRenderer anew(scene);
+    const RenderResult moved = frames.draw(true), fresh = anew.draw(true);
     EXPECT_EQ(moved.stats.beams, fresh.stats.beams);
     EXPECT_EQ(moved.picture.rgb, fresh.picture.rgb);
 }

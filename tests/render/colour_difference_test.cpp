@@ -1,4 +1,4 @@
-#include "compare/colour_difference.h"
+#include "render/colour_difference.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,58 @@
+#pragma once
+// Processor time of a study: when a piece of work has had its share, and when a person stops it.
+
+#include <algorithm>
+#include <ctime>
+#include <limits>
+
+#include "stone/errors.h"
+#include "stone/progress.h"
+
+namespace culet {
+
+class StudyClock {
+public:
+    /// `seconds`: of processor time in all; 0: no limit.
+    StudyClock(double seconds, const Progress& progress) : budget_(seconds), progress_(progress) {}
+
+    static double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+    double spent() const { return now() - start_; }
+    bool limited() const { return budget_ > 0; }
+    /// This share of the budget; infinite without one.
+    double share(double of_budget) const {
+        return limited() ? of_budget * budget_ : std::numeric_limits<double>::infinity();
+    }
+
+    /// Runs `work(Progress)` and stops it after that many seconds: false then. Throws Interrupted
+    /// when the person stops it.
+    template <class Work>
+    bool within(double seconds, Work&& work) {
+        const double end = spent() + seconds;
+        try {
+            work(Progress([&](double) { return goes_on() && spent() < end; }));
+            return true;
+        } catch (const Interrupted&) {
+            if (stopped_) throw;
+            return false;
+        }
+    }
+    /// How far the study is, where no budget says it.
+    void set_fraction(double fraction) { fraction_ = fraction; }
+    /// Tells the person; throws Interrupted when they stop the work.
+    void report() {
+        if (!goes_on()) throw Interrupted();
+    }
+
+private:
+    bool goes_on() {
+        const double fraction = limited() ? std::min(1.0, spent() / budget_) : fraction_;
+        if (progress_ && !progress_(fraction)) stopped_ = true;
+        return !stopped_;
+    }
+
+    double budget_ = 0, start_ = now(), fraction_ = 0;
+    const Progress& progress_;
+    bool stopped_ = false;
+};
+
+}  // namespace culet

@@ -1,0 +1,27 @@
+#pragma once
+// How far some pixels are from what they should be, and how sure that is.
+
+#include <vector>
+
+#include "render/colour.h"
+
+namespace culet {
+
+/// Over some pixels of a picture. `radiance`: mean of the mean absolute difference of R, G and B,
+/// relative to `mean`; `delta_e`: mean CIEDE2000 as on a screen whose white is five times `mean`
+/// (middle grey is a fifth of white).
+struct ColourError {
+    double mean = 0;  ///< of R, G and B of the true pixels
+    double radiance = 0, delta_e = 0;
+    /// Standard errors of the two means, as of pixels chosen at random.
+    double radiance_spread = 0, delta_e_spread = 0;
+
+    /// With three standard errors.
+    double bound() const { return radiance + 3 * radiance_spread; }
+    double bound_delta_e() const { return delta_e + 3 * delta_e_spread; }
+};
+
+/// Both of one size. All 0 where no pixel is lit.
+ColourError colour_error(const std::vector<Rgb>& seen, const std::vector<Rgb>& truth);
+
+}  // namespace culet

@@ -1,0 +1,39 @@
+#pragma once
+// A few pixels of the very picture, drawn by the reference with this and that left out.
+
+#include <utility>
+#include <vector>
+
+#include "render/path.h"
+#include "render/plan.h"
+#include "render/scene.h"
+
+namespace culet {
+
+/// Pixels whose middle the stone covers, evenly spread over it.
+struct StonePixels {
+    std::vector<std::pair<int, int>> at;  ///< x, y
+    double in_picture = 0;                ///< estimate of how many there are
+};
+/// About `wanted`, fewer where there are not as many. Empty: the stone was not found.
+StonePixels stone_pixels(const Scene& scene, int wanted);
+
+struct PilotDrawing {
+    std::vector<Rgb> rgb;  ///< of each pixel, behind the eye's optics
+    std::vector<double> wavelengths_nm;
+    double mean = 0;       ///< of R, G and B
+    double rays = 0;       ///< eye rays x bands
+    double events = 0;     ///< faces that light met
+    double remainder = 0;  ///< at the depth limit, mean weight
+    double absorbed = 0;
+    double few_rays = 0;  ///< about what the pixels are off by for their few rays, over the mean
+    double brightest = 0;
+    double seconds = 0;  ///< that it took, of all threads together
+};
+
+/// `nodes`: wavelengths where a spectrum is called for and the scene names none. `scene`: with the
+/// settings to draw with; their depth and tolerance are left aside for `limits`.
+PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const PathLimits& limits,
+                        int samples, int nodes = k_node_counts[1]);
+
+}  // namespace culet

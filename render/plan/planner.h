@@ -1,0 +1,93 @@
+#pragma once
+// How a plan is made: what is known beforehand, then pilots of the scene with this or that left
+// out.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/colour_error.h"
+#include "render/plan.h"
+#include "render/plan/pilot_picture.h"
+#include "render/plan/price.h"
+#include "render/plan/scene_plan.h"
+
+namespace culet {
+
+// How the tolerance is shared out.
+constexpr double k_share_of_cut = 0.15, k_share_of_effects = 0.5, k_share_of_wavelengths = 0.35;
+// Effects that cost next to nothing go only where they change next to nothing.
+constexpr double k_share_of_cheap = 0.05;
+// Rays of a pilot in each pixel; behind a lens. A mean over so few differs by more than one over
+// the pixel.
+constexpr int k_pilot_rays = 4, k_spectral_rays = 9, k_lens_rays = 16;
+constexpr const char* k_same_light = "the light is the same from everywhere: nothing changes";
+
+std::vector<double> even_wavelengths(int count);
+/// Turns that the rays of a pixel take with so many wavelengths: four at a time bring nearly as
+/// much as all of them, and each at least twice.
+int turns_for(int rays, int wavelengths);
+
+/// Of noise, which the finished picture shows anew: with one and a half standard errors.
+inline double likely(const ColourError& noise) {
+    return noise.radiance + 1.5 * noise.radiance_spread;
+}
+
+class Planner {
+public:
+    explicit Planner(const Scene& whole);
+    ScenePlan run();
+
+private:
+    PlanItem& item(Effects effect) { return plan_.items[static_cast<std::size_t>(effect)]; }
+    bool on(Effects effect) const { return plan_.items[static_cast<std::size_t>(effect)].on; }
+
+    // The scene with the effects that are on, less one.
+    Scene with_effects(bool dispersion, std::optional<Effects> without = {}) const;
+    Scene at_pilot_wavelengths(Scene scene) const;
+    PilotDrawing draw(const Scene& scene, int samples) const;
+    PathLimits limits(double cut) const;
+    // Of one eye ray.
+    PathWork work_of(const Scene& scene, const PilotDrawing& drawing, int samples) const;
+
+    void say_what_is_known();
+    void settle_without_pilot();
+    void choose_pixels();
+    void choose_cut();
+    void choose_effects();
+    void try_without(Effects effect, double share);
+    void choose_wavelengths();
+    void choose_engine_and_samples();
+    void choose_beam_wavelengths();
+    double room_for_wavelengths() const;
+    int samples_for(double room) const;
+    void estimate_times();
+    void add_resolutions();
+
+    Scene scene_;                // of one window
+    const RenderSettings user_;  // as the scene has them
+    double tolerance_;
+    ScenePlan plan_;
+    StonePixels pixels_;
+    bool branches_ = false;  // trees of light paths double
+    double cut_ = 0;
+    double spent_ = 0;       // of the tolerance
+    PilotDrawing first_;     // with the effects that are on, without dispersion
+    PathWork work_, whole_;  // of one of its eye rays; the same with everything on
+    double cut_bound_ = 0, cut_delta_e_ = 0;
+    double wavelength_bound_ = 0, wavelength_delta_e_ = 0;
+    bool spectrum_ = false;  // the wavelengths were chosen
+    double whole_bands_ = 1, bands_ = 1;
+    bool dispersed_ = false;  // wavelengths go ways of their own
+    // What a pixel is off by for its few rays.
+    struct Noise {
+        double rays = 4, radiance = 0, delta_e = 0;
+        // Of rays: N^-0.75 on a grid where edges cross the pixel, N^-0.5 where chance decides.
+        double power = 0.7;
+
+        double at(double count) const;
+    } noise_;
+    double machine_ = 1;  // nanoseconds of this one over those of price.h
+};
+
+}  // namespace culet

@@ -1,0 +1,28 @@
+#pragma once
+// What a picture costs in processor time, from counts alone: the same scene is planned the same way
+// on every machine. The unit is the nanosecond of the machine of docs/plan.md; a pilot's clock says
+// how this one differs.
+
+namespace culet {
+
+/// Work of the reference renderer.
+struct PathWork {
+    double rays = 0;    ///< eye rays x bands
+    double events = 0;  ///< faces met
+    bool general = false, polarised = true;
+    int nodes = 1;  ///< wavelengths in a band
+};
+double price_ns(const PathWork& work);
+
+/// Work of the beams.
+struct BeamWork {
+    double pixels = 0;  ///< of the stone
+    double bands = 1;
+    double events_per_ray = 1;
+    double views = 1;  ///< points of the pupil
+    bool polarised = true;
+    int nodes = 1;
+};
+double price_ns(const BeamWork& work);
+
+}  // namespace culet

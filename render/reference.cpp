@@ -1,0 +1,158 @@
+#include "render/render.h"
+
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+
+#include "render/film.h"
+#include "render/pilot.h"
+#include "render/pixel_shader.h"
+#include "render/reference.h"
+#include "render/scene_checks.h"
+#include "render/threads.h"
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+constexpr int k_tile = 16;  // pixels
+constexpr int k_samples = 16, k_pupil_samples = 64;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// Tells how far the picture is, and hears a stop at every pixel: one may take seconds.
+class Reporter {
+public:
+    Reporter(const Progress& progress, long long pixels) : progress_(progress), pixels_(pixels) {}
+
+    /// Before each pixel; from any thread.
+    bool goes_on() {
+        if (!progress_) return true;
+        if (stopped()) return false;
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (!progress_(static_cast<double>(done_++) / static_cast<double>(pixels_)))
+            stop_.store(true, std::memory_order_relaxed);
+        return !stopped();
+    }
+    bool stopped() const { return stop_.load(std::memory_order_relaxed); }
+
+private:
+    const Progress& progress_;
+    long long pixels_, done_ = 0;
+    std::mutex mutex_;
+    std::atomic<bool> stop_{false};
+};
+
+}  // namespace
+
+RenderResult render_with_reference(const Scene& whole, const Progress& progress) {
+    const auto start = std::chrono::steady_clock::now();
+    require_renderable(whole);
+    // The two windows of a dichroscope are one view, seen twice.
+    const int windows = whole.camera.optics.two_windows ? 2 : 1;
+    Scene scene = whole;
+    scene.camera.width /= windows;
+    const Plan plan = plan_for_tolerance(scene);
+    const WavelengthSet colours(plan.wavelengths_nm);
+    const LightField lights(scene.lights, colours);
+    const Camera& camera = scene.camera;
+    const RenderSettings& settings = scene.settings;
+
+    const PathLimits limits = limits_for(scene, plan, lights, colours);
+    const int samples = settings.samples > 0         ? settings.samples
+                        : plan.on(Effects::aperture) ? k_pupil_samples
+                                                     : k_samples;
+    const PixelShader shader(scene, plan, lights, colours, limits, samples);
+    Film film(scene, camera, plan, colours, shader.planes());
+    RenderResult result;
+    result.stats.seconds_setup = seconds_since(start);
+
+    const auto shading = std::chrono::steady_clock::now();
+    const long long tiles_wide = (camera.width + k_tile - 1) / k_tile;
+    const long long tiles_high = (camera.height + k_tile - 1) / k_tile;
+    std::vector<PixelSums> sums(static_cast<std::size_t>(tiles_wide * tiles_high));
+    tbb::enumerable_thread_specific<PixelMemory> memories;
+    Reporter reporter(progress, static_cast<long long>(camera.width) * camera.height);
+    const auto shade_tile = [&](long long tile) {
+        std::vector<double> stokes(static_cast<std::size_t>(colours.size() * shader.planes()));
+        PixelMemory& memory = memories.local();
+        PixelSums& sum = sums[static_cast<std::size_t>(tile)];
+        const int x0 = static_cast<int>(tile % tiles_wide) * k_tile,
+                  y0 = static_cast<int>(tile / tiles_wide) * k_tile;
+        const int x1 = std::min(x0 + k_tile, camera.width);
+        for (int y = y0; y < std::min(y0 + k_tile, camera.height); ++y) {
+            for (int column = 0; column < x1 - x0; ++column) {
+                if (!reporter.goes_on()) return;
+                // To and fro, so that each pixel is next to the one before.
+                const int x = (y - y0) % 2 == 0 ? x0 + column : x1 - 1 - column;
+                const std::uint64_t number =
+                    static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(camera.width) +
+                    static_cast<std::uint64_t>(x);
+                const PixelSums seen = shader.shade(x, y, 1.0, number, stokes.data(), memory);
+                sum += seen;
+                film.put(x, y, seen, stokes.data());
+            }
+        }
+    };
+    on_threads(settings.threads, [&] {
+        tbb::parallel_for(0LL, tiles_wide * tiles_high, shade_tile, tbb::simple_partitioner());
+    });
+    if (reporter.stopped()) throw Interrupted();
+
+    // Sums in the order of the tiles: the same bytes whatever the threads did.
+    RenderStats& stats = result.stats;
+    PixelSums whole_picture;
+    for (const PixelSums& sum : sums) whole_picture += sum;
+    const double weight = whole_picture.hit, variance = whole_picture.variance;
+    stats.remainder = whole_picture.remainder;
+    stats.cut = whole_picture.cut;
+    stats.absorbed = whole_picture.absorbed;
+    stats.rays = whole_picture.rays;
+    stats.depth = whole_picture.deepest;
+    stats.worst_imbalance = whole_picture.worst_imbalance;
+    if (weight > 0) {
+        stats.remainder /= weight;
+        stats.cut /= weight;
+        stats.absorbed /= weight;
+        stats.mean_radiance = whole_picture.luminance / weight;
+    }
+    if (stats.mean_radiance > 0) {
+        stats.error_bound =
+            (stats.remainder + stats.cut) * lights.max_radiance() / stats.mean_radiance;
+        stats.standard_error = std::sqrt(variance / weight) / stats.mean_radiance;
+        stats.sampling_error = whole_picture.halves_apart / whole_picture.radiance;
+    }
+    result.picture = film.take(variance > 0);
+    stats.notes = notes_on_drawing(scene);
+    if (whole_picture.sampled > 0) {
+        stats.notes.push_back(
+            fmt::format("the trees of {} of {} rays grew over {} splits: from there on one wave "
+                        "was followed, chosen by power",
+                        whole_picture.sampled, stats.rays, limits.most_splits));
+    }
+    if (settings.tolerance > 0 && stats.standard_error > settings.tolerance) {
+        stats.notes.push_back(
+            fmt::format("paths chosen at random leave a standard error of {:.3g} a pixel, over the "
+                        "tolerance {:.3g}: more samples lower it",
+                        stats.standard_error, settings.tolerance));
+    }
+    if (settings.tolerance > 0 && stats.error_bound > settings.tolerance) {
+        stats.notes.push_back(fmt::format("the error bound {:.3g} is over the tolerance {:.3g}",
+                                          stats.error_bound, settings.tolerance));
+    }
+    stats.effects.assign(plan.effects.begin(), plan.effects.end());
+    stats.wavelengths_nm = plan.wavelengths_nm;
+    stats.seconds_shade = seconds_since(shading);
+    return result;
+}
+
+}  // namespace culet

@@ -1,0 +1,114 @@
+#include "compare/study_design.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "render/plan.h"
+#include "tests/compare/study_scene.h"
+
+namespace culet {
+namespace {
+
+StudyGround ground_of(const Scene& scene) {
+    StudyGround ground;
+    ground.scene = scene;
+    Scene exact = scene;
+    exact.settings = exact_settings(scene, 0.001, k_node_counts.back());
+    const Plan plan = make_plan(exact);
+    ground.exact.effects.assign(plan.effects.begin(), plan.effects.end());
+    ground.exact.wavelengths_nm = plan.wavelengths_nm;
+    ground.exact.depth = 30;
+    ground.tolerances = {0.1, 0.01};
+    return ground;
+}
+
+std::set<std::string> settings_of(const std::vector<StudyCandidate>& design,
+                                  const std::string& sweep) {
+    std::set<std::string> settings;
+    for (const StudyCandidate& one : design) {
+        if (one.sweep == sweep) settings.insert(one.setting);
+    }
+    return settings;
+}
+
+TEST(StudyDesign, leaves_nothing_open_in_the_reference) {
+    Scene scene = test::cube_scene();
+    scene.settings.engine = "preview";
+    scene.settings.depth = 3;
+    scene.settings.effects_auto = true;
+    scene.settings.wavelengths_nm = {450, 550, 650};
+    scene.settings.cut_weight = 0.5;
+    const RenderSettings exact = exact_settings(scene, 0.001, 57);
+    EXPECT_EQ(exact.engine, "reference");
+    EXPECT_EQ(exact.depth, 0);
+    EXPECT_FALSE(exact.effects_auto);
+    EXPECT_FALSE(exact.cut_weight);
+    EXPECT_EQ(exact.wavelengths_nm.size(), 57u);
+    // A single wavelength is what is to be seen.
+    scene.settings.wavelengths_nm = {589.3};
+    EXPECT_EQ(exact_settings(scene, 0.001, 57).wavelengths_nm, std::vector<double>{589.3});
+}
+
+TEST(StudyDesign, varies_what_the_scene_calls_for) {
+    const StudyGround ground = ground_of(test::cube_scene());
+    const auto design = study_design(ground);
+    EXPECT_EQ(settings_of(design, "automatic").size(), 2u);
+    EXPECT_EQ(settings_of(design, "effects"),
+              (std::set<std::string>{"without dispersion", "without polarization", "none"}));
+    EXPECT_EQ(settings_of(design, "wavelengths"),
+              (std::set<std::string>{"1", "3", "8", "15", "29", "57"}));
+    EXPECT_TRUE(settings_of(design, "depth").contains("8"));
+    EXPECT_FALSE(settings_of(design, "pruning").empty());
+    EXPECT_FALSE(settings_of(design, "samples").empty());
+    EXPECT_TRUE(settings_of(design, "crystal beams").empty()) << "the stone is isotropic";
+}
+
+TEST(StudyDesign, of_a_crystal_has_its_waves) {
+    Scene scene = test::cube_scene();
+    scene.stone.material = catalogue_material("zircon_high");
+    const auto design = study_design(ground_of(scene));
+    EXPECT_EQ(settings_of(design, "crystal beams"), (std::set<std::string>{"merged", "parted"}));
+    EXPECT_TRUE(settings_of(design, "effects").contains("without birefringence"));
+}
+
+TEST(StudyDesign, is_drawn_by_the_reference_where_beams_cannot) {
+    StudyGround ground = ground_of(test::cube_scene());
+    ground.beams = false;
+    for (const StudyCandidate& one : study_design(ground)) {
+        EXPECT_TRUE(one.settings.engine == "reference" || one.automatic) << one.setting;
+    }
+}
+
+TEST(StudyDesign, neighbours_differ_in_one_thing_each) {
+    const StudyGround ground = ground_of(test::cube_scene());
+    RenderSettings settings = exact_settings(ground.scene, 0.01, 15);
+    settings.engine = "beams";
+    RenderStats drawn = ground.exact;
+    drawn.wavelengths_nm = settings.wavelengths_nm;
+    const auto neighbours = cheaper_neighbours(ground, settings, drawn);
+    std::set<std::string> keys{key_of(ground, settings)};
+    for (const StudyCandidate& one : neighbours) {
+        EXPECT_TRUE(keys.insert(key_of(ground, one.settings)).second) << one.setting;
+        EXPECT_GE(one.settings.tolerance, settings.tolerance);
+        EXPECT_LE(one.settings.wavelengths_nm.size(), 15u);
+    }
+    EXPECT_GE(neighbours.size(), 6u);
+}
+
+TEST(StudyDesign, tells_settings_that_draw_the_same) {
+    const StudyGround ground = ground_of(test::cube_scene());
+    const RenderSettings settings = exact_settings(ground.scene, 0.01, 15);
+    RenderSettings other = settings;
+    // The stone is clear: nothing is absorbed with it or without.
+    other.effects[static_cast<std::size_t>(Effects::absorption)] = false;
+    EXPECT_EQ(key_of(ground, settings), key_of(ground, other));
+    other.effects[static_cast<std::size_t>(Effects::polarization)] = false;
+    EXPECT_NE(key_of(ground, settings), key_of(ground, other));
+    EXPECT_EQ(words_of(ground, other),
+              "reference, 15 wavelengths, tolerance 0.01, without polarization");
+}
+
+}  // namespace
+}  // namespace culet

@@ -1,0 +1,254 @@
+// Expectations: what is zero by the table of effects (docs/plan.md), pictures drawn with everything
+// on, and the scenes of samples/effects, each made so that one effect matters.
+
+#include "render/plan/scene_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "render/colour_error.h"
+#include "render/render.h"
+#include "render/scene_io.h"
+#include "stone/cuts/cuts.h"
+
+namespace culet {
+
+namespace {
+
+Scene small_scene(const std::string& material) {
+    Scene scene;
+    scene.stone.name = "brilliant";
+    scene.stone.solid = make_cut("round-brilliant", {{"diameter", 2.0}});
+    scene.stone.material = catalogue_material(material);
+    scene.stone.crystal.axes[0] = {1, 0, 0};
+    scene.stone.crystal.axes[1] = {0, 1, 0};
+    scene.stone.crystal.axes[2] = {0, 0, 1};
+    scene.camera.position = {1, 2, 12};
+    scene.camera.fov = 0.18;
+    scene.camera.width = scene.camera.height = 32;
+    scene.lights.constant = 1;
+    scene.settings.tolerance = 0.05;
+    scene.settings.threads = 2;
+    return scene;
+}
+
+void add_lobes(Scene& scene) {
+    scene.lights.constant = 0.2;
+    scene.lights.lobes.push_back({{0.6, 0, 0.8}, 8, {2.0}});
+    scene.lights.lobes.push_back({{-0.8, 0, 0.6}, 8, {1.0}});
+}
+
+std::set<std::string> effects_on(const ScenePlan& plan) {
+    std::set<std::string> on;
+    for (std::size_t e = 0; e < k_effect_count; ++e) {
+        if (plan.items[e].on) on.insert(plan.items[e].name);
+    }
+    return on;
+}
+
+TEST(ColourError, is_zero_for_equal_pixels_and_relative_to_the_mean) {
+    const std::vector<Rgb> truth{{1, 1, 1}, {3, 3, 3}};
+    EXPECT_EQ(colour_error(truth, truth).radiance, 0);
+    EXPECT_EQ(colour_error(truth, truth).delta_e, 0);
+    // Off by 0.3 in one channel of one pixel of two: 0.1 / 2 pixels / mean 2.
+    const ColourError error = colour_error({{1.3, 1, 1}, {3, 3, 3}}, truth);
+    EXPECT_NEAR(error.radiance, 0.025, 1e-15);
+    EXPECT_NEAR(error.radiance_spread, 0.025, 1e-15) << "of 0.05 and 0";
+    EXPECT_GT(error.delta_e, 0);
+    // No scale: twice the light, the same error.
+    const ColourError twice = colour_error({{2.6, 2, 2}, {6, 6, 6}}, {{2, 2, 2}, {6, 6, 6}});
+    EXPECT_NEAR(twice.radiance, error.radiance, 1e-15);
+    EXPECT_NEAR(twice.delta_e, error.delta_e, 1e-12);
+    EXPECT_EQ(colour_error({{0, 0, 0}}, {{0, 0, 0}}).radiance, 0) << "a dark picture";
+}
+
+TEST(Plan, in_the_same_light_from_everywhere_nothing_but_depth_matters) {
+    for (const char* material : {"diamond", "zircon_high", "peridot"}) {
+        Scene scene = small_scene(material);
+        if (material == std::string("peridot")) {
+            scene.stone.material.absorption_per_mm = {};
+        }
+        const ScenePlan plan = plan_scene(scene);
+        EXPECT_TRUE(effects_on(plan).empty()) << material << "\n" << explain(plan);
+        for (std::size_t e = 0; e < k_effect_count; ++e) {
+            if (plan.items[e].name != "coherence") {
+                EXPECT_EQ(plan.items[e].bound, 0) << material << " " << plan.items[e].name;
+            }
+        }
+        EXPECT_EQ(plan.settings.wavelengths_nm.size(), 1u);
+        const RenderResult result = render(scene);
+        EXPECT_LE(result.stats.error_bound, scene.settings.tolerance);
+        // Everything on: 1 less what paths were cut.
+        EXPECT_NEAR(result.stats.mean_radiance, 1, result.stats.error_bound) << material;
+    }
+}
+
+TEST(Plan, keeps_its_word) {
+    int on = 0, off = 0;
+    for (const char* material : {"diamond", "fluorite", "zircon_high"}) {
+        for (const double tolerance : {0.2, 0.05}) {
+            Scene scene = small_scene(material);
+            scene.camera.width = scene.camera.height = 16;
+            add_lobes(scene);
+            scene.settings.tolerance = tolerance;
+            const RenderResult result = render(scene);
+            const Verification found = verify(scene, result, 24);
+            SCOPED_TRACE(std::string(material) + "\n" + explain(*result.stats.plan));
+            EXPECT_LE(found.measured, tolerance + found.noise);
+            EXPECT_LE(found.measured, result.stats.error_bound + found.noise);
+            EXPECT_LE(result.stats.error_bound, tolerance);
+            EXPECT_TRUE(found.holds());
+            for (const PlanItem& line : result.stats.plan->items) {
+                if (std::isfinite(line.matters) && line.matters > 0) (line.on ? on : off) += 1;
+            }
+        }
+    }
+    EXPECT_GT(on, 2) << "some effects are worth their price at these tolerances";
+    EXPECT_GT(off, 2) << "and some are not";
+}
+
+TEST(Plan, a_bound_that_is_too_low_is_found_out) {
+    Scene scene = small_scene("diamond");
+    add_lobes(scene);
+    RenderResult result = render(scene);
+    for (float& v : result.picture.rgb) v *= 1.5f;
+    EXPECT_FALSE(verify(scene, result, 24).holds());
+}
+
+TEST(Plan, its_settings_draw_the_same_picture) {
+    for (const char* material : {"garnet_almandine", "corundum"}) {
+        Scene scene = small_scene(material);
+        add_lobes(scene);
+        scene.camera.width = scene.camera.height = 16;
+        const RenderResult automatic = render(scene);
+        Scene by_hand = scene;
+        by_hand.settings = automatic.stats.plan->settings;
+        EXPECT_EQ(render(by_hand).picture.rgb, automatic.picture.rgb) << material;
+    }
+}
+
+TEST(Plan, is_the_same_on_any_number_of_threads) {
+    Scene scene = small_scene("diamond");
+    add_lobes(scene);
+    scene.settings.threads = 1;
+    const ScenePlan one = plan_scene(scene);
+    scene.settings.threads = 3;
+    const ScenePlan three = plan_scene(scene);
+    EXPECT_EQ(one.settings.engine, three.settings.engine);
+    EXPECT_EQ(one.settings.samples, three.settings.samples);
+    EXPECT_EQ(one.settings.wavelengths_nm, three.settings.wavelengths_nm);
+    EXPECT_EQ(one.bound, three.bound);
+    EXPECT_EQ(one.bound_delta_e, three.bound_delta_e);
+}
+
+TEST(Plan, respects_what_the_scene_says) {
+    Scene scene = small_scene("diamond");
+    add_lobes(scene);
+    scene.settings.effects_auto = false;
+    scene.settings.effects.fill(true);
+    scene.settings.wavelengths_nm = {500, 600};
+    scene.settings.samples = 4;
+    const ScenePlan plan = plan_scene(scene);
+    EXPECT_TRUE(plan.item("dispersion").on);
+    EXPECT_TRUE(plan.item("polarization").on);
+    EXPECT_EQ(plan.settings.wavelengths_nm, (std::vector<double>{500, 600}));
+    EXPECT_EQ(plan.reference.samples, 4);
+    scene.settings.effects.fill(false);
+    const ScenePlan none = plan_scene(scene);
+    EXPECT_TRUE(effects_on(none).empty());
+}
+
+TEST(Plan, with_tolerance_0_leaves_nothing_out) {
+    Scene scene = small_scene("diamond");
+    add_lobes(scene);
+    scene.settings.tolerance = 0;
+    scene.settings.depth = 5;
+    const ScenePlan plan = plan_scene(scene);
+    EXPECT_EQ(plan.pilot_pixels, 0);
+    EXPECT_EQ(plan.settings.engine, "reference");
+    EXPECT_EQ(effects_on(plan), (std::set<std::string>{"dispersion", "polarization"}));
+    EXPECT_FALSE(render(scene).stats.plan.has_value());
+}
+
+TEST(Plan, of_a_picture_without_the_stone_says_so) {
+    Scene scene = small_scene("diamond");
+    scene.camera.look_at = {100, 0, 12};
+    const ScenePlan plan = plan_scene(scene);
+    EXPECT_EQ(plan.pilot_pixels, 0);
+    EXPECT_NE(plan.engine_why.find("stone"), std::string::npos);
+    EXPECT_NO_THROW(render(scene));
+}
+
+TEST(Plan, black_scenes_have_no_error) {
+    Scene scene = small_scene("diamond");
+    scene.lights.constant = 0;
+    const RenderResult result = render(scene);
+    for (float v : result.picture.rgb) EXPECT_EQ(v, 0);
+    EXPECT_FALSE(std::isnan(result.stats.error_bound));
+}
+
+// In even light every wavelength brings the same, however few rays it has.
+TEST(Turns, bring_each_wavelength_its_share) {
+    Scene scene = small_scene("diamond");
+    scene.settings.tolerance = 0;
+    scene.settings.depth = 6;
+    scene.settings.samples = 16;
+    scene.settings.wavelengths_nm = {450, 500, 550, 600, 650};
+    scene.settings.engine = "reference";
+    const RenderResult all = render(scene);
+    scene.settings.wavelength_turns = 5;
+    const RenderResult turns = render(scene);
+    EXPECT_EQ(all.stats.rays, 5 * turns.stats.rays);
+    double apart = 0;
+    for (std::size_t i = 0; i < all.picture.rgb.size(); ++i)
+        apart += std::abs(static_cast<double>(all.picture.rgb[i] - turns.picture.rgb[i]));
+    // What is left inside differs a little from ray to ray.
+    EXPECT_LT(apart / static_cast<double>(all.picture.rgb.size()), 0.02);
+    EXPECT_NEAR(all.stats.mean_radiance, turns.stats.mean_radiance, 2e-3);
+}
+
+struct GalleryScene {
+    const char* file;
+    std::set<std::string> on;
+};
+class Gallery : public testing::TestWithParam<GalleryScene> {};
+
+TEST_P(Gallery, calls_for_its_effect) {
+    const Scene scene =
+        read_scene(std::string(CULET_SOURCE_DIR "/samples/effects/") + GetParam().file);
+    const ScenePlan plan = plan_scene(scene);
+    EXPECT_EQ(effects_on(plan), GetParam().on) << explain(plan);
+    EXPECT_LE(plan.bound, scene.settings.tolerance);
+}
+
+// The waves of a crystal carry polarisation, and pleochroism is theirs.
+INSTANTIATE_TEST_SUITE_P(
+    Samples, Gallery,
+    testing::Values(GalleryScene{"zircon-doubling.toml", {"birefringence", "polarization"}},
+                    GalleryScene{"tourmaline-across.toml",
+                                 {"birefringence", "polarization", "absorption", "pleochroism"}},
+                    GalleryScene{"tourmaline-along.toml",
+                                 {"birefringence", "polarization", "absorption", "pleochroism"}},
+                    GalleryScene{"andalusite-across.toml",
+                                 {"birefringence", "polarization", "absorption", "pleochroism"}},
+                    GalleryScene{"diamond-fire.toml", {"dispersion"}},
+                    GalleryScene{"garnet-depth.toml", {}},
+                    GalleryScene{"brewster.toml", {"polarization"}},
+                    GalleryScene{"depth-of-field.toml", {"aperture"}},
+                    GalleryScene{"ruby-absorption.toml",
+                                 {"birefringence", "polarization", "absorption", "pleochroism"}}),
+    [](const testing::TestParamInfo<GalleryScene>& which) {
+        std::string name = which.param.file;
+        name = name.substr(0, name.find('.'));
+        for (char& c : name) {
+            if (c == '-') c = '_';
+        }
+        return name;
+    });
+
+}  // namespace
+
+}  // namespace culet
