@@ -50,10 +50,13 @@ public:
         trace_.length = 0;
         std::fill_n(tau_.begin(), band_.count, 1.0);
         const Vec3 at = body_.on_facet(entry.facet, ray.origin + entry.distance * ray.direction);
+        // What is off is not in the loop at all.
         if (limits_.polarised) {
-            trace_polarised(at, ray.direction, entry.facet);
+            band_.absorbs ? trace_polarised<true>(at, ray.direction, entry.facet)
+                          : trace_polarised<false>(at, ray.direction, entry.facet);
         } else {
-            trace_scalar(at, ray.direction, entry.facet);
+            band_.absorbs ? trace_scalar<true>(at, ray.direction, entry.facet)
+                          : trace_scalar<false>(at, ray.direction, entry.facet);
         }
     }
 
@@ -80,7 +83,6 @@ private:
 
     // Beer and Lambert along a segment.
     void absorb(double weight, double length, NodeWeights& tau) {
-        if (!band_.absorbs) return;
         NodeWeights lost{};
         for (int i = 0; i < band_.count; ++i) {
             const double after = tau[i] * std::exp(-band_.absorption[0][i] * length);
@@ -154,6 +156,7 @@ private:
         return face;
     }
 
+    template <bool absorbs>
     void trace_polarised(Vec3 at, Vec3 direction, int facet) {
         Vec3 s = tangent(direction, -body_.normal(facet));
         const FaceAmplitudes face = enter(at, direction, facet);
@@ -167,7 +170,7 @@ private:
             }
             const BodyHit hit = body_.exit(at, direction, guess());
             at = body_.on_facet(hit.facet, at + hit.distance * direction);
-            absorb(carried.I, hit.distance, tau);
+            if constexpr (absorbs) absorb(carried.I, hit.distance, tau);
             const Vec3& n = body_.normal(hit.facet);
             const double q = band_.n * glm::dot(direction, n);
             const FaceAmplitudes out = fresnel(band_.n, 1.0, q);
@@ -185,6 +188,7 @@ private:
         sink_.remainder(weighted(carried.I, tau));
     }
 
+    template <bool absorbs>
     void trace_scalar(Vec3 at, Vec3 direction, int facet) {
         const FaceAmplitudes face = enter(at, direction, facet);
         double weight = 0.5 * (face.t_s * face.t_s + face.t_p * face.t_p);
@@ -196,7 +200,7 @@ private:
             }
             const BodyHit hit = body_.exit(at, direction, guess());
             at = body_.on_facet(hit.facet, at + hit.distance * direction);
-            absorb(weight, hit.distance, tau);
+            if constexpr (absorbs) absorb(weight, hit.distance, tau);
             const Vec3& n = body_.normal(hit.facet);
             const double q = band_.n * glm::dot(direction, n);
             const FaceAmplitudes out = fresnel(band_.n, 1.0, q);

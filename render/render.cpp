@@ -17,7 +17,7 @@ namespace {
 constexpr double k_sampling_bound = 1.5;
 // The mean of N rays is off by about N^-0.7.
 constexpr double k_noise_power = 0.7;
-constexpr int k_most_rays = 1600;
+constexpr int k_most_rays = 1600;  // of the plan
 
 bool leaves_something_open(const RenderSettings& settings) {
     return settings.tolerance > 0 &&
@@ -87,12 +87,9 @@ RenderResult render(const Scene& scene, const Progress& progress) {
         } else {
             const double room = tolerance - plan.bound, off = stats.error_bound - plan.bound;
             if (!rays_are_open || !(room > 0) || settled.settings.samples >= k_most_rays) break;
-            const double more = std::pow(off / room, 1 / k_noise_power);
-            const int side = static_cast<int>(
-                std::ceil(std::sqrt(settled.settings.samples * std::min(more, 64.0))));
             why = fmt::format("{} rays a pixel were off by {:.2g}: drawn with more",
                               settled.settings.samples, off);
-            settled.settings.samples = std::min(side * side, k_most_rays);
+            settled.settings.samples = rays_to_reach(room, settled.settings.samples, off);
         }
         RenderResult next = drawn(settled, progress);
         add_plan(plan, settled.settings.samples, next.stats);

@@ -30,6 +30,13 @@ bool hard_edged(const Lights& lights) {
 
 }  // namespace
 
+int rays_to_reach(double room, int rays, double off) {
+    constexpr double k_power = 0.7;
+    const double wanted = rays * std::pow(off / room, 1 / k_power);
+    const int side = static_cast<int>(std::ceil(std::sqrt(std::min(wanted, 1e6))));
+    return std::min(side, k_most_side) * std::min(side, k_most_side);
+}
+
 double Planner::Noise::at(double count) const {
     return radiance * std::pow(rays / count, power);
 }

@@ -54,6 +54,10 @@ struct ScenePlan {
 /// Throws InputError as `render` does.
 ScenePlan plan_scene(const Scene& scene);
 
+/// How many rays a pixel, where `rays` were off by `off` and may be by `room`: what the mean of N
+/// is off by falls about as N^-0.7.
+int rays_to_reach(double room, int rays, double off);
+
 /// The plan for people, one line an item.
 std::string explain(const ScenePlan& plan);
 /// The same as JSON, one object.
