@@ -76,6 +76,7 @@ std::vector<EyeRay> make_rays(const TomlTable& t, const Solid& solid, double n) 
             continue;
         }
         if (aim == "edge_line") {
+            if (a == b) continue;  // an edge too short for its coordinates has no line
             const Vec3 along = glm::normalize(b - a);
             const Vec3 lean = std::cos(miss) * along + std::sin(miss) * random.across(along, 1);
             rays.push_back({0.5 * (a + b) - from * lean, lean});
