@@ -53,18 +53,14 @@ RenderResult drawn(const Scene& scene, const Progress& progress) {
 RenderSettings settled_by(const RenderSettings& asked, const RenderStats& stats) {
     if (!stats.plan) return asked;
     RenderSettings settled = stats.plan->settings;
-    if (settled.engine != stats.engine) {
-        settled.engine = stats.engine;
-        settled.samples = stats.plan->reference_samples;
-    }
     settled.checked_pixels = settled.checked_samples = 0;
     return settled;
 }
 
 // What one has to do to draw so: automatic settings are planned first.
 void draw_for_time(const Scene& scene, const RenderStats& known, const Progress& progress) {
-    if (!known.plan || known.plan->settings.engine != known.engine) {
-        // Nothing was open; or the plan's beams were not near enough, which takes all of `render`.
+    if (!known.plan || known.engine == "reference") {
+        // Beams that were not near enough, and rays that were too few, are in the time of `render`.
         drawn(scene, progress);
         return;
     }
