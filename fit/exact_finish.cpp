@@ -17,13 +17,14 @@ constexpr double k_least_damping = 1e-6;
 // Variance of equations whose bend is mended within a step: exact ones, corners that are held, and
 // readings sharper than rounding.
 constexpr double k_all_but_exact = 1e-15;
+constexpr double k_rounding = 1e-14;
 constexpr double k_nearly_met = 1e-10;
 // Facets that may lean either way at the end.
 constexpr double k_nearly_upright = 0.1;
 constexpr int k_most_choices = 12;
 // Along kinks (edges of no length, corners about to rise) steps may creep for ever. Where so many
-// of them, taken or refused, together gain no more than this in chi-square, what is left is a tenth
-// of a sigma or less.
+// of them, half of them refused, together gain no more than this in chi-square, what is left is a
+// tenth of a sigma or less.
 constexpr std::size_t k_creeping = 6;
 constexpr double k_crumb = 0.01, k_all_but_met = 1e-6;
 
@@ -65,6 +66,14 @@ Shape onto_constraints(const Relaxation& relaxation, Shape shape, const std::vec
         sheet = std::move(there);
     }
     return shape;
+}
+
+bool creeps_on(const std::vector<double>& merits) {
+    if (merits.size() <= k_creeping) return false;
+    const auto from = merits.end() - std::ptrdiff_t(k_creeping) - 1;
+    std::size_t refused = 0;
+    for (auto m = from; m + 1 != merits.end(); ++m) refused += *m == *(m + 1);
+    return *from - merits.back() < k_crumb && 2 * refused >= k_creeping;
 }
 
 struct Settled {
@@ -188,11 +197,16 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
             }
         }
         merits.push_back(sheet.merit);
-        const bool creeps = merits.size() > k_creeping && sheet.hard_sum < k_all_but_met &&
-                            merits[merits.size() - 1 - k_creeping] - sheet.merit < k_crumb;
+        const bool creeps = sheet.hard_sum < k_all_but_met && creeps_on(merits);
         if ((quiet >= 2 || creeps) && ends(true)) break;
     }
     result.shape = onto_constraints(relaxation, std::move(shape), held);
+    if (!held.empty() && relaxation.hard_sheet(result.shape, {}).hard_worst > k_rounding) {
+        // Corners held next to an edge of no length bind so tightly that meets give way. The meets
+        // alone, from here, move less than what corners are held below.
+        Shape met = onto_constraints(relaxation, result.shape, {});
+        if (relaxation.is_convex(met)) result.shape = std::move(met);
+    }
     relaxation.forget_ties();
     relaxation.choose(result.shape, true);
     const Sheet end = relaxation.sheet(result.shape, softness, held);

@@ -25,6 +25,8 @@ constexpr double k_overlooked = 0.1;
 // Depths tried: each this part of the one before.
 constexpr double k_next_depth = 0.7;
 constexpr int k_depths = 24;
+// A direction is left after two depths from which the best multiple would bring so little.
+constexpr double k_far_from = 0.25;
 
 // How readings change when a part of the stone is cut off.
 class Signatures {
@@ -187,6 +189,7 @@ public:
 
     Index size() const { return count_; }
     const Eigen::VectorXd& values() const { return values_; }
+    double squares() const { return std::max(1e-300, values_.squaredNorm()); }
 
     // What a wrong reading in this equation would explain.
     double gain_of(Index i) const {
@@ -289,6 +292,7 @@ void try_direction(const Signatures& signatures, const Remains& remains, const C
         deepest =
             std::min(deepest, highest - glm::dot(direction, net.places()[std::size_t(bottom)]));
     }
+    int far_off = 0;
     const auto try_depth = [&](double depth) {
         const Plane plane{direction, highest - depth};
         const auto off = net.above(plane, top);
@@ -296,8 +300,11 @@ void try_direction(const Signatures& signatures, const Remains& remains, const C
         auto signature = signatures.of(plane, *off);
         double slope = 0;
         for (const auto& [i, s] : signature) slope += remains.values()(i) * s;
-        // The most that it could bring.
-        if (!(-2 * slope > std::max(least, best.gain))) return 0.0;
+        // The most that it could bring: R is a projection and r lies in it, so that
+        // s'Rs >= (s'r)^2 / r'r (Cauchy and Schwarz).
+        if (!(-2 * slope - slope * slope / remains.squares() > std::max(least, best.gain))) {
+            return 0.0;
+        }
         const Eigen::VectorXd change = remains.seen(signature);
         double square = 0, along = 0;
         for (const auto& [i, s] : signature) {
@@ -310,9 +317,11 @@ void try_direction(const Signatures& signatures, const Remains& remains, const C
             best = {&candidate,           gain,  depth, depth / std::sqrt(std::max(1e-300, square)),
                     std::move(signature), change};
         }
+        // Whatever the depth, were the signature in proportion to it: hardly a part of what counts.
+        if (along * along < k_far_from * least * square) ++far_off;
         return square > 0 ? -along / square : 0.0;  // by which to multiply the depth
     };
-    for (int k = 1; k <= k_depths; ++k) {
+    for (int k = 1; k <= k_depths && far_off < 2; ++k) {
         const double depth = deepest * std::pow(k_next_depth, k);
         const double before = best.gain;
         const double factor = try_depth(depth);

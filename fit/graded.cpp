@@ -13,8 +13,8 @@ namespace {
 constexpr int k_most_steps = 40;
 // Stages only have to lead to the next one.
 constexpr double k_enough = 1e-3, k_step_precision = 1e-8;
-// Of a sum of squares in units of the stage's own softness.
-constexpr double k_little = 0.01;
+// Of a sum of squares in units of the stage's own softness, by a step of less than this part of it.
+constexpr double k_little = 0.01, k_part = 0.1;
 // In how many rounds a step may find out which corners it has to stop.
 constexpr int k_most_rounds = 4;
 // As long as incidences are this soft, facets within this sine of upright may turn out to look the
@@ -56,6 +56,8 @@ int solve_stage(Relaxation& relaxation, SaddleSolver& solver, Shape& shape,
     }
     relaxation.choose(shape, false);
     Sheet sheet = relaxation.sheet(shape, softness);
+    // Coarser than the readings are: what is small to the stage is for a later one to do.
+    const bool is_coarse = relaxation.expected_misfit(softness) < 0.5 * relaxation.counts().soft;
     double damping = 1e-3;
     int steps = 0;
     while (steps < most_steps) {
@@ -77,7 +79,11 @@ int solve_stage(Relaxation& relaxation, SaddleSolver& solver, Shape& shape,
             if (!there.finite) break;
             if (there.merit <= sheet.merit) {
                 better = true;
-                enough = sheet.merit - there.merit <= k_enough * sheet.merit + k_little;
+                const double little =
+                    is_coarse && s.unknowns.cwiseAbs().maxCoeff() < k_part * softness.incidence
+                        ? k_little
+                        : 0;
+                enough = sheet.merit - there.merit <= k_enough * sheet.merit + little;
                 shape = std::move(next);
                 sheet = std::move(there);
             } else if (there.above == pressed) {

@@ -35,14 +35,15 @@ bool agrees(const System& system, const Candidate& candidate, int free, int coun
     if (!(chi2_tail(chi2, counted) > significance)) return false;
     const Diagnosis d =
         diagnose(system, candidate.finished.shape, candidate.finished.outline, {.full = false});
-    return chi2_tail(d.chi2, d.dof) > significance;
+    // Readings that say less than one of them together contradict nobody.
+    return chi2_tail(d.chi2, std::max(1.0, d.dof)) > significance;
 }
 
 // A stone whose last steps creep is still the better one where it agrees better by more than
 // chi-square's own noise: so at an edge that the readings want to have no length.
-auto rank(const Candidate& c) {
+auto rank(const Candidate& c, double handicap = 0) {
     constexpr double k_part = 1.05, k_noise = 4;
-    const double chi2 = c.finished.chi2;
+    const double chi2 = c.finished.chi2 + handicap;
     return std::make_tuple(!c.sound, !(c.finished.worst_hard < k_hard_limit),
                            c.finished.converged ? chi2 : k_part * chi2 + k_noise);
 }
@@ -133,7 +134,8 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
                            });
         if (good) ends.push_back(chi2);
         ++fruitless;
-        if (result.starts++ == 0 || rank(candidate) < rank(result.best)) {
+        // What the readings leave open is as the earlier start had it: the mesh before others.
+        if (result.starts++ == 0 || rank(candidate, k_same) < rank(result.best)) {
             result.best = std::move(candidate);
             fruitless = 0;
         }

@@ -134,7 +134,9 @@ std::string doubtful(const FitResult& result) {
 std::string unchecked(const FitResult& result) {
     std::vector<std::string> ids;
     for (const FittedReading& r : result.readings) {
-        if (!r.exact && !is_relation(r.kind) && r.redundancy < 0.01) ids.push_back(r.id);
+        if (!r.exact && !is_relation(r.kind) && r.left_out.empty() && r.redundancy < 0.01) {
+            ids.push_back(r.id);
+        }
     }
     if (ids.empty()) return {};
     return fmt::format("Nothing checks {} of {} readings ({}): their errors would not show.",
