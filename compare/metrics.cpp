@@ -6,8 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "render/colour_difference.h"
 #include "compare/pixels.h"
+#include "render/colour_difference.h"
 
 namespace culet {
 
