@@ -114,6 +114,8 @@ TEST(Residuals, SlopesMatchDifferences) {
     expect_slopes(extent(crossing(t, c1, s1), crossing(p1, l1, f("P4")), Vec3{0.6, 0, 0.8}),
                   "width by crossings");
     expect_slopes(corner_distance(at(3), crossing(p1, l1, f("P3"))), "distance of corners");
+    expect_slopes(edge_length(c1, u1, at(3), at(30)), "edge along the line of its planes");
+    expect_slopes(edge_length(c1, c1, at(3), at(30)), "edge between facets of one plane");
     expect_slopes(height(c1, at(12)), "height");
     expect_slopes(corner_to_facet(c1, at(40)), "corner to facet");
     expect_slopes(corner_to_line(at(4), at(17), at(33)), "corner to line");
@@ -175,6 +177,10 @@ TEST_F(CubeReadings, Lengths) {
     EXPECT_NEAR(value(extent(ppp, mmm, {0, 0, 1})), 2, 1e-15);
     EXPECT_NEAR(value(corner_distance(ppp, mmm)), 2 * std::sqrt(3.0), 1e-15);
     EXPECT_NEAR(value(corner_distance(ppp, pmp)), 2, 1e-15);
+    // Along z x x = y; inside out the other way, and through zero between.
+    EXPECT_NEAR(value(edge_length(facet("T"), facet("X+"), pmp, ppp)), 2, 1e-15);
+    EXPECT_NEAR(value(edge_length(facet("T"), facet("X+"), ppp, pmp)), -2, 1e-15);
+    EXPECT_EQ(value(edge_length(facet("T"), facet("X+"), ppp, ppp)), 0);
     EXPECT_NEAR(value(height(facet("B"), ppp)), -2, 1e-15);
     EXPECT_NEAR(value(corner_to_facet(facet("B"), ppp)), 2, 1e-15);
     EXPECT_NEAR(value(corner_to_line(mmm, ppp, pmp)), 2 * std::sqrt(2.0), 1e-15);
