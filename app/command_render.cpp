@@ -22,6 +22,16 @@ struct RenderOptions {
     bool spectral = false, explain = false, verify = false;
 };
 
+// As the file and the command line say; what there is to note about it is said.
+Scene scene_of(const RenderOptions& options, const std::vector<std::string>& settings) {
+    Scene scene = read_scene(options.scene, settings);
+    scene.settings.threads = options.common.threads;
+    scene.settings.seed = options.common.seed;
+    scene.settings.spectral = options.spectral;
+    for (const std::string& note : scene.notes) say(note, options.common.quiet);
+    return scene;
+}
+
 // `--effects dispersion,absorption` is a list in the scene file.
 std::string effects_setting(const std::string& words) {
     if (words == "auto" || words == "all" || words == "none") return "\"" + words + "\"";
@@ -40,12 +50,7 @@ int run_render(const RenderOptions& options) {
         settings.push_back(fmt::format("render.tolerance={}", options.tolerance));
     if (options.explain) {
         require_writable(options.stats);
-        Scene scene = read_scene(options.scene, settings);
-        scene.settings.threads = options.common.threads;
-        scene.settings.seed = options.common.seed;
-        scene.settings.spectral = options.spectral;
-        for (const std::string& note : scene.notes) say(note, options.common.quiet);
-        const ScenePlan plan = plan_scene(scene);
+        const ScenePlan plan = plan_scene(scene_of(options, settings));
         if (options.stats != "-") fmt::print("{}", explain(plan));
         if (!options.stats.empty()) write_text(options.stats, plan_json(plan));
         return exit_good;
@@ -60,11 +65,7 @@ int run_render(const RenderOptions& options) {
     }
     require_writable(options.out);
     require_writable(options.stats);
-    Scene scene = read_scene(options.scene, settings);
-    scene.settings.threads = options.common.threads;
-    scene.settings.seed = options.common.seed;
-    scene.settings.spectral = options.spectral;
-    for (const std::string& note : scene.notes) say(note, options.common.quiet);
+    const Scene scene = scene_of(options, settings);
 
     RenderResult result = render(scene, progress_line("rendering", options.common.quiet));
     if (options.verify) result.stats.verification = verify(scene, result);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "compare/json_number.h"
 #include "compare/scene_study.h"
 
 namespace culet {
@@ -14,14 +15,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json errors(const PictureError& error) {
     return {{"error", number(error.mean)},
             {"rmse", number(error.rmse)},
-            {"psnr", error.psnr ? number(*error.psnr) : Json(nullptr)},
+            {"psnr", number(error.psnr)},
             {"deltaE00_mean", number(error.delta_e_mean)},
             {"deltaE00_p95", number(error.delta_e_95)},
             {"flip_mean", number(error.flip)}};
@@ -136,13 +133,12 @@ std::string scene_study_json(const SceneStudy& study) {
     object["front"] = study.front;
     Json advice = Json::array();
     for (const StudyAdvice& one : study.advice) {
-        advice.push_back(
-            {{"tolerance", one.tolerance},
-             {"cheapest", id_or_null(one.cheapest)},
-             {"automatic", id_or_null(one.automatic)},
-             {"automatic_meets", one.automatic_meets},
-             {"automatic_over_cheapest", one.ratio ? number(*one.ratio) : Json(nullptr)},
-             {"words", one.words}});
+        advice.push_back({{"tolerance", one.tolerance},
+                          {"cheapest", id_or_null(one.cheapest)},
+                          {"automatic", id_or_null(one.automatic)},
+                          {"automatic_meets", one.automatic_meets},
+                          {"automatic_over_cheapest", number(one.ratio)},
+                          {"words", one.words}});
     }
     object["recommendations"] = std::move(advice);
     object["left_out"] = study.left_out;

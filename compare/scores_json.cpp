@@ -4,21 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/compare.h"
+#include "compare/json_number.h"
 
 namespace culet {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-// JSON has no infinity and no NaN: such a number is written as null.
-Json number(double value) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json number(const std::optional<double>& value) {
-    return value ? number(*value) : Json(nullptr);
-}
 
 Json registration_json(const Registration& r) {
     Json json;

@@ -32,11 +32,6 @@ std::span<const double> steps(const Eigen::VectorXd& step) {
     return {step.data(), static_cast<std::size_t>(step.size())};
 }
 
-Eigen::VectorXd residuals(const SparseRows& rows) {
-    return Eigen::Map<const Eigen::VectorXd>(rows.residual.data(),
-                                             Eigen::Index(rows.residual.size()));
-}
-
 // Of a step: the next one mends what it leaves, and hard equations end in rounding; but of a
 // reading it leaves no more than a hundredth of its uncertainty.
 double step_precision(const SparseRows& rows) {
@@ -57,7 +52,7 @@ Shape onto_constraints(const Relaxation& relaxation, Shape shape, const std::vec
     for (int i = 0; i < 10 && sheet.hard_worst > 1e-16; ++i) {
         // The same factors do: what they miss is of second order in steps of rounding size.
         if (i == 1 && !solver.factor(sheet.rows, relaxation.metric())) break;
-        const auto s = solver.solve(none, -residuals(sheet.rows));
+        const auto s = solver.solve(none, -sheet.rows.residuals());
         if (!s.good) break;
         const Shape next = relaxation.freedoms().moved(shape, steps(s.unknowns));
         Sheet there = relaxation.hard_sheet(next, held);
@@ -139,7 +134,7 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
         double length = 0;
         if (factored) {
             const double precision = step_precision(sheet.rows);
-            const auto s = solver.solve(none, -residuals(sheet.rows), precision);
+            const auto s = solver.solve(none, -sheet.rows.residuals(), precision);
             if (s.good) {
                 Eigen::VectorXd step = s.unknowns;
                 length = step.cwiseAbs().maxCoeff();

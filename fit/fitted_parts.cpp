@@ -83,12 +83,7 @@ void fill_in_readings(const System& system, const Diagnosis& diagnosis,
     for (std::size_t r = 0; r < system.readings().size(); ++r) {
         const Reading& reading = system.readings()[r];
         const ReadingCheck& c = diagnosis.readings[r];
-        FittedReading fitted;
-        fitted.id = reading.id;
-        fitted.kind = reading.kind;
-        fitted.of = reading.of;
-        fitted.value = reading.value;
-        fitted.sigma = reading.sigma;
+        FittedReading fitted = as_taken(reading);
         if (is_relation(reading.kind) && reading.sigma == 0 && !reading.exact) {
             fitted.sigma = reading.released ? 0 : system.group_sigmas()[0] * system.scale();
         }
@@ -98,8 +93,6 @@ void fill_in_readings(const System& system, const Diagnosis& diagnosis,
         fitted.redundancy = c.redundancy;
         fitted.detectable = c.detectable;
         fitted.suspect = c.suspect;
-        fitted.exact = reading.exact;
-        fitted.rounding = reading.rounding;
         if (!weights.empty()) fitted.weight = weights[r];
         result.readings.push_back(std::move(fitted));
     }
@@ -109,6 +102,18 @@ void fill_in_readings(const System& system, const Diagnosis& diagnosis,
 }
 
 }  // namespace
+
+FittedReading as_taken(const Reading& reading) {
+    FittedReading fitted;
+    fitted.id = reading.id;
+    fitted.kind = reading.kind;
+    fitted.of = reading.of;
+    fitted.value = reading.value;
+    fitted.sigma = reading.sigma;
+    fitted.exact = reading.exact;
+    fitted.rounding = reading.rounding;
+    return fitted;
+}
 
 void fill_in(const System& system, const Shape& shape, const Diagnosis& diagnosis,
              const System::Pose& pose, const std::vector<double>& weights, FitResult& result) {

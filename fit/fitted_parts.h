@@ -15,4 +15,7 @@ namespace culet {
 void fill_in(const System& system, const Shape& shape, const Diagnosis& diagnosis,
              const System::Pose& pose, const std::vector<double>& weights, FitResult& result);
 
+/// A reading as it was taken; what the fit makes of it is still open.
+FittedReading as_taken(const Reading& reading);
+
 }  // namespace culet

@@ -67,11 +67,8 @@ int solve_stage(Relaxation& relaxation, SaddleSolver& solver, Shape& shape,
         std::vector<int> pressed = sheet.above;
         for (int round = 0; round < k_most_rounds && !better; ++round) {
             if (!solver.factor(sheet.rows, sheet.prior_stiffness + kept + damping * metric)) break;
-            const SaddleSolver::Solution s = solver.solve(
-                -sheet.prior_gradient,
-                -Eigen::Map<const Eigen::VectorXd>(sheet.rows.residual.data(),
-                                                   Eigen::Index(sheet.rows.residual.size())),
-                k_step_precision);
+            const SaddleSolver::Solution s =
+                solver.solve(-sheet.prior_gradient, -sheet.rows.residuals(), k_step_precision);
             if (!s.good || !(s.unknowns.cwiseAbs().maxCoeff() < 10)) break;
             Shape next = freedoms.moved(
                 shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())});
@@ -179,7 +176,6 @@ Graded graded_fit(Relaxation& relaxation, const Approach& rough, const Progress&
         run.stage(result.shape, k_stages[i], 0.2 + 0.1 * double(i));
     }
     result.steps = rough.steps + run.steps;
-    result.convex = relaxation.is_convex(result.shape);
     return result;
 }
 

@@ -25,7 +25,6 @@ Approach approach(Relaxation& relaxation, const Start& start, const Progress& pr
 
 struct Graded {
     Shape shape;
-    bool convex = false;  ///< no corner stands above a neighbour facet
     int steps = 0;
 };
 

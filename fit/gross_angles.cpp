@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "fit/fitted_parts.h"
 #include "fit/slips.h"
 #include "stone/units.h"
 
@@ -126,13 +127,7 @@ void put_back_gross(const std::vector<Reading>& readings, const std::vector<std:
     for (const std::size_t i : gross) {
         const Reading& r = readings[i];
         const Estimate e = estimate_of(result, r);
-        FittedReading fitted;
-        fitted.id = r.id;
-        fitted.kind = r.kind;
-        fitted.of = r.of;
-        fitted.value = r.value;
-        fitted.sigma = r.sigma;
-        fitted.rounding = r.rounding;
+        FittedReading fitted = as_taken(r);
         fitted.fitted = e.value;
         fitted.residual = e.value - r.value;
         fitted.normalized = fitted.residual / std::hypot(e.sigma, r.sigma);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "fit/fitted_parts.h"
 #include "stone/errors.h"
 #include "stone/units.h"
 
@@ -86,14 +87,7 @@ void put_left_out(const std::vector<Reading>& readings, const std::vector<std::s
     std::string ids;
     for (const std::size_t i : left_out) {
         const Reading& r = readings[i];
-        FittedReading fitted;
-        fitted.id = r.id;
-        fitted.kind = r.kind;
-        fitted.of = r.of;
-        fitted.value = r.value;
-        fitted.sigma = r.sigma;
-        fitted.exact = r.exact;
-        fitted.rounding = r.rounding;
+        FittedReading fitted = as_taken(r);
         fitted.fitted = fitted.residual = fitted.normalized = fitted.redundancy =
             std::numeric_limits<double>::quiet_NaN();
         fitted.left_out = "the facet lies level within its uncertainty and has no azimuth";

@@ -161,14 +161,17 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness, const std:
         row.offset(f, -1);
         row.point(p, shape.normals[f]);
     };
+    const auto count_hard = [&](double residual) {
+        sheet.hard_sum += std::abs(residual);
+        sheet.hard_worst = std::max(sheet.hard_worst, std::abs(residual));
+    };
     const auto close = [&](double residual, double variance) {
         row.close(sheet.rows, residual, variance);
         if (!std::isfinite(residual)) sheet.finite = false;
         if (variance > 0) {
             sheet.merit += residual * residual / variance;
         } else {
-            sheet.hard_sum += std::abs(residual);
-            sheet.hard_worst = std::max(sheet.hard_worst, std::abs(residual));
+            count_hard(residual);
         }
     };
     const double soft2 = softness.incidence * softness.incidence;
@@ -209,8 +212,7 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness, const std:
         incident(h.facet, h.point);
         row.close(sheet.rows, residual, k_hold_sigma * k_hold_sigma);
         if (!std::isfinite(residual)) sheet.finite = false;
-        sheet.hard_sum += std::abs(residual);
-        sheet.hard_worst = std::max(sheet.hard_worst, std::abs(residual));
+        count_hard(residual);
     }
     for (const Tie& tie : ties_) {
         row.point(tie.one, tie.direction);

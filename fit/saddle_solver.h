@@ -20,6 +20,9 @@ struct SparseRows {
     std::vector<double> slope, residual, variance;
 
     int count() const { return static_cast<int>(residual.size()); }
+    Eigen::Map<const Eigen::VectorXd> residuals() const {
+        return {residual.data(), static_cast<Eigen::Index>(residual.size())};
+    }
     void add(int c, double s) {
         column.push_back(c);
         slope.push_back(s);

@@ -2,6 +2,7 @@
 // Fields of a JSON object that may be missing or of another kind. Templates, so that no header of
 // the room shows a JSON library; `Json` is nlohmann::json.
 
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -20,11 +21,22 @@ Json parsed_object(const std::string& text, const char* what) {
 }
 
 template <typename Json>
+Json parsed_study(const std::string& text) {
+    return parsed_object<Json>(text, "the study");
+}
+
+template <typename Json>
 std::optional<double> number_at(const Json& object, const char* key) {
     if (!object.is_object()) return std::nullopt;
     const auto found = object.find(key);
     if (found == object.end() || !found->is_number()) return std::nullopt;
     return found->template get<double>();
+}
+
+/// NaN for what is not there.
+template <typename Json>
+double value_at(const Json& object, const char* key) {
+    return number_at(object, key).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 template <typename Json>

@@ -18,14 +18,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json parsed(const std::string& study_json) {
-    return parsed_object<Json>(study_json, "the study");
-}
-
-double value_at(const Json& row, const char* key) {
-    return number_at(row, key).value_or(std::nan(""));
-}
-
 Json object_at(const Json& object, const char* key) {
     if (!object.is_object() || !object.contains(key) || !object[key].is_object())
         return Json::object();
@@ -365,7 +357,7 @@ std::string reference_section(const Json& study) {
 }  // namespace
 
 std::string scene_study_table(const std::string& study_json) {
-    const Json study = parsed(study_json);
+    const Json study = parsed_study<Json>(study_json);
     std::string text;
     const auto plain = [](std::string cell) {
         for (const auto& [from, to] : {std::pair("−", "-"), std::pair("–", "-"),
@@ -393,11 +385,11 @@ std::string scene_study_table(const std::string& study_json) {
 }
 
 std::string scene_study_chart(const std::string& study_json) {
-    return draw_chart_svg(time_chart(parsed(study_json)));
+    return draw_chart_svg(time_chart(parsed_study<Json>(study_json)));
 }
 
 std::string scene_study_page(const SceneStudyView& view) {
-    const Json study = parsed(view.study_json);
+    const Json study = parsed_study<Json>(view.study_json);
     std::string title = view.title.empty() ? text_at(study, "name") : view.title;
     if (title.empty()) title = "Study of a scene";
     std::string body = headline(study, title);

@@ -19,14 +19,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-Json parsed(const std::string& study_json) {
-    return parsed_object<Json>(study_json, "the study");
-}
-
-double value_at(const Json& row, const char* key) {
-    return number_at(row, key).value_or(std::nan(""));
-}
-
 struct SweepWords {
     const char *sweep, *name, *about;
     bool line;  // its settings are in an order
@@ -216,7 +208,7 @@ std::string notes_of(const Json& study) {
 }  // namespace
 
 std::string study_table(const std::string& study_json) {
-    const Json study = parsed(study_json);
+    const Json study = parsed_study<Json>(study_json);
     const std::string unit = text_at(study, "unit");
     const auto plain = [](std::string text) {
         for (const auto& [from, to] : {std::pair("−", "-"), std::pair("–", "-")}) {
@@ -261,15 +253,15 @@ std::string study_table(const std::string& study_json) {
 }
 
 std::string study_time_chart(const std::string& study_json) {
-    return draw_chart_svg(time_chart(parsed(study_json)));
+    return draw_chart_svg(time_chart(parsed_study<Json>(study_json)));
 }
 
 std::string study_limit_chart(const std::string& study_json) {
-    return draw_chart_svg(limit_chart(parsed(study_json)));
+    return draw_chart_svg(limit_chart(parsed_study<Json>(study_json)));
 }
 
 std::string study_page(const StudyView& view) {
-    const Json study = parsed(view.study_json);
+    const Json study = parsed_study<Json>(view.study_json);
     const std::string unit = text_at(study, "unit");
     std::string title = view.title.empty() ? text_at(study, "name") : view.title;
     if (title.empty()) title = "Study of a fit";

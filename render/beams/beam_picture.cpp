@@ -15,6 +15,7 @@
 #include "render/eye_optics.h"
 #include "render/pilot.h"
 #include "render/pixel_shader.h"
+#include "render/plan/a_priori.h"
 #include "render/scene_checks.h"
 #include "render/threads.h"
 #include "stone/errors.h"
@@ -83,25 +84,16 @@ BeamSettings beam_settings(const Scene& scene, const PathLimits& limits) {
     return settings;
 }
 
-// How far apart the two waves' images of the stone's far side lie, in pixels: the angle between
-// them is about |n1 - n2| (1/n + 1/sqrt(n^2 - 1)) at most (Snell's law and the walk-off), over the
-// stone's size.
+// Of the wavelength at which they lie farthest apart; pixels.
 double images_apart(const Scene& scene, const Plan& plan) {
     double widest = 0;
     for (const Band& band : plan.bands) {
         const auto [low, high] =
             std::minmax_element(band.crystal.n().begin(), band.crystal.n().end());
-        const double n = band.n / band.n_outside;
         widest = std::max(
-            widest, (*high - *low) / band.n_outside * (1 / n + 1 / std::sqrt((n - 1) * (n + 1))));
+            widest, images_apart(scene, band.n / band.n_outside, (*high - *low) / band.n_outside));
     }
-    const Camera& camera = scene.camera;
-    const double size = diameter(scene.stone.solid);
-    const double pixel = camera.orthographic_width
-                             ? *camera.orthographic_width / camera.width
-                             : 2 * std::tan(camera.fov / 2) / camera.height *
-                                   glm::length(camera.position - centroid(scene.stone.solid));
-    return widest * size / pixel;
+    return widest;
 }
 
 // What the scene calls for, with all that is made of it.

@@ -57,11 +57,14 @@ double pixel_on_stone(const Scene& scene) {
            glm::length(camera.position - centroid(scene.stone.solid));
 }
 
+double images_apart(const Scene& scene, double index, double birefringence) {
+    const double angle = birefringence * (1 / index + 1 / std::sqrt((index - 1) * (index + 1)));
+    return angle * diameter(scene.stone.solid) / pixel_on_stone(scene);
+}
+
 double images_apart(const Scene& scene) {
     const IndexSpans spans = index_spans(scene);
-    const double n = std::max(spans.mean, 1.0 + 1e-6);
-    const double angle = spans.birefringence * (1 / n + 1 / std::sqrt((n - 1) * (n + 1)));
-    return angle * diameter(scene.stone.solid) / pixel_on_stone(scene);
+    return images_apart(scene, std::max(spans.mean, 1.0 + 1e-6), spans.birefringence);
 }
 
 double aperture_blur(const Scene& scene) {

@@ -24,7 +24,8 @@ double exit_deviation(double span, double index);
 
 /// How far apart the two waves' images of the stone's far side lie, pixels: the angle between them
 /// is about |n1 - n2| (1/n + 1/sqrt(n^2 - 1)) at most (Snell's law and the walk-off), over the
-/// stone's size.
+/// stone's size. `index` is the mean of the two, over the outside's; NaN below 1.
+double images_apart(const Scene& scene, double index, double birefringence);
 double images_apart(const Scene& scene);
 
 /// Length of one pixel at the stone's middle.

@@ -59,6 +59,9 @@ private:
     void choose_wavelengths();
     void choose_engine_and_samples();
     void choose_beam_wavelengths();
+    /// The fewest of `counts` that serve, tried on `pilot` from that level on.
+    void settle_wavelengths(Scene pilot, const std::vector<int>& counts, std::size_t first_level,
+                            int rays);
     double room_for_wavelengths() const;
     int samples_for(double room) const;
     void estimate_times();

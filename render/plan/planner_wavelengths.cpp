@@ -133,12 +133,15 @@ void Planner::choose_wavelengths() {
         plan_.settings.wavelengths_nm = flat_plan.wavelengths_nm;
         return;
     }
-    const Scene mixed = with_effects(false);
-    const Spectra spectra(k_counts, k_counts.size() - 1, room_for_wavelengths(),
+    settle_wavelengths(with_effects(false), k_counts, k_counts.size() - 1, k_pilot_rays);
+}
+
+void Planner::settle_wavelengths(Scene pilot, const std::vector<int>& counts,
+                                 std::size_t first_level, int rays) {
+    const Spectra spectra(counts, first_level, room_for_wavelengths(),
                           [&](const std::vector<double>& nm) {
-                              Scene scene = mixed;
-                              scene.settings.wavelengths_nm = nm;
-                              return draw(scene, k_pilot_rays);
+                              pilot.settings.wavelengths_nm = nm;
+                              return draw(pilot, rays);
                           });
     spectrum_ = true;
     plan_.settings.wavelengths_nm = spectra.nodes;
@@ -149,18 +152,9 @@ void Planner::choose_wavelengths() {
 
 // Beams are grown for every wavelength.
 void Planner::choose_beam_wavelengths() {
-    const Scene coloured = with_effects(on(Effects::dispersion));
-    const Spectra spectra(on(Effects::coherence) ? k_coherent_counts : k_counts, k_first_level,
-                          room_for_wavelengths(), [&](const std::vector<double>& nm) {
-                              Scene scene = coloured;
-                              scene.settings.wavelengths_nm = nm;
-                              return draw(scene, k_spectral_rays);
-                          });
-    spectrum_ = true;
-    plan_.settings.wavelengths_nm = spectra.nodes;
-    wavelength_bound_ = spectra.factor * spectra.error.bound();
-    wavelength_delta_e_ = spectra.factor * spectra.error.bound_delta_e();
-    spent_ += wavelength_bound_;
+    settle_wavelengths(with_effects(on(Effects::dispersion)),
+                       on(Effects::coherence) ? k_coherent_counts : k_counts, k_first_level,
+                       k_spectral_rays);
 }
 
 }  // namespace culet
