@@ -225,6 +225,9 @@ struct RenderSettings {
     /// Reference: the rays of a pixel take turns, so that each carries every so manieth of the
     /// wavelengths that go ways of their own; at most `samples`.
     int wavelength_turns = 1;
+    /// Beams of one wavelength's tree, isotropic or merged: what memory they may take, some 100
+    /// bytes each. Where there would be more, more of the light is cut.
+    long long most_beams = 1 << 23;
     /// Beams: pixels that are held against the reference, and its rays in each; 0: some 2000, 16.
     int checked_pixels = 0, checked_samples = 0;
     bool effects_auto = true;  ///< all that can matter; else `effects`

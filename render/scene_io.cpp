@@ -131,7 +131,7 @@ RenderSettings read_settings(const TomlTable& table) {
     table.refuse_unknown(
         with_view_keys({"engine", "depth", "tolerance", "effects", "wavelengths", "samples",
                         "coherence", "bandwidth", "filter", "filter_radius", "refraction",
-                        "crystal_beams", "cut_weight", "split_weight"}));
+                        "crystal_beams", "cut_weight", "split_weight", "most_beams"}));
     RenderSettings settings;
     read_coherence(table, settings);
     if (const auto beams = table.text("crystal_beams")) {
@@ -193,6 +193,13 @@ RenderSettings read_settings(const TomlTable& table) {
     };
     settings.cut_weight = weight_in("cut_weight");
     settings.split_weight = weight_in("split_weight");
+    if (const auto beams = table.integer("most_beams")) {
+        if (*beams < 1000 || *beams > (1 << 28)) {
+            table.fail("most_beams",
+                       fmt::format("most_beams is 1000 to {}, found {}", 1 << 28, *beams));
+        }
+        settings.most_beams = *beams;
+    }
     if (const auto samples = table.integer("samples")) {
         if (*samples < 1 || *samples > 4096)
             table.fail("samples", fmt::format("samples a pixel are 1 to 4096, found {}", *samples));

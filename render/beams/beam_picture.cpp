@@ -64,6 +64,7 @@ BeamSettings beam_settings(const Scene& scene, const PathLimits& limits) {
     settings.limits.depth = limits.depth;
     settings.limits.cut_weight = limits.cut_weight;
     settings.limits.cut_share = k_cut_share * limits.cut_weight;
+    settings.limits.most_beams = scene.settings.most_beams;
     settings.limits.alone = std::min(k_alone * scene.settings.tolerance, 0.5);
     settings.limits.refraction = scene.settings.refraction;
     settings.threads = scene.settings.threads;

@@ -146,6 +146,11 @@ Subject picture_subject(const HardCase& hard_case, const HardPoint& point,
         reference.settings.engine = "reference";
         return Measured{apart(c->result().picture, render(reference).picture), std::nan(""), ""};
     };
+    is["within_most_beams"] = [c] {
+        const long long beams = c->result().stats.beams;
+        return Measured{double(beams) / double(c->scene.settings.most_beams), std::nan(""),
+                        fmt::format("{} beams", beams)};
+    };
     is["threads"] = [c] {
         const RenderResult many = with_threads(c->scene, 5);
         return Measured{many.picture.rgb == c->result().picture.rgb ? 0.0 : 1.0, std::nan(""), ""};
