@@ -73,8 +73,8 @@ HWY_INLINE V go_through(const MergedCrystal& crystal, const V3& d, const V3& b, 
         alpha2 = hn::MulAdd(K * q, q, alpha2);
     }
     const V way = hn::Max(length, zero);
-    const V kept1 = hn::Exp(k_floats, hn::Neg(half * alpha1 * way)),
-            kept2 = hn::Exp(k_floats, hn::Neg(half * alpha2 * way));
+    const V kept1 = decayed(hn::Neg(half * alpha1 * way)),
+            kept2 = decayed(hn::Neg(half * alpha2 * way));
     const V power1 = half * (carried.I + carried.Q) * kept1 * kept1,
             power2 = half * (carried.I - carried.Q) * kept2 * kept2;
     const V absorbed = carried.I - power1 - power2;

@@ -147,9 +147,8 @@ private:
         V lost = number(0.0f);
         for (int i = 0; i < lights_.nodes; ++i) {
             const V after =
-                tau_[i] *
-                hn::Exp(k_floats, hn::Neg(number(optics_.absorption[static_cast<size_t>(i)])) *
-                                      hn::Max(length, number(0.0f)));
+                tau_[i] * decayed(hn::Neg(number(optics_.absorption[static_cast<size_t>(i)])) *
+                                  hn::Max(length, number(0.0f)));
             lost = lost + tau_[i] - after;
             tau_[i] = after;
         }

@@ -56,9 +56,8 @@ HWY_INLINE void distant_light(const ShadedLights& lights, const Ray& ray, const 
         } else {
             // The smallest normal number stands for 0, whose logarithm is no number.
             const V some = hn::Max(cosine, number(1.2e-38f));
-            power = hn::IfThenElseZero(
-                cosine > number(0.0f),
-                hn::Exp(k_floats, number(lobe.exponent) * hn::Log(k_floats, some)));
+            power = hn::IfThenElseZero(cosine > number(0.0f),
+                                       decayed(number(lobe.exponent) * hn::Log(k_floats, some)));
         }
         take(unhidden * power, lobe.radiance.data(), lobe.polarised);
     }

@@ -2,6 +2,7 @@
 // For one instruction set; Highway includes this once for each, which a guard of the usual kind
 // would not let it.
 
+#include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
@@ -16,6 +17,11 @@ constexpr Floats k_floats;
 
 HWY_INLINE V number(float v) {
     return hn::Set(k_floats, v);
+}
+/// e to the power of what is not positive. From -104 on the library gives 0 but computes with
+/// powers of two beyond its numbers on the way, which sets the flag of an invalid operation.
+HWY_INLINE V decayed(V v) {
+    return hn::Exp(k_floats, hn::Max(v, number(-105.0f)));
 }
 HWY_INLINE V clamped_to_unit(V v) {
     return hn::Min(hn::Max(v, number(0.0f)), number(1.0f));
