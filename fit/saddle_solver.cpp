@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+
+#include "fit/elimination_order.h"
 
 namespace culet {
 
@@ -12,118 +13,222 @@ namespace {
 // below the variance of anything that is read (lengths are in half diameters).
 constexpr double k_least_variance = 1e-9;
 constexpr int k_refinements = 12;
+// Right-hand sides that are solved side by side.
+constexpr Eigen::Index k_together = 8;
 
 }  // namespace
 
-// Columns of the lower half: the diagonal, then rows in order.
-void SaddleSolver::lay_out(const SparseRows& rows, const std::vector<Entry>& curvature) {
-    begin_ = rows.begin;
-    column_ = rows.column;
-    curved_.clear();
-    for (const Entry& e : curvature) curved_.emplace_back(e.row, e.column);
-    const int size = unknowns_ + equations_;
-    struct Place {
-        int column, row, source;
-    };
-    std::vector<Place> places;
-    places.reserve(std::size_t(size) + column_.size() + curved_.size());
-    int source = 0;
+void SaddleSolver::lay_out() {
+    std::vector<std::pair<int, int>> pairs;
+    for (const Entry& e : curvature_) {
+        if (e.row != e.column) pairs.emplace_back(e.row, e.column);
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    const EliminationOrder order = elimination_order(rows_, unknowns_, pairs);
+    is_folded_ = order.is_folded;
+    eliminated_ = order.eliminated;
+    // Folded equations have no place of their own.
+    fronts_.lay_out(unknowns_ + equations_, order.blocks, order.cliques);
+    slot_.clear();
+    diagonal_.clear();
+    for (int i = 0; i < unknowns_; ++i) diagonal_.push_back(fronts_.slot(i, i));
     for (int i = 0; i < equations_; ++i) {
-        for (int k = begin_[i]; k < begin_[i + 1]; ++k) {
-            places.push_back({column_[k], unknowns_ + i, source++});
+        const int own = unknowns_ + i;
+        diagonal_.push_back(is_folded_[i] ? 0 : fronts_.slot(own, own));
+        for (int k = rows_.begin[i]; k < rows_.begin[i + 1]; ++k) {
+            if (!is_folded_[i]) {
+                slot_.push_back(fronts_.slot(rows_.column[k], own));
+                continue;
+            }
+            for (int l = rows_.begin[i]; l <= k; ++l) {
+                slot_.push_back(fronts_.slot(rows_.column[k], rows_.column[l]));
+            }
         }
     }
-    for (const auto& [row, column] : curved_) places.push_back({column, row, source++});
-    const int entries = source;
-    for (int i = 0; i < size; ++i) places.push_back({i, i, source++});
-    std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
-        return std::tie(a.column, a.row, a.source) < std::tie(b.column, b.row, b.source);
-    });
-    slot_.assign(std::size_t(entries), 0);
-    diagonal_.assign(std::size_t(size), 0);
-    std::vector<int> outer(std::size_t(size) + 1, 0), inner;
-    int column = -1, row = -1;
-    for (const Place& p : places) {
-        if (p.column != column || p.row != row) {
-            inner.push_back(p.row);
-            ++outer[p.column + 1];
-            column = p.column;
-            row = p.row;
-        }
-        const int at = static_cast<int>(inner.size()) - 1;
-        (p.source < entries ? slot_[p.source] : diagonal_[p.source - entries]) = at;
+}
+
+bool SaddleSolver::place_curvature() {
+    curved_.clear();
+    for (const Entry& e : curvature_) {
+        if (!fronts_.has_slot(e.row, e.column)) return false;
+        curved_.push_back(fronts_.slot(e.row, e.column));
     }
-    for (int i = 0; i < size; ++i) outer[i + 1] += outer[i];
-    matrix_.resize(size, size);
-    matrix_.resizeNonZeros(static_cast<Eigen::Index>(inner.size()));
-    std::copy(outer.begin(), outer.end(), matrix_.outerIndexPtr());
-    std::copy(inner.begin(), inner.end(), matrix_.innerIndexPtr());
-    std::fill_n(matrix_.valuePtr(), inner.size(), 0.0);
-    factors_.analyzePattern(matrix_);
+    return true;
 }
 
 bool SaddleSolver::factor(const SparseRows& rows, const Eigen::VectorXd& stiffness,
                           const std::vector<Entry>& curvature) {
-    const int unknowns = static_cast<int>(stiffness.size());
-    bool same = unknowns == unknowns_ && rows.count() == equations_ && rows.begin == begin_ &&
-                rows.column == column_ && curvature.size() == curved_.size();
-    for (std::size_t i = 0; same && i < curved_.size(); ++i) {
-        same = curved_[i] == std::make_pair(curvature[i].row, curvature[i].column);
-    }
-    unknowns_ = unknowns;
+    std::vector<char> sharp;
+    for (int i = 0; i < rows.count(); ++i) sharp.push_back(is_sharp(rows, i));
+    const bool same = laid_out_ && stiffness.size() == stiffness_.size() &&
+                      rows.begin == rows_.begin && rows.column == rows_.column && sharp == sharp_;
+    const bool same_curvature =
+        same && curvature.size() == curvature_.size() &&
+        std::equal(curvature.begin(), curvature.end(), curvature_.begin(),
+                   [](const Entry& a, const Entry& b) {
+                       return a.row == b.row && a.column == b.column;
+                   });
+    rows_ = rows;
+    stiffness_ = stiffness;
+    curvature_ = curvature;
+    sharp_ = std::move(sharp);
+    unknowns_ = static_cast<int>(stiffness.size());
     equations_ = rows.count();
-    if (!same) lay_out(rows, curvature);
-
-    double* values = matrix_.valuePtr();
-    std::fill_n(values, matrix_.nonZeros(), 0.0);
-    std::size_t source = 0;
-    for (double slope : rows.slope) values[slot_[source++]] += slope;
-    for (const Entry& e : curvature) values[slot_[source++]] += e.value;
-    for (int i = 0; i < unknowns_; ++i) values[diagonal_[i]] += stiffness(i);
-    for (int i = 0; i < equations_; ++i) {
-        values[diagonal_[unknowns_ + i]] = -std::max(rows.variance[i], k_least_variance);
+    laid_out_ = true;
+    if (!same) lay_out();
+    if (!same_curvature && !place_curvature()) {
+        lay_out();
+        place_curvature();
     }
-    factors_.factorize(matrix_);
-    if (factors_.info() != Eigen::Success) return false;
-    const auto& pivots = factors_.vectorD();
-    if (!pivots.allFinite()) return false;
-    if ((pivots.array() < 0).count() != equations_) return false;
-    variance_ = Eigen::Map<const Eigen::VectorXd>(rows.variance.data(), equations_);
-    return true;
+
+    fronts_.clear();
+    for (int i = 0; i < unknowns_; ++i) fronts_.add(diagonal_[i], stiffness(i));
+    std::size_t source = 0;
+    for (int i = 0; i < equations_; ++i) {
+        if (is_folded_[i]) {
+            const double weight = 1 / rows.variance[i];
+            for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
+                const double weighted = weight * rows.slope[k];
+                for (int l = rows.begin[i]; l <= k; ++l) {
+                    fronts_.add(slot_[source++], weighted * rows.slope[l]);
+                }
+            }
+            continue;
+        }
+        for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
+            fronts_.add(slot_[source++], rows.slope[k]);
+        }
+        fronts_.add(diagonal_[unknowns_ + i], -std::max(rows.variance[i], k_least_variance));
+    }
+    for (std::size_t k = 0; k < curvature.size(); ++k) {
+        fronts_.add(curved_[k], curvature[k].value);
+    }
+    return fronts_.factor() && fronts_.negative_pivots() == eliminated_;
+}
+
+double SaddleSolver::log_determinant() const {
+    double sum = fronts_.log_determinant();
+    for (int i = 0; i < equations_; ++i) {
+        if (is_folded_[i]) sum += std::log(rows_.variance[i]);
+    }
+    return sum;
+}
+
+// The matrix as it is meant: exact equations have no variance.
+SaddleSolver::Sides SaddleSolver::times(const Sides& x) const {
+    const Eigen::Index width = x.cols();
+    Sides product(x.rows(), width);
+    const auto add = [width](double* to, double factor, const double* from) {
+        for (Eigen::Index k = 0; k < width; ++k) to[k] += factor * from[k];
+    };
+    const auto of = [width](auto& sides, Eigen::Index row) { return sides.data() + row * width; };
+    product.topRows(unknowns_) = stiffness_.asDiagonal() * x.topRows(unknowns_);
+    for (const Entry& e : curvature_) {
+        add(of(product, e.row), e.value, of(x, e.column));
+        if (e.row != e.column) add(of(product, e.column), e.value, of(x, e.row));
+    }
+    for (int i = 0; i < equations_; ++i) {
+        const double* force = of(x, unknowns_ + i);
+        double* own = of(product, unknowns_ + i);
+        for (Eigen::Index k = 0; k < width; ++k) own[k] = -rows_.variance[i] * force[k];
+        for (int k = rows_.begin[i]; k < rows_.begin[i + 1]; ++k) {
+            add(own, rows_.slope[k], of(x, rows_.column[k]));
+            add(of(product, rows_.column[k]), rows_.slope[k], force);
+        }
+    }
+    return product;
+}
+
+SaddleSolver::Sides SaddleSolver::solve_once(const Sides& right) const {
+    const Eigen::Index width = right.cols();
+    const auto add = [width](double* to, double factor, const double* from) {
+        for (Eigen::Index k = 0; k < width; ++k) to[k] += factor * from[k];
+    };
+    Sides x = right;
+    for (int i = 0; i < equations_; ++i) {
+        if (!is_folded_[i]) continue;
+        const double* own = right.data() + (unknowns_ + i) * width;
+        for (int k = rows_.begin[i]; k < rows_.begin[i + 1]; ++k) {
+            add(x.data() + rows_.column[k] * width, rows_.slope[k] / rows_.variance[i], own);
+        }
+    }
+    fronts_.solve(x.data(), static_cast<int>(width));
+    for (int i = 0; i < equations_; ++i) {
+        if (!is_folded_[i]) continue;
+        double* own = x.data() + (unknowns_ + i) * width;
+        const double weight = 1 / rows_.variance[i];
+        for (Eigen::Index k = 0; k < width; ++k) own[k] *= -weight;
+        for (int k = rows_.begin[i]; k < rows_.begin[i + 1]; ++k) {
+            add(own, weight * rows_.slope[k], x.data() + rows_.column[k] * width);
+        }
+    }
+    return x;
+}
+
+SaddleSolver::Sides SaddleSolver::refined(const Sides& right, double precision) const {
+    Sides x = solve_once(right);
+    Sides left = right - times(x);
+    const auto sizes = [](const Sides& sides) -> Eigen::RowVectorXd {
+        return sides.cwiseAbs().colwise().maxCoeff();
+    };
+    const Eigen::RowVectorXd enough = precision * sizes(right);
+    Eigen::RowVectorXd size = sizes(left);
+    std::vector<bool> done(std::size_t(right.cols()), false);
+    for (int round = 0; round < k_refinements; ++round) {
+        bool any = false;
+        for (Eigen::Index k = 0; k < right.cols(); ++k) {
+            if (!(size(k) > enough(k))) done[std::size_t(k)] = true;
+            any = any || !done[std::size_t(k)];
+        }
+        if (!any) break;
+        const Sides next = x + solve_once(left);
+        const Sides next_left = right - times(next);
+        const Eigen::RowVectorXd next_size = sizes(next_left);
+        for (Eigen::Index k = 0; k < right.cols(); ++k) {
+            if (done[std::size_t(k)]) continue;
+            if (!(next_size(k) < 0.7 * size(k))) {
+                done[std::size_t(k)] = true;
+                continue;
+            }
+            x.col(k) = next.col(k);
+            left.col(k) = next_left.col(k);
+            size(k) = next_size(k);
+        }
+    }
+    return x;
 }
 
 SaddleSolver::Solution SaddleSolver::solve(const Eigen::VectorXd& a, const Eigen::VectorXd& b,
                                            double precision) const {
-    Eigen::VectorXd right(unknowns_ + equations_);
-    right << a, b;
-    // The matrix as it is meant: exact equations have no variance.
-    const auto times = [&](const Eigen::VectorXd& x) {
-        Eigen::VectorXd product = matrix_.selfadjointView<Eigen::Lower>() * x;
-        for (int i = 0; i < equations_; ++i) {
-            if (variance_(i) < k_least_variance) {
-                product(unknowns_ + i) += (k_least_variance - variance_(i)) * x(unknowns_ + i);
-            }
-        }
-        return product;
-    };
+    Sides right(unknowns_ + equations_, 1);
+    right.topRows(unknowns_) = a;
+    right.bottomRows(equations_) = b;
+    const Sides x = refined(right, precision);
     Solution solution;
-    Eigen::VectorXd x = factors_.solve(right);
-    Eigen::VectorXd left = right - times(x);
-    double size = left.lpNorm<Eigen::Infinity>();
-    const double enough = precision * right.lpNorm<Eigen::Infinity>();
-    for (int i = 0; i < k_refinements && size > enough; ++i) {
-        const Eigen::VectorXd next = x + factors_.solve(left);
-        const Eigen::VectorXd next_left = right - times(next);
-        const double next_size = next_left.lpNorm<Eigen::Infinity>();
-        if (!(next_size < 0.7 * size)) break;
-        x = next;
-        left = next_left;
-        size = next_size;
-    }
     solution.good = x.allFinite();
-    solution.unknowns = x.head(unknowns_);
-    solution.forces = x.tail(equations_);
+    solution.unknowns = x.topRows(unknowns_);
+    solution.forces = x.bottomRows(equations_);
     return solution;
+}
+
+SaddleSolver::Solutions SaddleSolver::solve_all(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
+                                                double precision) const {
+    const Eigen::Index count = std::max(a.cols(), b.cols());
+    Solutions all;
+    all.unknowns.resize(unknowns_, count);
+    all.forces.resize(equations_, count);
+    for (Eigen::Index from = 0; from < count; from += k_together) {
+        const Eigen::Index width = std::min(k_together, count - from);
+        Sides right = Sides::Zero(unknowns_ + equations_, width);
+        if (a.cols() > 0) right.topRows(unknowns_) = a.middleCols(from, width);
+        if (b.cols() > 0) right.bottomRows(equations_) = b.middleCols(from, width);
+        const Sides x = refined(right, precision);
+        all.unknowns.middleCols(from, width) = x.topRows(unknowns_);
+        all.forces.middleCols(from, width) = x.bottomRows(equations_);
+    }
+    all.good = all.unknowns.allFinite() && all.forces.allFinite();
+    return all;
 }
 
 }  // namespace culet

@@ -1,0 +1,417 @@
+#include "fit/fronts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+// A front becomes one with its parent where no more of the two is filled with zeros than this part;
+// of few pivots, the handling of one more front costs more.
+constexpr double k_zeros = 0.1, k_zeros_of_few = 0.3;
+constexpr int k_few = 8;
+
+// column -= sum of factor[q] * other[q], q < W.
+template <int W>
+void subtract(double* column, const double* const* other, const double* factor, int count) {
+    if constexpr (W == 4) {
+        const double *a = other[0], *b = other[1], *c = other[2], *d = other[3];
+        const double fa = factor[0], fb = factor[1], fc = factor[2], fd = factor[3];
+        for (int i = 0; i < count; ++i) {
+            column[i] -= (fa * a[i] + fb * b[i]) + (fc * c[i] + fd * d[i]);
+        }
+    } else {
+        for (int q = 0; q < W; ++q) {
+            const double* a = other[q];
+            const double f = factor[q];
+            for (int i = 0; i < count; ++i) column[i] -= f * a[i];
+        }
+    }
+}
+
+template <int W>
+void update_right(double* panel, int height, int pivots, int from, double* update, int rows) {
+    const double* other[W];
+    double factor[W], pivot[W];
+    for (int q = 0; q < W; ++q) pivot[q] = panel[std::size_t(from + q) * height + from + q];
+    const auto take = [&](double* column, int row) {
+        for (int q = 0; q < W; ++q) {
+            other[q] = panel + std::size_t(from + q) * height + row;
+            factor[q] = *other[q] * pivot[q];
+        }
+        subtract<W>(column, other, factor, height - row);
+    };
+    for (int k = from + W; k < pivots; ++k) take(panel + std::size_t(k) * height + k, k);
+    for (int k = 0; k < rows; ++k) take(update + std::size_t(k) * rows + k, pivots + k);
+}
+
+// The pivots' columns become L, with D on the diagonal; what is left of the others is subtracted
+// from `update` (rows x rows, lower half).
+bool factor_dense(double* panel, int height, int pivots, double* update, int rows) {
+    constexpr int k_width = 4;
+    for (int from = 0; from < pivots; from += k_width) {
+        const int width = std::min(k_width, pivots - from);
+        for (int j = from; j < from + width; ++j) {
+            double* column = panel + std::size_t(j) * height;
+            for (int q = from; q < j; ++q) {
+                const double* other = panel + std::size_t(q) * height;
+                const double factor = other[j] * other[q];
+                for (int i = j; i < height; ++i) column[i] -= factor * other[i];
+            }
+            const double pivot = column[j];
+            if (!(std::abs(pivot) > 0) || !std::isfinite(pivot)) return false;
+            const double inverse = 1 / pivot;
+            for (int i = j + 1; i < height; ++i) column[i] *= inverse;
+        }
+        switch (width) {
+            case 4:
+                update_right<4>(panel, height, pivots, from, update, rows);
+                break;
+            case 3:
+                update_right<3>(panel, height, pivots, from, update, rows);
+                break;
+            case 2:
+                update_right<2>(panel, height, pivots, from, update, rows);
+                break;
+            default:
+                update_right<1>(panel, height, pivots, from, update, rows);
+        }
+    }
+    return true;
+}
+
+double dot(const double* a, const double* b, int count) {
+    double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+    int i = 0;
+    for (; i + 3 < count; i += 4) {
+        s0 += a[i] * b[i];
+        s1 += a[i + 1] * b[i + 1];
+        s2 += a[i + 2] * b[i + 2];
+        s3 += a[i + 3] * b[i + 3];
+    }
+    for (; i < count; ++i) s0 += a[i] * b[i];
+    return (s0 + s1) + (s2 + s3);
+}
+
+// Children before parents, each subtree in one piece.
+std::vector<int> postorder(const std::vector<int>& parent) {
+    const int count = static_cast<int>(parent.size());
+    std::vector<int> first(parent.size(), -1), next(parent.size(), -1), order, stack;
+    for (int s = count - 1; s >= 0; --s) {
+        if (parent[s] < 0) continue;
+        next[s] = first[parent[s]];
+        first[parent[s]] = s;
+    }
+    order.reserve(parent.size());
+    for (int root = 0; root < count; ++root) {
+        if (parent[root] >= 0) continue;
+        stack.push_back(root);
+        while (!stack.empty()) {
+            const int s = stack.back();
+            if (first[s] >= 0) {
+                stack.push_back(first[s]);
+                first[s] = next[first[s]];
+            } else {
+                order.push_back(s);
+                stack.pop_back();
+            }
+        }
+    }
+    return order;
+}
+
+}  // namespace
+
+// Fronts with these numbers of pivots, in the present order of places.
+void Fronts::gather(const IndexLists& cliques, const std::vector<int>& pivots) {
+    const int count = static_cast<int>(pivots.size());
+    fronts_.assign(std::size_t(count), {});
+    front_of_.resize(std::size_t(size_));
+    for (int s = 0, place = 0; s < count; ++s) {
+        fronts_[s].first = place;
+        fronts_[s].pivots = pivots[s];
+        for (int i = 0; i < pivots[s]; ++i) front_of_[place++] = s;
+    }
+    // Each clique belongs to the front that eliminates its first member.
+    std::vector<int> head(std::size_t(count), -1), next(std::size_t(cliques.count()), -1);
+    for (int c = cliques.count() - 1; c >= 0; --c) {
+        int least = size_;
+        for (int k = cliques.begin[c]; k < cliques.begin[c + 1]; ++k) {
+            least = std::min(least, place_[cliques.index[k]]);
+        }
+        if (least == size_) continue;
+        next[c] = head[front_of_[least]];
+        head[front_of_[least]] = c;
+    }
+    boundary_.clear();
+    std::vector<int> mark(std::size_t(size_), -1), child(std::size_t(count), -1),
+        sibling(std::size_t(count), -1);
+    for (int s = 0; s < count; ++s) {
+        Front& front = fronts_[s];
+        front.boundary = static_cast<int>(boundary_.size());
+        const int end = front.first + front.pivots;
+        const auto take = [&](int place) {
+            if (place < end || mark[place] == s) return;
+            mark[place] = s;
+            boundary_.push_back(place);
+        };
+        for (int c = head[s]; c >= 0; c = next[c]) {
+            for (int k = cliques.begin[c]; k < cliques.begin[c + 1]; ++k) {
+                take(place_[cliques.index[k]]);
+            }
+        }
+        for (int c = child[s]; c >= 0; c = sibling[c]) {
+            const Front& below = fronts_[c];
+            for (int k = 0; k < below.rows; ++k) take(boundary_[below.boundary + k]);
+        }
+        front.rows = static_cast<int>(boundary_.size()) - front.boundary;
+        std::sort(boundary_.begin() + front.boundary, boundary_.end());
+        if (front.rows > 0) {
+            front.parent = front_of_[boundary_[front.boundary]];
+            sibling[s] = child[front.parent];
+            child[front.parent] = s;
+        }
+    }
+}
+
+// Fronts that nearly continue in their parents become one with them.
+void Fronts::merge() {
+    std::vector<Front> merged;
+    std::vector<int> now(fronts_.size(), -1);  // of each front as it was
+    for (std::size_t s = 0; s < fronts_.size(); ++s) {
+        Front front = fronts_[s];
+        while (!merged.empty() && merged.back().parent == static_cast<int>(s)) {
+            const Front& last = merged.back();
+            const int pivots = front.pivots + last.pivots;
+            const double zeros = last.zeros + front.zeros +
+                                 double(front.pivots + front.rows - last.rows) * last.pivots;
+            const double full = (pivots + front.rows - 0.5 * pivots) * pivots;
+            if (zeros > (pivots <= k_few ? k_zeros_of_few : k_zeros) * full) break;
+            front.first = last.first;
+            front.pivots = pivots;
+            front.zeros = zeros;
+            merged.pop_back();
+        }
+        merged.push_back(front);
+    }
+    for (std::size_t s = 0; s < merged.size(); ++s) {
+        for (int i = 0; i < merged[s].pivots; ++i) {
+            front_of_[merged[s].first + i] = static_cast<int>(s);
+        }
+    }
+    for (Front& front : merged) {
+        front.parent = front.rows > 0 ? front_of_[boundary_[front.boundary]] : -1;
+    }
+    fronts_ = std::move(merged);
+}
+
+void Fronts::lay_out(int indices, const IndexLists& blocks, const IndexLists& cliques) {
+    place_.assign(std::size_t(indices), -1);
+    index_ = blocks.index;
+    size_ = static_cast<int>(index_.size());
+    const auto number = [&] {
+        for (int i = 0; i < size_; ++i) place_[index_[i]] = i;
+    };
+    number();
+    std::vector<int> pivots;
+    for (int b = 0; b < blocks.count(); ++b) pivots.push_back(blocks.begin[b + 1] - blocks.begin[b]);
+    std::erase(pivots, 0);
+    gather(cliques, pivots);
+    std::vector<int> parent, sorted, sorted_pivots;
+    for (const Front& f : fronts_) parent.push_back(f.parent);
+    sorted.reserve(index_.size());
+    for (const int s : postorder(parent)) {
+        const Front& f = fronts_[s];
+        sorted.insert(sorted.end(), index_.begin() + f.first, index_.begin() + f.first + f.pivots);
+        sorted_pivots.push_back(f.pivots);
+    }
+    index_ = std::move(sorted);
+    number();
+    gather(cliques, sorted_pivots);
+    merge();
+
+    in_parent_.assign(boundary_.size(), 0);
+    std::size_t panels = 0, stack = 0, most = 0;
+    work_ = 0;
+    for (Front& front : fronts_) {
+        front.panel = panels;
+        panels += std::size_t(height(front)) * front.pivots;
+        for (int j = 0; j < front.pivots; ++j) work_ += 0.5 * std::pow(height(front) - j, 2);
+        if (front.parent < 0) continue;
+        Front& above = fronts_[front.parent];
+        ++above.children;
+        int row = 0;
+        for (int k = front.boundary; k < front.boundary + front.rows; ++k) {
+            const int place = boundary_[k];
+            if (place < above.first + above.pivots) {
+                in_parent_[k] = place - above.first;
+                continue;
+            }
+            while (boundary_[above.boundary + row] < place) ++row;
+            in_parent_[k] = above.pivots + row;
+        }
+    }
+    // What is handed up waits on a stack.
+    std::vector<std::size_t> sizes;
+    for (const Front& front : fronts_) {
+        const std::size_t own = std::size_t(front.rows) * front.rows;
+        most = std::max(most, stack + own);
+        for (int c = 0; c < front.children; ++c) {
+            stack -= sizes.back();
+            sizes.pop_back();
+        }
+        sizes.push_back(own);
+        stack += own;
+    }
+    panels_.assign(panels, 0.0);
+    updates_.assign(most, 0.0);
+}
+
+std::size_t Fronts::find(int low, int high) const {
+    const Front& front = fronts_[front_of_[low]];
+    int row = high - front.first;
+    if (row >= front.pivots) {
+        const auto begin = boundary_.begin() + front.boundary, end = begin + front.rows;
+        const auto found = std::lower_bound(begin, end, high);
+        if (found == end || *found != high) return panels_.size();
+        row = front.pivots + static_cast<int>(found - begin);
+    }
+    return front.panel + std::size_t(low - front.first) * height(front) + row;
+}
+
+std::size_t Fronts::slot(int one, int other) const {
+    const std::size_t found =
+        find(std::min(place_[one], place_[other]), std::max(place_[one], place_[other]));
+    check(found < panels_.size(), "an entry outside the pattern");
+    return found;
+}
+
+bool Fronts::has_slot(int one, int other) const {
+    return find(std::min(place_[one], place_[other]), std::max(place_[one], place_[other])) <
+           panels_.size();
+}
+
+void Fronts::clear() {
+    std::fill(panels_.begin(), panels_.end(), 0.0);
+}
+
+bool Fronts::factor() {
+    negative_ = 0;
+    std::size_t top = 0;
+    std::vector<const Front*> waiting;
+    for (const Front& front : fronts_) {
+        double* panel = panels_.data() + front.panel;
+        double* update = updates_.data() + top;
+        const int tall = height(front), rows = front.rows;
+        std::fill_n(update, std::size_t(rows) * rows, 0.0);
+        std::size_t base = top;
+        for (int c = 0; c < front.children; ++c) {
+            const Front& child = *waiting.back();
+            waiting.pop_back();
+            const int count = child.rows;
+            base -= std::size_t(count) * count;
+            const int* to = in_parent_.data() + child.boundary;
+            for (int j = 0; j < count; ++j) {
+                const double* from = updates_.data() + base + std::size_t(j) * count;
+                double* column = to[j] < front.pivots
+                                     ? panel + std::size_t(to[j]) * tall
+                                     : update + std::size_t(to[j] - front.pivots) * rows;
+                const int shift = to[j] < front.pivots ? 0 : front.pivots;
+                for (int i = j; i < count; ++i) column[to[i] - shift] += from[i];
+            }
+        }
+        if (!factor_dense(panel, tall, front.pivots, update, rows)) return false;
+        for (int j = 0; j < front.pivots; ++j) {
+            negative_ += panel[std::size_t(j) * tall + j] < 0;
+        }
+        std::copy_n(update, std::size_t(rows) * rows, updates_.begin() + std::ptrdiff_t(base));
+        top = base + std::size_t(rows) * rows;
+        waiting.push_back(&front);
+    }
+    return true;
+}
+
+double Fronts::log_determinant() const {
+    double sum = 0;
+    for (const Front& front : fronts_) {
+        for (int j = 0; j < front.pivots; ++j) {
+            sum += std::log(
+                std::abs(panels_[front.panel + std::size_t(j) * height(front) + std::size_t(j)]));
+        }
+    }
+    return sum;
+}
+
+void Fronts::solve(double* x, int count) const {
+    const std::size_t width = std::size_t(count);
+    std::vector<double> y(std::size_t(size_) * width), below;
+    for (int i = 0; i < size_; ++i) {
+        std::copy_n(x + std::size_t(index_[i]) * width, width, y.data() + std::size_t(i) * width);
+    }
+    for (const Front& front : fronts_) {
+        const int tall = height(front), rows = front.rows;
+        double* own = y.data() + std::size_t(front.first) * width;
+        below.assign(std::size_t(rows) * width, 0.0);
+        for (int j = 0; j < front.pivots; ++j) {
+            const double* column = panels_.data() + front.panel + std::size_t(j) * tall;
+            if (count == 1) {
+                const double value = own[j];
+                for (int i = j + 1; i < front.pivots; ++i) own[i] -= column[i] * value;
+                for (int i = 0; i < rows; ++i) below[i] += column[front.pivots + i] * value;
+                continue;
+            }
+            const double* value = own + std::size_t(j) * width;
+            for (int i = j + 1; i < tall; ++i) {
+                const double factor = column[i];
+                if (i < front.pivots) {
+                    double* to = own + std::size_t(i) * width;
+                    for (std::size_t k = 0; k < width; ++k) to[k] -= factor * value[k];
+                } else {
+                    double* to = below.data() + std::size_t(i - front.pivots) * width;
+                    for (std::size_t k = 0; k < width; ++k) to[k] += factor * value[k];
+                }
+            }
+        }
+        for (int i = 0; i < rows; ++i) {
+            double* to = y.data() + std::size_t(boundary_[front.boundary + i]) * width;
+            const double* from = below.data() + std::size_t(i) * width;
+            for (std::size_t k = 0; k < width; ++k) to[k] -= from[k];
+        }
+    }
+    for (auto f = fronts_.rbegin(); f != fronts_.rend(); ++f) {
+        const Front& front = *f;
+        const int tall = height(front), rows = front.rows;
+        double* own = y.data() + std::size_t(front.first) * width;
+        // The front's rows one after another, as its columns have them.
+        below.resize(std::size_t(tall) * width);
+        for (int i = 0; i < rows; ++i) {
+            std::copy_n(y.data() + std::size_t(boundary_[front.boundary + i]) * width, width,
+                        below.data() + std::size_t(front.pivots + i) * width);
+        }
+        for (int j = front.pivots - 1; j >= 0; --j) {
+            const double* column = panels_.data() + front.panel + std::size_t(j) * tall;
+            double* value = own + std::size_t(j) * width;
+            double* kept = below.data() + std::size_t(j) * width;
+            if (count == 1) {
+                *kept = *value = *value / column[j] -
+                                 dot(column + j + 1, below.data() + j + 1, tall - j - 1);
+                continue;
+            }
+            for (std::size_t k = 0; k < width; ++k) kept[k] = value[k] / column[j];
+            for (int i = j + 1; i < tall; ++i) {
+                const double factor = column[i];
+                const double* from = below.data() + std::size_t(i) * width;
+                for (std::size_t k = 0; k < width; ++k) kept[k] -= factor * from[k];
+            }
+            std::copy_n(kept, width, value);
+        }
+    }
+    for (int i = 0; i < size_; ++i) {
+        std::copy_n(y.data() + std::size_t(i) * width, width, x + std::size_t(index_[i]) * width);
+    }
+}
+
+}  // namespace culet
