@@ -148,6 +148,18 @@ struct Covariance::Sparse {
         return std::max(0.0, value);
     }
 
+    double of(const Held& held, const FunctionRow& one, const FunctionRow& other) const {
+        double value = held.inverse.bilinear(one, other);
+        if (gauge.cols() > 0) {
+            const Eigen::VectorXd along = gauge.transpose() * one,
+                                  along_other = gauge.transpose() * other;
+            value += along.dot(held.gauge_part * along_other) -
+                     (held.gauge_solved.transpose() * one).dot(along_other) -
+                     (held.gauge_solved.transpose() * other).dot(along);
+        }
+        return value;
+    }
+
     Eigen::VectorXd with_all(const Held& held, const FunctionRow& function) const {
         const Eigen::VectorXd along = gauge.transpose() * function;
         Eigen::VectorXd all =
@@ -348,6 +360,11 @@ Eigen::VectorXd Covariance::fitted_part(const Eigen::VectorXd& residuals) const 
     if (!sparse_) return seen_ * (seen_.transpose() * residuals);
     const Eigen::VectorXd all = rows_.transpose() * residuals;
     return rows_ * sparse_->with_all(sparse_->tight, FunctionRow(all.sparseView()));
+}
+
+double Covariance::leverage(Eigen::Index equation, Eigen::Index other) const {
+    if (!sparse_) return seen_.row(equation).dot(seen_.row(other));
+    return sparse_->of(sparse_->tight, function_row(rows_, equation), function_row(rows_, other));
 }
 
 Eigen::VectorXd Covariance::leverage_column(Eigen::Index equation) const {

@@ -127,18 +127,25 @@ double SelectedInverse::entry(Eigen::Index row, Eigen::Index column) const {
 }
 
 double SelectedInverse::quadratic(const Eigen::SparseVector<double>& f) const {
+    return bilinear(f, f);
+}
+
+double SelectedInverse::bilinear(const Eigen::SparseVector<double>& f,
+                                 const Eigen::SparseVector<double>& g) const {
     double sum = 0;
     for (Eigen::SparseVector<double>::InnerIterator a(f); a && !std::isnan(sum); ++a) {
         if (a.value() == 0) continue;
-        for (Eigen::SparseVector<double>::InnerIterator b(f); b; ++b) {
+        for (Eigen::SparseVector<double>::InnerIterator b(g); b; ++b) {
             if (b.value() != 0) sum += a.value() * b.value() * entry(a.index(), b.index());
         }
     }
-    const Eigen::VectorXd dense = f;
-    if (std::isnan(sum)) sum = dense.dot(factor_.solve(dense));
+    if (std::isnan(sum)) {
+        const Eigen::VectorXd right = g;
+        sum = f.dot(factor_.solve(right));
+    }
     if (wide_.cols() > 0) {
-        const Eigen::VectorXd along = wide_.transpose() * dense;
-        sum -= capacitance_.matrixL().solve(along).squaredNorm();
+        const Eigen::VectorXd along = wide_.transpose() * f, along_g = wide_.transpose() * g;
+        sum -= capacitance_.matrixL().solve(along).dot(capacitance_.matrixL().solve(along_g));
     }
     return sum;
 }

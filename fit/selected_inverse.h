@@ -25,6 +25,9 @@ public:
     /// f' A^-1 f: from entries that are known when all pairs of f's unknowns stand in one equation,
     /// else by one solve.
     double quadratic(const Eigen::SparseVector<double>& f) const;
+    /// f' C g.
+    double bilinear(const Eigen::SparseVector<double>& f,
+                    const Eigen::SparseVector<double>& g) const;
     Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
 private:
