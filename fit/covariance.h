@@ -7,8 +7,8 @@
 // as tightly as the mesh is trusted (20 % of its width) are `open`; along them the mesh's own
 // uncertainty is reported.
 // Two algorithms: dense algebra in a basis of the free directions (exact but for rounding, also for
-// uncertainties that span many powers of ten), and for large stones the entries of the inverse on
-// the pattern of a sparse factor (Takahashi, Fagan & Chen 1973; Erisman & Tinney 1975).
+// uncertainties that span many powers of ten), and for large stones sparse factors of the normal
+// equations.
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
@@ -60,7 +60,7 @@ private:
 
     bool usable_ = false;
     Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;  // soft, without hinges
-    Eigen::MatrixXd held_, open_;  // dense
+    Eigen::MatrixXd held_, open_;                        // dense
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> seen_;  // rows * held
     std::unique_ptr<Sparse> sparse_;
     Eigen::VectorXd leverages_;

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/saddle_solver.h"
-
 namespace culet {
 
 namespace {
@@ -31,8 +29,8 @@ std::vector<int> groups_of(const SparseRows& rows, int unknowns) {
     std::vector<int> group(std::size_t(unknowns), 0);
     int size = 0;
     for (int c = 0; c < unknowns; ++c) {
-        const bool goes_on = c > 0 && size < k_most_together &&
-                             2 * common[c] > std::min(count[c], count[c - 1]);
+        const bool goes_on =
+            c > 0 && size < k_most_together && 2 * common[c] > std::min(count[c], count[c - 1]);
         size = goes_on ? size + 1 : 1;
         group[c] = c == 0 ? 0 : group[c - 1] + (goes_on ? 0 : 1);
     }
@@ -66,12 +64,11 @@ bool is_sharp(const SparseRows& rows, int equation) {
     for (int k = rows.begin[equation]; k < rows.begin[equation + 1]; ++k) {
         largest = std::max(largest, std::abs(rows.slope[k]));
     }
-    return largest * largest > k_sharp * rows.variance[equation] ||
-           !(rows.variance[equation] > 0);
+    return largest * largest > k_sharp * rows.variance[equation] || !(rows.variance[equation] > 0);
 }
 
 EliminationOrder elimination_order(const SparseRows& rows, int unknowns,
-                                   const std::vector<std::pair<int, int>>& pairs) {
+                                   const std::vector<std::pair<int, int>>& pairs, int folded) {
     EliminationOrder order;
     const std::vector<int> group = groups_of(rows, unknowns);
     const int groups = unknowns == 0 ? 0 : group.back() + 1;
@@ -96,7 +93,8 @@ EliminationOrder elimination_order(const SparseRows& rows, int unknowns,
             seen[g] = i;
             touched.push_back(g);
         }
-        order.is_folded[i] = touched.size() <= k_most_groups && !is_sharp(rows, i);
+        order.is_folded[i] =
+            folded < 0 ? touched.size() <= k_most_groups && !is_sharp(rows, i) : i < folded;
         if (order.is_folded[i]) {
             for (const int a : touched) {
                 for (const int b : touched) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fit/leaning.h"
+#include "fit/saddle_solver.h"
 
 namespace culet {
 
@@ -27,6 +28,9 @@ constexpr int k_most_choices = 12;
 // tenth of a sigma or less.
 constexpr std::size_t k_creeping = 6;
 constexpr double k_crumb = 0.01, k_all_but_met = 1e-6;
+
+// What a correction leaves, the next one takes.
+constexpr double k_correction_precision = 1e-5;
 
 std::span<const double> steps(const Eigen::VectorXd& step) {
     return {step.data(), static_cast<std::size_t>(step.size())};
@@ -90,8 +94,7 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
     Sheet sheet = relaxation.sheet(shape, softness, held);
     const Eigen::VectorXd metric = relaxation.metric();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(freedoms.size());
-    // One for each pattern of the matrix, with and without second derivatives.
-    SaddleSolver plain, with_curvature;
+    SaddleSolver solver;
     double damping = k_first_damping;
     int quiet = 0, choices = 0;
     std::vector<double> merits;
@@ -122,14 +125,13 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
         result.iterations = i + 1;
         bool factored = false;
         if (curved) {
-            factored = with_curvature.factor(sheet.rows, damping * metric,
-                                             relaxation.curvature(shape, forces));
+            factored =
+                solver.factor(sheet.rows, damping * metric, relaxation.curvature(shape, forces));
         }
         if (!factored) {
             curved = false;
-            factored = plain.factor(sheet.rows, damping * metric);
+            factored = solver.factor(sheet.rows, damping * metric);
         }
-        const SaddleSolver& solver = curved ? with_curvature : plain;
         bool better = false;
         double length = 0;
         if (factored) {
@@ -157,7 +159,7 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
                             back(e) = -there.rows.residual[e];
                         }
                     }
-                    const auto correction = solver.solve(none, back, precision);
+                    const auto correction = solver.solve(none, back, k_correction_precision);
                     if (!correction.good) break;
                     next = freedoms.moved(next, steps(correction.unknowns));
                     there = relaxation.sheet(next, softness, held);

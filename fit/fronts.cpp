@@ -217,7 +217,8 @@ void Fronts::lay_out(int indices, const IndexLists& blocks, const IndexLists& cl
     };
     number();
     std::vector<int> pivots;
-    for (int b = 0; b < blocks.count(); ++b) pivots.push_back(blocks.begin[b + 1] - blocks.begin[b]);
+    for (int b = 0; b < blocks.count(); ++b)
+        pivots.push_back(blocks.begin[b + 1] - blocks.begin[b]);
     std::erase(pivots, 0);
     gather(cliques, pivots);
     std::vector<int> parent, sorted, sorted_pivots;
@@ -236,9 +237,11 @@ void Fronts::lay_out(int indices, const IndexLists& blocks, const IndexLists& cl
     in_parent_.assign(boundary_.size(), 0);
     std::size_t panels = 0, stack = 0, most = 0;
     work_ = 0;
+    tallest_ = 0;
     for (Front& front : fronts_) {
         front.panel = panels;
         panels += std::size_t(height(front)) * front.pivots;
+        tallest_ = std::max(tallest_, height(front));
         for (int j = 0; j < front.pivots; ++j) work_ += 0.5 * std::pow(height(front) - j, 2);
         if (front.parent < 0) continue;
         Front& above = fronts_[front.parent];
@@ -270,28 +273,31 @@ void Fronts::lay_out(int indices, const IndexLists& blocks, const IndexLists& cl
     updates_.assign(most, 0.0);
 }
 
-std::size_t Fronts::find(int low, int high) const {
-    const Front& front = fronts_[front_of_[low]];
-    int row = high - front.first;
-    if (row >= front.pivots) {
-        const auto begin = boundary_.begin() + front.boundary, end = begin + front.rows;
-        const auto found = std::lower_bound(begin, end, high);
-        if (found == end || *found != high) return panels_.size();
-        row = front.pivots + static_cast<int>(found - begin);
+std::vector<std::size_t> Fronts::slots(const std::vector<std::pair<int, int>>& entries) const {
+    // Front by front, so that each lists its rows but once.
+    std::vector<int> next(entries.size(), -1), head(fronts_.size(), -1);
+    for (std::size_t e = 0; e < entries.size(); ++e) {
+        const int low = std::min(place_[entries[e].first], place_[entries[e].second]);
+        next[e] = head[front_of_[low]];
+        head[front_of_[low]] = static_cast<int>(e);
     }
-    return front.panel + std::size_t(low - front.first) * height(front) + row;
-}
-
-std::size_t Fronts::slot(int one, int other) const {
-    const std::size_t found =
-        find(std::min(place_[one], place_[other]), std::max(place_[one], place_[other]));
-    check(found < panels_.size(), "an entry outside the pattern");
+    std::vector<std::size_t> found(entries.size(), k_none);
+    std::vector<int> row(std::size_t(size_), -1);
+    for (std::size_t s = 0; s < fronts_.size(); ++s) {
+        if (head[s] < 0) continue;
+        const Front& front = fronts_[s];
+        for (int i = 0; i < front.pivots; ++i) row[front.first + i] = i;
+        for (int i = 0; i < front.rows; ++i) row[boundary_[front.boundary + i]] = front.pivots + i;
+        for (int e = head[s]; e >= 0; e = next[e]) {
+            const auto [low, high] =
+                std::minmax(place_[entries[e].first], place_[entries[e].second]);
+            if (row[high] < 0) continue;
+            found[e] = front.panel + std::size_t(low - front.first) * height(front) + row[high];
+        }
+        for (int i = 0; i < front.pivots; ++i) row[front.first + i] = -1;
+        for (int i = 0; i < front.rows; ++i) row[boundary_[front.boundary + i]] = -1;
+    }
     return found;
-}
-
-bool Fronts::has_slot(int one, int other) const {
-    return find(std::min(place_[one], place_[other]), std::max(place_[one], place_[other])) <
-           panels_.size();
 }
 
 void Fronts::clear() {
@@ -345,73 +351,135 @@ double Fronts::log_determinant() const {
     return sum;
 }
 
-void Fronts::solve(double* x, int count) const {
-    const std::size_t width = std::size_t(count);
-    std::vector<double> y(std::size_t(size_) * width), below;
-    for (int i = 0; i < size_; ++i) {
-        std::copy_n(x + std::size_t(index_[i]) * width, width, y.data() + std::size_t(i) * width);
-    }
+// W right-hand sides side by side.
+template <int W>
+void Fronts::solve_together(double* x) const {
+    std::vector<double>& y = ordered_;
+    std::vector<double>& below = below_;
+    y.resize(std::size_t(size_) * W);
+    below.resize(std::size_t(tallest_) * W);
+    const auto copy = [](const double* from, double* to) {
+        for (int k = 0; k < W; ++k) to[k] = from[k];
+    };
+    for (int i = 0; i < size_; ++i)
+        copy(x + std::size_t(index_[i]) * W, y.data() + std::size_t(i) * W);
     for (const Front& front : fronts_) {
         const int tall = height(front), rows = front.rows;
-        double* own = y.data() + std::size_t(front.first) * width;
-        below.assign(std::size_t(rows) * width, 0.0);
+        double* own = y.data() + std::size_t(front.first) * W;
+        std::fill_n(below.begin(), std::size_t(rows) * W, 0.0);
         for (int j = 0; j < front.pivots; ++j) {
             const double* column = panels_.data() + front.panel + std::size_t(j) * tall;
-            if (count == 1) {
-                const double value = own[j];
-                for (int i = j + 1; i < front.pivots; ++i) own[i] -= column[i] * value;
-                for (int i = 0; i < rows; ++i) below[i] += column[front.pivots + i] * value;
-                continue;
+            const double* value = own + std::size_t(j) * W;
+            for (int i = j + 1; i < front.pivots; ++i) {
+                for (int k = 0; k < W; ++k) own[i * W + k] -= column[i] * value[k];
             }
-            const double* value = own + std::size_t(j) * width;
-            for (int i = j + 1; i < tall; ++i) {
-                const double factor = column[i];
-                if (i < front.pivots) {
-                    double* to = own + std::size_t(i) * width;
-                    for (std::size_t k = 0; k < width; ++k) to[k] -= factor * value[k];
-                } else {
-                    double* to = below.data() + std::size_t(i - front.pivots) * width;
-                    for (std::size_t k = 0; k < width; ++k) to[k] += factor * value[k];
-                }
+            const double* lower = column + front.pivots;
+            for (int i = 0; i < rows; ++i) {
+                for (int k = 0; k < W; ++k) below[std::size_t(i * W + k)] += lower[i] * value[k];
             }
         }
+        const int* boundary = boundary_.data() + front.boundary;
         for (int i = 0; i < rows; ++i) {
-            double* to = y.data() + std::size_t(boundary_[front.boundary + i]) * width;
-            const double* from = below.data() + std::size_t(i) * width;
-            for (std::size_t k = 0; k < width; ++k) to[k] -= from[k];
+            double* to = y.data() + std::size_t(boundary[i]) * W;
+            for (int k = 0; k < W; ++k) to[k] -= below[std::size_t(i * W + k)];
         }
     }
     for (auto f = fronts_.rbegin(); f != fronts_.rend(); ++f) {
         const Front& front = *f;
         const int tall = height(front), rows = front.rows;
-        double* own = y.data() + std::size_t(front.first) * width;
+        double* own = y.data() + std::size_t(front.first) * W;
         // The front's rows one after another, as its columns have them.
-        below.resize(std::size_t(tall) * width);
+        const int* boundary = boundary_.data() + front.boundary;
         for (int i = 0; i < rows; ++i) {
-            std::copy_n(y.data() + std::size_t(boundary_[front.boundary + i]) * width, width,
-                        below.data() + std::size_t(front.pivots + i) * width);
+            copy(y.data() + std::size_t(boundary[i]) * W,
+                 below.data() + std::size_t(front.pivots + i) * W);
         }
         for (int j = front.pivots - 1; j >= 0; --j) {
             const double* column = panels_.data() + front.panel + std::size_t(j) * tall;
-            double* value = own + std::size_t(j) * width;
-            double* kept = below.data() + std::size_t(j) * width;
-            if (count == 1) {
-                *kept = *value = *value / column[j] -
-                                 dot(column + j + 1, below.data() + j + 1, tall - j - 1);
-                continue;
+            double* value = own + std::size_t(j) * W;
+            double* kept = below.data() + std::size_t(j) * W;
+            if constexpr (W == 1) {
+                *kept =
+                    *value / column[j] - dot(column + j + 1, below.data() + j + 1, tall - j - 1);
+            } else {
+                double sum[W];
+                for (int k = 0; k < W; ++k) sum[k] = value[k] / column[j];
+                for (int i = j + 1; i < tall; ++i) {
+                    const double* from = below.data() + std::size_t(i) * W;
+                    for (int k = 0; k < W; ++k) sum[k] -= column[i] * from[k];
+                }
+                copy(sum, kept);
             }
-            for (std::size_t k = 0; k < width; ++k) kept[k] = value[k] / column[j];
-            for (int i = j + 1; i < tall; ++i) {
-                const double factor = column[i];
-                const double* from = below.data() + std::size_t(i) * width;
-                for (std::size_t k = 0; k < width; ++k) kept[k] -= factor * from[k];
-            }
-            std::copy_n(kept, width, value);
+            copy(kept, value);
         }
     }
-    for (int i = 0; i < size_; ++i) {
-        std::copy_n(y.data() + std::size_t(i) * width, width, x + std::size_t(index_[i]) * width);
+    for (int i = 0; i < size_; ++i)
+        copy(y.data() + std::size_t(i) * W, x + std::size_t(index_[i]) * W);
+}
+
+void Fronts::solve(double* x, int count) const {
+    if (count == 1) return solve_together<1>(x);
+    if (count == k_together) return solve_together<k_together>(x);
+    check(false, "as many right-hand sides as are solved together");
+}
+
+Fronts::Half Fronts::half(const std::vector<std::pair<int, double>>& entries) const {
+    // Only fronts between the entries and the root have a part in it.
+    std::vector<int> path;
+    waiting_.resize(std::size_t(size_), 0.0);
+    for (const auto& [index, value] : entries) {
+        waiting_[place_[index]] += value;
+        path.push_back(front_of_[place_[index]]);
     }
+    std::sort(path.begin(), path.end());
+    path.erase(std::unique(path.begin(), path.end()), path.end());
+    std::vector<int> more;
+    for (std::size_t p = 0; p < path.size(); ++p) {
+        // Up to where the next one's way joins.
+        const int stop = p + 1 < path.size() ? path[p + 1] : static_cast<int>(fronts_.size());
+        for (int s = path[p]; s >= 0 && s < stop; s = fronts_[s].parent) more.push_back(s);
+        // What is left of this way is the next one's or passes it.
+        int s = path[p];
+        while (s >= 0 && s < stop) s = fronts_[s].parent;
+        if (s > stop) {
+            const auto at = std::lower_bound(path.begin() + std::ptrdiff_t(p) + 1, path.end(), s);
+            if (at == path.end() || *at != s) path.insert(at, s);
+        }
+    }
+    Half half;
+    for (const int s : more) {
+        const Front& front = fronts_[s];
+        const int tall = height(front);
+        double* own = waiting_.data() + front.first;
+        const int* boundary = boundary_.data() + front.boundary;
+        for (int j = 0; j < front.pivots; ++j) {
+            const double* column = panels_.data() + front.panel + std::size_t(j) * tall;
+            const double value = own[j];
+            for (int i = j + 1; i < front.pivots; ++i) own[i] -= column[i] * value;
+            for (int i = 0; i < front.rows; ++i) {
+                waiting_[boundary[i]] -= column[front.pivots + i] * value;
+            }
+            half.place.push_back(front.first + j);
+            half.value.push_back(value / std::sqrt(std::abs(column[j])));
+            own[j] = 0;
+        }
+    }
+    return half;
+}
+
+double Fronts::product(const Half& one, const Half& other) {
+    double sum = 0;
+    std::size_t i = 0, k = 0;
+    while (i < one.place.size() && k < other.place.size()) {
+        if (one.place[i] == other.place[k]) {
+            sum += one.value[i++] * other.value[k++];
+        } else if (one.place[i] < other.place[k]) {
+            ++i;
+        } else {
+            ++k;
+        }
+    }
+    return sum;
 }
 
 }  // namespace culet

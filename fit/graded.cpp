@@ -4,6 +4,7 @@
 #include <array>
 
 #include "fit/leaning.h"
+#include "fit/saddle_solver.h"
 #include "stone/errors.h"
 
 namespace culet {

@@ -3,11 +3,15 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "fit/saddle_solver.h"
+
 namespace culet {
 
 namespace {
 
 constexpr double k_damping = 1e-6;
+// Of what one turn does to the others.
+constexpr double k_precision = 1e-7;
 // Of chi-square; less is not worth another round.
 constexpr double k_least_gain = 0.01;
 // A step this long in one of the freedoms is no longer linear.
@@ -31,19 +35,19 @@ std::optional<Shape> leaning_better(Relaxation& relaxation, const Shape& shape,
     for (Eigen::Index i = 0; i < count; ++i) {
         sigma(i) = std::sqrt(sheet.rows.variance[folded[std::size_t(i)].row]);
     }
-    Eigen::MatrixXd big(count, count);
+    Eigen::MatrixXd ones = Eigen::MatrixXd::Zero(sheet.rows.count(), count);
     for (Eigen::Index i = 0; i < count; ++i) {
         const Relaxation::Folded& f = folded[std::size_t(i)];
         r(i) = sheet.rows.residual[f.row] / sigma(i);
         d(i) = -f.shift / sigma(i);
-        Eigen::VectorXd one = Eigen::VectorXd::Zero(sheet.rows.count());
-        one(f.row) = -sigma(i);
-        const auto s = solver.solve(none, one);
-        if (!s.good) return std::nullopt;
-        for (Eigen::Index k = 0; k < count; ++k) {
-            // forces = (J x - b) / variance
-            big(k, i) = s.forces(folded[std::size_t(k)].row) * sigma(k);
-        }
+        ones(f.row, i) = -sigma(i);
+    }
+    const auto solved = solver.solve_all(Eigen::MatrixXd(), ones, k_precision);
+    if (!solved.good) return std::nullopt;
+    Eigen::MatrixXd big(count, count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        // forces = (J x - b) / variance
+        big.row(k) = solved.forces.row(folded[std::size_t(k)].row) * sigma(k);
     }
     std::vector<bool> turned(std::size_t(count), false);
     const auto shift_of = [&](Eigen::Index i) { return turned[std::size_t(i)] ? -d(i) : d(i); };

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fit/freedoms.h"
-#include "fit/saddle_solver.h"
+#include "fit/sparse_rows.h"
 #include "fit/system.h"
 
 namespace culet {
@@ -90,8 +90,7 @@ public:
 
     /// Second derivatives of the Lagrangian: of the incidences, which are bilinear, and of
     /// inclinations and edges, without which a turn of the whole stone would seem to change them.
-    std::vector<SaddleSolver::Entry> curvature(const Shape& shape,
-                                               const Eigen::VectorXd& forces) const;
+    std::vector<SymmetricEntry> curvature(const Shape& shape, const Eigen::VectorXd& forces) const;
 
 private:
     double height(const Shape& shape, int facet, int point) const;

@@ -1,7 +1,10 @@
 #include "fit/saddle_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <ranges>
+#include <span>
 
 #include "fit/elimination_order.h"
 
@@ -13,62 +16,100 @@ namespace {
 // below the variance of anything that is read (lengths are in half diameters).
 constexpr double k_least_variance = 1e-9;
 constexpr int k_refinements = 12;
-// Right-hand sides that are solved side by side.
-constexpr Eigen::Index k_together = 8;
+// Columns of a row that may be folded into a layout as it stands.
+constexpr std::size_t k_most_short = 12;
 
 }  // namespace
 
 void SaddleSolver::lay_out() {
     std::vector<std::pair<int, int>> pairs;
-    for (const Entry& e : curvature_) {
+    for (const SymmetricEntry& e : curvature_) {
         if (e.row != e.column) pairs.emplace_back(e.row, e.column);
     }
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    const EliminationOrder order = elimination_order(rows_, unknowns_, pairs);
-    is_folded_ = order.is_folded;
+    SparseRows rows = rows_;
+    for (const std::vector<int>& columns : past_) {
+        for (const int column : columns) rows.add(column, 0);
+        rows.close(0, 1);
+    }
+    EliminationOrder order = elimination_order(rows, unknowns_, pairs);
+    is_folded_ = std::move(order.is_folded);
+    is_folded_.resize(std::size_t(equations_));
     eliminated_ = order.eliminated;
     // Folded equations have no place of their own.
     fronts_.lay_out(unknowns_ + equations_, order.blocks, order.cliques);
-    slot_.clear();
-    diagonal_.clear();
-    for (int i = 0; i < unknowns_; ++i) diagonal_.push_back(fronts_.slot(i, i));
+}
+
+// False when some entry has no place in the present layout.
+bool SaddleSolver::place_rows() {
+    std::vector<std::pair<int, int>> entries;
+    for (int i = 0; i < unknowns_; ++i) entries.emplace_back(i, i);
     for (int i = 0; i < equations_; ++i) {
         const int own = unknowns_ + i;
-        diagonal_.push_back(is_folded_[i] ? 0 : fronts_.slot(own, own));
+        if (!is_folded_[i]) entries.emplace_back(own, own);
         for (int k = rows_.begin[i]; k < rows_.begin[i + 1]; ++k) {
             if (!is_folded_[i]) {
-                slot_.push_back(fronts_.slot(rows_.column[k], own));
+                entries.emplace_back(rows_.column[k], own);
                 continue;
             }
             for (int l = rows_.begin[i]; l <= k; ++l) {
-                slot_.push_back(fronts_.slot(rows_.column[k], rows_.column[l]));
+                entries.emplace_back(rows_.column[k], rows_.column[l]);
             }
         }
     }
+    slot_ = fronts_.slots(entries);
+    return std::find(slot_.begin(), slot_.end(), Fronts::k_none) == slot_.end();
 }
 
 bool SaddleSolver::place_curvature() {
-    curved_.clear();
-    for (const Entry& e : curvature_) {
-        if (!fronts_.has_slot(e.row, e.column)) return false;
-        curved_.push_back(fronts_.slot(e.row, e.column));
-    }
-    return true;
+    std::vector<std::pair<int, int>> entries;
+    for (const SymmetricEntry& e : curvature_) entries.emplace_back(e.row, e.column);
+    curved_ = fronts_.slots(entries);
+    return std::find(curved_.begin(), curved_.end(), Fronts::k_none) == curved_.end();
 }
 
 bool SaddleSolver::factor(const SparseRows& rows, const Eigen::VectorXd& stiffness,
-                          const std::vector<Entry>& curvature) {
+                          const std::vector<SymmetricEntry>& curvature) {
+    const auto columns_of = [](const SparseRows& of, int i) {
+        return std::span(of.column).subspan(std::size_t(of.begin[i]),
+                                            std::size_t(of.begin[i + 1] - of.begin[i]));
+    };
     std::vector<char> sharp;
     for (int i = 0; i < rows.count(); ++i) sharp.push_back(is_sharp(rows, i));
-    const bool same = laid_out_ && stiffness.size() == stiffness_.size() &&
-                      rows.begin == rows_.begin && rows.column == rows_.column && sharp == sharp_;
-    const bool same_curvature =
-        same && curvature.size() == curvature_.size() &&
-        std::equal(curvature.begin(), curvature.end(), curvature_.begin(),
-                   [](const Entry& a, const Entry& b) {
-                       return a.row == b.row && a.column == b.column;
-                   });
+    int common = 0;
+    const int most =
+        laid_out_ && stiffness.size() == stiffness_.size() ? std::min(rows.count(), equations_) : 0;
+    while (common < most && sharp[common] == sharp_[common] &&
+           std::ranges::equal(columns_of(rows, common), columns_of(rows_, common))) {
+        ++common;
+    }
+    const bool same = laid_out_ && stiffness.size() == stiffness_.size() && common == equations_ &&
+                      common == rows.count();
+    const bool same_curvature = same && curvature.size() == curvature_.size() &&
+                                std::equal(curvature.begin(), curvature.end(), curvature_.begin(),
+                                           [](const SymmetricEntry& a, const SymmetricEntry& b) {
+                                               return a.row == b.row && a.column == b.column;
+                                           });
+    // Soft rows that come and go at the end may well find room in the layout as it is: those that
+    // have been there before are given some.
+    bool fits = same;
+    if (!same && laid_out_ && stiffness.size() == stiffness_.size()) {
+        if (past_.size() > std::size_t(rows.count()) / 2) past_.clear();
+        fits = true;
+        for (int i = common; i < equations_; ++i) {
+            const auto columns = columns_of(rows_, i);
+            if (is_folded_[i]) past_.emplace(columns.begin(), columns.end());
+            fits = fits && is_folded_[i];
+        }
+        is_folded_.resize(std::size_t(rows.count()), 1);
+        for (int i = common; i < rows.count(); ++i) {
+            is_folded_[i] = 1;
+            fits = fits && !sharp[i] && columns_of(rows, i).size() <= k_most_short;
+        }
+    } else if (!same) {
+        past_.clear();
+    }
     rows_ = rows;
     stiffness_ = stiffness;
     curvature_ = curvature;
@@ -76,30 +117,35 @@ bool SaddleSolver::factor(const SparseRows& rows, const Eigen::VectorXd& stiffne
     unknowns_ = static_cast<int>(stiffness.size());
     equations_ = rows.count();
     laid_out_ = true;
-    if (!same) lay_out();
+    if (!same && !(fits && place_rows())) {
+        lay_out();
+        place_rows();
+    }
     if (!same_curvature && !place_curvature()) {
         lay_out();
+        place_rows();
         place_curvature();
     }
 
+    weight_.resize(std::size_t(equations_));
+    for (int i = 0; i < equations_; ++i) weight_[i] = is_folded_[i] ? 1 / rows.variance[i] : 0;
     fronts_.clear();
-    for (int i = 0; i < unknowns_; ++i) fronts_.add(diagonal_[i], stiffness(i));
     std::size_t source = 0;
+    for (int i = 0; i < unknowns_; ++i) fronts_.add(slot_[source++], stiffness(i));
     for (int i = 0; i < equations_; ++i) {
-        if (is_folded_[i]) {
-            const double weight = 1 / rows.variance[i];
+        if (!is_folded_[i]) {
+            fronts_.add(slot_[source++], -std::max(rows.variance[i], k_least_variance));
             for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
-                const double weighted = weight * rows.slope[k];
-                for (int l = rows.begin[i]; l <= k; ++l) {
-                    fronts_.add(slot_[source++], weighted * rows.slope[l]);
-                }
+                fronts_.add(slot_[source++], rows.slope[k]);
             }
             continue;
         }
         for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
-            fronts_.add(slot_[source++], rows.slope[k]);
+            const double weighted = weight_[i] * rows.slope[k];
+            for (int l = rows.begin[i]; l <= k; ++l) {
+                fronts_.add(slot_[source++], weighted * rows.slope[l]);
+            }
         }
-        fronts_.add(diagonal_[unknowns_ + i], -std::max(rows.variance[i], k_least_variance));
     }
     for (std::size_t k = 0; k < curvature.size(); ++k) {
         fronts_.add(curved_[k], curvature[k].value);
@@ -116,84 +162,97 @@ double SaddleSolver::log_determinant() const {
 }
 
 // The matrix as it is meant: exact equations have no variance.
-SaddleSolver::Sides SaddleSolver::times(const Sides& x) const {
-    const Eigen::Index width = x.cols();
-    Sides product(x.rows(), width);
-    const auto add = [width](double* to, double factor, const double* from) {
-        for (Eigen::Index k = 0; k < width; ++k) to[k] += factor * from[k];
+template <int W>
+void SaddleSolver::times(const Sides& x, Sides& product) const {
+    const double* from = x.data();
+    double* to = product.data();
+    const auto add = [](double* sum, double factor, const double* what) {
+        for (int k = 0; k < W; ++k) sum[k] += factor * what[k];
     };
-    const auto of = [width](auto& sides, Eigen::Index row) { return sides.data() + row * width; };
-    product.topRows(unknowns_) = stiffness_.asDiagonal() * x.topRows(unknowns_);
-    for (const Entry& e : curvature_) {
-        add(of(product, e.row), e.value, of(x, e.column));
-        if (e.row != e.column) add(of(product, e.column), e.value, of(x, e.row));
+    for (int i = 0; i < unknowns_; ++i) {
+        for (int k = 0; k < W; ++k) to[i * W + k] = stiffness_(i) * from[i * W + k];
+    }
+    for (const SymmetricEntry& e : curvature_) {
+        add(to + e.row * W, e.value, from + e.column * W);
+        if (e.row != e.column) add(to + e.column * W, e.value, from + e.row * W);
     }
     for (int i = 0; i < equations_; ++i) {
-        const double* force = of(x, unknowns_ + i);
-        double* own = of(product, unknowns_ + i);
-        for (Eigen::Index k = 0; k < width; ++k) own[k] = -rows_.variance[i] * force[k];
+        const double* force = from + (unknowns_ + i) * W;
+        double own[W];
+        for (int k = 0; k < W; ++k) own[k] = -rows_.variance[i] * force[k];
         for (int k = rows_.begin[i]; k < rows_.begin[i + 1]; ++k) {
-            add(own, rows_.slope[k], of(x, rows_.column[k]));
-            add(of(product, rows_.column[k]), rows_.slope[k], force);
+            add(own, rows_.slope[k], from + rows_.column[k] * W);
+            add(to + rows_.column[k] * W, rows_.slope[k], force);
         }
+        std::copy_n(own, W, to + (unknowns_ + i) * W);
     }
-    return product;
 }
 
-SaddleSolver::Sides SaddleSolver::solve_once(const Sides& right) const {
-    const Eigen::Index width = right.cols();
-    const auto add = [width](double* to, double factor, const double* from) {
-        for (Eigen::Index k = 0; k < width; ++k) to[k] += factor * from[k];
+template <int W>
+void SaddleSolver::solve_once(const Sides& right, Sides& x) const {
+    const auto add = [](double* sum, double factor, const double* what) {
+        for (int k = 0; k < W; ++k) sum[k] += factor * what[k];
     };
-    Sides x = right;
+    x = right;
+    double* to = x.data();
+    double own[W];
     for (int i = 0; i < equations_; ++i) {
         if (!is_folded_[i]) continue;
-        const double* own = right.data() + (unknowns_ + i) * width;
+        for (int k = 0; k < W; ++k) own[k] = weight_[i] * right.data()[(unknowns_ + i) * W + k];
         for (int k = rows_.begin[i]; k < rows_.begin[i + 1]; ++k) {
-            add(x.data() + rows_.column[k] * width, rows_.slope[k] / rows_.variance[i], own);
+            add(to + rows_.column[k] * W, rows_.slope[k], own);
         }
     }
-    fronts_.solve(x.data(), static_cast<int>(width));
+    fronts_.solve(to, W);
     for (int i = 0; i < equations_; ++i) {
         if (!is_folded_[i]) continue;
-        double* own = x.data() + (unknowns_ + i) * width;
-        const double weight = 1 / rows_.variance[i];
-        for (Eigen::Index k = 0; k < width; ++k) own[k] *= -weight;
+        double* force = to + (unknowns_ + i) * W;
+        for (int k = 0; k < W; ++k) own[k] = -force[k];
         for (int k = rows_.begin[i]; k < rows_.begin[i + 1]; ++k) {
-            add(own, weight * rows_.slope[k], x.data() + rows_.column[k] * width);
+            add(own, rows_.slope[k], to + rows_.column[k] * W);
         }
+        for (int k = 0; k < W; ++k) force[k] = weight_[i] * own[k];
     }
-    return x;
 }
 
+template <int W>
 SaddleSolver::Sides SaddleSolver::refined(const Sides& right, double precision) const {
-    Sides x = solve_once(right);
-    Sides left = right - times(x);
-    const auto sizes = [](const Sides& sides) -> Eigen::RowVectorXd {
-        return sides.cwiseAbs().colwise().maxCoeff();
-    };
-    const Eigen::RowVectorXd enough = precision * sizes(right);
-    Eigen::RowVectorXd size = sizes(left);
-    std::vector<bool> done(std::size_t(right.cols()), false);
-    for (int round = 0; round < k_refinements; ++round) {
-        bool any = false;
-        for (Eigen::Index k = 0; k < right.cols(); ++k) {
-            if (!(size(k) > enough(k))) done[std::size_t(k)] = true;
-            any = any || !done[std::size_t(k)];
-        }
-        if (!any) break;
-        const Sides next = x + solve_once(left);
-        const Sides next_left = right - times(next);
-        const Eigen::RowVectorXd next_size = sizes(next_left);
-        for (Eigen::Index k = 0; k < right.cols(); ++k) {
-            if (done[std::size_t(k)]) continue;
-            if (!(next_size(k) < 0.7 * size(k))) {
-                done[std::size_t(k)] = true;
-                continue;
+    Sides x(right.rows(), W), left(right.rows(), W), next(right.rows(), W);
+    const auto off = [&](const Sides& at, Sides& rest) {
+        times<W>(at, rest);
+        std::array<double, W> size{};
+        for (Eigen::Index i = 0; i < rest.rows(); ++i) {
+            for (int k = 0; k < W; ++k) {
+                double& value = rest.data()[i * W + k];
+                value = right.data()[i * W + k] - value;
+                // Not less, so that what is no number is seen.
+                if (!(std::abs(value) <= size[std::size_t(k)])) {
+                    size[std::size_t(k)] = std::abs(value);
+                }
             }
-            x.col(k) = next.col(k);
-            left.col(k) = next_left.col(k);
-            size(k) = next_size(k);
+        }
+        return size;
+    };
+    solve_once<W>(right, x);
+    std::array<double, W> size = off(x, left), enough{};
+    for (int k = 0; k < W; ++k) {
+        enough[std::size_t(k)] = precision * right.col(k).lpNorm<Eigen::Infinity>();
+    }
+    std::array<bool, W> done{};
+    for (int round = 0; round < k_refinements; ++round) {
+        for (std::size_t k = 0; k < W; ++k) done[k] = done[k] || !(size[k] > enough[k]);
+        if (std::find(done.begin(), done.end(), false) == done.end()) break;
+        Sides next_left(right.rows(), W);
+        solve_once<W>(left, next);
+        next += x;
+        const std::array<double, W> next_size = off(next, next_left);
+        for (std::size_t k = 0; k < W; ++k) {
+            done[k] = done[k] || !(next_size[k] < 0.7 * size[k]);
+            if (done[k]) continue;
+            const Eigen::Index column = static_cast<Eigen::Index>(k);
+            x.col(column) = next.col(column);
+            left.col(column) = next_left.col(column);
+            size[k] = next_size[k];
         }
     }
     return x;
@@ -204,7 +263,7 @@ SaddleSolver::Solution SaddleSolver::solve(const Eigen::VectorXd& a, const Eigen
     Sides right(unknowns_ + equations_, 1);
     right.topRows(unknowns_) = a;
     right.bottomRows(equations_) = b;
-    const Sides x = refined(right, precision);
+    const Sides x = refined<1>(right, precision);
     Solution solution;
     solution.good = x.allFinite();
     solution.unknowns = x.topRows(unknowns_);
@@ -214,18 +273,19 @@ SaddleSolver::Solution SaddleSolver::solve(const Eigen::VectorXd& a, const Eigen
 
 SaddleSolver::Solutions SaddleSolver::solve_all(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                                                 double precision) const {
+    constexpr int k_width = Fronts::k_together;
     const Eigen::Index count = std::max(a.cols(), b.cols());
     Solutions all;
     all.unknowns.resize(unknowns_, count);
     all.forces.resize(equations_, count);
-    for (Eigen::Index from = 0; from < count; from += k_together) {
-        const Eigen::Index width = std::min(k_together, count - from);
-        Sides right = Sides::Zero(unknowns_ + equations_, width);
-        if (a.cols() > 0) right.topRows(unknowns_) = a.middleCols(from, width);
-        if (b.cols() > 0) right.bottomRows(equations_) = b.middleCols(from, width);
-        const Sides x = refined(right, precision);
-        all.unknowns.middleCols(from, width) = x.topRows(unknowns_);
-        all.forces.middleCols(from, width) = x.bottomRows(equations_);
+    for (Eigen::Index from = 0; from < count; from += k_width) {
+        const Eigen::Index width = std::min<Eigen::Index>(k_width, count - from);
+        Sides right = Sides::Zero(unknowns_ + equations_, k_width);
+        if (a.cols() > 0) right.topLeftCorner(unknowns_, width) = a.middleCols(from, width);
+        if (b.cols() > 0) right.bottomLeftCorner(equations_, width) = b.middleCols(from, width);
+        const Sides x = refined<k_width>(right, precision);
+        all.unknowns.middleCols(from, width) = x.topLeftCorner(unknowns_, width);
+        all.forces.middleCols(from, width) = x.bottomLeftCorner(equations_, width);
     }
     all.good = all.unknowns.allFinite() && all.forces.allFinite();
     return all;

@@ -10,44 +10,21 @@
 // any order of elimination.
 
 #include <Eigen/Core>
-#include <utility>
+#include <set>
 #include <vector>
 
 #include "fit/fronts.h"
+#include "fit/sparse_rows.h"
 
 namespace culet {
 
-/// Rows under construction: columns and slopes, what is left of the equation, and its variance.
-struct SparseRows {
-    std::vector<int> begin{0}, column;
-    std::vector<double> slope, residual, variance;
-
-    int count() const { return static_cast<int>(residual.size()); }
-    Eigen::Map<const Eigen::VectorXd> residuals() const {
-        return {residual.data(), static_cast<Eigen::Index>(residual.size())};
-    }
-    void add(int c, double s) {
-        column.push_back(c);
-        slope.push_back(s);
-    }
-    void close(double left, double with_variance) {
-        begin.push_back(static_cast<int>(column.size()));
-        residual.push_back(left);
-        variance.push_back(with_variance);
-    }
-};
-
 class SaddleSolver {
 public:
-    /// Entries of P beside its diagonal come in `curvature`: row >= column.
-    struct Entry {
-        int row, column;
-        double value;
-    };
-    /// False when the matrix cannot be factored, or curvature has made it indefinite on what the
-    /// equations leave free (told by the signs of the pivots).
+    /// Entries of P beside its diagonal come in `curvature`: row >= column. False when
+    /// the matrix cannot be factored, or curvature has made it indefinite on what the equations
+    /// leave free (told by the signs of the pivots).
     bool factor(const SparseRows& rows, const Eigen::VectorXd& stiffness,
-                const std::vector<Entry>& curvature = {});
+                const std::vector<SymmetricEntry>& curvature = {});
     struct Solution {
         Eigen::VectorXd unknowns, forces;
         bool good = false;
@@ -71,19 +48,25 @@ private:
     using Sides = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
     void lay_out();
+    bool place_rows();
     bool place_curvature();
-    Sides times(const Sides& x) const;
-    Sides solve_once(const Sides& right) const;
+    template <int W>
+    void times(const Sides& x, Sides& product) const;
+    template <int W>
+    void solve_once(const Sides& right, Sides& x) const;
+    template <int W>
     Sides refined(const Sides& right, double precision) const;
 
     int unknowns_ = 0, equations_ = 0, eliminated_ = 0;
     bool laid_out_ = false;
     SparseRows rows_;
+    std::vector<double> weight_;  // of each folded equation: 1 / variance
     Eigen::VectorXd stiffness_;
-    std::vector<Entry> curvature_;
+    std::vector<SymmetricEntry> curvature_;
     std::vector<char> sharp_, is_folded_;  // of the equations
-    std::vector<std::size_t> slot_;        // of each slope, or pair of slopes where folded
-    std::vector<std::size_t> diagonal_, curved_;
+    std::vector<std::size_t> slot_;        // of what is added up, in its order
+    std::vector<std::size_t> curved_;      // of curvature
+    std::set<std::vector<int>> past_;      // columns of soft rows that were there before
     Fronts fronts_;
 };
 
