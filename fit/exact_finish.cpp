@@ -28,6 +28,10 @@ constexpr int k_most_choices = 12;
 // tenth of a sigma or less.
 constexpr std::size_t k_creeping = 6;
 constexpr double k_crumb = 0.01, k_all_but_met = 1e-6;
+// Steps in a row that gain nothing, at the end.
+constexpr int k_quiet = 2;
+// Of chi-square: where a step gains less, the shape tells what the readings mean.
+constexpr double k_little = 0.05;
 
 // What a correction leaves, the next one takes.
 constexpr double k_correction_precision = 1e-5;
@@ -44,7 +48,7 @@ double step_precision(const SparseRows& rows) {
         if (rows.variance[i] > 0) sharpest = std::min(sharpest, rows.variance[i]);
         largest = std::max(largest, std::abs(rows.residual[i]));
     }
-    return largest > 0 ? std::clamp(0.01 * std::sqrt(sharpest) / largest, 1e-13, 1e-9) : 1e-9;
+    return largest > 0 ? std::clamp(0.01 * std::sqrt(sharpest) / largest, 1e-13, 1e-7) : 1e-7;
 }
 
 // Smallest steps onto the hard equations, until rounding is all that is left.
@@ -99,26 +103,28 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
     int quiet = 0, choices = 0;
     std::vector<double> merits;
     bool curved = false;
-    // At an end, the readings are asked again what they mean there. At a kink (a caliper's jaw that
-    // touches two corners at once) they would change their mind for ever; `choose` ties the two.
-    const auto ends = [&](bool settled) {
-        if (choices > k_most_choices) {
-            result.converged = settled;
-            return true;
-        }
+    // The readings are asked again what they mean here. At a kink (a caliper's jaw that touches two
+    // corners at once) they would change their mind for ever; `choose` ties the two.
+    bool asked = false;
+    const auto meaning_changes = [&] {
+        if (choices > k_most_choices) return false;
+        asked = true;
         relaxation.choose(shape, true);
         Sheet fresh = relaxation.sheet(shape, softness, held);
-        if (std::abs(fresh.merit - sheet.merit) < 1e-9 * (1 + sheet.merit)) {
-            result.converged = settled;
-            return true;
-        }
+        if (std::abs(fresh.merit - sheet.merit) < 1e-9 * (1 + sheet.merit)) return false;
         ++choices;
         merits.clear();
         sheet = std::move(fresh);
         quiet = 0;
+        asked = false;
         damping = std::max(damping, 1e-4);
         if (damping > 1) damping = 1e-2;
-        return false;
+        return true;
+    };
+    const auto ends = [&](bool settled) {
+        if (meaning_changes()) return false;
+        result.converged = settled;
+        return true;
     };
     Eigen::VectorXd forces;
     for (int i = 0; i < iterations; ++i) {
@@ -174,6 +180,8 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
                 if (better) {
                     const double gain = before - after;
                     quiet = gain < 1e-8 * (1 + before) || length < 1e-12 ? quiet + 1 : 0;
+                    // The next step of Newton's would have the square of this length.
+                    if (curved && length < 1e-7 && quiet > 0) quiet = k_quiet;
                     shape = std::move(next);
                     // The exact Hessian near the end: weak freedoms would creep.
                     if (length < 1e-2) {
@@ -182,6 +190,10 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
                     }
                     sheet = std::move(there);
                     damping = std::max(k_least_damping, damping / 5);
+                    // Once in each meaning, when there is little left to gain from it.
+                    if (!asked && gain < k_little && sheet.hard_sum < k_all_but_met) {
+                        meaning_changes();
+                    }
                 }
             }
         }
@@ -195,7 +207,7 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
         }
         merits.push_back(sheet.merit);
         const bool creeps = sheet.hard_sum < k_all_but_met && creeps_on(merits);
-        if ((quiet >= 2 || creeps) && ends(true)) break;
+        if ((quiet >= k_quiet || creeps) && ends(true)) break;
     }
     result.shape = onto_constraints(relaxation, std::move(shape), held);
     if (!held.empty() && relaxation.hard_sheet(result.shape, {}).hard_worst > k_rounding) {
