@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "fit/leaning.h"
-#include "fit/saddle_solver.h"
 
 namespace culet {
 
@@ -86,8 +85,8 @@ struct Settled {
     double chi2 = 0, worst_hard = 0;
 };
 
-Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Held>& held,
-               int iterations) {
+Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
+               const std::vector<Held>& held, int iterations) {
     const Freedoms& freedoms = relaxation.freedoms();
     Softness softness;
     softness.with_priors = false;
@@ -98,7 +97,6 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
     Sheet sheet = relaxation.sheet(shape, softness, held);
     const Eigen::VectorXd metric = relaxation.metric();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(freedoms.size());
-    SaddleSolver solver;
     double damping = k_first_damping;
     int quiet = 0, choices = 0;
     std::vector<double> merits;
@@ -229,13 +227,15 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
 ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterations,
                          double hopeless) {
     ExactFinish result;
-    Settled settled = settle(relaxation, start, {}, iterations);
+    SaddleSolver solver;
+    Settled settled = settle(relaxation, solver, start, {}, iterations);
     Softness softness;
     softness.with_priors = false;
     for (int round = 0; round < 4; ++round) {
-        const auto leaning = leaning_better(relaxation, settled.shape, softness, k_nearly_upright);
+        const auto leaning =
+            leaning_better(relaxation, solver, settled.shape, softness, k_nearly_upright);
         if (!leaning) break;
-        Settled other = settle(relaxation, *leaning, {}, iterations);
+        Settled other = settle(relaxation, solver, *leaning, {}, iterations);
         other.iterations += settled.iterations;
         if (!(other.chi2 < settled.chi2 - 1e-3)) break;
         settled = std::move(other);
@@ -262,7 +262,7 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         }
         if (result.held.size() == before) break;
         const int earlier = settled.iterations;
-        settled = settle(relaxation, settled.shape, result.held, iterations);
+        settled = settle(relaxation, solver, settled.shape, result.held, iterations);
         settled.iterations += earlier;
     }
     result.cost_of_holding = result.held.empty() ? 0 : std::max(0.0, settled.chi2 - free_chi2);

@@ -4,7 +4,6 @@
 #include <array>
 
 #include "fit/leaning.h"
-#include "fit/saddle_solver.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -125,7 +124,7 @@ struct StageRunner {
         if (stage.incidence <= k_leaning_until) return;
         for (int round = 0; round < 3; ++round) {
             const auto other =
-                leaning_better(relaxation, shape, softness_of(stage, true), k_may_lean);
+                leaning_better(relaxation, solver, shape, softness_of(stage, true), k_may_lean);
             if (!other) break;
             shape = relaxation.freedoms().symmetrised(*other);
             once(shape, stage, {.with_readings = true}, fraction);

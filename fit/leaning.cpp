@@ -3,8 +3,6 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "fit/saddle_solver.h"
-
 namespace culet {
 
 namespace {
@@ -19,13 +17,12 @@ constexpr double k_longest = 0.5;
 
 }  // namespace
 
-std::optional<Shape> leaning_better(Relaxation& relaxation, const Shape& shape,
-                                    const Softness& softness, double within) {
+std::optional<Shape> leaning_better(Relaxation& relaxation, SaddleSolver& solver,
+                                    const Shape& shape, const Softness& softness, double within) {
     relaxation.choose(shape, softness.incidence == 0);
     const std::vector<Relaxation::Folded> folded = relaxation.folded(shape, within);
     if (folded.empty()) return std::nullopt;
     const Sheet sheet = relaxation.sheet(shape, softness);
-    SaddleSolver solver;
     if (!solver.factor(sheet.rows, sheet.prior_stiffness + k_damping * relaxation.metric()))
         return std::nullopt;
     const auto count = static_cast<Eigen::Index>(folded.size());
