@@ -211,10 +211,15 @@ void Covariance::find_dense(const Linearised& linear) {
     if (size == 0) return;  // exact readings leave nothing free
 
     // Whitened by the metric, so that eigenvalues compare readings with the mesh.
-    const Eigen::SparseMatrix<double, Eigen::RowMajor> weighted =
-        linear.metric.cwiseSqrt().asDiagonal() * free.basis;
-    const Eigen::MatrixXd metric =
-        Eigen::MatrixXd(Eigen::SparseMatrix<double>(weighted.transpose()) * weighted);
+    Eigen::MatrixXd metric = Eigen::MatrixXd::Zero(size, size);
+    using RowOf = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
+    for (Eigen::Index i = 0; i < unknowns; ++i) {
+        for (RowOf a(free.basis, i); a; ++a) {
+            for (RowOf b(free.basis, i); b; ++b) {
+                metric(b.col(), a.col()) += linear.metric(i) * a.value() * b.value();
+            }
+        }
+    }
     const Eigen::LLT<Eigen::MatrixXd> chol(metric);
     if (chol.info() != Eigen::Success) {
         usable_ = false;

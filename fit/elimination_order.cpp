@@ -9,8 +9,9 @@ namespace culet {
 
 namespace {
 
-// Weights beyond this would leave too few digits of what holds freedoms back that no reading holds.
-constexpr double k_sharp = 1e7;
+// Weights beyond this would leave too few digits of what holds freedoms back that no reading holds:
+// no less than 1e-6.
+constexpr double k_sharp = 3e8;
 constexpr std::size_t k_most_groups = 6;  // of an equation of few facets and points
 constexpr int k_most_together = 3;        // unknowns of a facet or point
 

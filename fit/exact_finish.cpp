@@ -33,7 +33,7 @@ constexpr int k_quiet = 2;
 constexpr double k_little = 0.05;
 
 // What a correction leaves, the next one takes.
-constexpr double k_correction_precision = 1e-5;
+constexpr double k_correction_precision = 1;
 
 std::span<const double> steps(const Eigen::VectorXd& step) {
     return {step.data(), static_cast<std::size_t>(step.size())};
@@ -149,25 +149,20 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
                 Shape next = freedoms.moved_with_turn(shape, steps(step));
 
                 // Second-order correction: back onto the curved constraints, same factors.
-                Sheet there = relaxation.sheet(next, softness, held);
                 double off_before = 1e300;
                 for (int k = 0; k < 4; ++k) {
-                    const double worst = there.hard_worst;
-                    if (worst < 1e-13 || !(worst < 0.5 * off_before)) break;
-                    off_before = worst;
+                    const Relaxation::Missed missed =
+                        relaxation.missed(next, softness, held, k_all_but_exact);
+                    if (missed.worst < 1e-13 || !(missed.worst < 0.5 * off_before)) break;
+                    off_before = missed.worst;
                     Eigen::VectorXd back = Eigen::VectorXd::Zero(sheet.rows.count());
-                    const int common = std::min(sheet.rows.count(), there.rows.count());
-                    for (int e = 0; e < common; ++e) {
-                        if (there.rows.variance[e] < k_all_but_exact &&
-                            sheet.rows.variance[e] < k_all_but_exact) {
-                            back(e) = -there.rows.residual[e];
-                        }
-                    }
+                    const Eigen::Index common = std::min(back.size(), missed.residuals.size());
+                    back.head(common) = -missed.residuals.head(common);
                     const auto correction = solver.solve(none, back, k_correction_precision);
                     if (!correction.good) break;
                     next = freedoms.moved(next, steps(correction.unknowns));
-                    there = relaxation.sheet(next, softness, held);
                 }
+                Sheet there = relaxation.sheet(next, softness, held);
                 // The hard equations first: their size is the size of what they leave undone.
                 // Hard equations are brought to rounding at the end; so little does not count.
                 const double before =

@@ -14,7 +14,7 @@ using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 // is small beside what the best readings know, and still far above rounding.
 constexpr double k_hard_scale = 30;
 // Of variances: what is told of them has three digits.
-constexpr double k_precision = 1e-10;
+constexpr double k_precision = 1e-8;
 
 void add_rows(const Rows& from, double scale, double variance, SparseRows& to) {
     for (Eigen::Index i = 0; i < from.rows(); ++i) {
@@ -74,8 +74,8 @@ Eigen::MatrixXd Inference::times_covariance(const Eigen::MatrixXd& rows) const {
 Eigen::MatrixXd Inference::reach(const Eigen::MatrixXd& rows) const {
     SaddleSolver solver;
     if (!factor(linear_, 1, false, solver)) return Eigen::MatrixXd();
-    const Eigen::MatrixXd moved =
-        solver.solve_all(rows.transpose(), Eigen::MatrixXd(), k_precision).unknowns;
+    // All digits: what is left of motions that equations forbid is told from those that they allow.
+    const Eigen::MatrixXd moved = solver.solve_all(rows.transpose(), Eigen::MatrixXd()).unknowns;
     const Eigen::MatrixXd product = rows * moved;
     return 0.5 * (product + product.transpose());
 }

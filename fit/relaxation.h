@@ -66,6 +66,14 @@ public:
     /// stops corners before they rise above a facet has to know which will (semismooth Newton).
     Sheet sheet(const Shape& shape, const Softness& softness, const std::vector<Held>& held = {},
                 const std::vector<int>* pressed = nullptr);
+    /// By how much hard equations are missed, and readings of no more variance than `sharp`: in the
+    /// rows of such a sheet, zero in others.
+    struct Missed {
+        Eigen::VectorXd residuals;
+        double worst = 0;  ///< of the hard ones
+    };
+    Missed missed(const Shape& shape, const Softness& softness, const std::vector<Held>& held,
+                  double sharp) const;
     /// Incidences and other hard equations only: variance 0, no priors.
     Sheet hard_sheet(const Shape& shape, const std::vector<Held>& held) const;
     /// Positive hinges.

@@ -234,6 +234,7 @@ SaddleSolver::Sides SaddleSolver::refined(const Sides& right, double precision) 
         return size;
     };
     solve_once<W>(right, x);
+    if (precision >= 1) return x;
     std::array<double, W> size = off(x, left), enough{};
     for (int k = 0; k < W; ++k) {
         enough[std::size_t(k)] = precision * right.col(k).lpNorm<Eigen::Infinity>();

@@ -29,7 +29,8 @@ public:
         Eigen::VectorXd unknowns, forces;
         bool good = false;
     };
-    /// Refined until what is left is this part of the right-hand side, or gets no smaller.
+    /// Refined until what is left is this part of the right-hand side, or gets no smaller; not at
+    /// all for a precision of 1.
     Solution solve(const Eigen::VectorXd& a, const Eigen::VectorXd& b,
                    double precision = 1e-13) const;
     /// Several right-hand sides at once, one a column: `a` or `b` may have no columns where it is
