@@ -32,20 +32,51 @@ void subtract(double* column, const double* const* other, const double* factor, 
     }
 }
 
+// The same of two columns at once, which share what they read.
+void subtract_from_two(double* one, double* two, const double* const* other, const double* of_one,
+                       const double* of_two, int count) {
+    const double *a = other[0], *b = other[1], *c = other[2], *d = other[3];
+    const double pa = of_one[0], pb = of_one[1], pc = of_one[2], pd = of_one[3];
+    const double qa = of_two[0], qb = of_two[1], qc = of_two[2], qd = of_two[3];
+    for (int i = 0; i < count; ++i) {
+        one[i] -= (pa * a[i] + pb * b[i]) + (pc * c[i] + pd * d[i]);
+        two[i] -= (qa * a[i] + qb * b[i]) + (qc * c[i] + qd * d[i]);
+    }
+}
+
+// What W pivots from the `from`-th on take from the columns after them and from what is handed up.
 template <int W>
 void update_right(double* panel, int height, int pivots, int from, double* update, int rows) {
-    const double* other[W];
-    double factor[W], pivot[W];
+    double pivot[W];
     for (int q = 0; q < W; ++q) pivot[q] = panel[std::size_t(from + q) * height + from + q];
-    const auto take = [&](double* column, int row) {
+    const auto factors_of = [&](int row, double* factor) {
         for (int q = 0; q < W; ++q) {
-            other[q] = panel + std::size_t(from + q) * height + row;
-            factor[q] = *other[q] * pivot[q];
+            factor[q] = panel[std::size_t(from + q) * height + row] * pivot[q];
         }
+    };
+    const auto take = [&](double* column, int row) {
+        const double* other[W];
+        double factor[W];
+        for (int q = 0; q < W; ++q) other[q] = panel + std::size_t(from + q) * height + row;
+        factors_of(row, factor);
         subtract<W>(column, other, factor, height - row);
     };
     for (int k = from + W; k < pivots; ++k) take(panel + std::size_t(k) * height + k, k);
-    for (int k = 0; k < rows; ++k) take(update + std::size_t(k) * rows + k, pivots + k);
+    int k = 0;
+    if constexpr (W == 4) {
+        for (; k + 1 < rows; k += 2) {
+            const int row = pivots + k;
+            double* one = update + std::size_t(k) * rows + k;
+            double* two = one + rows;  // of the same row as `one`; its own half begins below
+            const double* other[W];
+            double of_one[W], of_two[W];
+            for (int q = 0; q < W; ++q) other[q] = panel + std::size_t(from + q) * height + row;
+            factors_of(row, of_one);
+            factors_of(row + 1, of_two);
+            subtract_from_two(one, two, other, of_one, of_two, height - row);
+        }
+    }
+    for (; k < rows; ++k) take(update + std::size_t(k) * rows + k, pivots + k);
 }
 
 // The pivots' columns become L, with D on the diagonal; what is left of the others is subtracted
