@@ -77,6 +77,7 @@ int run_job(const RunOptions& options) {
 
     // Everything that can be wrong with the inputs is found before the first output is written.
     StoneFile file = read_stone(job.stone);
+    require_material(file, job.stone);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
     const auto written = read_readings(job.stone);
     file.stone = mended(file.stone, written).stone;

@@ -65,7 +65,12 @@ Description describe_stone_file(const DescribeOptions& options) {
     object["up_facet"] = stone.up_facet;
     about.lines.push_back(fmt::format("{}: stone \"{}\", mesh {}, unit {}", options.file.string(),
                                       stone.name, file.mesh_file.string(), name_of(stone.unit)));
-    describe_material(stone.material, about);
+    if (file.has_material) {
+        describe_material(stone.material, about);
+    } else {
+        object["material"] = Json();
+        about.lines.push_back("no material is named: a fit does without, a picture does not");
+    }
     if (stone.material.optic != OpticCharacter::isotropic) {
         Json axes = Json::array();
         for (const Vec3& axis : stone.crystal.axes) axes.push_back({axis.x, axis.y, axis.z});

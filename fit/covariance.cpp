@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "fit/elimination.h"
-#include "fit/selected_inverse.h"
+#include "fit/normal_inverse.h"
 
 namespace culet {
 
@@ -20,7 +22,8 @@ constexpr Eigen::Index k_most_dense = 1300;
 // For the question what is open, a reading is tight enough at this weight: squares of larger ones
 // would drown a weight of one in rounding.
 constexpr double k_tight = 1e6;
-// Normal equations square the spread of weights; beyond this spread QR keeps what they lose.
+// Normal equations square the spread of weights. Nothing that is held is so at less than a weight
+// of 2: beyond this, QR keeps what they lose.
 constexpr double k_most_spread = 1e5;
 
 // Gauge motions, orthonormal in the metric. The turn about up is one of them also where readings
@@ -116,7 +119,7 @@ Eigen::MatrixXd inverse_factor(const Eigen::MatrixXd& seen) {
 // P C P' with P = 1 - G G' M.
 struct Covariance::Sparse {
     struct Held {
-        SelectedInverse inverse;
+        NormalInverse inverse;
         Eigen::MatrixXd gauge_solved;  // U = C M G
         Eigen::MatrixXd gauge_part;    // G' M U
     };
@@ -147,6 +150,27 @@ struct Covariance::Sparse {
         }
         return std::max(0.0, value);
     }
+
+    // A function, and what the gauge has to say of it.
+    struct Part {
+        NormalInverse::Half half;
+        Eigen::VectorXd along, solved;
+    };
+    Part part_of(const Held& held, const FunctionRow& function) const {
+        return {held.inverse.half(function), gauge.transpose() * function,
+                held.gauge_solved.transpose() * function};
+    }
+    double of(const Held& held, const Part& one, const Part& other) const {
+        double value = NormalInverse::product(one.half, other.half);
+        if (gauge.cols() > 0) {
+            value += one.along.dot(held.gauge_part * other.along) - one.solved.dot(other.along) -
+                     other.solved.dot(one.along);
+        }
+        return value;
+    }
+    // Of the hat matrix, as far as it was asked for.
+    mutable std::map<Eigen::Index, Part> parts;
+    mutable std::map<std::pair<Eigen::Index, Eigen::Index>, double> leverages;
 
     Eigen::VectorXd with_all(const Held& held, const FunctionRow& function) const {
         const Eigen::VectorXd along = gauge.transpose() * function;
@@ -187,10 +211,15 @@ void Covariance::find_dense(const Linearised& linear) {
     if (size == 0) return;  // exact readings leave nothing free
 
     // Whitened by the metric, so that eigenvalues compare readings with the mesh.
-    const Eigen::SparseMatrix<double, Eigen::RowMajor> weighted =
-        linear.metric.cwiseSqrt().asDiagonal() * free.basis;
-    const Eigen::MatrixXd metric =
-        Eigen::MatrixXd(Eigen::SparseMatrix<double>(weighted.transpose()) * weighted);
+    Eigen::MatrixXd metric = Eigen::MatrixXd::Zero(size, size);
+    using RowOf = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
+    for (Eigen::Index i = 0; i < unknowns; ++i) {
+        for (RowOf a(free.basis, i); a; ++a) {
+            for (RowOf b(free.basis, i); b; ++b) {
+                metric(b.col(), a.col()) += linear.metric(i) * a.value() * b.value();
+            }
+        }
+    }
     const Eigen::LLT<Eigen::MatrixXd> chol(metric);
     if (chol.info() != Eigen::Success) {
         usable_ = false;
@@ -206,11 +235,7 @@ void Covariance::find_dense(const Linearised& linear) {
         whitened(Eigen::MatrixXd((linear.metric.asDiagonal() * gauge).transpose() * free.basis));
 
     const Eigen::VectorXd norms = seen.rowwise().norm();
-    double largest = 0, smallest = 1e300;
-    for (Eigen::Index i = 0; i < norms.size(); ++i) {
-        largest = std::max(largest, norms(i));
-        if (norms(i) > 0) smallest = std::min(smallest, norms(i));
-    }
+    const double largest = norms.size() > 0 ? norms.maxCoeff() : 0;
     const double gauge_weight = std::max(1e3, std::min(largest, k_tight));
     Eigen::MatrixXd clipped = seen;
     for (Eigen::Index i = 0; i < norms.size(); ++i) {
@@ -222,7 +247,7 @@ void Covariance::find_dense(const Linearised& linear) {
         normal.selfadjointView<Eigen::Lower>().rankUpdate(along.transpose(),
                                                           gauge_weight * gauge_weight);
     }
-    const bool spread = largest > k_tight || largest > k_most_spread * std::max(smallest, 1e-3);
+    const bool spread = largest > k_most_spread;
 
     const Eigen::MatrixXd shifted = normal - k_determined * Eigen::MatrixXd::Identity(size, size);
     const bool all_held = Eigen::LLT<Eigen::MatrixXd>(shifted).info() == Eigen::Success;
@@ -348,6 +373,22 @@ Eigen::VectorXd Covariance::fitted_part(const Eigen::VectorXd& residuals) const 
     if (!sparse_) return seen_ * (seen_.transpose() * residuals);
     const Eigen::VectorXd all = rows_.transpose() * residuals;
     return rows_ * sparse_->with_all(sparse_->tight, FunctionRow(all.sparseView()));
+}
+
+double Covariance::leverage(Eigen::Index equation, Eigen::Index other) const {
+    if (!sparse_) return seen_.row(equation).dot(seen_.row(other));
+    const auto key = std::minmax(equation, other);
+    const auto [found, is_new] = sparse_->leverages.try_emplace(key, 0.0);
+    if (is_new) {
+        const auto part_of = [&](Eigen::Index i) -> const Sparse::Part& {
+            auto [part, unknown] = sparse_->parts.try_emplace(i);
+            if (unknown) part->second = sparse_->part_of(sparse_->tight, function_row(rows_, i));
+            return part->second;
+        };
+        const Sparse::Part &a = part_of(key.first), &b = part_of(key.second);
+        found->second = sparse_->of(sparse_->tight, a, b);
+    }
+    return found->second;
 }
 
 Eigen::VectorXd Covariance::leverage_column(Eigen::Index equation) const {

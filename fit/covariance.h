@@ -7,8 +7,8 @@
 // as tightly as the mesh is trusted (20 % of its width) are `open`; along them the mesh's own
 // uncertainty is reported.
 // Two algorithms: dense algebra in a basis of the free directions (exact but for rounding, also for
-// uncertainties that span many powers of ten), and for large stones the entries of the inverse on
-// the pattern of a sparse factor (Takahashi, Fagan & Chen 1973; Erisman & Tinney 1975).
+// uncertainties that span many powers of ten), and for large stones sparse factors of the normal
+// equations.
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
@@ -40,6 +40,8 @@ public:
     /// Variance of every soft equation's fitted value, in units of its own: the diagonal of the hat
     /// matrix. Hinges: 0.
     const Eigen::VectorXd& leverages() const { return leverages_; }
+    /// One entry of the hat matrix.
+    double leverage(Eigen::Index equation, Eigen::Index other) const;
     /// One column of the hat matrix.
     Eigen::VectorXd leverage_column(Eigen::Index equation) const;
     /// Hat matrix times residuals of the soft equations.
@@ -58,7 +60,8 @@ private:
 
     bool usable_ = false;
     Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;  // soft, without hinges
-    Eigen::MatrixXd held_, open_, seen_;                 // dense; seen = rows * held
+    Eigen::MatrixXd held_, open_;                        // dense
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> seen_;  // rows * held
     std::unique_ptr<Sparse> sparse_;
     Eigen::VectorXd leverages_;
     int open_freedoms_ = 0;

@@ -58,11 +58,11 @@ void bend_edge(const Quantity& length, const Shape& shape, const Freedoms::Chart
 
 }  // namespace
 
-std::vector<SaddleSolver::Entry> Relaxation::curvature(const Shape& shape,
-                                                       const Eigen::VectorXd& forces) const {
+std::vector<SymmetricEntry> Relaxation::curvature(const Shape& shape,
+                                                  const Eigen::VectorXd& forces) const {
     // force * (normal . point - offset): mixed derivatives of tilts and points, and the turn of the
     // normal itself.
-    std::vector<SaddleSolver::Entry> entries;
+    std::vector<SymmetricEntry> entries;
     const Freedoms::Chart chart = freedoms_.chart(shape);
     for (std::size_t i = 0; i < incidences_.size(); ++i) {
         const Incidence& incidence = system_.incidences()[incidences_[i]];

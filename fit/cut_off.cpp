@@ -58,12 +58,19 @@ std::optional<CutOff> CornerNet::above(const Plane& plane, int from, std::size_t
     CutOff off;
     if (from < 0 || !(height(from) > 0)) return std::nullopt;
     off.gone.push_back(from);
-    std::map<int, std::size_t> taken;  // corners of each facet
+    std::vector<std::pair<int, std::size_t>> taken;  // facets, and how many of their corners
+    const auto takes_whole = [&](int facet) {
+        for (auto& [known, corners] : taken) {
+            if (known == facet) return ++corners == loop(facet).size();
+        }
+        taken.emplace_back(facet, 1);
+        return loop(facet).size() == 1;
+    };
     for (std::size_t i = 0; i < off.gone.size(); ++i) {
         const int corner = off.gone[i];
         const double above = height(corner);
         for (const int f : facets_of_[std::size_t(corner)]) {
-            if (++taken[f] == loop(f).size()) return std::nullopt;
+            if (takes_whole(f)) return std::nullopt;
         }
         for (const Neighbour& next : neighbours_[std::size_t(corner)]) {
             const double there = height(next.corner);

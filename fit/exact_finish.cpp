@@ -27,6 +27,13 @@ constexpr int k_most_choices = 12;
 // tenth of a sigma or less.
 constexpr std::size_t k_creeping = 6;
 constexpr double k_crumb = 0.01, k_all_but_met = 1e-6;
+// Steps in a row that gain nothing, at the end.
+constexpr int k_quiet = 2;
+// Of chi-square: where a step gains less, the shape tells what the readings mean.
+constexpr double k_little = 0.05;
+
+// What a correction leaves, the next one takes.
+constexpr double k_correction_precision = 1;
 
 std::span<const double> steps(const Eigen::VectorXd& step) {
     return {step.data(), static_cast<std::size_t>(step.size())};
@@ -40,7 +47,7 @@ double step_precision(const SparseRows& rows) {
         if (rows.variance[i] > 0) sharpest = std::min(sharpest, rows.variance[i]);
         largest = std::max(largest, std::abs(rows.residual[i]));
     }
-    return largest > 0 ? std::clamp(0.01 * std::sqrt(sharpest) / largest, 1e-13, 1e-9) : 1e-9;
+    return largest > 0 ? std::clamp(0.01 * std::sqrt(sharpest) / largest, 1e-13, 1e-7) : 1e-7;
 }
 
 // Smallest steps onto the hard equations, until rounding is all that is left.
@@ -78,8 +85,8 @@ struct Settled {
     double chi2 = 0, worst_hard = 0;
 };
 
-Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Held>& held,
-               int iterations) {
+Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
+               const std::vector<Held>& held, int iterations) {
     const Freedoms& freedoms = relaxation.freedoms();
     Softness softness;
     softness.with_priors = false;
@@ -90,46 +97,45 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
     Sheet sheet = relaxation.sheet(shape, softness, held);
     const Eigen::VectorXd metric = relaxation.metric();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(freedoms.size());
-    // One for each pattern of the matrix, with and without second derivatives.
-    SaddleSolver plain, with_curvature;
     double damping = k_first_damping;
     int quiet = 0, choices = 0;
     std::vector<double> merits;
     bool curved = false;
-    // At an end, the readings are asked again what they mean there. At a kink (a caliper's jaw that
-    // touches two corners at once) they would change their mind for ever; `choose` ties the two.
-    const auto ends = [&](bool settled) {
-        if (choices > k_most_choices) {
-            result.converged = settled;
-            return true;
-        }
+    // The readings are asked again what they mean here. At a kink (a caliper's jaw that touches two
+    // corners at once) they would change their mind for ever; `choose` ties the two.
+    bool asked = false;
+    const auto meaning_changes = [&] {
+        if (choices > k_most_choices) return false;
+        asked = true;
         relaxation.choose(shape, true);
         Sheet fresh = relaxation.sheet(shape, softness, held);
-        if (std::abs(fresh.merit - sheet.merit) < 1e-9 * (1 + sheet.merit)) {
-            result.converged = settled;
-            return true;
-        }
+        if (std::abs(fresh.merit - sheet.merit) < 1e-9 * (1 + sheet.merit)) return false;
         ++choices;
         merits.clear();
         sheet = std::move(fresh);
         quiet = 0;
+        asked = false;
         damping = std::max(damping, 1e-4);
         if (damping > 1) damping = 1e-2;
-        return false;
+        return true;
+    };
+    const auto ends = [&](bool settled) {
+        if (meaning_changes()) return false;
+        result.converged = settled;
+        return true;
     };
     Eigen::VectorXd forces;
     for (int i = 0; i < iterations; ++i) {
         result.iterations = i + 1;
         bool factored = false;
         if (curved) {
-            factored = with_curvature.factor(sheet.rows, damping * metric,
-                                             relaxation.curvature(shape, forces));
+            factored =
+                solver.factor(sheet.rows, damping * metric, relaxation.curvature(shape, forces));
         }
         if (!factored) {
             curved = false;
-            factored = plain.factor(sheet.rows, damping * metric);
+            factored = solver.factor(sheet.rows, damping * metric);
         }
-        const SaddleSolver& solver = curved ? with_curvature : plain;
         bool better = false;
         double length = 0;
         if (factored) {
@@ -143,25 +149,20 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
                 Shape next = freedoms.moved_with_turn(shape, steps(step));
 
                 // Second-order correction: back onto the curved constraints, same factors.
-                Sheet there = relaxation.sheet(next, softness, held);
                 double off_before = 1e300;
                 for (int k = 0; k < 4; ++k) {
-                    const double worst = there.hard_worst;
-                    if (worst < 1e-13 || !(worst < 0.5 * off_before)) break;
-                    off_before = worst;
+                    const Relaxation::Missed missed =
+                        relaxation.missed(next, softness, held, k_all_but_exact);
+                    if (missed.worst < 1e-13 || !(missed.worst < 0.5 * off_before)) break;
+                    off_before = missed.worst;
                     Eigen::VectorXd back = Eigen::VectorXd::Zero(sheet.rows.count());
-                    const int common = std::min(sheet.rows.count(), there.rows.count());
-                    for (int e = 0; e < common; ++e) {
-                        if (there.rows.variance[e] < k_all_but_exact &&
-                            sheet.rows.variance[e] < k_all_but_exact) {
-                            back(e) = -there.rows.residual[e];
-                        }
-                    }
-                    const auto correction = solver.solve(none, back, precision);
+                    const Eigen::Index common = std::min(back.size(), missed.residuals.size());
+                    back.head(common) = -missed.residuals.head(common);
+                    const auto correction = solver.solve(none, back, k_correction_precision);
                     if (!correction.good) break;
                     next = freedoms.moved(next, steps(correction.unknowns));
-                    there = relaxation.sheet(next, softness, held);
                 }
+                Sheet there = relaxation.sheet(next, softness, held);
                 // The hard equations first: their size is the size of what they leave undone.
                 // Hard equations are brought to rounding at the end; so little does not count.
                 const double before =
@@ -172,6 +173,8 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
                 if (better) {
                     const double gain = before - after;
                     quiet = gain < 1e-8 * (1 + before) || length < 1e-12 ? quiet + 1 : 0;
+                    // The next step of Newton's would have the square of this length.
+                    if (curved && length < 1e-7 && quiet > 0) quiet = k_quiet;
                     shape = std::move(next);
                     // The exact Hessian near the end: weak freedoms would creep.
                     if (length < 1e-2) {
@@ -180,6 +183,10 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
                     }
                     sheet = std::move(there);
                     damping = std::max(k_least_damping, damping / 5);
+                    // Once in each meaning, when there is little left to gain from it.
+                    if (!asked && gain < k_little && sheet.hard_sum < k_all_but_met) {
+                        meaning_changes();
+                    }
                 }
             }
         }
@@ -193,7 +200,7 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
         }
         merits.push_back(sheet.merit);
         const bool creeps = sheet.hard_sum < k_all_but_met && creeps_on(merits);
-        if ((quiet >= 2 || creeps) && ends(true)) break;
+        if ((quiet >= k_quiet || creeps) && ends(true)) break;
     }
     result.shape = onto_constraints(relaxation, std::move(shape), held);
     if (!held.empty() && relaxation.hard_sheet(result.shape, {}).hard_worst > k_rounding) {
@@ -215,13 +222,15 @@ Settled settle(Relaxation& relaxation, const Shape& start, const std::vector<Hel
 ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterations,
                          double hopeless) {
     ExactFinish result;
-    Settled settled = settle(relaxation, start, {}, iterations);
+    SaddleSolver solver;
+    Settled settled = settle(relaxation, solver, start, {}, iterations);
     Softness softness;
     softness.with_priors = false;
     for (int round = 0; round < 4; ++round) {
-        const auto leaning = leaning_better(relaxation, settled.shape, softness, k_nearly_upright);
+        const auto leaning =
+            leaning_better(relaxation, solver, settled.shape, softness, k_nearly_upright);
         if (!leaning) break;
-        Settled other = settle(relaxation, *leaning, {}, iterations);
+        Settled other = settle(relaxation, solver, *leaning, {}, iterations);
         other.iterations += settled.iterations;
         if (!(other.chi2 < settled.chi2 - 1e-3)) break;
         settled = std::move(other);
@@ -248,7 +257,7 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         }
         if (result.held.size() == before) break;
         const int earlier = settled.iterations;
-        settled = settle(relaxation, settled.shape, result.held, iterations);
+        settled = settle(relaxation, solver, settled.shape, result.held, iterations);
         settled.iterations += earlier;
     }
     result.cost_of_holding = result.held.empty() ? 0 : std::max(0.0, settled.chi2 - free_chi2);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <set>
 
 #include "fit/covariance.h"
 #include "fit/cut_off.h"
@@ -18,6 +17,9 @@ using Index = Eigen::Index;
 // Rounds of looking for one more explanation.
 constexpr int k_most_rounds = 16;
 constexpr double k_checked = 1e-4;
+constexpr double k_no_redundancy = 1e-10;
+// Planes that change more equations than this are tried without asking first what they may bring.
+constexpr std::size_t k_most_asked = 48;
 // Twice the log of the likelihood ratio below which two explanations are as good as each other.
 constexpr double k_alternative = 3;
 // Shown by a single reading, only what one may well overlook: of the half diameter.
@@ -33,21 +35,27 @@ class Signatures {
 public:
     Signatures(const System& system, const Shape& shape, const Outline& outline,
                const Linearised& linear)
-        : system_(system), net_(shape, outline), linear_(linear) {
+        : system_(system), net_(shape, outline), linear_(linear), by_corner_(net_.places().size()) {
         for (std::size_t i = 0; i < linear.soft.size(); ++i) list(Index(i), outline);
     }
 
     const CornerNet& net() const { return net_; }
 
-    // In sigmas, of the equations that change.
-    std::vector<std::pair<Index, double>> of(const Plane& plane, const CutOff& off) const {
-        std::set<Index> touched;
+    // The equations that change, in their order. Of a part of what is cut off, no others do.
+    std::vector<Index> touched_by(const CutOff& off) const {
+        std::vector<Index> touched = volumes_;
         for (const int corner : off.gone) {
-            const auto found = by_corner_.find(corner);
-            if (found != by_corner_.end())
-                touched.insert(found->second.begin(), found->second.end());
+            const std::vector<Index>& here = by_corner_[std::size_t(corner)];
+            touched.insert(touched.end(), here.begin(), here.end());
         }
-        touched.insert(volumes_.begin(), volumes_.end());
+        std::sort(touched.begin(), touched.end());
+        touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+        return touched;
+    }
+
+    // In sigmas, of the equations that change.
+    std::vector<std::pair<Index, double>> of(const Plane& plane, const CutOff& off,
+                                             const std::vector<Index>& touched) const {
         std::vector<std::pair<Index, double>> signature;
         for (const Index i : touched) {
             const double change = change_of(i, plane, off);
@@ -75,8 +83,8 @@ private:
                 }
                 for (std::size_t k = 0; k + 1 < reading.facets.size(); k += 2) {
                     if (const auto ends = net_.edge(reading.facets[k], reading.facets[k + 1])) {
-                        by_corner_[ends->first].push_back(i);
-                        by_corner_[ends->second].push_back(i);
+                        by_corner_[std::size_t(ends->first)].push_back(i);
+                        by_corner_[std::size_t(ends->second)].push_back(i);
                     }
                 }
                 return;
@@ -91,7 +99,7 @@ private:
                     for (std::size_t c = 0; c < net_.places().size(); ++c) {
                         // Corners as far out stand for each other.
                         if (glm::dot(side, net_.places()[c]) > most - 1e-9) {
-                            by_corner_[int(c)].push_back(i);
+                            by_corner_[c].push_back(i);
                         }
                     }
                 }
@@ -101,7 +109,7 @@ private:
                     if (place.kind != Place::Kind::vertex) continue;
                     for (std::size_t c = 0; c < outline.corners.size(); ++c) {
                         if (outline.corners[c].point == place.vertex) {
-                            by_corner_[int(c)].push_back(i);
+                            by_corner_[c].push_back(i);
                         }
                     }
                 }
@@ -168,7 +176,7 @@ private:
     const System& system_;
     CornerNet net_;
     const Linearised& linear_;
-    std::map<int, std::vector<Index>> by_corner_;
+    std::vector<std::vector<Index>> by_corner_;
     std::vector<Index> volumes_;
 };
 
@@ -196,6 +204,28 @@ public:
         return redundancy_(i) > k_checked ? values_(i) * values_(i) / redundancy_(i) : 0;
     }
 
+    // No signature of these equations alone lowers chi-square by more than r'R^-1 r, with both cut
+    // down to them: the maximum of -2 r's - s'Rs.
+    double most_of(const std::vector<Index>& equations) const {
+        const Index count = Index(equations.size());
+        Eigen::MatrixXd block(count, count);
+        Eigen::VectorXd values(count);
+        for (Index a = 0; a < count; ++a) {
+            const Index i = equations[std::size_t(a)];
+            values(a) = values_(i);
+            for (Index b = 0; b <= a; ++b) {
+                const Index j = equations[std::size_t(b)];
+                double entry = (i == j ? 1 : 0) - covariance_.leverage(i, j);
+                if (columns_.cols() > 0) entry -= aside_part_.row(i).dot(columns_.row(j));
+                block(a, b) = entry + (i == j ? k_no_redundancy : 0);
+            }
+        }
+        const Eigen::LDLT<Eigen::MatrixXd> factors(block);
+        return factors.info() == Eigen::Success && factors.isPositive()
+                   ? values.dot(factors.solve(values)) * (1 + 1e-6)
+                   : 1e300;
+    }
+
     // R s, as far as R is left.
     Eigen::VectorXd seen(const std::vector<std::pair<Index, double>>& signature) const {
         Eigen::VectorXd s = Eigen::VectorXd::Zero(count_);
@@ -205,7 +235,7 @@ public:
         // R s less what the readings set aside would take up.
         Eigen::VectorXd at(Index(aside_.size()));
         for (std::size_t k = 0; k < aside_.size(); ++k) at(Index(k)) = result(aside_[k]);
-        return result - columns_ * block_.ldlt().solve(at);
+        return result - aside_part_ * at;
     }
 
     void add(const Eigen::VectorXd& change) { values_ += change; }
@@ -228,6 +258,7 @@ public:
         for (std::size_t k = 0; k < aside_.size(); ++k) {
             block_.row(Index(k)) = columns_.row(aside_[k]);
         }
+        aside_part_ = block_.ldlt().solve(columns_.transpose()).transpose();
     }
 
 private:
@@ -235,7 +266,7 @@ private:
     Index count_;
     Eigen::VectorXd counted_, values_, redundancy_;
     std::vector<Index> aside_;
-    Eigen::MatrixXd columns_ = Eigen::MatrixXd(count_, 0), block_;
+    Eigen::MatrixXd columns_ = Eigen::MatrixXd(count_, 0), block_, aside_part_;
 };
 
 struct Candidate {
@@ -293,11 +324,17 @@ void try_direction(const Signatures& signatures, const Remains& remains, const C
             std::min(deepest, highest - glm::dot(direction, net.places()[std::size_t(bottom)]));
     }
     int far_off = 0;
+    bool hopeless = false;
     const auto try_depth = [&](double depth) {
         const Plane plane{direction, highest - depth};
         const auto off = net.above(plane, top);
         if (!off) return 0.0;
-        auto signature = signatures.of(plane, *off);
+        const std::vector<Index> touched = signatures.touched_by(*off);
+        // Less deep, the plane changes no other equations.
+        hopeless = touched.size() <= k_most_asked &&
+                   !(remains.most_of(touched) > std::max(least, best.gain));
+        if (hopeless) return 0.0;
+        auto signature = signatures.of(plane, *off, touched);
         double slope = 0;
         for (const auto& [i, s] : signature) slope += remains.values()(i) * s;
         // The most that it could bring: R is a projection and r lies in it, so that
@@ -321,7 +358,7 @@ void try_direction(const Signatures& signatures, const Remains& remains, const C
         if (along * along < k_far_from * least * square) ++far_off;
         return square > 0 ? -along / square : 0.0;  // by which to multiply the depth
     };
-    for (int k = 1; k <= k_depths && far_off < 2; ++k) {
+    for (int k = 1; k <= k_depths && far_off < 2 && !hopeless; ++k) {
         const double depth = deepest * std::pow(k_next_depth, k);
         const double before = best.gain;
         const double factor = try_depth(depth);

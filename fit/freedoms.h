@@ -10,7 +10,7 @@
 #include "fit/orbits.h"
 #include "fit/parameters.h"
 #include "fit/residuals.h"
-#include "fit/saddle_solver.h"
+#include "fit/sparse_rows.h"
 
 namespace culet {
 

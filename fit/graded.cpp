@@ -124,7 +124,7 @@ struct StageRunner {
         if (stage.incidence <= k_leaning_until) return;
         for (int round = 0; round < 3; ++round) {
             const auto other =
-                leaning_better(relaxation, shape, softness_of(stage, true), k_may_lean);
+                leaning_better(relaxation, solver, shape, softness_of(stage, true), k_may_lean);
             if (!other) break;
             shape = relaxation.freedoms().symmetrised(*other);
             once(shape, stage, {.with_readings = true}, fraction);

@@ -13,6 +13,8 @@ using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 // Exact equations are factored with a variance of 1e-9 and refined to none; so much larger, that
 // is small beside what the best readings know, and still far above rounding.
 constexpr double k_hard_scale = 30;
+// Of variances: what is told of them has three digits.
+constexpr double k_precision = 1e-8;
 
 void add_rows(const Rows& from, double scale, double variance, SparseRows& to) {
     for (Eigen::Index i = 0; i < from.rows(); ++i) {
@@ -66,22 +68,14 @@ Eigen::MatrixXd Inference::rows_of(const std::vector<Quantity>& quantities) cons
 }
 
 Eigen::MatrixXd Inference::times_covariance(const Eigen::MatrixXd& rows) const {
-    Eigen::MatrixXd result(linear_.layout.size(), rows.rows());
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(equations_of(linear_, true));
-    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-        result.col(i) = solver_.solve(rows.row(i).transpose(), none).unknowns;
-    }
-    return result;
+    return solver_.solve_all(rows.transpose(), Eigen::MatrixXd(), k_precision).unknowns;
 }
 
 Eigen::MatrixXd Inference::reach(const Eigen::MatrixXd& rows) const {
     SaddleSolver solver;
     if (!factor(linear_, 1, false, solver)) return Eigen::MatrixXd();
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(equations_of(linear_, false));
-    Eigen::MatrixXd moved(rows.cols(), rows.rows());
-    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-        moved.col(i) = solver.solve(rows.row(i).transpose(), none).unknowns;
-    }
+    // All digits: what is left of motions that equations forbid is told from those that they allow.
+    const Eigen::MatrixXd moved = solver.solve_all(rows.transpose(), Eigen::MatrixXd()).unknowns;
     const Eigen::MatrixXd product = rows * moved;
     return 0.5 * (product + product.transpose());
 }
@@ -92,14 +86,12 @@ Eigen::MatrixXd Inference::covariance(const Eigen::MatrixXd& rows) const {
 }
 
 Eigen::MatrixXd Inference::multiplier_covariance(const Eigen::MatrixXd& combinations) const {
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(linear_.layout.size());
-    Eigen::MatrixXd solved(combinations.rows(), combinations.cols());
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(equations_of(linear_, true));
-    for (Eigen::Index i = 0; i < combinations.cols(); ++i) {
-        right.head(combinations.rows()) = k_hard_scale * combinations.col(i);
-        // The lower right block of the inverse is minus the covariance.
-        solved.col(i) = -k_hard_scale * solver_.solve(none, right).forces.head(combinations.rows());
-    }
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(equations_of(linear_, true), combinations.cols());
+    right.topRows(combinations.rows()) = k_hard_scale * combinations;
+    // The lower right block of the inverse is minus the covariance.
+    const Eigen::MatrixXd solved =
+        -k_hard_scale * solver_.solve_all(Eigen::MatrixXd(), right, k_precision)
+                            .forces.topRows(combinations.rows());
     const Eigen::MatrixXd product = combinations.transpose() * solved;
     return 0.5 * (product + product.transpose());
 }

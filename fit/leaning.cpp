@@ -8,6 +8,8 @@ namespace culet {
 namespace {
 
 constexpr double k_damping = 1e-6;
+// Of what one turn does to the others.
+constexpr double k_precision = 1e-7;
 // Of chi-square; less is not worth another round.
 constexpr double k_least_gain = 0.01;
 // A step this long in one of the freedoms is no longer linear.
@@ -15,13 +17,12 @@ constexpr double k_longest = 0.5;
 
 }  // namespace
 
-std::optional<Shape> leaning_better(Relaxation& relaxation, const Shape& shape,
-                                    const Softness& softness, double within) {
+std::optional<Shape> leaning_better(Relaxation& relaxation, SaddleSolver& solver,
+                                    const Shape& shape, const Softness& softness, double within) {
     relaxation.choose(shape, softness.incidence == 0);
     const std::vector<Relaxation::Folded> folded = relaxation.folded(shape, within);
     if (folded.empty()) return std::nullopt;
     const Sheet sheet = relaxation.sheet(shape, softness);
-    SaddleSolver solver;
     if (!solver.factor(sheet.rows, sheet.prior_stiffness + k_damping * relaxation.metric()))
         return std::nullopt;
     const auto count = static_cast<Eigen::Index>(folded.size());
@@ -31,19 +32,19 @@ std::optional<Shape> leaning_better(Relaxation& relaxation, const Shape& shape,
     for (Eigen::Index i = 0; i < count; ++i) {
         sigma(i) = std::sqrt(sheet.rows.variance[folded[std::size_t(i)].row]);
     }
-    Eigen::MatrixXd big(count, count);
+    Eigen::MatrixXd ones = Eigen::MatrixXd::Zero(sheet.rows.count(), count);
     for (Eigen::Index i = 0; i < count; ++i) {
         const Relaxation::Folded& f = folded[std::size_t(i)];
         r(i) = sheet.rows.residual[f.row] / sigma(i);
         d(i) = -f.shift / sigma(i);
-        Eigen::VectorXd one = Eigen::VectorXd::Zero(sheet.rows.count());
-        one(f.row) = -sigma(i);
-        const auto s = solver.solve(none, one);
-        if (!s.good) return std::nullopt;
-        for (Eigen::Index k = 0; k < count; ++k) {
-            // forces = (J x - b) / variance
-            big(k, i) = s.forces(folded[std::size_t(k)].row) * sigma(k);
-        }
+        ones(f.row, i) = -sigma(i);
+    }
+    const auto solved = solver.solve_all(Eigen::MatrixXd(), ones, k_precision);
+    if (!solved.good) return std::nullopt;
+    Eigen::MatrixXd big(count, count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        // forces = (J x - b) / variance
+        big.row(k) = solved.forces.row(folded[std::size_t(k)].row) * sigma(k);
     }
     std::vector<bool> turned(std::size_t(count), false);
     const auto shift_of = [&](Eigen::Index i) { return turned[std::size_t(i)] ? -d(i) : d(i); };

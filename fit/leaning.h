@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "fit/relaxation.h"
+#include "fit/saddle_solver.h"
 
 namespace culet {
 
@@ -12,8 +13,9 @@ namespace culet {
 /// residuals r and the matrix R = 1 - J C J' of their redundancies (both in units of sigma),
 /// exactly where equations are linear: 2 d'r + d'R d for shifts d of the values. One and two at a
 /// time are turned over as long as that gains. Returns the shape moved to where the others are
-/// meant; nothing when none should be. Only facets within this sine of upright are asked.
-std::optional<Shape> leaning_better(Relaxation& relaxation, const Shape& shape,
-                                    const Softness& softness, double within);
+/// meant; nothing when none should be. Only facets within this sine of upright are asked. `solver`
+/// may know the pattern of the equations from steps before.
+std::optional<Shape> leaning_better(Relaxation& relaxation, SaddleSolver& solver,
+                                    const Shape& shape, const Softness& softness, double within);
 
 }  // namespace culet

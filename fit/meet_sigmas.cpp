@@ -6,6 +6,7 @@
 
 #include "fit/diagnostics.h"
 #include "fit/inference.h"
+#include "fit/saddle_solver.h"
 #include "stone/errors.h"
 
 namespace culet {

@@ -34,6 +34,17 @@ Eigen::MatrixXd ways_apart(const Shape& shape, const std::vector<int>& facets) {
     return q.rightCols(count - 3);
 }
 
+// Of a meet whose images under an exact symmetry hold, nothing is left to test: its planes are
+// images of theirs.
+std::vector<bool> held_by_images(const System& system) {
+    const Freedoms freedoms = system.freedoms();
+    std::vector<bool> held;
+    for (const OrbitMember& m : freedoms.orbits().points) {
+        held.push_back(freedoms.images_of_point(m.first) > 1);
+    }
+    return held;
+}
+
 std::vector<Meet> meets_of(const System& system, const Shape& shape, const Inference& inference) {
     std::vector<Meet> meets(shape.points.size());
     const std::vector<Incidence>& incidences = system.incidences();
@@ -92,9 +103,13 @@ std::vector<MeetFinding> test_meets(const System& system, const Shape& shape,
                                     const Inference& inference, const MeetTestOptions& options) {
     std::vector<Meet> meets = meets_of(system, shape, inference);
     Eigen::Index exact_columns = 0, all_columns = 0;
+    const std::vector<bool> held = held_by_images(system);
+    const auto is_tested = [&](const Meet& meet) {
+        return meet.how == MeetTreatment::exact && (held.empty() || !held[std::size_t(meet.point)]);
+    };
     for (Meet& meet : meets) {
         all_columns += meet.apart.cols();
-        if (meet.how != MeetTreatment::exact) continue;
+        if (!is_tested(meet)) continue;
         meet.first = exact_columns;
         exact_columns += meet.apart.cols();
     }
@@ -118,7 +133,7 @@ std::vector<MeetFinding> test_meets(const System& system, const Shape& shape,
     Eigen::MatrixXd combinations =
         Eigen::MatrixXd::Zero(Eigen::Index(inference.linear().hard.size()), exact_columns);
     for (const Meet& meet : meets) {
-        if (meet.how != MeetTreatment::exact) continue;
+        if (!is_tested(meet)) continue;
         for (std::size_t i = 0; i < meet.equations.size(); ++i) {
             combinations.block(meet.equations[i], meet.first, 1, meet.apart.cols()) =
                 meet.apart.row(Eigen::Index(i));
@@ -132,7 +147,7 @@ std::vector<MeetFinding> test_meets(const System& system, const Shape& shape,
         std::size_t worst = meets.size();
         double least_p = level, most = 0;
         for (std::size_t m = 0; m < meets.size(); ++m) {
-            if (meets[m].how != MeetTreatment::exact || gone[m]) continue;
+            if (!is_tested(meets[m]) || gone[m]) continue;
             const Eigen::Index k = meets[m].apart.cols();
             const Eigen::MatrixXd own = v.block(meets[m].first, meets[m].first, k, k);
             const Eigen::VectorXd pull = x.segment(meets[m].first, k);

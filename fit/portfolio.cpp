@@ -24,6 +24,8 @@ constexpr double k_agrees_well = 0.2;
 constexpr double k_cheap = 1;
 // Starts in a row that gave nothing better; good: the best agrees, or the mesh was drawn with care.
 constexpr int k_patience = 6, k_patience_good = 2;
+// Starts times facets that are tried, but no fewer starts than these.
+constexpr int k_most_facets = 4500, k_least_starts = 4;
 
 // The chi-square test by counting: the least redundancy that there can be decides what is accepted
 // at once, and only in between is it counted out.
@@ -104,15 +106,18 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
     std::vector<double> ends;
     int fruitless = 0;
     std::vector<Approach> waiting;
-    while (result.starts < options.starts) {
+    // Each costs a large stone as much as all of them a small one.
+    const int facets = static_cast<int>(system.stone().solid.facets.size());
+    const int most = std::min(options.starts, std::max(k_least_starts, k_most_facets / facets));
+    while (result.starts < most) {
         const double begin = 0.7 * result.starts / (result.starts + 1.0);
         const Progress part = [&](double fraction) {
             return !progress || progress(begin + (0.7 - begin) * fraction);
         };
         // Beside a stone that agrees, only another that may agree as well is worth the time.
         const bool only_plausible = result.best.agrees;
-        const std::optional<Approach> rough = best_approach(
-            relaxation, starts, waiting, options.starts - result.starts, only_plausible, part);
+        const std::optional<Approach> rough =
+            best_approach(relaxation, starts, waiting, most - result.starts, only_plausible, part);
         if (!rough) break;
         const Graded graded = graded_fit(relaxation, *rough, part);
         Candidate candidate =

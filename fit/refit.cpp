@@ -41,7 +41,8 @@ Vec3 meet_of(const std::vector<Plane>& planes, const Vec3& guess) {
 Candidate finish_from(const System& system, const Shape& shape, int iterations) {
     const Freedoms freedoms = system.freedoms();
     Relaxation relaxation(system, freedoms);
-    Candidate candidate = finish_candidate(system, relaxation, shape, iterations);
+    Candidate candidate =
+        finish_candidate(system, relaxation, freedoms.symmetrised(shape), iterations);
     candidate.start = "last result";
     return candidate;
 }

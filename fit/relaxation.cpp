@@ -254,6 +254,37 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness, const std:
     return sheet;
 }
 
+Relaxation::Missed Relaxation::missed(const Shape& shape, const Softness& softness,
+                                      const std::vector<Held>& held, double sharp) const {
+    Missed missed;
+    const std::size_t readings = softness.with_readings ? equations_.size() : 0;
+    missed.residuals =
+        Eigen::VectorXd::Zero(Eigen::Index(incidences_.size() + readings + held.size()));
+    Eigen::Index row = 0;
+    const auto put = [&](double residual, bool is_hard) {
+        missed.residuals(row) = residual;
+        if (is_hard && !(std::abs(residual) <= missed.worst)) missed.worst = std::abs(residual);
+    };
+    const double soft2 = softness.incidence * softness.incidence;
+    for (std::size_t i = 0; i < incidences_.size(); ++i, ++row) {
+        const Incidence& incidence = system_.incidences()[incidences_[i]];
+        const double own = system_.incidence_sigma(incidence);
+        const double variance = (own * own + soft2) / incidence_images_[i];
+        if (variance < sharp) put(height(shape, incidence.facet, incidence.point), variance == 0);
+    }
+    for (std::size_t i = 0; i < readings; ++i, ++row) {
+        const Equation& e = equations_[i];
+        const double variance =
+            e.exact ? soft2 : e.sigma * e.sigma + softness.readings * softness.readings;
+        if (variance < sharp) put(e.formula(shape).value - e.value, variance == 0);
+    }
+    for (const Held& h : held) {
+        put(height(shape, h.facet, h.point) + k_hold_below, true);
+        ++row;
+    }
+    return missed;
+}
+
 Sheet Relaxation::hard_sheet(const Shape& shape, const std::vector<Held>& held) const {
     Sheet sheet;
     const Freedoms::Chart chart = freedoms_.chart(shape);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "fit/freedoms.h"
-#include "fit/saddle_solver.h"
+#include "fit/sparse_rows.h"
 #include "fit/system.h"
 
 namespace culet {
@@ -66,6 +66,14 @@ public:
     /// stops corners before they rise above a facet has to know which will (semismooth Newton).
     Sheet sheet(const Shape& shape, const Softness& softness, const std::vector<Held>& held = {},
                 const std::vector<int>* pressed = nullptr);
+    /// By how much hard equations are missed, and readings of no more variance than `sharp`: in the
+    /// rows of such a sheet, zero in others.
+    struct Missed {
+        Eigen::VectorXd residuals;
+        double worst = 0;  ///< of the hard ones
+    };
+    Missed missed(const Shape& shape, const Softness& softness, const std::vector<Held>& held,
+                  double sharp) const;
     /// Incidences and other hard equations only: variance 0, no priors.
     Sheet hard_sheet(const Shape& shape, const std::vector<Held>& held) const;
     /// Positive hinges.
@@ -90,8 +98,7 @@ public:
 
     /// Second derivatives of the Lagrangian: of the incidences, which are bilinear, and of
     /// inclinations and edges, without which a turn of the whole stone would seem to change them.
-    std::vector<SaddleSolver::Entry> curvature(const Shape& shape,
-                                               const Eigen::VectorXd& forces) const;
+    std::vector<SymmetricEntry> curvature(const Shape& shape, const Eigen::VectorXd& forces) const;
 
 private:
     double height(const Shape& shape, int facet, int point) const;

@@ -1,8 +1,12 @@
 #include "fit/saddle_solver.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <tuple>
+#include <ranges>
+#include <span>
+
+#include "fit/elimination_order.h"
 
 namespace culet {
 
@@ -12,118 +16,280 @@ namespace {
 // below the variance of anything that is read (lengths are in half diameters).
 constexpr double k_least_variance = 1e-9;
 constexpr int k_refinements = 12;
+// Columns of a row that may be folded into a layout as it stands.
+constexpr std::size_t k_most_short = 12;
 
 }  // namespace
 
-// Columns of the lower half: the diagonal, then rows in order.
-void SaddleSolver::lay_out(const SparseRows& rows, const std::vector<Entry>& curvature) {
-    begin_ = rows.begin;
-    column_ = rows.column;
-    curved_.clear();
-    for (const Entry& e : curvature) curved_.emplace_back(e.row, e.column);
-    const int size = unknowns_ + equations_;
-    struct Place {
-        int column, row, source;
-    };
-    std::vector<Place> places;
-    places.reserve(std::size_t(size) + column_.size() + curved_.size());
-    int source = 0;
+void SaddleSolver::lay_out() {
+    std::vector<std::pair<int, int>> pairs;
+    for (const SymmetricEntry& e : curvature_) {
+        if (e.row != e.column) pairs.emplace_back(e.row, e.column);
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    SparseRows rows = rows_;
+    for (const std::vector<int>& columns : past_) {
+        for (const int column : columns) rows.add(column, 0);
+        rows.close(0, 1);
+    }
+    EliminationOrder order = elimination_order(rows, unknowns_, pairs);
+    is_folded_ = std::move(order.is_folded);
+    is_folded_.resize(std::size_t(equations_));
+    eliminated_ = order.eliminated;
+    // Folded equations have no place of their own.
+    fronts_.lay_out(unknowns_ + equations_, order.blocks, order.cliques);
+}
+
+// False when some entry has no place in the present layout.
+bool SaddleSolver::place_rows() {
+    std::vector<std::pair<int, int>> entries;
+    for (int i = 0; i < unknowns_; ++i) entries.emplace_back(i, i);
     for (int i = 0; i < equations_; ++i) {
-        for (int k = begin_[i]; k < begin_[i + 1]; ++k) {
-            places.push_back({column_[k], unknowns_ + i, source++});
+        const int own = unknowns_ + i;
+        if (!is_folded_[i]) entries.emplace_back(own, own);
+        for (int k = rows_.begin[i]; k < rows_.begin[i + 1]; ++k) {
+            if (!is_folded_[i]) {
+                entries.emplace_back(rows_.column[k], own);
+                continue;
+            }
+            for (int l = rows_.begin[i]; l <= k; ++l) {
+                entries.emplace_back(rows_.column[k], rows_.column[l]);
+            }
         }
     }
-    for (const auto& [row, column] : curved_) places.push_back({column, row, source++});
-    const int entries = source;
-    for (int i = 0; i < size; ++i) places.push_back({i, i, source++});
-    std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
-        return std::tie(a.column, a.row, a.source) < std::tie(b.column, b.row, b.source);
-    });
-    slot_.assign(std::size_t(entries), 0);
-    diagonal_.assign(std::size_t(size), 0);
-    std::vector<int> outer(std::size_t(size) + 1, 0), inner;
-    int column = -1, row = -1;
-    for (const Place& p : places) {
-        if (p.column != column || p.row != row) {
-            inner.push_back(p.row);
-            ++outer[p.column + 1];
-            column = p.column;
-            row = p.row;
-        }
-        const int at = static_cast<int>(inner.size()) - 1;
-        (p.source < entries ? slot_[p.source] : diagonal_[p.source - entries]) = at;
-    }
-    for (int i = 0; i < size; ++i) outer[i + 1] += outer[i];
-    matrix_.resize(size, size);
-    matrix_.resizeNonZeros(static_cast<Eigen::Index>(inner.size()));
-    std::copy(outer.begin(), outer.end(), matrix_.outerIndexPtr());
-    std::copy(inner.begin(), inner.end(), matrix_.innerIndexPtr());
-    std::fill_n(matrix_.valuePtr(), inner.size(), 0.0);
-    factors_.analyzePattern(matrix_);
+    slot_ = fronts_.slots(entries);
+    return std::find(slot_.begin(), slot_.end(), Fronts::k_none) == slot_.end();
+}
+
+bool SaddleSolver::place_curvature() {
+    std::vector<std::pair<int, int>> entries;
+    for (const SymmetricEntry& e : curvature_) entries.emplace_back(e.row, e.column);
+    curved_ = fronts_.slots(entries);
+    return std::find(curved_.begin(), curved_.end(), Fronts::k_none) == curved_.end();
 }
 
 bool SaddleSolver::factor(const SparseRows& rows, const Eigen::VectorXd& stiffness,
-                          const std::vector<Entry>& curvature) {
-    const int unknowns = static_cast<int>(stiffness.size());
-    bool same = unknowns == unknowns_ && rows.count() == equations_ && rows.begin == begin_ &&
-                rows.column == column_ && curvature.size() == curved_.size();
-    for (std::size_t i = 0; same && i < curved_.size(); ++i) {
-        same = curved_[i] == std::make_pair(curvature[i].row, curvature[i].column);
+                          const std::vector<SymmetricEntry>& curvature) {
+    const auto columns_of = [](const SparseRows& of, int i) {
+        return std::span(of.column).subspan(std::size_t(of.begin[i]),
+                                            std::size_t(of.begin[i + 1] - of.begin[i]));
+    };
+    std::vector<char> sharp;
+    for (int i = 0; i < rows.count(); ++i) sharp.push_back(is_sharp(rows, i));
+    int common = 0;
+    const int most =
+        laid_out_ && stiffness.size() == stiffness_.size() ? std::min(rows.count(), equations_) : 0;
+    while (common < most && sharp[common] == sharp_[common] &&
+           std::ranges::equal(columns_of(rows, common), columns_of(rows_, common))) {
+        ++common;
     }
-    unknowns_ = unknowns;
+    const bool same = laid_out_ && stiffness.size() == stiffness_.size() && common == equations_ &&
+                      common == rows.count();
+    const bool same_curvature = same && curvature.size() == curvature_.size() &&
+                                std::equal(curvature.begin(), curvature.end(), curvature_.begin(),
+                                           [](const SymmetricEntry& a, const SymmetricEntry& b) {
+                                               return a.row == b.row && a.column == b.column;
+                                           });
+    // Soft rows that come and go at the end may well find room in the layout as it is: those that
+    // have been there before are given some.
+    bool fits = same;
+    if (!same && laid_out_ && stiffness.size() == stiffness_.size()) {
+        if (past_.size() > std::size_t(rows.count()) / 2) past_.clear();
+        fits = true;
+        for (int i = common; i < equations_; ++i) {
+            const auto columns = columns_of(rows_, i);
+            if (is_folded_[i]) past_.emplace(columns.begin(), columns.end());
+            fits = fits && is_folded_[i];
+        }
+        is_folded_.resize(std::size_t(rows.count()), 1);
+        for (int i = common; i < rows.count(); ++i) {
+            is_folded_[i] = 1;
+            fits = fits && !sharp[i] && columns_of(rows, i).size() <= k_most_short;
+        }
+    } else if (!same) {
+        past_.clear();
+    }
+    rows_ = rows;
+    stiffness_ = stiffness;
+    curvature_ = curvature;
+    sharp_ = std::move(sharp);
+    unknowns_ = static_cast<int>(stiffness.size());
     equations_ = rows.count();
-    if (!same) lay_out(rows, curvature);
-
-    double* values = matrix_.valuePtr();
-    std::fill_n(values, matrix_.nonZeros(), 0.0);
-    std::size_t source = 0;
-    for (double slope : rows.slope) values[slot_[source++]] += slope;
-    for (const Entry& e : curvature) values[slot_[source++]] += e.value;
-    for (int i = 0; i < unknowns_; ++i) values[diagonal_[i]] += stiffness(i);
-    for (int i = 0; i < equations_; ++i) {
-        values[diagonal_[unknowns_ + i]] = -std::max(rows.variance[i], k_least_variance);
+    laid_out_ = true;
+    if (!same && !(fits && place_rows())) {
+        lay_out();
+        place_rows();
     }
-    factors_.factorize(matrix_);
-    if (factors_.info() != Eigen::Success) return false;
-    const auto& pivots = factors_.vectorD();
-    if (!pivots.allFinite()) return false;
-    if ((pivots.array() < 0).count() != equations_) return false;
-    variance_ = Eigen::Map<const Eigen::VectorXd>(rows.variance.data(), equations_);
-    return true;
+    if (!same_curvature && !place_curvature()) {
+        lay_out();
+        place_rows();
+        place_curvature();
+    }
+
+    weight_.resize(std::size_t(equations_));
+    for (int i = 0; i < equations_; ++i) weight_[i] = is_folded_[i] ? 1 / rows.variance[i] : 0;
+    fronts_.clear();
+    std::size_t source = 0;
+    for (int i = 0; i < unknowns_; ++i) fronts_.add(slot_[source++], stiffness(i));
+    for (int i = 0; i < equations_; ++i) {
+        if (!is_folded_[i]) {
+            fronts_.add(slot_[source++], -std::max(rows.variance[i], k_least_variance));
+            for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
+                fronts_.add(slot_[source++], rows.slope[k]);
+            }
+            continue;
+        }
+        for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
+            const double weighted = weight_[i] * rows.slope[k];
+            for (int l = rows.begin[i]; l <= k; ++l) {
+                fronts_.add(slot_[source++], weighted * rows.slope[l]);
+            }
+        }
+    }
+    for (std::size_t k = 0; k < curvature.size(); ++k) {
+        fronts_.add(curved_[k], curvature[k].value);
+    }
+    return fronts_.factor() && fronts_.negative_pivots() == eliminated_;
+}
+
+double SaddleSolver::log_determinant() const {
+    double sum = fronts_.log_determinant();
+    for (int i = 0; i < equations_; ++i) {
+        if (is_folded_[i]) sum += std::log(rows_.variance[i]);
+    }
+    return sum;
+}
+
+// The matrix as it is meant: exact equations have no variance.
+template <int W>
+void SaddleSolver::times(const Sides& x, Sides& product) const {
+    const double* from = x.data();
+    double* to = product.data();
+    const auto add = [](double* sum, double factor, const double* what) {
+        for (int k = 0; k < W; ++k) sum[k] += factor * what[k];
+    };
+    for (int i = 0; i < unknowns_; ++i) {
+        for (int k = 0; k < W; ++k) to[i * W + k] = stiffness_(i) * from[i * W + k];
+    }
+    for (const SymmetricEntry& e : curvature_) {
+        add(to + e.row * W, e.value, from + e.column * W);
+        if (e.row != e.column) add(to + e.column * W, e.value, from + e.row * W);
+    }
+    for (int i = 0; i < equations_; ++i) {
+        const double* force = from + (unknowns_ + i) * W;
+        double own[W];
+        for (int k = 0; k < W; ++k) own[k] = -rows_.variance[i] * force[k];
+        for (int k = rows_.begin[i]; k < rows_.begin[i + 1]; ++k) {
+            add(own, rows_.slope[k], from + rows_.column[k] * W);
+            add(to + rows_.column[k] * W, rows_.slope[k], force);
+        }
+        std::copy_n(own, W, to + (unknowns_ + i) * W);
+    }
+}
+
+template <int W>
+void SaddleSolver::solve_once(const Sides& right, Sides& x) const {
+    const auto add = [](double* sum, double factor, const double* what) {
+        for (int k = 0; k < W; ++k) sum[k] += factor * what[k];
+    };
+    x = right;
+    double* to = x.data();
+    double own[W];
+    for (int i = 0; i < equations_; ++i) {
+        if (!is_folded_[i]) continue;
+        for (int k = 0; k < W; ++k) own[k] = weight_[i] * right.data()[(unknowns_ + i) * W + k];
+        for (int k = rows_.begin[i]; k < rows_.begin[i + 1]; ++k) {
+            add(to + rows_.column[k] * W, rows_.slope[k], own);
+        }
+    }
+    fronts_.solve(to, W);
+    for (int i = 0; i < equations_; ++i) {
+        if (!is_folded_[i]) continue;
+        double* force = to + (unknowns_ + i) * W;
+        for (int k = 0; k < W; ++k) own[k] = -force[k];
+        for (int k = rows_.begin[i]; k < rows_.begin[i + 1]; ++k) {
+            add(own, rows_.slope[k], to + rows_.column[k] * W);
+        }
+        for (int k = 0; k < W; ++k) force[k] = weight_[i] * own[k];
+    }
+}
+
+template <int W>
+SaddleSolver::Sides SaddleSolver::refined(const Sides& right, double precision) const {
+    Sides x(right.rows(), W), left(right.rows(), W), next(right.rows(), W);
+    const auto off = [&](const Sides& at, Sides& rest) {
+        times<W>(at, rest);
+        std::array<double, W> size{};
+        for (Eigen::Index i = 0; i < rest.rows(); ++i) {
+            for (int k = 0; k < W; ++k) {
+                double& value = rest.data()[i * W + k];
+                value = right.data()[i * W + k] - value;
+                // Not less, so that what is no number is seen.
+                if (!(std::abs(value) <= size[std::size_t(k)])) {
+                    size[std::size_t(k)] = std::abs(value);
+                }
+            }
+        }
+        return size;
+    };
+    solve_once<W>(right, x);
+    if (precision >= 1) return x;
+    std::array<double, W> size = off(x, left), enough{};
+    for (int k = 0; k < W; ++k) {
+        enough[std::size_t(k)] = precision * right.col(k).lpNorm<Eigen::Infinity>();
+    }
+    std::array<bool, W> done{};
+    for (int round = 0; round < k_refinements; ++round) {
+        for (std::size_t k = 0; k < W; ++k) done[k] = done[k] || !(size[k] > enough[k]);
+        if (std::find(done.begin(), done.end(), false) == done.end()) break;
+        Sides next_left(right.rows(), W);
+        solve_once<W>(left, next);
+        next += x;
+        const std::array<double, W> next_size = off(next, next_left);
+        for (std::size_t k = 0; k < W; ++k) {
+            done[k] = done[k] || !(next_size[k] < 0.7 * size[k]);
+            if (done[k]) continue;
+            const Eigen::Index column = static_cast<Eigen::Index>(k);
+            x.col(column) = next.col(column);
+            left.col(column) = next_left.col(column);
+            size[k] = next_size[k];
+        }
+    }
+    return x;
 }
 
 SaddleSolver::Solution SaddleSolver::solve(const Eigen::VectorXd& a, const Eigen::VectorXd& b,
                                            double precision) const {
-    Eigen::VectorXd right(unknowns_ + equations_);
-    right << a, b;
-    // The matrix as it is meant: exact equations have no variance.
-    const auto times = [&](const Eigen::VectorXd& x) {
-        Eigen::VectorXd product = matrix_.selfadjointView<Eigen::Lower>() * x;
-        for (int i = 0; i < equations_; ++i) {
-            if (variance_(i) < k_least_variance) {
-                product(unknowns_ + i) += (k_least_variance - variance_(i)) * x(unknowns_ + i);
-            }
-        }
-        return product;
-    };
+    Sides right(unknowns_ + equations_, 1);
+    right.topRows(unknowns_) = a;
+    right.bottomRows(equations_) = b;
+    const Sides x = refined<1>(right, precision);
     Solution solution;
-    Eigen::VectorXd x = factors_.solve(right);
-    Eigen::VectorXd left = right - times(x);
-    double size = left.lpNorm<Eigen::Infinity>();
-    const double enough = precision * right.lpNorm<Eigen::Infinity>();
-    for (int i = 0; i < k_refinements && size > enough; ++i) {
-        const Eigen::VectorXd next = x + factors_.solve(left);
-        const Eigen::VectorXd next_left = right - times(next);
-        const double next_size = next_left.lpNorm<Eigen::Infinity>();
-        if (!(next_size < 0.7 * size)) break;
-        x = next;
-        left = next_left;
-        size = next_size;
-    }
     solution.good = x.allFinite();
-    solution.unknowns = x.head(unknowns_);
-    solution.forces = x.tail(equations_);
+    solution.unknowns = x.topRows(unknowns_);
+    solution.forces = x.bottomRows(equations_);
     return solution;
+}
+
+SaddleSolver::Solutions SaddleSolver::solve_all(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
+                                                double precision) const {
+    constexpr int k_width = Fronts::k_together;
+    const Eigen::Index count = std::max(a.cols(), b.cols());
+    Solutions all;
+    all.unknowns.resize(unknowns_, count);
+    all.forces.resize(equations_, count);
+    for (Eigen::Index from = 0; from < count; from += k_width) {
+        const Eigen::Index width = std::min<Eigen::Index>(k_width, count - from);
+        Sides right = Sides::Zero(unknowns_ + equations_, k_width);
+        if (a.cols() > 0) right.topLeftCorner(unknowns_, width) = a.middleCols(from, width);
+        if (b.cols() > 0) right.bottomLeftCorner(equations_, width) = b.middleCols(from, width);
+        const Sides x = refined<k_width>(right, precision);
+        all.unknowns.middleCols(from, width) = x.topLeftCorner(unknowns_, width);
+        all.forces.middleCols(from, width) = x.bottomLeftCorner(equations_, width);
+    }
+    all.good = all.unknowns.allFinite() && all.forces.allFinite();
+    return all;
 }
 
 }  // namespace culet

@@ -4,69 +4,71 @@
 //     [ P  J' ] [x]   [a]      P: what holds each unknown back (damping, priors), positive
 //     [ J  -C ] [y] = [b]      J: a row for each equation, C: its variance, 0 when it is exact
 //
-// Equations of any weight, from exact to hardly counted, stand side by side without their variances
-// ever being squared into one matrix, so that an uncertainty of 1e-12 does no harm. The matrix is
-// quasi-definite (Vanderbei 1995): it has an LDL' factorisation in any order of elimination.
+// Equations of any weight, from exact to hardly counted, stand side by side; variances are never
+// squared into one matrix where that would harm (elimination_order.h), so that an uncertainty of
+// 1e-12 does none. The matrix is quasi-definite (Vanderbei 1995): it has an LDL' factorisation in
+// any order of elimination.
 
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
+#include <Eigen/Core>
+#include <set>
 #include <vector>
+
+#include "fit/fronts.h"
+#include "fit/sparse_rows.h"
 
 namespace culet {
 
-/// Rows under construction: columns and slopes, what is left of the equation, and its variance.
-struct SparseRows {
-    std::vector<int> begin{0}, column;
-    std::vector<double> slope, residual, variance;
-
-    int count() const { return static_cast<int>(residual.size()); }
-    Eigen::Map<const Eigen::VectorXd> residuals() const {
-        return {residual.data(), static_cast<Eigen::Index>(residual.size())};
-    }
-    void add(int c, double s) {
-        column.push_back(c);
-        slope.push_back(s);
-    }
-    void close(double left, double with_variance) {
-        begin.push_back(static_cast<int>(column.size()));
-        residual.push_back(left);
-        variance.push_back(with_variance);
-    }
-};
-
 class SaddleSolver {
 public:
-    /// Entries of P beside its diagonal come in `curvature`: row >= column.
-    struct Entry {
-        int row, column;
-        double value;
-    };
-    /// False when the matrix cannot be factored, or curvature has made it indefinite on what the
-    /// equations leave free (told by the signs of the pivots).
+    /// Entries of P beside its diagonal come in `curvature`: row >= column. False when
+    /// the matrix cannot be factored, or curvature has made it indefinite on what the equations
+    /// leave free (told by the signs of the pivots).
     bool factor(const SparseRows& rows, const Eigen::VectorXd& stiffness,
-                const std::vector<Entry>& curvature = {});
+                const std::vector<SymmetricEntry>& curvature = {});
     struct Solution {
         Eigen::VectorXd unknowns, forces;
         bool good = false;
     };
-    /// Refined until what is left is this part of the right-hand side, or gets no smaller.
+    /// Refined until what is left is this part of the right-hand side, or gets no smaller; not at
+    /// all for a precision of 1.
     Solution solve(const Eigen::VectorXd& a, const Eigen::VectorXd& b,
                    double precision = 1e-13) const;
+    /// Several right-hand sides at once, one a column: `a` or `b` may have no columns where it is
+    /// zero.
+    struct Solutions {
+        Eigen::MatrixXd unknowns, forces;
+        bool good = false;
+    };
+    Solutions solve_all(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
+                        double precision = 1e-13) const;
     /// log |det| of the matrix as it was factored: log det C + log det (P + J'C^-1 J).
-    double log_determinant() const { return factors_.vectorD().array().abs().log().sum(); }
+    double log_determinant() const;
 
 private:
-    void lay_out(const SparseRows& rows, const std::vector<Entry>& curvature);
+    /// Right-hand sides and solutions, one a column, side by side in memory.
+    using Sides = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-    int unknowns_ = 0, equations_ = 0;
-    std::vector<int> begin_, column_;          // of the pattern that was analysed
-    std::vector<std::pair<int, int>> curved_;  // likewise
-    std::vector<int> slot_;                    // of each slope, then each curvature entry
-    std::vector<int> diagonal_;                // of each column
-    Eigen::SparseMatrix<double> matrix_;       // lower half
-    Eigen::VectorXd variance_;
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::AMDOrdering<int>>
-        factors_;
+    void lay_out();
+    bool place_rows();
+    bool place_curvature();
+    template <int W>
+    void times(const Sides& x, Sides& product) const;
+    template <int W>
+    void solve_once(const Sides& right, Sides& x) const;
+    template <int W>
+    Sides refined(const Sides& right, double precision) const;
+
+    int unknowns_ = 0, equations_ = 0, eliminated_ = 0;
+    bool laid_out_ = false;
+    SparseRows rows_;
+    std::vector<double> weight_;  // of each folded equation: 1 / variance
+    Eigen::VectorXd stiffness_;
+    std::vector<SymmetricEntry> curvature_;
+    std::vector<char> sharp_, is_folded_;  // of the equations
+    std::vector<std::size_t> slot_;        // of what is added up, in its order
+    std::vector<std::size_t> curved_;      // of curvature
+    std::set<std::vector<int>> past_;      // columns of soft rows that were there before
+    Fronts fronts_;
 };
 
 }  // namespace culet

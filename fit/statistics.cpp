@@ -32,7 +32,8 @@ double chi2_tail(double chi2, double dof) {
         if (std::abs(c) < tiny) c = tiny;
         d = 1 / d;
         h *= d * c;
-        if (std::abs(d * c - 1) < 1e-16) break;
+        // Not less than the last digit, or it may never be met.
+        if (std::abs(d * c - 1) < 4e-16) break;
     }
     return front * h;
 }

@@ -271,6 +271,7 @@ Stone read_scene_stone(const TomlTable& root, std::vector<std::string>& notes) {
                                            key, root.path("stone")->filename().string()));
         }
         StoneFile file = read_stone(*root.path("stone"));
+        if (!root.has("material")) require_material(file, *root.path("stone"));
         stone = std::move(file.stone);
         for (std::string& note : file.notes) notes.push_back(std::move(note));
     } else {

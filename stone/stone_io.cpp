@@ -13,6 +13,9 @@ namespace culet {
 
 namespace {
 
+constexpr const char* k_no_material =
+    "has no material: name one of the catalogue (material = \"diamond\") or add a [material] table";
+
 // The largest of the facets that look up more than sideways, or -1: what `up = "table"` means in a
 // mesh whose facets have no names.
 int table_of(const Solid& solid) {
@@ -94,9 +97,7 @@ Material material_named_in(const TomlTable& table, const TomlTable& root) {
         }
     }
     if (const auto own = root.table("material")) return material_of(*own);
-    table.fail("",
-               "has no material: name one of the catalogue (material = \"diamond\") or add a "
-               "[material] table");
+    table.fail("", k_no_material);
 }
 
 StoneFile stone_of(const TomlTable& root) {
@@ -116,14 +117,15 @@ StoneFile stone_of(const TomlTable& root) {
         table->fail("unit", fmt::format("unit is \"{}\"; expected mm, cm, m or in", unit));
     }
 
-    stone.material = material_named_in(*table, root);
+    result.has_material = table->has("material") || root.has("material");
+    if (result.has_material) stone.material = material_named_in(*table, root);
     result.density_g_cm3 = table->number("density");
     if (result.density_g_cm3 && !(*result.density_g_cm3 > 0.1 && *result.density_g_cm3 < 30)) {
         table->fail("density", fmt::format("density is {}; expected g/cm3 between 0.1 and 30",
                                            *result.density_g_cm3));
     }
     if (!result.density_g_cm3) result.density_g_cm3 = stone.material.density_g_cm3;
-    stone.crystal = crystal_frame_in(*table, stone.material.optic);
+    if (result.has_material) stone.crystal = crystal_frame_in(*table, stone.material.optic);
     stone.convex = table->boolean("convex").value_or(true);
 
     const std::string zero = table->text("azimuth_zero").value_or("free");
@@ -168,6 +170,10 @@ StoneFile stone_of(const TomlTable& root) {
 
     if (const auto readings = table->path("readings")) result.readings_file = *readings;
     return result;
+}
+
+void require_material(const StoneFile& stone, const std::filesystem::path& file) {
+    if (!stone.has_material) throw InputError(file, std::string("[stone] ") + k_no_material);
 }
 
 StoneFile read_stone(const std::filesystem::path& file, const std::vector<std::string>& overrides) {

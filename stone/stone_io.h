@@ -14,6 +14,7 @@ namespace culet {
 
 struct StoneFile {
     Stone stone;
+    bool has_material = true;  ///< else `stone.material` says nothing: a fit may do without
     std::filesystem::path mesh_file;
     std::filesystem::path readings_file;  ///< empty: none named
     std::optional<double> density_g_cm3;  ///< the stone's own when given, else its material's
@@ -26,6 +27,9 @@ StoneFile read_stone(const std::filesystem::path& file,
 
 /// The same of a parsed file: [stone] and, beside it, [material].
 StoneFile stone_of(const TomlTable& root);
+
+/// Throws InputError when the stone that was read from `file` has no material.
+void require_material(const StoneFile& stone, const std::filesystem::path& file);
 
 /// `material` of a table that may name one of the catalogue or a material file (*.toml), or else
 /// the [material] table beside it. Throws InputError when there is neither.

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "fit/elimination.h"
-#include "fit/selected_inverse.h"
+#include "fit/normal_inverse.h"
 #include "fit/system.h"
 #include "tests/fit/test_stones.h"
 
@@ -49,7 +49,7 @@ TEST(FreeDirections, SpanTheNullSpace) {
 }
 
 // f' A^-1 f by dense algebra; functions inside and outside the pattern, short rows and long ones.
-TEST(SelectedInverse, MatchesTheInverse) {
+TEST(NormalInverse, MatchesTheInverse) {
     const int size = 150;
     for (unsigned seed = 1; seed <= 5; ++seed) {
         Sparse rows = random_rows(300, size, 3, seed);
@@ -59,7 +59,7 @@ TEST(SelectedInverse, MatchesTheInverse) {
         rows = dense_rows.sparseView();
         const Sparse hard = random_rows(20, size, 3, 100 + seed);
         const NormalEquations equations{rows, hard, 100, Eigen::VectorXd::Constant(size, 0.5)};
-        SelectedInverse inverse;
+        NormalInverse inverse;
         ASSERT_TRUE(inverse.compute(equations));
         const Eigen::MatrixXd dense_hard = hard;
         Eigen::MatrixXd matrix =
@@ -79,7 +79,7 @@ TEST(SelectedInverse, MatchesTheInverse) {
 }
 
 // Sylvester's law against eigenvalues.
-TEST(SelectedInverse, CountsNegativeEigenvalues) {
+TEST(NormalInverse, CountsNegativeEigenvalues) {
     const int size = 60;
     for (unsigned seed = 1; seed <= 5; ++seed) {
         const Sparse rows = random_rows(80, size, 3, seed),

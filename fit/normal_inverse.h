@@ -1,11 +1,12 @@
 #pragma once
-// Entries of the inverse of a large sparse positive definite matrix, only where its factor has
-// entries. Private to the room: shows Eigen.
+// The inverse of large sparse normal equations, as far as it is asked for. Private to the room:
+// shows Eigen.
 
 #include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <vector>
+
+#include "fit/fronts.h"
 
 namespace culet {
 
@@ -18,28 +19,30 @@ struct NormalEquations {
     Eigen::VectorXd diagonal;
 };
 
-class SelectedInverse {
+class NormalInverse {
 public:
     /// False when the matrix is not positive definite.
     bool compute(const NormalEquations& equations);
-    /// f' A^-1 f: from entries that are known when all pairs of f's unknowns stand in one equation,
-    /// else by one solve.
+    /// What f' A^-1 g is the product of: half of it for each. Of a function of few neighbours this
+    /// costs but a small part of a solution.
+    struct Half {
+        Fronts::Half short_rows;
+        Eigen::VectorXd long_rows;
+    };
+    Half half(const Eigen::SparseVector<double>& f) const;
+    static double product(const Half& f, const Half& g);
     double quadratic(const Eigen::SparseVector<double>& f) const;
     Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
 private:
-    double entry(Eigen::Index row, Eigen::Index column) const;  // NaN: not known
-
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor_;
-    Eigen::SparseMatrix<double> inverse_;  // lower half, permuted, pattern of the factor
-    Eigen::VectorXi place_;                // of an unknown in the permuted order
+    Fronts fronts_;
     // Long rows D by Woodbury: A^-1 = A0^-1 - W (1 + D W)^-1 W', W = A0^-1 D'.
     Eigen::MatrixXd wide_;  // W
     Eigen::LLT<Eigen::MatrixXd> capacitance_;
 };
 
 /// Of an unpivoted LDL' of the (indefinite) matrix: by Sylvester's law its number of negative
-/// eigenvalues.
+/// eigenvalues. 0 when it has no such factors.
 int negative_pivots(const NormalEquations& equations);
 
 }  // namespace culet

@@ -1,0 +1,138 @@
+#include "fit/elimination_order.h"
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+
+namespace culet {
+
+namespace {
+
+// Weights beyond this would leave too few digits of what holds freedoms back that no reading holds:
+// no less than 1e-6.
+constexpr double k_sharp = 3e8;
+constexpr std::size_t k_most_groups = 6;  // of an equation of few facets and points
+constexpr int k_most_together = 3;        // unknowns of a facet or point
+
+// Unknowns beside each other that appear in the same equations: most of those of one of them.
+std::vector<int> groups_of(const SparseRows& rows, int unknowns) {
+    std::vector<int> count(std::size_t(unknowns), 0), common(std::size_t(unknowns), 0),
+        seen(std::size_t(unknowns), -1);
+    for (int i = 0; i < rows.count(); ++i) {
+        for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k) seen[rows.column[k]] = i;
+        for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
+            const int c = rows.column[k];
+            ++count[c];
+            if (c > 0 && seen[c - 1] == i) ++common[c];
+        }
+    }
+    std::vector<int> group(std::size_t(unknowns), 0);
+    int size = 0;
+    for (int c = 0; c < unknowns; ++c) {
+        const bool goes_on =
+            c > 0 && size < k_most_together && 2 * common[c] > std::min(count[c], count[c - 1]);
+        size = goes_on ? size + 1 : 1;
+        group[c] = c == 0 ? 0 : group[c - 1] + (goes_on ? 0 : 1);
+    }
+    return group;
+}
+
+// Nodes in the order of elimination.
+std::vector<int> minimum_degree(int nodes, std::vector<std::pair<int, int>> pairs) {
+    // A node without a diagonal would be taken for one that is linked to all.
+    for (int n = 0; n < nodes; ++n) pairs.emplace_back(n, n);
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    Eigen::SparseMatrix<double> graph(nodes, nodes);
+    graph.resizeNonZeros(Eigen::Index(pairs.size()));
+    std::fill_n(graph.outerIndexPtr(), nodes + 1, 0);
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        ++graph.outerIndexPtr()[pairs[k].first + 1];
+        graph.innerIndexPtr()[k] = pairs[k].second;
+        graph.valuePtr()[k] = 1;
+    }
+    for (int n = 0; n < nodes; ++n) graph.outerIndexPtr()[n + 1] += graph.outerIndexPtr()[n];
+    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
+    Eigen::internal::minimum_degree_ordering(graph, order);
+    return {order.indices().data(), order.indices().data() + nodes};
+}
+
+}  // namespace
+
+bool is_sharp(const SparseRows& rows, int equation) {
+    double largest = 0;
+    for (int k = rows.begin[equation]; k < rows.begin[equation + 1]; ++k) {
+        largest = std::max(largest, std::abs(rows.slope[k]));
+    }
+    return largest * largest > k_sharp * rows.variance[equation] || !(rows.variance[equation] > 0);
+}
+
+EliminationOrder elimination_order(const SparseRows& rows, int unknowns,
+                                   const std::vector<std::pair<int, int>>& pairs, int folded) {
+    EliminationOrder order;
+    const std::vector<int> group = groups_of(rows, unknowns);
+    const int groups = unknowns == 0 ? 0 : group.back() + 1;
+    std::vector<int> first(std::size_t(groups) + 1, unknowns);
+    for (int c = unknowns; c-- > 0;) first[group[c]] = c;
+
+    // Nodes of the graph: the groups, then equations that are not folded.
+    const int count = rows.count();
+    order.is_folded.assign(std::size_t(count), 0);
+    std::vector<std::pair<int, int>> links;
+    const auto link = [&](int a, int b) {
+        if (a == b) return;
+        links.emplace_back(a, b);
+        links.emplace_back(b, a);
+    };
+    std::vector<int> seen(std::size_t(groups), -1), touched, equations;
+    for (int i = 0; i < count; ++i) {
+        touched.clear();
+        for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
+            const int g = group[rows.column[k]];
+            if (seen[g] == i) continue;
+            seen[g] = i;
+            touched.push_back(g);
+        }
+        order.is_folded[i] =
+            folded < 0 ? touched.size() <= k_most_groups && !is_sharp(rows, i) : i < folded;
+        if (order.is_folded[i]) {
+            for (const int a : touched) {
+                for (const int b : touched) {
+                    if (a < b) link(a, b);
+                }
+            }
+            for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
+                order.cliques.index.push_back(rows.column[k]);
+            }
+            order.cliques.close();
+            continue;
+        }
+        const int node = groups + static_cast<int>(equations.size());
+        equations.push_back(i);
+        for (const int g : touched) link(node, g);
+        for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
+            order.cliques.index.push_back(rows.column[k]);
+            order.cliques.index.push_back(unknowns + i);
+            order.cliques.close();
+        }
+    }
+    for (const auto& [a, b] : pairs) {
+        link(group[a], group[b]);
+        order.cliques.index.push_back(a);
+        order.cliques.index.push_back(b);
+        order.cliques.close();
+    }
+    order.eliminated = static_cast<int>(equations.size());
+    for (const int node : minimum_degree(groups + order.eliminated, std::move(links))) {
+        if (node >= groups) {
+            order.blocks.index.push_back(unknowns + equations[node - groups]);
+        } else {
+            for (int c = first[node]; c < first[node + 1]; ++c) order.blocks.index.push_back(c);
+        }
+        order.blocks.close();
+    }
+    return order;
+}
+
+}  // namespace culet
