@@ -52,6 +52,19 @@ Json null_json(const Comparison& comparison) {
 
 }  // namespace
 
+std::string sentence_of(const ReflexCount& reflexes) {
+    if (reflexes.in_photo == 0) return "the photograph has no bright reflex";
+    std::string text = fmt::format("{} of {} reflexes found", reflexes.matched, reflexes.in_photo);
+    if (reflexes.displacement) {
+        text += fmt::format(", {:.1f} % of the diameter apart", 100 * *reflexes.displacement);
+    }
+    if (reflexes.coloured > 0) {
+        text += fmt::format("; {} of {} coloured ones of one hue", reflexes.same_hue,
+                            reflexes.coloured);
+    }
+    return text;
+}
+
 std::string scores_json(const Comparison& comparison, const CompareSources& sources) {
     Json json;
     json["schema"] = 1;
@@ -78,7 +91,12 @@ std::string scores_json(const Comparison& comparison, const CompareSources& sour
     json["reflexes"] = {{"photo", comparison.reflexes.in_photo},
                         {"render", comparison.reflexes.in_render},
                         {"matched", comparison.reflexes.matched},
-                        {"displacement", number(comparison.reflexes.displacement)}};
+                        {"displacement", number(comparison.reflexes.displacement)},
+                        {"coloured", comparison.reflexes.coloured},
+                        {"same_hue", comparison.reflexes.same_hue},
+                        {"sentence", sentence_of(comparison.reflexes)}};
+    json["light_return"] = {{"photo", number(comparison.photo_light)},
+                            {"render", number(comparison.render_light)}};
     json["null"] = null_json(comparison);
     json["sensitivity"] = Json::array();
     json["verdict_rule"] = fmt::format(

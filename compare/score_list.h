@@ -1,0 +1,28 @@
+#pragma once
+// All scores of two pictures that lie on one another, in the order in which they are reported.
+
+#include <optional>
+#include <vector>
+
+#include "compare/compare.h"
+#include "compare/metrics.h"
+#include "compare/reflexes.h"
+#include "compare/wavelet_similarity.h"
+
+namespace culet {
+
+struct Measured {
+    std::vector<Score> scores;  ///< without their nulls
+    std::optional<ReflexMatch> reflexes;
+    cv::Mat ssim_map, colour_map, flip_map;
+};
+
+/// `wavelets` must have been made for pictures of this size.
+Measured measure(const MatchedPictures& pictures, const WaveletBank& wavelets);
+
+/// Mean, spread, z and p of a score from the values of its null. z of a correlation is taken of
+/// atanh (Fisher 1915): its spread does not depend on its value, so that a perfect match is not
+/// held back by the end of the scale.
+void fill_null(Score& score);
+
+}  // namespace culet
