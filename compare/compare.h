@@ -7,35 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "compare/meaning/meaning.h"
 #include "compare/photo.h"
+#include "compare/score.h"
 #include "stone/progress.h"
 
 namespace culet {
-
-enum class Verdict {
-    match,        ///< far better than the same render turned
-    partial,      ///< better than the same render turned, but not by much
-    no_evidence,  ///< no better than the same render turned
-    refused       ///< the outlines do not fit: nothing was compared
-};
-const char* name_of(Verdict verdict);
-
-/// One score beside what it is worth. The null is the same score for the same render, turned or
-/// mirrored in the picture's plane: what the stone's outline and its general brightness reach
-/// without any agreement of its pattern.
-struct Score {
-    std::string key;              ///< as in the JSON: "zncc", "ssim", ...
-    std::optional<double> value;  ///< nothing: not defined for these pictures, see `note`
-    bool higher_is_better = true;
-    bool is_correlation = false;  ///< z is then taken of atanh (Fisher 1915)
-    std::vector<double> null;     ///< one value a draw, in the order drawn
-    double null_mean = 0, null_sd = 0;
-    /// (value - null_mean) / null_sd, positive when the value is better than the null.
-    std::optional<double> z;
-    /// Share of draws at least as good as the value, (count + 1) / (draws + 1).
-    std::optional<double> p;
-    std::string note;
-};
 
 /// Positions are pixels of the given pictures, centre of the first pixel at (0, 0), y down.
 struct Registration {
@@ -102,6 +79,10 @@ struct Comparison {
     double photo_light = 0, render_light = 0;
     int null_draws = 0;
     std::string null_note;
+    /// What the scores mean for this stone, pose and light, where that was calibrated. The verdict
+    /// and its reason are then those of the meaning.
+    std::optional<Calibration> calibration;
+    std::optional<Meaning> meaning;
     std::vector<std::string> notes;
     bool simulated = false;
     std::uint64_t seed = 1;

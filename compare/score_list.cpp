@@ -11,26 +11,42 @@ namespace culet {
 
 namespace {
 
-Score score(std::string key, std::optional<double> value, bool higher_is_better = true,
-            std::string note = {}) {
-    Score s;
-    s.key = std::move(key);
-    s.value = value;
-    s.higher_is_better = higher_is_better;
-    s.is_correlation = s.key.starts_with("zncc");
-    if (!value) s.note = std::move(note);
-    return s;
-}
+// In the order of `score_kinds`.
+class List {
+public:
+    void add(std::optional<double> value, const std::string& why_none = {}) {
+        const ScoreKind& kind = score_kinds().at(scores.size());
+        Score score;
+        score.key = kind.key;
+        score.value = value;
+        score.higher_is_better = kind.higher_is_better;
+        score.is_correlation = score.key.starts_with("zncc");
+        if (!value) score.note = why_none;
+        scores.push_back(std::move(score));
+    }
+    std::vector<Score> scores;
+};
 
 }  // namespace
+
+const std::vector<ScoreKind>& score_kinds() {
+    static const std::vector<ScoreKind> kinds{
+        {"zncc", true},          {"zncc_1pct", true},      {"zncc_4pct", true},
+        {"reflex_f1", true},     {"reflex_area_f1", true}, {"reflex_hue", true},
+        {"cw_ssim", true},       {"ssim", true},           {"gmsd", false},
+        {"nmi", true},           {"psnr", true},           {"deltaE00_mean", false},
+        {"deltaE00_p95", false}, {"body_deltaE00", false}, {"colour_emd", false},
+        {"flip_mean", false}};
+    return kinds;
+}
 
 Measured measure(const MatchedPictures& pictures, const WaveletBank& wavelets) {
     const std::string flat = "one of the pictures has one brightness everywhere";
     Measured result;
-    auto& scores = result.scores;
-    scores.push_back(score("zncc", zncc(pictures, 0.02), true, flat));
-    scores.push_back(score("zncc_1pct", zncc(pictures, 0.01), true, flat));
-    scores.push_back(score("zncc_4pct", zncc(pictures, 0.04), true, flat));
+    List scores;
+    scores.add(zncc(pictures, 0.02), flat);
+    scores.add(zncc(pictures, 0.01), flat);
+    scores.add(zncc(pictures, 0.04), flat);
 
     result.reflexes = match_reflexes(pictures);
     const auto& reflexes = result.reflexes;
@@ -38,29 +54,30 @@ Measured measure(const MatchedPictures& pictures, const WaveletBank& wavelets) {
         return reflexes ? std::optional((*reflexes).*part) : std::nullopt;
     };
     const std::string none = "the photo has no reflex that stands out";
-    scores.push_back(score("reflex_f1", of_reflexes(&ReflexMatch::f1), true, none));
-    scores.push_back(score("reflex_area_f1", of_reflexes(&ReflexMatch::area_f1), true, none));
-    scores.push_back(score("reflex_hue", reflexes ? reflexes->hue_agreement : std::nullopt, true,
-                           "no matched reflex is coloured in the photo"));
+    scores.add(of_reflexes(&ReflexMatch::f1), none);
+    scores.add(of_reflexes(&ReflexMatch::area_f1), none);
+    scores.add(reflexes ? reflexes->hue_agreement : std::nullopt,
+               "no matched reflex is coloured in the photo");
 
     const ShownPictures pair = shown(pictures);
-    scores.push_back(score("cw_ssim", cw_ssim(pair, pictures.mask, wavelets)));
+    scores.add(cw_ssim(pair, pictures.mask, wavelets));
     const ScoreMap structure = ssim(pair, pictures.mask);
-    scores.push_back(score("ssim", structure.mean));
-    scores.push_back(score("gmsd", gmsd(pair, pictures.mask), false, "too few pixels"));
-    scores.push_back(score("nmi", normalized_information(pair, pictures.mask), true, flat));
-    scores.push_back(score("psnr", psnr(pair, pictures.mask), true,
-                           "the pictures are equal: there is no noise to measure"));
+    scores.add(structure.mean);
+    scores.add(gmsd(pair, pictures.mask), "too few pixels");
+    scores.add(normalized_information(pair, pictures.mask), flat);
+    scores.add(psnr(pair, pictures.mask),
+               "the pictures are equal: there is no noise to measure");
 
     const ColourScore colour = deltaE00(pictures);
-    scores.push_back(score("deltaE00_mean", colour.mean, false));
-    scores.push_back(score("deltaE00_p95", colour.percentile_95, false));
+    scores.add(colour.mean);
+    scores.add(colour.percentile_95);
     const ColourDistributions colours = colour_distributions(pictures);
-    scores.push_back(score("body_deltaE00", colours.body_difference, false));
-    scores.push_back(score("colour_emd", colours.emd, false));
+    scores.add(colours.body_difference);
+    scores.add(colours.emd);
     const ScoreMap visible = flip(pictures);
-    scores.push_back(score("flip_mean", visible.mean, false));
+    scores.add(visible.mean);
 
+    result.scores = std::move(scores.scores);
     result.flip_map = visible.map;
     result.ssim_map = structure.map;
     result.colour_map = colour.map;

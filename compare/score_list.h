@@ -11,6 +11,13 @@
 
 namespace culet {
 
+struct ScoreKind {
+    const char* key;
+    bool higher_is_better;
+};
+/// All there are, in order.
+const std::vector<ScoreKind>& score_kinds();
+
 struct Measured {
     std::vector<Score> scores;  ///< without their nulls
     std::optional<ReflexMatch> reflexes;
