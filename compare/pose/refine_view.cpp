@@ -1,0 +1,136 @@
+#include "compare/pose/refine_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/matrix.hpp>
+
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+constexpr std::size_t k_fewest_edges = 40;
+
+/// The most telling edge near where one is expected: strong ones count more than near ones only
+/// while the expectation is vague.
+const FoundEdge* best_edge(const std::vector<FoundEdge>& found, double expected, double width) {
+    const FoundEdge* best = nullptr;
+    double most = 0;
+    for (const FoundEdge& edge : found) {
+        const double off = (edge.offset - expected) / width;
+        const double weight = std::sqrt(edge.contrast) * std::exp(-2 * off * off);
+        if (std::abs(off) > 1 || weight <= most) continue;
+        most = weight;
+        best = &edge;
+    }
+    return best;
+}
+
+struct Search {
+    double width = 4;           ///< half of what is searched, pixels
+    double facet_widths = 0;    ///< and so many sigmas of what facet errors do
+    bool along_facets = false;  ///< edges are expected where the changed facets put them
+};
+
+std::vector<MetEdge> met_edges(const WireSolid& wire, const EdgePicture& picture,
+                               const std::vector<WirePoint>& points, const SolvedView& solved,
+                               const Search& search) {
+    std::vector<MetEdge> met;
+    for (const WirePoint& point : points) {
+        const double expected =
+            search.along_facets ? moved_by_facets(wire, solved.view, point, solved.facets) : 0;
+        const double width = std::hypot(search.width, search.facet_widths * point.facet_sigma);
+        const std::vector<FoundEdge> found =
+            edges_across(picture, point, std::abs(expected) + width);
+        const FoundEdge* edge = best_edge(found, expected, width);
+        if (edge == nullptr) continue;
+        double sigma = edge->sigma;
+        // Of two edges that the camera hardly separates either may be the one seen.
+        if (point.gap < 2.5) sigma = std::hypot(sigma, 0.5 * point.gap + 0.2);
+        if (!search.along_facets) sigma = std::hypot(sigma, point.facet_sigma, 0.15 * search.width);
+        met.push_back({point, edge->offset, sigma});
+    }
+    return met;
+}
+
+SolverSettings solver_settings(const RefineSettings& settings) {
+    SolverSettings solver;
+    solver.facet_error = settings.facet_error;
+    solver.focal_error = settings.focal_error;
+    solver.principal_point_error = settings.principal_point_error;
+    return solver;
+}
+
+bool ran_away(const StoneView& start, const StoneView& view) {
+    const double turn = angle_of(view.turn * glm::transpose(start.turn));
+    const double growth = std::abs(std::log(view.scale / start.scale));
+    return !(turn < radians(8)) || !(growth < 0.1);
+}
+
+}  // namespace
+
+RefinedView draw_in(const WireSolid& wire, const EdgePicture& picture, const StoneView& start,
+                    const RefineSettings& settings) {
+    RefinedView refined;
+    refined.solved.view = start;
+    const SolverSettings solver = solver_settings(settings);
+    WireSpacing spacing;
+    spacing.facet_error = settings.facet_error;
+    spacing.step = std::max(2.0, settings.diameter_px / 120);
+    spacing.most_facet_sigma = 0.01 * settings.diameter_px;
+    const double widest = std::max(3.0, 0.012 * settings.diameter_px);
+    for (double width = widest; width >= 1; width *= 0.7) {
+        for (int round = 0; round < 2; ++round) {
+            refined.points = points_along(wire, refined.solved.view, spacing);
+            refined.met =
+                met_edges(wire, picture, refined.points, refined.solved, {width, 0, false});
+            if (refined.met.size() < k_fewest_edges) {
+                refined.lost = true;
+                return refined;
+            }
+            refined.solved = solve_view(wire, refined.solved.view, refined.met,
+                                        settings.prior_focal_px, settings.sight, solver);
+            if (!refined.solved.converged || ran_away(start, refined.solved.view)) {
+                refined.lost = true;
+                return refined;
+            }
+        }
+    }
+    return refined;
+}
+
+RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const RefinedView& start,
+                   const RefineSettings& settings) {
+    RefinedView refined = start;
+    SolverSettings solver = solver_settings(settings);
+    solver.facets_free = true;
+    WireSpacing spacing;
+    spacing.facet_error = settings.facet_error;
+    spacing.step = std::max(2.0, settings.diameter_px / 400);
+    spacing.most_facet_sigma = 0.015 * settings.diameter_px;
+    constexpr int k_rounds = 5;
+    for (int round = 0; round < k_rounds; ++round) {
+        const bool last = round + 1 == k_rounds;
+        const bool first = round == 0;
+        refined.points = points_along(wire, refined.solved.view, spacing);
+        // Facets that were fitted say where to look; the first time only their expected errors do.
+        Search search{first ? 1.0 : 0.8, first ? 1.5 : 0.7, true};
+        refined.met = met_edges(wire, picture, refined.points, refined.solved, search);
+        if (refined.met.size() < k_fewest_edges) {
+            refined.lost = true;
+            return refined;
+        }
+        solver.with_covariance = last;
+        refined.solved = solve_view(wire, refined.solved.view, refined.met, settings.prior_focal_px,
+                                    settings.sight, solver);
+        if (!refined.solved.converged || ran_away(start.solved.view, refined.solved.view)) {
+            refined.lost = true;
+            return refined;
+        }
+    }
+    refined.points = points_along(wire, refined.solved.view, spacing);
+    return refined;
+}
+
+}  // namespace culet

@@ -1,0 +1,33 @@
+#pragma once
+// From a view that is right to a degree or so to the best one: edges are looked for along the
+// wireframe's normals, the view is fitted to them, and the search draws in.
+
+#include "compare/pose/edge_search.h"
+#include "compare/pose/pose_solver.h"
+
+namespace culet {
+
+struct RefineSettings {
+    double prior_focal_px = 0;
+    PicturePoint sight;
+    double facet_error = 0.0035;
+    double focal_error = 0.2, principal_point_error = 0;
+    double diameter_px = 0;
+};
+
+struct RefinedView {
+    SolvedView solved;
+    std::vector<WirePoint> points;  ///< at the view that was found
+    std::vector<MetEdge> met;       ///< those that were used last
+    bool lost = false;              ///< too few edges were met, or the view ran away
+};
+
+/// Without facets and covariance: fast, for choosing among views.
+RefinedView draw_in(const WireSolid& wire, const EdgePicture& picture, const StoneView& start,
+                    const RefineSettings& settings);
+
+/// From there on with everything free, and how sure it is.
+RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const RefinedView& start,
+                   const RefineSettings& settings);
+
+}  // namespace culet
