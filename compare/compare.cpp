@@ -193,7 +193,7 @@ Comparison compare(const Photo& photo, const Photo& render, const CompareOptions
     for (const std::string& note : photo.notes) result.notes.push_back("photo: " + note);
     for (const std::string& note : render.notes) result.notes.push_back("render: " + note);
 
-    const Frame frame = align(photo, options.mask, render, {.ignored = options.ignored});
+    const Frame frame = align(photo, options.mask, render, {.largest = options.largest, .ignored = options.ignored});
     if (progress && !progress(0.1)) throw Interrupted();
     result.registration = registration_of(frame);
     if (!frame.photo.colour.empty()) {

@@ -149,6 +149,11 @@ cv::Point2d CloseUp::in_picture(const cv::Point2d& p) const {
     return {(p.x + 0.5) / scale - 0.5 + corner.x, (p.y + 0.5) / scale - 0.5 + corner.y};
 }
 
+double stone_diameter_px(const Photo& photo, const std::vector<float>& mask) {
+    const Place place = find_stone(source_of(photo, mask));
+    return place.trouble.empty() ? place.diameter : 0;
+}
+
 Frame align(const Photo& photo, const std::vector<float>& mask, const Photo& render,
             const Alignment& how) {
     Frame frame;

@@ -45,4 +45,7 @@ struct Alignment {
 Frame align(const Photo& photo, const std::vector<float>& mask, const Photo& render,
             const Alignment& how = {});
 
+/// The stone's diameter in the photo, pixels, as `align` finds it; 0 where it finds none.
+double stone_diameter_px(const Photo& photo, const std::vector<float>& mask);
+
 }  // namespace culet

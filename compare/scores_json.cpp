@@ -5,6 +5,7 @@
 
 #include "compare/compare.h"
 #include "compare/json_number.h"
+#include "compare/meaning/meaning_json.h"
 
 namespace culet {
 
@@ -71,7 +72,8 @@ std::string scores_json(const Comparison& comparison, const CompareSources& sour
     json["command"] = "compare";
     json["verdict"] = name_of(comparison.verdict);
     json["reason"] = comparison.reason;
-    json["equivalent_facet_error_deg"] = nullptr;
+    json["equivalent_facet_error_deg"] =
+        comparison.meaning ? number(comparison.meaning->equivalent.deg) : Json(nullptr);
     json["simulated"] = comparison.simulated;
     json["photo"] = sources.photo_file;
     json["render"] = sources.render_file;
@@ -98,8 +100,12 @@ std::string scores_json(const Comparison& comparison, const CompareSources& sour
     json["light_return"] = {{"photo", number(comparison.photo_light)},
                             {"render", number(comparison.render_light)}};
     json["null"] = null_json(comparison);
-    json["sensitivity"] = Json::array();
-    json["verdict_rule"] = fmt::format(
+    json["sensitivity"] =
+        comparison.meaning ? sensitivity_json(*comparison.meaning) : Json::array();
+    if (comparison.meaning && comparison.calibration) {
+        json["meaning"] = meaning_json(*comparison.meaning, *comparison.calibration);
+    }
+    json["verdict_rule"] = comparison.meaning ? std::string(k_calibrated_rule) : fmt::format(
         "match: zncc at least {} standard deviations above its null (of atanh) and at "
         "least {}; partial: at least {} standard deviations and better than every draw; else "
         "no_evidence. A "

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/score_list.h"
 #include "page/html.h"
 
 namespace culet {
@@ -127,6 +128,11 @@ void judge(Meaning& meaning) {
 }
 
 }  // namespace
+
+const char* const k_calibrated_rule =
+    "match: zncc above every draw of a wrong light, a wrong pose and both, by 2 standard deviations "
+    "at least, an equivalent facet error of 0.7 degrees at most, and of 1.4 by each score alone; "
+    "partial: the same up to 1.5 degrees; else no_evidence.";
 
 bool takes_part(const std::string& key, bool geometry_only) {
     // Colour-only scores see no geometry; the counts of reflexes are coarse beside their areas.

@@ -46,6 +46,9 @@ struct Meaning {
     double evidence = 0;
 };
 
+/// How the verdict is reached, for people.
+extern const char* const k_calibrated_rule;
+
 /// The scores that decide whether it is a match at all, and those that geometry alone decides.
 bool takes_part(const std::string& key, bool geometry_only);
 
