@@ -121,6 +121,7 @@ constexpr double k_match_z = 5, k_partial_z = 2, k_match_zncc = 0.8;
 /// What a program would want to know beside the scores themselves.
 struct CompareSources {
     std::string photo_file, render_file, mask_file;
+    std::string pose{};  ///< JSON of the pose that was found; empty: none was looked for
 };
 
 /// The scores as one JSON object (schema 1).

@@ -80,6 +80,7 @@ std::string scores_json(const Comparison& comparison, const CompareSources& sour
     json["mask"] = sources.mask_file.empty() ? Json(nullptr) : Json(sources.mask_file);
     json["seed"] = comparison.seed;
     json["registration"] = registration_json(comparison.registration);
+    if (!sources.pose.empty()) json["pose"] = Json::parse(sources.pose, nullptr, false);
     json["gain"] = {number(comparison.gain[0]), number(comparison.gain[1]),
                     number(comparison.gain[2])};
     json["saturated"] = number(comparison.saturated);

@@ -23,7 +23,7 @@ struct CalibrateOptions {
     double budget_seconds = 60;
     std::uint64_t seed = 1;
     int threads = 0;         ///< 0: all processors; the result does not depend on it
-    double largest = 320;    ///< as in `Alignment`
+    double largest = 256;    ///< as in `Alignment`
     /// In the frame of the model's picture; over a half is left out. Empty: nothing is.
     std::vector<float> ignored{};
     std::optional<Solid> start{};  ///< the mesh that the fit started from: the catalogue's cut

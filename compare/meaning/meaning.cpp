@@ -15,8 +15,7 @@ namespace {
 constexpr const char* k_primary = "zncc";
 
 // What can be said of a match, whatever the units: see `Meaning` and docs/comparing.md.
-constexpr double k_match_deg = 0.7, k_partial_deg = 1.5;
-constexpr double k_least_z = 2;
+constexpr double k_match_deg = 0.7, k_partial_deg = 1.4;
 
 std::size_t index_of(const Calibration& calibration, const std::string& key) {
     const auto at = std::find(calibration.keys.begin(), calibration.keys.end(), key);
@@ -41,27 +40,33 @@ double middle(std::vector<double> values) {
 }
 
 std::optional<NullWorth> null_worth(World world, const Score& photo, const Calibration& calibration,
-                                    const FacetErrorScale& scale) {
+                                    const FacetErrorScale& scale,
+                                    std::optional<double> photo_answer) {
     const std::size_t primary = index_of(calibration, photo.key);
     Score against = photo;
     against.null.clear();
-    std::vector<double> degrees;
+    std::vector<double> answers;
     for (const CalibrationDraw& draw : calibration.draws) {
-        if (draw.world != world || !draw.scores[primary]) continue;
-        against.null.push_back(*draw.scores[primary]);
-        degrees.push_back(scale.largest_deg(draw.scores));
+        if (draw.world != world) continue;
+        if (draw.scores[primary]) against.null.push_back(*draw.scores[primary]);
+        // A draw that could not even be laid on the model is as far from it as any.
+        answers.push_back(scale.answer(draw.scores).value_or(scale.largest_answer()));
     }
     if (against.null.size() < 5) return std::nullopt;
     fill_null(against);
     NullWorth worth;
     worth.world = world;
-    worth.draws = static_cast<int>(against.null.size());
+    worth.draws = static_cast<int>(answers.size());
     worth.mean = against.null_mean;
     worth.sd = against.null_sd;
     worth.z = against.z.value_or(0);
-    worth.p = against.p.value_or(1);
-    worth.least_deg = *std::min_element(degrees.begin(), degrees.end());
-    worth.median_deg = middle(degrees);
+    if (photo_answer) {
+        worth.as_good = static_cast<int>(std::count_if(
+            answers.begin(), answers.end(), [&](double a) { return a <= *photo_answer; }));
+        worth.p = (worth.as_good + 1.0) / (worth.draws + 1.0);
+    }
+    worth.least_deg = std::exp(*std::min_element(answers.begin(), answers.end()));
+    worth.median_deg = std::exp(middle(answers));
     return worth;
 }
 
@@ -92,47 +97,40 @@ std::string headline_of(const Meaning& meaning) {
                                                         : "a wrong light and pose";
         text += fmt::format("; {} sigma from chance ({}: {} of {} draws as good)",
                             decimals(std::max(0.0, worst.z), worst.z < 10 ? 1 : 0), what,
-                            static_cast<int>(std::lround(worst.p * (worst.draws + 1))) - 1,
-                            worst.draws);
+                            worst.as_good, worst.draws);
     }
     return text;
 }
 
 void judge(Meaning& meaning) {
     const bool beaten =
-        std::all_of(meaning.nulls.begin(), meaning.nulls.end(), [](const NullWorth& n) {
-            return n.p <= 1 / (n.draws + 0.99) && n.z >= k_least_z;
-        });
-    // Every score on its own must be one that a right stone could have.
-    const double worst_deg = std::exp(-meaning.evidence);
-    if (meaning.nulls.empty() || !meaning.equivalent.deg) {
+        std::all_of(meaning.nulls.begin(), meaning.nulls.end(),
+                    [](const NullWorth& n) { return n.as_good == 0 && n.z > 0; });
+    const EquivalentError& error = meaning.equivalent;
+    std::string why;
+    if (meaning.nulls.empty() || !error.deg) {
         meaning.verdict = Verdict::no_evidence;
-        meaning.reason = "too little was drawn to tell a match from chance";
+        why = "too little was drawn to tell a match from chance";
     } else if (!beaten) {
         meaning.verdict = Verdict::no_evidence;
-        meaning.reason = "a wrong light or a wrong pose would score as well";
-    } else if (*meaning.equivalent.deg <= k_match_deg && worst_deg <= 2 * k_match_deg) {
+        why = "some wrong light or pose would do as well";
+    } else if (*error.deg <= k_match_deg) {
         meaning.verdict = Verdict::match;
-    } else if (*meaning.equivalent.deg <= k_partial_deg) {
+    } else if (*error.deg <= k_partial_deg) {
         meaning.verdict = Verdict::partial;
     } else {
         meaning.verdict = Verdict::no_evidence;
-        meaning.reason = "better than a wrong light or pose, but no better than a stone with facets "
-                         "far from these";
+        why = "better than a wrong light or pose, but a stone with facets far from these would do "
+              "as well";
     }
-    if (meaning.reason.empty()) {
-        meaning.reason = meaning.headline;
-    } else {
-        meaning.reason += "; " + meaning.headline;
-    }
+    meaning.reason = (why.empty() ? "" : why + "; ") + meaning.headline;
 }
 
 }  // namespace
 
 const char* const k_calibrated_rule =
-    "match: zncc above every draw of a wrong light, a wrong pose and both, by 2 standard deviations "
-    "at least, an equivalent facet error of 0.7 degrees at most, and of 1.4 by each score alone; "
-    "partial: the same up to 1.5 degrees; else no_evidence.";
+    "match: an equivalent facet error of 0.7 degrees at most and smaller than that of every draw of "
+    "a wrong light, a wrong pose and both; partial: the same up to 1.4 degrees; else no_evidence.";
 
 bool takes_part(const std::string& key, bool geometry_only) {
     // Colour-only scores see no geometry; the counts of reflexes are coarse beside their areas.
@@ -156,13 +154,14 @@ Meaning meaning_of(const std::vector<Score>& scores, const Calibration& calibrat
     const auto values = values_of(scores, calibration);
     meaning.equivalent = scale.of(values);
     meaning.curves = scale.curves(values);
-    meaning.evidence = -std::log(scale.largest_deg(values));
+    const std::optional<double> answer = scale.answer(values);
+    meaning.evidence = -answer.value_or(scale.largest_answer());
 
     const std::string primary = geometry_only ? "cw_ssim" : k_primary;
     for (const Score& score : scores) {
         if (score.key != primary || !score.value) continue;
         for (const World world : {World::light, World::pose, World::both}) {
-            if (auto worth = null_worth(world, score, calibration, scale)) {
+            if (auto worth = null_worth(world, score, calibration, scale, answer)) {
                 meaning.nulls.push_back(*worth);
             }
         }

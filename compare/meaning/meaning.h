@@ -18,7 +18,10 @@ struct NullWorth {
     int draws = 0;
     double mean = 0, sd = 0;  ///< of zncc
     double z = 0;             ///< of atanh, see `fill_null`
-    double p = 1;             ///< (draws at least as good + 1) / (draws + 1)
+    /// Draws whose equivalent facet error is no larger than the photograph's, and their honest
+    /// share, (as_good + 1) / (draws + 1).
+    int as_good = 0;
+    double p = 1;
     /// Equivalent facet errors of the null's draws: their smallest and their middle, degrees.
     double least_deg = 0, median_deg = 0;
 };
@@ -40,9 +43,8 @@ struct Meaning {
     std::vector<NullWorth> nulls;          ///< the worst, that of the smallest z, first
     std::vector<HypothesisWorth> hypotheses;
     bool geometry_only = false;  ///< the photograph cannot serve for photometry
-    /// The larger, the more the photograph looks like the model and the less like anything else:
-    /// minus the logarithm of the largest equivalent error (degrees) that any of the scores which
-    /// take part gives. For ranking photographs of one calibration.
+    /// Minus the logarithm of the scores' average answer (degrees), which goes on where the
+    /// equivalent error ends: for ranking photographs of one calibration.
     double evidence = 0;
 };
 

@@ -33,6 +33,7 @@ Json meaning_json(const Meaning& meaning, const Calibration& calibration) {
                                  {"zncc_mean", number(null.mean)},
                                  {"zncc_sd", number(null.sd)},
                                  {"z", number(null.z)},
+                                 {"as_good", null.as_good},
                                  {"p", number(null.p)},
                                  {"least_deg", number(null.least_deg)},
                                  {"median_deg", number(null.median_deg)}});

@@ -180,12 +180,11 @@ std::string curves_figures(const Meaning& meaning, const Calibration& calibratio
 std::string nulls_table(const Meaning& meaning) {
     std::string rows;
     for (const NullWorth& null : meaning.nulls) {
-        const int as_good = static_cast<int>(std::lround(null.p * (null.draws + 1))) - 1;
         rows += fmt::format(
             "<tr><th scope=\"row\">{}</th><td class=\"n\">{} ± {}</td><td class=\"n strong\">{}</td>"
             "<td class=\"n\">{} of {}</td><td class=\"n\">{}°</td></tr>\n",
             title_of(null.world), decimals(null.mean, 2), decimals(null.sd, 2),
-            decimals(null.z, 1), as_good, null.draws, significant(null.least_deg, 2));
+            decimals(null.z, 1), null.as_good, null.draws, significant(null.least_deg, 2));
     }
     if (rows.empty()) return {};
     return table("Chance, the worst first",

@@ -19,7 +19,7 @@ struct SceneCompareOptions {
     double budget_seconds = 60;  ///< of the calibration
     int draws = 8;               ///< at each facet error; nulls have three times as many
     /// Pixels that the stone is across at most: every draw of the calibration is drawn at it.
-    double largest = 320;
+    double largest = 256;
     std::filesystem::path cache{};  ///< folder of calibrations; empty: none is kept
     std::optional<Solid> start{};   ///< the mesh that the fit started from
 };

@@ -270,13 +270,4 @@ std::vector<SensitivityCurve> FacetErrorScale::curves(
     return result;
 }
 
-double FacetErrorScale::largest_deg(const std::vector<std::optional<double>>& scores) const {
-    double largest = k_least_deg;
-    for (const Curve& curve : curves_) {
-        if (!scores[curve.key]) continue;
-        largest = std::max(largest, std::exp(logarithm(curve, *scores[curve.key])));
-    }
-    return largest;
-}
-
 }  // namespace culet

@@ -50,8 +50,11 @@ public:
     EquivalentError of(const std::vector<std::optional<double>>& scores) const;
     /// The curves with values, equivalents and weights of these scores.
     std::vector<SensitivityCurve> curves(const std::vector<std::optional<double>>& scores) const;
-    /// The largest equivalent error of any one score, degrees.
-    double largest_deg(const std::vector<std::optional<double>>& scores) const;
+    /// The scores' weighted average, log degrees, before its own curve is inverted: for ranking.
+    std::optional<double> answer(const std::vector<std::optional<double>>& scores) const {
+        return averaged(scores);
+    }
+    double largest_answer() const { return levels_.empty() ? 0 : levels_.back(); }
 
     static constexpr double k_least_deg = 0.01;  ///< stands for an error of 0
 
