@@ -129,7 +129,8 @@ std::vector<Job> Draws::jobs(std::vector<std::string>& notes) {
             add(World::pose, "", 0, 0, k);
             if (!one_light) add(World::both, "", 0, 0, k);
         }
-        if (round > 0) continue;
+        // After the second round: a budget that ends early ends these first.
+        if (round != std::min(1, rounds - 1)) continue;
         if (catalogue_) {
             add(World::catalogue, options_.start ? "the starting mesh" : "the symmetrical stone", 0,
                 0, 0);

@@ -18,12 +18,16 @@ public:
     /// By the reference renderer with `samples` rays a pixel: an independent picture of the same.
     Photo draw_exactly(const Scene& scene, int samples, const Progress& progress = {}) const;
 
+    /// Of the first scene.
+    const Photo& picture() const { return picture_; }
     const RenderSettings& settings() const { return settings_; }
     const RenderStats& stats() const { return stats_; }
 
 private:
+    void settle(const Scene& scene);
     RenderSettings settings_;
     RenderStats stats_;
+    Photo picture_;
 };
 
 Photo photo_of(const Picture& picture);

@@ -13,6 +13,7 @@
 #include "compare/meaning/cropped_camera.h"
 #include "compare/meaning/draft_renderer.h"
 #include "compare/pixels.h"
+#include "stone/checks.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 #include "stone/units.h"
@@ -22,7 +23,7 @@ namespace culet {
 namespace {
 
 constexpr double k_margin = 0.18;      // of the diameter, around the stone
-constexpr double k_tolerance = 0.02;   // of the pictures that are compared
+constexpr double k_tolerance = 0.03;   // of the pictures that are compared
 
 Progress part_of(const Progress& progress, double from, double to) {
     if (!progress) return {};
@@ -144,7 +145,7 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
     const Photo* photo = &given;
     std::vector<std::string> notes;
 
-    if (options.find_pose) {
+    if (options.find_pose && is_convex(scene.stone.solid)) {
         PoseOptions pose_options;
         pose_options.mask = how.mask;
         pose_options.threads = how.threads;
@@ -173,7 +174,7 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
     const DraftRenderer renderer(result.scene, k_tolerance);
     result.scene.settings = renderer.settings();
     result.stats = renderer.stats();
-    result.render = renderer.draw(result.scene);
+    result.render = renderer.picture();
     result.comparison = compare(*photo, result.render, how,
                                 part_of(progress, 0.1, options.calibrate ? 0.2 : 1));
     Comparison& comparison = result.comparison;

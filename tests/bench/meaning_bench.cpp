@@ -108,9 +108,9 @@ int main(int argc, char** argv) {
         const Solid ideal = model.stone.solid;
         model.stone.solid = with_facet_error(ideal, radians(0.6), seed_of(seed, 99, 0)).value();
         auto start = std::chrono::steady_clock::now();
-        const DraftRenderer renderer(model, 0.02);
+        const DraftRenderer renderer(model, 0.03);
         model.settings = renderer.settings();
-        const Photo picture = renderer.draw(model);
+        const Photo picture = renderer.picture();
         fmt::print("{}: {} x {}, engine {}, {} wavelengths, plan and picture {:.2f} s\n", one.name,
                    picture.width, picture.height, renderer.settings().engine,
                    renderer.settings().wavelengths_nm.size(), since(start));
@@ -121,8 +121,6 @@ int main(int argc, char** argv) {
         options.seed = seed;
         options.threads = threads;
         options.largest = pixels;
-        const double exposure = 0.8 / std::max(1e-9, 1 / exposure_like(picture, picture));
-        (void)exposure;
         // Expose so that about two per cent are clipped.
         double level = 0;
         {
