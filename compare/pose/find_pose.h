@@ -125,7 +125,11 @@ std::string pose_overlay(const Photo& photo, const Solid& solid, const FoundPose
 /// One JSON object (schema 1) with all of it but the marks.
 std::string pose_json(const FoundPose& pose);
 
-/// The [camera] table of a scene file.
-std::string camera_toml(const Camera& camera);
+/// The [camera] keys of a scene file as overrides (`read_scene`): "camera.position=[1, 2, 3]", ...;
+/// beside them, of `fov`, `orthographic_width` and `principal_point`, those that must be left out.
+struct CameraSettings {
+    std::vector<std::string> overrides, without;
+};
+CameraSettings camera_settings(const Camera& camera);
 
 }  // namespace culet

@@ -68,27 +68,33 @@ std::string pose_json(const FoundPose& pose) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string camera_toml(const Camera& camera) {
+CameraSettings camera_settings(const Camera& camera) {
     const auto vector = [](const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); };
-    std::string text = "[camera]\n";
-    text += "position = " + vector(camera.position) + "\n";
-    text += "look_at = " + vector(camera.look_at) + "\n";
-    text += "up = " + vector(camera.up) + "\n";
+    CameraSettings settings;
+    const auto set = [&](const char* key, const std::string& value) {
+        settings.overrides.push_back(fmt::format("camera.{}={}", key, value));
+    };
+    const auto leave = [&](const char* key) {
+        settings.without.push_back(fmt::format("camera.{}", key));
+    };
+    set("position", vector(camera.position));
+    set("look_at", vector(camera.look_at));
+    set("up", vector(camera.up));
     if (camera.orthographic_width) {
-        text += fmt::format("orthographic_width = {}\n", *camera.orthographic_width);
+        set("orthographic_width", fmt::format("{}", *camera.orthographic_width));
+        leave("fov");
     } else {
-        text += fmt::format("fov = {}\n", degrees(camera.fov));
+        set("fov", fmt::format("{}", degrees(camera.fov)));
+        leave("orthographic_width");
     }
-    text += fmt::format("size = [{}, {}]\n", camera.width, camera.height);
+    set("size", fmt::format("[{}, {}]", camera.width, camera.height));
     if (camera.principal_point) {
-        text += fmt::format("principal_point = [{}, {}]\n", (*camera.principal_point)[0],
-                            (*camera.principal_point)[1]);
+        set("principal_point",
+            fmt::format("[{}, {}]", (*camera.principal_point)[0], (*camera.principal_point)[1]));
+    } else {
+        leave("principal_point");
     }
-    if (camera.aperture_radius > 0) {
-        text += fmt::format("aperture_radius = {}\nfocus_distance = {}\n", camera.aperture_radius,
-                            camera.focus_distance);
-    }
-    return text;
+    return settings;
 }
 
 }  // namespace culet
