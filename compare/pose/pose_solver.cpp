@@ -113,6 +113,23 @@ struct EdgeResidual {
     }
 };
 
+/// The same with facets as in the model.
+struct ViewResidual {
+    const StoneView& view;
+    const MetEdge& met;
+
+    template <class Number>
+    bool operator()(const Number* change, Number* residual) const {
+        const Vec3& p = met.point.on_stone;
+        const std::array<Number, 2> at =
+            seen(view, change, std::array<Number, 3>{Number(p.x), Number(p.y), Number(p.z)});
+        residual[0] = ((at[0] - met.point.at.x) * met.point.normal_x +
+                       (at[1] - met.point.at.y) * met.point.normal_y - met.offset) /
+                      met.sigma;
+        return true;
+    }
+};
+
 struct FacetPrior {
     double angle = 1, lift = 1;
     template <class Number>
@@ -189,6 +206,13 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
     problem.AddParameterBlock(change.data(), k_view_unknowns);
     std::map<int, int> used;  // facets, and how many edges are theirs
     for (const MetEdge& met : edges) {
+        if (!settings.facets_free) {
+            problem.AddResidualBlock(
+                new ceres::AutoDiffCostFunction<ViewResidual, 1, k_view_unknowns>(
+                    new ViewResidual{result.view, met}),
+                new ceres::CauchyLoss(k_loss), change.data());
+            continue;
+        }
         const Edge& edge = wire.edges[static_cast<std::size_t>(met.point.edge)];
         ++used[edge.left];
         ++used[edge.right];
@@ -204,10 +228,6 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
     std::vector<double*> free_blocks;
     for (const auto& [facet, count] : used) {
         double* block = result.facets[static_cast<std::size_t>(facet)].data();
-        if (!settings.facets_free) {
-            problem.SetParameterBlockConstant(block);
-            continue;
-        }
         problem.AddResidualBlock(new ceres::AutoDiffCostFunction<FacetPrior, 3, 3>(
                                      new FacetPrior{axis_error, lift_error}),
                                  nullptr, block);

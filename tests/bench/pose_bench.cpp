@@ -39,9 +39,9 @@ struct Cut {
     int fold = 1;  // turns about z that leave the model as it is
 };
 const std::vector<Cut> k_cuts{{"round-brilliant", "diamond", 8},
-                              {"step", "sapphire", 2},
+                              {"step", "spinel", 2},
                               {"oval", "diamond", 2},
-                              {"pear", "quartz", 1},
+                              {"pear", "yag", 1},
                               {"trillion", "diamond", 3}};
 const std::vector<std::string> k_lights{"windows", "dome", "ring", "overcast"};
 
@@ -130,6 +130,7 @@ Trial one_trial(const Settings& settings, int seed) {
         trial.normalized[static_cast<std::size_t>(k)] =
             off[k] / pose.sigmas.turn[static_cast<std::size_t>(k)];
     if (settings.verbose) {
+        std::setvbuf(stdout, nullptr, _IOLBF, 0);
         fmt::print(
             "{}  off {:6.3f} deg ({:.3f}) {:5.2f} px ({:.2f}) scale {:+.4f}  outline {:.2f} crown "
             "{:.2f} px met {:.2f}/{:.2f} z {:4.1f} facets {:.2f}  {:.1f} s {}\n",
