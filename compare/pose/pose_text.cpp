@@ -43,7 +43,9 @@ std::string pose_json(const FoundPose& pose) {
                      {"turn_y_deg", degrees(s.turn[1])},
                      {"turn_sight_deg", degrees(s.turn[2])},
                      {"angle_deg", degrees(s.angle)},
+                     {"angle_99_deg", degrees(s.angle_99)},
                      {"shift_px", s.shift_px},
+                     {"shift_99_px", s.shift_99_px},
                      {"scale", s.scale},
                      {"focal_length", s.focal},
                      {"principal_point_px", s.principal_point}};
@@ -56,6 +58,7 @@ std::string pose_json(const FoundPose& pose) {
                      {"met_by_chance", pose.chance_support},
                      {"z", pose.support_z}};
     json["facet_error_deg"] = degrees(pose.facet_error);
+    json["facet_offset"] = pose.facet_offset;
     json["others"] = Json::array();
     for (const TriedPose& other : pose.others) {
         json["others"].push_back({{"camera", camera_json(other.camera)},

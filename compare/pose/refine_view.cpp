@@ -14,6 +14,10 @@ namespace {
 constexpr std::size_t k_fewest_edges = 40;
 // Of a whole edge's place: neighbouring light that the blur mixes in.
 constexpr double k_edge_sigma = 0.06;
+constexpr int k_settling_rounds = 6;
+// Facet errors that are found are taken within these bounds of the expected ones: below, nothing
+// would be left of the caution; above, edges were not looked for.
+constexpr double k_least_error = 0.1, k_most_error = 3;
 
 /// The most telling edge near where one is expected: strong ones count more than near ones only
 /// while the expectation is vague.
@@ -98,10 +102,11 @@ RefinedView draw_in(const WireSolid& wire, const EdgePicture& picture, const Sto
     const SolverSettings solver = solver_settings(settings);
     WireSpacing spacing;
     spacing.facet_error = settings.facet_error;
+    spacing.facet_offset = expected_offset(wire, settings.facet_error);
     spacing.step = std::max(2.0, settings.diameter_px / 120);
     spacing.most_facet_sigma = 0.01 * settings.diameter_px;
     const double widest = std::max(3.0, 0.012 * settings.diameter_px);
-    for (double width = widest; width >= 1; width *= 0.7) {
+    for (double width = widest; width >= 1; width *= 0.5) {
         for (int round = 0; round < 2; ++round) {
             refined.points = points_along(wire, refined.solved.view, spacing);
             refined.met = met_points(picture, refined.points, width);
@@ -125,13 +130,14 @@ RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const Refi
     RefinedView refined = start;
     SolverSettings solver = solver_settings(settings);
     solver.facets_free = true;
+    solver.with_covariance = true;
+    solver.facet_offset = expected_offset(wire, settings.facet_error);
     WireSpacing spacing;
     spacing.facet_error = settings.facet_error;
+    spacing.facet_offset = solver.facet_offset;
     spacing.step = std::max(2.0, settings.diameter_px / 400);
     spacing.most_facet_sigma = 0.015 * settings.diameter_px;
-    constexpr int k_rounds = 5;
-    for (int round = 0; round < k_rounds; ++round) {
-        const bool last = round + 1 == k_rounds;
+    for (int round = 0; round < k_settling_rounds; ++round) {
         const bool first = round == 0;
         refined.points = points_along(wire, refined.solved.view, spacing);
         // Facets that were fitted say where to look; the first time only their expected errors do.
@@ -141,13 +147,19 @@ RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const Refi
             refined.lost = true;
             return refined;
         }
-        solver.with_covariance = last;
+        refined.facet_error = solver.facet_error;
+        refined.facet_offset = solver.facet_offset;
         refined.solved = solve_view(wire, refined.solved.view, refined.met, settings.prior_focal_px,
                                     settings.sight, solver);
         if (!refined.solved.converged || ran_away(start.solved.view, refined.solved.view)) {
             refined.lost = true;
             return refined;
         }
+        const auto near = [](double found, double expected) {
+            return std::clamp(found, k_least_error * expected, k_most_error * expected);
+        };
+        solver.facet_error = near(refined.solved.facet_error, settings.facet_error);
+        solver.facet_offset = near(refined.solved.facet_offset, spacing.facet_offset);
     }
     refined.points = points_along(wire, refined.solved.view, spacing);
     return refined;

@@ -29,7 +29,8 @@ using namespace culet;
 
 struct Settings {
     int seeds = 20, first = 1, size = 400, threads = 0;
-    double facet_deg = 0.2, start_deg = 30, start_scale = 0.2, tilt_deg = 30;
+    double facet_deg = 0.2, start_deg = 30, start_scale = 0.2, tilt_deg = 30, limit_deg = 0.1,
+           limit_px = 0.1;
     std::string cut, light, folder;
     bool mirrored = false, with_mask = false, verbose = false;
 };
@@ -107,6 +108,8 @@ Trial one_trial(const Settings& settings, int seed) {
                              1 + uniform(-settings.start_scale, settings.start_scale), random);
     PoseOptions options;
     options.threads = settings.threads;
+    options.limits.angle = radians(settings.limit_deg);
+    options.limits.shift_px = settings.limit_px;
     if (settings.with_mask) options.mask = drawn.picture.coverage;
     const double before = clocks().cpu;
     const FoundPose pose = find_pose(photo, model, start, options);
@@ -133,11 +136,11 @@ Trial one_trial(const Settings& settings, int seed) {
         std::setvbuf(stdout, nullptr, _IOLBF, 0);
         fmt::print(
             "{}  off {:6.3f} deg ({:.3f}) {:5.2f} px ({:.2f}) scale {:+.4f}  outline {:.2f} crown "
-            "{:.2f} px met {:.2f}/{:.2f} z {:4.1f} facets {:.2f}  {:.1f} s {}\n",
+            "{:.2f} px met {:.2f}/{:.2f} z {:4.1f} facets {:.3f} {:.4f}  {:.1f} s {}\n",
             trial.label, trial.angle, trial.sigma_angle, trial.shift, trial.sigma_shift,
             trial.scale, pose.outline_rms_px, pose.crown_rms_px, pose.crown_support,
-            pose.chance_support, pose.support_z, degrees(pose.facet_error), trial.seconds,
-            pose.mirrored ? "MIRRORED " : "" + pose.trouble);
+            pose.chance_support, pose.support_z, degrees(pose.facet_error), pose.facet_offset,
+            trial.seconds, pose.mirrored ? "MIRRORED " : "" + pose.trouble);
         for (const TriedPose& other : pose.others)
             fmt::print("        other {:6.2f} deg lead {:6.1f} {}{}\n", degrees(other.turn),
                        other.lead, other.symmetric ? "symmetric" : "",
@@ -162,6 +165,8 @@ int main(int argc, char** argv) {
     program.add_option("--facet-deg", settings.facet_deg);
     program.add_option("--start-deg", settings.start_deg);
     program.add_option("--tilt-deg", settings.tilt_deg);
+    program.add_option("--limit-deg", settings.limit_deg);
+    program.add_option("--limit-px", settings.limit_px);
     program.add_option("--cut", settings.cut);
     program.add_option("--light", settings.light);
     program.add_option("--threads", settings.threads);
