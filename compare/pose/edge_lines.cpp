@@ -8,7 +8,7 @@ namespace culet {
 namespace {
 
 constexpr double k_tolerance_px = 0.3;
-constexpr double k_least_share = 0.5;
+constexpr double k_least_share = 0.65;
 constexpr int k_least_points = 3;
 // Of points that start or end a trial line no more than this many are taken.
 constexpr std::size_t k_most_ends = 8;

@@ -185,6 +185,8 @@ Eigen::MatrixXd covariance_of(ceres::Problem& problem, double* change,
 
 /// Sum of squares of what was found over the number of it that the edges could find: the prior's
 /// variance less what is left of it, as a share.
+// What was expected counts as much as so many changes that were found.
+constexpr double k_belief = 6;
 struct Component {
     double squares = 0, found = 0;
     void add(double value, double variance_left, double prior) {

@@ -136,12 +136,12 @@ RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const Refi
     spacing.facet_error = settings.facet_error;
     spacing.facet_offset = solver.facet_offset;
     spacing.step = std::max(2.0, settings.diameter_px / 400);
-    spacing.most_facet_sigma = 0.015 * settings.diameter_px;
+    spacing.most_facet_sigma = 0.004 * settings.diameter_px;
     for (int round = 0; round < k_settling_rounds; ++round) {
         const bool first = round == 0;
         refined.points = points_along(wire, refined.solved.view, spacing);
         // Facets that were fitted say where to look; the first time only their expected errors do.
-        refined.met = met_edges(wire, picture, refined.points, refined.solved, first ? 1.2 : 0.8,
+        refined.met = met_edges(wire, picture, refined.points, refined.solved, first ? 0.7 : 0.4,
                                 first ? 2.0 : 0.7);
         if (refined.met.size() < k_fewest_edges) {
             refined.lost = true;
