@@ -49,6 +49,7 @@ int run(int argc, char** argv) {
     int exit_code = exit_good;
     add_command_fit(program, exit_code);
     add_command_render(program, exit_code);
+    add_command_register(program, exit_code);
     add_command_compare(program, exit_code);
     add_command_run(program, exit_code);
     add_command_study(program, exit_code);

@@ -25,11 +25,12 @@ namespace culet {
 
 /// A pose is refused beyond these. See docs/comparing.md for what they are derived from.
 struct PoseLimits {
-    /// One standard uncertainty of the view's angle to the stone, as the root of the sum of its
-    /// three axes' variances. A turn of 0.2 degrees costs the scores what 0.05 to 0.1 degrees of
-    /// facet error cost: a comparison made at more than this would measure the pose.
-    double angle_sigma = 0.0035;  // 0.2 degrees
-    double shift_sigma_px = 0.5;
+    /// What a pose that is not refused promises, at 99 %: the view's angle to the stone, radians
+    /// (0.1 degrees), and the stone's place in the picture. Facets that are not as in the model
+    /// move edges, and a model with facet errors of 0.2 degrees does not allow this promise for
+    /// most cuts: who can do with less raises the limits.
+    double angle = 0.001745;
+    double shift_px = 0.1;
     /// Root mean square distance of the outline from the photograph's, as a share of the diameter.
     double outline_residual = 0.01;
     /// Standard deviations by which edges of the crown must be met above chance.
@@ -79,7 +80,8 @@ struct TriedPose {
 struct PoseSigmas {
     /// About the picture's x, y and the line of sight, radians.
     std::array<double, 3> turn{};
-    double angle = 0;  ///< root of the sum of their squares
+    double angle = 0;                      ///< root of the sum of their squares
+    double angle_99 = 0, shift_99_px = 0;  ///< the errors are less than this in 99 of 100 cases
     std::array<double, 2> shift_px{};
     double scale = 0;            ///< relative, of the stone's size in the picture
     double focal = 0;            ///< relative, of the focal length; 0: orthographic
@@ -98,8 +100,10 @@ struct FoundPose {
     double outline_rms_px = 0, crown_rms_px = 0;   ///< of the edge points that count
     double crown_support = 0, chance_support = 0;  ///< shares of the crown's edge points met
     double support_z = 0;
-    double facet_error = 0;  ///< of the model as the edges show it, same meaning as in PoseOptions
-    double diameter_px = 0;  ///< of the circle of the outline's area
+    /// Of the model as the edges show it: tilt as in PoseOptions, and how far planes lie off at
+    /// their facets' middles, a length. One sigma.
+    double facet_error = 0, facet_offset = 0;
+    double diameter_px = 0;         ///< of the circle of the outline's area
     std::string outline_source;     ///< "mask", "coverage" or "background"
     std::vector<TriedPose> others;  ///< best first
     std::vector<EdgeMark> marks;
@@ -125,7 +129,11 @@ std::string pose_overlay(const Photo& photo, const Solid& solid, const FoundPose
 /// One JSON object (schema 1) with all of it but the marks.
 std::string pose_json(const FoundPose& pose);
 
-/// The [camera] table of a scene file.
-std::string camera_toml(const Camera& camera);
+/// The [camera] keys of a scene file as overrides (`read_scene`): "camera.position=[1, 2, 3]", ...;
+/// beside them, of `fov`, `orthographic_width` and `principal_point`, those that must be left out.
+struct CameraSettings {
+    std::vector<std::string> overrides, without;
+};
+CameraSettings camera_settings(const Camera& camera);
 
 }  // namespace culet

@@ -27,6 +27,34 @@ const Directions& directions() {
     return table;
 }
 
+/// Corners of the outline from the view's point, in the order of their angles about it: the picture
+/// of a convex stone is convex, and that point is in it.
+std::vector<PicturePoint> outline_of(const WireSolid& wire, const StoneView& view) {
+    const Projection project(view);
+    const EyePlace eye = eye_of(view);
+    std::vector<char> seen(wire.solid.facets.size());
+    for (std::size_t f = 0; f < seen.size(); ++f)
+        seen[f] = eye.sees(wire.solid.facets[f].plane) ? 1 : 0;
+    std::vector<std::pair<double, PicturePoint>> corners;
+    for (const Edge& edge : wire.edges) {
+        if (seen[static_cast<std::size_t>(edge.left)] == seen[static_cast<std::size_t>(edge.right)])
+            continue;
+        // Each corner of the outline ends two of its edges; one that is taken twice does no harm.
+        for (const int corner : {edge.from, edge.to}) {
+            const PicturePoint p = project(wire.solid.vertices[static_cast<std::size_t>(corner)]);
+            const PicturePoint arm{p.x - view.at.x, p.y - view.at.y};
+            corners.emplace_back(std::atan2(arm.y, arm.x), arm);
+        }
+    }
+    std::sort(corners.begin(), corners.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<PicturePoint> loop;
+    for (const auto& [angle, p] : corners) {
+        if (loop.empty() || p.x != loop.back().x || p.y != loop.back().y) loop.push_back(p);
+    }
+    return loop;
+}
+
 }  // namespace
 
 OutlineShape outline_shape(const cv::Mat& mask) {
@@ -54,24 +82,31 @@ FittedOutline fit_outline(const WireSolid& wire, const OutlineShape& shape, cons
                           double focal_px) {
     const Directions& d = directions();
     FittedOutline result{start, 0};
-    std::vector<PicturePoint> corners(wire.solid.vertices.size());
     const int rounds = focal_px > 0 ? 2 : 1;
     for (int round = 0; round < rounds; ++round) {
         StoneView& view = result.view;
         view.nearness = focal_px > 0 ? view.scale / focal_px : 0;
-        const Projection project(view);
-        for (std::size_t i = 0; i < corners.size(); ++i) {
-            const PicturePoint p = project(wire.solid.vertices[i]);
-            corners[i] = {p.x - view.at.x, p.y - view.at.y};
+        const std::vector<PicturePoint> corners = outline_of(wire, view);
+        if (corners.size() < 3) {
+            result.rms = 1e300;
+            return result;
         }
         // reach = grow * own + x cos + y sin, unknown grow, x, y.
         cv::Matx33d normal = cv::Matx33d::zeros();
         cv::Vec3d right(0, 0, 0);
         std::array<double, k_tangents> own;
+        const auto along = [&](const PicturePoint& p, std::size_t k) {
+            return p.x * d.cosine[k] + p.y * d.sine[k];
+        };
+        std::size_t furthest = 0;
+        for (std::size_t i = 1; i < corners.size(); ++i) {
+            if (along(corners[i], 0) > along(corners[furthest], 0)) furthest = i;
+        }
         for (std::size_t k = 0; k < k_tangents; ++k) {
-            double most = -1e300;
-            for (const PicturePoint& p : corners)
-                most = std::max(most, p.x * d.cosine[k] + p.y * d.sine[k]);
+            // The furthest corner only moves on as the direction turns.
+            while (along(corners[(furthest + 1) % corners.size()], k) > along(corners[furthest], k))
+                furthest = (furthest + 1) % corners.size();
+            const double most = along(corners[furthest], k);
             own[k] = most;
             const cv::Vec3d row(most, d.cosine[k], d.sine[k]);
             normal += row * row.t();

@@ -113,6 +113,23 @@ struct EdgeResidual {
     }
 };
 
+/// The same with facets as in the model.
+struct ViewResidual {
+    const StoneView& view;
+    const MetEdge& met;
+
+    template <class Number>
+    bool operator()(const Number* change, Number* residual) const {
+        const Vec3& p = met.point.on_stone;
+        const std::array<Number, 2> at =
+            seen(view, change, std::array<Number, 3>{Number(p.x), Number(p.y), Number(p.z)});
+        residual[0] = ((at[0] - met.point.at.x) * met.point.normal_x +
+                       (at[1] - met.point.at.y) * met.point.normal_y - met.offset) /
+                      met.sigma;
+        return true;
+    }
+};
+
 struct FacetPrior {
     double angle = 1, lift = 1;
     template <class Number>
@@ -141,40 +158,43 @@ struct LensPrior {
 // Held parameters stand at zero with such a weight that their variance is nothing.
 constexpr double k_held = 1e-9;
 
-std::vector<double> covariance_of(ceres::Problem& problem, double* change,
-                                  const std::vector<double*>& blocks) {
+/// Covariance of all unknowns, those of the view first.
+Eigen::MatrixXd covariance_of(ceres::Problem& problem, double* change,
+                              const std::vector<double*>& blocks) {
     ceres::Problem::EvaluateOptions options;
     options.parameter_blocks = {change};
     options.parameter_blocks.insert(options.parameter_blocks.end(), blocks.begin(), blocks.end());
     ceres::CRSMatrix rows;
     problem.Evaluate(options, nullptr, nullptr, nullptr, &rows);
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(rows.num_cols, rows.num_cols);
-    for (int r = 0; r < rows.num_rows; ++r) {
-        for (int i = rows.rows[static_cast<std::size_t>(r)];
-             i < rows.rows[static_cast<std::size_t>(r) + 1]; ++i) {
-            for (int j = rows.rows[static_cast<std::size_t>(r)];
-                 j < rows.rows[static_cast<std::size_t>(r) + 1]; ++j) {
-                normal(rows.cols[static_cast<std::size_t>(i)],
-                       rows.cols[static_cast<std::size_t>(j)]) +=
-                    rows.values[static_cast<std::size_t>(i)] *
-                    rows.values[static_cast<std::size_t>(j)];
-            }
+    for (std::size_t r = 0; r < static_cast<std::size_t>(rows.num_rows); ++r) {
+        const auto begin = static_cast<std::size_t>(rows.rows[r]);
+        const auto end = static_cast<std::size_t>(rows.rows[r + 1]);
+        for (std::size_t i = begin; i < end; ++i) {
+            for (std::size_t j = begin; j < end; ++j)
+                normal(rows.cols[i], rows.cols[j]) += rows.values[i] * rows.values[j];
         }
     }
     // Units differ by many powers of ten: to equal diagonals first.
     const Eigen::VectorXd size = normal.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
     const Eigen::MatrixXd equal = size.asDiagonal() * normal * size.asDiagonal();
-    const Eigen::LDLT<Eigen::MatrixXd> solver(equal);
-    Eigen::MatrixXd first = Eigen::MatrixXd::Zero(rows.num_cols, k_view_unknowns);
-    first.topRows(k_view_unknowns).setIdentity();
-    const Eigen::MatrixXd inverse = solver.solve(first);
-    std::vector<double> covariance;
-    for (int i = 0; i < k_view_unknowns; ++i) {
-        for (int j = 0; j < k_view_unknowns; ++j)
-            covariance.push_back(inverse(i, j) * size(i) * size(j));
-    }
-    return covariance;
+    const Eigen::MatrixXd inverse =
+        equal.ldlt().solve(Eigen::MatrixXd::Identity(equal.rows(), equal.cols()));
+    return size.asDiagonal() * inverse * size.asDiagonal();
 }
+
+/// Sum of squares of what was found over the number of it that the edges could find: the prior's
+/// variance less what is left of it, as a share.
+// What was expected counts as much as so many changes that were found.
+constexpr double k_belief = 6;
+struct Component {
+    double squares = 0, found = 0;
+    void add(double value, double variance_left, double prior) {
+        squares += value * value;
+        found += std::max(0.0, 1 - variance_left / (prior * prior));
+    }
+    double sigma(double prior) const { return found > 3 ? std::sqrt(squares / found) : prior; }
+};
 
 }  // namespace
 
@@ -189,6 +209,13 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
     problem.AddParameterBlock(change.data(), k_view_unknowns);
     std::map<int, int> used;  // facets, and how many edges are theirs
     for (const MetEdge& met : edges) {
+        if (!settings.facets_free) {
+            problem.AddResidualBlock(
+                new ceres::AutoDiffCostFunction<ViewResidual, 1, k_view_unknowns>(
+                    new ViewResidual{result.view, met}),
+                new ceres::CauchyLoss(k_loss), change.data());
+            continue;
+        }
         const Edge& edge = wire.edges[static_cast<std::size_t>(met.point.edge)];
         ++used[edge.left];
         ++used[edge.right];
@@ -200,14 +227,10 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
                                  result.facets[static_cast<std::size_t>(edge.right)].data());
     }
     const double axis_error = settings.facet_error / std::numbers::sqrt2;
-    const double lift_error = axis_error * k_offset_lever * wire.diameter;
+    const double lift_error = settings.facet_offset;
     std::vector<double*> free_blocks;
     for (const auto& [facet, count] : used) {
         double* block = result.facets[static_cast<std::size_t>(facet)].data();
-        if (!settings.facets_free) {
-            problem.SetParameterBlockConstant(block);
-            continue;
-        }
         problem.AddResidualBlock(new ceres::AutoDiffCostFunction<FacetPrior, 3, 3>(
                                      new FacetPrior{axis_error, lift_error}),
                                  nullptr, block);
@@ -242,15 +265,21 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
     problem.GetResidualBlocks(&raw.residual_blocks);
     raw.residual_blocks.resize(edges.size());  // they were added first
     problem.Evaluate(raw, nullptr, &result.residuals, nullptr, nullptr);
-    if (settings.with_covariance)
-        result.covariance = covariance_of(problem, change.data(), free_blocks);
-    double sum = 0;
-    for (const double* block : free_blocks) {
-        sum += (block[0] * block[0] + block[1] * block[1]) / (axis_error * axis_error) +
-               block[2] * block[2] / (lift_error * lift_error);
+    if (settings.with_covariance) {
+        const Eigen::MatrixXd covariance = covariance_of(problem, change.data(), free_blocks);
+        for (int i = 0; i < k_view_unknowns; ++i) {
+            for (int j = 0; j < k_view_unknowns; ++j) result.covariance.push_back(covariance(i, j));
+        }
+        Component tilt, lift;
+        for (std::size_t b = 0; b < free_blocks.size(); ++b) {
+            const Eigen::Index at = k_view_unknowns + 3 * static_cast<Eigen::Index>(b);
+            tilt.add(free_blocks[b][0], covariance(at, at), axis_error);
+            tilt.add(free_blocks[b][1], covariance(at + 1, at + 1), axis_error);
+            lift.add(free_blocks[b][2], covariance(at + 2, at + 2), lift_error);
+        }
+        result.facet_error = std::numbers::sqrt2 * tilt.sigma(axis_error);
+        result.facet_offset = lift.sigma(lift_error);
     }
-    if (!free_blocks.empty())
-        result.facet_ratio = std::sqrt(sum / (3.0 * static_cast<double>(free_blocks.size())));
     const StoneView before = result.view;
     result.view = changed(before, change);
     return result;

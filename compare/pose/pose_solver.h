@@ -22,8 +22,10 @@ using FacetChange = std::array<double, 3>;
 
 struct SolverSettings {
     bool facets_free = false;
-    double facet_error = 0.0035;  ///< expected, angle to the true facet; free facets are held by it
-    double focal_error = 0;       ///< relative, of the start's focal length; 0: held
+    /// Expected of the facets, one sigma: angle to the true facet, and distance of its plane from
+    /// the facet's middle. Free facets are held by them.
+    double facet_error = 0.0035, facet_offset = 0;
+    double focal_error = 0;            ///< relative, of the start's focal length; 0: held
     double principal_point_error = 0;  ///< pixels; 0: held
     bool with_covariance = false;
 };
@@ -36,9 +38,10 @@ struct SolvedView {
     std::vector<double> covariance;
     /// Residuals over their sigmas, as many as there were edges.
     std::vector<double> residuals;
-    /// Root mean square of the facets' changes over their expected sizes, with their uncertainty
-    /// left in: 1 when the model is as good as was said. 0 when they were held.
-    double facet_ratio = 0;
+    /// The expected errors as the edges show them: what was found over what could be found
+    /// (Helmert's estimate of variance components, in the simplified form of Foerstner 1979). With
+    /// the covariance only.
+    double facet_error = 0, facet_offset = 0;
     bool converged = false;
 };
 

@@ -43,7 +43,9 @@ std::string pose_json(const FoundPose& pose) {
                      {"turn_y_deg", degrees(s.turn[1])},
                      {"turn_sight_deg", degrees(s.turn[2])},
                      {"angle_deg", degrees(s.angle)},
+                     {"angle_99_deg", degrees(s.angle_99)},
                      {"shift_px", s.shift_px},
+                     {"shift_99_px", s.shift_99_px},
                      {"scale", s.scale},
                      {"focal_length", s.focal},
                      {"principal_point_px", s.principal_point}};
@@ -56,6 +58,7 @@ std::string pose_json(const FoundPose& pose) {
                      {"met_by_chance", pose.chance_support},
                      {"z", pose.support_z}};
     json["facet_error_deg"] = degrees(pose.facet_error);
+    json["facet_offset"] = pose.facet_offset;
     json["others"] = Json::array();
     for (const TriedPose& other : pose.others) {
         json["others"].push_back({{"camera", camera_json(other.camera)},
@@ -68,27 +71,33 @@ std::string pose_json(const FoundPose& pose) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string camera_toml(const Camera& camera) {
+CameraSettings camera_settings(const Camera& camera) {
     const auto vector = [](const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); };
-    std::string text = "[camera]\n";
-    text += "position = " + vector(camera.position) + "\n";
-    text += "look_at = " + vector(camera.look_at) + "\n";
-    text += "up = " + vector(camera.up) + "\n";
+    CameraSettings settings;
+    const auto set = [&](const char* key, const std::string& value) {
+        settings.overrides.push_back(fmt::format("camera.{}={}", key, value));
+    };
+    const auto leave = [&](const char* key) {
+        settings.without.push_back(fmt::format("camera.{}", key));
+    };
+    set("position", vector(camera.position));
+    set("look_at", vector(camera.look_at));
+    set("up", vector(camera.up));
     if (camera.orthographic_width) {
-        text += fmt::format("orthographic_width = {}\n", *camera.orthographic_width);
+        set("orthographic_width", fmt::format("{}", *camera.orthographic_width));
+        leave("fov");
     } else {
-        text += fmt::format("fov = {}\n", degrees(camera.fov));
+        set("fov", fmt::format("{}", degrees(camera.fov)));
+        leave("orthographic_width");
     }
-    text += fmt::format("size = [{}, {}]\n", camera.width, camera.height);
+    set("size", fmt::format("[{}, {}]", camera.width, camera.height));
     if (camera.principal_point) {
-        text += fmt::format("principal_point = [{}, {}]\n", (*camera.principal_point)[0],
-                            (*camera.principal_point)[1]);
+        set("principal_point",
+            fmt::format("[{}, {}]", (*camera.principal_point)[0], (*camera.principal_point)[1]));
+    } else {
+        leave("principal_point");
     }
-    if (camera.aperture_radius > 0) {
-        text += fmt::format("aperture_radius = {}\nfocus_distance = {}\n", camera.aperture_radius,
-                            camera.focus_distance);
-    }
-    return text;
+    return settings;
 }
 
 }  // namespace culet

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/matrix.hpp>
 
+#include "compare/pose/edge_lines.h"
 #include "stone/units.h"
 
 namespace culet {
@@ -11,6 +12,12 @@ namespace culet {
 namespace {
 
 constexpr std::size_t k_fewest_edges = 40;
+// Of a whole edge's place: neighbouring light that the blur mixes in.
+constexpr double k_edge_sigma = 0.06;
+constexpr int k_settling_rounds = 6;
+// Facet errors that are found are taken within these bounds of the expected ones: below, nothing
+// would be left of the caution; above, edges were not looked for.
+constexpr double k_least_error = 0.1, k_most_error = 3;
 
 /// The most telling edge near where one is expected: strong ones count more than near ones only
 /// while the expectation is vague.
@@ -27,29 +34,47 @@ const FoundEdge* best_edge(const std::vector<FoundEdge>& found, double expected,
     return best;
 }
 
-struct Search {
-    double width = 4;           ///< half of what is searched, pixels
-    double facet_widths = 0;    ///< and so many sigmas of what facet errors do
-    bool along_facets = false;  ///< edges are expected where the changed facets put them
-};
+/// Of two edges that the camera hardly separates either may be the one seen.
+double sigma_at(const WirePoint& point, double sigma) {
+    return point.gap < 2.5 ? std::hypot(sigma, 0.5 * point.gap + 0.2) : sigma;
+}
 
-std::vector<MetEdge> met_edges(const WireSolid& wire, const EdgePicture& picture,
-                               const std::vector<WirePoint>& points, const SolvedView& solved,
-                               const Search& search) {
+/// Each point by itself.
+std::vector<MetEdge> met_points(const EdgePicture& picture, const std::vector<WirePoint>& points,
+                                double width) {
     std::vector<MetEdge> met;
     for (const WirePoint& point : points) {
-        const double expected =
-            search.along_facets ? moved_by_facets(wire, solved.view, point, solved.facets) : 0;
-        const double width = std::hypot(search.width, search.facet_widths * point.facet_sigma);
-        const std::vector<FoundEdge> found =
-            edges_across(picture, point, std::abs(expected) + width);
-        const FoundEdge* edge = best_edge(found, expected, width);
+        const std::vector<FoundEdge> found = edges_across(picture, point, width);
+        const FoundEdge* edge = best_edge(found, 0, width);
         if (edge == nullptr) continue;
-        double sigma = edge->sigma;
-        // Of two edges that the camera hardly separates either may be the one seen.
-        if (point.gap < 2.5) sigma = std::hypot(sigma, 0.5 * point.gap + 0.2);
-        if (!search.along_facets) sigma = std::hypot(sigma, point.facet_sigma, 0.15 * search.width);
+        const double sigma =
+            std::hypot(sigma_at(point, edge->sigma), point.facet_sigma, 0.15 * width);
         met.push_back({point, edge->offset, sigma});
+    }
+    return met;
+}
+
+/// Edges that are met all along, where the facets that were fitted put them.
+std::vector<MetEdge> met_edges(const WireSolid& wire, const EdgePicture& picture,
+                               const std::vector<WirePoint>& points, const SolvedView& solved,
+                               double width_px, double facet_widths) {
+    std::vector<double> expected, width;
+    for (const WirePoint& point : points) {
+        expected.push_back(
+            solved.facets.empty() ? 0 : moved_by_facets(wire, solved.view, point, solved.facets));
+        width.push_back(std::hypot(width_px, facet_widths * point.facet_sigma));
+    }
+    std::vector<MetEdge> met;
+    for (const MetLine& line : met_lines(picture, points, expected, width)) {
+        for (const MetLine::Place& place : line.places) {
+            const WirePoint& point = points[static_cast<std::size_t>(place.point)];
+            // What is wrong with one point of an edge is wrong with all: as many points do not make
+            // it surer than this.
+            const double together =
+                k_edge_sigma * std::sqrt(static_cast<double>(line.places.size()));
+            met.push_back({point, place.found.offset,
+                           std::hypot(sigma_at(point, place.found.sigma), together)});
+        }
     }
     return met;
 }
@@ -77,14 +102,14 @@ RefinedView draw_in(const WireSolid& wire, const EdgePicture& picture, const Sto
     const SolverSettings solver = solver_settings(settings);
     WireSpacing spacing;
     spacing.facet_error = settings.facet_error;
+    spacing.facet_offset = expected_offset(wire, settings.facet_error);
     spacing.step = std::max(2.0, settings.diameter_px / 120);
     spacing.most_facet_sigma = 0.01 * settings.diameter_px;
     const double widest = std::max(3.0, 0.012 * settings.diameter_px);
-    for (double width = widest; width >= 1; width *= 0.7) {
+    for (double width = widest; width >= 1; width *= 0.5) {
         for (int round = 0; round < 2; ++round) {
             refined.points = points_along(wire, refined.solved.view, spacing);
-            refined.met =
-                met_edges(wire, picture, refined.points, refined.solved, {width, 0, false});
+            refined.met = met_points(picture, refined.points, width);
             if (refined.met.size() < k_fewest_edges) {
                 refined.lost = true;
                 return refined;
@@ -105,29 +130,36 @@ RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const Refi
     RefinedView refined = start;
     SolverSettings solver = solver_settings(settings);
     solver.facets_free = true;
+    solver.with_covariance = true;
+    solver.facet_offset = expected_offset(wire, settings.facet_error);
     WireSpacing spacing;
     spacing.facet_error = settings.facet_error;
+    spacing.facet_offset = solver.facet_offset;
     spacing.step = std::max(2.0, settings.diameter_px / 400);
-    spacing.most_facet_sigma = 0.015 * settings.diameter_px;
-    constexpr int k_rounds = 5;
-    for (int round = 0; round < k_rounds; ++round) {
-        const bool last = round + 1 == k_rounds;
+    spacing.most_facet_sigma = 0.004 * settings.diameter_px;
+    for (int round = 0; round < k_settling_rounds; ++round) {
         const bool first = round == 0;
         refined.points = points_along(wire, refined.solved.view, spacing);
         // Facets that were fitted say where to look; the first time only their expected errors do.
-        Search search{first ? 1.0 : 0.8, first ? 1.5 : 0.7, true};
-        refined.met = met_edges(wire, picture, refined.points, refined.solved, search);
+        refined.met = met_edges(wire, picture, refined.points, refined.solved, first ? 0.7 : 0.4,
+                                first ? 2.0 : 0.7);
         if (refined.met.size() < k_fewest_edges) {
             refined.lost = true;
             return refined;
         }
-        solver.with_covariance = last;
+        refined.facet_error = solver.facet_error;
+        refined.facet_offset = solver.facet_offset;
         refined.solved = solve_view(wire, refined.solved.view, refined.met, settings.prior_focal_px,
                                     settings.sight, solver);
         if (!refined.solved.converged || ran_away(start.solved.view, refined.solved.view)) {
             refined.lost = true;
             return refined;
         }
+        const auto near = [](double found, double expected) {
+            return std::clamp(found, k_least_error * expected, k_most_error * expected);
+        };
+        solver.facet_error = near(refined.solved.facet_error, settings.facet_error);
+        solver.facet_offset = near(refined.solved.facet_offset, spacing.facet_offset);
     }
     refined.points = points_along(wire, refined.solved.view, spacing);
     return refined;

@@ -19,14 +19,17 @@ struct RefinedView {
     SolvedView solved;
     std::vector<WirePoint> points;  ///< at the view that was found
     std::vector<MetEdge> met;       ///< those that were used last
-    bool lost = false;              ///< too few edges were met, or the view ran away
+    /// Of the model, as the edges show it (`settle`): one sigma, tilt and offset.
+    double facet_error = 0, facet_offset = 0;
+    bool lost = false;  ///< too few edges were met, or the view ran away
 };
 
 /// Without facets and covariance: fast, for choosing among views.
 RefinedView draw_in(const WireSolid& wire, const EdgePicture& picture, const StoneView& start,
                     const RefineSettings& settings);
 
-/// From there on with everything free, and how sure it is.
+/// From there on with everything free, and how sure it is. How wrong the model's facets are is
+/// found on the way.
 RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const RefinedView& start,
                    const RefineSettings& settings);
 

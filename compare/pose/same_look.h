@@ -11,6 +11,11 @@ namespace culet {
 /// in the second.
 bool look_alike(const WireSolid& wire, const StoneView& a, const StoneView& b, bool mirrored);
 
+/// To rounding: the model itself has the symmetry. The views may differ from it by `slack`, an
+/// angle.
+bool look_equal(const WireSolid& wire, const StoneView& a, const StoneView& b, bool mirrored,
+                double slack);
+
 /// The turn from whose direction a stone with a mirror plane through z and x looks, left to right,
 /// as it does from `turn`.
 glm::dmat3 mirrored_turn(const glm::dmat3& turn);

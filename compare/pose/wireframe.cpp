@@ -95,6 +95,10 @@ std::vector<WireEdge> visible_edges(const WireSolid& wire, const StoneView& view
     return found;
 }
 
+double expected_offset(const WireSolid& wire, double facet_error) {
+    return 0.15 * wire.diameter * facet_error / std::numbers::sqrt2;
+}
+
 std::vector<WirePoint> points_along(const WireSolid& wire, const StoneView& view,
                                     const WireSpacing& spacing) {
     const Projection project(view);
@@ -130,7 +134,7 @@ std::vector<WirePoint> points_along(const WireSolid& wire, const StoneView& view
                 const auto moved = static_cast<std::size_t>(left ? edge.left : edge.right);
                 const auto fixed = static_cast<std::size_t>(left ? edge.right : edge.left);
                 const double reach = glm::length(point.on_stone - wire.facet_middles[moved]);
-                const double lift = axis_error * std::hypot(reach, k_offset_lever * wire.diameter);
+                const double lift = std::hypot(axis_error * reach, spacing.facet_offset);
                 const double shift =
                     picture_shift(project, point, wire.solid.facets[moved].plane.normal,
                                   wire.solid.facets[fixed].plane.normal, small);

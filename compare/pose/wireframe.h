@@ -45,6 +45,7 @@ struct WireSpacing {
     double step = 2;                ///< between points of an edge, pixels
     double trim = 2.5;              ///< of an edge's ends: there other edges begin
     double facet_error = 0;         ///< expected, angle to the true facet
+    double facet_offset = 0;  ///< and distance of its plane from the facet's middle
     double most_facet_sigma = 1e9;  ///< points of edges less certain are left out, pixels
     double reach = 6;               ///< how far `gap` looks
 };
@@ -52,9 +53,9 @@ struct WireSpacing {
 std::vector<WirePoint> points_along(const WireSolid& wire, const StoneView& view,
                                     const WireSpacing& spacing);
 
-/// How far the facets' offsets may be wrong beside their tilts, as a share of the tilt's sigma
-/// times the stone's diameter: facets that are tilted about any point of the stone move at their
-/// middles by the tilt times some sixth of the diameter.
-constexpr double k_offset_lever = 0.15;
+/// What is expected of facets' offsets at first, when only their tilts are known: facets that are
+/// tilted about some point of the stone move at their middles by the tilt times some sixth of the
+/// diameter.
+double expected_offset(const WireSolid& wire, double facet_error);
 
 }  // namespace culet
