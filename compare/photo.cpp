@@ -38,6 +38,7 @@ Photo read_photo(const std::filesystem::path& file) {
     for (float& share : photo.coverage) {
         share = std::isfinite(share) ? std::clamp(share, 0.0f, 1.0f) : 0.0f;
     }
+    photo.not_finite = not_finite;
     if (not_finite > 0) {
         photo.notes.push_back(
             fmt::format("{} samples were no finite numbers and count as 0", not_finite));

@@ -15,6 +15,14 @@ struct Photo {
     std::vector<float> coverage;
     /// Linear value at which the camera clips: 1 for integer files; 0: it does not (EXR, HDR).
     double saturation = 0;
+    /// One variance (of the linear value) a sample, from a merged series; empty: not known.
+    std::vector<float> variance;
+    /// 0..1 for each pixel: over-exposed in every exposure there was; empty: see `saturation`.
+    std::vector<float> saturated;
+    /// False: the values do not stand for light (a tone-mapped JPEG); shapes and places only.
+    bool photometric = true;
+    std::string not_photometric;     ///< why, in a few words; empty when `photometric`
+    std::size_t not_finite = 0;      ///< samples that were NaN or infinite in the file, now 0
     std::string encoding;            ///< for the record: "8-bit sRGB", "linear EXR", ...
     std::vector<std::string> notes;  ///< what was repaired on reading, one line each
 };
