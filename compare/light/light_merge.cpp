@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
@@ -119,75 +120,101 @@ struct Correction {
     std::vector<float> up, total;  // a texel: weighted ratios (3) and weights (1)
 };
 
+// Where in the map the parts of each of the ball's pixels look, worked out once for all passes.
+struct PixelParts {
+    Rows rows{};
+    int parts = 1;  // a pixel
+    std::vector<float> column, row;
+    std::vector<float> quality;  // a pixel; 0: not used
+
+    PixelParts(const BallView& view, int width) : rows(rows_of(view)) {
+        const double texel = std::sqrt(2.0) * k_pi / width;
+        const double pixel = std::sqrt(view.ball.solid_angle_per_pixel());
+        const int steps = std::clamp(static_cast<int>(std::ceil((getenv("ST") ? atof(getenv("ST")) : 1.2) * pixel / texel)), 1, 4);
+        parts = steps * steps;
+        const int across = rows.right - rows.left, down = rows.to - rows.from;
+        quality.assign(static_cast<std::size_t>(across) * down, 0);
+        column.resize(quality.size() * static_cast<std::size_t>(parts));
+        row.resize(column.size());
+        tbb::parallel_for(0, down, [&](int j) {
+            for (int i = 0; i < across; ++i) {
+                const std::size_t at = static_cast<std::size_t>(j) * across + i;
+                double sum = 0;
+                for (int k = 0; k < parts; ++k) {
+                    const double x = rows.left + i - 0.5 + (k % steps + 0.5) / steps;
+                    const double y = rows.from + j - 0.5 + (k / steps + 0.5) / steps;
+                    const auto d = view.ball.direction_of({x, y});
+                    if (!d) {
+                        sum = 0;
+                        break;
+                    }
+                    sum += view.quality(*d) / parts;
+                    const MapPlace place =
+                        lat_long_place(view.world_from_camera * *d, width, width / 2);
+                    column[at * parts + k] = static_cast<float>(place.column - 0.5);
+                    row[at * parts + k] =
+                        static_cast<float>(std::clamp(place.row - 0.5, 0.0, width / 2 - 1.0));
+                }
+                quality[at] = sum < 1e-3 ? 0 : static_cast<float>(sum);
+            }
+        });
+    }
+};
+
 // One pass for one view: what the map would look like in the ball, against the picture.
-void add_corrections(const EnvironmentMap& map, const BallView& view, double gain,
-                     std::vector<Correction>& bands) {
-    const Rows rows = rows_of(view);
-    const double texel = std::sqrt(2.0) * k_pi / map.width;
-    const double pixel = std::sqrt(view.ball.solid_angle_per_pixel());
-    const int steps = std::clamp(static_cast<int>(std::ceil(2 * pixel / texel)), 2, 5);
-    const double share = 1.0 / (steps * steps);
+void add_corrections(const EnvironmentMap& map, const BallView& view, const PixelParts& pixels,
+                     double gain, std::vector<Correction>& bands) {
+    const Rows& rows = pixels.rows;
+    const int across = rows.right - rows.left, down = rows.to - rows.from;
     const int band_count = static_cast<int>(bands.size());
     tbb::parallel_for(0, band_count, [&](int band) {
         Correction& sum = bands[static_cast<std::size_t>(band)];
-        struct Sample {
-            std::array<std::size_t, 4> texel;
-            std::array<double, 4> share;
-        };
-        std::vector<Sample> samples;
-        const int count = rows.to - rows.from;
-        for (int y = rows.from + count * band / band_count;
-             y < rows.from + count * (band + 1) / band_count; ++y) {
-            for (int x = rows.left; x < rows.right; ++x) {
-                samples.clear();
-                std::array<double, 3> predicted{};
-                double quality = 0;
-                for (int k = 0; k < steps * steps; ++k) {
-                    const auto d = view.ball.direction_of({x - 0.5 + (k % steps + 0.5) / steps,
-                                                           y - 0.5 + (k / steps + 0.5) / steps});
-                    if (!d) break;
-                    quality += share * view.quality(*d);
+        std::array<std::size_t, 64> texel{};
+        std::array<float, 64> share{};
+        for (int j = down * band / band_count; j < down * (band + 1) / band_count; ++j) {
+            for (int i = 0; i < across; ++i) {
+                const std::size_t at = static_cast<std::size_t>(j) * across + i;
+                const float quality = pixels.quality[at];
+                if (quality <= 0) continue;
+                std::array<float, 3> predicted{};
+                std::size_t used = 0;
+                for (int k = 0; k < pixels.parts; ++k) {
                     // As EnvironmentMap::at looks it up.
-                    const MapPlace place = lat_long_place(view.world_from_camera * *d, map.width,
-                                                          map.height);
-                    const double column = place.column - 0.5;
-                    const double row = std::clamp(place.row - 0.5, 0.0, map.height - 1.0);
-                    const double x0 = std::floor(column), y0 = std::floor(row);
-                    const double u = column - x0, v = row - y0;
-                    Sample sample;
+                    const float column = pixels.column[at * pixels.parts + k];
+                    const float row = pixels.row[at * pixels.parts + k];
+                    const int x0 = static_cast<int>(std::floor(column));
+                    const int y0 = static_cast<int>(row);
+                    const float u = column - static_cast<float>(x0);
+                    const float v = row - static_cast<float>(y0);
                     for (int corner = 0; corner < 4; ++corner) {
-                        const int i = (static_cast<int>(x0) + corner % 2 + map.width) % map.width;
-                        const int j = std::min(static_cast<int>(y0) + corner / 2, map.height - 1);
-                        const auto c4 = static_cast<std::size_t>(corner);
-                        sample.texel[c4] = static_cast<std::size_t>(j) * map.width + i;
-                        sample.share[c4] =
-                            share * (corner % 2 ? u : 1 - u) * (corner / 2 ? v : 1 - v);
+                        const int x = (x0 + corner % 2 + map.width) % map.width;
+                        const int y = std::min(y0 + corner / 2, map.height - 1);
+                        texel[used] = static_cast<std::size_t>(y) * map.width + x;
+                        share[used] = (corner % 2 ? u : 1 - u) * (corner / 2 ? v : 1 - v) /
+                                      static_cast<float>(pixels.parts);
                         for (std::size_t c = 0; c < 3; ++c)
-                            predicted[c] +=
-                                sample.share[c4] * map.rgb[3 * sample.texel[c4] + c];
+                            predicted[c] += share[used] * map.rgb[3 * texel[used] + c];
+                        ++used;
                     }
-                    samples.push_back(sample);
                 }
-                if (samples.size() != static_cast<std::size_t>(steps * steps) || quality < 1e-3)
-                    continue;
-                const std::size_t at = static_cast<std::size_t>(y) * view.picture->width + x;
+                const std::size_t pixel =
+                    static_cast<std::size_t>(rows.from + j) * view.picture->width + rows.left + i;
                 const bool over =
-                    !view.picture->saturated.empty() && view.picture->saturated[at] > 0;
-                std::array<double, 3> ratio{};
+                    !view.picture->saturated.empty() && view.picture->saturated[pixel] > 0;
+                std::array<float, 3> ratio{};
                 for (std::size_t c = 0; c < 3; ++c) {
-                    const double taken = gain * view.picture->rgb[3 * at + c];
+                    const auto taken =
+                        static_cast<float>(gain * view.picture->rgb[3 * pixel + c]);
                     ratio[c] = predicted[c] > 0 ? taken / predicted[c] : 1;
                     // An over-exposed pixel says "at least".
-                    if (over) ratio[c] = std::max(ratio[c], 1.0);
-                    ratio[c] = std::clamp(ratio[c], 0.5, 2.0);
+                    if (over) ratio[c] = std::max(ratio[c], 1.0f);
+                    ratio[c] = std::clamp(ratio[c], 0.5f, 2.0f);
                 }
-                for (const Sample& sample : samples) {
-                    for (std::size_t c4 = 0; c4 < 4; ++c4) {
-                        const double w = quality * sample.share[c4];
-                        sum.total[sample.texel[c4]] += static_cast<float>(w);
-                        for (std::size_t c = 0; c < 3; ++c)
-                            sum.up[3 * sample.texel[c4] + c] += static_cast<float>(w * ratio[c]);
-                    }
+                for (std::size_t k = 0; k < used; ++k) {
+                    const float w = quality * share[k];
+                    sum.total[texel[k]] += w;
+                    for (std::size_t c = 0; c < 3; ++c)
+                        sum.up[3 * texel[k] + c] += w * ratio[c];
                 }
             }
         }
@@ -195,7 +222,7 @@ void add_corrections(const EnvironmentMap& map, const BallView& view, double gai
 }
 
 void sharpen(EnvironmentMap& map, const std::vector<BallView>& views,
-             const std::vector<double>& gains) {
+             const std::vector<PixelParts>& pixels, const std::vector<double>& gains) {
     const std::size_t texels = map.rgb.size() / 3;
     std::vector<double> up(3 * texels), total(texels);
     for (std::size_t v = 0; v < views.size(); ++v) {
@@ -204,7 +231,7 @@ void sharpen(EnvironmentMap& map, const std::vector<BallView>& views,
             band.up.assign(3 * texels, 0);
             band.total.assign(texels, 0);
         }
-        add_corrections(map, views[v], gains[v], bands);
+        add_corrections(map, views[v], pixels[v], gains[v], bands);
         for (const Correction& band : bands) {
             for (std::size_t i = 0; i < texels; ++i) {
                 if (band.total[i] <= 0) continue;
@@ -272,9 +299,12 @@ MergedLight merge_views(const std::vector<BallView>& views, const std::vector<do
             merged.disagreement[i] = std::log2((high[i] + floor) / (low[i] + floor));
     }
     merged.filled_sr = fill_holes(merged.map, weight);
+    std::vector<PixelParts> pixels;
+    if (passes > 0)
+        for (const BallView& view : views) pixels.emplace_back(view, width);
     for (int pass = 0; pass < passes; ++pass) {
         report(static_cast<double>(views.size()) + pass);
-        sharpen(merged.map, views, gains);
+        sharpen(merged.map, views, pixels, gains);
     }
     return merged;
 }

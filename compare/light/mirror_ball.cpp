@@ -114,14 +114,14 @@ std::optional<PixelPlace> MirrorBall::place_of(const Vec3& direction) const {
     // The normal at phi from the camera's direction sends the ray that meets it there, psi beside
     // the axis, to theta = 2 phi + psi. Newton: psi' = (L cos phi - 1) / (L^2 - 2 L cos phi + 1).
     const double l = distance_;
-    double phi = theta / 2;
+    double phi = (theta - std::sin(theta / 2) / (l - std::cos(theta / 2))) / 2;
     for (int i = 0; i < 20; ++i) {
         const double c = std::cos(phi), s = std::sin(phi);
         const double psi = std::atan2(s, l - c);
         const double slope = 2 + (l * c - 1) / (l * l - 2 * l * c + 1);
         const double step = (2 * phi + psi - theta) / slope;
         phi -= step;
-        if (std::abs(step) < 1e-14) break;
+        if (std::abs(step) < 1e-12) break;
     }
     // From the camera: the centre, and the normal from it.
     const Vec3 point = centre_ + std::cos(phi) * towards_camera_ + std::sin(phi) * aside;

@@ -366,10 +366,6 @@ FineResult least_squares(const FineProblem& problem, FineResult result, double s
     middle[9] = 1 / k_unknown_distance;
 
     // Residual: second + log2 gain - first, all in stops.
-    struct State {
-        std::vector<double> residual;
-        double cost = 0, scale = 0;
-    };
     const auto residuals = [&](const std::vector<double>& a, const std::vector<double>& b,
                                double gain) {
         std::vector<double> r(n, k_unseen);
@@ -377,11 +373,21 @@ FineResult least_squares(const FineProblem& problem, FineResult result, double s
             if (weight[i] > 0 && a[i] < k_unseen && b[i] < k_unseen) r[i] = b[i] + gain - a[i];
         return r;
     };
-    const auto scale_of = [&](const std::vector<double>& r) {
+    // The spread of residuals where the pictures have structure: walls of one colour agree
+    // whatever the turn, and would make every edge an outlier.
+    const auto scale_of = [&](const std::vector<double>& r, const std::vector<double>& moved) {
+        std::vector<std::pair<double, double>> by_structure;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (r[i] < k_unseen && moved[i] < k_unseen)
+                by_structure.emplace_back(std::abs(moved[i] - r[i]), std::abs(r[i]));
+        }
+        const std::size_t kept = by_structure.size() / 5;
+        if (kept < 20) return 1.0;
+        std::nth_element(by_structure.begin(), by_structure.begin() + static_cast<long>(kept),
+                         by_structure.end(), std::greater<>());
         std::vector<double> sizes;
-        for (const double v : r)
-            if (v < k_unseen) sizes.push_back(std::abs(v));
-        return std::max(1.4826 * median(std::move(sizes)), 1e-4);
+        for (std::size_t i = 0; i < kept; ++i) sizes.push_back(by_structure[i].second);
+        return std::max(1.4826 * median(std::move(sizes)), 1e-3);
     };
     const auto prior_cost = [&](const Parameters& p) {
         double cost = 0;
@@ -410,7 +416,13 @@ FineResult least_squares(const FineProblem& problem, FineResult result, double s
         result.at[10] = -median(std::move(known));
         r = residuals(a, b, result.at[10]);
     }
-    double damping = 1e-3, scale = scale_of(r), cost = cost_of(r, scale, result.at);
+    const auto turned_a_little = [&] {
+        Parameters p = result.at;
+        for (int k = 0; k < 3; ++k) p[k] += 1e-3;
+        return residuals(a, seen(problem, p, true, second), p[10]);
+    };
+    double damping = 1e-3, scale = scale_of(r, turned_a_little());
+    double cost = cost_of(r, scale, result.at);
     for (int iteration = 0; iteration < 15; ++iteration) {
         std::array<std::vector<double>, k_parameters> moved;
         for (int k = 0; k < 10; ++k) {
@@ -475,7 +487,7 @@ FineResult least_squares(const FineProblem& problem, FineResult result, double s
         const Eigen::Matrix3d turned = normal.inverse().template topLeftCorner<3, 3>();
         result.sigma = std::sqrt(std::max(turned.trace() / 3, 0.0));
         if (!better) break;
-        scale = scale_of(r);
+        scale = scale_of(r, turned_a_little());
         cost = cost_of(r, scale, result.at);
         if (moved_by.head<3>().norm() < 1e-7 && moved_by.segment<6>(3).norm() < 1e-3) break;
     }
@@ -519,7 +531,7 @@ ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
     FineProblem problem{a, b, first_prior, second_prior, coarse.best.rotation, {}, false};
     problem.find_distance = (first_prior.focal_px <= 0 && first_prior.distance <= 0) ||
                             (second_prior.focal_px <= 0 && second_prior.distance <= 0);
-    for (const Vec3& d : even_directions(40000)) {
+    for (const Vec3& d : even_directions(24000)) {
         if (a.quality(d) > 1e-3 &&
             b.quality(glm::transpose(coarse.best.rotation) * d) > 1e-3)
             problem.directions.push_back(d);

@@ -28,22 +28,22 @@ inline Panorama room(unsigned seed) {
         Rgb colour;
     };
     std::vector<Patch> patches;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 25; ++i) {
         const double z = 2 * uniform() - 1, a = 2 * std::numbers::pi * uniform();
-        const double r = std::sqrt(1 - z * z), size = 0.04 + 0.35 * uniform() * uniform();
+        const double r = std::sqrt(1 - z * z), size = 0.05 + 0.5 * uniform() * uniform();
         const double bright = 0.05 * std::pow(100.0, uniform() * uniform());
         patches.push_back({{r * std::cos(a), r * std::sin(a), z},
                            std::cos(size),
-                           0.006 + 0.02 * uniform(),
+                           (0.006 + 0.02 * uniform()) * std::sin(size),
                            {bright * (0.6 + 0.8 * uniform()), bright * (0.6 + 0.8 * uniform()),
                             bright * (0.6 + 0.8 * uniform())}});
     }
     return [patches](const Vec3& d) {
         Rgb light{0.2 + 0.1 * d.z, 0.2 + 0.1 * d.z, 0.25 + 0.15 * d.z};
         for (const Patch& p : patches) {
-            const double over = std::acos(std::min(1.0, p.cosine)) -
-                                std::acos(std::clamp(glm::dot(d, p.direction), -1.0, 1.0));
-            const double t = std::clamp(over / p.edge + 0.5, 0.0, 1.0);
+            const double t =
+                std::clamp((glm::dot(d, p.direction) - p.cosine) / p.edge + 0.5, 0.0, 1.0);
+            if (t == 0) continue;
             for (std::size_t c = 0; c < 3; ++c)
                 light[c] += (p.colour[c] - light[c]) * t * t * (3 - 2 * t);
         }
