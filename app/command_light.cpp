@@ -28,7 +28,7 @@ struct LightArguments {
     std::string out, cube, picture, json, distance, reflectance, towards;
     double photographer_deg = 10;
     double turned_deg = 0;
-    int width = 0, passes = 3;
+    int width = 0, passes = 20;
     const CLI::Option* turned_given = nullptr;
 };
 

@@ -34,6 +34,8 @@ void add_common(CLI::App& command, CommonOptions& options, bool reads_toml = fal
 void add_command_fit(CLI::App& program, int& exit_code);
 void add_command_render(CLI::App& program, int& exit_code);
 void add_command_compare(CLI::App& program, int& exit_code);
+void add_command_camera(CLI::App& program, int& exit_code);
+void add_command_photo(CLI::App& program, int& exit_code);
 void add_command_light(CLI::App& program, int& exit_code);
 void add_command_cut(CLI::App& program, int& exit_code);
 void add_command_convert(CLI::App& program, int& exit_code);

@@ -95,7 +95,6 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
     if (groups.empty()) groups = views_of(shots);
 
     ReadSeries result;
-    result.one_exposure = true;
     double first_exposure = 0;
     for (std::size_t g = 0; g < groups.size(); ++g) {
         std::vector<BracketShot> bracket;
@@ -112,7 +111,6 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
             bracket.push_back({files[i].string(), std::move(photos[i]),
                                shots[i].exposure.value_or(1.0)});
         }
-        if (!known) result.one_exposure = false;
         const double exposure = bracket[0].exposure;
         if (g == 0) first_exposure = exposure;
         const Photo& sample = bracket[0].photo;

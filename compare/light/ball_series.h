@@ -33,7 +33,6 @@ std::vector<std::vector<std::size_t>> views_of(const std::vector<SortedShot>& sh
 struct ReadSeries {
     std::vector<ProbeView> views;
     std::vector<std::string> notes;
-    bool one_exposure = false;  ///< the views' exposures are known: no gain need be solved for
 };
 
 /// Reads, groups and merges. Throws InputError: unreadable, exposures missing or of the wrong

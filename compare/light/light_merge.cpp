@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
@@ -21,6 +20,8 @@ namespace {
 constexpr double k_pi = std::numbers::pi;
 // Below this quality a view is used where no other sees more: it counts as not covered.
 constexpr double k_seen = 1e-4;
+// Each correction to this power: Richardson and Lucy's steps are timid (Meinel 1986).
+constexpr double k_boldness = 1.6;
 
 double luminance_of(const float* rgb) {
     return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
@@ -130,7 +131,7 @@ struct PixelParts {
     PixelParts(const BallView& view, int width) : rows(rows_of(view)) {
         const double texel = std::sqrt(2.0) * k_pi / width;
         const double pixel = std::sqrt(view.ball.solid_angle_per_pixel());
-        const int steps = std::clamp(static_cast<int>(std::ceil((getenv("ST") ? atof(getenv("ST")) : 1.2) * pixel / texel)), 1, 4);
+        const int steps = std::clamp(static_cast<int>(std::ceil(2 * pixel / texel)), 1, 4);
         parts = steps * steps;
         const int across = rows.right - rows.left, down = rows.to - rows.from;
         quality.assign(static_cast<std::size_t>(across) * down, 0);
@@ -243,7 +244,8 @@ void sharpen(EnvironmentMap& map, const std::vector<BallView>& views,
     for (std::size_t i = 0; i < texels; ++i) {
         if (total[i] <= 0) continue;
         for (std::size_t c = 0; c < 3; ++c)
-            map.rgb[3 * i + c] *= static_cast<float>(up[3 * i + c] / total[i]);
+            map.rgb[3 * i + c] *=
+                static_cast<float>(std::pow(up[3 * i + c] / total[i], k_boldness));
     }
 }
 

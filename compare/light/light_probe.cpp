@@ -22,6 +22,8 @@ namespace {
 constexpr double k_pi = std::numbers::pi;
 constexpr double k_smallest_radius = 20;   // pixels
 constexpr double k_usual_distance = 30;    // radii, where nothing says better
+// Gains nearer to 1 than this are within the error of finding them: the views are exposed alike.
+constexpr double k_rounding = 0.005;
 constexpr int k_narrowest = 128, k_widest = 4096;
 
 glm::dmat3 world_from_camera(double azimuth, double elevation) {
@@ -304,7 +306,7 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
         seen[to].ball = best->first;
         seen[v].ball = best->second;
         seen[v].world_from_camera = seen[to].world_from_camera * best->first_from_second;
-        gains.push_back(options.same_exposure ? 1.0 : gains[to] * best->gain);
+        gains.push_back(gains[to] * (std::abs(best->gain - 1) < k_rounding ? 1.0 : best->gain));
         // What was refined with one view stays as it is for the next.
         ready[to].prior.circle = best->first.circle();
         ready[to].prior.circle_sigma_px = 0.02;

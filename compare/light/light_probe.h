@@ -34,8 +34,7 @@ struct ProbeOptions {
     /// picture, counter-clockwise from above; else found.
     std::optional<double> turned;
     int width = 0;    ///< of the lat-long map; 0: as fine as the ball shows it
-    int passes = 8;   ///< of sharpening (light_merge.h)
-    bool same_exposure = false;  ///< views are exposed alike: no gain is solved for
+    int passes = 20;  ///< of sharpening (light_merge.h)
 };
 
 struct ProbeViewResult {

@@ -2,17 +2,14 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 #include <numbers>
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
+#include "compare/light/view_refinement.h"
 #include "render/environment_layout.h"
 #include "stone/units.h"
 
@@ -21,7 +18,6 @@ namespace culet {
 namespace {
 
 constexpr double k_pi = std::numbers::pi;
-constexpr double k_unknown_distance = 30;  // a start where the distance is found
 
 std::vector<Vec3> even_directions(int count) {
     std::vector<Vec3> result;
@@ -255,261 +251,6 @@ CoarseResult over_all_rotations(const ViewMap& first, const ViewMap& second) {
     return {best.front(), best.size() > 1 ? best[1].score : -1.0};
 }
 
-// ---- the fine part: least squares on the pictures themselves ----
-
-// Parameters: a small rotation (3), the outlines' x, y, radius (2 x 3), 1 / distance, log2 gain.
-constexpr int k_parameters = 11;
-using Parameters = Eigen::Matrix<double, k_parameters, 1>;
-
-cv::Mat log_luminance(const Photo& picture, double sigma_px) {
-    cv::Mat plane(picture.height, picture.width, CV_32F);
-    double mean = 0;
-    for (int y = 0; y < picture.height; ++y) {
-        for (int x = 0; x < picture.width; ++x) {
-            const std::size_t i = static_cast<std::size_t>(y) * picture.width + x;
-            plane.at<float>(y, x) = static_cast<float>(luminance_of(&picture.rgb[3 * i]));
-            mean += plane.at<float>(y, x);
-        }
-    }
-    mean = std::max(mean / static_cast<double>(plane.total()), 1e-30);
-    if (sigma_px > 0.3) cv::GaussianBlur(plane, plane, {}, sigma_px, sigma_px, cv::BORDER_REPLICATE);
-    for (int y = 0; y < plane.rows; ++y) {
-        float* row = plane.ptr<float>(y);
-        for (int x = 0; x < plane.cols; ++x)
-            row[x] = static_cast<float>(std::log2(row[x] + 1e-3 * mean));
-    }
-    return plane;
-}
-
-double bilinear(const cv::Mat& plane, const PixelPlace& place) {
-    const double x = std::clamp(place.x, 0.0, plane.cols - 1.001);
-    const double y = std::clamp(place.y, 0.0, plane.rows - 1.001);
-    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-    const double u = x - x0, v = y - y0;
-    const float *a = plane.ptr<float>(y0) + x0, *b = plane.ptr<float>(y0 + 1) + x0;
-    return (1 - v) * ((1 - u) * a[0] + u * a[1]) + v * ((1 - u) * b[0] + u * b[1]);
-}
-
-struct FineProblem {
-    const BallView &first, &second;
-    ViewPrior first_prior, second_prior;
-    glm::dmat3 start{1.0};
-    std::vector<Vec3> directions;  // in the first camera's frame
-    bool find_distance = false;
-
-    glm::dmat3 rotation(const Parameters& p) const { return turn({p[0], p[1], p[2]}) * start; }
-    MirrorBall ball(const Parameters& p, bool is_second) const {
-        ViewPrior prior = is_second ? second_prior : first_prior;
-        const int at = is_second ? 6 : 3;
-        prior.circle.x += p[at];
-        prior.circle.y += p[at + 1];
-        prior.circle.radius += p[at + 2];
-        return ball_of(prior, 1 / std::max(p[9], 1e-6));
-    }
-};
-
-constexpr double k_unseen = 1e9;
-
-std::vector<double> seen(const FineProblem& problem, const Parameters& p, bool is_second,
-                         const cv::Mat& plane) {
-    std::vector<double> values(problem.directions.size(), k_unseen);
-    const MirrorBall ball = problem.ball(p, is_second);
-    const glm::dmat3 second_from_first = glm::transpose(problem.rotation(p));
-    tbb::parallel_for(std::size_t{0}, values.size(), [&](std::size_t i) {
-        const Vec3 d =
-            is_second ? second_from_first * problem.directions[i] : problem.directions[i];
-        if (const auto place = ball.place_of(d)) values[i] = bilinear(plane, *place);
-    });
-    return values;
-}
-
-struct FineResult {
-    Parameters at = Parameters::Zero();
-    double residual = 0, correlation = 0, sigma = 0;
-};
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
-FineResult least_squares(const FineProblem& problem, FineResult result, double sigma_px) {
-    const cv::Mat first = log_luminance(*problem.first.picture, sigma_px);
-    const cv::Mat second = log_luminance(*problem.second.picture, sigma_px);
-    const std::size_t n = problem.directions.size();
-    // Weights stay as they are at the start of the level.
-    std::vector<double> weight(n);
-    {
-        const glm::dmat3 back = glm::transpose(problem.rotation(result.at));
-        for (std::size_t i = 0; i < n; ++i) {
-            const double a = problem.first.quality(problem.directions[i]);
-            const double b = problem.second.quality(back * problem.directions[i]);
-            weight[i] = a > 1e-3 && b > 1e-3 ? std::sqrt(a * b) : 0;
-        }
-    }
-    Parameters step_size, prior = Parameters::Zero();
-    const auto sigma_of = [](const ViewPrior& view) { return view.circle_sigma_px; };
-    for (int k = 0; k < k_parameters; ++k) {
-        if (k < 3) step_size[k] = 1e-4;
-        if (k >= 3 && k < 9) {
-            const double sigma = sigma_of(k < 6 ? problem.first_prior : problem.second_prior);
-            step_size[k] = sigma > 0 ? 0.05 : 0;
-            prior[k] = sigma > 0 ? 1 / (sigma * sigma) : 0;
-        }
-    }
-    step_size[9] = problem.find_distance ? 1e-3 : 0;
-    prior[9] = 1 / (0.05 * 0.05);
-    step_size[10] = 1;  // linear, known
-    Parameters middle = Parameters::Zero();
-    middle[9] = 1 / k_unknown_distance;
-
-    // Residual: second + log2 gain - first, all in stops.
-    const auto residuals = [&](const std::vector<double>& a, const std::vector<double>& b,
-                               double gain) {
-        std::vector<double> r(n, k_unseen);
-        for (std::size_t i = 0; i < n; ++i)
-            if (weight[i] > 0 && a[i] < k_unseen && b[i] < k_unseen) r[i] = b[i] + gain - a[i];
-        return r;
-    };
-    // The spread of residuals where the pictures have structure: walls of one colour agree
-    // whatever the turn, and would make every edge an outlier.
-    const auto scale_of = [&](const std::vector<double>& r, const std::vector<double>& moved) {
-        std::vector<std::pair<double, double>> by_structure;
-        for (std::size_t i = 0; i < n; ++i) {
-            if (r[i] < k_unseen && moved[i] < k_unseen)
-                by_structure.emplace_back(std::abs(moved[i] - r[i]), std::abs(r[i]));
-        }
-        const std::size_t kept = by_structure.size() / 5;
-        if (kept < 20) return 1.0;
-        std::nth_element(by_structure.begin(), by_structure.begin() + static_cast<long>(kept),
-                         by_structure.end(), std::greater<>());
-        std::vector<double> sizes;
-        for (std::size_t i = 0; i < kept; ++i) sizes.push_back(by_structure[i].second);
-        return std::max(1.4826 * median(std::move(sizes)), 1e-3);
-    };
-    const auto prior_cost = [&](const Parameters& p) {
-        double cost = 0;
-        for (int k = 0; k < k_parameters; ++k)
-            cost += prior[k] * (p[k] - middle[k]) * (p[k] - middle[k]);
-        return cost;
-    };
-    // Cauchy's loss at twice the scale: photographers, lamps that moved.
-    const auto cost_of = [&](const std::vector<double>& r, double scale, const Parameters& p) {
-        double cost = prior_cost(p);
-        for (std::size_t i = 0; i < n; ++i) {
-            const double v = r[i] < k_unseen ? r[i] : 4 * scale;  // losing overlap gains nothing
-            const double x = v / (2 * scale);
-            if (weight[i] > 0) cost += weight[i] * 4 * std::log1p(x * x);
-        }
-        return cost;
-    };
-
-    std::vector<double> a = seen(problem, result.at, false, first);
-    std::vector<double> b = seen(problem, result.at, true, second);
-    std::vector<double> r = residuals(a, b, 0);
-    {
-        std::vector<double> known;
-        for (const double v : r)
-            if (v < k_unseen) known.push_back(v);
-        result.at[10] = -median(std::move(known));
-        r = residuals(a, b, result.at[10]);
-    }
-    const auto turned_a_little = [&] {
-        Parameters p = result.at;
-        for (int k = 0; k < 3; ++k) p[k] += 1e-3;
-        return residuals(a, seen(problem, p, true, second), p[10]);
-    };
-    double damping = 1e-3, scale = scale_of(r, turned_a_little());
-    double cost = cost_of(r, scale, result.at);
-    for (int iteration = 0; iteration < 15; ++iteration) {
-        std::array<std::vector<double>, k_parameters> moved;
-        for (int k = 0; k < 10; ++k) {
-            if (step_size[k] == 0) continue;
-            Parameters p = result.at;
-            p[k] += step_size[k];
-            const bool touches_first = (k >= 3 && k < 6) || k == 9;
-            const bool touches_second = !(k >= 3 && k < 6);
-            moved[k] = residuals(touches_first ? seen(problem, p, false, first) : a,
-                                 touches_second ? seen(problem, p, true, second) : b, p[10]);
-        }
-        Eigen::Matrix<double, k_parameters, k_parameters> normal;
-        normal.setZero();
-        Parameters gradient = Parameters::Zero();
-        for (std::size_t i = 0; i < n; ++i) {
-            if (r[i] >= k_unseen) continue;
-            Parameters row = Parameters::Zero();
-            bool whole = true;
-            for (int k = 0; k < 10; ++k) {
-                if (step_size[k] == 0) continue;
-                if (moved[k][i] >= k_unseen) {
-                    whole = false;
-                    break;
-                }
-                row[k] = (moved[k][i] - r[i]) / step_size[k];
-            }
-            if (!whole) continue;
-            row[10] = 1;
-            const double x = r[i] / (2 * scale);
-            const double w = weight[i] / (scale * scale) / (1 + x * x);
-            normal.noalias() += w * row * row.transpose();
-            gradient += w * r[i] * row;
-        }
-        for (int k = 0; k < k_parameters; ++k) {
-            normal(k, k) += prior[k];
-            gradient[k] += prior[k] * (result.at[k] - middle[k]);
-            if (step_size[k] == 0) normal(k, k) += 1e30;
-        }
-        bool better = false;
-        Parameters moved_by = Parameters::Zero();
-        for (int attempt = 0; attempt < 6 && !better; ++attempt) {
-            auto damped = normal;
-            for (int k = 0; k < k_parameters; ++k) damped(k, k) *= 1 + damping;
-            moved_by = -damped.ldlt().solve(gradient);
-            if (!moved_by.allFinite()) break;
-            Parameters p = result.at + moved_by;
-            p[9] = std::clamp(p[9], 1e-6, 0.5);
-            const auto a2 = seen(problem, p, false, first), b2 = seen(problem, p, true, second);
-            const auto r2 = residuals(a2, b2, p[10]);
-            const double tried = cost_of(r2, scale, p);
-            if (tried < cost) {
-                better = true;
-                result.at = p;
-                a = a2;
-                b = b2;
-                r = r2;
-                damping = std::max(damping / 5, 1e-9);
-            } else {
-                damping *= 8;
-            }
-        }
-        const Eigen::Matrix3d turned = normal.inverse().template topLeftCorner<3, 3>();
-        result.sigma = std::sqrt(std::max(turned.trace() / 3, 0.0));
-        if (!better) break;
-        scale = scale_of(r, turned_a_little());
-        cost = cost_of(r, scale, result.at);
-        if (moved_by.head<3>().norm() < 1e-7 && moved_by.segment<6>(3).norm() < 1e-3) break;
-    }
-    std::vector<double> sizes;
-    double sw = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        if (r[i] >= k_unseen) continue;
-        sizes.push_back(std::abs(r[i]));
-        const double w = weight[i];
-        sw += w;
-        sa += w * a[i];
-        sb += w * b[i];
-        saa += w * a[i] * a[i];
-        sbb += w * b[i] * b[i];
-        sab += w * a[i] * b[i];
-    }
-    result.residual = median(std::move(sizes));
-    const double va = sw * saa - sa * sa, vb = sw * sbb - sb * sb;
-    result.correlation = va > 0 && vb > 0 ? (sw * sab - sa * sb) / std::sqrt(va * vb) : 0;
-    return result;
-}
-
 }  // namespace
 
 MirrorBall ball_of(const ViewPrior& prior, double otherwise) {
@@ -528,23 +269,9 @@ ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
     CoarseResult coarse{{turned.value_or(glm::dmat3(1.0)), 1}, -1};
     if (!turned) coarse = over_all_rotations(view_map(a, 256), view_map(b, 256));
 
-    FineProblem problem{a, b, first_prior, second_prior, coarse.best.rotation, {}, false};
-    problem.find_distance = (first_prior.focal_px <= 0 && first_prior.distance <= 0) ||
-                            (second_prior.focal_px <= 0 && second_prior.distance <= 0);
-    for (const Vec3& d : even_directions(24000)) {
-        if (a.quality(d) > 1e-3 &&
-            b.quality(glm::transpose(coarse.best.rotation) * d) > 1e-3)
-            problem.directions.push_back(d);
-    }
-    FineResult fine;
-    fine.at[9] = 1 / k_unknown_distance;
-    const double radius = std::min(first_prior.circle.radius, second_prior.circle.radius);
-    for (const double sigma_px : {radius / 60, radius / 200, 0.7})
-        fine = least_squares(problem, fine, sigma_px);
-
-    ViewAlignment result{problem.rotation(fine.at), fine.correlation, coarse.rival,
-                         std::exp2(fine.at[10]), fine.residual, fine.sigma,
-                         problem.ball(fine.at, false), problem.ball(fine.at, true), false};
+    const RefinedViews fine = refine_views(a, first_prior, b, second_prior, coarse.best.rotation);
+    ViewAlignment result{fine.first_from_second, fine.correlation, coarse.rival, fine.gain,
+                         fine.residual, fine.sigma, fine.first, fine.second, false};
     // Beside chance: a rotation that is far off must be clearly worse, and the best must be good.
     result.ambiguous =
         !turned && (coarse.best.score < 0.5 || coarse.rival > coarse.best.score - 0.05);
