@@ -51,6 +51,9 @@ int run(int argc, char** argv) {
     add_command_render(program, exit_code);
     add_command_register(program, exit_code);
     add_command_compare(program, exit_code);
+    add_command_photo(program, exit_code);
+    add_command_light(program, exit_code);
+    add_command_camera(program, exit_code);
     add_command_run(program, exit_code);
     add_command_study(program, exit_code);
     add_command_probe(program, exit_code);
