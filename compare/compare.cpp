@@ -130,8 +130,16 @@ void add_null(const MatchedPictures& pictures, const WaveletBank& wavelets, cons
         "mirrored, gain solved anew; draws under which the render stays much the same are left out";
 }
 
+// Bright and dark places, or, where the photograph's brightness is not to be trusted, the facets'
+// images.
+const Score& deciding(const Comparison& result) {
+    const char* key = result.geometry_only ? "cw_ssim" : "zncc";
+    return *std::find_if(result.scores.begin(), result.scores.end(),
+                         [&](const Score& s) { return s.key == key; });
+}
+
 void judge(Comparison& result) {
-    const Score& zncc = result.scores.front();
+    const Score& zncc = deciding(result);
     if (!zncc.value) {
         result.verdict = Verdict::no_evidence;
         result.reason = "there is no pattern to compare: " + zncc.note;
@@ -144,28 +152,32 @@ void judge(Comparison& result) {
             "cannot tell a match from chance";
         return;
     }
+    const double enough = result.geometry_only ? k_match_cw_ssim : k_match_zncc;
+    const std::string what =
+        result.geometry_only ? "the facets' images agree" : "bright and dark places agree";
     const double z = *zncc.z;
     const std::string figures =
-        fmt::format("correlation {}, chance level {} ± {}", decimals(*zncc.value, 2),
+        fmt::format("{} {}, chance level {} ± {}",
+                    result.geometry_only ? "CW-SSIM" : "correlation", decimals(*zncc.value, 2),
                     decimals(zncc.null_mean, 2), decimals(zncc.null_sd, 2));
-    if (z >= k_match_z && *zncc.value >= k_match_zncc) {
+    if (z >= k_match_z && *zncc.value >= enough) {
         result.verdict = Verdict::match;
         result.reason = fmt::format(
-            "bright and dark places agree far better than those of the same "
+            "{} far better than those of the same "
             "render turned ({})",
-            figures);
+            what, figures);
     } else if (z >= k_partial_z && *zncc.p <= 1 / (result.null_draws + 0.99)) {
         result.verdict = Verdict::partial;
         result.reason = fmt::format(
-            "bright and dark places agree better than those of the same "
+            "{} better than those of the same "
             "render turned, but not by much ({})",
-            figures);
+            what, figures);
     } else {
         result.verdict = Verdict::no_evidence;
         result.reason = fmt::format(
-            "bright and dark places agree no better than those of the same "
+            "{} no better than those of the same "
             "render turned ({})",
-            figures);
+            what, figures);
     }
 }
 
@@ -229,6 +241,15 @@ Comparison compare(const Photo& photo, const Photo& render, const CompareOptions
     result.scores = measured.scores;
     if (measured.reflexes) {
         result.reflexes = counted(*measured.reflexes);
+    }
+    if (!photo.photometric) {
+        result.geometry_only = true;
+        keep_geometry_only(result.scores, "the photograph cannot serve for photometry");
+        result.notes.push_back(
+            fmt::format("the photograph cannot serve for photometry ({}): only scores of geometry "
+                        "are given",
+                        photo.not_photometric.empty() ? "its values are not light"
+                                                      : photo.not_photometric));
     }
     const ColourDistributions colours = colour_distributions(pictures);
     result.photo_light = colours.photo_light;

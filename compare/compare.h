@@ -74,6 +74,7 @@ struct Comparison {
     double saturated = 0;                 ///< share of compared pixels that the camera clipped
     int compared_pixels = 0;
     std::vector<Score> scores;
+    bool geometry_only = false;  ///< the photograph cannot serve for photometry
     ReflexCount reflexes;
     /// Mean luminance of the compared pixels, 1 being the white level; the render's with the gain.
     double photo_light = 0, render_light = 0;
@@ -117,6 +118,8 @@ Comparison compare(const Photo& photo, const Photo& render, const CompareOptions
                    const Progress& progress = {});
 
 constexpr double k_match_z = 5, k_partial_z = 2, k_match_zncc = 0.8;
+/// The same of CW-SSIM, which decides for photographs that cannot serve for photometry.
+constexpr double k_match_cw_ssim = 0.55;
 
 /// What a program would want to know beside the scores themselves.
 struct CompareSources {

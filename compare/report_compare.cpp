@@ -285,6 +285,12 @@ std::string headline_section(const Report& report, const Json& scores, const Jso
                 "<p class=\"simulated\"><b>Simulated photograph.</b> The photograph on this "
                 "page was computed, not taken with a camera.</p>\n";
         }
+        if (c.geometry_only) {
+            body +=
+                "<p class=\"simulated\"><b>Geometry only.</b> This photograph cannot serve for "
+                "photometry: scores of brightness and colour are left out, and the verdict rests on "
+                "shapes and places.</p>\n";
+        }
         body += fmt::format(
             "<div class=\"verdict {}\"><span class=\"symbol\" aria-hidden=\"true\">{}</span>"
             "<div><p class=\"word\">{}</p><p>{}</p></div></div>\n",

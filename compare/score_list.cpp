@@ -31,13 +31,33 @@ public:
 
 const std::vector<ScoreKind>& score_kinds() {
     static const std::vector<ScoreKind> kinds{
-        {"zncc", true},          {"zncc_1pct", true},      {"zncc_4pct", true},
-        {"reflex_f1", true},     {"reflex_area_f1", true}, {"reflex_hue", true},
-        {"cw_ssim", true},       {"ssim", true},           {"gmsd", false},
-        {"nmi", true},           {"psnr", true},           {"deltaE00_mean", false},
-        {"deltaE00_p95", false}, {"body_deltaE00", false}, {"colour_emd", false},
-        {"flip_mean", false}};
+        {"zncc", true, false},
+        {"zncc_1pct", true, false},
+        {"zncc_4pct", true, false},
+        {"reflex_f1", true, true},
+        {"reflex_area_f1", true, true},
+        {"reflex_hue", true, false},
+        {"cw_ssim", true, true},
+        {"ssim", true, false},
+        {"gmsd", false, true},
+        {"nmi", true, true},
+        {"psnr", true, false},
+        {"deltaE00_mean", false, false},
+        {"deltaE00_p95", false, false},
+        {"body_deltaE00", false, false},
+        {"colour_emd", false, false},
+        {"flip_mean", false, false}};
     return kinds;
+}
+
+void keep_geometry_only(std::vector<Score>& scores, const std::string& why) {
+    for (Score& score : scores) {
+        const auto kind = std::find_if(score_kinds().begin(), score_kinds().end(),
+                                       [&](const ScoreKind& k) { return score.key == k.key; });
+        if (kind != score_kinds().end() && kind->geometry) continue;
+        score.value.reset();
+        score.note = why;
+    }
 }
 
 Measured measure(const MatchedPictures& pictures, const WaveletBank& wavelets) {

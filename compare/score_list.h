@@ -14,6 +14,7 @@ namespace culet {
 struct ScoreKind {
     const char* key;
     bool higher_is_better;
+    bool geometry;  ///< a tone curve, even one that differs from place to place, does it little harm
 };
 /// All there are, in order.
 const std::vector<ScoreKind>& score_kinds();
@@ -23,6 +24,10 @@ struct Measured {
     std::optional<ReflexMatch> reflexes;
     cv::Mat ssim_map, colour_map, flip_map;
 };
+
+/// Takes away the scores that need light to be light, where the photograph cannot serve for
+/// photometry; `why` says why it cannot.
+void keep_geometry_only(std::vector<Score>& scores, const std::string& why);
 
 /// `wavelets` must have been made for pictures of this size.
 Measured measure(const MatchedPictures& pictures, const WaveletBank& wavelets);

@@ -74,6 +74,7 @@ std::string scores_json(const Comparison& comparison, const CompareSources& sour
     json["reason"] = comparison.reason;
     json["equivalent_facet_error_deg"] =
         comparison.meaning ? number(comparison.meaning->equivalent.deg) : Json(nullptr);
+    json["geometry_only"] = comparison.geometry_only;
     json["simulated"] = comparison.simulated;
     json["photo"] = sources.photo_file;
     json["render"] = sources.render_file;

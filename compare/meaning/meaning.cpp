@@ -138,7 +138,7 @@ const char* const k_calibrated_rule =
 
 bool takes_part(const std::string& key, bool geometry_only) {
     // Colour-only scores see no geometry; the counts of reflexes are coarse beside their areas.
-    const std::vector<std::string> geometry{"cw_ssim", "gmsd", "nmi"};
+    const std::vector<std::string> geometry{"cw_ssim", "gmsd", "nmi", "reflex_area_f1"};
     const std::vector<std::string> all{"zncc", "zncc_1pct", "zncc_4pct",     "reflex_area_f1",
                                        "cw_ssim", "ssim", "nmi", "psnr", "deltaE00_mean",
                                        "flip_mean"};

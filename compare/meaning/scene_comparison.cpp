@@ -52,6 +52,8 @@ Mirrored mirrored(const Photo& photo, const CompareOptions& options) {
     Mirrored result{photo, options.mask, options.ignored};
     flip_rows(result.photo.rgb, photo.width, 3);
     flip_rows(result.photo.coverage, photo.width, 1);
+    flip_rows(result.photo.variance, photo.width, 3);
+    flip_rows(result.photo.saturated, photo.width, 1);
     flip_rows(result.mask, photo.width, 1);
     flip_rows(result.ignored, photo.width, 1);
     return result;
@@ -195,7 +197,7 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
     calibration.start = options.start;
     comparison.calibration = calibrated(result, renderer, calibration, options.cache,
                                         part_of(progress, 0.2, 1));
-    comparison.meaning = meaning_of(comparison.scores, *comparison.calibration);
+    comparison.meaning = meaning_of(comparison.scores, *comparison.calibration, comparison.geometry_only);
     comparison.verdict = comparison.meaning->verdict;
     comparison.reason = comparison.meaning->reason;
     return result;
