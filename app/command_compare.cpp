@@ -67,7 +67,8 @@ std::string command_line(const CompareArguments& a) {
     for (const std::string& mask : a.ignored) line += " --ignore " + mask;
     if (a.simulated) line += " --simulated";
     if (a.against_scene()) {
-        if (a.calibrate) line += fmt::format(" --calibrate --budget {:g} --draws {}", a.budget, a.draws);
+        if (a.calibrate)
+            line += fmt::format(" --calibrate --budget {:g} --draws {}", a.budget, a.draws);
         if (!a.cache.empty()) line += " --cache " + a.cache;
         if (!a.start.empty()) line += " --start " + a.start;
         if (a.keep_pose) line += " --keep-pose";
@@ -123,8 +124,8 @@ Report report_of(const CompareArguments& a, const std::string& photo, const Comp
 Compared compare_with_render(const CompareArguments& a, const std::string& version) {
     const Photo photo = read_photo(a.pictures.front()), render = read_photo(a.against());
     Compared result;
-    result.comparison = compare(photo, render, options_of(a, photo),
-                                progress_line("comparing", a.common.quiet));
+    result.comparison =
+        compare(photo, render, options_of(a, photo), progress_line("comparing", a.common.quiet));
     result.json = scores_json(result.comparison, {a.pictures.front(), a.against(), a.mask});
     result.report = report_of(a, a.pictures.front(), result.comparison, result.json, version);
     return result;
@@ -177,19 +178,22 @@ void say_result(const CompareArguments& a, const Comparison& comparison) {
 
 int run_compare(const CompareArguments& a, const std::string& version) {
     if (a.pictures.size() < 2) {
-        throw InputError("compare takes a photograph and a render or a scene file: "
-                         "culet compare PHOTO RENDER -o DIR");
+        throw InputError(
+            "compare takes a photograph and a render or a scene file: "
+            "culet compare PHOTO RENDER -o DIR");
     }
     if (!a.against_scene()) {
         if (a.photographs() > 1) {
-            throw InputError(fmt::format(
-                "several photographs have several poses, and {} is one picture: give the scene file "
-                "(.toml) as the last of them",
-                a.against()));
+            throw InputError(
+                fmt::format("several photographs have several poses, and {} is one picture: give "
+                            "the scene file "
+                            "(.toml) as the last of them",
+                            a.against()));
         }
         if (a.calibrate) {
-            throw InputError("--calibrate draws the stone anew: give the scene file (.toml) instead "
-                             "of a render");
+            throw InputError(
+                "--calibrate draws the stone anew: give the scene file (.toml) instead "
+                "of a render");
         }
     }
     if (!a.mask.empty() && a.photographs() > 1) {
@@ -208,9 +212,9 @@ int run_compare(const CompareArguments& a, const std::string& version) {
     require_writable(page_file);
 
     if (a.photographs() == 1) {
-        const Compared one =
-            scene ? compare_with_scene(a, a.pictures.front(), *scene, start, version)
-                  : compare_with_render(a, version);
+        const Compared one = scene
+                                 ? compare_with_scene(a, a.pictures.front(), *scene, start, version)
+                                 : compare_with_render(a, version);
         const std::string page = report_page(one.report);
         if (!a.json.empty()) write_text(a.json, one.json);
         write_text(page_file, page);
@@ -227,8 +231,9 @@ int run_compare(const CompareArguments& a, const std::string& version) {
         say(file, a.common.quiet);
         say_result(a, one.comparison);
         pages.push_back(report_page(one.report));
-        rows.push_back({fs::path(file).filename().string(), fmt::format("photograph-{}.html", i + 1),
-                        one.json, std::move(one.comparison)});
+        rows.push_back({fs::path(file).filename().string(),
+                        fmt::format("photograph-{}.html", i + 1), one.json,
+                        std::move(one.comparison)});
     }
     const SeveralPhotographs several = together(rows);
     const std::string json = several_json(several, rows);
@@ -270,9 +275,10 @@ void add_command_compare(CLI::App& program, int& exit_code) {
                      "picture of the photograph's size, white where the stone is")
         ->type_name("FILE");
     command
-        ->add_option("--ignore", arguments->ignored,
-                     "picture of the photograph's size, white where nothing is to be compared (dust, "
-                     "inclusions, a holder); may be given several times")
+        ->add_option(
+            "--ignore", arguments->ignored,
+            "picture of the photograph's size, white where nothing is to be compared (dust, "
+            "inclusions, a holder); may be given several times")
         ->type_name("MASK")
         ->allow_extra_args(false);
     command->add_flag("--simulated", arguments->simulated,
@@ -284,7 +290,9 @@ void add_command_compare(CLI::App& program, int& exit_code) {
                      "seconds after which the calibration begins no further draw (0: no limit)")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
-    command->add_option("--draws", arguments->draws, "of each facet error; each null has three times as many")
+    command
+        ->add_option("--draws", arguments->draws,
+                     "of each facet error; each null has three times as many")
         ->check(CLI::Range(2, 1000))
         ->capture_default_str();
     command

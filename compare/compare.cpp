@@ -81,8 +81,13 @@ Registration registration_of(const Frame& frame) {
 }
 
 ReflexCount counted(const ReflexMatch& match) {
-    ReflexCount count{match.in_photo, match.in_render, match.matched, match.displacement,
-                      match.coloured, match.same_hue, {}};
+    ReflexCount count{match.in_photo,
+                      match.in_render,
+                      match.matched,
+                      match.displacement,
+                      match.coloured,
+                      match.same_hue,
+                      {}};
     const auto add = [&](const std::vector<Reflex>& reflexes, bool of_photo) {
         for (const Reflex& reflex : reflexes) {
             count.marks.push_back({{reflex.middle.x, reflex.middle.y},
@@ -156,10 +161,9 @@ void judge(Comparison& result) {
     const std::string what =
         result.geometry_only ? "the facets' images agree" : "bright and dark places agree";
     const double z = *zncc.z;
-    const std::string figures =
-        fmt::format("{} {}, chance level {} ± {}",
-                    result.geometry_only ? "CW-SSIM" : "correlation", decimals(*zncc.value, 2),
-                    decimals(zncc.null_mean, 2), decimals(zncc.null_sd, 2));
+    const std::string figures = fmt::format(
+        "{} {}, chance level {} ± {}", result.geometry_only ? "CW-SSIM" : "correlation",
+        decimals(*zncc.value, 2), decimals(zncc.null_mean, 2), decimals(zncc.null_sd, 2));
     if (z >= k_match_z && *zncc.value >= enough) {
         result.verdict = Verdict::match;
         result.reason = fmt::format(
@@ -205,7 +209,8 @@ Comparison compare(const Photo& photo, const Photo& render, const CompareOptions
     for (const std::string& note : photo.notes) result.notes.push_back("photo: " + note);
     for (const std::string& note : render.notes) result.notes.push_back("render: " + note);
 
-    const Frame frame = align(photo, options.mask, render, {.largest = options.largest, .ignored = options.ignored});
+    const Frame frame = align(photo, options.mask, render,
+                              {.largest = options.largest, .ignored = options.ignored});
     if (progress && !progress(0.1)) throw Interrupted();
     result.registration = registration_of(frame);
     if (!frame.photo.colour.empty()) {
@@ -245,11 +250,10 @@ Comparison compare(const Photo& photo, const Photo& render, const CompareOptions
     if (!photo.photometric) {
         result.geometry_only = true;
         keep_geometry_only(result.scores, "the photograph cannot serve for photometry");
-        result.notes.push_back(
-            fmt::format("the photograph cannot serve for photometry ({}): only scores of geometry "
-                        "are given",
-                        photo.not_photometric.empty() ? "its values are not light"
-                                                      : photo.not_photometric));
+        result.notes.push_back(fmt::format(
+            "the photograph cannot serve for photometry ({}): only scores of geometry "
+            "are given",
+            photo.not_photometric.empty() ? "its values are not light" : photo.not_photometric));
     }
     const ColourDistributions colours = colour_distributions(pictures);
     result.photo_light = colours.photo_light;

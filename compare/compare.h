@@ -98,11 +98,11 @@ struct CompareOptions {
     /// Of the photo: over a half is left out of every score (dust, inclusions, a holder); empty:
     /// nothing is.
     std::vector<float> ignored;
-    bool simulated = false;   ///< the photograph is itself computed: said wherever it appears
-    std::uint64_t seed = 1;   ///< of the null's draws
-    int null_draws = 24;      ///< at least 20
-    int threads = 0;          ///< 0: all processors; the result does not depend on it
-    double largest = 640;     ///< pixels that the stone is across at most, where it is compared
+    bool simulated = false;  ///< the photograph is itself computed: said wherever it appears
+    std::uint64_t seed = 1;  ///< of the null's draws
+    int null_draws = 24;     ///< at least 20
+    int threads = 0;         ///< 0: all processors; the result does not depend on it
+    double largest = 640;    ///< pixels that the stone is across at most, where it is compared
 };
 
 /// Registers by the outlines, solves one gain for each channel, scores, and draws the null.

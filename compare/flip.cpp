@@ -61,9 +61,10 @@ Seen seen(const cv::Mat& linear, double pixels_per_degree) {
     // The two Gaussians are weighted by their volumes: height a sqrt(pi / b), area b / pi.
     const double wide = k_blue_yellow.a * std::sqrt(k_blue_yellow.b);
     const double narrow = k_blue_yellow_narrow.a * std::sqrt(k_blue_yellow_narrow.b);
-    planes[2] = (wide * blurred(planes[2], sigma_px(k_blue_yellow, pixels_per_degree), radius) +
-                 narrow * blurred(planes[2], sigma_px(k_blue_yellow_narrow, pixels_per_degree), radius)) /
-                (wide + narrow);
+    planes[2] =
+        (wide * blurred(planes[2], sigma_px(k_blue_yellow, pixels_per_degree), radius) +
+         narrow * blurred(planes[2], sigma_px(k_blue_yellow_narrow, pixels_per_degree), radius)) /
+        (wide + narrow);
     cv::merge(planes, 3, opponent);
     cv::Mat back;
     cv::transform(opponent, back, forward.inv());

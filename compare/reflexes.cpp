@@ -16,10 +16,21 @@ namespace {
 
 constexpr double k_bright_share = 0.9;    // of the pixels are darker than a reflex
 constexpr double k_least_extent = 0.007;  // of the diameter
+constexpr double k_blur = 0.003;          // of the diameter
 constexpr double k_reach = 0.02;          // of the diameter
 constexpr double k_area_factor = 3;
 constexpr double k_coloured = 10;        // CIELAB chroma
 constexpr double k_hue_cosine = 0.8660;  // of 30 degrees
+
+// Clipped at white, and blurred a little: a flat part of the stone that is as bright as the level
+// would else break up into spots of noise.
+cv::Mat smoothed_light(const cv::Mat& colour, const MatchedPictures& pictures) {
+    cv::Mat light = luminance(colour);
+    cv::min(light, pictures.white, light);
+    const double sigma = std::max(0.7, k_blur * pictures.diameter);
+    cv::GaussianBlur(light, light, {0, 0}, sigma, sigma, cv::BORDER_REPLICATE);
+    return light;
+}
 
 // Reflexes and where they are: `labels` holds 1 + the index of a reflex, 0 elsewhere.
 struct Found {
@@ -77,16 +88,16 @@ double chroma(const Lab& c) {
 
 bool same_hue(const Lab& photo, const Lab& render) {
     if (chroma(render) <= k_coloured) return false;
-    const double cosine = (photo.a * render.a + photo.b * render.b) / chroma(photo) / chroma(render);
+    const double cosine =
+        (photo.a * render.a + photo.b * render.b) / chroma(photo) / chroma(render);
     return cosine >= k_hue_cosine;
 }
 
 }  // namespace
 
 std::optional<ReflexMatch> match_reflexes(const MatchedPictures& pictures) {
-    cv::Mat photo = luminance(pictures.photo), render = luminance(pictures.render);
-    cv::min(photo, pictures.white, photo);
-    cv::min(render, pictures.white, render);
+    const cv::Mat photo = smoothed_light(pictures.photo, pictures);
+    const cv::Mat render = smoothed_light(pictures.render, pictures);
     const double level = quantile(photo, pictures.mask, k_bright_share);
     const double extent = std::max(1.5, k_least_extent * pictures.diameter);
     const Found in_photo = reflexes_in(photo, pictures.mask, level, extent * extent);

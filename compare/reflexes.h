@@ -31,6 +31,7 @@ struct ReflexMatch {
     std::optional<double> hue_agreement;
 };
 
+/// Light is clipped at white and blurred by 0.3 % of the diameter first.
 /// A reflex is a connected region brighter than nine tenths of the photo's compared pixels, of at
 /// least (0.7 % of the diameter) squared. Two match when their middles lie within 2 % of the
 /// diameter and their areas within a factor of three; nearest pairs first, each reflex once. The

@@ -38,7 +38,9 @@ std::string comparison_tiles(const Comparison& c) {
     if (c.meaning && c.meaning->equivalent.deg) {
         const EquivalentError& error = c.meaning->equivalent;
         tiles += tile("Equivalent facet error",
-                      (error.at_least ? "≥ " : error.at_most ? "≤ " : "") +
+                      (error.at_least  ? "≥ "
+                       : error.at_most ? "≤ "
+                                       : "") +
                           significant(error.deg, 2) + "°",
                       fmt::format("{}° to {}°", significant(error.low_deg, 2),
                                   significant(error.high_deg, 2)));
@@ -54,12 +56,11 @@ std::string comparison_tiles(const Comparison& c) {
                                   decimals(delta->null_sd, 1)));
     }
     if (c.reflexes.in_photo > 0) {
-        tiles += tile("Reflexes found",
-                      fmt::format("{} of {}", c.reflexes.matched, c.reflexes.in_photo),
-                      c.reflexes.displacement
-                          ? fmt::format("{} % of the diameter apart",
-                                        decimals(100 * *c.reflexes.displacement, 1))
-                          : "");
+        tiles +=
+            tile("Reflexes found", fmt::format("{} of {}", c.reflexes.matched, c.reflexes.in_photo),
+                 c.reflexes.displacement ? fmt::format("{} % of the diameter apart",
+                                                       decimals(100 * *c.reflexes.displacement, 1))
+                                         : "");
     }
     if (c.registration.iou > 0) {
         tiles += tile("Outlines overlap", decimals(c.registration.iou, 4),
@@ -157,7 +158,8 @@ constexpr ScoreWords k_words[] = {
     {"psnr", "PSNR, dB", "error of the encoded colours against full scale", 1},
     {"deltaE00_mean", "ΔE00, mean", "visible colour difference", 2},
     {"deltaE00_p95", "ΔE00, 95 %", "95 % of the stone differ less", 2},
-    {"body_deltaE00", "Body colour, ΔE00", "between the mean colours: material and white balance", 2},
+    {"body_deltaE00", "Body colour, ΔE00", "between the mean colours: material and white balance",
+     2},
     {"colour_emd", "Colours, EMD", "how far colours must be moved, wherever they are", 2},
     {"flip_mean", "FLIP, mean", "visible difference when the two are flicked between", 3},
 };
@@ -288,7 +290,8 @@ std::string headline_section(const Report& report, const Json& scores, const Jso
         if (c.geometry_only) {
             body +=
                 "<p class=\"simulated\"><b>Geometry only.</b> This photograph cannot serve for "
-                "photometry: scores of brightness and colour are left out, and the verdict rests on "
+                "photometry: scores of brightness and colour are left out, and the verdict rests "
+                "on "
                 "shapes and places.</p>\n";
         }
         body += fmt::format(
@@ -420,21 +423,21 @@ std::string reflexes_section(const Report& report) {
                 mark.at_px[0] + 0.5, mark.at_px[1] + 0.5, other.at_px[0] + 0.5,
                 other.at_px[1] + 0.5);
         }
-        shapes += fmt::format(
-            "<circle class=\"{} {}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"/>",
-            mark.of_photo ? "in-photo" : "in-render", found ? "found" : "alone",
-            mark.at_px[0] + 0.5, mark.at_px[1] + 0.5, std::max(2.5, mark.radius_px + 1));
+        shapes += fmt::format("<circle class=\"{} {}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"/>",
+                              mark.of_photo ? "in-photo" : "in-render", found ? "found" : "alone",
+                              mark.at_px[0] + 0.5, mark.at_px[1] + 0.5,
+                              std::max(2.5, mark.radius_px + 1));
     }
     const auto side = [&](const Photo& picture, const std::string& what) {
         return fmt::format(
             "<figure class=\"overlay reflexes\"><svg viewBox=\"0 0 {0} {1}\" role=\"img\" "
             "aria-label=\"{2}\"><image href=\"{3}\" width=\"{0}\" height=\"{1}\"/>{4}</svg>"
             "<figcaption>{2}</figcaption></figure>\n",
-            picture.width, picture.height, escaped(what),
-            picture_uri(picture, c.pictures.white), shapes);
+            picture.width, picture.height, escaped(what), picture_uri(picture, c.pictures.white),
+            shapes);
     };
-    std::string body = fmt::format("<p>{}.</p>\n<div class=\"reflex-pair\">\n",
-                                   escaped(sentence_of(c.reflexes)));
+    std::string body =
+        fmt::format("<p>{}.</p>\n<div class=\"reflex-pair\">\n", escaped(sentence_of(c.reflexes)));
     body += side(photo, "Reflexes over the " + word) +
             side(c.pictures.render, "The same over the render");
     body += fmt::format(

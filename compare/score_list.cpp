@@ -31,22 +31,14 @@ public:
 
 const std::vector<ScoreKind>& score_kinds() {
     static const std::vector<ScoreKind> kinds{
-        {"zncc", true, false},
-        {"zncc_1pct", true, false},
-        {"zncc_4pct", true, false},
-        {"reflex_f1", true, true},
-        {"reflex_area_f1", true, true},
-        {"reflex_hue", true, false},
-        {"cw_ssim", true, true},
-        {"ssim", true, false},
-        {"gmsd", false, true},
-        {"nmi", true, true},
-        {"psnr", true, false},
-        {"deltaE00_mean", false, false},
-        {"deltaE00_p95", false, false},
-        {"body_deltaE00", false, false},
-        {"colour_emd", false, false},
-        {"flip_mean", false, false}};
+        {"zncc", true, false},          {"zncc_1pct", true, false},
+        {"zncc_4pct", true, false},     {"reflex_f1", true, true},
+        {"reflex_area_f1", true, true}, {"reflex_hue", true, false},
+        {"cw_ssim", true, true},        {"ssim", true, false},
+        {"gmsd", false, true},          {"nmi", true, true},
+        {"psnr", true, false},          {"deltaE00_mean", false, false},
+        {"deltaE00_p95", false, false}, {"body_deltaE00", false, false},
+        {"colour_emd", false, false},   {"flip_mean", false, false}};
     return kinds;
 }
 
@@ -70,7 +62,7 @@ Measured measure(const MatchedPictures& pictures, const WaveletBank& wavelets) {
 
     result.reflexes = match_reflexes(pictures);
     const auto& reflexes = result.reflexes;
-    const auto of_reflexes = [&](double ReflexMatch::* part) {
+    const auto of_reflexes = [&](double ReflexMatch::*part) {
         return reflexes ? std::optional((*reflexes).*part) : std::nullopt;
     };
     const std::string none = "the photo has no reflex that stands out";
@@ -85,8 +77,7 @@ Measured measure(const MatchedPictures& pictures, const WaveletBank& wavelets) {
     scores.add(structure.mean);
     scores.add(gmsd(pair, pictures.mask), "too few pixels");
     scores.add(normalized_information(pair, pictures.mask), flat);
-    scores.add(psnr(pair, pictures.mask),
-               "the pictures are equal: there is no noise to measure");
+    scores.add(psnr(pair, pictures.mask), "the pictures are equal: there is no noise to measure");
 
     const ColourScore colour = deltaE00(pictures);
     scores.add(colour.mean);

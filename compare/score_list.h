@@ -14,7 +14,8 @@ namespace culet {
 struct ScoreKind {
     const char* key;
     bool higher_is_better;
-    bool geometry;  ///< a tone curve, even one that differs from place to place, does it little harm
+    bool
+        geometry;  ///< a tone curve, even one that differs from place to place, does it little harm
 };
 /// All there are, in order.
 const std::vector<ScoreKind>& score_kinds();

@@ -107,12 +107,16 @@ std::string scores_json(const Comparison& comparison, const CompareSources& sour
     if (comparison.meaning && comparison.calibration) {
         json["meaning"] = meaning_json(*comparison.meaning, *comparison.calibration);
     }
-    json["verdict_rule"] = comparison.meaning ? std::string(k_calibrated_rule) : fmt::format(
-        "match: zncc at least {} standard deviations above its null (of atanh) and at "
-        "least {}; partial: at least {} standard deviations and better than every draw; else "
-        "no_evidence. A "
-        "proposal, not validated.",
-        k_match_z, k_match_zncc, k_partial_z);
+    json["verdict_rule"] =
+        comparison.meaning
+            ? std::string(k_calibrated_rule)
+            : fmt::format(
+                  "match: zncc at least {} standard deviations above its null (of atanh) and at "
+                  "least {}; partial: at least {} standard deviations and better than every draw; "
+                  "else "
+                  "no_evidence. A "
+                  "proposal, not validated.",
+                  k_match_z, k_match_zncc, k_partial_z);
     json["notes"] = comparison.notes;
     // File names need not be UTF-8; what is not is replaced rather than thrown over.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -35,7 +35,15 @@ struct Job {
     int which = 0;  // of the world's kinds
 };
 
-enum Wrong { higher_index, lower_index, flat_index, more_absorption, turned_light, tilted, k_wrongs };
+enum Wrong {
+    higher_index,
+    lower_index,
+    flat_index,
+    more_absorption,
+    turned_light,
+    tilted,
+    k_wrongs
+};
 
 const char* name_of(Wrong wrong) {
     switch (wrong) {
@@ -108,7 +116,8 @@ std::vector<Job> Draws::jobs(std::vector<std::string>& notes) {
     turns_alike_ = turns_alike(stone.solid, stone.up);
     const bool one_light = same_light_from_everywhere(model_.lights);
     if (one_light) {
-        notes.push_back("the light is the same from everywhere: there is no wrong light to compare with");
+        notes.push_back(
+            "the light is the same from everywhere: there is no wrong light to compare with");
     }
     catalogue_ = options_.start ? options_.start : symmetrised(stone.solid, stone.up);
     neighbours_ = neighbouring_materials(stone.material, k_neighbours);
@@ -172,8 +181,8 @@ Scene Draws::world_of(const Job& job) const {
     switch (job.world) {
         case World::facet_error:
             if (job.facet_error_deg > 0) {
-                if (auto solid = with_facet_error(model_.stone.solid,
-                                                  radians(job.facet_error_deg), job.seed)) {
+                if (auto solid = with_facet_error(model_.stone.solid, radians(job.facet_error_deg),
+                                                  job.seed)) {
                     stone.solid = std::move(*solid);
                 }
             }
@@ -213,8 +222,8 @@ Scene Draws::world_of(const Job& job) const {
                     stone.material = with_absorption_times(material, 1.3);
                     break;
                 case turned_light:
-                    scene.lights = turned_lights(model_.lights, rotation_about(axis, radians(5.0)),
-                                                 middle_);
+                    scene.lights =
+                        turned_lights(model_.lights, rotation_about(axis, radians(5.0)), middle_);
                     break;
                 case tilted:
                     stone = turned_stone(model_.stone, rotation_about(axis, radians(0.5)), middle_);
@@ -282,7 +291,8 @@ std::vector<std::optional<double>> calibration_scores(const Photo& photo,
     if (!frame.render.empty()) {
         const LaidPictures laid = lay_pictures(frame, photo.saturation, model_picture.saturation);
         if (laid.enough()) {
-            const WaveletBank bank = wavelet_bank(laid.pictures.mask.size(), laid.pictures.diameter);
+            const WaveletBank bank =
+                wavelet_bank(laid.pictures.mask.size(), laid.pictures.diameter);
             for (const Score& score : measure(laid.pictures, bank).scores) {
                 values.push_back(score.value);
             }
@@ -292,9 +302,8 @@ std::vector<std::optional<double>> calibration_scores(const Photo& photo,
     return values;
 }
 
-Calibration calibrate(const Scene& model, const Photo& model_picture,
-                      const DraftRenderer& renderer, const CalibrateOptions& options,
-                      const Progress& progress) {
+Calibration calibrate(const Scene& model, const Photo& model_picture, const DraftRenderer& renderer,
+                      const CalibrateOptions& options, const Progress& progress) {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
     const auto seconds = [&] {
@@ -319,7 +328,8 @@ Calibration calibrate(const Scene& model, const Photo& model_picture,
         if (options.budget_seconds > 0 && seconds() > options.budget_seconds) break;
         const std::size_t end = std::min(jobs.size(), done + batch);
         arena.execute([&] {
-            tbb::parallel_for(done, end, [&](std::size_t i) { result.draws[i] = draws.draw(jobs[i]); });
+            tbb::parallel_for(done, end,
+                              [&](std::size_t i) { result.draws[i] = draws.draw(jobs[i]); });
         });
         done = end;
         if (progress && !progress(static_cast<double>(done) / static_cast<double>(jobs.size()))) {
@@ -329,8 +339,9 @@ Calibration calibrate(const Scene& model, const Photo& model_picture,
     result.draws.resize(done);
     result.seconds = seconds();
     if (!result.complete()) {
-        result.notes.push_back(fmt::format("the budget of {:g} s ended the calibration after {} of {} draws",
-                                           options.budget_seconds, done, jobs.size()));
+        result.notes.push_back(
+            fmt::format("the budget of {:g} s ended the calibration after {} of {} draws",
+                        options.budget_seconds, done, jobs.size()));
     }
     return result;
 }

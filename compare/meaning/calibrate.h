@@ -15,15 +15,15 @@
 namespace culet {
 
 struct CalibrateOptions {
-    CameraModel camera;    ///< of the photograph
-    int draws = 8;         ///< at each facet error
-    int null_draws = 24;   ///< of each null
+    CameraModel camera;   ///< of the photograph
+    int draws = 8;        ///< at each facet error
+    int null_draws = 24;  ///< of each null
     /// Seconds of the clock after which no further draw is begun; 0: no limit. How many draws were
     /// made is then a matter of the machine, but each of them is what it would have been.
     double budget_seconds = 60;
     std::uint64_t seed = 1;
-    int threads = 0;         ///< 0: all processors; the result does not depend on it
-    double largest = 256;    ///< as in `Alignment`
+    int threads = 0;       ///< 0: all processors; the result does not depend on it
+    double largest = 256;  ///< as in `Alignment`
     /// In the frame of the model's picture; over a half is left out. Empty: nothing is.
     std::vector<float> ignored{};
     std::optional<Solid> start{};  ///< the mesh that the fit started from: the catalogue's cut
@@ -37,9 +37,8 @@ std::string calibration_hash(const Scene& model, const CalibrateOptions& options
 /// photographed by the camera, registered by its outline with the model's picture and scored
 /// against it, as the photograph was. A stone that is not convex has no draws of facet errors, and
 /// a note says so. Throws Interrupted.
-Calibration calibrate(const Scene& model, const Photo& model_picture,
-                      const DraftRenderer& renderer, const CalibrateOptions& options,
-                      const Progress& progress = {});
+Calibration calibrate(const Scene& model, const Photo& model_picture, const DraftRenderer& renderer,
+                      const CalibrateOptions& options, const Progress& progress = {});
 
 /// The scores of one photograph against the model's picture, as the calibration has them.
 std::vector<std::optional<double>> calibration_scores(const Photo& photo,

@@ -47,7 +47,8 @@ double projected_diameter(const Solid& solid, const Camera& camera) {
 
 Camera cropped_to_stone(const Camera& camera, const Solid& solid, double diameter, double margin) {
     if (camera.cone || camera.optics.two_windows) {
-        throw InputError("a conoscope's or dichroscope's picture cannot be compared by its outline");
+        throw InputError(
+            "a conoscope's or dichroscope's picture cannot be compared by its outline");
     }
     const auto corners = projected_corners(solid, camera);
     const double across = projected_diameter(solid, camera);

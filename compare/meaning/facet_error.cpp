@@ -16,6 +16,7 @@ namespace {
 
 const double k_near_normal = std::cos(radians(3.0));
 constexpr double k_near_offset = 0.03;  // of the diameter
+constexpr double k_rounding = 1e-9;     // likewise
 constexpr int k_most_turns = 16;
 
 std::optional<Solid> solid_of(const std::vector<NamedPlane>& planes) {
@@ -118,8 +119,7 @@ std::optional<Solid> symmetrised(const Solid& solid, const Vec3& up) {
     for (const Plane& plane : stone.planes) {
         const Vec3 across = plane.normal - glm::dot(plane.normal, up) * up;
         if (glm::length(across) < 0.05) continue;
-        const glm::dmat3 mirror =
-            mirror_across(glm::normalize(glm::cross(up, across)));
+        const glm::dmat3 mirror = mirror_across(glm::normalize(glm::cross(up, across)));
         if (!pairing(stone.planes, mirror, stone.size)) continue;
         const std::size_t turns = group.size();
         for (std::size_t k = 0; k < turns; ++k) group.push_back(group[k] * mirror);
@@ -146,12 +146,14 @@ std::optional<Solid> symmetrised(const Solid& solid, const Vec3& up) {
     for (std::size_t f = 0; f < stone.planes.size(); ++f) {
         const Vec3 normal = glm::normalize(sums[f].normal);
         const double offset = sums[f].offset / counts[f] + glm::dot(normal, stone.middle);
-        largest_change =
-            std::max(largest_change, glm::length(normal - stone.planes[f].normal));
+        largest_change = std::max(largest_change, glm::length(normal - stone.planes[f].normal));
         planes.push_back({solid.facets[f].name, {normal, offset}});
     }
     if (largest_change < radians(0.01)) return std::nullopt;
-    return solid_of(planes);
+    auto result = solid_of(planes);
+    // Planes made alike meet in one point but for rounding: corners that fell apart are joined.
+    if (result) result = contract_near_meets(*result, k_rounding * stone.size).solid;
+    return result;
 }
 
 }  // namespace culet

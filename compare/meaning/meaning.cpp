@@ -105,10 +105,9 @@ std::string headline_of(const Meaning& meaning) {
 }
 
 void judge(Meaning& meaning) {
-    const bool beaten =
-        std::all_of(meaning.nulls.begin(), meaning.nulls.end(), [](const NullWorth& n) {
-            return n.as_good == 0 || (n.p <= k_most_p && n.z >= k_least_z);
-        });
+    const bool beaten = std::all_of(
+        meaning.nulls.begin(), meaning.nulls.end(),
+        [](const NullWorth& n) { return n.as_good == 0 || (n.p <= k_most_p && n.z >= k_least_z); });
     const EquivalentError& error = meaning.equivalent;
     std::string why;
     if (meaning.nulls.empty() || !error.deg) {
@@ -123,8 +122,9 @@ void judge(Meaning& meaning) {
         meaning.verdict = Verdict::partial;
     } else {
         meaning.verdict = Verdict::no_evidence;
-        why = "better than a wrong light or pose, but a stone with facets far from these would do "
-              "as well";
+        why =
+            "better than a wrong light or pose, but a stone with facets far from these would do "
+            "as well";
     }
     meaning.reason = (why.empty() ? "" : why + "; ") + meaning.headline;
 }
@@ -139,9 +139,9 @@ const char* const k_calibrated_rule =
 bool takes_part(const std::string& key, bool geometry_only) {
     // Colour-only scores see no geometry; the counts of reflexes are coarse beside their areas.
     const std::vector<std::string> geometry{"cw_ssim", "gmsd", "nmi", "reflex_area_f1"};
-    const std::vector<std::string> all{"zncc", "zncc_1pct", "zncc_4pct",     "reflex_area_f1",
-                                       "cw_ssim", "ssim", "nmi", "psnr", "deltaE00_mean",
-                                       "flip_mean"};
+    const std::vector<std::string> all{"zncc",          "zncc_1pct", "zncc_4pct", "reflex_area_f1",
+                                       "cw_ssim",       "ssim",      "nmi",       "psnr",
+                                       "deltaE00_mean", "flip_mean"};
     const auto& taken = geometry_only ? geometry : all;
     return std::find(taken.begin(), taken.end(), key) != taken.end();
 }

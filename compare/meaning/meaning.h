@@ -36,8 +36,9 @@ struct HypothesisWorth {
 
 struct Meaning {
     Verdict verdict = Verdict::no_evidence;
-    std::string reason;    ///< the verdict in one sentence
-    std::string headline;  ///< "fits as well as the same stone with 0.2 degrees of facet error; ..."
+    std::string reason;  ///< the verdict in one sentence
+    std::string
+        headline;  ///< "fits as well as the same stone with 0.2 degrees of facet error; ..."
     EquivalentError equivalent;
     std::vector<SensitivityCurve> curves;  ///< one a score that takes part
     std::vector<NullWorth> nulls;          ///< the worst, that of the smallest z, first

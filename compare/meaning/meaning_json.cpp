@@ -50,6 +50,7 @@ Json meaning_json(const Meaning& meaning, const Calibration& calibration) {
                            {"planned", calibration.planned},
                            {"seed", calibration.seed},
                            {"stone_px", number(calibration.stone_px)},
+                           {"psf_px", number(calibration.psf_px)},
                            {"from_cache", calibration.from_cache},
                            {"notes", calibration.notes}};
     return json;

@@ -98,13 +98,11 @@ private:
     }
 
     void axes(std::string& out) const {
-        out += fmt::format(
-            "<path class=\"axis\" d=\"M{0},{1}V{2}H{3}M{4},{1}V{2}H{5}\"/>", k_left, k_top,
-            k_bottom, k_right, k_nulls - 4, k_width - 2);
+        out += fmt::format("<path class=\"axis\" d=\"M{0},{1}V{2}H{3}M{4},{1}V{2}H{5}\"/>", k_left,
+                           k_top, k_bottom, k_right, k_nulls - 4, k_width - 2);
         for (const double deg : {0.0, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0}) {
-            out += fmt::format(
-                "<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>", x(deg),
-                k_bottom + 16, deg > 0 ? significant(deg, 1) : "0");
+            out += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
+                               x(deg), k_bottom + 16, deg > 0 ? significant(deg, 1) : "0");
         }
         out += fmt::format(
             "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">facet error, degrees</text>"
@@ -112,9 +110,13 @@ private:
             (k_left + k_right) / 2, k_bottom + 34, (k_nulls + k_width) / 2 - 2, k_bottom + 16);
         const double step = std::pow(10, std::floor(std::log10((high_ - low_) / 2)));
         const double every = (high_ - low_) / step > 5 ? 2 * step : step;
-        for (double v = std::ceil(low_ / every) * every; v <= high_; v += every) {
+        const int places = std::max(0, -static_cast<int>(std::floor(std::log10(every) + 1e-9)));
+        const int first = static_cast<int>(std::ceil(low_ / every)),
+                  last = static_cast<int>(std::floor(high_ / every));
+        for (int i = first; i <= last; ++i) {
+            const double v = i * every;
             out += fmt::format("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>",
-                               k_left - 5, y(v) + 4, significant(std::abs(v) < 1e-9 ? 0 : v, 3));
+                               k_left - 5, y(v) + 4, decimals(v, places));
         }
     }
 
@@ -133,7 +135,8 @@ private:
 
     std::string about() const {
         std::string text = score_name(curve_.key) + " against facet error";
-        if (curve_.value) text += fmt::format("; the photograph has {}", significant(curve_.value, 3));
+        if (curve_.value)
+            text += fmt::format("; the photograph has {}", significant(curve_.value, 3));
         if (curve_.equivalent_deg) {
             text += fmt::format(", as {} degrees would", significant(curve_.equivalent_deg, 2));
         }
@@ -151,8 +154,8 @@ std::vector<double> null_values(const Calibration& calibration, const std::strin
     if (at == calibration.keys.end()) return values;
     const auto k = static_cast<std::size_t>(at - calibration.keys.begin());
     for (const CalibrationDraw& draw : calibration.draws) {
-        const bool null = draw.world == World::light || draw.world == World::pose ||
-                          draw.world == World::both;
+        const bool null =
+            draw.world == World::light || draw.world == World::pose || draw.world == World::both;
         if (null && draw.scores[k]) values.push_back(*draw.scores[k]);
     }
     return values;
@@ -181,10 +184,11 @@ std::string nulls_table(const Meaning& meaning) {
     std::string rows;
     for (const NullWorth& null : meaning.nulls) {
         rows += fmt::format(
-            "<tr><th scope=\"row\">{}</th><td class=\"n\">{} ± {}</td><td class=\"n strong\">{}</td>"
+            "<tr><th scope=\"row\">{}</th><td class=\"n\">{} ± {}</td><td class=\"n "
+            "strong\">{}</td>"
             "<td class=\"n\">{} of {}</td><td class=\"n\">{}°</td></tr>\n",
-            title_of(null.world), decimals(null.mean, 2), decimals(null.sd, 2),
-            decimals(null.z, 1), null.as_good, null.draws, significant(null.least_deg, 2));
+            title_of(null.world), decimals(null.mean, 2), decimals(null.sd, 2), decimals(null.z, 1),
+            null.as_good, null.draws, significant(null.least_deg, 2));
     }
     if (rows.empty()) return {};
     return table("Chance, the worst first",
@@ -222,17 +226,20 @@ std::string meaning_section(const Report& report) {
     std::string body = fmt::format("<p class=\"headline-sentence\">The {} {}.</p>\n",
                                    photo_word(report), escaped(meaning.headline));
     if (meaning.geometry_only) {
-        body += "<p class=\"warning\">This photograph cannot serve for photometry: only scores of "
-                "geometry take part.</p>\n";
+        body +=
+            "<p class=\"warning\">This photograph cannot serve for photometry: only scores of "
+            "geometry take part.</p>\n";
     }
     body += curves_figures(meaning, calibration);
     body += fmt::format(
         "<p class=\"note\">Each curve is what this stone, in this pose and light, would score "
         "against the model if every facet were tilted at random by that much: {} simulated "
-        "photographs, seed {}, blurred, noisy and in whole steps like a camera's, registered anew. "
+        "photographs, seed {}, blurred by {} pixels, noisy and in whole steps like a camera's, "
+        "registered anew. "
         "Dots with bars: mean and spread; line across and ring: the {}; strokes: other lights and "
         "poses. 0 is the ceiling, the model itself photographed. {}</p>\n",
-        calibration.draws.size(), calibration.seed, photo_word(report),
+        calibration.draws.size(), calibration.seed, decimals(calibration.psf_px, 1),
+        photo_word(report),
         calibration.from_cache ? "The draws were kept from an earlier comparison with this scene."
                                : fmt::format("They took {} s.", decimals(calibration.seconds, 0)));
     for (const std::string& note : calibration.notes) {

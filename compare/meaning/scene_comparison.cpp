@@ -12,6 +12,7 @@
 #include "compare/meaning/calibrate.h"
 #include "compare/meaning/cropped_camera.h"
 #include "compare/meaning/draft_renderer.h"
+#include "compare/meaning/photo_blur.h"
 #include "compare/pixels.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
@@ -22,8 +23,9 @@ namespace culet {
 
 namespace {
 
-constexpr double k_margin = 0.18;      // of the diameter, around the stone
-constexpr double k_tolerance = 0.03;   // of the pictures that are compared
+constexpr double k_least_psf_px = 0.3;  // a camera's pixels alone
+constexpr double k_margin = 0.18;       // of the diameter, around the stone
+constexpr double k_tolerance = 0.03;    // of the pictures that are compared
 
 Progress part_of(const Progress& progress, double from, double to) {
     if (!progress) return {};
@@ -63,11 +65,12 @@ Mirrored mirrored(const Photo& photo, const CompareOptions& options) {
 CameraModel camera_of(const Photo& photo, const Frame& frame, const Comparison& comparison) {
     CameraModel camera;
     camera.clips = photo.saturation > 0;
-    camera.bits = !camera.clips                                        ? 0
-                  : photo.encoding.find("16-bit") != std::string::npos ? 16
-                                                                       : 8;
+    camera.bits = !camera.clips ? 0 : photo.encoding.find("16-bit") != std::string::npos ? 16 : 8;
     const double white = comparison.pictures.white;
     for (std::size_t c = 0; c < 3; ++c) camera.gain[c] = comparison.gain[c] / white;
+    const LaidPictures laid = lay_pictures(frame, photo.saturation, 0);
+    // A tenth of a pixel is more than can be told: steps of that keep caches useful.
+    camera.psf_px = std::max(k_least_psf_px, std::round(10 * photo_blur_px(laid.pictures)) / 10);
     camera.outline_from_background = comparison.registration.photo_outline == "background";
     // The median of what surrounds the stone.
     const cv::Mat around = frame.photo.silhouette.mask == 0;
@@ -126,6 +129,7 @@ Calibration calibrated(const SceneComparison& compared, const DraftRenderer& ren
         if (auto found = cached(file, hash)) return std::move(*found);
     }
     Calibration made = calibrate(compared.scene, compared.render, renderer, how, progress);
+    made.psf_px = how.camera.psf_px;
     made.stone_px = compared.comparison.registration.render_diameter_px;
     if (!file.empty() && made.complete()) {
         std::error_code ignored;
@@ -172,19 +176,20 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
 
     const double across = stone_diameter_px(*photo, how.mask);
     const double diameter = std::min(across > 0 ? across : options.largest, options.largest);
-    result.scene.camera = cropped_to_stone(result.scene.camera, scene.stone.solid, diameter, k_margin);
+    result.scene.camera =
+        cropped_to_stone(result.scene.camera, scene.stone.solid, diameter, k_margin);
     const DraftRenderer renderer(result.scene, k_tolerance);
     result.scene.settings = renderer.settings();
     result.stats = renderer.stats();
     result.render = renderer.picture();
-    result.comparison = compare(*photo, result.render, how,
-                                part_of(progress, 0.1, options.calibrate ? 0.2 : 1));
+    result.comparison =
+        compare(*photo, result.render, how, part_of(progress, 0.1, options.calibrate ? 0.2 : 1));
     Comparison& comparison = result.comparison;
     comparison.notes.insert(comparison.notes.end(), notes.begin(), notes.end());
     if (!options.calibrate || !comparison.usable()) return result;
 
-    const Frame frame = align(*photo, how.mask, result.render,
-                              {.largest = how.largest, .ignored = how.ignored});
+    const Frame frame =
+        align(*photo, how.mask, result.render, {.largest = how.largest, .ignored = how.ignored});
     CalibrateOptions calibration;
     calibration.camera = camera_of(*photo, frame, comparison);
     calibration.draws = options.draws;
@@ -195,9 +200,10 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
     calibration.largest = options.largest;
     calibration.ignored = ignored_in_model(frame, result.render);
     calibration.start = options.start;
-    comparison.calibration = calibrated(result, renderer, calibration, options.cache,
-                                        part_of(progress, 0.2, 1));
-    comparison.meaning = meaning_of(comparison.scores, *comparison.calibration, comparison.geometry_only);
+    comparison.calibration =
+        calibrated(result, renderer, calibration, options.cache, part_of(progress, 0.2, 1));
+    comparison.meaning =
+        meaning_of(comparison.scores, *comparison.calibration, comparison.geometry_only);
     comparison.verdict = comparison.meaning->verdict;
     comparison.reason = comparison.meaning->reason;
     return result;

@@ -26,8 +26,8 @@ struct SceneCompareOptions {
 
 struct SceneComparison {
     Comparison comparison;
-    Scene scene;     ///< as drawn: camera at the photograph's pose and at the compared size
-    Photo render;    ///< of it
+    Scene scene;   ///< as drawn: camera at the photograph's pose and at the compared size
+    Photo render;  ///< of it
     RenderStats stats;
     std::optional<FoundPose> pose;
     bool pose_used = false;

@@ -27,7 +27,8 @@ double interpolated(const std::vector<double>& x, const std::vector<double>& y, 
 }
 
 // Where a non-increasing curve over x has this value: the middle of a flat stretch.
-double inverse_of_falling(const std::vector<double>& x, const std::vector<double>& y, double value) {
+double inverse_of_falling(const std::vector<double>& x, const std::vector<double>& y,
+                          double value) {
     std::size_t first = 0;  // the first with y <= value
     while (first < y.size() && y[first] > value) ++first;
     if (first == y.size()) return x.back();
@@ -207,8 +208,8 @@ std::optional<double> FacetErrorScale::averaged(
     if (answers.empty()) return std::nullopt;
     // The weights depend on the answer: from the median on, a few rounds settle it.
     std::vector<double> sorted = answers;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
-                     sorted.end());
+    std::nth_element(sorted.begin(),
+                     sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
     double answer = sorted[sorted.size() / 2];
     for (int round = 0; round < 8; ++round) {
         double sum = 0, weights = 0;

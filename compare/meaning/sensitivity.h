@@ -31,7 +31,8 @@ struct SensitivityCurve {
 /// Degrees; the curve ends at 2, and below `k_least_deg` nothing is told apart.
 struct EquivalentError {
     std::optional<double> deg;
-    double low_deg = 0, high_deg = 0;  ///< 95 % of right stones are within, by the curve's own draws
+    double low_deg = 0,
+           high_deg = 0;  ///< 95 % of right stones are within, by the curve's own draws
     bool at_least = false, at_most = false;  ///< beyond the curve's ends
 };
 
@@ -65,8 +66,8 @@ private:
         bool higher_is_better = true;
         std::vector<double> mean, sd, fitted;  // a level each
         std::vector<int> draws;
-        std::vector<double> stretched;         // fitted, on the scale of `stretch`
-        std::vector<double> variance;          // of the log of its own equivalent error, a level each
+        std::vector<double> stretched;  // fitted, on the scale of `stretch`
+        std::vector<double> variance;   // of the log of its own equivalent error, a level each
     };
     double logarithm(const Curve& curve, double score) const;
     double weight(const Curve& curve, double log_deg) const;

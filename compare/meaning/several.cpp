@@ -110,15 +110,17 @@ SeveralPhotographs together(const std::vector<PhotographRow>& rows) {
             "; together they fit as well as the same stone with {} degrees of facet error",
             significant(result.together.deg, 2));
         if (rows.size() > 2) {
-            result.reason += fmt::format(", and leaving any one out changes that by a factor of {} "
-                                         "at most",
-                                         significant(result.largest_change, 3));
+            result.reason += fmt::format(
+                ", and leaving any one out changes that by a factor of {} "
+                "at most",
+                significant(result.largest_change, 3));
         }
     }
     return result;
 }
 
-std::string several_json(const SeveralPhotographs& several, const std::vector<PhotographRow>& rows) {
+std::string several_json(const SeveralPhotographs& several,
+                         const std::vector<PhotographRow>& rows) {
     Json json;
     json["schema"] = 1;
     json["command"] = "compare";
@@ -128,9 +130,9 @@ std::string several_json(const SeveralPhotographs& several, const std::vector<Ph
     json["equivalent_facet_error"] = equivalent_json(several.together);
     json["leave_one_out"] = Json::array();
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        json["leave_one_out"].push_back({{"without", rows[i].name},
-                                         {"equivalent_facet_error",
-                                          equivalent_json(several.without[i])}});
+        json["leave_one_out"].push_back(
+            {{"without", rows[i].name},
+             {"equivalent_facet_error", equivalent_json(several.without[i])}});
     }
     json["largest_change_factor"] = number(several.largest_change);
     json["photographs"] = Json::array();
@@ -154,14 +156,14 @@ std::string several_page(const SeveralPhotographs& several, const std::vector<Ph
         const Comparison& c = rows[i].comparison;
         const EquivalentError* error = equivalent_of(rows[i]);
         const Photo& photo = c.pictures.photo;
-        const std::string picture =
-            photo.rgb.empty()
-                ? ""
-                : fmt::format("<img class=\"thumb\" src=\"{}\" alt=\"\">",
-                              picture_uri(photo, c.pictures.white));
+        const std::string picture = photo.rgb.empty()
+                                        ? ""
+                                        : fmt::format("<img class=\"thumb\" src=\"{}\" alt=\"\">",
+                                                      picture_uri(photo, c.pictures.white));
         cells += fmt::format(
             "<tr><td>{}</td><th scope=\"row\"><a href=\"{}\">{}</a><small>{}</small></th>"
-            "<td>{}</td><td class=\"n strong\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+            "<td>{}</td><td class=\"n strong\">{}</td><td class=\"n\">{}</td><td "
+            "class=\"n\">{}</td>"
             "<td class=\"n\">{} of {}</td><td class=\"n\">{}</td></tr>\n",
             picture, escaped(rows[i].page), escaped(rows[i].name),
             c.usable() ? "" : escaped(c.reason), verdict_shown(c.verdict).word,
@@ -171,18 +173,19 @@ std::string several_page(const SeveralPhotographs& several, const std::vector<Ph
     }
     body += section(
         "photographs", "The photographs",
-        table("Each photograph, and the common answer without it",
-              "<th scope=\"col\"></th><th scope=\"col\">Photograph</th><th scope=\"col\">Verdict</th>"
-              "<th scope=\"col\" class=\"n\">Facet error</th><th scope=\"col\" class=\"n\">ZNCC</th>"
-              "<th scope=\"col\" class=\"n\">ΔE00</th><th scope=\"col\" class=\"n\">Reflexes</th>"
-              "<th scope=\"col\" class=\"n\">Others alone</th>",
-              cells) +
+        table(
+            "Each photograph, and the common answer without it",
+            "<th scope=\"col\"></th><th scope=\"col\">Photograph</th><th scope=\"col\">Verdict</th>"
+            "<th scope=\"col\" class=\"n\">Facet error</th><th scope=\"col\" class=\"n\">ZNCC</th>"
+            "<th scope=\"col\" class=\"n\">ΔE00</th><th scope=\"col\" class=\"n\">Reflexes</th>"
+            "<th scope=\"col\" class=\"n\">Others alone</th>",
+            cells) +
             "<p class=\"note\">Facet error: that of simulated photographs which score like this "
             "one. Others alone: the common facet error of all the other photographs; where it "
             "differs much from the rest, look at that photograph first.</p>\n");
-    body += section("provenance", "How this page was made",
-                    fmt::format("<p>culet {}</p>\n<pre>{}</pre>\n", escaped(version),
-                                escaped(command)));
+    body += section(
+        "provenance", "How this page was made",
+        fmt::format("<p>culet {}</p>\n<pre>{}</pre>\n", escaped(version), escaped(command)));
     return html_page(title, body, several_json(several, rows));
 }
 

@@ -9,8 +9,8 @@
 namespace culet {
 
 struct PhotographRow {
-    std::string name;      ///< of the file
-    std::string page;      ///< its own report, relative to the common one
+    std::string name;  ///< of the file
+    std::string page;  ///< its own report, relative to the common one
     std::string scores_json;
     Comparison comparison;
 };

@@ -80,14 +80,15 @@ Photo photographed(const Photo& stone, const CameraModel& camera, std::uint64_t 
             double value = std::max(0.0, signal + std::sqrt(variance) * chance.normal());
             if (camera.clips) value = std::min(1.0, value);
             if (steps > 0) {
-                value = srgb_decoded(std::round(srgb_encoded(std::min(value, 1.0)) * steps) / steps);
+                value =
+                    srgb_decoded(std::round(srgb_encoded(std::min(value, 1.0)) * steps) / steps);
             }
             photo.rgb[i++] = static_cast<float>(value);
         }
     }
     if (!camera.outline_from_background) {
-        const cv::Mat moved = resampled(coverage, from, coverage.size(), Kernel::linear,
-                                        Beyond::nothing);
+        const cv::Mat moved =
+            resampled(coverage, from, coverage.size(), Kernel::linear, Beyond::nothing);
         photo.coverage.assign(moved.begin<float>(), moved.end<float>());
     }
     return photo;

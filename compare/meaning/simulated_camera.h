@@ -10,12 +10,12 @@ namespace culet {
 
 /// Of the photograph that is being judged, at the size at which it is compared.
 struct CameraModel {
-    double psf_px = 0.7;          ///< standard deviation of the point spread
-    double electrons = 10000;     ///< at the clipping level: shot noise is their root
-    double read_noise = 6;        ///< electrons
-    int bits = 8;                 ///< of the sRGB-encoded file; 0: linear floats
-    bool clips = true;            ///< at 1
-    std::array<double, 3> gain{1, 1, 1};  ///< exposure and white balance: 1 is the clipping level
+    double psf_px = 0.7;                   ///< standard deviation of the point spread
+    double electrons = 10000;              ///< at the clipping level: shot noise is their root
+    double read_noise = 6;                 ///< electrons
+    int bits = 8;                          ///< of the sRGB-encoded file; 0: linear floats
+    bool clips = true;                     ///< at 1
+    std::array<double, 3> gain{1, 1, 1};   ///< exposure and white balance: 1 is the clipping level
     std::array<float, 3> ground{0, 0, 0};  ///< what surrounds the stone, after the gain
     /// The stone's outline is found in the picture, as it was in the photograph; false: the
     /// coverage is kept, as a mask or an alpha channel would tell it.

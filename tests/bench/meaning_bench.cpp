@@ -97,10 +97,14 @@ int main(int argc, char** argv) {
     app.add_flag("--list", list);
     CLI11_PARSE(app, argc, argv);
 
-    const std::vector<Case> cases{
-        {"brilliant", "round-brilliant", "cubic_zirconia", {}, {{"pavilion-angle", 41.6}, {"crown-angle", 33.0}}, true},
-        {"step", "step", "tourmaline_dravite", {}, {}, true},
-        {"smooth", "oval", "corundum", {}, {}, false}};
+    const std::vector<Case> cases{{"brilliant",
+                                   "round-brilliant",
+                                   "cubic_zirconia",
+                                   {},
+                                   {{"pavilion-angle", 41.6}, {"crown-angle", 33.0}},
+                                   true},
+                                  {"step", "step", "tourmaline_dravite", {}, {}, true},
+                                  {"smooth", "oval", "corundum", {}, {}, false}};
     std::vector<Trial> all;
     for (const Case& one : cases) {
         if (!only.empty() && one.name != only) continue;
@@ -175,7 +179,8 @@ int main(int argc, char** argv) {
                 Scene scene = model;
                 if (sigma > 0) {
                     scene.stone.solid = with_facet_error(model.stone.solid, radians(sigma),
-                                                         seed_of(seed, 321, draw)).value();
+                                                         seed_of(seed, 321, draw))
+                                            .value();
                 }
                 photograph("right", sigma, scene, draw);
             }
@@ -185,27 +190,27 @@ int main(int argc, char** argv) {
             Chance chance(seed_of(seed, 777, draw));
             Scene light = model;
             light.lights = turned_lights(
-                model.lights,
-                rotation_about(chance.direction(), radians(chance.uniform(15, 180))), middle);
+                model.lights, rotation_about(chance.direction(), radians(chance.uniform(15, 180))),
+                middle);
             photograph("light", 0, light, draw++);
             Scene pose = model;
             const double period = 2 * M_PI / turns_alike(model.stone.solid, model.stone.up);
             const double towards = chance.uniform(0, 2 * M_PI);
-            pose.stone = turned_stone(
-                model.stone,
-                rotation_about({std::cos(towards), std::sin(towards), 0},
-                               radians(chance.uniform(3, 20))) *
-                    rotation_about(model.stone.up, period * chance.uniform(0.1, 0.9)),
-                middle);
+            pose.stone =
+                turned_stone(model.stone,
+                             rotation_about({std::cos(towards), std::sin(towards), 0},
+                                            radians(chance.uniform(3, 20))) *
+                                 rotation_about(model.stone.up, period * chance.uniform(0.1, 0.9)),
+                             middle);
             photograph("pose", 0, pose, draw++);
             Scene catalogue = model;
             catalogue.stone.solid = ideal;
             photograph("catalogue", 0, catalogue, draw++);
             Scene other = model;
             std::map<std::string, double> proportions = one.other;
-            other.stone.solid =
-                with_facet_error(make_cut(one.cut, proportions), radians(0.6), seed_of(seed, 888, draw))
-                    .value();
+            other.stone.solid = with_facet_error(make_cut(one.cut, proportions), radians(0.6),
+                                                 seed_of(seed, 888, draw))
+                                    .value();
             photograph("other", 0, other, draw++);
         }
         std::vector<double> off;
@@ -230,11 +235,11 @@ int main(int argc, char** argv) {
             ++verdicts[t.right ? fmt::format("right {:.2f}", t.sigma) : t.kind]
                       [name_of(t.meaning.verdict)];
             if (list) {
-                fmt::print("    {:10} {:.2f}: evidence {:.2f} equivalent {:.3f} zncc {:.3f} z {:.1f} {}\n",
-                           t.kind, t.sigma, t.meaning.evidence,
-                           t.meaning.equivalent.deg.value_or(-1), t.scores.at("zncc"),
-                           t.meaning.nulls.empty() ? 0 : t.meaning.nulls.front().z,
-                           name_of(t.meaning.verdict));
+                fmt::print(
+                    "    {:10} {:.2f}: evidence {:.2f} equivalent {:.3f} zncc {:.3f} z {:.1f} {}\n",
+                    t.kind, t.sigma, t.meaning.evidence, t.meaning.equivalent.deg.value_or(-1),
+                    t.scores.at("zncc"), t.meaning.nulls.empty() ? 0 : t.meaning.nulls.front().z,
+                    name_of(t.meaning.verdict));
             }
         }
         for (const auto& [kind, counts] : verdicts) {
@@ -262,7 +267,8 @@ int main(int argc, char** argv) {
         };
         roc("evidence", [](const Trial& t) { return t.meaning.evidence; });
         roc("equivalent", [](const Trial& t) { return -t.meaning.equivalent.deg.value_or(10); });
-        for (const char* key : {"zncc", "zncc_1pct", "reflex_area_f1", "cw_ssim", "psnr", "flip_mean", "nmi", "ssim", "deltaE00_mean"}) {
+        for (const char* key : {"zncc", "zncc_1pct", "reflex_area_f1", "cw_ssim", "psnr",
+                                "flip_mean", "nmi", "ssim", "deltaE00_mean"}) {
             roc(key, [&](const Trial& t) {
                 const auto at = t.scores.find(key);
                 return at == t.scores.end() ? -1e9 : at->second;

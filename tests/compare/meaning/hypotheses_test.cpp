@@ -72,7 +72,8 @@ TEST(TurnedWorld, environment_is_seen_where_it_was_turned_to) {
         for (int x = 0; x < 128; ++x) {
             const double polar = 3.14159265358979 * (y + 0.5) / 64;
             map.rgb.push_back(static_cast<float>(1 + std::cos(polar)));
-            map.rgb.push_back(static_cast<float>(2 + std::sin(polar) * std::cos(6.28318530718 * x / 128)));
+            map.rgb.push_back(
+                static_cast<float>(2 + std::sin(polar) * std::cos(6.28318530718 * x / 128)));
             map.rgb.push_back(0.5f);
         }
     }
@@ -84,7 +85,8 @@ TEST(TurnedWorld, environment_is_seen_where_it_was_turned_to) {
     const Lights same = turned_lights(lights, glm::dmat3(1), {0, 0, 0});
     for (int i = 0; i < 50; ++i) {
         const Vec3 direction = chance.direction();
-        const Rgb was = lights.environment->at(direction), is = turned.environment->at(by * direction);
+        const Rgb was = lights.environment->at(direction),
+                  is = turned.environment->at(by * direction);
         for (std::size_t c = 0; c < 3; ++c) {
             // Two bilinear look-ups in a map whose texels are 2.8 degrees wide: second differences
             // of 1/8 (2 pi / 128)^2 each way, and the pole.
@@ -97,10 +99,12 @@ TEST(TurnedWorld, environment_is_seen_where_it_was_turned_to) {
 TEST(Materials, are_changed_by_what_was_asked) {
     for (const char* name : {"diamond", "quartz", "tourmaline_dravite", "glass_bk7", "peridot"}) {
         const Material material = catalogue_material(name);
-        const Material higher = with_index_changed(material, 0.02), flat = without_dispersion(material);
+        const Material higher = with_index_changed(material, 0.02),
+                       flat = without_dispersion(material);
         for (int r = 0; r < ray_count(material.optic); ++r) {
             const auto k = static_cast<std::size_t>(r);
-            EXPECT_NEAR(higher.index[k].at(589.3) - material.index[k].at(589.3), 0.02, 1e-6) << name;
+            EXPECT_NEAR(higher.index[k].at(589.3) - material.index[k].at(589.3), 0.02, 1e-6)
+                << name;
             // Of a Sellmeier index the step is 0.02 n_D / n: dispersion moves it by per cents.
             EXPECT_NEAR(higher.index[k].at(450) - material.index[k].at(450), 0.02, 1e-3) << name;
             EXPECT_EQ(flat.index[k].at(450), flat.index[k].at(650)) << name;

@@ -15,7 +15,8 @@ namespace {
 // errors, "psnr" at all, "cw_ssim" hardly.
 std::vector<std::optional<double>> scores_at(double deg, Chance& chance, double scatter = 0.1) {
     const double noisy = std::max(deg, 0.01) * std::exp(scatter * chance.normal());
-    return {1 / (1 + 0.5 * noisy), 30 - 6 * std::log10(noisy), 0.9 - 0.02 * noisy + 0.01 * chance.normal()};
+    return {1 / (1 + 0.5 * noisy), 30 - 6 * std::log10(noisy),
+            0.9 - 0.02 * noisy + 0.01 * chance.normal()};
 }
 
 Calibration synthetic_calibration(int draws = 8) {
@@ -83,7 +84,8 @@ TEST(FacetErrorScale, finds_the_error_that_made_the_scores) {
 TEST(FacetErrorScale, says_when_it_is_at_its_ends) {
     const Calibration calibration = synthetic_calibration();
     const FacetErrorScale scale(calibration, calibration.keys);
-    const EquivalentError perfect = scale.of({1.0, 60.0, 0.99}), hopeless = scale.of({0.0, 5.0, 0.0});
+    const EquivalentError perfect = scale.of({1.0, 60.0, 0.99}),
+                          hopeless = scale.of({0.0, 5.0, 0.0});
     EXPECT_TRUE(perfect.at_most);
     EXPECT_EQ(perfect.low_deg, 0);
     EXPECT_NEAR(*perfect.deg, 0.02, 1e-9);
@@ -139,7 +141,8 @@ TEST(Meaning, grows_less_with_the_error) {
     double before = 1e9;
     for (const double deg : {0.03, 0.1, 0.3, 0.9}) {
         Chance chance(15);
-        const double evidence = meaning_of(scores_of(scores_at(deg, chance, 0)), calibration).evidence;
+        const double evidence =
+            meaning_of(scores_of(scores_at(deg, chance, 0)), calibration).evidence;
         EXPECT_LT(evidence, before);
         before = evidence;
     }
@@ -192,7 +195,8 @@ PhotographRow row_with(double deg, Verdict verdict) {
 
 // Equal weights: the geometric mean. 0.1, 0.1 and 0.8: together 0.2; without the last, 0.1.
 TEST(SeveralPhotographs, are_averaged_and_left_out_one_by_one) {
-    const std::vector<PhotographRow> rows{row_with(0.1, Verdict::match), row_with(0.1, Verdict::match),
+    const std::vector<PhotographRow> rows{row_with(0.1, Verdict::match),
+                                          row_with(0.1, Verdict::match),
                                           row_with(0.8, Verdict::partial)};
     const SeveralPhotographs several = together(rows);
     EXPECT_NEAR(*several.together.deg, 0.2, 1e-12);
