@@ -398,11 +398,17 @@ private:
         const double grown = std::max(1.0, spread);
         const auto sigma = [&](double v) { return grown * std::sqrt(std::max(0.0, v)); };
         PoseSigmas& sigmas = pose.sigmas;
-        for (int k = 0; k < 3; ++k)
-            sigmas.turn[static_cast<std::size_t>(k)] = sigma(variance(k, k));
+        // Whichever is larger: what the edges' sigmas say, or what groups of edges say.
+        const std::array<double, 6> by_groups =
+            variances_by_groups(wire_, won.refined, settings_of(*won.side));
+        const auto larger = [&](int k) {
+            return std::max(sigma(variance(k, k)),
+                            std::sqrt(by_groups[static_cast<std::size_t>(k)]));
+        };
+        for (int k = 0; k < 3; ++k) sigmas.turn[static_cast<std::size_t>(k)] = larger(k);
         sigmas.angle = std::hypot(sigmas.turn[0], sigmas.turn[1], sigmas.turn[2]);
-        sigmas.shift_px = {sigma(variance(3, 3)), sigma(variance(4, 4))};
-        sigmas.scale = sigma(variance(5, 5));
+        sigmas.shift_px = {larger(3), larger(4)};
+        sigmas.scale = larger(5);
         if (solved.view.nearness > 0) {
             sigmas.focal = sigma(variance(5, 5) + variance(6, 6) - 2 * variance(5, 6));
             if (options_.principal_point_error > 0)

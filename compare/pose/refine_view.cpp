@@ -1,5 +1,7 @@
 #include "compare/pose/refine_view.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
@@ -15,6 +17,7 @@ constexpr std::size_t k_fewest_edges = 40;
 // Of a whole edge's place: neighbouring light that the blur mixes in.
 constexpr double k_edge_sigma = 0.06;
 constexpr int k_settling_rounds = 7;
+constexpr int k_groups = 8;
 // Half of what is searched, pixels, and so many sigmas of what facet errors do.
 constexpr double k_first_width = 0.7, k_width = 0.4, k_facet_widths = 2.5;
 // Facet errors that are found are taken within these bounds of the expected ones: below, nothing
@@ -163,6 +166,40 @@ RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const Refi
     }
     refined.points = points_along(wire, refined.solved.view, spacing);
     return refined;
+}
+
+std::array<double, 6> variances_by_groups(const WireSolid& wire, const RefinedView& refined,
+                                          const RefineSettings& settings) {
+    SolverSettings solver = solver_settings(settings);
+    solver.facets_free = true;
+    solver.facet_error = refined.facet_error;
+    solver.facet_offset = refined.facet_offset;
+    const StoneView& all = refined.solved.view;
+    std::array<std::array<double, 6>, k_groups> changes{};
+    tbb::parallel_for(0, k_groups, [&](int group) {
+        std::vector<MetEdge> rest;
+        for (const MetEdge& met : refined.met) {
+            if (met.point.edge % k_groups != group) rest.push_back(met);
+        }
+        const StoneView view =
+            solve_view(wire, all, rest, settings.prior_focal_px, settings.sight, solver).view;
+        const glm::dmat3 turn = view.turn * glm::transpose(all.turn);
+        // Of a small turn.
+        changes[static_cast<std::size_t>(group)] = {0.5 * (turn[1][2] - turn[2][1]),
+                                                    0.5 * (turn[2][0] - turn[0][2]),
+                                                    0.5 * (turn[0][1] - turn[1][0]),
+                                                    view.at.x - all.at.x,
+                                                    view.at.y - all.at.y,
+                                                    std::log(view.scale / all.scale)};
+    });
+    std::array<double, 6> variances{};
+    for (std::size_t k = 0; k < variances.size(); ++k) {
+        double mean = 0, squares = 0;
+        for (const auto& change : changes) mean += change[k] / k_groups;
+        for (const auto& change : changes) squares += (change[k] - mean) * (change[k] - mean);
+        variances[k] = squares * (k_groups - 1) / k_groups;
+    }
+    return variances;
 }
 
 }  // namespace culet
