@@ -391,10 +391,7 @@ private:
         // Residuals larger than their sigmas mean larger sigmas; smaller ones prove nothing.
         std::vector<double> sizes;
         for (double r : solved.residuals) sizes.push_back(std::abs(r));
-        std::nth_element(sizes.begin(),
-                         sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2),
-                         sizes.end());
-        const double spread = 1.4826 * sizes[sizes.size() / 2];
+        const double spread = 1.4826 * middle_of(std::move(sizes));
         const double grown = std::max(1.0, spread);
         const auto sigma = [&](double v) { return grown * std::sqrt(std::max(0.0, v)); };
         PoseSigmas& sigmas = pose.sigmas;
@@ -422,8 +419,7 @@ private:
 
     void describe_marks(const Candidate& won, FoundPose& pose) const {
         const double limit = 0.02 * won.side->shape.diameter;
-        double outline_sum = 0, crown_sum = 0;
-        int outline_count = 0, crown_count = 0;
+        std::vector<double> outline, crown;
         for (const WirePoint& point : won.refined.points) {
             EdgeMark mark;
             mark.at = {point.at.x, point.at.y};
@@ -437,14 +433,20 @@ private:
             }
             mark.counted =
                 mark.offset_px.has_value() && nearest < std::hypot(1.0, 1.5 * point.facet_sigma);
-            if (mark.offset_px && (mark.outline || mark.counted)) {
-                (mark.outline ? outline_sum : crown_sum) += nearest * nearest;
-                ++(mark.outline ? outline_count : crown_count);
-            }
+            if (mark.offset_px && (mark.outline || mark.counted))
+                (mark.outline ? outline : crown).push_back(nearest);
             pose.marks.push_back(mark);
         }
-        if (outline_count > 0) pose.outline_rms_px = std::sqrt(outline_sum / outline_count);
-        if (crown_count > 0) pose.crown_rms_px = std::sqrt(crown_sum / crown_count);
+        pose.outline_px = middle_of(std::move(outline));
+        pose.crown_px = middle_of(std::move(crown));
+    }
+
+    /// The median; of nothing 0.
+    static double middle_of(std::vector<double> values) {
+        if (values.empty()) return 0;
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        return *middle;
     }
 
     void judge(const Candidate& won, double rival, FoundPose& pose) const {
@@ -453,11 +455,11 @@ private:
         const auto refuse = [&](std::string why) {
             if (pose.trouble.empty()) pose.trouble = std::move(why);
         };
-        if (pose.outline_rms_px > std::max(1.0, limits.outline_residual * diameter)) {
-            refuse(fmt::format(
-                "the outline is {:.1f} pixels from the photograph's (at most {:.1f}): "
-                "another stone, or another size of it",
-                pose.outline_rms_px, std::max(1.0, limits.outline_residual * diameter)));
+        if (pose.outline_px > std::max(1.0, limits.outline_residual * diameter)) {
+            refuse(
+                fmt::format("the outline is {:.1f} pixels from the photograph's (at most {:.1f}): "
+                            "another stone, or another size of it",
+                            pose.outline_px, std::max(1.0, limits.outline_residual * diameter)));
         }
         if (pose.support_z < limits.least_support_z) {
             refuse(
