@@ -22,7 +22,7 @@ struct RegisterArguments {
     CommonOptions common;
     std::string photo, scene, out, overlay, json, mask;
     double facet_error_deg = 0.2, search_deg = 35, focal_error = 20, principal_point_error = 0,
-           angle_limit_deg = 0.2;
+           within_deg = 0.1, within_px = 0.1;
     bool one_chirality = false;
 };
 
@@ -33,7 +33,8 @@ PoseOptions options_of(const RegisterArguments& a, const Photo& photo) {
     options.search = radians(a.search_deg);
     options.focal_error = a.focal_error / 100;
     options.principal_point_error = a.principal_point_error / 100;
-    options.limits.angle_sigma = radians(a.angle_limit_deg);
+    options.limits.angle = radians(a.within_deg);
+    options.limits.shift_px = a.within_px;
     options.both_chiralities = !a.one_chirality;
     options.threads = a.common.threads;
     return options;
@@ -46,11 +47,10 @@ void say_result(const RegisterArguments& a, const FoundPose& pose) {
         say("refused: " + pose.trouble, quiet);
         return;
     }
-    say(fmt::format(
-            "found: {:.1f} degrees from the start, {:.3f} times its size; uncertain by {:.3f} "
-            "degrees and {:.2f} pixels",
-            degrees(pose.start_angle), pose.start_scale, degrees(pose.sigmas.angle),
-            std::max(pose.sigmas.shift_px[0], pose.sigmas.shift_px[1])),
+    say(fmt::format("found: {:.1f} degrees from the start, {:.3f} times its size; sure to {:.2f} "
+                    "degrees and {:.2f} pixels (99 %)",
+                    degrees(pose.start_angle), pose.start_scale, degrees(pose.sigmas.angle_99),
+                    pose.sigmas.shift_99_px),
         quiet);
     if (pose.mirrored)
         say("the photograph is mirrored: turn it left to right before it is compared", quiet);
@@ -123,9 +123,13 @@ void add_command_register(CLI::App& program, int& exit_code) {
                      "percent of the picture's width; 0: it is as given (default)")
         ->check(CLI::Range(0.0, 100.0));
     command
-        ->add_option("--most-uncertain-deg", a.angle_limit_deg,
-                     "a view more uncertain than this is refused (default 0.2)")
+        ->add_option("--within-deg", a.within_deg,
+                     "refuse a view that is not this sure (99 %; default 0.1)")
         ->check(CLI::Range(0.001, 90.0));
+    command
+        ->add_option("--within-px", a.within_px,
+                     "refuse a place that is not this sure (99 %; default 0.1)")
+        ->check(CLI::Range(0.001, 1e6));
     command->add_flag("--not-mirrored", a.one_chirality,
                       "the photograph is surely not mirrored: do not try it so");
     add_common(*command, a.common, true);

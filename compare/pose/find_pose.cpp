@@ -30,7 +30,6 @@ constexpr int k_turned_from = 3;  // of these, turned all round
 constexpr int k_turned_each = 8;
 constexpr std::size_t k_refined = 24;  // refined, and of these ...
 constexpr std::size_t k_settled = 8;   // ... to the end
-constexpr double k_equal_slack_deg = 4;
 constexpr double k_same_view_deg = 0.4;
 // Lengths of vectors of normal errors are below so many times the root of the sum of their
 // variances in 99 of 100 cases, whatever the share of each axis: 2.58 for one axis, 2.15 for
@@ -39,7 +38,7 @@ constexpr double k_surely = 2.6;
 constexpr double k_edge_reach = 0.012;  // of the edge map, of the diameter
 // Poses that look alike by the stone's symmetry and are no likelier than this one than another
 // cannot be told apart: the one nearest to the start is taken.
-constexpr double k_tie = 5;
+constexpr double k_tie = 8;
 
 /// One photograph as it is, or turned left to right.
 struct Side {
@@ -66,8 +65,6 @@ struct Candidate {
     StoneView view;
     RefinedView refined;
     EdgeSupport support;
-    /// Other views that are the same but for the model's own symmetry.
-    std::vector<std::pair<const Side*, StoneView>> equals;
 };
 
 void require_suitable(const Photo& photo, const Solid& solid, const Camera& start,
@@ -127,7 +124,11 @@ class PoseSearch {
 public:
     PoseSearch(const Solid& solid, const Camera& start, const PoseOptions& options,
                const Progress& progress)
-        : wire_(solid), start_(start), options_(options), progress_(progress) {}
+        : wire_(solid),
+          symmetries_(symmetries_of(wire_)),
+          start_(start),
+          options_(options),
+          progress_(progress) {}
 
     FoundPose run(const Photo& photo) {
         FoundPose pose;
@@ -191,7 +192,7 @@ private:
         });
     }
 
-    std::vector<Candidate> coarse_candidates() {
+    std::vector<Candidate> coarse_candidates() const {
         std::vector<Found> found;
         for (const auto& side : sides_) {
             for (const CoarseView& view : search_views(target_of(*side), side->start,
@@ -220,38 +221,44 @@ private:
         return worth_refining(found);
     }
 
-    /// Without what the model's own symmetry makes equal: of those the one that is not mirrored and
-    /// nearest to the start stays.
-    std::vector<Candidate> worth_refining(const std::vector<Found>& found) {
+    std::vector<Candidate> worth_refining(const std::vector<Found>& found) const {
         std::vector<Candidate> candidates;
         for (const Found& one : found) {
-            const StoneView& view = one.coarse.view;
-            Candidate* equal = nullptr;
-            bool known = false;
-            for (Candidate& other : candidates) {
-                const bool mirrored = other.side != one.side;
-                if (!mirrored && angle_between(other.view, view) < radians(k_same_view_deg))
-                    known = true;
-                if (equal == nullptr &&
-                    look_equal(wire_, other.view, view, mirrored, radians(k_equal_slack_deg)))
-                    equal = &other;
-            }
-            if (known) continue;
-            Candidate candidate{one.side, view, {}, {}, {}};
-            if (equal == nullptr) {
-                if (candidates.size() < k_refined) candidates.push_back(std::move(candidate));
-                continue;
-            }
-            std::vector<std::pair<const Side*, StoneView>> equals = std::move(equal->equals);
-            if (nearer_to_start(candidate.side, view, equal->side, equal->view)) {
-                equals.emplace_back(equal->side, equal->view);
-                *equal = std::move(candidate);
-            } else {
-                equals.emplace_back(candidate.side, view);
-            }
-            equal->equals = std::move(equals);
+            const Found image = images_of(one.side, one.coarse.view).front();
+            const bool known =
+                std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
+                    return other.side == image.side &&
+                           angle_between(other.view, image.coarse.view) < radians(k_same_view_deg);
+                });
+            if (!known) candidates.push_back({image.side, image.coarse.view, {}, {}});
+            if (candidates.size() >= k_refined) break;
         }
         return candidates;
+    }
+
+    /// What the model's own symmetry makes of a view: first the one that is not mirrored and
+    /// nearest to the start.
+    std::vector<Found> images_of(const Side* side, const StoneView& view) const {
+        const glm::dmat3 flip(-1, 0, 0, 0, 1, 0, 0, 0, 1);
+        std::vector<Found> images;
+        for (const glm::dmat3& symmetry : symmetries_) {
+            const bool mirrors = glm::determinant(symmetry) < 0;
+            Found image{side, {view, 0, 0}};
+            StoneView& there = image.coarse.view;
+            there.turn = view.turn * glm::transpose(symmetry);
+            if (mirrors) {
+                if (sides_.size() < 2) continue;
+                image.side = sides_[side == sides_[0].get() ? 1 : 0].get();
+                there.turn = flip * there.turn;
+                there.at.x = start_.width - view.at.x;
+                there.sight.x = start_.width - view.sight.x;
+            }
+            images.push_back(image);
+        }
+        std::stable_sort(images.begin(), images.end(), [](const Found& a, const Found& b) {
+            return nearer_to_start(a.side, a.coarse.view, b.side, b.coarse.view);
+        });
+        return images;
     }
 
     static bool nearer_to_start(const Side* a_side, const StoneView& a, const Side* b_side,
@@ -366,10 +373,12 @@ private:
                 pose.chirality_known = false;
             pose.others.push_back(other);
         }
-        for (const auto& [side, view] : won.equals) {
-            pose.others.push_back({camera_of(view, start_), side->mirrored,
+        const std::vector<Found> images = images_of(won.side, solved.view);
+        for (std::size_t i = 1; i < images.size(); ++i) {
+            const StoneView& view = images[i].coarse.view;
+            pose.others.push_back({camera_of(view, start_), images[i].side->mirrored,
                                    angle_between(view, solved.view), 0, true});
-            if (side != won.side) pose.chirality_known = false;
+            if (images[i].side != won.side) pose.chirality_known = false;
         }
         judge(won, rival, pose);
     }
@@ -382,18 +391,21 @@ private:
         // Residuals larger than their sigmas mean larger sigmas; smaller ones prove nothing.
         std::vector<double> sizes;
         for (double r : solved.residuals) sizes.push_back(std::abs(r));
-        std::nth_element(sizes.begin(),
-                         sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2),
-                         sizes.end());
-        const double spread = 1.4826 * sizes[sizes.size() / 2];
+        const double spread = 1.4826 * middle_of(std::move(sizes));
         const double grown = std::max(1.0, spread);
         const auto sigma = [&](double v) { return grown * std::sqrt(std::max(0.0, v)); };
         PoseSigmas& sigmas = pose.sigmas;
-        for (int k = 0; k < 3; ++k)
-            sigmas.turn[static_cast<std::size_t>(k)] = sigma(variance(k, k));
+        // Whichever is larger: what the edges' sigmas say, or what groups of edges say.
+        const std::array<double, 6> by_groups =
+            variances_by_groups(wire_, won.refined, settings_of(*won.side));
+        const auto larger = [&](int k) {
+            return std::max(sigma(variance(k, k)),
+                            std::sqrt(by_groups[static_cast<std::size_t>(k)]));
+        };
+        for (int k = 0; k < 3; ++k) sigmas.turn[static_cast<std::size_t>(k)] = larger(k);
         sigmas.angle = std::hypot(sigmas.turn[0], sigmas.turn[1], sigmas.turn[2]);
-        sigmas.shift_px = {sigma(variance(3, 3)), sigma(variance(4, 4))};
-        sigmas.scale = sigma(variance(5, 5));
+        sigmas.shift_px = {larger(3), larger(4)};
+        sigmas.scale = larger(5);
         if (solved.view.nearness > 0) {
             sigmas.focal = sigma(variance(5, 5) + variance(6, 6) - 2 * variance(5, 6));
             if (options_.principal_point_error > 0)
@@ -407,8 +419,7 @@ private:
 
     void describe_marks(const Candidate& won, FoundPose& pose) const {
         const double limit = 0.02 * won.side->shape.diameter;
-        double outline_sum = 0, crown_sum = 0;
-        int outline_count = 0, crown_count = 0;
+        std::vector<double> outline, crown;
         for (const WirePoint& point : won.refined.points) {
             EdgeMark mark;
             mark.at = {point.at.x, point.at.y};
@@ -422,14 +433,20 @@ private:
             }
             mark.counted =
                 mark.offset_px.has_value() && nearest < std::hypot(1.0, 1.5 * point.facet_sigma);
-            if (mark.offset_px && (mark.outline || mark.counted)) {
-                (mark.outline ? outline_sum : crown_sum) += nearest * nearest;
-                ++(mark.outline ? outline_count : crown_count);
-            }
+            if (mark.offset_px && (mark.outline || mark.counted))
+                (mark.outline ? outline : crown).push_back(nearest);
             pose.marks.push_back(mark);
         }
-        if (outline_count > 0) pose.outline_rms_px = std::sqrt(outline_sum / outline_count);
-        if (crown_count > 0) pose.crown_rms_px = std::sqrt(crown_sum / crown_count);
+        pose.outline_px = middle_of(std::move(outline));
+        pose.crown_px = middle_of(std::move(crown));
+    }
+
+    /// The median; of nothing 0.
+    static double middle_of(std::vector<double> values) {
+        if (values.empty()) return 0;
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        return *middle;
     }
 
     void judge(const Candidate& won, double rival, FoundPose& pose) const {
@@ -438,11 +455,11 @@ private:
         const auto refuse = [&](std::string why) {
             if (pose.trouble.empty()) pose.trouble = std::move(why);
         };
-        if (pose.outline_rms_px > std::max(1.0, limits.outline_residual * diameter)) {
-            refuse(fmt::format(
-                "the outline is {:.1f} pixels from the photograph's (at most {:.1f}): "
-                "another stone, or another size of it",
-                pose.outline_rms_px, std::max(1.0, limits.outline_residual * diameter)));
+        if (pose.outline_px > std::max(1.0, limits.outline_residual * diameter)) {
+            refuse(
+                fmt::format("the outline is {:.1f} pixels from the photograph's (at most {:.1f}): "
+                            "another stone, or another size of it",
+                            pose.outline_px, std::max(1.0, limits.outline_residual * diameter)));
         }
         if (pose.support_z < limits.least_support_z) {
             refuse(
@@ -468,6 +485,7 @@ private:
     }
 
     WireSolid wire_;
+    std::vector<glm::dmat3> symmetries_;
     Camera start_;
     const PoseOptions& options_;
     const Progress& progress_;

@@ -23,7 +23,7 @@
 
 namespace culet {
 
-/// A pose is refused beyond these. See docs/comparing.md for what they are derived from.
+/// A pose is refused beyond these. See docs/registration.md for what they are derived from.
 struct PoseLimits {
     /// What a pose that is not refused promises, at 99 %: the view's angle to the stone, radians
     /// (0.1 degrees), and the stone's place in the picture. Facets that are not as in the model
@@ -31,7 +31,7 @@ struct PoseLimits {
     /// most cuts: who can do with less raises the limits.
     double angle = 0.001745;
     double shift_px = 0.1;
-    /// Root mean square distance of the outline from the photograph's, as a share of the diameter.
+    /// Median distance of the outline from the photograph's, as a share of the diameter.
     double outline_residual = 0.01;
     /// Standard deviations by which edges of the crown must be met above chance.
     double least_support_z = 5;
@@ -95,9 +95,11 @@ struct FoundPose {
     bool mirrored = false;
     bool chirality_known = true;  ///< false: a stone of this symmetry looks alike in both
     PoseSigmas sigmas;
-    double start_angle = 0;                        ///< from the start's view to the one found
-    double start_scale = 1;                        ///< size found over the start's size
-    double outline_rms_px = 0, crown_rms_px = 0;   ///< of the edge points that count
+    double start_angle = 0;  ///< from the start's view to the one found
+    double start_scale = 1;  ///< size found over the start's size
+    /// Median distance to the photograph's edges, of the outline and of the crown's edges that
+    /// count.
+    double outline_px = 0, crown_px = 0;
     double crown_support = 0, chance_support = 0;  ///< shares of the crown's edge points met
     double support_z = 0;
     /// Of the model as the edges show it: tilt as in PoseOptions, and how far planes lie off at

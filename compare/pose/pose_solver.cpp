@@ -183,17 +183,32 @@ Eigen::MatrixXd covariance_of(ceres::Problem& problem, double* change,
     return size.asDiagonal() * inverse * size.asDiagonal();
 }
 
-/// Sum of squares of what was found over the number of it that the edges could find: the prior's
-/// variance less what is left of it, as a share.
 // What was expected counts as much as so many changes that were found.
 constexpr double k_belief = 6;
-struct Component {
-    double squares = 0, found = 0;
-    void add(double value, double variance_left, double prior) {
-        squares += value * value;
-        found += std::max(0.0, 1 - variance_left / (prior * prior));
+
+/// How large the facets' changes are: each over the square root of the share of its expected
+/// variance that the edges could find. By their median, so that facets of edges that were mistaken
+/// do not count.
+class Component {
+public:
+    explicit Component(double expected) : expected_(expected) {}
+    void add(double value, double variance_left) {
+        const double found = 1 - variance_left / (expected_ * expected_);
+        if (found > 0.15) sizes_.push_back(std::abs(value) / std::sqrt(found));
     }
-    double sigma(double prior) const { return found > 3 ? std::sqrt(squares / found) : prior; }
+    double sigma() {
+        if (sizes_.size() < 5) return expected_;
+        const auto middle = sizes_.begin() + static_cast<std::ptrdiff_t>(sizes_.size() / 2);
+        std::nth_element(sizes_.begin(), middle, sizes_.end());
+        const double found = *middle / 0.6745;
+        const double count = static_cast<double>(sizes_.size());
+        return std::sqrt((count * found * found + k_belief * expected_ * expected_) /
+                         (count + k_belief));
+    }
+
+private:
+    double expected_;
+    std::vector<double> sizes_;
 };
 
 }  // namespace
@@ -270,15 +285,15 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
         for (int i = 0; i < k_view_unknowns; ++i) {
             for (int j = 0; j < k_view_unknowns; ++j) result.covariance.push_back(covariance(i, j));
         }
-        Component tilt, lift;
+        Component tilt(axis_error), lift(lift_error);
         for (std::size_t b = 0; b < free_blocks.size(); ++b) {
             const Eigen::Index at = k_view_unknowns + 3 * static_cast<Eigen::Index>(b);
-            tilt.add(free_blocks[b][0], covariance(at, at), axis_error);
-            tilt.add(free_blocks[b][1], covariance(at + 1, at + 1), axis_error);
-            lift.add(free_blocks[b][2], covariance(at + 2, at + 2), lift_error);
+            tilt.add(free_blocks[b][0], covariance(at, at));
+            tilt.add(free_blocks[b][1], covariance(at + 1, at + 1));
+            lift.add(free_blocks[b][2], covariance(at + 2, at + 2));
         }
-        result.facet_error = std::numbers::sqrt2 * tilt.sigma(axis_error);
-        result.facet_offset = lift.sigma(lift_error);
+        result.facet_error = std::numbers::sqrt2 * tilt.sigma();
+        result.facet_offset = lift.sigma();
     }
     const StoneView before = result.view;
     result.view = changed(before, change);

@@ -38,8 +38,7 @@ struct SolvedView {
     std::vector<double> covariance;
     /// Residuals over their sigmas, as many as there were edges.
     std::vector<double> residuals;
-    /// The expected errors as the edges show them: what was found over what could be found
-    /// (Helmert's estimate of variance components, in the simplified form of Foerstner 1979). With
+    /// The expected errors as the edges show them, drawn a little towards what was expected. With
     /// the covariance only.
     double facet_error = 0, facet_offset = 0;
     bool converged = false;

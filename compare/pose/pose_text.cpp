@@ -52,8 +52,8 @@ std::string pose_json(const FoundPose& pose) {
     json["start"] = {{"angle_deg", degrees(pose.start_angle)}, {"scale", pose.start_scale}};
     json["outline"] = {{"source", pose.outline_source},
                        {"diameter_px", pose.diameter_px},
-                       {"rms_px", pose.outline_rms_px}};
-    json["crown"] = {{"rms_px", pose.crown_rms_px},
+                       {"distance_px", pose.outline_px}};
+    json["crown"] = {{"distance_px", pose.crown_px},
                      {"met", pose.crown_support},
                      {"met_by_chance", pose.chance_support},
                      {"z", pose.support_z}};

@@ -1,5 +1,7 @@
 #include "compare/pose/refine_view.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/matrix.hpp>
@@ -14,10 +16,13 @@ namespace {
 constexpr std::size_t k_fewest_edges = 40;
 // Of a whole edge's place: neighbouring light that the blur mixes in.
 constexpr double k_edge_sigma = 0.06;
-constexpr int k_settling_rounds = 6;
+constexpr int k_settling_rounds = 7;
+constexpr int k_groups = 8;
+// Half of what is searched, pixels, and so many sigmas of what facet errors do.
+constexpr double k_first_width = 0.7, k_width = 0.4, k_facet_widths = 2.5;
 // Facet errors that are found are taken within these bounds of the expected ones: below, nothing
 // would be left of the caution; above, edges were not looked for.
-constexpr double k_least_error = 0.1, k_most_error = 3;
+constexpr double k_least_error = 0.1, k_most_error = 2;
 
 /// The most telling edge near where one is expected: strong ones count more than near ones only
 /// while the expectation is vague.
@@ -54,16 +59,13 @@ std::vector<MetEdge> met_points(const EdgePicture& picture, const std::vector<Wi
     return met;
 }
 
-/// Edges that are met all along, where the facets that were fitted put them.
-std::vector<MetEdge> met_edges(const WireSolid& wire, const EdgePicture& picture,
-                               const std::vector<WirePoint>& points, const SolvedView& solved,
-                               double width_px, double facet_widths) {
-    std::vector<double> expected, width;
-    for (const WirePoint& point : points) {
-        expected.push_back(
-            solved.facets.empty() ? 0 : moved_by_facets(wire, solved.view, point, solved.facets));
-        width.push_back(std::hypot(width_px, facet_widths * point.facet_sigma));
-    }
+/// Edges that are met all along, as far away as the model's errors may take them.
+std::vector<MetEdge> met_edges(const EdgePicture& picture, const std::vector<WirePoint>& points,
+                               double width_px) {
+    const std::vector<double> expected(points.size(), 0.0);
+    std::vector<double> width;
+    for (const WirePoint& point : points)
+        width.push_back(std::hypot(width_px, k_facet_widths * point.facet_sigma));
     std::vector<MetEdge> met;
     for (const MetLine& line : met_lines(picture, points, expected, width)) {
         for (const MetLine::Place& place : line.places) {
@@ -137,12 +139,10 @@ RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const Refi
     spacing.facet_offset = solver.facet_offset;
     spacing.step = std::max(2.0, settings.diameter_px / 400);
     spacing.most_facet_sigma = 0.004 * settings.diameter_px;
+    const double expected_lift = solver.facet_offset;
     for (int round = 0; round < k_settling_rounds; ++round) {
-        const bool first = round == 0;
         refined.points = points_along(wire, refined.solved.view, spacing);
-        // Facets that were fitted say where to look; the first time only their expected errors do.
-        refined.met = met_edges(wire, picture, refined.points, refined.solved, first ? 0.7 : 0.4,
-                                first ? 2.0 : 0.7);
+        refined.met = met_edges(picture, refined.points, round == 0 ? k_first_width : k_width);
         if (refined.met.size() < k_fewest_edges) {
             refined.lost = true;
             return refined;
@@ -159,10 +159,47 @@ RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const Refi
             return std::clamp(found, k_least_error * expected, k_most_error * expected);
         };
         solver.facet_error = near(refined.solved.facet_error, settings.facet_error);
-        solver.facet_offset = near(refined.solved.facet_offset, spacing.facet_offset);
+        solver.facet_offset = near(refined.solved.facet_offset, expected_lift);
+        // Edges are looked for as far from the model's as its errors take them, and no further.
+        spacing.facet_error = std::min(solver.facet_error, settings.facet_error);
+        spacing.facet_offset = std::min(solver.facet_offset, expected_lift);
     }
     refined.points = points_along(wire, refined.solved.view, spacing);
     return refined;
+}
+
+std::array<double, 6> variances_by_groups(const WireSolid& wire, const RefinedView& refined,
+                                          const RefineSettings& settings) {
+    SolverSettings solver = solver_settings(settings);
+    solver.facets_free = true;
+    solver.facet_error = refined.facet_error;
+    solver.facet_offset = refined.facet_offset;
+    const StoneView& all = refined.solved.view;
+    std::array<std::array<double, 6>, k_groups> changes{};
+    tbb::parallel_for(0, k_groups, [&](int group) {
+        std::vector<MetEdge> rest;
+        for (const MetEdge& met : refined.met) {
+            if (met.point.edge % k_groups != group) rest.push_back(met);
+        }
+        const StoneView view =
+            solve_view(wire, all, rest, settings.prior_focal_px, settings.sight, solver).view;
+        const glm::dmat3 turn = view.turn * glm::transpose(all.turn);
+        // Of a small turn.
+        changes[static_cast<std::size_t>(group)] = {0.5 * (turn[1][2] - turn[2][1]),
+                                                    0.5 * (turn[2][0] - turn[0][2]),
+                                                    0.5 * (turn[0][1] - turn[1][0]),
+                                                    view.at.x - all.at.x,
+                                                    view.at.y - all.at.y,
+                                                    std::log(view.scale / all.scale)};
+    });
+    std::array<double, 6> variances{};
+    for (std::size_t k = 0; k < variances.size(); ++k) {
+        double mean = 0, squares = 0;
+        for (const auto& change : changes) mean += change[k] / k_groups;
+        for (const auto& change : changes) squares += (change[k] - mean) * (change[k] - mean);
+        variances[k] = squares * (k_groups - 1) / k_groups;
+    }
+    return variances;
 }
 
 }  // namespace culet

@@ -11,10 +11,9 @@ namespace culet {
 /// in the second.
 bool look_alike(const WireSolid& wire, const StoneView& a, const StoneView& b, bool mirrored);
 
-/// To rounding: the model itself has the symmetry. The views may differ from it by `slack`, an
-/// angle.
-bool look_equal(const WireSolid& wire, const StoneView& a, const StoneView& b, bool mirrored,
-                double slack);
+/// All turns, and turns with a mirroring, about its middle that leave a solid as it is, to
+/// rounding; the first is the one that changes nothing.
+std::vector<glm::dmat3> symmetries_of(const WireSolid& wire);
 
 /// The turn from whose direction a stone with a mirror plane through z and x looks, left to right,
 /// as it does from `turn`.

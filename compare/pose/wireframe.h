@@ -45,7 +45,7 @@ struct WireSpacing {
     double step = 2;                ///< between points of an edge, pixels
     double trim = 2.5;              ///< of an edge's ends: there other edges begin
     double facet_error = 0;         ///< expected, angle to the true facet
-    double facet_offset = 0;  ///< and distance of its plane from the facet's middle
+    double facet_offset = 0;        ///< and distance of its plane from the facet's middle
     double most_facet_sigma = 1e9;  ///< points of edges less certain are left out, pixels
     double reach = 6;               ///< how far `gap` looks
 };

@@ -138,9 +138,9 @@ Trial one_trial(const Settings& settings, int seed) {
             "{}  off {:6.3f} deg ({:.3f}) {:5.2f} px ({:.2f}) scale {:+.4f}  outline {:.2f} crown "
             "{:.2f} px met {:.2f}/{:.2f} z {:4.1f} facets {:.3f} {:.4f}  {:.1f} s {}\n",
             trial.label, trial.angle, trial.sigma_angle, trial.shift, trial.sigma_shift,
-            trial.scale, pose.outline_rms_px, pose.crown_rms_px, pose.crown_support,
-            pose.chance_support, pose.support_z, degrees(pose.facet_error), pose.facet_offset,
-            trial.seconds, pose.mirrored ? "MIRRORED " : "" + pose.trouble);
+            trial.scale, pose.outline_px, pose.crown_px, pose.crown_support, pose.chance_support,
+            pose.support_z, degrees(pose.facet_error), pose.facet_offset, trial.seconds,
+            pose.mirrored ? "MIRRORED " : "" + pose.trouble);
         for (const TriedPose& other : pose.others)
             fmt::print("        other {:6.2f} deg lead {:6.1f} {}{}\n", degrees(other.turn),
                        other.lead, other.symmetric ? "symmetric" : "",
