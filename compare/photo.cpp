@@ -58,6 +58,11 @@ Photo read_photo(const std::filesystem::path& file) {
     for (Picture::Plane& plane : read.picture.planes) {
         if (plane.channel == "saturated") photo.saturated = std::move(plane.values);
     }
+    for (const auto& [key, value] : read.picture.text) {
+        if (key != "culet:photometric" || value == "yes") continue;
+        photo.photometric = false;
+        photo.not_photometric = value;
+    }
     note_camera(photo, first_bytes(file));
     std::size_t not_finite = 0, negative = 0;
     for (float& value : photo.rgb) {

@@ -228,6 +228,13 @@ Picture read_exr(const std::string& bytes, const std::filesystem::path& file, bo
             if (has(name)) picture.planes.push_back({name, std::vector<float>(pixels)});
         }
         for (Picture::Plane& plane : picture.planes) slice(plane.channel, plane.values.data(), 1);
+        const Imf::Header& header = input.header();
+        for (auto a = header.begin(); a != header.end(); ++a) {
+            const std::string key = a.name();
+            const auto* value = dynamic_cast<const Imf::StringAttribute*>(&a.attribute());
+            if (key.starts_with("culet:") && value != nullptr)
+                picture.text.emplace_back(key, value->value());
+        }
         input.setFrameBuffer(frame);
         input.readPixels(window.min.y, window.max.y);
         if (!coloured) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace culet {
@@ -25,6 +26,8 @@ struct Picture {
         std::vector<float> values;
     };
     std::vector<Plane> planes;
+    /// Texts of an EXR that was read whose key begins with `culet:`.
+    std::vector<std::pair<std::string, std::string>> text;
     /// Set on a picture of all directions (environment_layout.h), so that other programs know.
     enum class Environment { none, lat_long, cube } environment = Environment::none;
     /// One standard deviation of the luminance from paths chosen at random; empty: none were.

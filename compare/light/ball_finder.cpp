@@ -22,6 +22,7 @@ constexpr int k_rays = 360;
 struct EdgePoint {
     double x, y, strength;
     int ray;
+    double share = 1;  // of the strongest edge along its ray
 };
 
 float bilinear(const cv::Mat& plane, double x, double y) {
@@ -42,6 +43,21 @@ cv::Mat seen_luminance(const Photo& photo) {
             row[x] = std::cbrt(std::clamp(row[x] / white, 0.0f, 1.5f));
     }
     return plane;
+}
+
+// Each value's rank among all, 0..255.
+cv::Mat equalised(const cv::Mat& plane) {
+    std::vector<float> sorted(plane.begin<float>(), plane.end<float>());
+    std::sort(sorted.begin(), sorted.end());
+    cv::Mat result(plane.size(), CV_8U);
+    for (int y = 0; y < plane.rows; ++y) {
+        for (int x = 0; x < plane.cols; ++x) {
+            const auto at = std::lower_bound(sorted.begin(), sorted.end(), plane.at<float>(y, x));
+            result.at<unsigned char>(y, x) = static_cast<unsigned char>(
+                255.0 * static_cast<double>(at - sorted.begin()) / static_cast<double>(sorted.size()));
+        }
+    }
+    return result;
 }
 
 // Edges along rays from the middle of `circle`, within `reach` of its radius. At most four a ray.
@@ -90,6 +106,7 @@ std::vector<EdgePoint> edges_along_rays(const cv::Mat& plane, const BallCircle& 
             return a.strength > b.strength;
         });
         if (here.size() > 4) here.resize(4);
+        for (EdgePoint& p : here) p.share = p.strength / here.front().strength;
         points.insert(points.end(), here.begin(), here.end());
     }
     return points;
@@ -108,13 +125,19 @@ double off(const BallCircle& circle, const EdgePoint& p) {
     return std::hypot(p.x - circle.x, p.y - circle.y) - circle.radius;
 }
 
-// Rays with an edge within `tolerance` of the circle, of all rays.
+// How much of the outline is an edge: over all rays, the edge within `tolerance` of the circle
+// against the strongest one along that ray. Where there is no circle, noise has an edge there by
+// chance only, and seldom the strongest.
 double support_of(const std::vector<EdgePoint>& points, const BallCircle& circle,
                   double tolerance) {
-    std::array<bool, k_rays> met{};
-    for (const EdgePoint& p : points)
-        if (std::abs(off(circle, p)) < tolerance) met[static_cast<std::size_t>(p.ray)] = true;
-    return static_cast<double>(std::count(met.begin(), met.end(), true)) / k_rays;
+    std::array<double, k_rays> met{};
+    for (const EdgePoint& p : points) {
+        double& most = met[static_cast<std::size_t>(p.ray)];
+        if (std::abs(off(circle, p)) < tolerance) most = std::max(most, p.share);
+    }
+    double sum = 0;
+    for (const double share : met) sum += share;
+    return sum / k_rays;
 }
 
 // Geometric distance, Tukey's weights at 4.685 times the spread (not below a tenth of a pixel).
@@ -187,6 +210,62 @@ std::optional<FoundBall> fitted(const cv::Mat& plane, const BallCircle& rough, d
     return found;
 }
 
+// Where the light crosses the middle between inside and outside, along rays close to the outline:
+// linear light, for the pixels of an edge are means of linear light. Rays without a clear step say
+// nothing.
+std::vector<EdgePoint> half_way_points(const cv::Mat& linear, const BallCircle& circle) {
+    constexpr double k_step = 0.25, k_reach = 3, k_near = 1.25;
+    constexpr int k_half = static_cast<int>(k_reach / k_step);
+    std::vector<EdgePoint> points;
+    for (int ray = 0; ray < 2 * k_rays; ++ray) {
+        const double angle = k_pi * ray / k_rays, c = std::cos(angle), s = std::sin(angle);
+        std::array<double, 2 * k_half + 1> light{};
+        double inside = 0, outside = 0;
+        int counted = 0;
+        bool whole = true;
+        for (int i = -k_half; i <= k_half && whole; ++i) {
+            const double r = circle.radius + i * k_step;
+            const double x = circle.x + r * c, y = circle.y + r * s;
+            whole = x >= 1 && y >= 1 && x <= linear.cols - 3 && y <= linear.rows - 3;
+            if (!whole) break;
+            const double v = bilinear(linear, x, y);
+            light[static_cast<std::size_t>(i + k_half)] = v;
+            if (i * k_step < -k_near) inside += v;
+            if (i * k_step > k_near) outside += v;
+            if (i * k_step > k_near) ++counted;
+        }
+        if (!whole) continue;
+        inside /= counted;
+        outside /= counted;
+        const double step = outside - inside, middle = (inside + outside) / 2;
+        if (std::abs(step) < 0.2 * std::max(inside, outside)) continue;
+        int crossings = 0;
+        double at = 0;
+        for (std::size_t i = 0; i + 1 < light.size(); ++i) {
+            const double a = light[i] - middle, b = light[i + 1] - middle;
+            if ((a < 0) == (b < 0)) continue;
+            ++crossings;
+            at = (static_cast<double>(i) + a / (a - b) - k_half) * k_step;
+        }
+        if (crossings != 1 || std::abs(at) > k_near) continue;
+        const double r = circle.radius + at;
+        points.push_back({circle.x + r * c, circle.y + r * s, std::abs(step), ray / 2});
+    }
+    return points;
+}
+
+FoundBall to_a_fraction_of_a_pixel(const cv::Mat& linear, FoundBall ball) {
+    for (int round = 0; round < 2; ++round) {
+        const std::vector<EdgePoint> points = half_way_points(linear, ball.circle);
+        if (points.size() < k_rays / 4) return ball;
+        const auto next = polished(points, ball.circle, 1.0);
+        if (!next) return ball;
+        ball.circle = next->circle;
+        ball.sigma_px = next->sigma_px;
+    }
+    return ball;
+}
+
 // Wide, then narrower about what was found.
 std::optional<FoundBall> fitted_in_steps(const cv::Mat& plane, const BallCircle& rough,
                                          double reach) {
@@ -208,7 +287,9 @@ BallCircle enlarged(const BallCircle& c, double factor) {
 }  // namespace
 
 std::optional<FoundBall> refined_ball(const Photo& photo, const BallCircle& rough, double reach) {
-    return fitted_in_steps(seen_luminance(photo), rough, reach);
+    const auto ball = fitted_in_steps(seen_luminance(photo), rough, reach);
+    if (!ball) return ball;
+    return to_a_fraction_of_a_pixel(luminance(colour_of(photo)), *ball);
 }
 
 std::vector<FoundBall> find_balls(const Photo& photo, double least_support) {
@@ -219,16 +300,27 @@ std::vector<FoundBall> find_balls(const Photo& photo, double least_support) {
     cv::Mat small;
     cv::resize(whole, small, {}, 1 / factor, 1 / factor, cv::INTER_AREA);
     const double fx = static_cast<double>(whole.cols) / small.cols;
-    cv::Mat eight;
-    small.convertTo(eight, CV_8U, 200);
-    cv::GaussianBlur(eight, eight, {}, 1.0);
+    // As it is; and with every brightness given as much room as it has pixels, for a ball in a dim
+    // room whose lamps take all the range.
+    struct Look {
+        cv::Mat picture;
+        double edge;
+    };
+    std::vector<Look> looks;
+    for (const double blur : {1.0, 2.5}) {
+        cv::Mat soft, plain;
+        cv::GaussianBlur(small, soft, {}, blur);
+        soft.convertTo(plain, CV_8U, 200);
+        looks.push_back({plain, blur > 1 ? 60.0 : 100.0});
+        looks.push_back({equalised(soft), blur > 1 ? 100.0 : 150.0});
+    }
 
-    const int shorter = std::min(eight.cols, eight.rows);
+    const int shorter = std::min(small.cols, small.rows);
     std::vector<BallCircle> candidates;
-    for (const double accumulator : {2.0, 1.5}) {
+    for (const Look& look : looks) {
         for (const double threshold : {120.0, 80.0, 50.0}) {
             std::vector<cv::Vec3f> circles;
-            cv::HoughCircles(eight, circles, cv::HOUGH_GRADIENT, accumulator, shorter / 20.0, 100,
+            cv::HoughCircles(look.picture, circles, cv::HOUGH_GRADIENT, 2, shorter / 20.0, look.edge,
                              threshold, std::max(6, shorter / 20), shorter * 6 / 10);
             for (std::size_t i = 0; i < std::min<std::size_t>(circles.size(), 8); ++i) {
                 const BallCircle c{circles[i][0], circles[i][1], circles[i][2]};
@@ -241,6 +333,8 @@ std::vector<FoundBall> find_balls(const Photo& photo, double least_support) {
             }
         }
     }
+    // Edges of a few pixels' width stand out of noise that single pixels drown in.
+    cv::GaussianBlur(small, small, {}, 1.0);
     std::vector<FoundBall> found;
     for (const BallCircle& candidate : candidates) {
         auto ball = fitted_in_steps(small, candidate, 0.12);
@@ -258,6 +352,7 @@ std::vector<FoundBall> find_balls(const Photo& photo, double least_support) {
         const double sb = b.support * std::pow(b.circle.radius, 0.15);
         return sa > sb;
     });
+    const cv::Mat linear = luminance(colour_of(photo));
     for (FoundBall& ball : found) {
         ball.circle = enlarged(ball.circle, fx);
         if (fx > 1) {
@@ -267,6 +362,7 @@ std::vector<FoundBall> find_balls(const Photo& photo, double least_support) {
                 ball.sigma_px *= fx;
             }
         }
+        ball = to_a_fraction_of_a_pixel(linear, ball);
     }
     return found;
 }

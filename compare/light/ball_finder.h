@@ -20,7 +20,7 @@ struct FoundBall {
 /// iterated least squares with Tukey's weights, to a fraction of a pixel). Of a ball cut by the
 /// picture's border only what is seen counts. Empty when there is none of `least_support`.
 /// Deterministic.
-std::vector<FoundBall> find_balls(const Photo& photo, double least_support = 0.5);
+std::vector<FoundBall> find_balls(const Photo& photo, double least_support = 0.45);
 
 /// A ball given roughly (by a click), fitted to the edges within `reach` of its radius; nothing
 /// when too few edges are there.

@@ -311,4 +311,37 @@ MergedLight merge_views(const std::vector<BallView>& views, const std::vector<do
     return merged;
 }
 
+MergedLight coarsened(const MergedLight& light, int factor) {
+    const EnvironmentMap& fine = light.map;
+    MergedLight result;
+    result.filled_sr = light.filled_sr;
+    result.map.width = fine.width / factor;
+    result.map.height = fine.height / factor;
+    for (int y = 0; y < result.map.height; ++y) {
+        for (int x = 0; x < result.map.width; ++x) {
+            std::array<double, 3> rgb{};
+            double omega = 0, coverage = 0, over = 0, stops = 0, known = 0;
+            for (int j = factor * y; j < factor * (y + 1); ++j) {
+                const double w = lat_long_solid_angle(j, fine.width, fine.height);
+                for (int i = factor * x; i < factor * (x + 1); ++i) {
+                    const std::size_t at = static_cast<std::size_t>(j) * fine.width + i;
+                    omega += w;
+                    for (std::size_t c = 0; c < 3; ++c) rgb[c] += w * fine.rgb[3 * at + c];
+                    coverage += w * light.coverage[at];
+                    over += w * light.over_exposed[at];
+                    if (!std::isfinite(light.disagreement[at])) continue;
+                    stops += w * light.disagreement[at];
+                    known += w;
+                }
+            }
+            for (const double v : rgb) result.map.rgb.push_back(static_cast<float>(v / omega));
+            result.coverage.push_back(static_cast<float>(coverage / omega));
+            result.over_exposed.push_back(static_cast<float>(over / omega));
+            result.disagreement.push_back(known > 0 ? static_cast<float>(stops / known)
+                                                    : std::numeric_limits<float>::quiet_NaN());
+        }
+    }
+    return result;
+}
+
 }  // namespace culet

@@ -26,4 +26,8 @@ struct MergedLight {
 MergedLight merge_views(const std::vector<BallView>& views, const std::vector<double>& gains,
                         int width, int passes, const Progress& progress = {});
 
+/// Means over blocks of `factor` x `factor` texels by solid angle: no light is lost. The width is a
+/// multiple of 2 `factor`.
+MergedLight coarsened(const MergedLight& light, int factor);
+
 }  // namespace culet

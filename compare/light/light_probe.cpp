@@ -259,12 +259,14 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
                                   static_cast<double>(views.size())))
             throw Interrupted();
     }
-    // The next power of two, in ratio, to as many texels round as the ball has pixels for.
-    const int width =
-        options.width > 0
-            ? options.width
-            : std::clamp(1 << static_cast<int>(std::lround(std::log2(k_pi * largest))),
-                         k_narrowest, k_widest);
+    // The next power of two, in ratio, to as many texels round as the ball has pixels for. A
+    // coarser map is the mean of such a one, a finer one is as it is.
+    const int natural = std::clamp(1 << static_cast<int>(std::lround(std::log2(k_pi * largest))),
+                                   k_narrowest, k_widest);
+    const int coarser = options.width > 0 && options.width < natural
+                            ? (natural + options.width - 1) / options.width
+                            : 1;
+    const int width = options.width > 0 ? coarser * options.width : natural;
 
     std::vector<Prepared> ready;
     std::vector<BallView> seen;
@@ -330,6 +332,7 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
     probe.light = merge_views(seen, gains, width, options.passes, [&](double done) {
         return !progress || progress(0.5 + 0.5 * done);
     });
+    if (coarser > 1) probe.light = coarsened(probe.light, coarser);
     for (std::size_t i = 0; i < probe.light.map.rgb.size(); ++i)
         probe.light.map.rgb[i] /= static_cast<float>(options.reflectance[i % 3]);
     judge(probe, options);

@@ -298,7 +298,7 @@ OwnMap own_map(const BallView& view, const MirrorBall& ball, int width) {
     BallView alone = view;
     alone.ball = ball;
     alone.world_from_camera = glm::dmat3(1.0);
-    return {merge_views({alone}, {1.0}, width, 8).map, ball,
+    return {merge_views({alone}, {1.0}, width, 6).map, ball,
             k_floor * mean_luminance(*view.picture)};
 }
 
@@ -431,8 +431,7 @@ RefinedViews refine_views(const BallView& first, const ViewPrior& first_prior,
     const double radius = std::min(first_prior.circle.radius, second_prior.circle.radius);
     for (const double sigma_px : {radius / 60, std::max(radius / 200, 1.0)})
         solution = by_direction(problem, solution, sigma_px);
-    const int width = std::clamp(1 << static_cast<int>(std::lround(std::log2(k_pi * radius))), 128,
-                                 1024);
+    const int width = std::clamp(1 << static_cast<int>(std::log2(k_pi * radius)), 128, 1024);
     for (int round = 0; round < 2; ++round) solution = by_prediction(problem, solution, width);
     return {problem.rotation(solution.at),
             problem.ball(solution.at, false),

@@ -69,8 +69,8 @@ cv::Mat well_exposed(const Photo& a, const Photo& b) {
     for (int y = 0; y < mask.rows; ++y) {
         for (int x = 0; x < mask.cols; ++x) {
             const std::size_t i = static_cast<std::size_t>(y) * mask.cols + x;
-            const bool dark = ya.at<float>(y, x) < 0.002 * std::min(level(a), 1.0) ||
-                              yb.at<float>(y, x) < 0.002 * std::min(level(b), 1.0);
+            const bool dark = ya.at<float>(y, x) < 0.004 * std::min(level(a), 1.0) ||
+                              yb.at<float>(y, x) < 0.004 * std::min(level(b), 1.0);
             if (!dark && unclipped(a, i) > 0.5 && unclipped(b, i) > 0.5)
                 mask.at<unsigned char>(y, x) = 255;
         }
@@ -92,6 +92,8 @@ FrameShift shift_between(const BracketShot& a, const BracketShot& b) {
         cv::resize(second, small_b, small_a.size(), 0, 0, cv::INTER_AREA);
         cv::resize(mask, small_mask, small_a.size(), 0, 0, cv::INTER_AREA);
         small_mask = small_mask > 200;
+        // The filter of ECC reaches over two pixels: clipped ones must not leak in.
+        cv::erode(small_mask, small_mask, cv::Mat(), {-1, -1}, 3, cv::BORDER_CONSTANT, {0});
         if (cv::countNonZero(small_mask) < 100) continue;
         cv::Mat tried = warp.clone();
         tried.at<float>(0, 2) /= static_cast<float>(factor);

@@ -107,6 +107,7 @@ Photo read_raw(const std::filesystem::path& file) {
     require(file, processor->unpack());
     if (data.color.maximum == 0) refuse(file, "it states no white level");
     const cv::Mat mask = saturation_mask(data);
+    const int flip = data.sizes.flip;
 
     data.params.gamm[0] = data.params.gamm[1] = 1;
     data.params.no_auto_bright = 1;
@@ -140,7 +141,6 @@ Photo read_raw(const std::filesystem::path& file) {
                     scale * samples[image->colors == 3 ? 3 * at + c : at];
         }
     }
-    const int flip = data.sizes.flip;
     colour = upright(colour, flip);
     cv::Mat over;
     if (mask.size() == cv::Size(image->width, image->height)) over = upright(mask, flip);
