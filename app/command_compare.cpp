@@ -3,9 +3,13 @@
 #include <memory>
 
 #include "app/options.h"
+#include "app/solid_input.h"
 #include "app/terminal.h"
 #include "compare/compare.h"
+#include "compare/meaning/scene_comparison.h"
+#include "compare/meaning/several.h"
 #include "compare/report.h"
+#include "render/scene_io.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 
@@ -17,8 +21,16 @@ namespace fs = std::filesystem;
 
 struct CompareArguments {
     CommonOptions common;
-    std::string photo, render, folder, json, mask;
-    bool simulated = false;
+    std::vector<std::string> pictures;  ///< photographs, then the render or the scene
+    std::string folder, json, mask, cache, start;
+    std::vector<std::string> ignored;
+    bool simulated = false, calibrate = false, keep_pose = false;
+    double budget = 60;
+    int draws = 8;
+
+    std::size_t photographs() const { return pictures.size() - 1; }
+    const std::string& against() const { return pictures.back(); }
+    bool against_scene() const { return fs::path(against()).extension() == ".toml"; }
 };
 
 /// The folder for the outputs; taken away again if nothing was put into it.
@@ -47,59 +59,195 @@ private:
 };
 
 std::string command_line(const CompareArguments& a) {
-    std::string line = fmt::format("culet compare {} {} -o {}", a.photo, a.render, a.folder);
+    std::string line = "culet compare";
+    for (const std::string& picture : a.pictures) line += " " + picture;
+    line += " -o " + a.folder;
     if (!a.json.empty()) line += " --json " + a.json;
     if (!a.mask.empty()) line += " --mask " + a.mask;
+    for (const std::string& mask : a.ignored) line += " --ignore " + mask;
     if (a.simulated) line += " --simulated";
+    if (a.against_scene()) {
+        if (a.calibrate)
+            line += fmt::format(" --calibrate --budget {:g} --draws {}", a.budget, a.draws);
+        if (!a.cache.empty()) line += " --cache " + a.cache;
+        if (!a.start.empty()) line += " --start " + a.start;
+        if (a.keep_pose) line += " --keep-pose";
+        for (const std::string& set : a.common.set) line += " --set " + set;
+    }
     return line + fmt::format(" --seed {}", a.common.seed);
 }
 
-Report report_of(const CompareArguments& a, const Comparison& comparison, const std::string& json,
-                 const std::string& version) {
+// Masks of what is left out, one upon the other.
+std::vector<float> ignored_of(const std::vector<std::string>& files, const Photo& photo) {
+    std::vector<float> all;
+    for (const std::string& file : files) {
+        const std::vector<float> mask = read_mask(file, photo.width, photo.height);
+        if (all.empty()) all.resize(mask.size(), 0.0f);
+        for (std::size_t i = 0; i < mask.size(); ++i) all[i] = std::max(all[i], mask[i]);
+    }
+    return all;
+}
+
+CompareOptions options_of(const CompareArguments& a, const Photo& photo) {
+    CompareOptions options;
+    if (!a.mask.empty()) options.mask = read_mask(a.mask, photo.width, photo.height);
+    options.ignored = ignored_of(a.ignored, photo);
+    options.simulated = a.simulated;
+    options.seed = a.common.seed;
+    options.threads = a.common.threads;
+    return options;
+}
+
+// What one photograph came to.
+struct Compared {
+    Comparison comparison;
+    std::string json;
     Report report;
-    report.title = fmt::format("{} against {}", fs::path(a.photo).filename().string(),
-                               fs::path(a.render).filename().string());
+};
+
+Report report_of(const CompareArguments& a, const std::string& photo, const Comparison& comparison,
+                 const std::string& json, const std::string& version) {
+    Report report;
+    report.title = fmt::format("{} against {}", fs::path(photo).filename().string(),
+                               fs::path(a.against()).filename().string());
     report.version = version;
     report.command = command_line(a);
-    report.files = {{a.simulated ? "simulated photograph" : "photograph", a.photo},
-                    {"render", a.render}};
+    report.files = {{a.simulated ? "simulated photograph" : "photograph", photo},
+                    {a.against_scene() ? "scene" : "render", a.against()}};
     if (!a.mask.empty()) report.files.push_back({"mask", a.mask});
+    for (const std::string& mask : a.ignored) report.files.push_back({"left out", mask});
     report.comparison = comparison;
     report.scores_json = json;
     return report;
 }
 
-int run_compare(const CompareArguments& a, const std::string& version) {
-    const Photo photo = read_photo(a.photo), render = read_photo(a.render);
-    CompareOptions options;
-    if (!a.mask.empty()) options.mask = read_mask(a.mask, photo.width, photo.height);
-    options.simulated = a.simulated;
-    options.seed = a.common.seed;
-    options.threads = a.common.threads;
-    const Comparison comparison =
-        compare(photo, render, options, progress_line("comparing", a.common.quiet));
-    const std::string json = scores_json(comparison, {a.photo, a.render, a.mask});
-    const std::string page = report_page(report_of(a, comparison, json, version));
+Compared compare_with_render(const CompareArguments& a, const std::string& version) {
+    const Photo photo = read_photo(a.pictures.front()), render = read_photo(a.against());
+    Compared result;
+    result.comparison =
+        compare(photo, render, options_of(a, photo), progress_line("comparing", a.common.quiet));
+    result.json = scores_json(result.comparison, {a.pictures.front(), a.against(), a.mask});
+    result.report = report_of(a, a.pictures.front(), result.comparison, result.json, version);
+    return result;
+}
 
-    const OutputFolder folder(a.folder);
-    const fs::path page_file = fs::path(a.folder) / "report.html";
-    if (!a.json.empty()) write_text(a.json, json);
-    write_text(page_file, page);
+Compared compare_with_scene(const CompareArguments& a, const std::string& photo_file,
+                            const Scene& scene, const std::optional<Solid>& start,
+                            const std::string& version) {
+    const Photo photo = read_photo(photo_file);
+    SceneCompareOptions options;
+    options.compare = options_of(a, photo);
+    options.find_pose = !a.keep_pose;
+    options.calibrate = a.calibrate;
+    options.budget_seconds = a.budget;
+    options.draws = a.draws;
+    options.cache = a.cache.empty() ? fs::path(a.folder) / "cache" : fs::path(a.cache);
+    options.start = start;
+    SceneComparison compared = culet::compare_with_scene(
+        photo, scene, options,
+        progress_line(a.calibrate ? "comparing and calibrating" : "comparing", a.common.quiet));
+    Compared result;
+    result.comparison = std::move(compared.comparison);
+    CompareSources sources{photo_file, a.against(), a.mask};
+    sources.pose = compared.pose ? pose_json(*compared.pose) : "";
+    result.json = scores_json(result.comparison, sources);
+    result.report = report_of(a, photo_file, result.comparison, result.json, version);
+    result.report.stats_json = stats_json(compared.stats);
+    result.report.settings = read_text(a.against());
+    if (compared.pose) {
+        result.report.pose_overlay_png = pose_overlay(photo, scene.stone.solid, *compared.pose);
+        result.report.pose_used = compared.pose_used;
+    }
+    return result;
+}
 
+void say_result(const CompareArguments& a, const Comparison& comparison) {
     say(fmt::format("{}: {}", name_of(comparison.verdict), comparison.reason), a.common.quiet);
-    if (a.common.verbose) {
-        for (const Score& score : comparison.scores) {
-            say(fmt::format("  {:14} {:>9}   chance {:.3f} ± {:.3f}", score.key,
-                            score.value ? fmt::format("{:.4f}", *score.value) : "none",
-                            score.null_mean, score.null_sd),
-                a.common.quiet);
+    if (!a.common.verbose) return;
+    for (const Score& score : comparison.scores) {
+        say(fmt::format("  {:14} {:>9}   chance {:.3f} ± {:.3f}", score.key,
+                        score.value ? fmt::format("{:.4f}", *score.value) : "none", score.null_mean,
+                        score.null_sd),
+            a.common.quiet);
+    }
+    for (const std::string& warning : comparison.registration.warnings) {
+        say("  " + warning, a.common.quiet);
+    }
+    for (const std::string& note : comparison.notes) say("  " + note, a.common.quiet);
+}
+
+int run_compare(const CompareArguments& a, const std::string& version) {
+    if (a.pictures.size() < 2) {
+        throw InputError(
+            "compare takes a photograph and a render or a scene file: "
+            "culet compare PHOTO RENDER -o DIR");
+    }
+    if (!a.against_scene()) {
+        if (a.photographs() > 1) {
+            throw InputError(
+                fmt::format("several photographs have several poses, and {} is one picture: give "
+                            "the scene file "
+                            "(.toml) as the last of them",
+                            a.against()));
         }
-        for (const std::string& warning : comparison.registration.warnings) {
-            say("  " + warning, a.common.quiet);
+        if (a.calibrate) {
+            throw InputError(
+                "--calibrate draws the stone anew: give the scene file (.toml) instead "
+                "of a render");
         }
     }
+    if (!a.mask.empty() && a.photographs() > 1) {
+        throw InputError("--mask belongs to one photograph: compare them one by one");
+    }
+    std::optional<Scene> scene;
+    std::optional<Solid> start;
+    if (a.against_scene()) {
+        scene = read_scene(a.against(), a.common.set);
+        scene->settings.threads = a.common.threads;
+        if (!a.start.empty()) start = load_solid(a.start).solid;
+    }
+    if (!a.json.empty()) require_writable(a.json);
+    const OutputFolder folder(a.folder);
+    const fs::path page_file = fs::path(a.folder) / "report.html";
+    require_writable(page_file);
+
+    if (a.photographs() == 1) {
+        const Compared one = scene
+                                 ? compare_with_scene(a, a.pictures.front(), *scene, start, version)
+                                 : compare_with_render(a, version);
+        const std::string page = report_page(one.report);
+        if (!a.json.empty()) write_text(a.json, one.json);
+        write_text(page_file, page);
+        say_result(a, one.comparison);
+        say(fmt::format("report: {}", page_file.string()), a.common.quiet);
+        return one.comparison.usable() ? exit_good : exit_untrusted;
+    }
+
+    std::vector<PhotographRow> rows;
+    std::vector<std::string> pages;
+    for (std::size_t i = 0; i < a.photographs(); ++i) {
+        const std::string& file = a.pictures[i];
+        Compared one = compare_with_scene(a, file, *scene, start, version);
+        say(file, a.common.quiet);
+        say_result(a, one.comparison);
+        pages.push_back(report_page(one.report));
+        rows.push_back({fs::path(file).filename().string(),
+                        fmt::format("photograph-{}.html", i + 1), one.json,
+                        std::move(one.comparison)});
+    }
+    const SeveralPhotographs several = together(rows);
+    const std::string json = several_json(several, rows);
+    const std::string page =
+        several_page(several, rows, fs::path(a.against()).stem().string() + " and its photographs",
+                     version, command_line(a));
+    if (!a.json.empty()) write_text(a.json, json);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        write_text(fs::path(a.folder) / rows[i].page, pages[i]);
+    }
+    write_text(page_file, page);
+    say(fmt::format("{}: {}", name_of(several.verdict), several.reason), a.common.quiet);
     say(fmt::format("report: {}", page_file.string()), a.common.quiet);
-    return comparison.usable() ? exit_good : exit_untrusted;
+    return several.verdict == Verdict::refused ? exit_untrusted : exit_good;
 }
 
 }  // namespace
@@ -108,12 +256,15 @@ void add_command_compare(CLI::App& program, int& exit_code) {
     auto arguments = std::make_shared<CompareArguments>();
     CLI::App* command = program.add_subcommand(
         "compare",
-        "registers a render with a photograph by the stone's outline, scores it, and writes "
-        "DIR/report.html");
-    command->add_option("PHOTO", arguments->photo, "photograph: PNG, JPEG, TIFF, EXR or HDR")
-        ->required();
-    command->add_option("RENDER", arguments->render, "render; best the .exr, which is linear")
-        ->required();
+        "registers a render with a photograph by the stone's outline, or finds the pose of a "
+        "scene's stone in it, scores it, and writes DIR/report.html");
+    command
+        ->add_option("PHOTO", arguments->pictures,
+                     "photographs (PNG, JPEG, TIFF, EXR or HDR), then the render (best the .exr, "
+                     "which is linear) or the scene file")
+        ->required()
+        ->expected(1, 1000)
+        ->type_name("PHOTO... RENDER|SCENE.toml");
     command->add_option("-o,--output", arguments->folder, "folder for the report; made if missing")
         ->required()
         ->type_name("DIR");
@@ -123,13 +274,45 @@ void add_command_compare(CLI::App& program, int& exit_code) {
         ->add_option("--mask", arguments->mask,
                      "picture of the photograph's size, white where the stone is")
         ->type_name("FILE");
+    command
+        ->add_option(
+            "--ignore", arguments->ignored,
+            "picture of the photograph's size, white where nothing is to be compared (dust, "
+            "inclusions, a holder); may be given several times")
+        ->type_name("MASK")
+        ->allow_extra_args(false);
     command->add_flag("--simulated", arguments->simulated,
                       "the photograph was computed: say so wherever it appears");
-    add_common(*command, arguments->common);
+    command->add_flag("--calibrate", arguments->calibrate,
+                      "say what the scores mean for this stone, pose and light (scenes only)");
+    command
+        ->add_option("--budget", arguments->budget,
+                     "seconds after which the calibration begins no further draw (0: no limit)")
+        ->check(CLI::Range(0.0, 1e6))
+        ->capture_default_str();
+    command
+        ->add_option("--draws", arguments->draws,
+                     "of each facet error; each null has three times as many")
+        ->check(CLI::Range(2, 1000))
+        ->capture_default_str();
+    command
+        ->add_option("--cache", arguments->cache,
+                     "folder that keeps calibrations for the next photograph of the same scene "
+                     "(without it: DIR/cache)")
+        ->type_name("DIR");
+    command
+        ->add_option("--start", arguments->start,
+                     "mesh that the fit started from: would it have matched as well?")
+        ->type_name("MESH");
+    command->add_flag("--keep-pose", arguments->keep_pose,
+                      "the scene's camera stands where it says: no pose is looked for");
+    add_common(*command, arguments->common, true);
     command->footer(
         "Examples:\n"
         "  culet compare photo.jpg render.exr -o report\n"
         "  culet compare photo.tif render.exr -o report --mask stone.png --json scores.json\n"
+        "  culet compare photo.jpg scene.toml -o report --calibrate\n"
+        "  culet compare face-up.tif tilted.tif scene.toml -o report --calibrate --budget 120\n"
         "Exit codes: 0 compared, whatever the verdict (match, partial, no_evidence); 1 refused: "
         "the outlines do not fit; 2 could not be done.");
     command->callback([&program, arguments, &exit_code] {

@@ -49,7 +49,11 @@ int run(int argc, char** argv) {
     int exit_code = exit_good;
     add_command_fit(program, exit_code);
     add_command_render(program, exit_code);
+    add_command_register(program, exit_code);
     add_command_compare(program, exit_code);
+    add_command_photo(program, exit_code);
+    add_command_light(program, exit_code);
+    add_command_camera(program, exit_code);
     add_command_run(program, exit_code);
     add_command_study(program, exit_code);
     add_command_probe(program, exit_code);

@@ -32,8 +32,12 @@ void add_common(CLI::App& command, CommonOptions& options, bool reads_toml = fal
 /// Each registers one subcommand; its callback stores the exit code in `exit_code` and throws
 /// InputError, InternalError or Interrupted. Parsing, calling and writing only: no formula.
 void add_command_fit(CLI::App& program, int& exit_code);
+void add_command_register(CLI::App& program, int& exit_code);
 void add_command_render(CLI::App& program, int& exit_code);
 void add_command_compare(CLI::App& program, int& exit_code);
+void add_command_camera(CLI::App& program, int& exit_code);
+void add_command_photo(CLI::App& program, int& exit_code);
+void add_command_light(CLI::App& program, int& exit_code);
 void add_command_cut(CLI::App& program, int& exit_code);
 void add_command_convert(CLI::App& program, int& exit_code);
 void add_command_info(CLI::App& program, int& exit_code);

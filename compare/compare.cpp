@@ -7,28 +7,22 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "compare/flip.h"
-#include "compare/frame.h"
-#include "page/html.h"
-#include "compare/metrics.h"
+#include "compare/colour_distribution.h"
+#include "compare/laid_pictures.h"
 #include "compare/pixels.h"
-#include "compare/reflexes.h"
+#include "compare/score_list.h"
 #include "compare/turned_null.h"
-#include "compare/wavelet_similarity.h"
+#include "page/html.h"
 #include "stone/errors.h"
 #include "stone/units.h"
 
 namespace culet {
 
 namespace {
-
-// Fewer pixels than this hold no pattern: a stone of 32 pixels has some 700.
-constexpr int k_least_pixels = 400;
-// A sample within 1 % of the clipping level counts as clipped: JPEGs round there.
-constexpr double k_clipped = 0.99;
 
 PixelMap map_of(const cv::Mat& values, const cv::Mat& mask) {
     PixelMap map{mask.cols, mask.rows, {}};
@@ -52,29 +46,6 @@ Photo photo_of(const cv::Mat& colour) {
         photo.rgb.insert(photo.rgb.end(), row, row + 3 * colour.cols);
     }
     return photo;
-}
-
-cv::Mat eroded(const cv::Mat& mask, double by_px) {
-    cv::Mat distance;
-    cv::distanceTransform(mask, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
-    return distance > by_px;
-}
-
-cv::Mat brightest_channel(const cv::Mat& colour) {
-    cv::Mat channels[3];
-    cv::split(colour, channels);
-    return cv::max(cv::max(channels[0], channels[1]), channels[2]);
-}
-
-/// 255 where neither picture is clipped.
-cv::Mat not_clipped(const cv::Mat& colour, double saturation, const cv::Mat& mask) {
-    if (saturation <= 0) return mask.clone();
-    const cv::Mat below = brightest_channel(colour) < k_clipped * saturation;
-    return below & mask;
-}
-
-void multiply_channels(cv::Mat& colour, const std::array<double, 3>& gain) {
-    cv::multiply(colour, cv::Scalar(gain[0], gain[1], gain[2]), colour);
 }
 
 Registration registration_of(const Frame& frame) {
@@ -109,80 +80,25 @@ Registration registration_of(const Frame& frame) {
     return r;
 }
 
-struct Measured {
-    std::vector<Score> scores;
-    std::optional<ReflexMatch> reflexes;
-    cv::Mat ssim_map, colour_map, flip_map;
-};
-
-Score score(std::string key, std::optional<double> value, bool higher_is_better = true,
-            std::string note = {}) {
-    Score s;
-    s.key = std::move(key);
-    s.value = value;
-    s.higher_is_better = higher_is_better;
-    if (!value) s.note = std::move(note);
-    return s;
-}
-
-// The order here is the order in the table of the report.
-Measured measure(const MatchedPictures& pictures, const WaveletBank& wavelets) {
-    const std::string flat = "one of the pictures has one brightness everywhere";
-    Measured result;
-    auto& scores = result.scores;
-    scores.push_back(score("zncc", zncc(pictures, 0.02), true, flat));
-    scores.push_back(score("zncc_1pct", zncc(pictures, 0.01), true, flat));
-    scores.push_back(score("zncc_4pct", zncc(pictures, 0.04), true, flat));
-    result.reflexes = match_reflexes(pictures);
-    const std::string none = "the photo has no reflex that stands out";
-    const auto& reflexes = result.reflexes;
-    scores.push_back(
-        score("reflex_f1", reflexes ? std::optional(reflexes->f1) : std::nullopt, true, none));
-    scores.push_back(score("reflex_area_f1",
-                           reflexes ? std::optional(reflexes->area_f1) : std::nullopt, true, none));
-    const ShownPictures pair = shown(pictures);
-    scores.push_back(score("cw_ssim", cw_ssim(pair, pictures.mask, wavelets)));
-    const ScoreMap structure = ssim(pair, pictures.mask);
-    scores.push_back(score("ssim", structure.mean));
-    scores.push_back(score("psnr", psnr(pair, pictures.mask), true,
-                           "the pictures are equal: there is no noise to measure"));
-    const ColourScore colour = deltaE00(pictures);
-    scores.push_back(score("deltaE00_mean", colour.mean, false));
-    scores.push_back(score("deltaE00_p95", colour.percentile_95, false));
-    for (Score& s : scores) s.is_correlation = s.key.starts_with("zncc");
-    const ScoreMap visible = flip(pictures);
-    scores.push_back(score("flip_mean", visible.mean, false));
-    result.flip_map = visible.map;
-    result.ssim_map = structure.map;
-    result.colour_map = colour.map;
-    return result;
-}
-
-void fill_null(Score& score) {
-    if (score.null.empty()) return;
-    const auto n = static_cast<double>(score.null.size());
-    double sum = 0, squares = 0;
-    for (const double v : score.null) sum += v;
-    score.null_mean = sum / n;
-    for (const double v : score.null) squares += (v - score.null_mean) * (v - score.null_mean);
-    score.null_sd = n > 1 ? std::sqrt(squares / (n - 1)) : 0;
-    if (!score.value) return;
-    const double sign = score.higher_is_better ? 1 : -1;
-    if (score.is_correlation) {
-        // Fisher (1915): atanh of a correlation has a spread that does not depend on its value, so
-        // that a perfect match is not held back by the end of the scale.
-        Score stretched = score;
-        stretched.is_correlation = false;
-        stretched.value = std::atanh(std::clamp(*score.value, -0.9999, 0.9999));
-        for (double& v : stretched.null) v = std::atanh(std::clamp(v, -0.9999, 0.9999));
-        fill_null(stretched);
-        score.z = stretched.z;
-    } else if (score.null_sd > 0) {
-        score.z = sign * (*score.value - score.null_mean) / score.null_sd;
-    }
-    double as_good = 0;
-    for (const double v : score.null) as_good += sign * v >= sign * *score.value ? 1 : 0;
-    score.p = (as_good + 1) / (n + 1);
+ReflexCount counted(const ReflexMatch& match) {
+    ReflexCount count{match.in_photo,
+                      match.in_render,
+                      match.matched,
+                      match.displacement,
+                      match.coloured,
+                      match.same_hue,
+                      {}};
+    const auto add = [&](const std::vector<Reflex>& reflexes, bool of_photo) {
+        for (const Reflex& reflex : reflexes) {
+            count.marks.push_back({{reflex.middle.x, reflex.middle.y},
+                                   std::sqrt(reflex.area / std::numbers::pi),
+                                   of_photo,
+                                   reflex.partner});
+        }
+    };
+    add(match.photo, true);
+    add(match.render, false);
+    return count;
 }
 
 // One row of scores a draw; the gain is solved anew, as it was for the render itself.
@@ -219,8 +135,16 @@ void add_null(const MatchedPictures& pictures, const WaveletBank& wavelets, cons
         "mirrored, gain solved anew; draws under which the render stays much the same are left out";
 }
 
+// Bright and dark places, or, where the photograph's brightness is not to be trusted, the facets'
+// images.
+const Score& deciding(const Comparison& result) {
+    const char* key = result.geometry_only ? "cw_ssim" : "zncc";
+    return *std::find_if(result.scores.begin(), result.scores.end(),
+                         [&](const Score& s) { return s.key == key; });
+}
+
 void judge(Comparison& result) {
-    const Score& zncc = result.scores.front();
+    const Score& zncc = deciding(result);
     if (!zncc.value) {
         result.verdict = Verdict::no_evidence;
         result.reason = "there is no pattern to compare: " + zncc.note;
@@ -233,28 +157,31 @@ void judge(Comparison& result) {
             "cannot tell a match from chance";
         return;
     }
+    const double enough = result.geometry_only ? k_match_cw_ssim : k_match_zncc;
+    const std::string what =
+        result.geometry_only ? "the facets' images agree" : "bright and dark places agree";
     const double z = *zncc.z;
-    const std::string figures =
-        fmt::format("correlation {}, chance level {} ± {}", decimals(*zncc.value, 2),
-                    decimals(zncc.null_mean, 2), decimals(zncc.null_sd, 2));
-    if (z >= k_match_z && *zncc.value >= k_match_zncc) {
+    const std::string figures = fmt::format(
+        "{} {}, chance level {} ± {}", result.geometry_only ? "CW-SSIM" : "correlation",
+        decimals(*zncc.value, 2), decimals(zncc.null_mean, 2), decimals(zncc.null_sd, 2));
+    if (z >= k_match_z && *zncc.value >= enough) {
         result.verdict = Verdict::match;
         result.reason = fmt::format(
-            "bright and dark places agree far better than those of the same "
+            "{} far better than those of the same "
             "render turned ({})",
-            figures);
+            what, figures);
     } else if (z >= k_partial_z && *zncc.p <= 1 / (result.null_draws + 0.99)) {
         result.verdict = Verdict::partial;
         result.reason = fmt::format(
-            "bright and dark places agree better than those of the same "
+            "{} better than those of the same "
             "render turned, but not by much ({})",
-            figures);
+            what, figures);
     } else {
         result.verdict = Verdict::no_evidence;
         result.reason = fmt::format(
-            "bright and dark places agree no better than those of the same "
+            "{} no better than those of the same "
             "render turned ({})",
-            figures);
+            what, figures);
     }
 }
 
@@ -282,17 +209,15 @@ Comparison compare(const Photo& photo, const Photo& render, const CompareOptions
     for (const std::string& note : photo.notes) result.notes.push_back("photo: " + note);
     for (const std::string& note : render.notes) result.notes.push_back("render: " + note);
 
-    const Frame frame = align(photo, options.mask, render);
+    const Frame frame = align(photo, options.mask, render,
+                              {.largest = options.largest, .ignored = options.ignored});
     if (progress && !progress(0.1)) throw Interrupted();
     result.registration = registration_of(frame);
     if (!frame.photo.colour.empty()) {
         result.pictures.photo = photo_of(frame.photo.colour);
         result.pictures.photo_outline = map_of({}, frame.photo.silhouette.mask);
         const cv::Mat everywhere(frame.photo.colour.size(), CV_8U, cv::Scalar(255));
-        result.pictures.white =
-            photo.saturation > 0 ? photo.saturation
-                                 : std::max(1e-30, quantile(brightest_channel(frame.photo.colour),
-                                                            everywhere, 0.995));
+        result.pictures.white = white_level(frame.photo.colour, everywhere, photo.saturation);
     }
     if (!frame.render.empty()) {
         result.pictures.render = photo_of(frame.render);
@@ -303,41 +228,38 @@ Comparison compare(const Photo& photo, const Photo& render, const CompareOptions
         return result;
     }
 
-    MatchedPictures pictures;
-    pictures.photo = frame.photo.colour;
-    pictures.render = frame.render;
-    pictures.diameter = frame.photo.silhouette.diameter;
-    // Two pixels, or half a per cent of a large stone: there the outlines' error lives.
-    pictures.mask = eroded(frame.photo.silhouette.mask & frame.render_mask,
-                           std::max(2.0, 0.005 * pictures.diameter));
-    result.compared_pixels = cv::countNonZero(pictures.mask);
-    if (result.compared_pixels < k_least_pixels) {
+    const LaidPictures laid = lay_pictures(frame, photo.saturation, render.saturation);
+    const MatchedPictures& pictures = laid.pictures;
+    result.compared_pixels = laid.compared_pixels;
+    if (!laid.enough()) {
         result.reason = fmt::format(
             "only {} pixels of the stone can be compared: at least {} are "
             "needed",
-            result.compared_pixels, k_least_pixels);
+            result.compared_pixels, LaidPictures::k_least_pixels);
         return result;
     }
-    pictures.white =
-        photo.saturation > 0
-            ? photo.saturation
-            : std::max(1e-30, quantile(brightest_channel(pictures.photo), pictures.mask, 0.995));
-    const cv::Mat photo_usable = not_clipped(pictures.photo, photo.saturation, pictures.mask);
-    const cv::Mat usable = not_clipped(pictures.render, render.saturation, photo_usable);
-    result.saturated =
-        1 - static_cast<double>(cv::countNonZero(photo_usable)) / result.compared_pixels;
-    result.gain = solve_gain(pictures.photo, pictures.render, usable);
-    multiply_channels(pictures.render, result.gain);
+    result.saturated = laid.saturated;
+    result.gain = laid.gain;
 
     const WaveletBank wavelets = wavelet_bank(pictures.mask.size(), pictures.diameter);
     const Measured measured = measure(pictures, wavelets);
     result.scores = measured.scores;
     if (measured.reflexes) {
-        result.reflexes = {measured.reflexes->in_photo, measured.reflexes->in_render,
-                           measured.reflexes->matched, measured.reflexes->displacement};
+        result.reflexes = counted(*measured.reflexes);
     }
+    if (!photo.photometric) {
+        result.geometry_only = true;
+        keep_geometry_only(result.scores, "the photograph cannot serve for photometry");
+        result.notes.push_back(fmt::format(
+            "the photograph cannot serve for photometry ({}): only scores of geometry "
+            "are given",
+            photo.not_photometric.empty() ? "its values are not light" : photo.not_photometric));
+    }
+    const ColourDistributions colours = colour_distributions(pictures);
+    result.photo_light = colours.photo_light;
+    result.render_light = colours.render_light;
     if (progress && !progress(0.2)) throw Interrupted();
-    add_null(pictures, wavelets, usable, frame.render_mask, options, progress, result);
+    add_null(pictures, wavelets, laid.usable, frame.render_mask, options, progress, result);
     judge(result);
 
     const ShownPictures pair = shown(pictures);

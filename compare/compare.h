@@ -7,35 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "compare/meaning/meaning.h"
 #include "compare/photo.h"
+#include "compare/score.h"
 #include "stone/progress.h"
 
 namespace culet {
-
-enum class Verdict {
-    match,        ///< far better than the same render turned
-    partial,      ///< better than the same render turned, but not by much
-    no_evidence,  ///< no better than the same render turned
-    refused       ///< the outlines do not fit: nothing was compared
-};
-const char* name_of(Verdict verdict);
-
-/// One score beside what it is worth. The null is the same score for the same render, turned or
-/// mirrored in the picture's plane: what the stone's outline and its general brightness reach
-/// without any agreement of its pattern.
-struct Score {
-    std::string key;              ///< as in the JSON: "zncc", "ssim", ...
-    std::optional<double> value;  ///< nothing: not defined for these pictures, see `note`
-    bool higher_is_better = true;
-    bool is_correlation = false;  ///< z is then taken of atanh (Fisher 1915)
-    std::vector<double> null;     ///< one value a draw, in the order drawn
-    double null_mean = 0, null_sd = 0;
-    /// (value - null_mean) / null_sd, positive when the value is better than the null.
-    std::optional<double> z;
-    /// Share of draws at least as good as the value, (count + 1) / (draws + 1).
-    std::optional<double> p;
-    std::string note;
-};
 
 /// Positions are pixels of the given pictures, centre of the first pixel at (0, 0), y down.
 struct Registration {
@@ -74,7 +51,20 @@ struct ComparedPictures {
 struct ReflexCount {
     int in_photo = 0, in_render = 0, matched = 0;
     std::optional<double> displacement;  ///< median, in diameters
+    /// Matched reflexes that are coloured in the photo, and how many of them have its hue.
+    int coloured = 0, same_hue = 0;
+    /// All of them, the photo's first, for the picture of the report.
+    struct Mark {
+        std::array<double, 2> at_px{};  ///< in the frame of the photo's close-up
+        double radius_px = 0;           ///< of the circle of equal area
+        bool of_photo = true;
+        int partner = -1;  ///< index among the other picture's; -1: not found there
+    };
+    std::vector<Mark> marks;
 };
+
+/// "37 of 42 reflexes found, 0.4 % of the diameter apart; 9 of 11 coloured ones of one hue"
+std::string sentence_of(const ReflexCount& reflexes);
 
 struct Comparison {
     Verdict verdict = Verdict::refused;
@@ -84,9 +74,16 @@ struct Comparison {
     double saturated = 0;                 ///< share of compared pixels that the camera clipped
     int compared_pixels = 0;
     std::vector<Score> scores;
+    bool geometry_only = false;  ///< the photograph cannot serve for photometry
     ReflexCount reflexes;
+    /// Mean luminance of the compared pixels, 1 being the white level; the render's with the gain.
+    double photo_light = 0, render_light = 0;
     int null_draws = 0;
     std::string null_note;
+    /// What the scores mean for this stone, pose and light, where that was calibrated. The verdict
+    /// and its reason are then those of the meaning.
+    std::optional<Calibration> calibration;
+    std::optional<Meaning> meaning;
     std::vector<std::string> notes;
     bool simulated = false;
     std::uint64_t seed = 1;
@@ -98,10 +95,14 @@ struct Comparison {
 
 struct CompareOptions {
     std::vector<float> mask;  ///< of the photo, from `read_mask`; empty: found in the picture
-    bool simulated = false;   ///< the photograph is itself computed: said wherever it appears
-    std::uint64_t seed = 1;   ///< of the null's draws
-    int null_draws = 24;      ///< at least 20
-    int threads = 0;          ///< 0: all processors; the result does not depend on it
+    /// Of the photo: over a half is left out of every score (dust, inclusions, a holder); empty:
+    /// nothing is.
+    std::vector<float> ignored;
+    bool simulated = false;  ///< the photograph is itself computed: said wherever it appears
+    std::uint64_t seed = 1;  ///< of the null's draws
+    int null_draws = 24;     ///< at least 20
+    int threads = 0;         ///< 0: all processors; the result does not depend on it
+    double largest = 640;    ///< pixels that the stone is across at most, where it is compared
 };
 
 /// Registers by the outlines, solves one gain for each channel, scores, and draws the null.
@@ -117,10 +118,13 @@ Comparison compare(const Photo& photo, const Photo& render, const CompareOptions
                    const Progress& progress = {});
 
 constexpr double k_match_z = 5, k_partial_z = 2, k_match_zncc = 0.8;
+/// The same of CW-SSIM, which decides for photographs that cannot serve for photometry.
+constexpr double k_match_cw_ssim = 0.55;
 
 /// What a program would want to know beside the scores themselves.
 struct CompareSources {
     std::string photo_file, render_file, mask_file;
+    std::string pose{};  ///< JSON of the pose that was found; empty: none was looked for
 };
 
 /// The scores as one JSON object (schema 1).

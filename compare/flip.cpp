@@ -25,8 +25,8 @@ double sigma_px(const Sensitivity& s, double pixels_per_degree) {
     return pixels_per_degree * std::sqrt(s.b / 2) / std::numbers::pi;
 }
 
-cv::Mat blurred(const cv::Mat& plane, double sigma) {
-    const int radius = static_cast<int>(std::ceil(3 * sigma));
+// All channels are filtered out to three deviations of the widest, as the authors' program does.
+cv::Mat blurred(const cv::Mat& plane, double sigma, int radius) {
     cv::Mat result;
     cv::GaussianBlur(plane, result, {2 * radius + 1, 2 * radius + 1}, sigma, sigma,
                      cv::BORDER_REPLICATE);
@@ -53,16 +53,18 @@ Seen seen(const cv::Mat& linear, double pixels_per_degree) {
     cv::transform(clipped, opponent, forward);
     cv::Mat planes[3];
     cv::split(opponent, planes);
+    const int radius = static_cast<int>(std::ceil(3 * sigma_px(k_blue_yellow, pixels_per_degree)));
     Seen result;
     result.luminance = planes[0].clone();
-    planes[0] = blurred(planes[0], sigma_px(k_luminance, pixels_per_degree));
-    planes[1] = blurred(planes[1], sigma_px(k_red_green, pixels_per_degree));
+    planes[0] = blurred(planes[0], sigma_px(k_luminance, pixels_per_degree), radius);
+    planes[1] = blurred(planes[1], sigma_px(k_red_green, pixels_per_degree), radius);
     // The two Gaussians are weighted by their volumes: height a sqrt(pi / b), area b / pi.
     const double wide = k_blue_yellow.a * std::sqrt(k_blue_yellow.b);
     const double narrow = k_blue_yellow_narrow.a * std::sqrt(k_blue_yellow_narrow.b);
-    planes[2] = (wide * blurred(planes[2], sigma_px(k_blue_yellow, pixels_per_degree)) +
-                 narrow * blurred(planes[2], sigma_px(k_blue_yellow_narrow, pixels_per_degree))) /
-                (wide + narrow);
+    planes[2] =
+        (wide * blurred(planes[2], sigma_px(k_blue_yellow, pixels_per_degree), radius) +
+         narrow * blurred(planes[2], sigma_px(k_blue_yellow_narrow, pixels_per_degree), radius)) /
+        (wide + narrow);
     cv::merge(planes, 3, opponent);
     cv::Mat back;
     cv::transform(opponent, back, forward.inv());

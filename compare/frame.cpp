@@ -82,6 +82,28 @@ CloseUp close_up(const Source& source, const Place& place, double diameter) {
     return result;
 }
 
+// The part of a mask of the photo that a close-up shows. A pixel that the mask touches at all is
+// in it.
+cv::Mat cut_out(const std::vector<float>& mask, const Photo& photo, const CloseUp& shown) {
+    const cv::Mat whole(photo.height, photo.width, CV_32F, const_cast<float*>(mask.data()));
+    cv::Mat touched = whole > 0.5f;
+    if (shown.scale < 1) {
+        const int reach = 2 * static_cast<int>(std::ceil(0.5 / shown.scale)) + 1;
+        cv::dilate(touched, touched, cv::Mat::ones(reach, reach, CV_8U));
+    }
+    cv::Mat result = cv::Mat::zeros(shown.colour.size(), CV_8U);
+    for (int y = 0; y < result.rows; ++y) {
+        for (int x = 0; x < result.cols; ++x) {
+            const cv::Point2d at = shown.in_picture(cv::Point2d(x, y));
+            const int column = static_cast<int>(std::lround(at.x)),
+                      row = static_cast<int>(std::lround(at.y));
+            if (column < 0 || row < 0 || column >= touched.cols || row >= touched.rows) continue;
+            result.at<unsigned char>(y, x) = touched.at<unsigned char>(row, column);
+        }
+    }
+    return result;
+}
+
 Source source_of(const Photo& photo, const std::vector<float>& mask) {
     Source source;
     source.colour = colour_of(photo);
@@ -127,8 +149,13 @@ cv::Point2d CloseUp::in_picture(const cv::Point2d& p) const {
     return {(p.x + 0.5) / scale - 0.5 + corner.x, (p.y + 0.5) / scale - 0.5 + corner.y};
 }
 
+double stone_diameter_px(const Photo& photo, const std::vector<float>& mask) {
+    const Place place = find_stone(source_of(photo, mask));
+    return place.trouble.empty() ? place.diameter : 0;
+}
+
 Frame align(const Photo& photo, const std::vector<float>& mask, const Photo& render,
-            double largest) {
+            const Alignment& how) {
     Frame frame;
     const Source photo_source = source_of(photo, mask), render_source = source_of(render, {});
     const Place photo_place = find_stone(photo_source), render_place = find_stone(render_source);
@@ -139,8 +166,9 @@ Frame align(const Photo& photo, const std::vector<float>& mask, const Photo& ren
                                                           : "photo: " + photo_place.trouble;
         return frame;
     }
-    const double diameter = std::min({photo_place.diameter, render_place.diameter, largest});
+    const double diameter = std::min({photo_place.diameter, render_place.diameter, how.largest});
     frame.photo = close_up(photo_source, photo_place, diameter);
+    if (!how.ignored.empty()) frame.photo.ignored = cut_out(how.ignored, photo, frame.photo);
     const CloseUp near = close_up(render_source, render_place, diameter);
     frame.render_outline = near.silhouette.source;
     frame.render_warning = near.silhouette.warning;

@@ -15,6 +15,7 @@ namespace culet {
 struct CloseUp {
     cv::Mat colour;  ///< CV_32FC3, linear
     Silhouette silhouette;
+    cv::Mat ignored;  ///< CV_8U, 255 where nothing is to be compared; empty: nowhere
     double scale = 1;
     cv::Point2d corner;
     cv::Point2d in_picture(const cv::Point2d& p) const;
@@ -32,10 +33,19 @@ struct Frame {
     std::string render_outline, render_warning;  ///< as in Silhouette: source and warning
 };
 
+struct Alignment {
+    double largest = 640;  ///< pixels that the stone is across at most
+    /// One value a pixel of the photo; over a half is not compared. Empty: all is.
+    std::vector<float> ignored{};
+};
+
 /// `mask` may be empty, else one value a pixel of the photo (1: stone). The stone is compared at
 /// the smaller of its two sizes, and at `largest` pixels across at most: sizes within 15 % are left
 /// alone, so that pictures of one size are not resampled but for the registration.
 Frame align(const Photo& photo, const std::vector<float>& mask, const Photo& render,
-            double largest = 640);
+            const Alignment& how = {});
+
+/// The stone's diameter in the photo, pixels, as `align` finds it; 0 where it finds none.
+double stone_diameter_px(const Photo& photo, const std::vector<float>& mask);
 
 }  // namespace culet

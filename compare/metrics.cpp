@@ -13,6 +13,8 @@ namespace culet {
 
 namespace {
 
+constexpr int k_most_for_gain = 30000;
+
 template <class Visit>
 void for_each_masked(const cv::Mat& mask, const Visit& visit) {
     for (int y = 0; y < mask.rows; ++y) {
@@ -96,9 +98,13 @@ double gain_of_channel(const std::vector<double>& photo, const std::vector<doubl
 std::array<double, 3> solve_gain(const cv::Mat& photo, const cv::Mat& render,
                                  const cv::Mat& usable) {
     std::array<double, 3> gain{1, 1, 1};
+    // Every so manieth pixel is enough for three numbers.
+    const int step = 1 + cv::countNonZero(usable) / k_most_for_gain;
     for (int c = 0; c < 3; ++c) {
         std::vector<double> p, r;
+        int count = 0;
         for_each_masked(usable, [&](int y, int x) {
+            if (count++ % step != 0) return;
             p.push_back(photo.at<cv::Vec3f>(y, x)[c]);
             r.push_back(render.at<cv::Vec3f>(y, x)[c]);
         });

@@ -4,14 +4,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
+#include "compare/photo/raw_file.h"
 #include "render/colour.h"
 #include "render/image_io.h"
+#include "render/picture_header.h"
 #include "stone/errors.h"
 
 namespace culet {
 
+namespace {
+
+// The start of a file: enough for its kind and its EXIF data.
+std::string first_bytes(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::string bytes(std::size_t{1} << 18, '\0');
+    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+    return bytes;
+}
+
+void note_camera(Photo& photo, const std::string& bytes) {
+    const std::string format = picture_header(bytes).format;
+    if (format == "JPEG" || format == "TIFF") photo.shot = shot_data(bytes);
+    if (!photo.shot.processed.empty()) {
+        photo.photometric = false;
+        photo.not_photometric = photo.shot.processed;
+    } else if (format == "JPEG") {
+        photo.photometric = false;
+        photo.not_photometric = "a JPEG, whose tone curve is the camera's own secret";
+    }
+    if (format == "JPEG") photo.encoding += " JPEG";
+}
+
+}  // namespace
+
 Photo read_photo(const std::filesystem::path& file) {
+    if (has_raw_extension(file)) return read_raw(file);
     ReadPicture read = read_picture(file);
     if (static_cast<double>(read.picture.pixels()) > k_max_photo_pixels) {
         throw InputError(
@@ -25,6 +55,15 @@ Photo read_photo(const std::filesystem::path& file) {
     photo.coverage = std::move(read.picture.coverage);
     photo.saturation = read.white;
     photo.encoding = read.encoding;
+    for (Picture::Plane& plane : read.picture.planes) {
+        if (plane.channel == "saturated") photo.saturated = std::move(plane.values);
+    }
+    for (const auto& [key, value] : read.picture.text) {
+        if (key != "culet:photometric" || value == "yes") continue;
+        photo.photometric = false;
+        photo.not_photometric = value;
+    }
+    note_camera(photo, first_bytes(file));
     std::size_t not_finite = 0, negative = 0;
     for (float& value : photo.rgb) {
         if (!std::isfinite(value)) {
@@ -38,6 +77,7 @@ Photo read_photo(const std::filesystem::path& file) {
     for (float& share : photo.coverage) {
         share = std::isfinite(share) ? std::clamp(share, 0.0f, 1.0f) : 0.0f;
     }
+    photo.not_finite = not_finite;
     if (not_finite > 0) {
         photo.notes.push_back(
             fmt::format("{} samples were no finite numbers and count as 0", not_finite));

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "compare/photo/exposure.h"
+
 namespace culet {
 
 /// Rows from the top, pixels from the left, three floats (R, G, B in sRGB primaries) a pixel.
@@ -15,13 +17,23 @@ struct Photo {
     std::vector<float> coverage;
     /// Linear value at which the camera clips: 1 for integer files; 0: it does not (EXR, HDR).
     double saturation = 0;
+    /// One variance (of the linear value) a sample, from a merged series; empty: not known.
+    std::vector<float> variance;
+    /// 0..1 for each pixel: over-exposed in every exposure there was; empty: see `saturation`.
+    std::vector<float> saturated;
+    /// False: the values do not stand for light (a tone-mapped JPEG); shapes and places only.
+    bool photometric = true;
+    std::string not_photometric;     ///< why, in a few words; empty when `photometric`
+    ShotData shot;                   ///< what the camera noted (EXIF)
+    std::size_t not_finite = 0;      ///< samples that were NaN or infinite in the file, now 0
     std::string encoding;            ///< for the record: "8-bit sRGB", "linear EXR", ...
     std::vector<std::string> notes;  ///< what was repaired on reading, one line each
 };
 
-/// Reads PNG, JPEG, TIFF, EXR, HDR or PFM. Integer files are taken as sRGB (IEC 61966-2-1) and
+/// Reads PNG, JPEG, TIFF, EXR, HDR, PFM, or a camera's raw file (raw_file.h). Integer files are taken as sRGB (IEC 61966-2-1) and
 /// decoded; float files are taken as linear. JPEGs are turned upright as their EXIF tag says.
-/// Colour profiles are not applied. Throws InputError for a file that is missing, broken, or of
+/// Colour profiles are not applied. A JPEG is not photometric: cameras write them through a tone
+/// curve of their own, phones through one that differs from place to place. Throws InputError for a file that is missing, broken, or of
 /// more than `k_max_photo_pixels`.
 Photo read_photo(const std::filesystem::path& file);
 

@@ -28,6 +28,8 @@ std::string report_page(const Report& report) {
     std::string page;
     page += headline_section(report, scores, fit);
     page += pictures_section(report);
+    page += meaning_section(report);
+    page += reflexes_section(report);
     page += maps_section(report);
     page += scores_section(report, scores);
     page += registration_section(report);

@@ -36,6 +36,10 @@ struct Report {
     std::optional<Photo> starting_render, fitted_render;
     double renders_white = 0;  ///< linear value shown as white; 0: 99.5 % of the brighter pixels
 
+    /// The photograph with the stone's edges where the pose puts them, PNG bytes; empty: none.
+    std::string pose_overlay_png;
+    bool pose_used = false;
+
     std::string stats_json;  ///< of the renderer: plan, error bounds, times
     std::string settings;    ///< the job or scene as text
 };

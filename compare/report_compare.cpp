@@ -20,24 +20,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-struct Verdicts {
-    const char *word, *style, *symbol;
-};
-
-Verdicts verdict_shown(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::match:
-            return {"Match", "good", "✓"};
-        case Verdict::partial:
-            return {"Partial match", "fair", "≈"};
-        case Verdict::no_evidence:
-            return {"No evidence of a match", "poor", "?"};
-        case Verdict::refused:
-            return {"Comparison refused", "bad", "✕"};
-    }
-    return {"", "", ""};
-}
-
 std::string tile(const std::string& name, const std::string& value, const std::string& about,
                  const char* style = "") {
     return fmt::format("<div class=\"tile {}\"><dt>{}</dt><dd><b>{}</b><span>{}</span></dd></div>",
@@ -53,6 +35,16 @@ const Score* score_of(const Comparison& comparison, const char* key) {
 
 std::string comparison_tiles(const Comparison& c) {
     std::string tiles;
+    if (c.meaning && c.meaning->equivalent.deg) {
+        const EquivalentError& error = c.meaning->equivalent;
+        tiles += tile("Equivalent facet error",
+                      (error.at_least  ? "≥ "
+                       : error.at_most ? "≤ "
+                                       : "") +
+                          significant(error.deg, 2) + "°",
+                      fmt::format("{}° to {}°", significant(error.low_deg, 2),
+                                  significant(error.high_deg, 2)));
+    }
     if (const Score* zncc = score_of(c, "zncc"); zncc != nullptr) {
         tiles += tile("Pattern of light", decimals(zncc->value, 3),
                       fmt::format("1 is perfect; chance {} ± {}", decimals(zncc->null_mean, 2),
@@ -62,6 +54,13 @@ std::string comparison_tiles(const Comparison& c) {
         tiles += tile("Colour difference", decimals(delta->value, 1),
                       fmt::format("mean ΔE00; chance {} ± {}", decimals(delta->null_mean, 1),
                                   decimals(delta->null_sd, 1)));
+    }
+    if (c.reflexes.in_photo > 0) {
+        tiles +=
+            tile("Reflexes found", fmt::format("{} of {}", c.reflexes.matched, c.reflexes.in_photo),
+                 c.reflexes.displacement ? fmt::format("{} % of the diameter apart",
+                                                       decimals(100 * *c.reflexes.displacement, 1))
+                                         : "");
     }
     if (c.registration.iou > 0) {
         tiles += tile("Outlines overlap", decimals(c.registration.iou, 4),
@@ -99,6 +98,12 @@ const char* const k_what_it_means =
     "and overall brightness reach without any agreement of the pattern. The verdict compares the "
     "pattern of light with that level only. It does not tell this stone from another of the same "
     "cut, and its limits are proposals that have not been validated.";
+
+const char* const k_what_is_calibrated =
+    "The equivalent facet error is that of simulated photographs of this stone, in this pose and "
+    "light, which score like this photograph. It knows of facets, camera noise and registration; "
+    "dust, inclusions, another tone curve or a light that is not quite the scene's count as facet "
+    "error too.";
 
 cv::Mat matrix_from(const PixelMap& map) {
     return cv::Mat(map.height, map.width, CV_32F, const_cast<float*>(map.values.data()));
@@ -145,11 +150,17 @@ constexpr ScoreWords k_words[] = {
     {"zncc_4pct", "ZNCC, 4 %", "the same, coarser", 3},
     {"reflex_f1", "Reflexes, F1", "bright spots of one picture found in the other", 3},
     {"reflex_area_f1", "Reflexes, F1 by area", "the same, large spots count more", 3},
+    {"reflex_hue", "Reflexes of one hue", "coloured reflexes found that have the photo's hue", 2},
     {"cw_ssim", "CW-SSIM", "are the facets' images where they should be; blind to the light", 3},
     {"ssim", "SSIM", "structure, for comparison with the literature only", 3},
+    {"gmsd", "GMSD", "edges alike, for comparison with the literature only", 3},
+    {"nmi", "Mutual information", "does one brightness tell the other, whatever the tone curve", 3},
     {"psnr", "PSNR, dB", "error of the encoded colours against full scale", 1},
     {"deltaE00_mean", "ΔE00, mean", "visible colour difference", 2},
     {"deltaE00_p95", "ΔE00, 95 %", "95 % of the stone differ less", 2},
+    {"body_deltaE00", "Body colour, ΔE00", "between the mean colours: material and white balance",
+     2},
+    {"colour_emd", "Colours, EMD", "how far colours must be moved, wherever they are", 2},
     {"flip_mean", "FLIP, mean", "visible difference when the two are flicked between", 3},
 };
 
@@ -215,6 +226,25 @@ std::string score_row(const Json& scores, const std::string& key, const Json& va
 
 }  // namespace
 
+VerdictShown verdict_shown(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::match:
+            return {"Match", "good", "✓"};
+        case Verdict::partial:
+            return {"Partial match", "fair", "≈"};
+        case Verdict::no_evidence:
+            return {"No evidence of a match", "poor", "?"};
+        case Verdict::refused:
+            return {"Comparison refused", "bad", "✕"};
+    }
+    return {"", "", ""};
+}
+
+std::string score_name(const std::string& key) {
+    const ScoreWords* words = words_for(key);
+    return words != nullptr ? words->name : key;
+}
+
 std::string map_uri(const PixelMap& map, ColourMap colours, double low, double high) {
     cv::Mat picture(map.height, map.width, CV_8UC4, cv::Scalar(0, 0, 0, 0));
     const cv::Mat values = matrix_from(map);
@@ -251,11 +281,18 @@ std::string headline_section(const Report& report, const Json& scores, const Jso
         fmt::format("<header class=\"headline\"><h1>{}</h1>\n", escaped(report.title));
     if (report.comparison) {
         const Comparison& c = *report.comparison;
-        const Verdicts shown_verdict = verdict_shown(c.verdict);
+        const VerdictShown shown_verdict = verdict_shown(c.verdict);
         if (c.simulated) {
             body +=
                 "<p class=\"simulated\"><b>Simulated photograph.</b> The photograph on this "
                 "page was computed, not taken with a camera.</p>\n";
+        }
+        if (c.geometry_only) {
+            body +=
+                "<p class=\"simulated\"><b>Geometry only.</b> This photograph cannot serve for "
+                "photometry: scores of brightness and colour are left out, and the verdict rests "
+                "on "
+                "shapes and places.</p>\n";
         }
         body += fmt::format(
             "<div class=\"verdict {}\"><span class=\"symbol\" aria-hidden=\"true\">{}</span>"
@@ -268,7 +305,8 @@ std::string headline_section(const Report& report, const Json& scores, const Jso
     tiles += fit_tiles(fit);
     if (!tiles.empty()) body += "<dl class=\"tiles\">" + tiles + "</dl>\n";
     if (report.comparison && report.comparison->usable()) {
-        body += fmt::format("<p class=\"meaning\">{}</p>\n", k_what_it_means);
+        body += fmt::format("<p class=\"meaning\">{}</p>\n",
+                            report.comparison->meaning ? k_what_is_calibrated : k_what_it_means);
     }
     return body + "</header>\n";
 }
@@ -345,6 +383,11 @@ std::string scores_section(const Report& report, const Json& scores) {
         "deviation of {} draws (seed {}): {}. z counts standard deviations from it, of atanh for "
         "correlations; the smallest share that {} draws can show is 1/{}.</p>\n",
         c.null_draws, c.seed, escaped(c.null_note), c.null_draws, c.null_draws + 1);
+    if (c.photo_light > 0) {
+        body += fmt::format(
+            "<p>Light return, as a share of the white level: {} in the {}, {} in the render.</p>\n",
+            decimals(c.photo_light, 3), photo_word(report), decimals(c.render_light, 3));
+    }
     if (c.reflexes.in_photo > 0) {
         body += fmt::format(
             "<p>{} of the {}'s {} bright reflexes are found in the render, which "
@@ -404,6 +447,15 @@ std::string registration_section(const Report& report) {
         body += fmt::format("<p class=\"warning\">{}</p>\n", escaped(warning));
     }
     body += "</div>\n</div>\n";
+    if (!report.pose_overlay_png.empty()) {
+        body += fmt::format(
+            "<figure class=\"pose\"><img src=\"{}\" alt=\"The stone's edges over the {}\">"
+            "<figcaption>{}</figcaption></figure>\n",
+            png_uri(report.pose_overlay_png), word,
+            report.pose_used ? "The stone's edges where the pose puts them."
+                             : "The best pose that was found. It was not trusted, and the scene's "
+                               "own camera was taken.");
+    }
     return section("registration", "Registration", body);
 }
 

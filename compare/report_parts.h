@@ -19,10 +19,21 @@ std::string headline_section(const Report& report, const nlohmann::json& scores,
 std::string pictures_section(const Report& report);
 std::string maps_section(const Report& report);
 std::string scores_section(const Report& report, const nlohmann::json& scores);
+std::string reflexes_section(const Report& report);
+std::string meaning_section(const Report& report);
 std::string registration_section(const Report& report);
 std::string changes_section(const Report& report);
 std::string plan_section(const nlohmann::json& stats);
 std::string provenance_section(const Report& report);
+
+/// A verdict in words, with its colour and sign.
+struct VerdictShown {
+    const char *word, *style, *symbol;
+};
+VerdictShown verdict_shown(Verdict verdict);
+
+/// "ZNCC, 2 %": a score's name for people.
+std::string score_name(const std::string& key);
 
 /// "photograph", or "simulated photograph" wherever that is what it is.
 std::string photo_word(const Report& report);

@@ -5,6 +5,7 @@
 
 #include "compare/compare.h"
 #include "compare/json_number.h"
+#include "compare/meaning/meaning_json.h"
 
 namespace culet {
 
@@ -52,19 +53,35 @@ Json null_json(const Comparison& comparison) {
 
 }  // namespace
 
+std::string sentence_of(const ReflexCount& reflexes) {
+    if (reflexes.in_photo == 0) return "the photograph has no bright reflex";
+    std::string text = fmt::format("{} of {} reflexes found", reflexes.matched, reflexes.in_photo);
+    if (reflexes.displacement) {
+        text += fmt::format(", {:.1f} % of the diameter apart", 100 * *reflexes.displacement);
+    }
+    if (reflexes.coloured > 0) {
+        text += fmt::format("; {} of {} coloured ones of one hue", reflexes.same_hue,
+                            reflexes.coloured);
+    }
+    return text;
+}
+
 std::string scores_json(const Comparison& comparison, const CompareSources& sources) {
     Json json;
     json["schema"] = 1;
     json["command"] = "compare";
     json["verdict"] = name_of(comparison.verdict);
     json["reason"] = comparison.reason;
-    json["equivalent_facet_error_deg"] = nullptr;
+    json["equivalent_facet_error_deg"] =
+        comparison.meaning ? number(comparison.meaning->equivalent.deg) : Json(nullptr);
+    json["geometry_only"] = comparison.geometry_only;
     json["simulated"] = comparison.simulated;
     json["photo"] = sources.photo_file;
     json["render"] = sources.render_file;
     json["mask"] = sources.mask_file.empty() ? Json(nullptr) : Json(sources.mask_file);
     json["seed"] = comparison.seed;
     json["registration"] = registration_json(comparison.registration);
+    if (!sources.pose.empty()) json["pose"] = Json::parse(sources.pose, nullptr, false);
     json["gain"] = {number(comparison.gain[0]), number(comparison.gain[1]),
                     number(comparison.gain[2])};
     json["saturated"] = number(comparison.saturated);
@@ -78,15 +95,28 @@ std::string scores_json(const Comparison& comparison, const CompareSources& sour
     json["reflexes"] = {{"photo", comparison.reflexes.in_photo},
                         {"render", comparison.reflexes.in_render},
                         {"matched", comparison.reflexes.matched},
-                        {"displacement", number(comparison.reflexes.displacement)}};
+                        {"displacement", number(comparison.reflexes.displacement)},
+                        {"coloured", comparison.reflexes.coloured},
+                        {"same_hue", comparison.reflexes.same_hue},
+                        {"sentence", sentence_of(comparison.reflexes)}};
+    json["light_return"] = {{"photo", number(comparison.photo_light)},
+                            {"render", number(comparison.render_light)}};
     json["null"] = null_json(comparison);
-    json["sensitivity"] = Json::array();
-    json["verdict_rule"] = fmt::format(
-        "match: zncc at least {} standard deviations above its null (of atanh) and at "
-        "least {}; partial: at least {} standard deviations and better than every draw; else "
-        "no_evidence. A "
-        "proposal, not validated.",
-        k_match_z, k_match_zncc, k_partial_z);
+    json["sensitivity"] =
+        comparison.meaning ? sensitivity_json(*comparison.meaning) : Json::array();
+    if (comparison.meaning && comparison.calibration) {
+        json["meaning"] = meaning_json(*comparison.meaning, *comparison.calibration);
+    }
+    json["verdict_rule"] =
+        comparison.meaning
+            ? std::string(k_calibrated_rule)
+            : fmt::format(
+                  "match: zncc at least {} standard deviations above its null (of atanh) and at "
+                  "least {}; partial: at least {} standard deviations and better than every draw; "
+                  "else "
+                  "no_evidence. A "
+                  "proposal, not validated.",
+                  k_match_z, k_match_zncc, k_partial_z);
     json["notes"] = comparison.notes;
     // File names need not be UTF-8; what is not is replaced rather than thrown over.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -98,6 +98,10 @@ Camera resized(const Camera& camera, int longer_side) {
     const int windows = camera.optics.two_windows ? 2 : 1;
     small.width = windows * scaled(camera.width / windows);
     small.height = scaled(camera.height);
+    if (small.principal_point) {
+        (*small.principal_point)[0] *= static_cast<double>(small.width) / camera.width;
+        (*small.principal_point)[1] *= static_cast<double>(small.height) / camera.height;
+    }
     return small;
 }
 

@@ -24,6 +24,19 @@ for (const slider of document.querySelectorAll(".slider")) {
   pictures.style.touchAction = "pan-y";
   pictures.style.cursor = "ew-resize";
   move(control.value);
+  // The one, then the other, in the same place: what differs jumps. Twice a second is slow enough
+  // for people whom flicker harms (WCAG 2.3.1 allows three).
+  const blink = slider.querySelector(".blink");
+  if (!blink) continue;
+  let timer = 0;
+  blink.hidden = false;
+  blink.addEventListener("click", () => {
+    const on = !timer;
+    clearInterval(timer);
+    timer = on ? setInterval(() => slider.classList.toggle("first"), 500) : 0;
+    slider.classList.toggle("blinking", on);
+    blink.setAttribute("aria-pressed", on);
+  });
 }
 for (const drawings of document.querySelectorAll(".drawings")) {
   const line = drawings.querySelector(".facet-line");

@@ -68,7 +68,9 @@ std::string slider(const std::string& id, const SliderSide& left, const SliderSi
         "<figure class=\"over\"><img src=\"{4}\" alt=\"{5}\"><figcaption>{6}</figcaption></figure>"
         "<div class=\"slider-line\" aria-hidden=\"true\"></div></div>\n"
         "<input type=\"range\" min=\"0\" max=\"100\" step=\"1\" value=\"50\" "
-        "aria-label=\"Divide between {6} on the left and {3} on the right\"></div>\n",
+        "aria-label=\"Divide between {6} on the left and {3} on the right\">"
+        "<button type=\"button\" class=\"blink\" aria-pressed=\"false\" hidden>Blink</button>"
+        "</div>\n",
         id, right.uri, escaped(right.alternative), escaped(right.label), left.uri,
         escaped(left.alternative), escaped(left.label));
 }

@@ -7,7 +7,7 @@
 
 namespace culet {
 
-EyeRays::EyeRays(const Camera& camera) : camera_(camera) {
+EyeRays::EyeRays(const Camera& camera) : camera_(camera), middle_(line_of_sight_in(camera)) {
     forward_ = glm::normalize(camera.look_at - camera.position);
     const Vec3 right = glm::normalize(glm::cross(forward_, camera.up));
     const Vec3 down = glm::cross(forward_, right);
@@ -27,12 +27,12 @@ EyeRays::EyeRays(const Camera& camera) : camera_(camera) {
 
 bool EyeRays::sees(double x, double y) const {
     if (!camera_.cone) return true;
-    const Vec3 across = (x - 0.5 * camera_.width) * right_ + (y - 0.5 * camera_.height) * down_;
+    const Vec3 across = (x - middle_[0]) * right_ + (y - middle_[1]) * down_;
     return glm::dot(across, across) < 1;
 }
 
 EyeRay EyeRays::through(double x, double y, double pupil_x, double pupil_y) const {
-    const Vec3 across = (x - 0.5 * camera_.width) * right_ + (y - 0.5 * camera_.height) * down_;
+    const Vec3 across = (x - middle_[0]) * right_ + (y - middle_[1]) * down_;
     if (camera_.cone) {
         const double cosine = std::sqrt(std::max(0.0, 1 - glm::dot(across, across)));
         const Vec3 direction = glm::normalize(cosine * forward_ + across);

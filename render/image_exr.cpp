@@ -7,6 +7,7 @@
 #include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <fmt/format.h>
 
@@ -223,6 +224,17 @@ Picture read_exr(const std::string& bytes, const std::filesystem::path& file, bo
             picture.spectral.emplace_back(pixels);
             slice(name, picture.spectral.back().data(), 1);
         }
+        for (const char* name : {"variance.R", "variance.G", "variance.B", "saturated"}) {
+            if (has(name)) picture.planes.push_back({name, std::vector<float>(pixels)});
+        }
+        for (Picture::Plane& plane : picture.planes) slice(plane.channel, plane.values.data(), 1);
+        const Imf::Header& header = input.header();
+        for (auto a = header.begin(); a != header.end(); ++a) {
+            const std::string key = a.name();
+            const auto* value = dynamic_cast<const Imf::StringAttribute*>(&a.attribute());
+            if (key.starts_with("culet:") && value != nullptr)
+                picture.text.emplace_back(key, value->value());
+        }
         input.setFrameBuffer(frame);
         input.readPixels(window.min.y, window.max.y);
         if (!coloured) {
@@ -281,6 +293,11 @@ void write_exr(const Picture& picture, const std::filesystem::path& file,
         }
         if (!picture.polarised[0].empty())
             header.insert("polarisationHandedness", Imf::StringAttribute("right"));
+        for (const Picture::Plane& plane : picture.planes) slice(plane.channel, plane.values);
+        if (picture.environment == Picture::Environment::lat_long)
+            Imf::addEnvmap(header, Imf::ENVMAP_LATLONG);
+        if (picture.environment == Picture::Environment::cube)
+            Imf::addEnvmap(header, Imf::ENVMAP_CUBE);
         if (!picture.standard_error.empty()) slice("standard_error.Y", picture.standard_error);
         Imf::OutputFile output(file.c_str(), header, 0);
         output.setFrameBuffer(frame);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "render/environment_layout.h"
 #include "render/image_io.h"
 #include "render/light_presets.h"
 #include "render/view_presets.h"
@@ -129,13 +130,14 @@ std::shared_ptr<const EnvironmentMap> read_environment(const TomlTable& table,
         return map->width * static_cast<long long>(down) ==
                map->height * static_cast<long long>(across);
     };
-    if (shaped(6, 1) || shaped(1, 6) || shaped(4, 3) || shaped(3, 4)) {
+    if (shaped(6, 1) || shaped(4, 3) || shaped(3, 4)) {
         table.fail("environment",
-                   fmt::format("{} is {} x {} pixels, a cube map by its shape; these are not read "
-                               "yet: convert it to a lat-long map, twice as wide as high",
+                   fmt::format("{} is {} x {} pixels, a cube map by its shape; six squares in a "
+                               "column are read (OpenEXR's layout), and lat-long maps",
                                path.filename().string(), map->width, map->height));
     }
-    if (!shaped(2, 1)) {
+    const bool cube = shaped(1, 6);
+    if (!cube && !shaped(2, 1)) {
         table.fail("environment",
                    fmt::format("{} is {} x {} pixels; a lat-long map is twice as wide as high",
                                path.filename().string(), map->width, map->height));
@@ -164,6 +166,8 @@ std::shared_ptr<const EnvironmentMap> read_environment(const TomlTable& table,
         notes.push_back(
             fmt::format("{}: {} negative values were taken as 0", path.string(), negative));
     }
+    // A lat-long map holds a cube's detail when its equator has as many texels.
+    if (cube) *map = lat_long_of_cube(*map, std::min(4 * map->width, 4096));
     return map;
 }
 

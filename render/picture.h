@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace culet {
@@ -18,6 +20,16 @@ struct Picture {
     std::vector<std::vector<float>> spectral;  ///< radiance relative to D65, a plane a wavelength
     /// Stokes S1, S2, S3 (eye_coherency.h), likewise; empty: not known.
     std::array<std::vector<std::vector<float>>, 3> polarised;
+    /// Further planes by the name of their channel in an EXR: `variance.R`, `saturated`, ...
+    struct Plane {
+        std::string channel;
+        std::vector<float> values;
+    };
+    std::vector<Plane> planes;
+    /// Texts of an EXR that was read whose key begins with `culet:`.
+    std::vector<std::pair<std::string, std::string>> text;
+    /// Set on a picture of all directions (environment_layout.h), so that other programs know.
+    enum class Environment { none, lat_long, cube } environment = Environment::none;
     /// One standard deviation of the luminance from paths chosen at random; empty: none were.
     std::vector<float> standard_error;
 

@@ -154,9 +154,15 @@ private:
             width = 2 * std::tan(camera.fov / 2) * camera.width / camera.height;
         }
         const double height = width * camera.height / camera.width;
+        // POV-Ray's picture has `direction` in its middle, which is not where the line of sight is.
+        const auto [sight_x, sight_y] = line_of_sight_in(camera);
+        const Vec3 to_middle = width * (0.5 - sight_x / camera.width) * right +
+                               height * (sight_y / camera.height - 0.5) * up;
+        const bool parallel = camera.orthographic_width.has_value();
         line("camera {{\n  {}\n  location {}\n  direction {}\n  right {}\n  up {}\n}}",
-             camera.orthographic_width ? "orthographic" : "perspective",
-             vector_text(scale_ * camera.position), vector_text(forward),
+             parallel ? "orthographic" : "perspective",
+             vector_text(scale_ * camera.position + (parallel ? to_middle : Vec3(0))),
+             vector_text(parallel ? forward : forward + to_middle),
              vector_text(width * right), vector_text(height * up));
         if (plan_.on(Effects::aperture)) note("the lens: the picture is that of a pinhole");
     }

@@ -36,6 +36,10 @@ struct Camera {
     double fov = 0.35;                         ///< vertical, radians; unused when orthographic
     std::optional<double> orthographic_width;  ///< of the picture's width
     int width = 400, height = 400;
+    /// Where the line of sight (from `position` to `look_at`) meets the picture, pixels from its
+    /// upper left corner, x to the right, y down; none: the picture's middle. A cropped photograph
+    /// needs it, or a shifted lens.
+    std::optional<std::array<double, 2>> principal_point = {};
     double aperture_radius = 0, focus_distance = 0;  ///< 0: pinhole
     /// A conoscope: every ray passes through `look_at`, and the picture shows directions, with the
     /// sine of the angle to the view's axis proportional to the distance from the middle; this
@@ -44,6 +48,12 @@ struct Camera {
     std::optional<double> cone;
     EyeOptics optics;
 };
+
+/// The principal point, wherever it comes from.
+inline std::array<double, 2> line_of_sight_in(const Camera& camera) {
+    return camera.principal_point.value_or(
+        std::array<double, 2>{0.5 * camera.width, 0.5 * camera.height});
+}
 
 struct EyeRay {
     Vec3 origin, direction;  ///< unit direction, from the eye into the scene
@@ -67,6 +77,7 @@ public:
 
 private:
     Camera camera_;
+    std::array<double, 2> middle_;
     Vec3 right_, down_,
         forward_;  // right_ and down_ span one pixel at unit distance (or in length, or in sine)
 };

@@ -22,7 +22,8 @@ constexpr std::size_t k_most_wavelengths = 1000;
 
 Camera read_camera(const TomlTable& table) {
     table.refuse_unknown(with_view_keys({"position", "look_at", "up", "fov", "orthographic_width",
-                                         "size", "aperture_radius", "focus_distance"}));
+                                         "size", "principal_point", "aperture_radius",
+                                         "focus_distance"}));
     Camera camera;
     read_eye_optics(table, camera);
     if (const auto position = table.vector("position")) camera.position = *position;
@@ -67,6 +68,16 @@ Camera read_camera(const TomlTable& table) {
         }
         camera.width = static_cast<int>((*size)[0]);
         camera.height = static_cast<int>((*size)[1]);
+    }
+    if (const auto point = table.numbers("principal_point")) {
+        if (point->size() != 2)
+            table.fail("principal_point", "principal_point has two numbers, x and y in pixels");
+        for (double at : *point) {
+            if (!(std::abs(at) <= 100.0 * k_most_pixels_a_side))
+                table.fail("principal_point",
+                           fmt::format("principal_point lies {} pixels away", at));
+        }
+        camera.principal_point = {(*point)[0], (*point)[1]};
     }
     camera.aperture_radius = table.number("aperture_radius").value_or(0);
     if (camera.aperture_radius < 0)

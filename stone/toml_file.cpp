@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 
 #include "stone/errors.h"
 #include "stone/output_file.h"
@@ -137,6 +138,36 @@ void apply_override(toml::table& root, const std::string& setting) {
     }
 }
 
+toml::table parsed(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    const std::string text = read_text(file, k_limit_bytes);
+    toml::table root;
+    try {
+        root = toml::parse(text, file.string());
+    } catch (const toml::parse_error& error) {
+        throw InputError(file, static_cast<long>(error.source().begin.line),
+                         fmt::format("is no TOML: {}", error.description()));
+    }
+    for (const std::string& setting : overrides) apply_override(root, setting);
+    return root;
+}
+
+/// Every text below `node` that names a file in `from` names it as seen from `to`.
+void move_paths(toml::node& node, const std::filesystem::path& from,
+                const std::filesystem::path& to) {
+    if (toml::table* table = node.as_table()) {
+        for (auto&& [key, value] : *table) move_paths(value, from, to);
+    } else if (toml::array* list = node.as_array()) {
+        for (toml::node& value : *list) move_paths(value, from, to);
+    } else if (toml::value<std::string>* text = node.as_string()) {
+        std::error_code ignored;
+        const std::filesystem::path named(text->get());
+        if (named.empty() || named.is_absolute()) return;
+        if (!std::filesystem::is_regular_file(from / named, ignored)) return;
+        const auto moved = std::filesystem::proximate(from / named, to.empty() ? "." : to, ignored);
+        if (!ignored && !moved.empty()) *text = moved.generic_string();
+    }
+}
+
 }  // namespace
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -170,20 +201,31 @@ std::optional<std::string> nearest_name(std::string_view word,
 }
 
 TomlTable read_toml(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-    const std::string text = read_text(file, k_limit_bytes);
     auto content = std::make_shared<TomlTable::Content>();
     content->file = file;
-    try {
-        content->root = toml::parse(text, file.string());
-    } catch (const toml::parse_error& error) {
-        throw InputError(file, static_cast<long>(error.source().begin.line),
-                         fmt::format("is no TOML: {}", error.description()));
-    }
-    for (const std::string& setting : overrides) apply_override(content->root, setting);
+    content->root = parsed(file, overrides);
     TomlTable table;
     table.node_ = &content->root;
     table.content_ = std::move(content);
     return table;
+}
+
+std::string rewritten_toml(const std::filesystem::path& file,
+                           const std::vector<std::string>& overrides,
+                           const std::vector<std::string>& without,
+                           const std::filesystem::path& folder) {
+    toml::table root = parsed(file, overrides);
+    for (const std::string& key : without) {
+        const std::vector<std::string> path = split(key, '.');
+        toml::table* table = &root;
+        for (std::size_t i = 0; i + 1 < path.size() && table != nullptr; ++i)
+            table = (*table)[path[i]].as_table();
+        if (table != nullptr) table->erase(path.back());
+    }
+    move_paths(root, file.parent_path(), folder);
+    std::ostringstream text;
+    text << toml::toml_formatter{root} << "\n";
+    return text.str();
 }
 
 const std::filesystem::path& TomlTable::file() const {

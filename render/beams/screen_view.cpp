@@ -20,7 +20,7 @@ ScreenView screen_view(const Camera& camera, double pupil_x, double pupil_y) {
     const Vec3 forward = glm::normalize(camera.look_at - camera.position);
     const Vec3 right = glm::normalize(glm::cross(forward, camera.up));
     const Vec3 down = glm::cross(forward, right);
-    const double width = camera.width, height = camera.height;
+    const auto [middle_x, middle_y] = line_of_sight_in(camera);
     const Vec3 beside = camera.aperture_radius * (pupil_x * right + pupil_y * down);
     const double focus = camera.focus_distance;
     ScreenView view;
@@ -31,7 +31,7 @@ ScreenView screen_view(const Camera& camera, double pupil_x, double pupil_y) {
     glm::dmat3 basis;  // its inverse takes a point, from the eye, to the picture
     if (camera.orthographic_width) {
         const double pixel = *camera.orthographic_width / camera.width;
-        const Vec3 corner = camera.position - 0.5 * pixel * (width * right + height * down);
+        const Vec3 corner = camera.position - pixel * (middle_x * right + middle_y * down);
         if (camera.aperture_radius > 0) {
             // Rays of a pixel meet in the plane in focus; they do not meet in the pupil.
             view.o = corner + beside;
@@ -60,7 +60,7 @@ ScreenView screen_view(const Camera& camera, double pupil_x, double pupil_y) {
     view.o = camera.position + beside;
     view.vx = far * pixel * right;
     view.vy = far * pixel * down;
-    view.v = far * forward - 0.5 * (width * view.vx + height * view.vy) - beside;
+    view.v = far * forward - (middle_x * view.vx + middle_y * view.vy) - beside;
     basis = glm::dmat3(view.vx, view.vy, view.v);
     const glm::dmat3 inverse = glm::inverse(basis);
     const Vec3 offset = -(inverse * view.o);

@@ -126,6 +126,11 @@ TEST_F(MainJob, WhatCannotBeDoneIsOneLineAndLeavesNothing) {
         {"probe", small_scene()},
         {"probe", small_scene(), "--pixel", "1;2"},
         {"compare", file("missing.png"), file("missing.exr"), "-o", file("cmp")},
+        {"compare", file("missing.png"), "-o", file("cmp")},
+        {"compare", file("a.png"), file("b.png"), file("c.exr"), "-o", file("cmp")},
+        {"compare", file("a.png"), file("c.exr"), "-o", file("cmp"), "--calibrate"},
+        {"compare", file("missing.png"), small_scene(), "-o", file("cmp"), "--calibrate"},
+        {"compare", file("missing.png"), small_scene(), "-o", file("cmp"), "--draws", "1"},
     };
     for (const auto& words : cases) {
         const ProgramRun run = run_culet(words);

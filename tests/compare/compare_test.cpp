@@ -306,6 +306,47 @@ TEST(Compare, a_mask_of_three_pixels_is_refused) {
     EXPECT_THAT(c.reason, HasSubstr("pixels across"));
 }
 
+// All but three pixels left out; and all but a corner, which is compared as if nothing were wrong.
+TEST(Compare, what_is_to_be_ignored_is_left_out_of_every_score) {
+    StonePicture p;
+    p.with_coverage = true;
+    const Photo photo = draw(p);
+    Photo spoiled = photo;
+    CompareOptions options;
+    options.ignored.assign(photo.coverage.size(), 0.0f);
+    for (int y = 120; y < 170; ++y) {
+        for (int x = 130; x < 180; ++x) {
+            const auto i = static_cast<std::size_t>(y * photo.width + x);
+            options.ignored[i] = 1;
+            for (std::size_t c = 0; c < 3; ++c) spoiled.rgb[3 * i + c] = 1;
+        }
+    }
+    const Comparison with = compare(spoiled, photo, options), without = compare(spoiled, photo);
+    EXPECT_GT(*with.scores[0].value, 0.999);
+    EXPECT_LT(*without.scores[0].value, 0.95);
+    EXPECT_LT(with.compared_pixels, without.compared_pixels - 2000);
+    std::fill(options.ignored.begin(), options.ignored.end(), 1.0f);
+    for (int k = 0; k < 3; ++k)
+        options.ignored[static_cast<std::size_t>(150 * photo.width + 150 + k)] = 0;
+    EXPECT_EQ(compare(photo, photo, options).verdict, Verdict::refused);
+}
+
+TEST(Compare, a_photograph_that_is_no_photometry_gets_scores_of_geometry) {
+    Photo photo = draw({});
+    const Photo render = photo;
+    photo.photometric = false;
+    photo.not_photometric = "a tone curve";
+    const Comparison result = compare(photo, render);
+    EXPECT_TRUE(result.geometry_only);
+    EXPECT_EQ(result.verdict, Verdict::match);
+    for (const Score& score : result.scores) {
+        const bool geometry = score.key == "cw_ssim" || score.key == "gmsd" || score.key == "nmi" ||
+                              score.key == "reflex_f1" || score.key == "reflex_area_f1";
+        EXPECT_EQ(score.value.has_value(), geometry) << score.key;
+    }
+    EXPECT_NE(scores_json(result).find("\"geometry_only\": true"), std::string::npos);
+}
+
 TEST(Compare, a_mask_that_fills_the_picture_does_no_harm) {
     const Photo photo = draw(small());
     CompareOptions options;

@@ -1,0 +1,218 @@
+// culet photo SHOT... -o PHOTO.exr: one or several shots to one picture in linear light.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "app/options.h"
+#include "app/terminal.h"
+#include "compare/photo/bracket.h"
+#include "compare/photo/lens.h"
+#include "compare/photo/white_balance.h"
+#include "render/image_io.h"
+#include "stone/errors.h"
+#include "stone/output_file.h"
+
+namespace culet {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct PhotoArguments {
+    CommonOptions common;
+    std::vector<std::string> shots, exposures;
+    std::string out, grey, white, camera, response, json;
+    bool chart = false, as_they_lie = false;
+};
+
+PixelRectangle rectangle_in(const std::string& text) {
+    PixelRectangle r;
+    std::istringstream stream(text);
+    char c1 = 0, c2 = 0, c3 = 0, rest = 0;
+    if (!(stream >> r.x >> c1 >> r.y >> c2 >> r.width >> c3 >> r.height) || c1 != ',' ||
+        c2 != ',' || c3 != ',' || stream >> rest) {
+        throw InputError(fmt::format("--grey {}: is X,Y,WIDTH,HEIGHT in pixels from the top left",
+                                     text));
+    }
+    return r;
+}
+
+Bracket read_and_merge(const PhotoArguments& a) {
+    if (!a.exposures.empty() && a.exposures.size() != a.shots.size()) {
+        throw InputError(fmt::format("--exposure has {} values for {} photographs",
+                                     a.exposures.size(), a.shots.size()));
+    }
+    std::vector<BracketShot> shots;
+    for (std::size_t i = 0; i < a.shots.size(); ++i) {
+        BracketShot shot{a.shots[i], read_photo(a.shots[i]), 1};
+        if (!a.exposures.empty()) {
+            shot.exposure = parse_exposure(a.exposures[i]);
+        } else if (const auto exposure = exposure_of(shot.photo.shot)) {
+            shot.exposure = *exposure;
+        } else if (a.shots.size() > 1) {
+            throw InputError(std::filesystem::path(a.shots[i]),
+                             "says no exposure time: give one for each photograph with --exposure "
+                             "1/10,1/40,...");
+        }
+        shots.push_back(std::move(shot));
+    }
+    BracketOptions options;
+    options.align = !a.as_they_lie;
+    if (a.response == "srgb") options.response = Response::as_read;
+    if (a.response == "found") options.response = Response::calibrated;
+    return merge_bracket(std::move(shots), options, progress_line("merging", a.common.quiet));
+}
+
+Picture picture_of(const Photo& photo) {
+    Picture picture;
+    picture.width = photo.width;
+    picture.height = photo.height;
+    picture.rgb = photo.rgb;
+    picture.coverage = photo.coverage;
+    const std::size_t pixels = picture.pixels();
+    if (!photo.variance.empty()) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            std::vector<float> plane(pixels);
+            for (std::size_t i = 0; i < pixels; ++i) plane[i] = photo.variance[3 * i + c];
+            picture.planes.push_back({c == 0   ? "variance.R"
+                                      : c == 1 ? "variance.G"
+                                               : "variance.B",
+                                      std::move(plane)});
+        }
+    }
+    if (!photo.saturated.empty()) picture.planes.push_back({"saturated", photo.saturated});
+    return picture;
+}
+
+int run_photo(const PhotoArguments& a) {
+    for (const std::string& file : {a.out, a.json}) require_writable(file);
+    if (!a.out.ends_with(".exr"))
+        throw InputError(std::filesystem::path(a.out), "linear light is written as .exr");
+    if (a.chart && !a.grey.empty()) throw InputError("--chart or --grey, not both");
+    if (!a.white.empty() && !a.chart && a.grey.empty())
+        throw InputError("--white needs --grey X,Y,WIDTH,HEIGHT or --chart to say what is grey in it");
+    Bracket merged = read_and_merge(a);
+    Photo& photo = merged.photo;
+    Json json{{"schema", 1}, {"size", {photo.width, photo.height}}};
+
+    if (!a.grey.empty() || a.chart) {
+        const Photo other = a.white.empty() ? Photo{} : read_photo(a.white);
+        const Photo& with_card = a.white.empty() ? photo : other;
+        const std::string where = a.white.empty() ? a.shots[0] : a.white;
+        if (a.chart) {
+            const auto chart = find_colour_chart(with_card);
+            if (!chart) {
+                throw InputError(std::filesystem::path(where),
+                                 "no colour chart of 24 patches found: show it whole, flat and "
+                                 "evenly lit, or give a grey card with --grey X,Y,WIDTH,HEIGHT");
+            }
+            balance(photo, chart->gain);
+            apply_colour_matrix(photo, chart->matrix);
+            json["white"] = {{"from", "chart"},
+                             {"gain", chart->gain},
+                             {"matrix", chart->matrix},
+                             {"deltaE00_before", chart->before},
+                             {"deltaE00_after", chart->after}};
+            say(fmt::format("colour chart: {:.1f} to {:.1f} CIEDE2000 on average", chart->before,
+                            chart->after),
+                a.common.quiet);
+        } else {
+            const GreyCard card = measure_grey(with_card, rectangle_in(a.grey));
+            balance(photo, card.gain);
+            json["white"] = {{"from", "card"},
+                             {"gain", card.gain},
+                             {"level", card.level},
+                             {"unevenness", card.unevenness}};
+            say(fmt::format("white balance: red x {:.3f}, blue x {:.3f}", card.gain[0],
+                            card.gain[2]),
+                a.common.quiet);
+            if (card.unevenness > 0.1) {
+                merged.notes.push_back(fmt::format(
+                    "the grey card varies by {:.0f} %: a shadow or a gloss lies on it",
+                    100 * card.unevenness));
+            }
+        }
+    }
+    if (!a.camera.empty()) {
+        const Lens lens =
+            lens_for(read_lens(a.camera), photo.width, photo.height, a.shots[0]);
+        undistort(photo, lens);
+        json["lens"] = {{"focal_px", {lens.focal_x, lens.focal_y}},
+                        {"principal_px", {lens.principal_x, lens.principal_y}}};
+    }
+    json["response"] = merged.response == Response::calibrated ? "found" : "as read";
+    json["photometric"] = photo.photometric;
+    if (!photo.photometric) json["not_photometric"] = photo.not_photometric;
+    json["shots"] = Json::array();
+    for (std::size_t i = 0; i < a.shots.size(); ++i) {
+        json["shots"].push_back(
+            {{"file", a.shots[i]}, {"shift_px", {merged.shifts[i].x, merged.shifts[i].y}}});
+    }
+    json["exposure_ratios"] = merged.exposure_ratios;
+    double over = 0;
+    for (const float s : photo.saturated) over += s;
+    json["over_exposed"] = over / static_cast<double>(photo.rgb.size() / 3);
+    json["notes"] = merged.notes;
+
+    std::vector<std::pair<std::string, std::string>> text{
+        {"culet:photometric", photo.photometric ? "yes" : photo.not_photometric}};
+    write_picture(picture_of(photo), a.out, {}, text);
+    if (!a.json.empty())
+        write_text(a.json, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    const std::string settings = text_of(photo.shot);
+    say(fmt::format("{} x {} pixels from {} shot{}{}", photo.width, photo.height, a.shots.size(),
+                    a.shots.size() == 1 ? "" : "s", settings.empty() ? "" : ", first " + settings),
+        a.common.quiet);
+    for (const std::string& note : merged.notes) say("note: " + note, a.common.quiet);
+    if (!photo.photometric)
+        say("note: for shapes only: " + photo.not_photometric, a.common.quiet);
+    return exit_good;
+}
+
+}  // namespace
+
+void add_command_photo(CLI::App& program, int& exit_code) {
+    auto a = std::make_shared<PhotoArguments>();
+    CLI::App* command = program.add_subcommand(
+        "photo", "shots of one scene, raw or not, to one picture in linear light");
+    command
+        ->add_option("SHOT", a->shots,
+                     "photographs (raw, JPEG, PNG, TIFF, EXR, HDR), several exposures from a tripod")
+        ->required();
+    command->add_option("-o,--output", a->out, "linear picture with variance and over-exposure")
+        ->required()
+        ->type_name("PHOTO.exr");
+    command
+        ->add_option("--exposure", a->exposures,
+                     "exposures in the order of the shots: seconds (1/125) or stops (-2EV); "
+                     "otherwise from EXIF")
+        ->delimiter(',')
+        ->type_name("LIST");
+    command
+        ->add_option("--response", a->response,
+                     "of 8-bit files: srgb, or found from the shots (otherwise found from five or "
+                     "more JPEGs)")
+        ->check(CLI::IsMember({"srgb", "found"}));
+    command->add_option("--grey", a->grey, "where a grey card is")->type_name("X,Y,WIDTH,HEIGHT");
+    command->add_flag("--chart", a->chart, "find a colour chart of 24 patches");
+    command->add_option("--white", a->white, "the shot with the card or chart, if it is another one")
+        ->type_name("FILE");
+    command->add_option("--camera", a->camera, "camera file: take out the lens's distortion")
+        ->type_name("CAMERA.toml");
+    command->add_flag("--no-align", a->as_they_lie, "the shots lie on each other already");
+    command->add_option("--json", a->json, "what was found, for programs; - is stdout")
+        ->type_name("FILE");
+    add_common(*command, a->common);
+    command->footer(
+        "Examples:\n"
+        "  culet photo stone-*.dng -o stone.exr --grey 40,60,200,150 --white card.dng\n"
+        "  culet photo a.jpg b.jpg c.jpg -o stone.exr --exposure 1/15,1/60,1/250 --camera "
+        "camera.toml");
+    command->callback([a, &exit_code] { exit_code = run_photo(*a); });
+}
+
+}  // namespace culet

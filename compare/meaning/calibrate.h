@@ -1,0 +1,48 @@
+#pragma once
+// What the scores of a photograph would be if its stone, light or pose were this or that.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "compare/meaning/calibration.h"
+#include "compare/meaning/draft_renderer.h"
+#include "compare/meaning/simulated_camera.h"
+#include "render/scene.h"
+#include "stone/progress.h"
+
+namespace culet {
+
+struct CalibrateOptions {
+    CameraModel camera;   ///< of the photograph
+    int draws = 8;        ///< at each facet error
+    int null_draws = 24;  ///< of each null
+    /// Seconds of the clock after which no further draw is begun; 0: no limit. How many draws were
+    /// made is then a matter of the machine, but each of them is what it would have been.
+    double budget_seconds = 60;
+    std::uint64_t seed = 1;
+    int threads = 0;       ///< 0: all processors; the result does not depend on it
+    double largest = 256;  ///< as in `Alignment`
+    /// In the frame of the model's picture; over a half is left out. Empty: nothing is.
+    std::vector<float> ignored{};
+    std::optional<Solid> start{};  ///< the mesh that the fit started from: the catalogue's cut
+};
+
+/// Everything that the calibration of this scene depends on, as a hash: a key for a cache.
+std::string calibration_hash(const Scene& model, const CalibrateOptions& options);
+
+/// `model`: the stone in its pose under its lights, its camera at the size at which photographs
+/// are compared; `model_picture`: as `renderer` draws it. Each draw is a picture of another world,
+/// photographed by the camera, registered by its outline with the model's picture and scored
+/// against it, as the photograph was. A stone that is not convex has no draws of facet errors, and
+/// a note says so. Throws Interrupted.
+Calibration calibrate(const Scene& model, const Photo& model_picture, const DraftRenderer& renderer,
+                      const CalibrateOptions& options, const Progress& progress = {});
+
+/// The scores of one photograph against the model's picture, as the calibration has them.
+std::vector<std::optional<double>> calibration_scores(const Photo& photo,
+                                                      const Photo& model_picture,
+                                                      const CalibrateOptions& options);
+
+}  // namespace culet

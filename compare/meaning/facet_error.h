@@ -1,0 +1,29 @@
+#pragma once
+// Stones that are not quite the model: the yardstick by which a photograph's scores are read.
+
+#include <cstdint>
+#include <optional>
+
+#include "stone/solid.h"
+
+namespace culet {
+
+/// The convex solid with each facet's plane tilted by an angle of normal distribution with standard
+/// deviation `sigma` (radians), about an axis of random direction in the facet's plane through the
+/// mean of its corners, so that it stays in its place. Names are kept; a facet that is tilted out
+/// of the stone is gone. Nothing when the planes bound no solid any more, or `solid` is not convex.
+/// The same seed gives the same tilts, in proportion to sigma.
+std::optional<Solid> with_facet_error(const Solid& solid, double sigma, std::uint64_t seed);
+
+/// The stone as a catalogue would have it: the most symmetrical of the solids near to it. Its
+/// symmetry is the largest n (2 to 16) for which turning about `up` by 1/n, and mirroring where
+/// that holds too, takes every facet near to another one (normals within 3 degrees, offsets within
+/// 3 % of the diameter); planes that go into each other are then made alike by their mean. Nothing
+/// when there is no such n, or nothing changes by it.
+std::optional<Solid> symmetrised(const Solid& solid, const Vec3& up);
+
+/// By what part of a full turn about `up` a stone looks much like itself: that n, 1 if there is
+/// none.
+int turns_alike(const Solid& solid, const Vec3& up);
+
+}  // namespace culet

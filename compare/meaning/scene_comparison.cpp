@@ -1,0 +1,212 @@
+#include "compare/meaning/scene_comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <system_error>
+
+#include "compare/frame.h"
+#include "compare/laid_pictures.h"
+#include "compare/meaning/calibrate.h"
+#include "compare/meaning/cropped_camera.h"
+#include "compare/meaning/draft_renderer.h"
+#include "compare/meaning/photo_blur.h"
+#include "compare/pixels.h"
+#include "stone/checks.h"
+#include "stone/errors.h"
+#include "stone/output_file.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+constexpr double k_least_psf_px = 0.3;  // a camera's pixels alone
+constexpr double k_margin = 0.18;       // of the diameter, around the stone
+constexpr double k_tolerance = 0.03;    // of the pictures that are compared
+
+Progress part_of(const Progress& progress, double from, double to) {
+    if (!progress) return {};
+    return [=, &progress](double fraction) { return progress(from + (to - from) * fraction); };
+}
+
+template <class Value>
+void flip_rows(std::vector<Value>& values, int width, std::size_t channels) {
+    const auto row = static_cast<std::size_t>(width) * channels;
+    for (std::size_t y = 0; row > 0 && y + row <= values.size(); y += row) {
+        for (std::size_t left = 0, right = static_cast<std::size_t>(width) - 1; left < right;
+             ++left, --right) {
+            for (std::size_t c = 0; c < channels; ++c) {
+                std::swap(values[y + left * channels + c], values[y + right * channels + c]);
+            }
+        }
+    }
+}
+
+struct Mirrored {
+    Photo photo;
+    std::vector<float> mask, ignored;
+};
+
+Mirrored mirrored(const Photo& photo, const CompareOptions& options) {
+    Mirrored result{photo, options.mask, options.ignored};
+    flip_rows(result.photo.rgb, photo.width, 3);
+    flip_rows(result.photo.coverage, photo.width, 1);
+    flip_rows(result.photo.variance, photo.width, 3);
+    flip_rows(result.photo.saturated, photo.width, 1);
+    flip_rows(result.mask, photo.width, 1);
+    flip_rows(result.ignored, photo.width, 1);
+    return result;
+}
+
+// What the photograph tells of its own camera.
+CameraModel camera_of(const Photo& photo, const Frame& frame, const Comparison& comparison) {
+    CameraModel camera;
+    camera.clips = photo.saturation > 0;
+    camera.bits = !camera.clips ? 0 : photo.encoding.find("16-bit") != std::string::npos ? 16 : 8;
+    const double white = comparison.pictures.white;
+    for (std::size_t c = 0; c < 3; ++c) camera.gain[c] = comparison.gain[c] / white;
+    const LaidPictures laid = lay_pictures(frame, photo.saturation, 0);
+    // A tenth of a pixel is more than can be told: steps of that keep caches useful.
+    camera.psf_px = std::max(k_least_psf_px, std::round(10 * photo_blur_px(laid.pictures)) / 10);
+    camera.outline_from_background = comparison.registration.photo_outline == "background";
+    // The median of what surrounds the stone.
+    const cv::Mat around = frame.photo.silhouette.mask == 0;
+    std::vector<cv::Mat> channels;
+    cv::split(frame.photo.colour, channels);
+    for (std::size_t c = 0; c < 3; ++c) {
+        camera.ground[c] = static_cast<float>(quantile(channels[c], around, 0.5) / white);
+    }
+    return camera;
+}
+
+// What is left out, seen from the model's picture.
+std::vector<float> ignored_in_model(const Frame& frame, const Photo& model) {
+    if (frame.photo.ignored.empty()) return {};
+    std::vector<float> result(
+        static_cast<std::size_t>(model.width) * static_cast<std::size_t>(model.height), 0.0f);
+    const cv::Mat& ignored = frame.photo.ignored;
+    for (int y = 0; y < ignored.rows; ++y) {
+        for (int x = 0; x < ignored.cols; ++x) {
+            if (ignored.at<unsigned char>(y, x) == 0) continue;
+            const cv::Point2d at =
+                frame.render_from_photo(frame.photo.in_picture(cv::Point2d(x, y)));
+            const int column = static_cast<int>(std::lround(at.x)),
+                      row = static_cast<int>(std::lround(at.y));
+            if (column < 0 || row < 0 || column >= model.width || row >= model.height) continue;
+            result[static_cast<std::size_t>(row) * static_cast<std::size_t>(model.width) +
+                   static_cast<std::size_t>(column)] = 1;
+        }
+    }
+    return result;
+}
+
+// A broken or foreign file in the cache is no matter: the calibration is made anew.
+std::optional<Calibration> cached(const std::filesystem::path& file, const std::string& hash) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) return std::nullopt;
+    try {
+        auto calibration = calibration_from(read_text(file));
+        if (!calibration || calibration->hash != hash || !calibration->complete()) {
+            return std::nullopt;
+        }
+        calibration->from_cache = true;
+        return calibration;
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+Calibration calibrated(const SceneComparison& compared, const DraftRenderer& renderer,
+                       const CalibrateOptions& how, const std::filesystem::path& cache,
+                       const Progress& progress) {
+    const std::string hash = calibration_hash(compared.scene, how);
+    const std::filesystem::path file =
+        cache.empty() ? std::filesystem::path() : cache / ("calibration-" + hash + ".json");
+    if (!file.empty()) {
+        if (auto found = cached(file, hash)) return std::move(*found);
+    }
+    Calibration made = calibrate(compared.scene, compared.render, renderer, how, progress);
+    made.psf_px = how.camera.psf_px;
+    made.stone_px = compared.comparison.registration.render_diameter_px;
+    if (!file.empty() && made.complete()) {
+        std::error_code ignored;
+        std::filesystem::create_directories(cache, ignored);
+        write_text(file, calibration_json(made));
+    }
+    return made;
+}
+
+}  // namespace
+
+SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
+                                   const SceneCompareOptions& options, const Progress& progress) {
+    SceneComparison result;
+    result.scene = scene;
+    CompareOptions how = options.compare;
+    how.largest = options.largest;
+    Photo turned_over;
+    const Photo* photo = &given;
+    std::vector<std::string> notes;
+
+    if (options.find_pose && is_convex(scene.stone.solid)) {
+        PoseOptions pose_options;
+        pose_options.mask = how.mask;
+        pose_options.threads = how.threads;
+        result.pose = find_pose(given, scene.stone.solid, scene.camera, pose_options,
+                                part_of(progress, 0, 0.1));
+        if (result.pose->usable()) {
+            result.pose_used = true;
+            result.scene.camera = result.pose->camera;
+            if (result.pose->mirrored) {
+                Mirrored other = mirrored(given, how);
+                turned_over = std::move(other.photo);
+                how.mask = std::move(other.mask);
+                how.ignored = std::move(other.ignored);
+                photo = &turned_over;
+                notes.push_back("photo: turned left to right, as its edges call for");
+            }
+        } else {
+            notes.push_back("pose: " + result.pose->trouble +
+                            "; the scene's own camera was taken instead");
+        }
+    }
+
+    const double across = stone_diameter_px(*photo, how.mask);
+    const double diameter = std::min(across > 0 ? across : options.largest, options.largest);
+    result.scene.camera =
+        cropped_to_stone(result.scene.camera, scene.stone.solid, diameter, k_margin);
+    const DraftRenderer renderer(result.scene, k_tolerance);
+    result.scene.settings = renderer.settings();
+    result.stats = renderer.stats();
+    result.render = renderer.picture();
+    result.comparison =
+        compare(*photo, result.render, how, part_of(progress, 0.1, options.calibrate ? 0.2 : 1));
+    Comparison& comparison = result.comparison;
+    comparison.notes.insert(comparison.notes.end(), notes.begin(), notes.end());
+    if (!options.calibrate || !comparison.usable()) return result;
+
+    const Frame frame =
+        align(*photo, how.mask, result.render, {.largest = how.largest, .ignored = how.ignored});
+    CalibrateOptions calibration;
+    calibration.camera = camera_of(*photo, frame, comparison);
+    calibration.draws = options.draws;
+    calibration.null_draws = 3 * options.draws;
+    calibration.budget_seconds = options.budget_seconds;
+    calibration.seed = how.seed;
+    calibration.threads = how.threads;
+    calibration.largest = options.largest;
+    calibration.ignored = ignored_in_model(frame, result.render);
+    calibration.start = options.start;
+    comparison.calibration =
+        calibrated(result, renderer, calibration, options.cache, part_of(progress, 0.2, 1));
+    comparison.meaning =
+        meaning_of(comparison.scores, *comparison.calibration, comparison.geometry_only);
+    comparison.verdict = comparison.meaning->verdict;
+    comparison.reason = comparison.meaning->reason;
+    return result;
+}
+
+}  // namespace culet

@@ -1,0 +1,274 @@
+#include "compare/meaning/sensitivity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace culet {
+
+namespace {
+
+// Scores run against their ends: stretched so that a curve is near to straight in log error.
+double stretch(double score, bool higher_is_better, const std::string& key) {
+    if (key == "psnr") return score;
+    if (key == "nmi") return std::log(std::max(1e-4, score - 1));
+    if (higher_is_better) return -std::log(std::max(1e-4, 1 - score));
+    return -std::log(std::max(1e-4, score));
+}
+
+double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
+    if (at <= x.front()) return y.front();
+    if (at >= x.back()) return y.back();
+    const auto above = std::upper_bound(x.begin(), x.end(), at);
+    const auto i = static_cast<std::size_t>(above - x.begin());
+    const double part = (at - x[i - 1]) / (x[i] - x[i - 1]);
+    return y[i - 1] + part * (y[i] - y[i - 1]);
+}
+
+// Where a non-increasing curve over x has this value: the middle of a flat stretch.
+double inverse_of_falling(const std::vector<double>& x, const std::vector<double>& y,
+                          double value) {
+    std::size_t first = 0;  // the first with y <= value
+    while (first < y.size() && y[first] > value) ++first;
+    if (first == y.size()) return x.back();
+    std::size_t last = first;
+    while (last + 1 < y.size() && y[last + 1] == y[first] && y[first] == value) ++last;
+    if (y[first] == value) return (x[first] + x[last]) / 2;
+    if (first == 0) return x.front();
+    const double part = (y[first - 1] - value) / (y[first - 1] - y[first]);
+    return x[first - 1] + part * (x[first] - x[first - 1]);
+}
+
+struct Moments {
+    int count = 0;
+    double mean = 0, sd = 0;
+};
+
+Moments moments(const std::vector<double>& values) {
+    Moments m;
+    m.count = static_cast<int>(values.size());
+    if (values.empty()) return m;
+    m.mean = std::accumulate(values.begin(), values.end(), 0.0) / m.count;
+    double squares = 0;
+    for (const double v : values) squares += (v - m.mean) * (v - m.mean);
+    m.sd = m.count > 1 ? std::sqrt(squares / (m.count - 1)) : 0;
+    return m;
+}
+
+std::vector<double> falling(std::vector<double> values) {
+    for (double& v : values) v = -v;
+    values = monotone(values);
+    for (double& v : values) v = -v;
+    return values;
+}
+
+// Variances of a few draws each are shared with the neighbours.
+std::vector<double> smoothed(const std::vector<double>& values) {
+    std::vector<double> result;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        double sum = 2 * values[i], weight = 2;
+        if (i > 0) {
+            sum += values[i - 1];
+            ++weight;
+        }
+        if (i + 1 < values.size()) {
+            sum += values[i + 1];
+            ++weight;
+        }
+        result.push_back(sum / weight);
+    }
+    return result;
+}
+
+// Two scores may agree by chance on eight draws: none is believed to better than 10 %.
+constexpr double k_least_variance = 0.1 * 0.1;
+
+}  // namespace
+
+std::vector<double> facet_errors_deg() {
+    return {0.02, 0.05, 0.1, 0.2, 0.5, 1, 2};
+}
+
+std::vector<double> monotone(const std::vector<double>& values) {
+    struct Block {
+        double sum = 0;
+        std::size_t count = 0;
+        double mean() const { return sum / static_cast<double>(count); }
+    };
+    std::vector<Block> blocks;
+    for (const double value : values) {
+        blocks.push_back({value, 1});
+        while (blocks.size() > 1 && blocks[blocks.size() - 2].mean() > blocks.back().mean()) {
+            const Block last = blocks.back();
+            blocks.pop_back();
+            blocks.back().sum += last.sum;
+            blocks.back().count += last.count;
+        }
+    }
+    std::vector<double> result;
+    for (const Block& block : blocks) result.insert(result.end(), block.count, block.mean());
+    return result;
+}
+
+FacetErrorScale::FacetErrorScale(const Calibration& calibration,
+                                 const std::vector<std::string>& keys) {
+    std::map<double, std::vector<const CalibrationDraw*>> by_level;
+    for (const CalibrationDraw& draw : calibration.draws) {
+        if (draw.world == World::facet_error) by_level[draw.facet_error_deg].push_back(&draw);
+    }
+    for (const auto& [deg, draws] : by_level) {
+        levels_deg_.push_back(deg);
+        levels_.push_back(std::log(std::max(deg, k_least_deg)));
+    }
+    if (levels_.size() < 3) return;
+
+    for (std::size_t k = 0; k < calibration.keys.size(); ++k) {
+        if (std::find(keys.begin(), keys.end(), calibration.keys[k]) == keys.end()) continue;
+        Curve curve;
+        curve.key = k;
+        curve.name = calibration.keys[k];
+        curve.higher_is_better = calibration.higher_is_better[k];
+        bool everywhere = true;
+        std::vector<double> stretched;
+        for (const auto& [deg, draws] : by_level) {
+            std::vector<double> values, on_scale;
+            for (const CalibrationDraw* draw : draws) {
+                if (!draw->scores[k]) continue;
+                values.push_back(*draw->scores[k]);
+                on_scale.push_back(stretch(values.back(), curve.higher_is_better, curve.name));
+            }
+            everywhere = everywhere && !values.empty();
+            const Moments plain = moments(values);
+            curve.mean.push_back(plain.mean);
+            curve.sd.push_back(plain.sd);
+            curve.draws.push_back(plain.count);
+            stretched.push_back(moments(on_scale).mean);
+        }
+        if (!everywhere) continue;
+        curve.stretched = falling(stretched);
+        if (!(curve.stretched.front() > curve.stretched.back())) continue;
+        const double sign = curve.higher_is_better ? 1 : -1;
+        std::vector<double> better = curve.mean;
+        for (double& v : better) v *= sign;
+        curve.fitted = falling(better);
+        for (double& v : curve.fitted) v *= sign;
+        // How far this score's own answers scatter about the truth.
+        std::size_t level = 0;
+        for (const auto& [deg, draws] : by_level) {
+            double squares = 0, count = 0;
+            for (const CalibrationDraw* draw : draws) {
+                if (!draw->scores[k]) continue;
+                const double off = logarithm(curve, *draw->scores[k]) - levels_[level];
+                squares += off * off;
+                ++count;
+            }
+            curve.variance.push_back(count > 0 ? squares / count : 1);
+            ++level;
+        }
+        curve.variance = smoothed(curve.variance);
+        curves_.push_back(std::move(curve));
+    }
+    if (curves_.empty()) return;
+
+    std::vector<double> means, variances;
+    for (const auto& [deg, draws] : by_level) {
+        std::vector<double> answers;
+        for (const CalibrationDraw* draw : draws) {
+            if (const auto answer = averaged(draw->scores)) answers.push_back(*answer);
+        }
+        const Moments m = moments(answers);
+        means.push_back(m.mean);
+        variances.push_back(m.sd * m.sd);
+    }
+    average_ = monotone(means);
+    for (const double v : smoothed(variances)) {
+        spread_.push_back(std::sqrt(std::max(v, k_least_variance)));
+    }
+}
+
+double FacetErrorScale::logarithm(const Curve& curve, double score) const {
+    return inverse_of_falling(levels_, curve.stretched,
+                              stretch(score, curve.higher_is_better, curve.name));
+}
+
+double FacetErrorScale::weight(const Curve& curve, double log_deg) const {
+    return 1 / std::max(k_least_variance, interpolated(levels_, curve.variance, log_deg));
+}
+
+std::optional<double> FacetErrorScale::averaged(
+    const std::vector<std::optional<double>>& scores) const {
+    std::vector<double> answers;
+    std::vector<const Curve*> of;
+    for (const Curve& curve : curves_) {
+        if (!scores[curve.key]) continue;
+        answers.push_back(logarithm(curve, *scores[curve.key]));
+        of.push_back(&curve);
+    }
+    if (answers.empty()) return std::nullopt;
+    // The weights depend on the answer: from the median on, a few rounds settle it.
+    std::vector<double> sorted = answers;
+    std::nth_element(sorted.begin(),
+                     sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
+    double answer = sorted[sorted.size() / 2];
+    for (int round = 0; round < 8; ++round) {
+        double sum = 0, weights = 0;
+        for (std::size_t i = 0; i < answers.size(); ++i) {
+            const double w = weight(*of[i], answer);
+            sum += w * answers[i];
+            weights += w;
+        }
+        answer = sum / weights;
+    }
+    return answer;
+}
+
+EquivalentError FacetErrorScale::of(const std::vector<std::optional<double>>& scores) const {
+    EquivalentError result;
+    if (!usable()) return result;
+    const auto average = averaged(scores);
+    if (!average) return result;
+    // `average_` rises with the levels.
+    std::vector<double> negative = average_;
+    for (double& v : negative) v = -v;
+    const double log_deg = inverse_of_falling(levels_, negative, -*average);
+    const double spread = 1.96 * interpolated(levels_, spread_, log_deg);
+    result.deg = std::exp(log_deg);
+    result.low_deg = std::exp(log_deg - spread);
+    result.high_deg = std::exp(log_deg + spread);
+    result.at_least = log_deg >= levels_.back() - 1e-9;
+    result.at_most = log_deg <= std::log(levels_deg_[1]) + 1e-9;
+    if (result.at_most) {
+        result.deg = std::exp(levels_[1]);
+        result.low_deg = 0;
+    }
+    return result;
+}
+
+std::vector<SensitivityCurve> FacetErrorScale::curves(
+    const std::vector<std::optional<double>>& scores) const {
+    std::vector<SensitivityCurve> result;
+    if (!usable()) return result;
+    const double at = averaged(scores).value_or(levels_.back());
+    double weights = 0;
+    for (const Curve& curve : curves_) {
+        SensitivityCurve shown;
+        shown.key = curve.name;
+        shown.higher_is_better = curve.higher_is_better;
+        for (std::size_t i = 0; i < levels_.size(); ++i) {
+            shown.levels.push_back(
+                {levels_deg_[i], curve.draws[i], curve.mean[i], curve.sd[i], curve.fitted[i]});
+        }
+        shown.value = scores[curve.key];
+        if (shown.value) {
+            shown.equivalent_deg = std::exp(logarithm(curve, *shown.value));
+            shown.weight = weight(curve, at);
+            weights += shown.weight;
+        }
+        result.push_back(std::move(shown));
+    }
+    for (SensitivityCurve& curve : result) curve.weight /= weights > 0 ? weights : 1;
+    return result;
+}
+
+}  // namespace culet

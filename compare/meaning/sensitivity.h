@@ -1,0 +1,86 @@
+#pragma once
+// From scores to the facet error that would lower them as much.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/meaning/calibration.h"
+
+namespace culet {
+
+/// Facet errors are drawn at these, degrees; and at 0, the ceiling.
+std::vector<double> facet_errors_deg();
+
+/// One score against facet error.
+struct SensitivityCurve {
+    std::string key;
+    struct Level {
+        double facet_error_deg = 0;
+        int draws = 0;
+        double mean = 0, sd = 0;
+        double fitted = 0;  ///< monotone (isotonic regression, Barlow et al. 1972)
+    };
+    std::vector<Level> levels;  ///< rising error; the first is the ceiling
+    bool higher_is_better = true;
+    std::optional<double> value;           ///< the photograph's
+    std::optional<double> equivalent_deg;  ///< where the curve has it; ends: see EquivalentError
+    double weight = 0;                     ///< share in the combined answer
+};
+
+/// Degrees; the curve ends at 2, and below `k_least_deg` nothing is told apart.
+struct EquivalentError {
+    std::optional<double> deg;
+    double low_deg = 0,
+           high_deg = 0;  ///< 95 % of right stones are within, by the curve's own draws
+    bool at_least = false, at_most = false;  ///< beyond the curve's ends
+};
+
+/// Equivalent facet errors by several scores together. Each score's curve is made monotone and
+/// inverted in the logarithm of the error; the scores' answers are averaged with weights that are
+/// the inverse of the variance that each shows for right stones of about that error; and the
+/// average's own curve is inverted in turn, which takes its bias away.
+class FacetErrorScale {
+public:
+    /// Of the calibration's draws with facet errors; `keys`: the scores that take part.
+    FacetErrorScale(const Calibration& calibration, const std::vector<std::string>& keys);
+
+    /// False: too few levels were drawn.
+    bool usable() const { return curves_.size() > 0 && levels_.size() >= 3; }
+    /// `scores`: one a key of the calibration.
+    EquivalentError of(const std::vector<std::optional<double>>& scores) const;
+    /// The curves with values, equivalents and weights of these scores.
+    std::vector<SensitivityCurve> curves(const std::vector<std::optional<double>>& scores) const;
+    /// The scores' weighted average, log degrees, before its own curve is inverted: for ranking.
+    std::optional<double> answer(const std::vector<std::optional<double>>& scores) const {
+        return averaged(scores);
+    }
+    double largest_answer() const { return levels_.empty() ? 0 : levels_.back(); }
+
+    static constexpr double k_least_deg = 0.01;  ///< stands for an error of 0
+
+private:
+    struct Curve {
+        std::size_t key = 0;
+        std::string name;
+        bool higher_is_better = true;
+        std::vector<double> mean, sd, fitted;  // a level each
+        std::vector<int> draws;
+        std::vector<double> stretched;  // fitted, on the scale of `stretch`
+        std::vector<double> variance;   // of the log of its own equivalent error, a level each
+    };
+    double logarithm(const Curve& curve, double score) const;
+    double weight(const Curve& curve, double log_deg) const;
+    std::optional<double> averaged(const std::vector<std::optional<double>>& scores) const;
+
+    std::vector<double> levels_;      // log degrees
+    std::vector<double> levels_deg_;  // 0 for the ceiling
+    std::vector<Curve> curves_;
+    std::vector<double> average_;  // the average's own monotone curve, a level each
+    std::vector<double> spread_;   // standard deviation of the average, a level each
+};
+
+/// Non-decreasing least-squares fit (pool adjacent violators), weights alike.
+std::vector<double> monotone(const std::vector<double>& values);
+
+}  // namespace culet

@@ -1,0 +1,169 @@
+#include "compare/photo/raw_file.h"
+
+#include <fmt/format.h>
+#include <libraw/libraw.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <memory>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "compare/photo/exposure.h"
+#include "stone/errors.h"
+#include "stone/output_file.h"
+
+namespace culet {
+
+namespace {
+
+constexpr std::size_t k_most_bytes = std::size_t{1} << 30;
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
+    throw InputError(file, fmt::format("is no raw file that can be read here ({}); raw files can "
+                                       "be converted to DNG or 16-bit TIFF first",
+                                       why));
+}
+
+void require(const std::filesystem::path& file, int code) {
+    if (code != LIBRAW_SUCCESS) refuse(file, libraw_strerror(code));
+}
+
+// 1 where a sensor sample reaches the white level, spread to the neighbours that a demosaiced
+// pixel is made of.
+cv::Mat saturation_mask(const libraw_data_t& data) {
+    const auto& sizes = data.sizes;
+    cv::Mat mask(sizes.height, sizes.width, CV_8U, cv::Scalar(0));
+    const unsigned short* raw = data.rawdata.raw_image;
+    const unsigned limit = data.color.maximum - data.color.maximum / 100;
+    const unsigned stride = sizes.raw_pitch / sizeof(unsigned short);
+    const auto over = [&](int x, int y) {
+        const std::size_t row = static_cast<std::size_t>(y) + sizes.top_margin;
+        const std::size_t column = static_cast<std::size_t>(x) + sizes.left_margin;
+        if (row >= sizes.raw_height || column >= sizes.raw_width) return false;
+        if (raw != nullptr) return raw[row * stride + column] >= limit;
+        if (data.rawdata.color3_image != nullptr) {
+            const auto* rgb = data.rawdata.color3_image[row * (sizes.raw_pitch / 6) + column];
+            return std::max({rgb[0], rgb[1], rgb[2]}) >= limit;
+        }
+        return false;
+    };
+    for (int y = 0; y < mask.rows; ++y)
+        for (int x = 0; x < mask.cols; ++x) mask.at<unsigned char>(y, x) = over(x, y) ? 1 : 0;
+    if (raw != nullptr) cv::dilate(mask, mask, cv::Mat::ones(3, 3, CV_8U));
+    return mask;
+}
+
+cv::Mat upright(const cv::Mat& picture, int flip) {
+    cv::Mat result;
+    switch (flip) {
+        case 3:
+            cv::rotate(picture, result, cv::ROTATE_180);
+            return result;
+        case 5:
+            cv::rotate(picture, result, cv::ROTATE_90_COUNTERCLOCKWISE);
+            return result;
+        case 6:
+            cv::rotate(picture, result, cv::ROTATE_90_CLOCKWISE);
+            return result;
+        default:
+            return picture;
+    }
+}
+
+struct FreeImage {
+    void operator()(libraw_processed_image_t* image) const { LibRaw::dcraw_clear_mem(image); }
+};
+
+}  // namespace
+
+bool has_raw_extension(const std::filesystem::path& file) {
+    static constexpr std::array k_known{".dng", ".cr2", ".cr3", ".crw", ".nef", ".nrw", ".arw",
+                                        ".sr2", ".srf", ".raf", ".rw2", ".orf", ".pef", ".srw",
+                                        ".raw", ".rwl", ".3fr", ".fff", ".iiq", ".erf", ".mrw",
+                                        ".x3f", ".gpr", ".kdc", ".dcr", ".mef", ".mos"};
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return std::find(k_known.begin(), k_known.end(), extension) != k_known.end();
+}
+
+Photo read_raw(const std::filesystem::path& file) {
+    std::string bytes = read_text(file, k_most_bytes);
+    if (bytes.empty()) throw InputError(file, "is empty: expected a raw file");
+    // The processor holds large tables: not on the stack.
+    const auto processor = std::make_unique<LibRaw>();
+    libraw_data_t& data = processor->imgdata;
+    data.params.max_raw_memory_mb = 1024;
+    require(file, processor->open_buffer(bytes.data(), bytes.size()));
+    const double pixels = static_cast<double>(data.sizes.width) * data.sizes.height;
+    if (!(pixels >= 1) || pixels > k_max_photo_pixels) {
+        throw InputError(file, fmt::format("has {} x {} pixels; up to {:.0f} million are read",
+                                           data.sizes.width, data.sizes.height,
+                                           k_max_photo_pixels / 1e6));
+    }
+    require(file, processor->unpack());
+    if (data.color.maximum == 0) refuse(file, "it states no white level");
+    const cv::Mat mask = saturation_mask(data);
+    const int flip = data.sizes.flip;
+
+    data.params.gamm[0] = data.params.gamm[1] = 1;
+    data.params.no_auto_bright = 1;
+    data.params.adjust_maximum_thr = 0;  // the white level is the file's, not the picture's
+    data.params.output_bps = 16;
+    data.params.output_color = 1;  // sRGB primaries
+    data.params.use_camera_wb = 1;
+    data.params.highlight = 1;  // nothing is clipped by the white balance
+    data.params.user_flip = 0;
+    require(file, processor->dcraw_process());
+    int code = LIBRAW_SUCCESS;
+    const std::unique_ptr<libraw_processed_image_t, FreeImage> image(
+        processor->dcraw_make_mem_image(&code));
+    require(file, code);
+    if (image == nullptr || image->type != LIBRAW_IMAGE_BITMAP || image->bits != 16 ||
+        (image->colors != 3 && image->colors != 1) || image->width == 0 || image->height == 0)
+        refuse(file, "an unusual kind");
+
+    // The white balance's multipliers were scaled so that the largest is 1: undone for green, whose
+    // white level then is 1.
+    const float most = *std::max_element(data.color.pre_mul, data.color.pre_mul + 3);
+    const double green = data.color.pre_mul[1] > 0 ? data.color.pre_mul[1] : most;
+    const auto scale = static_cast<float>(most / green / 65535);
+    cv::Mat colour(image->height, image->width, CV_32FC3);
+    const auto* samples = reinterpret_cast<const unsigned short*>(image->data);
+    for (int y = 0; y < colour.rows; ++y) {
+        for (int x = 0; x < colour.cols; ++x) {
+            const std::size_t at = static_cast<std::size_t>(y) * image->width + x;
+            for (int c = 0; c < 3; ++c)
+                colour.at<cv::Vec3f>(y, x)[c] =
+                    scale * samples[image->colors == 3 ? 3 * at + c : at];
+        }
+    }
+    colour = upright(colour, flip);
+    cv::Mat over;
+    if (mask.size() == cv::Size(image->width, image->height)) over = upright(mask, flip);
+
+    Photo photo;
+    photo.width = colour.cols;
+    photo.height = colour.rows;
+    const auto* first = colour.ptr<float>();
+    photo.rgb.assign(first, first + 3 * colour.total());
+    if (!over.empty()) {
+        photo.saturated.resize(over.total());
+        for (std::size_t i = 0; i < over.total(); ++i) photo.saturated[i] = over.data[i];
+    }
+    photo.saturation = 1;
+    photo.encoding = "linear raw";
+    photo.shot = shot_data(bytes);
+    if (photo.shot.seconds == 0 && data.other.shutter > 0) photo.shot.seconds = data.other.shutter;
+    if (photo.shot.f_number == 0 && data.other.aperture > 0)
+        photo.shot.f_number = data.other.aperture;
+    if (photo.shot.iso == 0 && data.other.iso_speed > 0) photo.shot.iso = data.other.iso_speed;
+    if (photo.shot.focal_mm == 0 && data.other.focal_len > 0)
+        photo.shot.focal_mm = data.other.focal_len;
+    return photo;
+}
+
+}  // namespace culet

@@ -1,0 +1,207 @@
+#include "compare/photo/white_balance.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/mcc.hpp>
+#include <vector>
+
+#include "compare/pixels.h"
+#include "render/colour.h"
+#include "render/colour_difference.h"
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+// ColorChecker Classic, sRGB 8-bit values as the maker prints them on the chart's sheet (X-Rite,
+// before November 2014), row by row from "dark skin" to "black".
+constexpr std::array<std::array<int, 3>, 24> k_chart{{
+    {115, 82, 68},   {194, 150, 130}, {98, 122, 157},  {87, 108, 67},   {133, 128, 177},
+    {103, 189, 170}, {214, 126, 44},  {80, 91, 166},   {193, 90, 99},   {94, 60, 108},
+    {157, 188, 64},  {224, 163, 46},  {56, 61, 150},   {70, 148, 73},   {175, 54, 60},
+    {231, 199, 31},  {187, 86, 149},  {8, 133, 161},   {243, 243, 242}, {200, 200, 200},
+    {160, 160, 160}, {122, 122, 121}, {85, 85, 85},    {52, 52, 52},
+}};
+
+Rgb chart_rgb(std::size_t patch) {
+    Rgb rgb{};
+    for (std::size_t c = 0; c < 3; ++c) rgb[c] = srgb_decoded(k_chart[patch][c] / 255.0);
+    return rgb;
+}
+
+Lab lab_of(const Rgb& rgb) {
+    return lab_from_linear_srgb(rgb[0], rgb[1], rgb[2]);
+}
+
+double mean_difference(const std::vector<Rgb>& measured) {
+    double sum = 0;
+    for (std::size_t i = 0; i < measured.size(); ++i)
+        sum += ciede2000(lab_of(measured[i]), lab_of(chart_rgb(i)));
+    return sum / static_cast<double>(measured.size());
+}
+
+bool over(const Photo& photo, std::size_t i) {
+    if (!photo.saturated.empty() && photo.saturated[i] > 0) return true;
+    return photo.saturation > 0 && std::max({photo.rgb[3 * i], photo.rgb[3 * i + 1],
+                                             photo.rgb[3 * i + 2]}) >= 0.98 * photo.saturation;
+}
+
+double median(std::vector<float> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+}  // namespace
+
+GreyCard measure_grey(const Photo& photo, const PixelRectangle& card) {
+    if (card.x < 0 || card.y < 0 || card.width < 4 || card.height < 4 ||
+        card.width > photo.width - card.x || card.height > photo.height - card.y) {
+        throw InputError(fmt::format("the grey card {},{},{},{} must lie in the picture of {} x {} "
+                                     "pixels and be at least 4 x 4: --grey is X,Y,WIDTH,HEIGHT from "
+                                     "the top left",
+                                     card.x, card.y, card.width, card.height, photo.width,
+                                     photo.height));
+    }
+    std::array<std::vector<float>, 3> values;
+    double clipped = 0, sum = 0, squares = 0;
+    for (int y = card.y; y < card.y + card.height; ++y) {
+        for (int x = card.x; x < card.x + card.width; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y) * photo.width + x;
+            for (std::size_t c = 0; c < 3; ++c) values[c].push_back(photo.rgb[3 * i + c]);
+            const double g = photo.rgb[3 * i + 1];
+            sum += g;
+            squares += g * g;
+            if (over(photo, i)) ++clipped;
+        }
+    }
+    GreyCard grey;
+    const double n = static_cast<double>(values[0].size());
+    grey.over_exposed = clipped / n;
+    if (grey.over_exposed > 0.02) {
+        throw InputError(fmt::format("{:.0f} % of the grey card is over-exposed: it says nothing "
+                                     "about white; expose it darker",
+                                     100 * grey.over_exposed));
+    }
+    std::array<double, 3> middle{};
+    for (std::size_t c = 0; c < 3; ++c) middle[c] = median(std::move(values[c]));
+    if (!(middle[0] > 0 && middle[1] > 0 && middle[2] > 0))
+        throw InputError("the grey card is black: expose it brighter, or check the rectangle");
+    for (std::size_t c = 0; c < 3; ++c) grey.gain[c] = middle[1] / middle[c];
+    grey.level = middle[1];
+    grey.unevenness = std::sqrt(std::max(0.0, squares / n - sum * sum / (n * n))) / (sum / n);
+    return grey;
+}
+
+std::optional<ChartBalance> find_colour_chart(const Photo& photo) {
+    // The finder wants an 8-bit picture of ordinary brightness.
+    const cv::Mat colour = colour_of(photo), y = luminance(colour);
+    const double white = quantile(y, cv::Mat(y.size(), CV_8U, cv::Scalar(255)), 0.99);
+    if (!(white > 0)) return std::nullopt;
+    cv::Mat eight, bgr;
+    encoded(colour / white).convertTo(eight, CV_8U, 255);
+    cv::cvtColor(eight, bgr, cv::COLOR_RGB2BGR);
+    const auto finder = cv::mcc::CCheckerDetector::create();
+    cv::Ptr<cv::mcc::CChecker> chart;
+    try {
+        if (!finder->process(bgr, cv::mcc::MCC24, 1)) return std::nullopt;
+        chart = finder->getBestColorChecker();
+    } catch (const cv::Exception&) {
+        return std::nullopt;
+    }
+    if (chart.empty()) return std::nullopt;
+    const std::vector<cv::Point2f> box = chart->getBox();
+    if (box.size() != 4) return std::nullopt;
+    // Medians of the middles of the patches, in the linear picture; the box's corners go round from
+    // the first patch. Margins of the printed chart: patches of 1 with gaps of an eighth.
+    const std::vector<cv::Point2f> model{{0, 0}, {6, 0}, {6, 4}, {0, 4}};
+    const cv::Mat picture_from_chart = cv::getPerspectiveTransform(model, box);
+    std::vector<Rgb> measured;
+    for (int patch = 0; patch < 24; ++patch) {
+        std::array<std::vector<float>, 3> values;
+        for (int k = 0; k < 49; ++k) {
+            const std::vector<cv::Point2f> at{
+                {static_cast<float>(patch % 6 + 0.35 + 0.05 * (k % 7)),
+                 static_cast<float>(patch / 6 + 0.35 + 0.05 * (k / 7))}};
+            std::vector<cv::Point2f> place;
+            cv::perspectiveTransform(at, place, picture_from_chart);
+            const int px = cvRound(place[0].x), py = cvRound(place[0].y);
+            if (px < 0 || py < 0 || px >= photo.width || py >= photo.height) continue;
+            const std::size_t i = static_cast<std::size_t>(py) * photo.width + px;
+            for (std::size_t c = 0; c < 3; ++c) values[c].push_back(photo.rgb[3 * i + c]);
+        }
+        if (values[0].size() < 9) return std::nullopt;
+        measured.push_back({median(values[0]), median(values[1]), median(values[2])});
+    }
+    ChartBalance result;
+    // The middle greys: white may clip, black is mostly haze. Also the common exposure.
+    double exposure = 0;
+    std::array<double, 3> grey{};
+    for (std::size_t patch = 19; patch < 23; ++patch) {
+        for (std::size_t c = 0; c < 3; ++c) grey[c] += measured[patch][c];
+        exposure += chart_rgb(patch)[1];
+    }
+    if (!(grey[0] > 0 && grey[1] > 0 && grey[2] > 0)) return std::nullopt;
+    for (std::size_t c = 0; c < 3; ++c) result.gain[c] = grey[1] / grey[c];
+    exposure /= grey[1];
+    Eigen::MatrixXd from(24, 3), to(24, 3);
+    for (int i = 0; i < 24; ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const auto k = static_cast<std::size_t>(c), patch = static_cast<std::size_t>(i);
+            measured[patch][k] *= result.gain[k] * exposure;
+            from(i, c) = measured[patch][k];
+            to(i, c) = chart_rgb(patch)[k];
+        }
+    }
+    result.before = mean_difference(measured);
+    const Eigen::MatrixXd solved = from.colPivHouseholderQr().solve(to);
+    std::vector<Rgb> corrected;
+    for (const Rgb& rgb : measured) {
+        Rgb out{};
+        for (int r = 0; r < 3; ++r)
+            for (int c = 0; c < 3; ++c)
+                out[static_cast<std::size_t>(r)] += solved(c, r) * rgb[static_cast<std::size_t>(c)];
+        for (double& v : out) v = std::max(v, 0.0);
+        corrected.push_back(out);
+    }
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+            result.matrix[static_cast<std::size_t>(3 * r + c)] = solved(c, r);
+    result.after = mean_difference(corrected);
+    // A chart of quite other colours is no chart.
+    if (!(result.after < 15)) return std::nullopt;
+    return result;
+}
+
+void balance(Photo& photo, const std::array<double, 3>& gain) {
+    for (std::size_t i = 0; i < photo.rgb.size(); ++i)
+        photo.rgb[i] *= static_cast<float>(gain[i % 3]);
+    for (std::size_t i = 0; i < photo.variance.size(); ++i)
+        photo.variance[i] *= static_cast<float>(gain[i % 3] * gain[i % 3]);
+}
+
+void apply_colour_matrix(Photo& photo, const std::array<double, 9>& m) {
+    for (std::size_t i = 0; i + 2 < photo.rgb.size(); i += 3) {
+        const std::array<double, 3> from{photo.rgb[i], photo.rgb[i + 1], photo.rgb[i + 2]};
+        std::array<double, 3> variance{};
+        if (!photo.variance.empty())
+            variance = {photo.variance[i], photo.variance[i + 1], photo.variance[i + 2]};
+        for (std::size_t r = 0; r < 3; ++r) {
+            double sum = 0, spread = 0;
+            for (std::size_t c = 0; c < 3; ++c) {
+                sum += m[3 * r + c] * from[c];
+                spread += m[3 * r + c] * m[3 * r + c] * variance[c];
+            }
+            photo.rgb[i + r] = static_cast<float>(std::max(sum, 0.0));
+            if (!photo.variance.empty()) photo.variance[i + r] = static_cast<float>(spread);
+        }
+    }
+}
+
+}  // namespace culet

@@ -1,0 +1,43 @@
+#pragma once
+// All edges of a photograph, sorted by direction, as maps that tell how near the next one is: for
+// laying many thousands of wireframes over it.
+
+#include <array>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "compare/pose/stone_view.h"
+
+namespace culet {
+
+constexpr int k_edge_directions = 12;
+
+/// Made once for a photograph, from pixels brought to about `k_map_diameter` across the stone.
+class EdgeMap {
+public:
+    /// `colour`: CV_32FC3, linear; `mask`: CV_8U, the stone. Edges within `reach` (a share of the
+    /// stone's diameter, `diameter_px`) are near.
+    EdgeMap(const cv::Mat& colour, const cv::Mat& mask, double diameter_px, double reach);
+
+    /// 1 on an edge whose direction is that of the line with this unit normal, falling to 0 at
+    /// `reach` from it, less what is found on the average of the stone.
+    float agreement(const PicturePoint& at, double normal_x, double normal_y) const {
+        const int direction = direction_of(normal_x, normal_y);
+        const int x = static_cast<int>(at.x * scale_), y = static_cast<int>(at.y * scale_);
+        if (x < 0 || y < 0 || x >= width_ || y >= height_) return -chance_[direction];
+        return near_[direction].at<float>(y, x) - chance_[direction];
+    }
+    /// Standard deviation of `agreement` over the stone.
+    double spread() const { return spread_; }
+    /// Length of a pixel of the maps, in the photograph's.
+    double pixel() const { return 1 / scale_; }
+
+private:
+    static int direction_of(double normal_x, double normal_y);
+    std::array<cv::Mat, k_edge_directions> near_;
+    std::array<float, k_edge_directions> chance_{};
+    double scale_ = 1, spread_ = 0;
+    int width_ = 0, height_ = 0;
+};
+
+}  // namespace culet

@@ -1,0 +1,109 @@
+#include "compare/pose/edge_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "compare/pixels.h"
+#include "compare/pose/picture_noise.h"
+
+namespace culet {
+
+namespace {
+
+constexpr double k_smoothing = 0.6;  // pixels, one sigma
+constexpr double k_along = 1.0;      // profiles are the mean of three, so far apart
+constexpr double k_step = 0.5;       // along a profile
+// What is left of a step's place in a clean 8-bit picture: sampling, neighbours.
+constexpr double k_least_sigma = 0.06;
+// A clipped side is less bright in the picture than it was: of a step to twice the limit the
+// steepest place is off by 0.4 of the blur's sigma, to ten times by 1.3.
+constexpr double k_clipped_sigma = 0.6;
+
+cv::Vec3f bilinear(const cv::Mat& picture, double x, double y) {
+    const double column = std::clamp(x - 0.5, 0.0, picture.cols - 1.001);
+    const double row = std::clamp(y - 0.5, 0.0, picture.rows - 1.001);
+    const int c = static_cast<int>(column), r = static_cast<int>(row);
+    const float u = static_cast<float>(column - c), v = static_cast<float>(row - r);
+    const cv::Vec3f* above = picture.ptr<cv::Vec3f>(r) + c;
+    const cv::Vec3f* below = picture.ptr<cv::Vec3f>(r + 1) + c;
+    return (1 - v) * ((1 - u) * above[0] + u * above[1]) + v * ((1 - u) * below[0] + u * below[1]);
+}
+
+float step_between(const cv::Vec3f& a, const cv::Vec3f& b) {
+    const cv::Vec3f d = a - b;
+    return std::sqrt(d.dot(d));
+}
+
+}  // namespace
+
+EdgePicture::EdgePicture(const cv::Mat& colour, double saturation) {
+    cv::GaussianBlur(colour, linear, {0, 0}, k_smoothing, k_smoothing, cv::BORDER_REPLICATE);
+    cv::Mat shown = culet::encoded(colour);
+    const double noise = noise_of(shown);
+    cv::GaussianBlur(shown, encoded, {0, 0}, k_smoothing, k_smoothing, cv::BORDER_REPLICATE);
+    // Smoothed and averaged along the edge, noise of three colours is about 0.5 of one pixel's
+    // sigma: four of these, and the rounding of eight bits.
+    least_step = std::max(2.0 / 255, 4 * 0.5 * std::sqrt(2.0) * noise);
+    if (saturation > 0) {
+        cv::Mat channels[3];
+        cv::split(colour, channels);
+        const cv::Mat brightest = cv::max(cv::max(channels[0], channels[1]), channels[2]);
+        clipped = brightest >= 0.99 * saturation;
+        cv::dilate(clipped, clipped, cv::Mat());
+    }
+}
+
+std::vector<FoundEdge> edges_across(const EdgePicture& picture, const WirePoint& point,
+                                    double reach) {
+    const int half = static_cast<int>(std::ceil(reach / k_step)) + 4;
+    const int count = 2 * half + 1;
+    std::vector<cv::Vec3f> linear(static_cast<std::size_t>(count)), shown(linear);
+    for (int i = 0; i < count; ++i) {
+        const double t = (i - half) * k_step;
+        cv::Vec3f light(0, 0, 0), code(0, 0, 0);
+        for (const double s : {-k_along, 0.0, k_along}) {
+            const double x = point.at.x + t * point.normal_x - s * point.normal_y;
+            const double y = point.at.y + t * point.normal_y + s * point.normal_x;
+            light += bilinear(picture.linear, x, y);
+            code += bilinear(picture.encoded, x, y);
+        }
+        linear[static_cast<std::size_t>(i)] = light * (1.0f / 3);
+        shown[static_cast<std::size_t>(i)] = code * (1.0f / 3);
+    }
+    // Change over one pixel.
+    std::vector<float> slope(linear.size(), 0.0f);
+    for (std::size_t i = 1; i + 1 < linear.size(); ++i)
+        slope[i] = step_between(linear[i + 1], linear[i - 1]);
+    std::vector<FoundEdge> found;
+    for (std::size_t i = 3; i + 3 < slope.size(); ++i) {
+        if (!(slope[i] > slope[i - 1] && slope[i] >= slope[i + 1])) continue;
+        const double contrast = static_cast<double>(step_between(shown[i + 3], shown[i - 3]));
+        const double near = static_cast<double>(step_between(shown[i + 1], shown[i - 1]));
+        if (contrast < picture.least_step || near < 0.5 * picture.least_step) continue;
+        const double before = static_cast<double>(slope[i - 1]),
+                     here = static_cast<double>(slope[i]),
+                     after = static_cast<double>(slope[i + 1]);
+        const double bend = before - 2 * here + after;
+        const double shift = bend < 0 ? 0.5 * (before - after) / bend : 0;
+        FoundEdge edge;
+        edge.offset = (static_cast<double>(i) - half + std::clamp(shift, -0.5, 0.5)) * k_step;
+        if (std::abs(edge.offset) > reach) continue;
+        edge.contrast = contrast;
+        // A step of so many times the noise is placed to about the blur's width over that number.
+        edge.sigma = std::hypot(k_least_sigma, 0.25 * picture.least_step / contrast);
+        const double x = point.at.x + edge.offset * point.normal_x;
+        const double y = point.at.y + edge.offset * point.normal_y;
+        if (!picture.clipped.empty()) {
+            const int column = std::clamp(static_cast<int>(x), 0, picture.clipped.cols - 1);
+            const int row = std::clamp(static_cast<int>(y), 0, picture.clipped.rows - 1);
+            if (picture.clipped.at<unsigned char>(row, column) != 0)
+                edge.sigma = std::hypot(edge.sigma, k_clipped_sigma);
+        }
+        found.push_back(edge);
+    }
+    return found;
+}
+
+}  // namespace culet

@@ -1,0 +1,26 @@
+#pragma once
+// How well a wireframe is met by the edges of a photograph, against the same wireframe laid
+// elsewhere: what chance meets.
+
+#include "compare/pose/edge_search.h"
+
+namespace culet {
+
+struct EdgeSupport {
+    double met = 0;          ///< share of the crown's points that have an edge near
+    double chance = 0;       ///< the same where the wireframe is shifted
+    double spread = 0;       ///< standard deviation of that among shifts
+    double z = 0;            ///< (met - chance) / spread
+    double witnesses = 0;    ///< about how many independent points that is
+    double outline_met = 0;  ///< share of the outline's
+    double outline_rms = 0;  ///< of the distances to the outline's edges, pixels
+    /// Logarithm of how much likelier the photograph is with this wireframe than by chance.
+    double log_likelihood = 0;
+};
+
+/// `points` from `points_along`. Near is within a pixel and one and a half times what facet errors
+/// move the edge. `diameter_px`: shifts are 2.5 to 7 % of it.
+EdgeSupport edge_support(const EdgePicture& picture, const std::vector<WirePoint>& points,
+                         double diameter_px);
+
+}  // namespace culet

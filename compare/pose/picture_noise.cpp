@@ -1,0 +1,31 @@
+#include "compare/pose/picture_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "compare/pixels.h"
+
+namespace culet {
+
+double noise_of(const cv::Mat& encoded_picture) {
+    // Blind to planes and to all second-order change; the weights' squares sum to 36.
+    const cv::Mat kernel = (cv::Mat_<float>(3, 3) << 1, -2, 1, -2, 4, -2, 1, -2, 1);
+    cv::Mat response;
+    cv::filter2D(encoded_picture, response, CV_32F, kernel);
+    const cv::Mat size = cv::abs(response);
+    const cv::Mat one_channel = size.reshape(1);
+    const cv::Mat everywhere(one_channel.size(), CV_8U, cv::Scalar(255));
+    // The lower quartile of |normal| lies at 0.3186 sigma: edges spoil it least.
+    return quantile(one_channel, everywhere, 0.25) / (6 * 0.3186);
+}
+
+double least_edge(const cv::Mat& strength, const cv::Mat& stone) {
+    constexpr double k_step = 1.0 / 255;
+    // Length of a vector of noise in two directions: its quarter lies at 0.7585 sigma (Rayleigh).
+    const double noise = quantile(strength, stone, 0.25) / 0.7585;
+    return std::max(k_step, std::min(4 * noise, quantile(strength, stone, 0.7)));
+}
+
+}  // namespace culet

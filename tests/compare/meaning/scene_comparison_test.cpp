@@ -1,0 +1,178 @@
+#include "compare/meaning/scene_comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+
+#include "compare/meaning/calibrate.h"
+#include "compare/meaning/cropped_camera.h"
+#include "compare/meaning/facet_error.h"
+#include "compare/meaning/fingerprint.h"
+#include "stone/cuts/cuts.h"
+#include "stone/errors.h"
+#include "stone/units.h"
+
+namespace culet {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A princess cut of glass under three lobes, of few facets and little dispersion: a picture of 100
+// pixels is a matter of milliseconds.
+Scene small_scene() {
+    Scene scene;
+    scene.stone.solid = *with_facet_error(make_cut("princess"), radians(0.5), 4);
+    scene.stone.material = catalogue_material("glass_bk7");
+    scene.camera.position = {4, -3, 200};
+    scene.camera.up = {0, 1, 0};
+    scene.camera.orthographic_width = 9;
+    scene.camera.width = scene.camera.height = 120;
+    scene.lights.constant = 0.1;
+    scene.lights.lobes.push_back({Vec3{0.3, 0.1, 1}, 8, {Rgb{1.2, 1.1, 1.0}}});
+    scene.lights.lobes.push_back({Vec3{1, 0.3, 0.5}, 30, {Rgb{3.0, 2.8, 2.9}}});
+    scene.lights.lobes.push_back({Vec3{-0.5, 0.9, 0.4}, 20, {Rgb{1.0, 1.2, 0.8}}});
+    scene.settings.wavelengths_nm = {550};
+    scene.settings.effects_auto = false;
+    return scene;
+}
+
+SceneCompareOptions quick() {
+    SceneCompareOptions options;
+    options.find_pose = false;
+    options.calibrate = true;
+    options.draws = 2;
+    options.largest = 80;
+    options.budget_seconds = 0;
+    return options;
+}
+
+Photo photograph_of(Scene scene, double facet_error_deg) {
+    if (facet_error_deg > 0) {
+        scene.stone.solid = *with_facet_error(scene.stone.solid, radians(facet_error_deg), 21);
+    }
+    CameraModel camera;
+    camera.gain = {0.6, 0.6, 0.6};
+    camera.ground = {0.02f, 0.02f, 0.02f};
+    RenderResult result = render(scene);
+    return photographed(photo_of(result.picture), camera, 5);
+}
+
+TEST(SceneComparison, of_the_right_stone_is_nearer_than_of_a_wrong_one) {
+    const Scene scene = small_scene();
+    const SceneComparison right = compare_with_scene(photograph_of(scene, 0), scene, quick());
+    const SceneComparison wrong = compare_with_scene(photograph_of(scene, 1.5), scene, quick());
+    ASSERT_TRUE(right.comparison.meaning && wrong.comparison.meaning);
+    EXPECT_TRUE(right.comparison.calibration->complete());
+    ASSERT_TRUE(right.comparison.meaning->equivalent.deg.has_value());
+    EXPECT_LT(*right.comparison.meaning->equivalent.deg, 0.15);
+    EXPECT_GT(*wrong.comparison.meaning->equivalent.deg, 0.7);
+    EXPECT_EQ(right.comparison.verdict, Verdict::match);
+    EXPECT_NE(wrong.comparison.verdict, Verdict::match);
+    const std::string json = scores_json(right.comparison);
+    EXPECT_NE(json.find("\"sensitivity\": [\n"), std::string::npos);
+    EXPECT_NE(json.find("\"headline\""), std::string::npos);
+}
+
+TEST(SceneComparison, is_the_same_whatever_the_threads) {
+    const Scene scene = small_scene();
+    const Photo photo = photograph_of(scene, 0.2);
+    SceneCompareOptions options = quick();
+    options.compare.threads = 1;
+    const SceneComparison one = compare_with_scene(photo, scene, options);
+    options.compare.threads = 2;
+    const SceneComparison two = compare_with_scene(photo, scene, options);
+    EXPECT_EQ(scores_json(one.comparison), scores_json(two.comparison));
+}
+
+TEST(SceneComparison, keeps_its_calibration_for_the_next_photograph) {
+    const fs::path cache = fs::path(testing::TempDir()) / "culet-calibrations";
+    fs::remove_all(cache);
+    const Scene scene = small_scene();
+    const Photo photo = photograph_of(scene, 0.2);
+    SceneCompareOptions options = quick();
+    options.cache = cache;
+    const SceneComparison first = compare_with_scene(photo, scene, options);
+    EXPECT_FALSE(first.comparison.calibration->from_cache);
+    const SceneComparison second = compare_with_scene(photo, scene, options);
+    EXPECT_TRUE(second.comparison.calibration->from_cache);
+    EXPECT_EQ(first.comparison.meaning->headline, second.comparison.meaning->headline);
+    // Another seed is another calibration.
+    options.compare.seed = 2;
+    EXPECT_FALSE(compare_with_scene(photo, scene, options).comparison.calibration->from_cache);
+    fs::remove_all(cache);
+}
+
+TEST(SceneComparison, a_budget_ends_it_and_says_so) {
+    const Scene scene = small_scene();
+    SceneCompareOptions options = quick();
+    options.draws = 40;
+    options.budget_seconds = 0.01;
+    const SceneComparison ended = compare_with_scene(photograph_of(scene, 0.2), scene, options);
+    EXPECT_FALSE(ended.comparison.calibration->complete());
+    ASSERT_FALSE(ended.comparison.calibration->notes.empty());
+    EXPECT_NE(ended.comparison.calibration->notes.back().find("budget"), std::string::npos);
+}
+
+TEST(SceneComparison, of_a_camera_that_does_not_see_the_stone_is_the_users_mistake) {
+    Scene scene = small_scene();
+    const Photo photo = photograph_of(scene, 0);
+    scene.camera.orthographic_width.reset();
+    scene.camera.look_at = {0, 0, 400};  // away from it
+    EXPECT_THROW(compare_with_scene(photo, scene, quick()), InputError);
+}
+
+TEST(SceneComparison, stops_when_asked) {
+    const Scene scene = small_scene();
+    const Photo photo = photograph_of(scene, 0);
+    EXPECT_THROW(compare_with_scene(photo, scene, quick(), [](double f) { return f < 0.5; }),
+                 Interrupted);
+}
+
+TEST(Calibrate, under_the_same_light_from_everywhere_has_no_wrong_light) {
+    Scene scene = small_scene();
+    scene.lights = {};
+    scene.lights.constant = 1;
+    scene.camera = cropped_to_stone(scene.camera, scene.stone.solid, 60, 0.2);
+    const DraftRenderer renderer(scene, 0.05);
+    CalibrateOptions options;
+    options.draws = 2;
+    options.null_draws = 2;
+    options.largest = 60;
+    const Calibration calibration = calibrate(scene, renderer.picture(), renderer, options);
+    for (const CalibrationDraw& draw : calibration.draws) {
+        EXPECT_NE(draw.world, World::light);
+        EXPECT_NE(draw.world, World::both);
+    }
+    EXPECT_FALSE(calibration.notes.empty());
+}
+
+TEST(Fingerprint, tells_scenes_apart_by_each_of_their_parts) {
+    const auto print = [](const Scene& scene) {
+        Fingerprint fingerprint;
+        fingerprint.add(scene);
+        return fingerprint.hex();
+    };
+    const Scene scene = small_scene();
+    EXPECT_EQ(print(scene), print(small_scene()));
+    const std::vector<std::function<void(Scene&)>> changes{
+        [](Scene& s) { s.camera.position.x += 1e-9; },
+        [](Scene& s) { s.lights.lobes[1].exponent = 31; },
+        [](Scene& s) { s.lights.lobes.pop_back(); },
+        [](Scene& s) { s.lights.lobes[0].radiance.value = 1.0; },
+        [](Scene& s) { s.stone.solid.facets[3].plane.offset *= 1 + 1e-12; },
+        [](Scene& s) { s.stone.material = catalogue_material("quartz"); },
+        [](Scene& s) { s.settings.depth = 9; },
+        [](Scene& s) { s.immersion = 1.33; }};
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        Scene other = scene;
+        changes[i](other);
+        EXPECT_NE(print(scene), print(other)) << i;
+    }
+    Scene threads = scene;
+    threads.settings.threads = 3;
+    EXPECT_EQ(print(scene), print(threads));
+}
+
+}  // namespace
+}  // namespace culet

@@ -1,0 +1,220 @@
+// Exposures merged. Expectations: the scene that the shots were made from, and statistics of the
+// noise that was put in.
+
+#include "compare/photo/bracket.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "compare/photo/exposure.h"
+#include "render/colour.h"
+#include "stone/errors.h"
+
+namespace culet {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int k_width = 160, k_height = 120;
+
+// Two thousand to one from dark to bright, with texture to align by.
+double scene(double x, double y, std::size_t channel) {
+    const double soft = std::sin(0.31 * x + 0.11 * y) + std::sin(0.17 * y - 0.05 * x) +
+                        0.7 * std::sin(0.9 * x) * std::sin(0.8 * y + 1);
+    return std::exp2(11.0 * x / k_width - 4 + 0.35 * soft) *
+           (1 + 0.1 * static_cast<double>(channel));
+}
+
+struct Camera {
+    double exposure = 1, dx = 0, dy = 0;
+    bool eight_bits = false;
+    std::function<double(double)> curve = [](double v) { return srgb_encoded(v); };
+};
+
+BracketShot shot(const Camera& camera, unsigned seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    BracketShot result;
+    result.name = "shot" + std::to_string(seed);
+    result.exposure = camera.exposure;
+    Photo& photo = result.photo;
+    photo.width = k_width;
+    photo.height = k_height;
+    photo.saturation = 1;
+    photo.encoding = camera.eight_bits ? "8-bit sRGB JPEG" : "linear raw";
+    for (int y = 0; y < k_height; ++y) {
+        for (int x = 0; x < k_width; ++x) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double light = scene(x - camera.dx, y - camera.dy, c) * camera.exposure;
+                const double electrons = 20000 * light;
+                double v = (electrons + std::sqrt(electrons + 16) * normal(random)) / 20000;
+                v = std::clamp(v, 0.0, 1.0);
+                if (camera.eight_bits) v = srgb_decoded(std::round(255 * camera.curve(v)) / 255);
+                photo.rgb.push_back(static_cast<float>(v));
+            }
+        }
+    }
+    return result;
+}
+
+// Mean and worst deviation from the scene in stops, clipped pixels left out.
+struct Off {
+    double mean = 0, bias = 0;
+};
+Off off(const Photo& photo, double first_exposure, int from = 8, int to = k_width - 8) {
+    double sum = 0, bias = 0, n = 0;
+    for (int y = 8; y < k_height - 8; ++y) {
+        for (int x = from; x < to; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y) * k_width + x;
+            if (photo.saturated[i] > 0) continue;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double stops =
+                    std::log2(photo.rgb[3 * i + c] / (scene(x, y, c) * first_exposure));
+                sum += std::abs(stops);
+                bias += stops;
+                ++n;
+            }
+        }
+    }
+    return {sum / n, bias / n};
+}
+
+TEST(Bracket, three_exposures_are_the_scene) {
+    const Bracket merged = merge_bracket({shot({1.0 / 16}, 1), shot({1.0 / 128}, 2),
+                                          shot({1.0}, 3)});
+    const Off error = off(merged.photo, 1.0 / 16);
+    EXPECT_LT(error.mean, 0.02);
+    EXPECT_LT(std::abs(error.bias), 0.003);
+    for (const double ratio : merged.exposure_ratios) EXPECT_NEAR(ratio, 1, 0.02);
+    for (const FrameShift& shift : merged.shifts) EXPECT_LT(std::hypot(shift.x, shift.y), 0.15);
+    EXPECT_EQ(merged.photo.saturation, 0);
+}
+
+// The variance says how far values are off: the mean of (difference^2 / variance) is 1.
+TEST(Bracket, the_variance_is_the_noise) {
+    const Bracket merged = merge_bracket({shot({1.0 / 16}, 4), shot({1.0 / 128}, 5)},
+                                         {Response::as_read, false});
+    double sum = 0, n = 0;
+    for (int y = 0; y < k_height; ++y) {
+        for (int x = 20; x < k_width; ++x) {
+            const std::size_t i = static_cast<std::size_t>(y) * k_width + x;
+            if (merged.photo.saturated[i] > 0) continue;
+            for (std::size_t c = 0; c < 3; ++c) {
+                const double difference = merged.photo.rgb[3 * i + c] - scene(x, y, c) / 16;
+                sum += difference * difference / merged.photo.variance[3 * i + c];
+                ++n;
+            }
+        }
+    }
+    EXPECT_NEAR(sum / n, 1, 0.15);
+}
+
+TEST(Bracket, a_knock_between_shots_is_found_and_put_right) {
+    Camera second{1.0 / 64, 2.6, -1.4};
+    const Bracket merged = merge_bracket({shot({1.0 / 16}, 6), shot(second, 7)});
+    EXPECT_NEAR(merged.shifts[1].x, 2.6, 0.15);
+    EXPECT_NEAR(merged.shifts[1].y, -1.4, 0.15);
+    ASSERT_FALSE(merged.notes.empty());
+    EXPECT_THAT(merged.notes[0], HasSubstr("moved by up to"));
+}
+
+TEST(Bracket, what_every_shot_over_exposes_is_marked) {
+    const Bracket merged = merge_bracket({shot({1.0}, 8), shot({0.25}, 9)});
+    EXPECT_EQ(merged.photo.saturated[60 * k_width + 5], 0);
+    EXPECT_EQ(merged.photo.saturated[60 * k_width + k_width - 2], 1);
+    EXPECT_NEAR(merged.photo.rgb[3 * (60 * k_width + k_width - 2)], 4, 0.01);  // at least that
+}
+
+// A camera whose curve is not sRGB's: found from seven JPEGs, the ratios of light come out right.
+TEST(Bracket, an_unknown_tone_curve_is_found_from_the_series) {
+    std::vector<BracketShot> shots;
+    for (int k = 0; k < 7; ++k) {
+        Camera camera;
+        camera.exposure = std::exp2(-1.5 * k + 1);
+        camera.eight_bits = true;
+        camera.curve = [](double v) { return std::pow(v, 1 / 1.6) * (1.15 - 0.15 * v); };
+        shots.push_back(shot(camera, 20 + static_cast<unsigned>(k)));
+    }
+    const Bracket found = merge_bracket(shots);
+    EXPECT_EQ(found.response, Response::calibrated);
+    EXPECT_TRUE(found.photo.photometric);
+    const Bracket assumed = merge_bracket(shots, {Response::as_read, true});
+    // The scale of a found curve is free: the spread about the mean is what counts.
+    const auto spread = [](const Photo& photo) {
+        double sum = 0, squares = 0, n = 0;
+        for (int y = 10; y < k_height - 10; ++y) {
+            for (int x = 20; x < k_width - 10; ++x) {
+                const std::size_t i = static_cast<std::size_t>(y) * k_width + x;
+                if (photo.saturated[i] > 0) continue;
+                const double stops = std::log2(photo.rgb[3 * i + 1] / scene(x, y, 1));
+                sum += stops;
+                squares += stops * stops;
+                ++n;
+            }
+        }
+        return std::sqrt(squares / n - sum * sum / (n * n));
+    };
+    EXPECT_LT(spread(found.photo), 0.06);
+    EXPECT_LT(spread(found.photo), spread(assumed.photo) / 2);
+}
+
+TEST(Bracket, a_single_jpeg_is_for_shapes_only) {
+    BracketShot only = shot({1.0 / 64, 0, 0, true}, 30);
+    only.photo.photometric = false;
+    only.photo.not_photometric = "a JPEG";
+    const Bracket merged = merge_bracket({only});
+    EXPECT_FALSE(merged.photo.photometric);
+    EXPECT_EQ(merged.photo.not_photometric, "a JPEG");
+}
+
+TEST(Bracket, bad_series_are_refused) {
+    const auto refusal = [](std::vector<BracketShot> shots) -> std::string {
+        try {
+            merge_bracket(std::move(shots));
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_FALSE(refusal({}).empty());
+    EXPECT_THAT(refusal({shot({1}, 1), shot({1}, 2)}), HasSubstr("same exposure"));
+    BracketShot small = shot({0.5}, 3);
+    small.photo.width = 10;
+    EXPECT_THAT(refusal({shot({1}, 1), small}), HasSubstr("one size"));
+    BracketShot black = shot({0.5}, 4);
+    for (float& v : black.photo.rgb) v = 0;
+    EXPECT_THAT(refusal({shot({1}, 1), black}), HasSubstr("black"));
+    BracketShot broken = shot({0.5}, 5);
+    broken.photo.not_finite = 3;
+    EXPECT_THAT(refusal({broken}), HasSubstr("NaN"));
+    EXPECT_THROW(merge_bracket({shot({1}, 1), shot({2}, 2)}, {Response::calibrated, true}),
+                 InputError)
+        << "raw files have no response to find";
+}
+
+TEST(Exposures, are_read_as_people_write_them) {
+    EXPECT_DOUBLE_EQ(parse_exposure("1/125"), 1.0 / 125);
+    EXPECT_DOUBLE_EQ(parse_exposure("0.008"), 0.008);
+    EXPECT_DOUBLE_EQ(parse_exposure("2 s"), 2);
+    EXPECT_DOUBLE_EQ(parse_exposure("-2EV"), 0.25);
+    EXPECT_DOUBLE_EQ(parse_exposure("+1ev"), 2);
+    for (const char* wrong : {"", "0", "-1", "1/0", "fast", "1/2/3", "nan", "1e999"})
+        EXPECT_THROW(parse_exposure(wrong), InputError) << wrong;
+}
+
+TEST(Exposures, damaged_exif_is_none) {
+    for (const std::string& bytes :
+         {std::string("II*\0\xff\xff\xff\x7f", 8), std::string("MM\0*\0\0\0\x08\xff\xff", 10),
+          std::string("\xff\xd8\xff\xe1\0\x10"
+                      "Exif\0\0II*\0\1\0",
+                      16),
+          std::string()}) {
+        EXPECT_FALSE(shot_data(bytes).known());
+    }
+}
+
+}  // namespace
+}  // namespace culet
