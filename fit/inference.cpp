@@ -14,7 +14,7 @@ using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 // is small beside what the best readings know, and still far above rounding.
 constexpr double k_hard_scale = 30;
 // Of variances: what is told of them has three digits.
-constexpr double k_precision = 1e-8;
+constexpr double k_precision = 1e-6;
 
 void add_rows(const Rows& from, double scale, double variance, SparseRows& to) {
     for (Eigen::Index i = 0; i < from.rows(); ++i) {

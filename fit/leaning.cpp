@@ -9,7 +9,7 @@ namespace {
 
 constexpr double k_damping = 1e-6;
 // Of what one turn does to the others.
-constexpr double k_precision = 1e-7;
+constexpr double k_precision = 1e-4;
 // Of chi-square; less is not worth another round.
 constexpr double k_least_gain = 0.01;
 // A step this long in one of the freedoms is no longer linear.
@@ -85,7 +85,7 @@ std::optional<Shape> leaning_better(Relaxation& relaxation, SaddleSolver& solver
         if (turned[std::size_t(i)])
             right(folded[std::size_t(i)].row) = folded[std::size_t(i)].shift;
     }
-    const auto s = solver.solve(none, right);
+    const auto s = solver.solve(none, right, k_precision);
     if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > k_longest) return std::nullopt;
     return relaxation.freedoms().moved(
         shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())});

@@ -174,6 +174,22 @@ TEST_F(FitInput, BadlyMadeMeshesAreMendedAndFitted) {
     }
 }
 
+TEST_F(FitInput, NeedsNoMaterialUnlessTheStoneIsWeighed) {
+    std::ofstream(file("stone.toml")) << "[stone]\nmesh = \"hand.obj\"\nup = \"T\"\n"
+                                         "readings = \"readings.csv\"\n";
+    const ProgramRun weighed = fit();
+    expect_refused(weighed);
+    EXPECT_THAT(weighed.err, HasSubstr("needs the density"));
+    std::string rows = text_of(file("readings.csv"));
+    const std::size_t weight = rows.find("\nweight,");
+    ASSERT_NE(weight, std::string::npos);
+    rows.erase(weight, rows.find('\n', weight + 1) - weight);
+    std::ofstream(file("readings.csv")) << rows;
+    const ProgramRun run = fit();
+    EXPECT_LE(run.exit_code, 1) << run.err;
+    EXPECT_TRUE(fs::exists(file("fitted.obj")));
+}
+
 TEST_F(FitInput, AnInclinationBeyondNinetyIsRefusedWithItsSlip) {
     misread("inclination,C1N", [](double v) { return 10 * v; });
     const ProgramRun run = fit();

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -166,6 +167,26 @@ TEST(RobustStart, FromAnotherUnit) {
         EXPECT_EQ(trial.refusal, "");
         EXPECT_TRUE(is_valid(truth.stone, trial.result));
         EXPECT_THAT(trial.result.message, ::testing::HasSubstr("drawn in another unit")) << factor;
+    }
+}
+
+TEST(RobustStart, FromAnEarlierResultUnderExactSymmetry) {
+    // The mesh is off, and with it the pose of the result: the symmetry's axis and mirrors are not
+    // where the readings count from.
+    for (const TruthKind kind : {TruthKind::round, TruthKind::step}) {
+        const Truth truth = make_truth(kind, true, 2);
+        auto readings = read_by_instruments(truth, 11);
+        const Stone mesh = noisy_mesh(truth.stone, 0.01, 4);
+        const Trial first = fit_mesh(mesh, readings);
+        FitOptions options;
+        options.start = first.result.solid;
+        const auto edited = std::find_if(readings.begin(), readings.end(),
+                                         [](const WrittenReading& r) { return r.kind == "edge"; });
+        *edited->value += 0.01;
+        const Trial again = fit_mesh(mesh, readings, options);
+        EXPECT_EQ(again.result.start, "earlier result");
+        // The same end as without the earlier result.
+        EXPECT_TRUE(succeeds(truth.stone, again, fit_mesh(mesh, readings))) << again.result.message;
     }
 }
 
