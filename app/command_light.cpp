@@ -57,12 +57,12 @@ ProbeOptions probe_options(const LightArguments& a) {
     if (a.distance == "inf" || a.distance == "infinity") {
         options.distance = std::numeric_limits<double>::infinity();
     } else if (!a.distance.empty()) {
-        options.distance =
-            numbers_in(a.distance, 1, 1, "--distance is in ball radii, or inf")[0];
+        options.distance = numbers_in(a.distance, 1, 1, "--distance is in ball radii, or inf")[0];
         if (!(options.distance > 1)) {
-            throw InputError(fmt::format("--distance {}: the camera is outside the ball, more than "
-                                         "1 radius from its middle",
-                                         a.distance));
+            throw InputError(
+                fmt::format("--distance {}: the camera is outside the ball, more than "
+                            "1 radius from its middle",
+                            a.distance));
         }
     }
     if (!a.reflectance.empty()) {
@@ -75,7 +75,8 @@ ProbeOptions probe_options(const LightArguments& a) {
         }
     }
     if (!a.towards.empty()) {
-        const auto values = numbers_in(a.towards, 2, 2, "--towards is AZIMUTH,ELEVATION in degrees");
+        const auto values =
+            numbers_in(a.towards, 2, 2, "--towards is AZIMUTH,ELEVATION in degrees");
         options.towards_azimuth = radians(values[0]);
         options.towards_elevation = radians(values[1]);
         if (std::abs(values[1]) > 90)
@@ -95,9 +96,10 @@ ProbeOptions probe_options(const LightArguments& a) {
 void give_balls(const LightArguments& a, std::vector<ProbeView>& views) {
     if (a.balls.empty()) return;
     if (a.balls.size() != 1 && a.balls.size() != views.size()) {
-        throw InputError(fmt::format("--ball was given {} times for {} views: once for all, or once "
-                                     "for each",
-                                     a.balls.size(), views.size()));
+        throw InputError(
+            fmt::format("--ball was given {} times for {} views: once for all, or once "
+                        "for each",
+                        a.balls.size(), views.size()));
     }
     for (std::size_t v = 0; v < views.size(); ++v) {
         const std::string& text = a.balls[a.balls.size() == 1 ? 0 : v];
@@ -192,9 +194,10 @@ void add_command_light(CLI::App& program, int& exit_code) {
         ->type_name("X,Y,RADIUS")
         ->allow_extra_args(false);
     command
-        ->add_option("--distance", a->distance,
-                     "from the camera to the ball's middle, in radii of the ball, or inf (otherwise "
-                     "from EXIF, or from two views)")
+        ->add_option(
+            "--distance", a->distance,
+            "from the camera to the ball's middle, in radii of the ball, or inf (otherwise "
+            "from EXIF, or from two views)")
         ->type_name("RADII");
     command
         ->add_option("--reflectance", a->reflectance,
@@ -215,7 +218,9 @@ void add_command_light(CLI::App& program, int& exit_code) {
                      "half angle around the camera that the other view replaces")
         ->type_name("DEGREES")
         ->capture_default_str();
-    command->add_option("--width", a->width, "of the environment, pixels (otherwise as the ball allows)")
+    command
+        ->add_option("--width", a->width,
+                     "of the environment, pixels (otherwise as the ball allows)")
         ->type_name("PIXELS");
     command->add_option("--sharpen", a->passes, "passes that undo the blur of resampling")
         ->check(CLI::Range(0, 100))
@@ -231,7 +236,8 @@ void add_command_light(CLI::App& program, int& exit_code) {
     command->footer(
         "Examples:\n"
         "  culet light front-*.dng side-*.dng -o room.exr --picture room.png --reflectance 0.6\n"
-        "  culet light a.exr b.exr -o room.exr --ball 512,380,300 --ball 506,384,299 --distance 25\n"
+        "  culet light a.exr b.exr -o room.exr --ball 512,380,300 --ball 506,384,299 --distance "
+        "25\n"
         "Exit codes: 0 good; 1 the views do not fit together in one way only, or disagree; 2 could "
         "not be done.");
     command->callback([a, &exit_code] { exit_code = run_light(*a); });

@@ -35,8 +35,8 @@ PixelRectangle rectangle_in(const std::string& text) {
     char c1 = 0, c2 = 0, c3 = 0, rest = 0;
     if (!(stream >> r.x >> c1 >> r.y >> c2 >> r.width >> c3 >> r.height) || c1 != ',' ||
         c2 != ',' || c3 != ',' || stream >> rest) {
-        throw InputError(fmt::format("--grey {}: is X,Y,WIDTH,HEIGHT in pixels from the top left",
-                                     text));
+        throw InputError(
+            fmt::format("--grey {}: is X,Y,WIDTH,HEIGHT in pixels from the top left", text));
     }
     return r;
 }
@@ -94,7 +94,8 @@ int run_photo(const PhotoArguments& a) {
         throw InputError(std::filesystem::path(a.out), "linear light is written as .exr");
     if (a.chart && !a.grey.empty()) throw InputError("--chart or --grey, not both");
     if (!a.white.empty() && !a.chart && a.grey.empty())
-        throw InputError("--white needs --grey X,Y,WIDTH,HEIGHT or --chart to say what is grey in it");
+        throw InputError(
+            "--white needs --grey X,Y,WIDTH,HEIGHT or --chart to say what is grey in it");
     Bracket merged = read_and_merge(a);
     Photo& photo = merged.photo;
     Json json{{"schema", 1}, {"size", {photo.width, photo.height}}};
@@ -131,15 +132,14 @@ int run_photo(const PhotoArguments& a) {
                             card.gain[2]),
                 a.common.quiet);
             if (card.unevenness > 0.1) {
-                merged.notes.push_back(fmt::format(
-                    "the grey card varies by {:.0f} %: a shadow or a gloss lies on it",
-                    100 * card.unevenness));
+                merged.notes.push_back(
+                    fmt::format("the grey card varies by {:.0f} %: a shadow or a gloss lies on it",
+                                100 * card.unevenness));
             }
         }
     }
     if (!a.camera.empty()) {
-        const Lens lens =
-            lens_for(read_lens(a.camera), photo.width, photo.height, a.shots[0]);
+        const Lens lens = lens_for(read_lens(a.camera), photo.width, photo.height, a.shots[0]);
         undistort(photo, lens);
         json["lens"] = {{"focal_px", {lens.focal_x, lens.focal_y}},
                         {"principal_px", {lens.principal_x, lens.principal_y}}};
@@ -168,8 +168,7 @@ int run_photo(const PhotoArguments& a) {
                     a.shots.size() == 1 ? "" : "s", settings.empty() ? "" : ", first " + settings),
         a.common.quiet);
     for (const std::string& note : merged.notes) say("note: " + note, a.common.quiet);
-    if (!photo.photometric)
-        say("note: for shapes only: " + photo.not_photometric, a.common.quiet);
+    if (!photo.photometric) say("note: for shapes only: " + photo.not_photometric, a.common.quiet);
     return exit_good;
 }
 
@@ -180,8 +179,9 @@ void add_command_photo(CLI::App& program, int& exit_code) {
     CLI::App* command = program.add_subcommand(
         "photo", "shots of one scene, raw or not, to one picture in linear light");
     command
-        ->add_option("SHOT", a->shots,
-                     "photographs (raw, JPEG, PNG, TIFF, EXR, HDR), several exposures from a tripod")
+        ->add_option(
+            "SHOT", a->shots,
+            "photographs (raw, JPEG, PNG, TIFF, EXR, HDR), several exposures from a tripod")
         ->required();
     command->add_option("-o,--output", a->out, "linear picture with variance and over-exposure")
         ->required()
@@ -199,7 +199,8 @@ void add_command_photo(CLI::App& program, int& exit_code) {
         ->check(CLI::IsMember({"srgb", "found"}));
     command->add_option("--grey", a->grey, "where a grey card is")->type_name("X,Y,WIDTH,HEIGHT");
     command->add_flag("--chart", a->chart, "find a colour chart of 24 patches");
-    command->add_option("--white", a->white, "the shot with the card or chart, if it is another one")
+    command
+        ->add_option("--white", a->white, "the shot with the card or chart, if it is another one")
         ->type_name("FILE");
     command->add_option("--camera", a->camera, "camera file: take out the lens's distortion")
         ->type_name("CAMERA.toml");

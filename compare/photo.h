@@ -30,11 +30,12 @@ struct Photo {
     std::vector<std::string> notes;  ///< what was repaired on reading, one line each
 };
 
-/// Reads PNG, JPEG, TIFF, EXR, HDR, PFM, or a camera's raw file (raw_file.h). Integer files are taken as sRGB (IEC 61966-2-1) and
-/// decoded; float files are taken as linear. JPEGs are turned upright as their EXIF tag says.
-/// Colour profiles are not applied. A JPEG is not photometric: cameras write them through a tone
-/// curve of their own, phones through one that differs from place to place. Throws InputError for a file that is missing, broken, or of
-/// more than `k_max_photo_pixels`.
+/// Reads PNG, JPEG, TIFF, EXR, HDR, PFM, or a camera's raw file (raw_file.h). Integer files are
+/// taken as sRGB (IEC 61966-2-1) and decoded; float files are taken as linear. JPEGs are turned
+/// upright as their EXIF tag says. Colour profiles are not applied. A JPEG is not photometric:
+/// cameras write them through a tone curve of their own, phones through one that differs from place
+/// to place. Throws InputError for a file that is missing, broken, or of more than
+/// `k_max_photo_pixels`.
 Photo read_photo(const std::filesystem::path& file);
 
 constexpr double k_max_photo_pixels = 2e8;

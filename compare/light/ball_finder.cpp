@@ -18,6 +18,7 @@ namespace {
 constexpr double k_pi = std::numbers::pi;
 constexpr int k_hough_side = 640;  // pixels of the longer side that Hough's transform sees
 constexpr int k_rays = 360;
+constexpr double k_clear_support = 0.85;  // no need to look further
 
 struct EdgePoint {
     double x, y, strength;
@@ -53,8 +54,9 @@ cv::Mat equalised(const cv::Mat& plane) {
     for (int y = 0; y < plane.rows; ++y) {
         for (int x = 0; x < plane.cols; ++x) {
             const auto at = std::lower_bound(sorted.begin(), sorted.end(), plane.at<float>(y, x));
-            result.at<unsigned char>(y, x) = static_cast<unsigned char>(
-                255.0 * static_cast<double>(at - sorted.begin()) / static_cast<double>(sorted.size()));
+            result.at<unsigned char>(y, x) =
+                static_cast<unsigned char>(255.0 * static_cast<double>(at - sorted.begin()) /
+                                           static_cast<double>(sorted.size()));
         }
     }
     return result;
@@ -102,9 +104,8 @@ std::vector<EdgePoint> edges_along_rays(const cv::Mat& plane, const BallCircle& 
             const double r = circle.radius + (i - count / 2 + shift) * step;
             here.push_back({circle.x + r * c, circle.y + r * s, slope[i], ray});
         }
-        std::sort(here.begin(), here.end(), [](const EdgePoint& a, const EdgePoint& b) {
-            return a.strength > b.strength;
-        });
+        std::sort(here.begin(), here.end(),
+                  [](const EdgePoint& a, const EdgePoint& b) { return a.strength > b.strength; });
         if (here.size() > 4) here.resize(4);
         for (EdgePoint& p : here) p.share = p.strength / here.front().strength;
         points.insert(points.end(), here.begin(), here.end());
@@ -192,8 +193,8 @@ std::optional<FoundBall> fitted(const cv::Mat& plane, const BallCircle& rough, d
     for (int attempt = 0; attempt < 400; ++attempt) {
         const auto pick = [&] { return points[random() % points.size()]; };
         const EdgePoint a = pick(), b = pick(), c = pick();
-        const int apart = std::min({std::abs(a.ray - b.ray), std::abs(b.ray - c.ray),
-                                    std::abs(a.ray - c.ray)});
+        const int apart =
+            std::min({std::abs(a.ray - b.ray), std::abs(b.ray - c.ray), std::abs(a.ray - c.ray)});
         if (apart < k_rays / 8) continue;
         const auto circle = through(a, b, c);
         if (!circle || std::abs(circle->radius - rough.radius) > 1.5 * reach * rough.radius ||
@@ -220,23 +221,31 @@ std::vector<EdgePoint> half_way_points(const cv::Mat& linear, const BallCircle& 
     for (int ray = 0; ray < 2 * k_rays; ++ray) {
         const double angle = k_pi * ray / k_rays, c = std::cos(angle), s = std::sin(angle);
         std::array<double, 2 * k_half + 1> light{};
-        double inside = 0, outside = 0;
-        int counted = 0;
         bool whole = true;
         for (int i = -k_half; i <= k_half && whole; ++i) {
             const double r = circle.radius + i * k_step;
             const double x = circle.x + r * c, y = circle.y + r * s;
             whole = x >= 1 && y >= 1 && x <= linear.cols - 3 && y <= linear.rows - 3;
-            if (!whole) break;
-            const double v = bilinear(linear, x, y);
-            light[static_cast<std::size_t>(i + k_half)] = v;
-            if (i * k_step < -k_near) inside += v;
-            if (i * k_step > k_near) outside += v;
-            if (i * k_step > k_near) ++counted;
+            if (whole) light[static_cast<std::size_t>(i + k_half)] = bilinear(linear, x, y);
         }
         if (!whole) continue;
-        inside /= counted;
-        outside /= counted;
+        // Both sides run on to the edge as straight lines: the rim's picture is pressed flat and
+        // changes fast.
+        const auto level_at_edge = [&](int side) {
+            double n = 0, st = 0, sv = 0, stt = 0, stv = 0;
+            for (int i = -k_half; i <= k_half; ++i) {
+                const double t = side * i * k_step, v = light[static_cast<std::size_t>(i + k_half)];
+                if (t <= k_near) continue;
+                ++n;
+                st += t;
+                sv += v;
+                stt += t * t;
+                stv += t * v;
+            }
+            const double slope = (n * stv - st * sv) / (n * stt - st * st);
+            return (sv - slope * st) / n;
+        };
+        const double inside = level_at_edge(-1), outside = level_at_edge(1);
         const double step = outside - inside, middle = (inside + outside) / 2;
         if (std::abs(step) < 0.2 * std::max(inside, outside)) continue;
         int crossings = 0;
@@ -279,6 +288,22 @@ std::optional<FoundBall> fitted_in_steps(const cv::Mat& plane, const BallCircle&
     return found;
 }
 
+std::vector<BallCircle> hough_circles(const cv::Mat& picture, double edge, double threshold) {
+    const int shorter = std::min(picture.cols, picture.rows);
+    std::vector<cv::Vec3f> circles;
+    cv::HoughCircles(picture, circles, cv::HOUGH_GRADIENT, 2, shorter / 20.0, edge, threshold,
+                     std::max(6, shorter / 20), shorter * 6 / 10);
+    std::vector<BallCircle> result;
+    for (std::size_t i = 0; i < std::min<std::size_t>(circles.size(), 8); ++i)
+        result.push_back({circles[i][0], circles[i][1], circles[i][2]});
+    return result;
+}
+
+bool nearly_same(const BallCircle& a, const BallCircle& b, double share) {
+    return std::hypot(a.x - b.x, a.y - b.y) < share * a.radius &&
+           std::abs(a.radius - b.radius) < share * a.radius;
+}
+
 // Pixel centres, when a picture is shrunk by `factor` as cv::resize does it.
 BallCircle enlarged(const BallCircle& c, double factor) {
     return {(c.x + 0.5) * factor - 0.5, (c.y + 0.5) * factor - 0.5, c.radius * factor};
@@ -312,39 +337,34 @@ std::vector<FoundBall> find_balls(const Photo& photo, double least_support) {
         cv::GaussianBlur(small, soft, {}, blur);
         soft.convertTo(plain, CV_8U, 200);
         looks.push_back({plain, blur > 1 ? 60.0 : 100.0});
-        looks.push_back({equalised(soft), blur > 1 ? 100.0 : 150.0});
+        if (blur > 1) looks.push_back({equalised(soft), 100.0});
     }
 
-    const int shorter = std::min(small.cols, small.rows);
-    std::vector<BallCircle> candidates;
-    for (const Look& look : looks) {
-        for (const double threshold : {120.0, 80.0, 50.0}) {
-            std::vector<cv::Vec3f> circles;
-            cv::HoughCircles(look.picture, circles, cv::HOUGH_GRADIENT, 2, shorter / 20.0, look.edge,
-                             threshold, std::max(6, shorter / 20), shorter * 6 / 10);
-            for (std::size_t i = 0; i < std::min<std::size_t>(circles.size(), 8); ++i) {
-                const BallCircle c{circles[i][0], circles[i][1], circles[i][2]};
-                const bool known = std::any_of(
-                    candidates.begin(), candidates.end(), [&](const BallCircle& k) {
-                        return std::hypot(k.x - c.x, k.y - c.y) < 0.05 * k.radius &&
-                               std::abs(k.radius - c.radius) < 0.05 * k.radius;
-                    });
-                if (!known) candidates.push_back(c);
-            }
-        }
-    }
     // Edges of a few pixels' width stand out of noise that single pixels drown in.
     cv::GaussianBlur(small, small, {}, 1.0);
+    std::vector<BallCircle> tried;
     std::vector<FoundBall> found;
-    for (const BallCircle& candidate : candidates) {
-        auto ball = fitted_in_steps(small, candidate, 0.12);
-        if (!ball || ball->support < least_support) continue;
-        const bool known = std::any_of(found.begin(), found.end(), [&](const FoundBall& k) {
-            return std::hypot(k.circle.x - ball->circle.x, k.circle.y - ball->circle.y) <
-                       0.02 * k.circle.radius &&
-                   std::abs(k.circle.radius - ball->circle.radius) < 0.02 * k.circle.radius;
-        });
-        if (!known) found.push_back(*ball);
+    const auto has_clear_one = [&] {
+        return std::any_of(found.begin(), found.end(),
+                           [](const FoundBall& b) { return b.support > k_clear_support; });
+    };
+    for (const Look& look : looks) {
+        for (const double threshold : {120.0, 80.0, 50.0}) {
+            if (has_clear_one()) break;
+            for (const BallCircle& c : hough_circles(look.picture, look.edge, threshold)) {
+                const bool known =
+                    std::any_of(tried.begin(), tried.end(),
+                                [&](const BallCircle& k) { return nearly_same(k, c, 0.05); });
+                if (known) continue;
+                tried.push_back(c);
+                const auto ball = fitted_in_steps(small, c, 0.12);
+                if (!ball || ball->support < least_support) continue;
+                const bool found_before = std::any_of(
+                    found.begin(), found.end(),
+                    [&](const FoundBall& k) { return nearly_same(k.circle, ball->circle, 0.02); });
+                if (!found_before) found.push_back(*ball);
+            }
+        }
     }
     // Support is what counts; of equals the larger, for a ball's own reflections are circles too.
     std::sort(found.begin(), found.end(), [](const FoundBall& a, const FoundBall& b) {

@@ -68,9 +68,10 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
         throw InputError("name the photographs either plainly or after --view, not both");
     if (files.empty()) throw InputError("name the photographs of the ball");
     if (!series.exposures.empty() && series.exposures.size() != files.size()) {
-        throw InputError(fmt::format("--exposure has {} values for {} photographs: one for each, in "
-                                     "the order of the files",
-                                     series.exposures.size(), files.size()));
+        throw InputError(
+            fmt::format("--exposure has {} values for {} photographs: one for each, in "
+                        "the order of the files",
+                        series.exposures.size(), files.size()));
     }
     std::vector<Photo> photos;
     std::vector<SortedShot> shots;
@@ -88,8 +89,8 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
             exposure = exposure_of(photos[i].shot);
         }
         shots.push_back({files[i], exposure});
-        if (progress && !progress(0.6 * static_cast<double>(i + 1) /
-                                  static_cast<double>(files.size())))
+        if (progress &&
+            !progress(0.6 * static_cast<double>(i + 1) / static_cast<double>(files.size())))
             throw Interrupted();
     }
     if (groups.empty()) groups = views_of(shots);
@@ -108,8 +109,8 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
                                      "--exposure 1/10,1/40,...");
                 }
             }
-            bracket.push_back({files[i].string(), std::move(photos[i]),
-                               shots[i].exposure.value_or(1.0)});
+            bracket.push_back(
+                {files[i].string(), std::move(photos[i]), shots[i].exposure.value_or(1.0)});
         }
         const double exposure = bracket[0].exposure;
         if (g == 0) first_exposure = exposure;
@@ -136,8 +137,8 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
         view.photo = std::move(merged.photo);
         view.focal_px = focal_px;
         result.views.push_back(std::move(view));
-        if (progress && !progress(0.6 + 0.4 * static_cast<double>(g + 1) /
-                                            static_cast<double>(groups.size())))
+        if (progress &&
+            !progress(0.6 + 0.4 * static_cast<double>(g + 1) / static_cast<double>(groups.size())))
             throw Interrupted();
     }
     return result;

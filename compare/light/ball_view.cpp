@@ -29,7 +29,7 @@ double BallView::quality(const Vec3& direction) const {
     const double cosine = glm::dot(direction, ball.towards_camera());
     const double theta = std::acos(std::clamp(cosine, -1.0, 1.0));
     const double limit = k_pi - ball.blind_half_angle();
-    if (theta >= limit) return 0;
+    if (theta >= limit - k_near_rim) return 0;  // pixels there are half background
     const double density = (1 + cosine) / 2;
     const double q = density * density * ramp(theta, photographer.within, photographer.beyond) *
                      (1 - ramp(theta, limit - k_rim, limit - k_near_rim));
@@ -71,9 +71,9 @@ ViewMap view_map(const BallView& view, int width) {
             Rgb sum{};
             double weight = 0, over = 0, quality = 0, solid = 0;
             for (int k = 0; k < steps * steps; ++k) {
-                const Vec3 d = lat_long_direction(x + (k % steps + 0.5) / steps,
-                                                  y + (k / steps + 0.5) / steps, map.width,
-                                                  map.height);
+                const Vec3 d =
+                    lat_long_direction(x + (k % steps + 0.5) / steps, y + (k / steps + 0.5) / steps,
+                                       map.width, map.height);
                 const double density = std::hypot(d.x, d.y);
                 solid += density;
                 const Vec3 in_camera = camera_from_world * d;

@@ -26,8 +26,8 @@ struct BallView {
 
     /// 0..1: ((1 + cos theta) / 2)^2, theta counted from the camera's direction, which is the
     /// density of the ball's picture: 1 in the middle, 0 at the rim, where the picture is pressed
-    /// flat; none of the photographer; none of the last degrees before the blind cone. Where the
-    /// ball still shows something it is never quite 0.
+    /// flat; next to none of the photographer, so that a view alone keeps what it shows there; 0 in
+    /// the blind cone and the last three degrees before it.
     double quality(const Vec3& direction_in_camera) const;
 };
 

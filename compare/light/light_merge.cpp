@@ -84,11 +84,11 @@ double fill_holes(EnvironmentMap& map, const std::vector<double>& weight) {
                 for (int corner = 0; corner < 4; ++corner) {
                     const int i = (x0 + corner % 2 + coarse.width) % coarse.width;
                     const int j = std::min(y0 + corner / 2, coarse.height - 1);
-                    const double share =
-                        (corner % 2 ? s : 1 - s) * (corner / 2 ? t : 1 - t);
+                    const double share = (corner % 2 ? s : 1 - s) * (corner / 2 ? t : 1 - t);
                     for (std::size_t c = 0; c < 3; ++c)
-                        sum[c] += share * coarse.rgb[3 * (static_cast<std::size_t>(j) *
-                                                              coarse.width + i) + c];
+                        sum[c] +=
+                            share *
+                            coarse.rgb[3 * (static_cast<std::size_t>(j) * coarse.width + i) + c];
                 }
                 for (std::size_t c = 0; c < 3; ++c) fine.rgb[3 * at + c] = sum[c];
                 fine.weight[at] = 1e-30;  // known to the next finer level, of no weight
@@ -204,8 +204,7 @@ void add_corrections(const EnvironmentMap& map, const BallView& view, const Pixe
                     !view.picture->saturated.empty() && view.picture->saturated[pixel] > 0;
                 std::array<float, 3> ratio{};
                 for (std::size_t c = 0; c < 3; ++c) {
-                    const auto taken =
-                        static_cast<float>(gain * view.picture->rgb[3 * pixel + c]);
+                    const auto taken = static_cast<float>(gain * view.picture->rgb[3 * pixel + c]);
                     ratio[c] = predicted[c] > 0 ? taken / predicted[c] : 1;
                     // An over-exposed pixel says "at least".
                     if (over) ratio[c] = std::max(ratio[c], 1.0f);
@@ -214,8 +213,7 @@ void add_corrections(const EnvironmentMap& map, const BallView& view, const Pixe
                 for (std::size_t k = 0; k < used; ++k) {
                     const float w = quality * share[k];
                     sum.total[texel[k]] += w;
-                    for (std::size_t c = 0; c < 3; ++c)
-                        sum.up[3 * texel[k] + c] += w * ratio[c];
+                    for (std::size_t c = 0; c < 3; ++c) sum.up[3 * texel[k] + c] += w * ratio[c];
                 }
             }
         }
@@ -277,8 +275,7 @@ MergedLight merge_views(const std::vector<BallView>& views, const std::vector<do
             if (q <= 0) continue;
             weight[i] += q;
             over[i] += q * map.over[i];
-            for (std::size_t c = 0; c < 3; ++c)
-                sum[3 * i + c] += q * gains[v] * map.rgb[3 * i + c];
+            for (std::size_t c = 0; c < 3; ++c) sum[3 * i + c] += q * gains[v] * map.rgb[3 * i + c];
             merged.coverage[i] =
                 1 - (1 - merged.coverage[i]) * (1 - static_cast<float>(q > k_seen ? q : 0));
             if (q < 0.01) continue;  // too near a rim to say who is right

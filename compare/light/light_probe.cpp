@@ -20,10 +20,14 @@ namespace culet {
 namespace {
 
 constexpr double k_pi = std::numbers::pi;
-constexpr double k_smallest_radius = 20;   // pixels
-constexpr double k_usual_distance = 30;    // radii, where nothing says better
-// Gains nearer to 1 than this are within the error of finding them: the views are exposed alike.
-constexpr double k_rounding = 0.005;
+constexpr double k_smallest_radius = 20;  // pixels
+constexpr double k_usual_distance = 30;   // radii, where nothing says better
+// Gains nearer to 1 than this are lamps' flicker, shutters' scatter or the error of finding them:
+// exposures that differ on purpose differ by a third of a stop.
+constexpr double k_rounding = 0.01;
+// Pixels: an outline is no better known than this, whatever its edges' scatter says, for light
+// beside and behind the ball draws them one way.
+constexpr double k_least_sigma = 0.15;
 constexpr int k_narrowest = 128, k_widest = 4096;
 
 glm::dmat3 world_from_camera(double azimuth, double elevation) {
@@ -122,8 +126,8 @@ Prepared prepared(const ProbeView& view, const FoundBall& ball, const ProbeOptio
         saturated.resize(photo.rgb.size() / 3);
         const auto clip = static_cast<float>(0.99 * photo.saturation);
         for (std::size_t i = 0; i < saturated.size(); ++i) {
-            saturated[i] = std::max({photo.rgb[3 * i], photo.rgb[3 * i + 1],
-                                     photo.rgb[3 * i + 2]}) >= clip;
+            saturated[i] =
+                std::max({photo.rgb[3 * i], photo.rgb[3 * i + 1], photo.rgb[3 * i + 2]}) >= clip;
         }
     }
     if (!saturated.empty()) small->saturated = shrunk(saturated.data(), 1, photo, cut, factor);
@@ -132,13 +136,11 @@ Prepared prepared(const ProbeView& view, const FoundBall& ball, const ProbeOptio
     result.factor = factor;
     result.left = cut.x;
     result.top = cut.y;
-    const auto inside = [&](double x, double from) {
-        return (x - from + 0.5) / factor - 0.5;
-    };
-    const PixelPlace principal = view.principal.value_or(
-        PixelPlace{(photo.width - 1) / 2.0, (photo.height - 1) / 2.0});
+    const auto inside = [&](double x, double from) { return (x - from + 0.5) / factor - 0.5; };
+    const PixelPlace principal =
+        view.principal.value_or(PixelPlace{(photo.width - 1) / 2.0, (photo.height - 1) / 2.0});
     result.prior.circle = {inside(c.x, cut.x), inside(c.y, cut.y), c.radius / factor};
-    result.prior.circle_sigma_px = std::max(0.02, ball.sigma_px / factor);
+    result.prior.circle_sigma_px = std::max(k_least_sigma, 2 * ball.sigma_px) / factor;
     result.prior.principal = {inside(principal.x, cut.x), inside(principal.y, cut.y)};
     result.prior.focal_px = options.distance > 0 ? 0 : view.focal_px / factor;
     result.prior.distance = options.distance;
@@ -214,11 +216,11 @@ void judge(LightProbe& probe, const ProbeOptions& options) {
     }
     for (const ViewAlignment& a : probe.alignments) {
         if (a.ambiguous) {
-            probe.doubt =
-                fmt::format("the views do not fit together in one way only (correlation {:.2f}, "
-                            "the next best turn {:.2f}): say how far the camera went with "
-                            "--turned DEGREES, or check that both show one room",
-                            a.correlation, a.rival);
+            probe.doubt = fmt::format(
+                "the views do not fit together in one way only (correlation {:.2f}, "
+                "the next best turn {:.2f}): say how far the camera went with "
+                "--turned DEGREES, or check that both show one room",
+                a.correlation, a.rival);
         }
     }
     if (probe.doubt.empty() && probe.views.size() > 1 && probe.mean_disagreement > 0.7) {
@@ -255,8 +257,8 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
                                      balls.back().circle.radius, k_smallest_radius));
         }
         largest = std::max(largest, balls.back().circle.radius);
-        if (progress && !progress(0.2 * static_cast<double>(balls.size()) /
-                                  static_cast<double>(views.size())))
+        if (progress &&
+            !progress(0.2 * static_cast<double>(balls.size()) / static_cast<double>(views.size())))
             throw Interrupted();
     }
     // The next power of two, in ratio, to as many texels round as the ball has pixels for. A
@@ -277,12 +279,11 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
         result.name = views[v].name;
         result.support = balls[v].support;
         result.found = !views[v].ball;
-        result.over_exposed =
-            over_exposed(views[v], *ready[v].picture, ready[v].prior.circle);
-        result.distance_from = options.distance > 0       ? "given"
-                               : views[v].focal_px > 0    ? "focal length"
-                               : views.size() > 1         ? "both views"
-                                                          : "assumed";
+        result.over_exposed = over_exposed(views[v], *ready[v].picture, ready[v].prior.circle);
+        result.distance_from = options.distance > 0    ? "given"
+                               : views[v].focal_px > 0 ? "focal length"
+                               : views.size() > 1      ? "both views"
+                                                       : "assumed";
         probe.views.push_back(result);
         seen.push_back({ready[v].picture, ball_of(ready[v].prior, k_usual_distance),
                         options.photographer, glm::dmat3(1.0)});
@@ -314,8 +315,8 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
         ready[to].prior.circle_sigma_px = 0.02;
         if (ready[to].prior.focal_px <= 0) ready[to].prior.distance = best->first.distance();
         probe.alignments.push_back(*best);
-        if (progress && !progress(0.2 + 0.3 * static_cast<double>(v) /
-                                            static_cast<double>(views.size() - 1)))
+        if (progress &&
+            !progress(0.2 + 0.3 * static_cast<double>(v) / static_cast<double>(views.size() - 1)))
             throw Interrupted();
     }
     for (std::size_t v = 0; v < views.size(); ++v) {
@@ -329,9 +330,8 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
         const Vec3 b = seen[v].world_from_camera * seen[v].ball.towards_camera();
         result.turned = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
     }
-    probe.light = merge_views(seen, gains, width, options.passes, [&](double done) {
-        return !progress || progress(0.5 + 0.5 * done);
-    });
+    probe.light = merge_views(seen, gains, width, options.passes,
+                              [&](double done) { return !progress || progress(0.5 + 0.5 * done); });
     if (coarser > 1) probe.light = coarsened(probe.light, coarser);
     for (std::size_t i = 0; i < probe.light.map.rgb.size(); ++i)
         probe.light.map.rgb[i] /= static_cast<float>(options.reflectance[i % 3]);

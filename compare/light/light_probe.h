@@ -23,7 +23,7 @@ struct ProbeView {
 };
 
 struct ProbeOptions {
-    double distance = 0;      ///< camera to ball in ball radii, may be infinite; 0: not known
+    double distance = 0;       ///< camera to ball in ball radii, may be infinite; 0: not known
     Rgb reflectance{1, 1, 1};  ///< of the ball, 0..1
     PhotographerCone photographer;
     /// Where the first camera looked, in the stone's frame: azimuth counter-clockwise from +x and

@@ -87,18 +87,18 @@ Json json_of(const ProbeViewResult& view) {
 }  // namespace
 
 std::string light_json(const LightProbe& probe, const ProbeOptions& options) {
-    Json json{{"schema", 1},
-              {"status", probe.usable() ? "good" : "doubtful"},
-              {"doubt", probe.doubt},
-              {"size", {probe.light.map.width, probe.light.map.height}},
-              {"covered", number(probe.covered)},
-              {"filled_sr", number(probe.light.filled_sr)},
-              {"disagreement",
-               {{"mean_stops", number(probe.mean_disagreement)},
-                {"worst_percent_stops", number(probe.worst_disagreement)}}},
-              {"reflectance", options.reflectance},
-              {"towards_deg",
-               {degrees(options.towards_azimuth), degrees(options.towards_elevation)}}};
+    Json json{
+        {"schema", 1},
+        {"status", probe.usable() ? "good" : "doubtful"},
+        {"doubt", probe.doubt},
+        {"size", {probe.light.map.width, probe.light.map.height}},
+        {"covered", number(probe.covered)},
+        {"filled_sr", number(probe.light.filled_sr)},
+        {"disagreement",
+         {{"mean_stops", number(probe.mean_disagreement)},
+          {"worst_percent_stops", number(probe.worst_disagreement)}}},
+        {"reflectance", options.reflectance},
+        {"towards_deg", {degrees(options.towards_azimuth), degrees(options.towards_elevation)}}};
     json["views"] = Json::array();
     for (const ProbeViewResult& view : probe.views) json["views"].push_back(json_of(view));
     json["alignments"] = Json::array();
@@ -128,8 +128,7 @@ std::string coverage_png(const LightProbe& probe) {
                           probe.mean_disagreement, probe.worst_disagreement)
             : std::string("Disagreement: needs a second view");
     draw_panel(sheet, panel, caption,
-               painted(light.disagreement, light.map.width, light.map.height, 2,
-                       ColourMap::error),
+               painted(light.disagreement, light.map.width, light.map.height, 2, ColourMap::error),
                ColourMap::error, "0 stops", "2 and more; grey: fewer than two see it");
     return png_bytes(sheet);
 }

@@ -14,8 +14,8 @@ namespace {
 constexpr double k_farthest = 1e6;  // as good as infinite: the rays differ by a millionth
 
 Vec3 ray_through(const PixelPlace& place, const PixelPlace& principal, double focal_px) {
-    return glm::normalize(Vec3((place.x - principal.x) / focal_px,
-                               -(place.y - principal.y) / focal_px, -1.0));
+    return glm::normalize(
+        Vec3((place.x - principal.x) / focal_px, -(place.y - principal.y) / focal_px, -1.0));
 }
 
 // Rays v at the outline of a ball seen under the half angle alpha about the unit axis a have

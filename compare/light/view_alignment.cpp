@@ -100,8 +100,8 @@ SmoothMap smoothed(const ViewMap& map, double sigma, int width) {
             const Vec3 d = lat_long_direction(x + 0.5, y + 0.5, result.width, result.height);
             const double polar = (y + 0.5) * k_pi / result.height;
             const int from = std::max(0, static_cast<int>((polar - reach) / k_pi * map.height));
-            const int to = std::min(map.height - 1,
-                                    static_cast<int>((polar + reach) / k_pi * map.height));
+            const int to =
+                std::min(map.height - 1, static_cast<int>((polar + reach) / k_pi * map.height));
             double sum = 0, total = 0, bell = 0;
             for (int j = from; j <= to; ++j) {
                 for (int i = 0; i < map.width; ++i) {
@@ -270,8 +270,15 @@ ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
     if (!turned) coarse = over_all_rotations(view_map(a, 256), view_map(b, 256));
 
     const RefinedViews fine = refine_views(a, first_prior, b, second_prior, coarse.best.rotation);
-    ViewAlignment result{fine.first_from_second, fine.correlation, coarse.rival, fine.gain,
-                         fine.residual, fine.sigma, fine.first, fine.second, false};
+    ViewAlignment result{fine.first_from_second,
+                         fine.correlation,
+                         coarse.rival,
+                         fine.gain,
+                         fine.residual,
+                         fine.sigma,
+                         fine.first,
+                         fine.second,
+                         false};
     // Beside chance: a rotation that is far off must be clearly worse, and the best must be good.
     result.ambiguous =
         !turned && (coarse.best.score < 0.5 || coarse.rival > coarse.best.score - 0.05);

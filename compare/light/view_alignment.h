@@ -23,11 +23,11 @@ MirrorBall ball_of(const ViewPrior& prior, double otherwise);
 struct ViewAlignment {
     glm::dmat3 first_from_second{1.0};  ///< directions in camera frames
     double correlation = 0;             ///< of log-luminance where both views are good, -1..1
-    double rival = 0;      ///< correlation of the best quite different rotation
-    double gain = 1;       ///< first over second: their exposures differ by so much
-    double residual = 0;   ///< median disagreement, stops
-    double sigma = 0;      ///< of the rotation, radians (one standard deviation)
-    MirrorBall first, second;  ///< with outlines and distance refined by the agreement
+    double rival = 0;                   ///< correlation of the best quite different rotation
+    double gain = 1;                    ///< first over second: their exposures differ by so much
+    double residual = 0;                ///< median disagreement, stops
+    double sigma = 0;                   ///< of the rotation, radians (one standard deviation)
+    MirrorBall first, second;           ///< with outlines and distance refined by the agreement
     /// No rotation stands out: the light has too little structure, or the views are not of one
     /// room.
     bool ambiguous = false;

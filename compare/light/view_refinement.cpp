@@ -23,8 +23,8 @@ namespace {
 constexpr double k_pi = std::numbers::pi;
 constexpr double k_unknown_distance = 30;  // a start where the distance is found
 constexpr double k_unseen = 1e9;
-constexpr std::size_t k_pixels = 3000;  // of each picture that are predicted
-constexpr double k_floor = 2e-3;  // of the mean luminance, below which stops say nothing
+constexpr std::size_t k_pixels = 1500;  // of each picture that are predicted
+constexpr double k_floor = 2e-3;        // of the mean luminance, below which stops say nothing
 
 // Parameters: a small rotation (3), the outlines' x, y, radius (2 x 3), 1 / distance, log2 gain.
 constexpr int k_parameters = 11;
@@ -229,12 +229,10 @@ cv::Mat log_luminance(const Photo& picture, double floor, double sigma_px) {
             plane.at<float>(y, x) = static_cast<float>(luminance_of(&picture.rgb[3 * i]));
         }
     }
-    if (sigma_px > 0)
-        cv::GaussianBlur(plane, plane, {}, sigma_px, sigma_px, cv::BORDER_REPLICATE);
+    if (sigma_px > 0) cv::GaussianBlur(plane, plane, {}, sigma_px, sigma_px, cv::BORDER_REPLICATE);
     for (int y = 0; y < plane.rows; ++y) {
         float* row = plane.ptr<float>(y);
-        for (int x = 0; x < plane.cols; ++x)
-            row[x] = static_cast<float>(std::log2(row[x] + floor));
+        for (int x = 0; x < plane.cols; ++x) row[x] = static_cast<float>(std::log2(row[x] + floor));
     }
     return plane;
 }
@@ -262,7 +260,7 @@ Solution by_direction(const Problem& problem, const Solution& start, double sigm
     std::vector<Vec3> directions;
     std::vector<double> weights;
     const glm::dmat3 back = glm::transpose(problem.rotation(start.at));
-    for (const Vec3& d : even_directions(10000)) {
+    for (const Vec3& d : even_directions(6000)) {
         const double a = problem.first.quality(d), b = problem.second.quality(back * d);
         if (a < 1e-2 || b < 1e-2) continue;
         directions.push_back(d);
@@ -315,8 +313,8 @@ struct Pixel {
 
 // Pixels of one view whose directions the other shows well, spread evenly.
 std::vector<Pixel> pixels_seen_by_both(const BallView& own, const MirrorBall& ball, double floor,
-                                       const BallView& other,
-                                       const glm::dmat3& other_from_own, std::size_t most) {
+                                       const BallView& other, const glm::dmat3& other_from_own,
+                                       std::size_t most) {
     std::vector<Pixel> pixels;
     const Photo& picture = *own.picture;
     for (int y = 0; y < picture.height; ++y) {
@@ -328,8 +326,8 @@ std::vector<Pixel> pixels_seen_by_both(const BallView& own, const MirrorBall& ba
             const double a = own.quality(*d), b = other.quality(other_from_own * *d);
             const bool over = !picture.saturated.empty() && picture.saturated[i] > 0;
             if (a < 2e-2 || b < 2e-2 || over) continue;
-            pixels.push_back({place, std::log2(luminance_of(&picture.rgb[3 * i]) + floor),
-                              std::sqrt(a * b)});
+            pixels.push_back(
+                {place, std::log2(luminance_of(&picture.rgb[3 * i]) + floor), std::sqrt(a * b)});
         }
     }
     // Every k-th, with k odd against rows of even length.
@@ -342,18 +340,24 @@ std::vector<Pixel> pixels_seen_by_both(const BallView& own, const MirrorBall& ba
 // Stops above the floor that `pixel` of a ball would show if the other view's map were the light.
 double predicted(const Pixel& pixel, int steps, const MirrorBall& own,
                  const glm::dmat3& other_from_own, const MirrorBall& other, const OwnMap& map) {
+    const BallCircle &now = other.circle(), &then = map.ball.circle();
+    const bool same_ball = now.x == then.x && now.y == then.y && now.radius == then.radius &&
+                           other.distance() == map.ball.distance();
     double sum = 0;
     for (int k = 0; k < steps * steps; ++k) {
         const auto d = own.direction_of({pixel.place.x - 0.5 + (k % steps + 0.5) / steps,
                                          pixel.place.y - 0.5 + (k / steps + 0.5) / steps});
         if (!d) return k_unseen;
-        // The other ball may be taken for another one by now: the pixel that shows the direction,
-        // and where the map has what that pixel showed.
-        const auto place = other.place_of(other_from_own * *d);
-        if (!place) return k_unseen;
-        const auto in_map = map.ball.direction_of(*place);
-        if (!in_map) return k_unseen;
-        sum += luminance_at(map.map, *in_map);
+        Vec3 in_map = other_from_own * *d;
+        if (!same_ball) {
+            // The other ball is taken for another one by now: the pixel that shows the direction,
+            // and where the map has what that pixel showed.
+            const auto place = other.place_of(in_map);
+            const auto moved = place ? map.ball.direction_of(*place) : std::nullopt;
+            if (!moved) return k_unseen;
+            in_map = *moved;
+        }
+        sum += luminance_at(map.map, in_map);
     }
     return std::log2(sum / (steps * steps) + map.floor);
 }
@@ -362,8 +366,9 @@ Solution by_prediction(const Problem& problem, const Solution& start, int width)
     const OwnMap first_map = own_map(problem.first, problem.ball(start.at, false), width);
     const OwnMap second_map = own_map(problem.second, problem.ball(start.at, true), width);
     const glm::dmat3 now = problem.rotation(start.at);
-    const std::vector<Pixel> in_first = pixels_seen_by_both(
-        problem.first, first_map.ball, first_map.floor, problem.second, glm::transpose(now), k_pixels);
+    const std::vector<Pixel> in_first =
+        pixels_seen_by_both(problem.first, first_map.ball, first_map.floor, problem.second,
+                            glm::transpose(now), k_pixels);
     const std::vector<Pixel> in_second = pixels_seen_by_both(
         problem.second, second_map.ball, second_map.floor, problem.first, now, k_pixels);
     std::vector<double> weights;
@@ -379,8 +384,7 @@ Solution by_prediction(const Problem& problem, const Solution& start, int width)
         const glm::dmat3 second_from_first = glm::transpose(first_from_second);
         tbb::parallel_for(std::size_t{0}, r.size(), [&](std::size_t i) {
             if (i < in_first.size()) {
-                const double v =
-                    predicted(in_first[i], steps, a, second_from_first, b, second_map);
+                const double v = predicted(in_first[i], steps, a, second_from_first, b, second_map);
                 if (v < k_unseen) r[i] = v + p[10] - in_first[i].taken;
             } else {
                 const Pixel& pixel = in_second[i - in_first.size()];
@@ -406,7 +410,8 @@ double correlation_of(const Problem& problem, const Parameters& p) {
         if (qa < 1e-2 || qb < 1e-2) continue;
         const auto in_a = a.place_of(d), in_b = b.place_of(back * d);
         if (!in_a || !in_b) continue;
-        const double w = std::sqrt(qa * qb), u = bilinear(first, *in_a), v = bilinear(second, *in_b);
+        const double w = std::sqrt(qa * qb), u = bilinear(first, *in_a),
+                     v = bilinear(second, *in_b);
         n += w;
         sa += w * u;
         sb += w * v;
@@ -416,6 +421,46 @@ double correlation_of(const Problem& problem, const Parameters& p) {
     }
     const double va = n * saa - sa * sa, vb = n * sbb - sb * sb;
     return va > 0 && vb > 0 ? (n * sab - sa * sb) / std::sqrt(va * vb) : 0;
+}
+
+// First over second, from linear light: the median over blocks of directions of the ratio of what
+// they hold. Sums of light do not care about blur, which shifts medians of stops.
+double gain_of(const Problem& problem, const Parameters& p) {
+    constexpr int k_width = 256, k_block = 8;
+    BallView a = problem.first, b = problem.second;
+    a.ball = problem.ball(p, false);
+    b.ball = problem.ball(p, true);
+    b.world_from_camera = problem.rotation(p);
+    const ViewMap first = view_map(a, k_width), second = view_map(b, k_width);
+    std::vector<std::pair<double, double>> ratios;  // stops, weight
+    double all = 0;
+    for (int y = 0; y < first.height; y += k_block) {
+        for (int x = 0; x < k_width; x += k_block) {
+            double one = 0, two = 0, weight = 0;
+            for (int k = 0; k < k_block * k_block; ++k) {
+                const int row = y + k / k_block;
+                const std::size_t i = static_cast<std::size_t>(row) * k_width + x + k % k_block;
+                if (first.quality[i] < 1e-2f || second.quality[i] < 1e-2f || first.over[i] > 0 ||
+                    second.over[i] > 0)
+                    continue;
+                const double w = std::sqrt(first.quality[i] * second.quality[i]) *
+                                 lat_long_solid_angle(row, k_width, first.height);
+                one += w * luminance_of(&first.rgb[3 * i]);
+                two += w * luminance_of(&second.rgb[3 * i]);
+                weight += w;
+            }
+            if (one <= 0 || two <= 0) continue;
+            ratios.emplace_back(std::log2(one / two), weight);
+            all += weight;
+        }
+    }
+    std::sort(ratios.begin(), ratios.end());
+    double sum = 0;
+    for (const auto& [stops, weight] : ratios) {
+        sum += weight;
+        if (sum >= all / 2) return std::exp2(stops);
+    }
+    return std::exp2(p[10]);
 }
 
 }  // namespace
@@ -436,7 +481,7 @@ RefinedViews refine_views(const BallView& first, const ViewPrior& first_prior,
     return {problem.rotation(solution.at),
             problem.ball(solution.at, false),
             problem.ball(solution.at, true),
-            std::exp2(solution.at[10]),
+            gain_of(problem, solution.at),
             solution.residual,
             correlation_of(problem, solution.at),
             solution.sigma};

@@ -19,10 +19,10 @@ namespace culet {
 
 namespace {
 
-constexpr double k_full_well = 20000;   // electrons at saturation, of a small camera
-constexpr double k_read_noise = 4;      // electrons
+constexpr double k_full_well = 20000;  // electrons at saturation, of a small camera
+constexpr double k_read_noise = 4;     // electrons
 constexpr std::size_t k_shots_for_response = 5;
-constexpr double k_least_shift = 0.1;   // pixels; smaller ones are not worth the blur
+constexpr double k_least_shift = 0.1;  // pixels; smaller ones are not worth the blur
 constexpr double k_fade_from = 0.85, k_fade_to = 0.97;  // of saturation
 
 float brightest(const Photo& photo, std::size_t pixel) {
@@ -33,8 +33,8 @@ float brightest(const Photo& photo, std::size_t pixel) {
 double unclipped(const Photo& photo, std::size_t pixel) {
     if (!photo.saturated.empty() && photo.saturated[pixel] > 0) return 0;
     if (photo.saturation <= 0) return 1;
-    const double t = (k_fade_to - brightest(photo, pixel) / photo.saturation) /
-                     (k_fade_to - k_fade_from);
+    const double t =
+        (k_fade_to - brightest(photo, pixel) / photo.saturation) / (k_fade_to - k_fade_from);
     const double u = std::clamp(t, 0.0, 1.0);
     return u * u * (3 - 2 * u);
 }
@@ -201,8 +201,9 @@ Bracket merge_bracket(std::vector<BracketShot> shots, const BracketOptions& opti
         jpegs && shots.size() >= k_shots_for_response ? Response::calibrated : Response::as_read);
     if (result.response == Response::calibrated) {
         if (!eight_bits || shots.size() < 3) {
-            throw InputError("a camera's response is found from at least three (better five) 8-bit "
-                             "files of different exposure");
+            throw InputError(
+                "a camera's response is found from at least three (better five) 8-bit "
+                "files of different exposure");
         }
     }
     result.shifts.resize(shots.size());
@@ -235,8 +236,8 @@ Bracket merge_bracket(std::vector<BracketShot> shots, const BracketOptions& opti
     if (result.response == Response::calibrated) {
         const ResponseCurve curve = find_response(shots);
         for (BracketShot& shot : shots) apply_response(curve, shot.photo);
-        result.notes.push_back(fmt::format("the camera's response was found from the {} shots",
-                                           shots.size()));
+        result.notes.push_back(
+            fmt::format("the camera's response was found from the {} shots", shots.size()));
     } else if (jpegs) {
         result.notes.push_back(
             "the camera's tone curve is taken as sRGB: five or more exposures would tell it");
@@ -247,9 +248,8 @@ Bracket merge_bracket(std::vector<BracketShot> shots, const BracketOptions& opti
     }
     std::vector<std::size_t> order(shots.size());
     std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return shots[a].exposure > shots[b].exposure;
-    });
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return shots[a].exposure > shots[b].exposure; });
     for (std::size_t k = 1; k < order.size(); ++k) {
         const double ratio = measured_ratio(shots[order[k - 1]], shots[order[k]]);
         result.exposure_ratios.push_back(ratio);
@@ -284,20 +284,19 @@ Bracket merge_bracket(std::vector<BracketShot> shots, const BracketOptions& opti
             // every shot's variance, so that noise does not choose its own weight.
             double light = 0, time = 0;
             for (const BracketShot& shot : shots) {
-                const double use = clipped ? (&shot == &shots[darkest] ? 1.0 : 0.0)
-                                           : unclipped(shot.photo, i);
+                const double use =
+                    clipped ? (&shot == &shots[darkest] ? 1.0 : 0.0) : unclipped(shot.photo, i);
                 light += use * shot.photo.rgb[3 * i + c];
                 time += use * shot.exposure;
             }
             const double guess = light / time;
             double sum = 0, weight = 0;
             for (const BracketShot& shot : shots) {
-                const double use = clipped ? (&shot == &shots[darkest] ? 1.0 : 0.0)
-                                           : unclipped(shot.photo, i);
+                const double use =
+                    clipped ? (&shot == &shots[darkest] ? 1.0 : 0.0) : unclipped(shot.photo, i);
                 if (use <= 0) continue;
                 const double e = shot.exposure;
-                const double w =
-                    use * e * e / variance_of(shot.photo, guess * e, eight_bits);
+                const double w = use * e * e / variance_of(shot.photo, guess * e, eight_bits);
                 sum += w * shot.photo.rgb[3 * i + c] / e;
                 weight += w;
             }
@@ -307,16 +306,14 @@ Bracket merge_bracket(std::vector<BracketShot> shots, const BracketOptions& opti
         }
     }
     if (over > 0) {
-        result.notes.push_back(
-            fmt::format("{:.2f} % of the pixels are over-exposed even in {}",
-                        100.0 * static_cast<double>(over) / static_cast<double>(pixels),
-                        shots[darkest].name));
+        result.notes.push_back(fmt::format(
+            "{:.2f} % of the pixels are over-exposed even in {}",
+            100.0 * static_cast<double>(over) / static_cast<double>(pixels), shots[darkest].name));
     }
     // A tone-mapped single JPEG stays what it is; a response found makes it light.
     merged.photometric = result.response == Response::calibrated ||
-                         std::all_of(shots.begin(), shots.end(), [](const BracketShot& s) {
-                             return s.photo.photometric;
-                         });
+                         std::all_of(shots.begin(), shots.end(),
+                                     [](const BracketShot& s) { return s.photo.photometric; });
     for (const BracketShot& shot : shots) {
         if (!shot.photo.shot.processed.empty()) merged.photometric = false;
         if (!merged.photometric && merged.not_photometric.empty())

@@ -18,8 +18,9 @@ struct BracketShot {
 };
 
 enum class Response {
-    as_read,   ///< linear as read: raw, float files, or the sRGB curve of 8- and 16-bit files
-    calibrated  ///< found from the series itself (Debevec & Malik 1997, by OpenCV): 8-bit files only
+    as_read,    ///< linear as read: raw, float files, or the sRGB curve of 8- and 16-bit files
+    calibrated  ///< found from the series itself (Debevec & Malik 1997, by OpenCV): 8-bit files
+                ///< only
 };
 
 struct BracketOptions {
@@ -29,7 +30,8 @@ struct BracketOptions {
 };
 
 struct FrameShift {
-    double x = 0, y = 0;  ///< pixels that the shot's content lies to the right of and below the first's
+    double x = 0,
+           y = 0;  ///< pixels that the shot's content lies to the right of and below the first's
 };
 
 struct Bracket {

@@ -76,8 +76,10 @@ std::string board_svg(const BoardShape& shape) {
         }
     }
     svg += fmt::format(
-        "\"/>\n<text x=\"{:g}\" y=\"{:g}\" font-family=\"sans-serif\" font-size=\"3\">culet camera: "
-        "{} x {} squares of {:g} mm; print at 100 %, measure a square, glue it flat</text>\n</svg>\n",
+        "\"/>\n<text x=\"{:g}\" y=\"{:g}\" font-family=\"sans-serif\" font-size=\"3\">culet "
+        "camera: "
+        "{} x {} squares of {:g} mm; print at 100 %, measure a square, glue it "
+        "flat</text>\n</svg>\n",
         margin, height - 3, shape.columns, shape.rows, shape.square_mm);
     return svg;
 }
@@ -91,18 +93,19 @@ LensCalibration calibrate_lens(const std::vector<std::filesystem::path>& picture
     std::vector<std::vector<int>> ids;
     std::vector<std::size_t> used;
     for (std::size_t i = 0; i < pictures.size(); ++i) {
-        if (progress && !progress(static_cast<double>(i) / static_cast<double>(pictures.size() + 1)))
+        if (progress &&
+            !progress(static_cast<double>(i) / static_cast<double>(pictures.size() + 1)))
             throw Interrupted();
         const Photo photo = read_photo(pictures[i]);
         if (i == 0) {
             result.lens.width = photo.width;
             result.lens.height = photo.height;
         } else if (photo.width != result.lens.width || photo.height != result.lens.height) {
-            throw InputError(pictures[i],
-                             fmt::format("is {} x {} pixels, the first is {} x {}: hold the camera "
-                                         "the same way round, and do not cut pictures",
-                                         photo.width, photo.height, result.lens.width,
-                                         result.lens.height));
+            throw InputError(
+                pictures[i],
+                fmt::format("is {} x {} pixels, the first is {} x {}: hold the camera "
+                            "the same way round, and do not cut pictures",
+                            photo.width, photo.height, result.lens.width, result.lens.height));
         }
         const cv::Mat grey = grey_of(photo);
         std::vector<std::vector<cv::Point2f>> marker_corners, rejected;
@@ -174,12 +177,14 @@ LensCalibration calibrate_lens(const std::vector<std::filesystem::path>& picture
         throw InputError("the photographs of the board do not determine a lens: take more, tilted");
     }
     if (residual > 1) {
-        result.doubt = fmt::format("the corners are off by {:.1f} pixels: is the board flat, are "
-                                   "the pictures sharp, was the zoom or focus changed?",
-                                   residual);
+        result.doubt = fmt::format(
+            "the corners are off by {:.1f} pixels: is the board flat, are "
+            "the pictures sharp, was the zoom or focus changed?",
+            residual);
     } else if (steepest < 10 * degree) {
-        result.doubt = "the board was never tilted by 10 degrees: its size and its distance cannot "
-                       "be told apart, and the focal length is a guess";
+        result.doubt =
+            "the board was never tilted by 10 degrees: its size and its distance cannot "
+            "be told apart, and the focal length is a guess";
     }
     return result;
 }

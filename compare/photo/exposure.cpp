@@ -72,9 +72,9 @@ ShotData shot_data(std::string_view bytes) {
         block = std::string("Exif\0\0", 6) + std::string(bytes.substr(0, k_most));
         bytes = block;
     }
-    const std::unique_ptr<ExifData, Release> data(
-        exif_data_new_from_data(reinterpret_cast<const unsigned char*>(bytes.data()),
-                                static_cast<unsigned>(std::min<std::size_t>(bytes.size(), 1u << 30))));
+    const std::unique_ptr<ExifData, Release> data(exif_data_new_from_data(
+        reinterpret_cast<const unsigned char*>(bytes.data()),
+        static_cast<unsigned>(std::min<std::size_t>(bytes.size(), 1u << 30))));
     if (data == nullptr) return shot;
     const double apex = number_in(data.get(), EXIF_TAG_SHUTTER_SPEED_VALUE);
     shot.seconds = positive(number_in(data.get(), EXIF_TAG_EXPOSURE_TIME));
@@ -150,14 +150,16 @@ double parse_exposure(const std::string& text) {
         return problem == std::errc() && end == part.data() + part.size() ? value : std::nan("");
     };
     const std::size_t slash = word.find('/');
-    double value = slash == std::string::npos ? number(word)
-                                              : number(std::string_view(word).substr(0, slash)) /
-                                                    number(std::string_view(word).substr(slash + 1));
+    double value = slash == std::string::npos
+                       ? number(word)
+                       : number(std::string_view(word).substr(0, slash)) /
+                             number(std::string_view(word).substr(slash + 1));
     if (stops) value = std::exp2(value);
     if (!(std::isfinite(value) && value > 0)) {
-        throw InputError(fmt::format("\"{}\" is no exposure: write seconds, 1/125 or 0.008, or "
-                                     "stops against the first, -2EV",
-                                     text));
+        throw InputError(
+            fmt::format("\"{}\" is no exposure: write seconds, 1/125 or 0.008, or "
+                        "stops against the first, -2EV",
+                        text));
     }
     return value;
 }

@@ -37,7 +37,7 @@ double focal_px_of(const ShotData& shot, double diagonal_px);
 /// "1/125 s, f/8, ISO 100"
 std::string text_of(const ShotData& shot);
 
-/// An exposure as people write it: `1/125`, `0.008`, `0.008s`, `1/125 s`, `-2EV` (relative). 
+/// An exposure as people write it: `1/125`, `0.008`, `0.008s`, `1/125 s`, `-2EV` (relative).
 /// Throws InputError.
 double parse_exposure(const std::string& text);
 

@@ -16,11 +16,12 @@ Lens read_lens(const std::filesystem::path& file) {
     const TomlTable root = read_toml(file);
     const auto table = root.table("lens");
     if (!table) {
-        throw InputError(file, "is no camera file: it has no table [lens] (culet camera writes "
-                               "one)");
+        throw InputError(file,
+                         "is no camera file: it has no table [lens] (culet camera writes "
+                         "one)");
     }
-    table->refuse_unknown({"size", "focal_px", "principal_px", "distortion", "residual_px",
-                           "pictures", "camera"});
+    table->refuse_unknown(
+        {"size", "focal_px", "principal_px", "distortion", "residual_px", "pictures", "camera"});
     const auto numbers = [&](const char* key, std::size_t count) {
         const auto values = table->numbers(key);
         if (!values || values->size() != count)

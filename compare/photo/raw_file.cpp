@@ -100,9 +100,9 @@ Photo read_raw(const std::filesystem::path& file) {
     require(file, processor->open_buffer(bytes.data(), bytes.size()));
     const double pixels = static_cast<double>(data.sizes.width) * data.sizes.height;
     if (!(pixels >= 1) || pixels > k_max_photo_pixels) {
-        throw InputError(file, fmt::format("has {} x {} pixels; up to {:.0f} million are read",
-                                           data.sizes.width, data.sizes.height,
-                                           k_max_photo_pixels / 1e6));
+        throw InputError(
+            file, fmt::format("has {} x {} pixels; up to {:.0f} million are read", data.sizes.width,
+                              data.sizes.height, k_max_photo_pixels / 1e6));
     }
     require(file, processor->unpack());
     if (data.color.maximum == 0) refuse(file, "it states no white level");

@@ -26,8 +26,7 @@ ResponseCurve find_response(const std::vector<BracketShot>& shots) {
         cv::Mat picture(shot.photo.height, shot.photo.width, CV_8UC3);
         for (int y = 0; y < picture.rows; ++y) {
             for (int x = 0; x < picture.cols; ++x) {
-                const std::size_t at =
-                    3 * (static_cast<std::size_t>(y) * shot.photo.width + x);
+                const std::size_t at = 3 * (static_cast<std::size_t>(y) * shot.photo.width + x);
                 for (int c = 0; c < 3; ++c)
                     picture.at<cv::Vec3b>(y, x)[c] =
                         static_cast<unsigned char>(code_of(shot.photo.rgb[at + c]));

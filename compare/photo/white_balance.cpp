@@ -22,11 +22,11 @@ namespace {
 // ColorChecker Classic, sRGB 8-bit values as the maker prints them on the chart's sheet (X-Rite,
 // before November 2014), row by row from "dark skin" to "black".
 constexpr std::array<std::array<int, 3>, 24> k_chart{{
-    {115, 82, 68},   {194, 150, 130}, {98, 122, 157},  {87, 108, 67},   {133, 128, 177},
-    {103, 189, 170}, {214, 126, 44},  {80, 91, 166},   {193, 90, 99},   {94, 60, 108},
-    {157, 188, 64},  {224, 163, 46},  {56, 61, 150},   {70, 148, 73},   {175, 54, 60},
-    {231, 199, 31},  {187, 86, 149},  {8, 133, 161},   {243, 243, 242}, {200, 200, 200},
-    {160, 160, 160}, {122, 122, 121}, {85, 85, 85},    {52, 52, 52},
+    {115, 82, 68},   {194, 150, 130}, {98, 122, 157}, {87, 108, 67},   {133, 128, 177},
+    {103, 189, 170}, {214, 126, 44},  {80, 91, 166},  {193, 90, 99},   {94, 60, 108},
+    {157, 188, 64},  {224, 163, 46},  {56, 61, 150},  {70, 148, 73},   {175, 54, 60},
+    {231, 199, 31},  {187, 86, 149},  {8, 133, 161},  {243, 243, 242}, {200, 200, 200},
+    {160, 160, 160}, {122, 122, 121}, {85, 85, 85},   {52, 52, 52},
 }};
 
 Rgb chart_rgb(std::size_t patch) {
@@ -63,11 +63,11 @@ double median(std::vector<float> values) {
 GreyCard measure_grey(const Photo& photo, const PixelRectangle& card) {
     if (card.x < 0 || card.y < 0 || card.width < 4 || card.height < 4 ||
         card.width > photo.width - card.x || card.height > photo.height - card.y) {
-        throw InputError(fmt::format("the grey card {},{},{},{} must lie in the picture of {} x {} "
-                                     "pixels and be at least 4 x 4: --grey is X,Y,WIDTH,HEIGHT from "
-                                     "the top left",
-                                     card.x, card.y, card.width, card.height, photo.width,
-                                     photo.height));
+        throw InputError(
+            fmt::format("the grey card {},{},{},{} must lie in the picture of {} x {} "
+                        "pixels and be at least 4 x 4: --grey is X,Y,WIDTH,HEIGHT from "
+                        "the top left",
+                        card.x, card.y, card.width, card.height, photo.width, photo.height));
     }
     std::array<std::vector<float>, 3> values;
     double clipped = 0, sum = 0, squares = 0;
@@ -85,9 +85,10 @@ GreyCard measure_grey(const Photo& photo, const PixelRectangle& card) {
     const double n = static_cast<double>(values[0].size());
     grey.over_exposed = clipped / n;
     if (grey.over_exposed > 0.02) {
-        throw InputError(fmt::format("{:.0f} % of the grey card is over-exposed: it says nothing "
-                                     "about white; expose it darker",
-                                     100 * grey.over_exposed));
+        throw InputError(
+            fmt::format("{:.0f} % of the grey card is over-exposed: it says nothing "
+                        "about white; expose it darker",
+                        100 * grey.over_exposed));
     }
     std::array<double, 3> middle{};
     for (std::size_t c = 0; c < 3; ++c) middle[c] = median(std::move(values[c]));

@@ -10,8 +10,8 @@ namespace culet {
 
 struct GreyCard {
     std::array<double, 3> gain{1, 1, 1};  ///< per channel; green's is 1
-    double level = 0;     ///< luminance of the card after balancing, linear
-    double unevenness = 0;  ///< standard deviation over mean within it: a shadow, a print
+    double level = 0;                     ///< luminance of the card after balancing, linear
+    double unevenness = 0;    ///< standard deviation over mean within it: a shadow, a print
     double over_exposed = 0;  ///< share of the rectangle
 };
 
@@ -27,7 +27,8 @@ struct ChartBalance {
     std::array<double, 3> gain{1, 1, 1};  ///< from the four middle greys of the chart's last row
     /// 3 x 3 from the photo's linear RGB, balanced, to linear sRGB: least squares over 24 patches.
     std::array<double, 9> matrix{1, 0, 0, 0, 1, 0, 0, 0, 1};
-    double before = 0, after = 0;  ///< mean CIEDE2000 of the patches, with the gains; and the matrix
+    double before = 0,
+           after = 0;  ///< mean CIEDE2000 of the patches, with the gains; and the matrix
 };
 
 /// Finds a ColorChecker Classic (24 patches) by OpenCV's mcc. Nothing when there is none to be

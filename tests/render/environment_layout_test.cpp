@@ -116,8 +116,7 @@ TEST(EnvironmentLayout, energy_is_kept_within_a_thousandth) {
             for (const int size : {12, 32, 64}) {
                 const EnvironmentMap cube = cube_of_lat_long(map, size);
                 expect_same_energy(lat_long_energy(map), cube_energy(cube));
-                expect_same_energy(cube_energy(cube),
-                                   lat_long_energy(lat_long_of_cube(cube, 128)));
+                expect_same_energy(cube_energy(cube), lat_long_energy(lat_long_of_cube(cube, 128)));
             }
         }
     }

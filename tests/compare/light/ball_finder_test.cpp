@@ -23,8 +23,11 @@ std::function<Rgb(double, double)> clutter(unsigned seed, int width, int height)
     };
     std::vector<Thing> things;
     for (int i = 0; i < 60; ++i) {
-        things.push_back({width * uniform(), height * uniform(), 4 + 0.12 * width * uniform(),
-                          4 + 0.2 * height * uniform(), i % 4 == 0,
+        things.push_back({width * uniform(),
+                          height * uniform(),
+                          4 + 0.12 * width * uniform(),
+                          4 + 0.2 * height * uniform(),
+                          i % 4 == 0,
                           {uniform(), uniform(), uniform()}});
     }
     return [things](double x, double y) {
@@ -72,17 +75,18 @@ TEST_P(Balls, are_found_within_half_a_percent_of_their_radius) {
     EXPECT_GT(found.front().support, 0.4);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Traced, Balls,
-    testing::Values(Case{"large_on_black", 130, 210, 160, 0.6, 1, false},
-                    Case{"small_on_black", 45, 100.4, 210.7, 0.6, 1, false},
-                    Case{"room_behind", 120, 215.3, 158.8, 0.6, 0, false},
-                    Case{"room_behind_steel", 100, 180, 150, 0.55, 0, true},
-                    Case{"room_behind_noisy", 90, 250.6, 170.2, 0.6, 0, true},
-                    Case{"clutter", 110, 205.2, 161.9, 0.6, 2, false},
-                    Case{"clutter_noisy", 95, 260.8, 150.4, 0.6, 2, true},
-                    Case{"clutter_small", 60, 140.2, 120.1, 0.6, 2, false}),
-    [](const testing::TestParamInfo<Case>& ball) { return std::string(ball.param.name); });
+INSTANTIATE_TEST_SUITE_P(Traced, Balls,
+                         testing::Values(Case{"large_on_black", 130, 210, 160, 0.6, 1, false},
+                                         Case{"small_on_black", 45, 100.4, 210.7, 0.6, 1, false},
+                                         Case{"room_behind", 120, 215.3, 158.8, 0.6, 0, false},
+                                         Case{"room_behind_steel", 100, 180, 150, 0.55, 0, true},
+                                         Case{"room_behind_noisy", 90, 250.6, 170.2, 0.6, 0, true},
+                                         Case{"clutter", 110, 205.2, 161.9, 0.6, 2, false},
+                                         Case{"clutter_noisy", 95, 260.8, 150.4, 0.6, 2, true},
+                                         Case{"clutter_small", 60, 140.2, 120.1, 0.6, 2, false}),
+                         [](const testing::TestParamInfo<Case>& ball) {
+                             return std::string(ball.param.name);
+                         });
 
 TEST(BallFinder, a_click_is_enough) {
     simulated::BallShot shot;

@@ -97,7 +97,6 @@ inline Taken take(const BallShot& shot, const Panorama& panorama) {
         return glm::dot(beside, beside) < 1;
     };
     photo.rgb.resize(3 * static_cast<std::size_t>(shot.width) * shot.height);
-    double left = 1e9, right = -1e9, top = 1e9, bottom = -1e9;
     const int n = shot.samples;
     for (int y = 0; y < shot.height; ++y) {
         for (int x = 0; x < shot.width; ++x) {
@@ -107,18 +106,13 @@ inline Taken take(const BallShot& shot, const Panorama& panorama) {
                 const Vec3 v = ray(sx, sy);
                 Rgb light{};
                 if (hits(v)) {
-                    left = std::min(left, sx - 0.5 / n);
-                    right = std::max(right, sx + 0.5 / n);
-                    top = std::min(top, sy - 0.5 / n);
-                    bottom = std::max(bottom, sy + 0.5 / n);
                     const double along = glm::dot(v, centre);
                     const double t =
                         along - std::sqrt(along * along - glm::dot(centre, centre) + 1);
                     const Vec3 normal = t * v - centre;
                     const Vec3 out = v - 2 * glm::dot(v, normal) * normal;
                     const bool photographer =
-                        glm::dot(out, -axis) > std::cos(shot.photographer) &&
-                        shot.photographer > 0;
+                        glm::dot(out, -axis) > std::cos(shot.photographer) && shot.photographer > 0;
                     if (!photographer) light = panorama(shot.world_from_camera * out);
                     for (double& c : light) c *= shot.reflectance;
                 } else {
@@ -132,6 +126,17 @@ inline Taken take(const BallShot& shot, const Panorama& panorama) {
                     static_cast<float>(sum[c]);
         }
     }
+    // Where a walk from the middle leaves the ball, by bisection.
+    const auto edge = [&](double dx, double dy) {
+        double inside = 0, outside = 2 * shot.radius;
+        for (int i = 0; i < 60; ++i) {
+            const double t = (inside + outside) / 2;
+            (hits(ray(shot.centre_x + t * dx, shot.centre_y + t * dy)) ? inside : outside) = t;
+        }
+        return inside;
+    };
+    const double left = shot.centre_x - edge(-1, 0), right = shot.centre_x + edge(1, 0);
+    const double top = shot.centre_y - edge(0, -1), bottom = shot.centre_y + edge(0, 1);
     taken.x = (left + right) / 2;
     taken.y = (top + bottom) / 2;
     taken.radius = (right - left + bottom - top) / 4;

@@ -83,8 +83,8 @@ Off off(const Photo& photo, double first_exposure, int from = 8, int to = k_widt
 }
 
 TEST(Bracket, three_exposures_are_the_scene) {
-    const Bracket merged = merge_bracket({shot({1.0 / 16}, 1), shot({1.0 / 128}, 2),
-                                          shot({1.0}, 3)});
+    const Bracket merged =
+        merge_bracket({shot({1.0 / 16}, 1), shot({1.0 / 128}, 2), shot({1.0}, 3)});
     const Off error = off(merged.photo, 1.0 / 16);
     EXPECT_LT(error.mean, 0.02);
     EXPECT_LT(std::abs(error.bias), 0.003);
@@ -95,8 +95,8 @@ TEST(Bracket, three_exposures_are_the_scene) {
 
 // The variance says how far values are off: the mean of (difference^2 / variance) is 1.
 TEST(Bracket, the_variance_is_the_noise) {
-    const Bracket merged = merge_bracket({shot({1.0 / 16}, 4), shot({1.0 / 128}, 5)},
-                                         {Response::as_read, false});
+    const Bracket merged =
+        merge_bracket({shot({1.0 / 16}, 4), shot({1.0 / 128}, 5)}, {Response::as_read, false});
     double sum = 0, n = 0;
     for (int y = 0; y < k_height; ++y) {
         for (int x = 20; x < k_width; ++x) {

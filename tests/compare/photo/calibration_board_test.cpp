@@ -33,11 +33,11 @@ cv::Mat page_of(const std::string& svg, double pixels_per_mm, double width_mm, d
     std::istringstream stream(path);
     double x = 0, y = 0, w = 0, h = 0, back = 0;
     while (stream >> x >> y >> w >> h >> back) {
-        cv::rectangle(page,
-                      cv::Rect(cv::Point(cvRound(x * pixels_per_mm), cvRound(y * pixels_per_mm)),
-                               cv::Point(cvRound((x + w) * pixels_per_mm),
-                                         cvRound((y + h) * pixels_per_mm))),
-                      cv::Scalar(20), cv::FILLED);
+        cv::rectangle(
+            page,
+            cv::Rect(cv::Point(cvRound(x * pixels_per_mm), cvRound(y * pixels_per_mm)),
+                     cv::Point(cvRound((x + w) * pixels_per_mm), cvRound((y + h) * pixels_per_mm))),
+            cv::Scalar(20), cv::FILLED);
     }
     return page;
 }
@@ -97,12 +97,13 @@ TEST_F(Boards, the_lens_that_took_them_is_found) {
     EXPECT_NEAR(found.lens.focal_y / f, 1, 0.01);
     EXPECT_NEAR(found.lens.principal_x, cx, 5);
     EXPECT_NEAR(found.lens.principal_y, cy, 5);
-    // The boards reach to about 0.24 from the axis. Single coefficients trade against each other; what counts is where a ray meets the picture.
+    // The boards reach to about 0.24 from the axis. Single coefficients trade against each other;
+    // what counts is where a ray meets the picture.
     for (const double r : {0.1, 0.15, 0.2}) {
         const double r2 = r * r;
         const auto& d = found.lens.distortion;
-        EXPECT_NEAR(f * r * (r2 * (d[0] + r2 * (d[1] + r2 * d[4]))), f * r * r2 * (-0.12 + 0.05 * r2),
-                    0.7);
+        EXPECT_NEAR(f * r * (r2 * (d[0] + r2 * (d[1] + r2 * d[4]))),
+                    f * r * r2 * (-0.12 + 0.05 * r2), 0.7);
     }
     EXPECT_LT(found.lens.residual_px, 0.4);
 

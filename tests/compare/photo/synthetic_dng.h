@@ -1,6 +1,6 @@
 #pragma once
-// A camera's raw file made by hand: the smallest DNG (Adobe DNG 1.4) that states its colour filters,
-// black and white levels, neutral colour and exposure. The camera's primaries are sRGB's.
+// A camera's raw file made by hand: the smallest DNG (Adobe DNG 1.4) that states its colour
+// filters, black and white levels, neutral colour and exposure. The camera's primaries are sRGB's.
 
 #include <array>
 #include <cstdint>
@@ -29,13 +29,15 @@ inline std::string dng_bytes(const Dng& dng) {
     };
     const auto u32 = [&](std::uint32_t v) { return u16(v & 0xffff) + u16(v >> 16); };
     const auto rational = [&](double v) {
-        return u32(static_cast<std::uint32_t>(static_cast<std::int32_t>(v * 1e6 + (v < 0 ? -0.5 : 0.5)))) +
+        return u32(static_cast<std::uint32_t>(
+                   static_cast<std::int32_t>(v * 1e6 + (v < 0 ? -0.5 : 0.5)))) +
                u32(1000000);
     };
     enum { bytes = 1, text = 2, shorts = 3, longs = 4, rationals = 5, signed_rationals = 10 };
     // XYZ to linear sRGB (IEC 61966-2-1).
     std::string matrix;
-    for (const double v : {3.2406, -1.5372, -0.4986, -0.9689, 1.8758, 0.0415, 0.0557, -0.2040, 1.0570})
+    for (const double v :
+         {3.2406, -1.5372, -0.4986, -0.9689, 1.8758, 0.0415, 0.0557, -0.2040, 1.0570})
         matrix += rational(v);
     std::string neutral;
     for (const double v : dng.neutral) neutral += rational(v);
@@ -44,8 +46,8 @@ inline std::string dng_bytes(const Dng& dng) {
         std::string table = u16(static_cast<std::uint32_t>(entries.size())), behind;
         const std::uint32_t data_at = at + 2 + 12 * static_cast<std::uint32_t>(entries.size()) + 4;
         for (Entry& e : entries) {
-            table += u16(static_cast<std::uint32_t>(e.tag)) + u16(static_cast<std::uint32_t>(e.type)) +
-                     u32(e.count);
+            table += u16(static_cast<std::uint32_t>(e.tag)) +
+                     u16(static_cast<std::uint32_t>(e.type)) + u32(e.count);
             if (e.data.size() <= 4) {
                 e.data.resize(4, '\0');
                 table += e.data;

@@ -1,0 +1,169 @@
+// culet photo, light and camera as a user runs them: files, exit codes, one line for bad input.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "compare/photo.h"
+#include "render/image_io.h"
+#include "tests/app/run_program.h"
+#include "tests/compare/light/simulated_ball.h"
+
+namespace culet {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using test::ProgramRun;
+using test::run_culet;
+
+class LightAndPhoto : public testing::Test {
+protected:
+    LightAndPhoto() {
+        std::string pattern = (fs::temp_directory_path() / "culet-light-XXXXXX").string();
+        folder_ = ::mkdtemp(pattern.data());
+    }
+    ~LightAndPhoto() override {
+        std::error_code ignored;
+        fs::remove_all(folder_, ignored);
+    }
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    std::string write(const Photo& photo, const std::string& name) const {
+        Picture picture;
+        picture.width = photo.width;
+        picture.height = photo.height;
+        picture.rgb = photo.rgb;
+        write_picture(picture, folder_ / name);
+        return file(name);
+    }
+    std::string ball(double azimuth, const std::string& name) const {
+        simulated::BallShot shot;
+        shot.width = 180;
+        shot.height = 150;
+        shot.radius = 60;
+        shot.centre_x = 91;
+        shot.centre_y = 74;
+        shot.distance = 25;
+        shot.samples = 2;
+        shot.world_from_camera = simulated::camera_at(azimuth, 0);
+        return write(simulated::take(shot, simulated::room(5)).photo, name);
+    }
+    std::string flat(const std::string& name, float value, int width = 180, int height = 150) const {
+        Photo photo;
+        photo.width = width;
+        photo.height = height;
+        photo.rgb.assign(3 * static_cast<std::size_t>(width) * height, value);
+        return write(photo, name);
+    }
+    static void expect_refused(const std::vector<std::string>& words, const std::string& about) {
+        const ProgramRun run = run_culet(words);
+        EXPECT_EQ(run.exit_code, 2) << run.err;
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_THAT(run.err, HasSubstr(about));
+        EXPECT_TRUE(run.out.empty());
+    }
+    fs::path folder_;
+};
+
+TEST_F(LightAndPhoto, TwoBallsBecomeAnEnvironmentThatTheRendererReads) {
+    const std::string first = ball(0, "a.exr"), second = ball(1.6, "b.exr");
+    const ProgramRun run =
+        run_culet({"light", first, second, "-o", file("env.exr"), "--cube", file("cube.exr"),
+                   "--picture", file("seen.png"), "--json", "-", "--distance", "25",
+                   "--reflectance", "0.6", "--width", "64", "--sharpen", "2", "-q"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(run.err.empty()) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    EXPECT_EQ(json.at("status"), "good");
+    EXPECT_NEAR(json.at("views").at(1).at("turned_deg").get<double>(), 91.7, 1.5);
+    const Photo environment = read_photo(file("env.exr")), cube = read_photo(file("cube.exr"));
+    EXPECT_EQ(environment.width, 64);
+    EXPECT_EQ(environment.height, 32);
+    EXPECT_EQ(cube.width, 16);
+    EXPECT_EQ(cube.height, 96);
+    EXPECT_TRUE(fs::exists(folder_ / "seen.png"));
+    for (const char* map : {"env.exr", "cube.exr"}) {
+        std::ofstream(file("scene.toml"))
+            << "material = \"diamond\"\nmesh = \"cut.obj\"\n[light]\nenvironment = \"" << map
+            << "\"\n[camera]\nsize = [16, 16]\n";
+        ASSERT_EQ(run_culet({"cut", "round-brilliant", "-o", file("cut.obj"), "-q"}).exit_code, 0);
+        const ProgramRun info = run_culet({"info", file("scene.toml")});
+        EXPECT_EQ(info.exit_code, 0) << map << info.err;
+    }
+}
+
+TEST_F(LightAndPhoto, BadBallsAreOneLine) {
+    const std::string good = ball(0, "a.exr"), empty = flat("flat.exr", 0.3f);
+    const std::string env = file("env.exr");
+    expect_refused({"light", "-o", env}, "name the photographs");
+    expect_refused({"light", file("missing.exr"), "-o", env}, "no such file");
+    std::ofstream(file("text.jpg")) << "no picture";
+    expect_refused({"light", file("text.jpg"), "-o", env}, "no picture");
+    expect_refused({"light", empty, "-o", env}, "--ball X,Y,RADIUS");
+    expect_refused({"light", good, "-o", env, "--ball", "170,70,60"}, "outside the picture");
+    expect_refused({"light", good, "-o", env, "--ball", "1,2"}, "X,Y,RADIUS");
+    expect_refused({"light", good, flat("small.exr", 0.3f, 90, 75), "-o", env}, "one camera");
+    expect_refused({"light", flat("black.exr", 0), "-o", env, "--ball", "90,75,60"}, "black");
+    expect_refused({"light", flat("nan.exr", std::numeric_limits<float>::quiet_NaN()), "-o", env},
+                   "NaN");
+    expect_refused({"light", good, good, good, "-o", env}, "--view");
+    expect_refused({"light", "--view", good, ball(1.6, "b.exr"), "-o", env, "--exposure", "1,1"},
+                   "same exposure");
+    expect_refused({"light", good, "-o", env, "--exposure", "1/10,1/40"}, "2 values for 1");
+    expect_refused({"light", good, "-o", env, "--distance", "0.5"}, "outside the ball");
+    expect_refused({"light", good, "-o", env, "--reflectance", "0"}, "chrome");
+    expect_refused({"light", good, "-o", file("env.png")}, ".exr or .hdr");
+    expect_refused({"light", good, "-o", file("no/env.exr")}, "no folder");
+    EXPECT_FALSE(fs::exists(env));
+}
+
+TEST_F(LightAndPhoto, ExposuresAreMergedAndBadOnesRefused) {
+    const std::string a = flat("a.exr", 0.4f), b = flat("b.exr", 0.1f);
+    const ProgramRun run = run_culet({"photo", a, b, "-o", file("out.exr"), "--exposure",
+                                      "1/10,1/40", "--json", "-", "-q"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(nlohmann::json::parse(run.out).at("photometric"), true);
+    EXPECT_NEAR(read_photo(file("out.exr")).rgb[0], 0.4, 1e-4);
+    const std::string out = file("none.exr");
+    expect_refused({"photo", a, b, "-o", out}, "--exposure");
+    expect_refused({"photo", a, b, "-o", out, "--exposure", "1/10,1/10"}, "same exposure");
+    expect_refused({"photo", a, "-o", out, "--exposure", "soon"}, "no exposure");
+    expect_refused({"photo", a, "-o", out, "--grey", "500,0,20,20"}, "grey card");
+    expect_refused({"photo", a, "-o", out, "--grey", "x"}, "X,Y,WIDTH,HEIGHT");
+    expect_refused({"photo", a, "-o", out, "--chart"}, "no colour chart");
+    expect_refused({"photo", a, "-o", out, "--camera", file("missing.toml")}, "no such file");
+    expect_refused({"photo", a, flat("other.exr", 0.2f, 90, 75), "-o", out, "--exposure", "1,2"},
+                   "one size");
+    std::ofstream(file("broken.dng")) << "II*";
+    expect_refused({"photo", file("broken.dng"), "-o", out}, "raw file");
+    expect_refused({"photo", a, "-o", file("out.png")}, ".exr");
+    EXPECT_FALSE(fs::exists(out));
+}
+
+TEST_F(LightAndPhoto, ABoardIsWrittenAndPicturesWithoutItAreRefused) {
+    EXPECT_EQ(run_culet({"camera", "--board", file("board.svg"), "-q"}).exit_code, 0);
+    EXPECT_TRUE(fs::exists(folder_ / "board.svg"));
+    const std::string a = flat("a.exr", 0.4f);
+    expect_refused({"camera"}, "--board");
+    expect_refused({"camera", a}, "-o CAMERA.toml");
+    expect_refused({"camera", a, "-o", file("camera.toml")}, "show the board");
+    expect_refused({"camera", "--board", file("board.svg"), "--columns", "1"}, "3 to 22");
+    EXPECT_FALSE(fs::exists(folder_ / "camera.toml"));
+}
+
+TEST_F(LightAndPhoto, HelpHasExamples) {
+    for (const char* command : {"photo", "light", "camera"}) {
+        const ProgramRun help = run_culet({command, "--help"});
+        EXPECT_EQ(help.exit_code, 0) << command;
+        EXPECT_THAT(help.out, HasSubstr("Examples:")) << command;
+    }
+}
+
+}  // namespace
+}  // namespace culet
