@@ -245,8 +245,7 @@ std::string meaning_section(const Report& report) {
     for (const std::string& note : calibration.notes) {
         body += fmt::format("<p class=\"warning\">{}</p>\n", escaped(note));
     }
-    body += "<div class=\"beside\">\n<div>" + nulls_table(meaning) + "</div>\n<div>" +
-            hypotheses_table(meaning) + "</div>\n</div>\n";
+    body += nulls_table(meaning) + hypotheses_table(meaning);
     return section("meaning", "What it means", body);
 }
 
