@@ -36,6 +36,23 @@ float step_between(const cv::Vec3f& a, const cv::Vec3f& b) {
     return std::sqrt(d.dot(d));
 }
 
+/// The middle of what stands out of a peak's foot. Between pixels the picture is interpolated, and
+/// the highest place of a slope keeps to pixels; the middle of its area does not.
+double middle_of_peak(const std::vector<float>& slope, std::size_t top) {
+    const float foot = 0.25f * slope[top];
+    std::size_t first = top, last = top;
+    while (first > 0 && slope[first - 1] > foot && slope[first - 1] <= slope[first]) --first;
+    while (last + 1 < slope.size() && slope[last + 1] > foot && slope[last + 1] <= slope[last])
+        ++last;
+    double weight = 0, sum = 0;
+    for (std::size_t i = first; i <= last; ++i) {
+        const double above = static_cast<double>(slope[i] - foot);
+        weight += above;
+        sum += above * static_cast<double>(i);
+    }
+    return sum / weight;
+}
+
 }  // namespace
 
 EdgePicture::EdgePicture(const cv::Mat& colour, double saturation) {
@@ -82,13 +99,8 @@ std::vector<FoundEdge> edges_across(const EdgePicture& picture, const WirePoint&
         const double contrast = static_cast<double>(step_between(shown[i + 3], shown[i - 3]));
         const double near = static_cast<double>(step_between(shown[i + 1], shown[i - 1]));
         if (contrast < picture.least_step || near < 0.5 * picture.least_step) continue;
-        const double before = static_cast<double>(slope[i - 1]),
-                     here = static_cast<double>(slope[i]),
-                     after = static_cast<double>(slope[i + 1]);
-        const double bend = before - 2 * here + after;
-        const double shift = bend < 0 ? 0.5 * (before - after) / bend : 0;
         FoundEdge edge;
-        edge.offset = (static_cast<double>(i) - half + std::clamp(shift, -0.5, 0.5)) * k_step;
+        edge.offset = (middle_of_peak(slope, i) - half) * k_step;
         if (std::abs(edge.offset) > reach) continue;
         edge.contrast = contrast;
         // A step of so many times the noise is placed to about the blur's width over that number.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -266,13 +267,17 @@ TEST(FindPose, finds_the_camera_of_a_brilliant_from_25_degrees_away) {
 // Facets that are off by 0.2 degrees hide the view by more than 0.1 degrees: said, not hidden.
 TEST(FindPose, refuses_what_it_cannot_promise) {
     const Shot made = shot("trillion", 0.2, 4, 8, "dome", 240, 12);
-    const FoundPose pose = find_pose(made.photo, made.model, rough_start(made, 10, 0.9, 4));
+    PoseOptions options;
+    options.search = radians(12);
+    const FoundPose pose =
+        find_pose(made.photo, made.model, rough_start(made, 10, 0.9, 4), options);
     EXPECT_FALSE(pose.usable());
 }
 
 TEST(FindPose, refuses_another_stone) {
     const Shot made = shot("pear", 0.2, 10, 12, "dome", 240, 13);
     PoseOptions options;
+    options.search = radians(12);
     options.limits.angle = radians(5);
     options.limits.shift_px = 5;
     const FoundPose pose =
@@ -292,6 +297,7 @@ TEST(FindPose, sees_that_a_photograph_is_mirrored) {
     cv::flip(colour_of(made.photo), flipped, 1);
     turned.rgb.assign(flipped.ptr<float>(), flipped.ptr<float>() + made.photo.rgb.size());
     PoseOptions options;
+    options.search = radians(12);
     options.limits.angle = radians(1);
     options.limits.shift_px = 1;
     const FoundPose as_is = find_pose(made.photo, made.model, start, options);
@@ -306,8 +312,9 @@ TEST(FindPose, sees_that_a_photograph_is_mirrored) {
 TEST(FindPose, does_not_depend_on_the_number_of_threads) {
     const Shot made = shot("step", 0.2, 12, 12, "overcast", 240, 15);
     PoseOptions options;
+    options.search = radians(12);
     options.threads = 1;
-    const Camera start = rough_start(made, 15, 0.9, 7);
+    const Camera start = rough_start(made, 10, 0.9, 7);
     const std::string one = pose_json(find_pose(made.photo, made.model, start, options));
     options.threads = 3;
     EXPECT_EQ(one, pose_json(find_pose(made.photo, made.model, start, options)));

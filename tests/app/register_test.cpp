@@ -1,0 +1,118 @@
+// culet register as a user runs it: a photograph that culet drew itself, from another camera than
+// the scene's.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/run_program.h"
+
+namespace culet {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ProgramRun;
+using test::run_culet;
+
+class Register : public testing::Test {
+protected:
+    Register() {
+        std::string pattern = (fs::temp_directory_path() / "culet-register-XXXXXX").string();
+        folder_ = ::mkdtemp(pattern.data());
+        EXPECT_EQ(run_culet({"cut", "round-brilliant", "-o", file("stone.obj"), "-q"}).exit_code,
+                  0);
+        write("truth.toml", scene("[6.8, 3.1, 39.3]", "[0.1, 1, 0]"));
+        write("start.toml", scene("[-2, 9, 44]", "[-0.15, 1, 0]"));
+        EXPECT_EQ(
+            run_culet({"render", file("truth.toml"), "-o", file("photo.png"), "-q"}).exit_code, 0);
+    }
+    ~Register() override {
+        std::error_code ignored;
+        fs::remove_all(folder_, ignored);
+    }
+    static std::string scene(const std::string& position, const std::string& up) {
+        return "# where the camera is about\nmesh = \"stone.obj\"\nmaterial = "
+               "\"diamond\"\n[camera]\n"
+               "position = " +
+               position + "\nlook_at = [0, 0, -0.5]\nup = " + up +
+               "\nfov = 13\nsize = [300, 300]\n"
+               "[[light.hemisphere]]\ndirection = [0, 0, 1]\nradiance = 0.6\n"
+               "[[light.hemisphere]]\ndirection = [0, 0, -1]\nradiance = 0.15\n"
+               "[[light.lobe]]\ndirection = [0.4, 0.2, 1]\nexponent = 3\nradiance = 0.8\n"
+               "[render]\nengine = \"beams\"\ntolerance = 0.05\n";
+    }
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    void write(const std::string& name, const std::string& content) const {
+        std::ofstream(file(name), std::ios::binary) << content;
+    }
+    static std::string text(const std::string& name) {
+        std::ifstream stream(name, std::ios::binary);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+
+    fs::path folder_;
+};
+
+TEST_F(Register, writes_a_scene_that_renders_at_once) {
+    fs::create_directory(folder_ / "out");
+    const ProgramRun run = run_culet({"register", file("photo.png"), file("start.toml"), "-o",
+                                      file("out/posed.toml"), "--overlay", file("out/overlay.png"),
+                                      "--json", "-", "--within-deg", "1", "--within-px", "1"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const auto pose = nlohmann::json::parse(run.out);
+    EXPECT_EQ(pose.at("schema"), 1);
+    EXPECT_EQ(pose.at("status"), "found");
+    EXPECT_EQ(pose.at("mirrored"), false);
+    // The place of the stone's middle and its size follow from the truth's camera: both look at a
+    // point of the axis from 40 away.
+    const auto position = pose.at("camera").at("position").get<std::vector<double>>();
+    const double tilt = std::atan2(std::hypot(position[0], position[1]), position[2] + 0.5);
+    EXPECT_NEAR(tilt, std::atan2(std::hypot(6.8, 3.1), 39.8), 0.01);
+    EXPECT_EQ(text(file("out/overlay.png")).substr(1, 3), "PNG");
+    // The mesh is named from the new folder, and what else the scene says stays.
+    EXPECT_NE(text(file("out/posed.toml")).find("../stone.obj"), std::string::npos);
+    EXPECT_EQ(
+        run_culet({"render", file("out/posed.toml"), "-o", file("out/again.png"), "-q"}).exit_code,
+        0);
+    const ProgramRun compared = run_culet({"compare", file("photo.png"), file("out/again.png"),
+                                           "-o", file("out/report"), "--json", "-", "-q"});
+    EXPECT_EQ(compared.exit_code, 0) << compared.err;
+    EXPECT_GT(nlohmann::json::parse(compared.out).at("registration").at("iou"), 0.99);
+}
+
+TEST_F(Register, refuses_with_its_outputs_written) {
+    EXPECT_EQ(run_culet({"cut", "trillion", "-o", file("stone.obj"), "-q"}).exit_code, 0);
+    const ProgramRun run =
+        run_culet({"register", file("photo.png"), file("start.toml"), "-o", file("posed.toml"),
+                   "--overlay", file("overlay.png"), "--json", file("pose.json")});
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_NE(run.err.find("refused: "), std::string::npos) << run.err;
+    EXPECT_EQ(nlohmann::json::parse(text(file("pose.json"))).at("status"), "refused");
+    EXPECT_TRUE(fs::exists(file("posed.toml")) && fs::exists(file("overlay.png")));
+}
+
+TEST_F(Register, leaves_nothing_behind_when_it_cannot) {
+    const std::vector<std::vector<std::string>> calls{
+        {"register", file("none.png"), file("start.toml"), "-o", file("posed.toml")},
+        {"register", file("photo.png"), file("none.toml"), "-o", file("posed.toml")},
+        {"register", file("photo.png"), file("start.toml"), "-o", file("posed.toml"), "--overlay",
+         file("no/such/folder.png")},
+        {"register", file("photo.png"), file("start.toml"), "-o", file("posed.toml"), "--set",
+         "camera.principal_point=[1]"},
+        {"register", file("photo.png"), file("start.toml"), "-o", file("posed.toml"),
+         "--within-deg", "0"}};
+    for (const auto& call : calls) {
+        const ProgramRun run = run_culet(call);
+        EXPECT_EQ(run.exit_code, 2) << run.err;
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_FALSE(fs::exists(file("posed.toml")));
+    }
+}
+
+}  // namespace
+}  // namespace culet
