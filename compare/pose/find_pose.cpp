@@ -33,7 +33,7 @@ constexpr std::size_t k_settled = 8;   // ... to the end
 constexpr double k_same_view_deg = 0.4;
 // Lengths of vectors of normal errors are below 2.6 times the root of the sum of their variances in
 // 99 of 100 cases, whatever the share of each axis (2.58 for one axis, 2.15 for two, 1.94 for
-// three). Edges that were mistaken for the stone's are no normal errors: over 27 trials of
+// three). Edges that were mistaken for the stone's are no normal errors: over 23 trials of
 // bench_pose (17 of 400 pixels with facets off by 0.2 degrees, 6 of 800 with exact ones) the worst
 // error was 4.3 times.
 constexpr double k_surely = 4.4;
