@@ -21,9 +21,9 @@ constexpr double k_most_pixels = 268435456;  // 2^28, as many as picture files a
 constexpr std::size_t k_most_wavelengths = 1000;
 
 Camera read_camera(const TomlTable& table) {
-    table.refuse_unknown(with_view_keys({"position", "look_at", "up", "fov", "orthographic_width",
-                                         "size", "principal_point", "aperture_radius",
-                                         "focus_distance"}));
+    table.refuse_unknown(
+        with_view_keys({"position", "look_at", "up", "fov", "orthographic_width", "size",
+                        "principal_point", "aperture_radius", "focus_distance"}));
     Camera camera;
     read_eye_optics(table, camera);
     if (const auto position = table.vector("position")) camera.position = *position;

@@ -60,9 +60,9 @@ private:
 TomlTable read_toml(const std::filesystem::path& file,
                     const std::vector<std::string>& overrides = {});
 
-/// A file's text with `overrides` applied and the keys `without` (camera.fov) left out, to be kept in
-/// `folder`: texts that name files, as seen from the file's folder, name them from there. Comments
-/// are lost and keys sorted. Throws InputError.
+/// A file's text with `overrides` applied and the keys `without` (camera.fov) left out, to be kept
+/// in `folder`: texts that name files, as seen from the file's folder, name them from there.
+/// Comments are lost and keys sorted. Throws InputError.
 std::string rewritten_toml(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides,
                            const std::vector<std::string>& without,

@@ -80,8 +80,9 @@ struct TriedPose {
 struct PoseSigmas {
     /// About the picture's x, y and the line of sight, radians.
     std::array<double, 3> turn{};
-    double angle = 0;                      ///< root of the sum of their squares
-    double angle_99 = 0, shift_99_px = 0;  ///< the errors are less than this in 99 of 100 cases
+    double angle = 0;  ///< root of the sum of their squares
+    /// Meant to hold in 99 of 100 cases; what mistaken edges add is measured, not derived.
+    double angle_99 = 0, shift_99_px = 0;
     std::array<double, 2> shift_px{};
     double scale = 0;            ///< relative, of the stone's size in the picture
     double focal = 0;            ///< relative, of the focal length; 0: orthographic

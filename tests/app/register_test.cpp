@@ -62,7 +62,7 @@ TEST_F(Register, writes_a_scene_that_renders_at_once) {
     fs::create_directory(folder_ / "out");
     const ProgramRun run = run_culet({"register", file("photo.png"), file("start.toml"), "-o",
                                       file("out/posed.toml"), "--overlay", file("out/overlay.png"),
-                                      "--json", "-", "--within-deg", "1", "--within-px", "1"});
+                                      "--json", "-", "--within-deg", "2", "--within-px", "2"});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     const auto pose = nlohmann::json::parse(run.out);
     EXPECT_EQ(pose.at("schema"), 1);

@@ -70,11 +70,11 @@ Picture by_povray(const Scene& scene, const fs::path& sky, const fs::path& folde
             "sky_sphere {{ pigment {{ image_map {{ exr \"{}\" map_type 1 interpolate 2 }} }} }}\n",
             sky.string());
     }
-    const std::string in = (folder / "scene.pov").string(), out = (folder / "picture.exr").string();
+    const std::string in = (folder / "scene.pov").string(), out = (folder / "picture.png").string();
     write_text(in, text);
-    const std::string command =
-        fmt::format("povray '+I{}' '+O{}' +FE +W{} +H{} +AM1 +A0 -J +R4 -D -V >'{}' 2>&1", in, out,
-                    scene.camera.width, scene.camera.height, (folder / "messages.txt").string());
+    const std::string command = fmt::format(
+        "povray '+I{}' '+O{}' +W{} +H{} +AM1 +A0.0 -J +R4 -D -V +FN16 File_Gamma=sRGB >'{}' 2>&1",
+        in, out, scene.camera.width, scene.camera.height, (folder / "messages.txt").string());
     if (std::system(command.c_str()) != 0)
         throw InputError("POV-Ray failed:\n" + read_text(folder / "messages.txt"));
     return read_picture(out).picture;
