@@ -36,9 +36,9 @@ double cube_solid_angle(int column, int row, int size);
 Rgb lat_long_energy(const EnvironmentMap& map);
 Rgb cube_energy(const EnvironmentMap& cube);
 
-/// Resampled over solid angles: a constant stays that constant, and the energy is kept to better
-/// than 0.1 %, a sun of a single texel included (what exceeds four times the mean is carried texel
-/// by texel, the rest is interpolated).
+/// Resampled over solid angles: a constant stays that constant, and the energy is kept, a sun of a
+/// single texel included (what exceeds four times the mean is carried piece by piece; the rest is
+/// sampled and brought to its total).
 EnvironmentMap cube_of_lat_long(const EnvironmentMap& map, int size);
 EnvironmentMap lat_long_of_cube(const EnvironmentMap& cube, int width);
 

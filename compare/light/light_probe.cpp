@@ -261,9 +261,9 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
             !progress(0.2 * static_cast<double>(balls.size()) / static_cast<double>(views.size())))
             throw Interrupted();
     }
-    // The next power of two, in ratio, to as many texels round as the ball has pixels for. A
-    // coarser map is the mean of such a one, a finer one is as it is.
-    const int natural = std::clamp(1 << static_cast<int>(std::lround(std::log2(k_pi * largest))),
+    // A fifth more texels round the horizon than the ball has pixels for, so that none is lost; in
+    // whole multiples of 128. A coarser map is the mean of such a one, a finer one is as it is.
+    const int natural = std::clamp(128 * static_cast<int>(std::ceil(1.2 * k_pi * largest / 128)),
                                    k_narrowest, k_widest);
     const int coarser = options.width > 0 && options.width < natural
                             ? (natural + options.width - 1) / options.width

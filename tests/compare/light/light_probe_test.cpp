@@ -150,7 +150,7 @@ TEST(LightProbe, two_views_give_real_places_back) {
         }
         std::vector<ProbeView> views;
         for (int v = 0; v < 2; ++v)
-            views.push_back(view_of(shot_at(1.5 * v, 0, 200), simulated::panorama_of(map), name));
+            views.push_back(view_of(shot_at(1.5 * v, 0, 240), simulated::panorama_of(map), name));
         ProbeOptions options = chrome();
         options.width = 256;
         const LightProbe probe = light_probe(views, options);
