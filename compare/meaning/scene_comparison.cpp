@@ -26,6 +26,9 @@ namespace {
 constexpr double k_least_psf_px = 0.3;  // a camera's pixels alone
 constexpr double k_margin = 0.18;       // of the diameter, around the stone
 constexpr double k_tolerance = 0.03;    // of the pictures that are compared
+// A pose is taken when it is sure to a degree, which costs the scores what 0.3 to 0.5 degrees of
+// facet error cost, and to half a percent of the diameter: reflexes are matched within 2 %.
+constexpr double k_pose_angle = 0.01745, k_pose_shift = 0.005;
 
 Progress part_of(const Progress& progress, double from, double to) {
     if (!progress) return {};
@@ -155,11 +158,20 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
         PoseOptions pose_options;
         pose_options.mask = how.mask;
         pose_options.threads = how.threads;
+        pose_options.limits.angle = k_pose_angle;
+        pose_options.limits.shift_px =
+            std::max(1.0, k_pose_shift * stone_diameter_px(given, how.mask));
         result.pose = find_pose(given, scene.stone.solid, scene.camera, pose_options,
                                 part_of(progress, 0, 0.1));
         if (result.pose->usable()) {
             result.pose_used = true;
             result.scene.camera = result.pose->camera;
+            if (result.pose->sigmas.angle_99 > PoseLimits{}.angle) {
+                notes.push_back(fmt::format(
+                    "pose: known to {:.2f} degrees (99 %); what it is off counts as facet error, "
+                    "0.5 degrees as 0.15 to 0.25",
+                    degrees(result.pose->sigmas.angle_99)));
+            }
             if (result.pose->mirrored) {
                 Mirrored other = mirrored(given, how);
                 turned_over = std::move(other.photo);
