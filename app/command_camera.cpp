@@ -58,7 +58,7 @@ void add_command_camera(CLI::App& program, int& exit_code) {
     CLI::App* command = program.add_subcommand(
         "camera", "a camera's focal length and distortion, from photographs of a printed board");
     command->add_option("BOARD", a->photos, "photographs of the board, ten or more, tilted");
-    command->add_option("-o,--output", a->out, "camera file, for culet photo and culet light")
+    command->add_option("-o,--output", a->out, "camera file, for culet photo --camera")
         ->type_name("CAMERA.toml");
     command->add_option("--board", a->board, "write the board to print")->type_name("FILE.svg");
     command->add_option("--columns", a->shape.columns, "squares across")->capture_default_str();

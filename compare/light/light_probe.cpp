@@ -164,8 +164,8 @@ double over_exposed(const ProbeView& view, const Photo& picture, const BallCircl
     return over / std::max(pixels, 1.0);
 }
 
-// Radii that the stone should keep from a light, notes/parallax: stated by the command.
-void judge(LightProbe& probe, const ProbeOptions& options) {
+// What is worth saying to people, and whether the result can be trusted.
+void judge(LightProbe& probe) {
     double omega_sum = 0, covered = 0;
     std::vector<float> stops;
     double sum = 0;
@@ -229,7 +229,6 @@ void judge(LightProbe& probe, const ProbeOptions& options) {
             "lights change or the ball move?)",
             probe.mean_disagreement);
     }
-    (void)options;
 }
 
 }  // namespace
@@ -335,7 +334,7 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
     if (coarser > 1) probe.light = coarsened(probe.light, coarser);
     for (std::size_t i = 0; i < probe.light.map.rgb.size(); ++i)
         probe.light.map.rgb[i] /= static_cast<float>(options.reflectance[i % 3]);
-    judge(probe, options);
+    judge(probe);
     return probe;
 }
 
