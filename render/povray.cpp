@@ -126,7 +126,8 @@ private:
         const int level = std::min(depth + 1, k_highest_level);
         line("// POV-Ray 3.7: povray +ITHIS.pov +OPICTURE.png +W{} +H{} -A +FN16 File_Gamma=sRGB",
              camera.width, camera.height);
-        line("// -A: one ray through the middle of each pixel; a grid of 4 x 4: +AM1 +A0.0 -J +R4.");
+        line(
+            "// -A: one ray through the middle of each pixel; a grid of 4 x 4: +AM1 +A0.0 -J +R4.");
         line("// PNG ends at 1: +FE (EXR, 11 bits) for brighter lights.");
         line("// Lengths: stone's unit x {}; y and z changed places.", scale_);
         line("#version 3.7;");

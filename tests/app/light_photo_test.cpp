@@ -19,9 +19,9 @@ namespace culet {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::HasSubstr;
 using test::ProgramRun;
 using test::run_culet;
+using ::testing::HasSubstr;
 
 class LightAndPhoto : public testing::Test {
 protected:
@@ -54,7 +54,8 @@ protected:
         shot.world_from_camera = simulated::camera_at(azimuth, 0);
         return write(simulated::take(shot, simulated::room(5)).photo, name);
     }
-    std::string flat(const std::string& name, float value, int width = 180, int height = 150) const {
+    std::string flat(const std::string& name, float value, int width = 180,
+                     int height = 150) const {
         Photo photo;
         photo.width = width;
         photo.height = height;
@@ -73,10 +74,26 @@ protected:
 
 TEST_F(LightAndPhoto, TwoBallsBecomeAnEnvironmentThatTheRendererReads) {
     const std::string first = ball(0, "a.exr"), second = ball(1.6, "b.exr");
-    const ProgramRun run =
-        run_culet({"light", first, second, "-o", file("env.exr"), "--cube", file("cube.exr"),
-                   "--picture", file("seen.png"), "--json", "-", "--distance", "25",
-                   "--reflectance", "0.6", "--width", "64", "--sharpen", "2", "-q"});
+    const ProgramRun run = run_culet({"light",
+                                      first,
+                                      second,
+                                      "-o",
+                                      file("env.exr"),
+                                      "--cube",
+                                      file("cube.exr"),
+                                      "--picture",
+                                      file("seen.png"),
+                                      "--json",
+                                      "-",
+                                      "--distance",
+                                      "25",
+                                      "--reflectance",
+                                      "0.6",
+                                      "--width",
+                                      "64",
+                                      "--sharpen",
+                                      "2",
+                                      "-q"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_TRUE(run.err.empty()) << run.err;
     const auto json = nlohmann::json::parse(run.out);
@@ -125,8 +142,8 @@ TEST_F(LightAndPhoto, BadBallsAreOneLine) {
 
 TEST_F(LightAndPhoto, ExposuresAreMergedAndBadOnesRefused) {
     const std::string a = flat("a.exr", 0.4f), b = flat("b.exr", 0.1f);
-    const ProgramRun run = run_culet({"photo", a, b, "-o", file("out.exr"), "--exposure",
-                                      "1/10,1/40", "--json", "-", "-q"});
+    const ProgramRun run = run_culet(
+        {"photo", a, b, "-o", file("out.exr"), "--exposure", "1/10,1/40", "--json", "-", "-q"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(nlohmann::json::parse(run.out).at("photometric"), true);
     EXPECT_NEAR(read_photo(file("out.exr")).rgb[0], 0.4, 1e-4);

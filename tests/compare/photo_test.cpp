@@ -8,8 +8,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "render/picture_header.h"
 #include "render/colour.h"
+#include "render/picture_header.h"
 #include "stone/errors.h"
 
 namespace culet {
