@@ -127,8 +127,10 @@ TEST(LightProbe, two_views_give_the_panorama_back) {
 }
 
 // Blender's panoramas are of real places, with lamps and a sun; halved in size, so that the ball
-// shows every texel.
-TEST(LightProbe, two_views_give_real_places_back) {
+// shows every texel. The figures hold only while the ball is large beside the panorama's detail: at
+// 200 pixels of radius sunset.exr was 0.018 stops off on average (0.25 in the worst 1 %), and
+// studio.exr, whose lamps are hard-edged, 0.027 (0.32).
+TEST(LightProbe, two_views_of_a_large_ball_give_a_real_place_back) {
     const std::filesystem::path folder = "/usr/share/blender/datafiles/studiolights/world";
     if (!std::filesystem::exists(folder / "sunset.exr"))
         GTEST_SKIP() << "needs the panoramas of Debian's blender-data";
