@@ -154,7 +154,11 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
     const Photo* photo = &given;
     std::vector<std::string> notes;
 
-    if (options.find_pose && is_convex(scene.stone.solid)) {
+    if (options.find_pose && !is_convex(scene.stone.solid)) {
+        notes.push_back(
+            "pose: only convex stones are found in a photograph, and this mesh is not convex (a "
+            "fitted one is, unless the stone is not); the scene's own camera was taken instead");
+    } else if (options.find_pose) {
         PoseOptions pose_options;
         pose_options.mask = how.mask;
         pose_options.threads = how.threads;

@@ -9,6 +9,7 @@
 #include "compare/meaning/cropped_camera.h"
 #include "compare/meaning/facet_error.h"
 #include "compare/meaning/fingerprint.h"
+#include "stone/checks.h"
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
 #include "stone/units.h"
@@ -72,6 +73,21 @@ TEST(SceneComparison, of_the_right_stone_is_nearer_than_of_a_wrong_one) {
     const std::string json = scores_json(right.comparison);
     EXPECT_NE(json.find("\"sensitivity\": [\n"), std::string::npos);
     EXPECT_NE(json.find("\"headline\""), std::string::npos);
+}
+
+// A hand-made mesh: its corners are only roughly in their planes. Said, not left out in silence.
+TEST(SceneComparison, of_a_stone_that_is_not_convex_says_that_no_pose_was_sought) {
+    Scene scene = small_scene();
+    const Photo photo = photograph_of(scene, 0);
+    for (std::size_t v = 0; v < scene.stone.solid.vertices.size(); v += 3)
+        scene.stone.solid.vertices[v] *= 1.03;
+    ASSERT_FALSE(is_convex(scene.stone.solid));
+    SceneCompareOptions options;
+    options.find_pose = true;
+    const SceneComparison found = compare_with_scene(photo, scene, options);
+    EXPECT_FALSE(found.pose_used);
+    ASSERT_FALSE(found.comparison.notes.empty());
+    EXPECT_NE(found.comparison.notes.back().find("not convex"), std::string::npos);
 }
 
 TEST(SceneComparison, is_the_same_whatever_the_threads) {
