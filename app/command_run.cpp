@@ -8,6 +8,7 @@
 #include "app/options.h"
 #include "app/terminal.h"
 #include "compare/compare.h"
+#include "compare/rendered_photo.h"
 #include "compare/report.h"
 #include "fit/fit.h"
 #include "fit/mending.h"
@@ -59,16 +60,6 @@ Job read_job(const fs::path& file, const std::vector<std::string>& overrides) {
         job.start = compare->boolean("start").value_or(false);
     }
     return job;
-}
-
-Photo photo_of(const Picture& picture) {
-    Photo photo;
-    photo.width = picture.width;
-    photo.height = picture.height;
-    photo.rgb = picture.rgb;
-    photo.coverage = picture.coverage;
-    photo.encoding = "render";
-    return photo;
 }
 
 int run_job(const RunOptions& options) {

@@ -9,6 +9,7 @@
 #include <glm/matrix.hpp>
 #include <numbers>
 
+#include "compare/light/even_directions.h"
 #include "compare/light/view_refinement.h"
 #include "render/environment_layout.h"
 #include "stone/units.h"
@@ -18,16 +19,6 @@ namespace culet {
 namespace {
 
 constexpr double k_pi = std::numbers::pi;
-
-std::vector<Vec3> even_directions(int count) {
-    std::vector<Vec3> result;
-    const double golden = k_pi * (3 - std::sqrt(5.0));
-    for (int i = 0; i < count; ++i) {
-        const double z = 1 - (2.0 * i + 1) / count, r = std::sqrt(1 - z * z);
-        result.emplace_back(r * std::cos(golden * i), r * std::sin(golden * i), z);
-    }
-    return result;
-}
 
 // Alexa 2022, Super-Fibonacci Spirals: psi solves psi^4 = psi + 4.
 std::vector<glm::dmat3> even_rotations(int count) {

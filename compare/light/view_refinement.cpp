@@ -13,6 +13,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "compare/light/even_directions.h"
 #include "compare/light/light_merge.h"
 #include "render/environment_layout.h"
 
@@ -244,16 +245,6 @@ double bilinear(const cv::Mat& plane, const PixelPlace& place) {
     const double u = x - x0, v = y - y0;
     const float *a = plane.ptr<float>(y0) + x0, *b = plane.ptr<float>(y0 + 1) + x0;
     return (1 - v) * ((1 - u) * a[0] + u * a[1]) + v * ((1 - u) * b[0] + u * b[1]);
-}
-
-std::vector<Vec3> even_directions(int count) {
-    std::vector<Vec3> result;
-    const double golden = k_pi * (3 - std::sqrt(5.0));
-    for (int i = 0; i < count; ++i) {
-        const double z = 1 - (2.0 * i + 1) / count, r = std::sqrt(1 - z * z);
-        result.emplace_back(r * std::cos(golden * i), r * std::sin(golden * i), z);
-    }
-    return result;
 }
 
 Solution by_direction(const Problem& problem, const Solution& start, double sigma_px) {

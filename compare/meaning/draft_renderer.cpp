@@ -13,16 +13,6 @@ constexpr int k_checked_pixels = 200, k_checked_samples = 8;
 
 }  // namespace
 
-Photo photo_of(const Picture& picture) {
-    Photo photo;
-    photo.width = picture.width;
-    photo.height = picture.height;
-    photo.rgb = picture.rgb;
-    photo.coverage = picture.coverage;
-    photo.encoding = "render";
-    return photo;
-}
-
 DraftRenderer::DraftRenderer(const Scene& model, double tolerance) {
     Scene scene = model;
     scene.settings.tolerance = std::max(scene.settings.tolerance, tolerance);

@@ -1,8 +1,7 @@
 #pragma once
 // Many pictures of scenes that differ a little from one, quickly and all in one manner.
 
-#include "compare/photo.h"
-#include "render/render.h"
+#include "compare/rendered_photo.h"
 
 namespace culet {
 
@@ -29,7 +28,5 @@ private:
     RenderStats stats_;
     Photo picture_;
 };
-
-Photo photo_of(const Picture& picture);
 
 }  // namespace culet
