@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 #include "stone/errors.h"
 
@@ -166,7 +168,6 @@ WavelengthSet::WavelengthSet(std::vector<double> wavelengths_nm)
     const Eigen::Index count = static_cast<Eigen::Index>(wavelengths_nm_.size());
     if (count == 1) {
         rgb_weight_ = {{1, 1, 1}};
-        for (int p = 0; p < 3; ++p) primaries_[p] = {k_luminance[p]};
         return;
     }
     const Eigen::MatrixXd xyz = xyz_weights(wavelengths_nm_);
@@ -175,7 +176,25 @@ WavelengthSet::WavelengthSet(std::vector<double> wavelengths_nm)
     for (int c = 0; c < 3; ++c) rgb.row(c) /= rgb.row(c).sum();
     for (Eigen::Index i = 0; i < count; ++i)
         rgb_weight_.push_back({rgb(0, i), rgb(1, i), rgb(2, i)});
-    primaries_ = smooth_primaries(rgb, wavelengths_nm_);
+}
+
+const std::array<std::vector<double>, 3>& WavelengthSet::primaries() const {
+    // A plan tries the same few sets again and again, and most scenes have no coloured light.
+    static std::mutex mutex;
+    static std::map<std::vector<double>, std::array<std::vector<double>, 3>> found;
+    const std::lock_guard<std::mutex> lock(mutex);
+    const auto [at, is_new] = found.try_emplace(wavelengths_nm_);
+    if (!is_new) return at->second;
+    if (size() == 1) {
+        for (int p = 0; p < 3; ++p) at->second[p] = {k_luminance[p]};
+        return at->second;
+    }
+    Eigen::MatrixXd rgb(3, size());
+    for (Eigen::Index i = 0; i < rgb.cols(); ++i) {
+        for (int c = 0; c < 3; ++c) rgb(c, i) = rgb_weight_[static_cast<std::size_t>(i)][c];
+    }
+    at->second = smooth_primaries(rgb, wavelengths_nm_);
+    return at->second;
 }
 
 Rgb WavelengthSet::rgb_of(const double* radiance) const {
@@ -190,13 +209,12 @@ Rgb WavelengthSet::rgb_of(const double* radiance) const {
 }
 
 std::vector<double> WavelengthSet::spectrum_of(const Rgb& rgb) const {
-    std::vector<double> radiance(wavelengths_nm_.size());
-    for (std::size_t i = 0; i < radiance.size(); ++i) {
-        // Green plus differences: a grey light is flat to the bit, because the primaries add up
-        // to 1.
-        radiance[i] =
-            rgb[1] + (rgb[0] - rgb[1]) * primaries_[0][i] + (rgb[2] - rgb[1]) * primaries_[2][i];
-    }
+    std::vector<double> radiance(wavelengths_nm_.size(), rgb[1]);
+    // Green plus differences: a grey light is flat to the bit, because the primaries add up to 1.
+    if (rgb[0] == rgb[1] && rgb[2] == rgb[1]) return radiance;
+    const std::array<std::vector<double>, 3>& of = primaries();
+    for (std::size_t i = 0; i < radiance.size(); ++i)
+        radiance[i] = rgb[1] + (rgb[0] - rgb[1]) * of[0][i] + (rgb[2] - rgb[1]) * of[2][i];
     return radiance;
 }
 

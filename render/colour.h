@@ -33,8 +33,9 @@ public:
     /// From about ten nodes over the visible range they lie in 0..1; fewer cannot be exact without
     /// values below 0. Two nodes: as near to (r, g, b) as they can; one: its luminance.
     std::vector<double> spectrum_of(const Rgb& rgb) const;
-    /// s_r, s_g, s_b at each node.
-    const std::array<std::vector<double>, 3>& primaries() const { return primaries_; }
+    /// s_r, s_g, s_b at each node. The first call with these wavelengths takes up to tens of
+    /// milliseconds (57 nodes); what it finds is kept for all sets of the same wavelengths.
+    const std::array<std::vector<double>, 3>& primaries() const;
 
     /// Radiances at the nodes of a CIE illuminant relative to D65, luminance 1: "D65" is flat.
     std::vector<double> illuminant_relative(const char* name) const;
@@ -42,7 +43,6 @@ public:
 private:
     std::vector<double> wavelengths_nm_;
     std::vector<Rgb> rgb_weight_;  // of each node
-    std::array<std::vector<double>, 3> primaries_;
 };
 
 /// Y of linear sRGB, 1 for white.

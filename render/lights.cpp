@@ -109,7 +109,7 @@ bool polarised(const Lights& lights) {
 
 struct LightField::Ready {
     Lights lights;
-    std::array<std::vector<double>, 3> primaries;
+    std::array<std::vector<double>, 3> primaries;  // where there is an environment
     std::vector<std::vector<double>> spheres, lobes, hemispheres, caps, planes;
     std::vector<CapCosines> cap_cosines;
     double brightest = 0;
@@ -148,7 +148,7 @@ struct LightField::Ready {
 LightField::LightField(const Lights& lights, const WavelengthSet& wavelengths) : ready_(new Ready) {
     Ready& r = *ready_;
     r.lights = lights;
-    r.primaries = wavelengths.primaries();
+    if (lights.environment) r.primaries = wavelengths.primaries();
     r.nodes = wavelengths.size();
     double far = lights.constant, near = 0;
     const auto take = [&](const auto& list, std::vector<std::vector<double>>& nodes, bool is_near) {

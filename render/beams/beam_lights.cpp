@@ -107,7 +107,8 @@ ShadedLights::ShadedLights(const Lights& lights, const WavelengthSet& colours, i
         planes.push_back(std::move(plane));
     }
     any_edge = environment || !caps.empty() || !spheres.empty() || !planes.empty();
-    for (int i = first; i < first + count; ++i) {
+    // Of the map's texels.
+    for (int i = first; environment && i < first + count; ++i) {
         red.push_back(number(colours.primaries()[0][static_cast<std::size_t>(i)]));
         blue.push_back(number(colours.primaries()[2][static_cast<std::size_t>(i)]));
     }
