@@ -95,6 +95,8 @@ public:
     /// Other lights: the beams stay, and are only shaded anew, unless the lights' colours call for
     /// other wavelengths.
     void light_with(const Lights& lights);
+    /// Other settings: only the stone stays.
+    void draw_with(const RenderSettings& settings);
     /// Milliseconds of processor time that a frame may take; 0: no limit. Beams that bring little
     /// are then split no further, as much as the last frame's time asks for: the picture depends on
     /// the machine, and its `remainder` grows. Guy & Soler (2004) call it the frame-rate limit.

@@ -311,6 +311,13 @@ void FrameRenderer::light_with(const Lights& lights) {
     state_->scene = std::move(changed);
 }
 
+void FrameRenderer::draw_with(const RenderSettings& settings) {
+    Scene changed = state_->scene;
+    changed.settings = settings;
+    state_->called = std::make_unique<Called>(changed);
+    state_->scene = std::move(changed);
+}
+
 void FrameRenderer::keep_within(double milliseconds) {
     state_->limit_ms = milliseconds;
     if (!(milliseconds > 0)) state_->cut = 0;

@@ -15,8 +15,8 @@ const PlanItem& ScenePlan::item(const std::string& name) const {
     return none;
 }
 
-ScenePlan plan_scene(const Scene& scene) {
-    return Planner(scene).run();
+ScenePlan plan_scene(const Scene& scene, const Progress& progress) {
+    return Planner(scene, progress).run();
 }
 
 namespace {
@@ -77,7 +77,7 @@ std::string plan_json(const ScenePlan& plan) {
     const Json json = {{"schema", 1},
                        {"engine", plan.settings.engine},
                        {"engine_why", plan.engine_why},
-                       {"tolerance", plan.settings.tolerance},
+                       {"tolerance", plan.tolerance},
                        {"depth", plan.settings.depth},
                        {"cut_weight", plan.settings.cut_weight.value_or(0)},
                        {"samples", plan.settings.samples},

@@ -6,17 +6,22 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <mutex>
 
 #include "render/eye_optics.h"
 #include "render/pixel_shader.h"
 #include "render/stone_body.h"
 #include "render/threads.h"
+#include "stone/errors.h"
 
 namespace culet {
 
 namespace {
 
-constexpr int k_looked_at = 64;  // pixels along the longer side, to find the stone
+// Points along the longer side, to find the stone: as many as are wanted of it, or where they do
+// not find enough, the finest.
+constexpr int k_least_looked_at = 16, k_most_looked_at = 64;
+constexpr double k_share_of_stone = 0.3;  // of a usual picture
 
 struct Window {
     double x0, y0, x1, y1;
@@ -45,42 +50,65 @@ std::vector<std::pair<int, int>> covered(const Scene& scene, const StoneBody& bo
 
 }  // namespace
 
+StonePixels StonePixels::stretch(std::size_t first, std::size_t count) const {
+    StonePixels some;
+    some.in_picture = in_picture;
+    const std::size_t end = std::min(at.size(), first + count);
+    for (std::size_t i = first; i < end; ++i) some.at.push_back(at[i]);
+    return some;
+}
+
 StonePixels stone_pixels(const Scene& scene, int wanted) {
     const StoneBody body(scene.stone.solid, scene.stone.convex);
     const EyeRays eyes(scene.camera);
     const double width = scene.camera.width, height = scene.camera.height;
-    Window window{0, 0, width, height};
-    double step = std::max(1.0, std::max(width, height) / k_looked_at);
-    StonePixels pixels;
-    pixels.at = covered(scene, body, eyes, window, step);
+    const auto look = [&](Window window, double step) {
+        StonePixels pixels;
+        pixels.at = covered(scene, body, eyes, window, step);
+        pixels.in_picture = static_cast<double>(pixels.at.size()) * step * step;
+        return pixels;
+    };
+    const Window whole{0, 0, width, height};
+    const double side = std::max(width, height);
+    const int along = std::clamp(static_cast<int>(std::sqrt(wanted / k_share_of_stone)) + 1,
+                                 k_least_looked_at, k_most_looked_at);
+    double step = std::max(1.0, side / along);
+    StonePixels pixels = look(whole, step);
+    const auto too_few = [&] { return static_cast<int>(pixels.at.size()) < wanted && step > 1; };
+    if (too_few() && along < k_most_looked_at) {
+        step = std::max(1.0, side / k_most_looked_at);
+        pixels = look(whole, step);
+    }
     if (pixels.at.empty()) return pixels;
-    if (static_cast<int>(pixels.at.size()) < wanted && step > 1) {
+    if (too_few()) {
         // A small stone: once more, where it is.
-        window = {width, height, 0, 0};
+        Window window{width, height, 0, 0};
         for (const auto& [x, y] : pixels.at) {
             window.x0 = std::min(window.x0, std::max(0.0, x - step));
             window.y0 = std::min(window.y0, std::max(0.0, y - step));
             window.x1 = std::max(window.x1, std::min(width, x + step));
             window.y1 = std::max(window.y1, std::min(height, y + step));
         }
-        const double side = std::max(window.x1 - window.x0, window.y1 - window.y0);
-        step = std::max(1.0, side / k_looked_at);
-        pixels.at = covered(scene, body, eyes, window, step);
+        const double around = std::max(window.x1 - window.x0, window.y1 - window.y0);
+        step = std::max(1.0, around / k_most_looked_at);
+        pixels = look(window, step);
     }
-    pixels.in_picture = static_cast<double>(pixels.at.size()) * step * step;
-    // As many as are wanted, at even steps through the rows.
-    if (static_cast<int>(pixels.at.size()) > wanted) {
-        std::vector<std::pair<int, int>> chosen;
-        const double stride = static_cast<double>(pixels.at.size()) / wanted;
-        for (int i = 0; i < wanted; ++i)
-            chosen.push_back(pixels.at[static_cast<std::size_t>((i + 0.5) * stride)]);
-        pixels.at = std::move(chosen);
-    }
+    // Along the rows by the golden ratio: every stretch is spread over all of them.
+    const std::size_t count = pixels.at.size();
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < count; ++i)
+        order.emplace_back(std::fmod(0.6180339887498949 * static_cast<double>(i), 1.0), i);
+    // The inverse permutation of the ranks: the i-th is where a step of the golden ratio lands.
+    std::sort(order.begin(), order.end());
+    std::vector<std::pair<int, int>> spread(count);
+    for (std::size_t rank = 0; rank < count; ++rank) spread[order[rank].second] = pixels.at[rank];
+    pixels.at = std::move(spread);
+    if (static_cast<int>(count) > wanted) pixels.at.resize(static_cast<std::size_t>(wanted));
     return pixels;
 }
 
 PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const PathLimits& limits,
-                        int samples, int nodes) {
+                        int samples, int nodes, const Progress& progress) {
     using Clock = std::chrono::steady_clock;
     const Plan plan = make_plan(scene, nodes);
     const WavelengthSet colours(plan.wavelengths_nm);
@@ -98,14 +126,23 @@ PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const Pat
     drawing.rgb.resize(pixels.at.size());
     std::vector<PixelSums> sums(pixels.at.size());
     const int wavelengths = colours.size();
+    drawing.spectra.resize(pixels.at.size() * static_cast<std::size_t>(wavelengths));
     std::atomic<long long> nanoseconds{0};
+    std::mutex listening;
+    std::atomic<bool> stop{false};
+    const auto goes_on = [&] {
+        if (!progress || stop) return !stop;
+        const std::lock_guard<std::mutex> lock(listening);
+        if (!progress(0)) stop = true;
+        return !stop;
+    };
     on_threads(scene.settings.threads, [&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.at.size(), 8), [&](const auto&
                                                                                            range) {
             const auto start = Clock::now();
             PixelMemory memory;
             std::vector<double> stokes(static_cast<std::size_t>(wavelengths * shader.planes()));
-            for (std::size_t p = range.begin(); p < range.end(); ++p) {
+            for (std::size_t p = range.begin(); p < range.end() && goes_on(); ++p) {
                 const auto [x, y] = pixels.at[p];
                 const std::uint64_t number =
                     static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(scene.camera.width) +
@@ -119,19 +156,26 @@ PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const Pat
                     stokes[static_cast<std::size_t>(i)] = seen;
                 }
                 drawing.rgb[p] = colours.rgb_of(stokes.data());
+                std::copy_n(stokes.begin(), wavelengths,
+                            drawing.spectra.begin() + static_cast<long>(p) * wavelengths);
             }
             nanoseconds +=
                 std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
         });
     });
+    if (stop) throw Interrupted();
     PixelSums whole;
-    for (const PixelSums& sum : sums) whole += sum;
+    for (const PixelSums& sum : sums) {
+        whole += sum;
+        drawing.halves_apart.push_back(sum.halves_apart);
+    }
     const double count = static_cast<double>(pixels.at.size());
     for (const Rgb& rgb : drawing.rgb) drawing.mean += (rgb[0] + rgb[1] + rgb[2]) / (3 * count);
     drawing.rays = static_cast<double>(whole.rays);
     drawing.events = static_cast<double>(whole.events);
     if (whole.hit > 0) {
         drawing.remainder = whole.remainder / whole.hit;
+        drawing.cut = whole.cut / whole.hit;
         drawing.absorbed = whole.absorbed / whole.hit;
         drawing.few_rays = whole.radiance > 0 ? whole.halves_apart / whole.radiance : 0;
     }

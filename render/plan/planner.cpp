@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "render/colour_error.h"
+#include "render/plan/a_priori.h"
 
 namespace culet {
 
@@ -15,17 +16,26 @@ constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 
 // Wavelengths that pilots of effects are drawn at: three carry any colour of light.
 const std::vector<double> k_pilot_nm{450, 550, 610};
-constexpr int k_least_pixels = 48, k_most_pixels = 400;
+constexpr int k_least_pixels = 96, k_most_pixels = 400;
+// Of stones whose light paths do not branch: their rays cost little.
+constexpr int k_least_plain_pixels = 192;
+// That tell how noisy the truth is; they are others than the pilots'.
+constexpr int k_proof_pixels = 64;
 // Of the picture's price that a plan may cost, and what it may cost in any case.
 constexpr double k_planning_share = 0.04, k_planning_ns = 1.5e6;
 // Trees that branch: far below the noise of a pixel's few rays, and half as dear as following
-// paths of a tenth of these weights.
-constexpr double k_split_weight = 0.1, k_gambled_weight = 0.01;
+// paths of a tenth of these weights. Pictures that are held against each other should differ by
+// what is looked at rather than by chance; the finished one may leave more to it.
+constexpr double k_split_weight = 0.1, k_gambled_weight = 0.01, k_picture_split_weight = 0.6,
+                 k_picture_gambled_weight = 0.04, k_fine_tolerance = 0.02;
 
 }  // namespace
 
-Planner::Planner(const Scene& whole)
-    : scene_(whole), user_(whole.settings), tolerance_(whole.settings.tolerance) {
+Planner::Planner(const Scene& whole, const Progress& progress)
+    : scene_(whole),
+      user_(whole.settings),
+      progress_(progress),
+      tolerance_(whole.settings.tolerance) {
     // The two windows of a dichroscope are one view, seen twice.
     if (scene_.camera.optics.two_windows) scene_.camera.width /= 2;
     const Plan base = make_plan(scene_);
@@ -45,11 +55,13 @@ Planner::Planner(const Scene& whole)
 ScenePlan Planner::run() {
     const auto start = std::chrono::steady_clock::now();
     say_what_is_known();
-    if (tolerance_ > 0) pixels_ = stone_pixels(scene_, k_least_pixels);
+    plan_.tolerance = tolerance_;
+    if (tolerance_ > 0) pixels_ = stone_pixels(scene_, k_least_plain_pixels + k_proof_pixels);
     if (pixels_.at.empty()) {
         settle_without_pilot();
     } else {
         choose_pixels();
+        drop_what_changes_nothing();
         choose_cut();
         choose_effects();
         if (branches_ && scene_.stone.convex && !on(Effects::birefringence)) {
@@ -62,6 +74,7 @@ ScenePlan Planner::run() {
         }
         choose_wavelengths();
         choose_engine_and_samples();
+        bound_depth();
         estimate_times();
     }
     for (int e = 0; e < k_effect_count; ++e)
@@ -69,7 +82,8 @@ ScenePlan Planner::run() {
             plan_.items[static_cast<std::size_t>(e)].on;
     plan_.reference.effects = plan_.settings.effects;
     add_resolutions();
-    plan_.bound = spent_;
+    plan_.bound_of_wavelengths = wavelength_bound_;
+    plan_.bound = spent_ + plan_.bound_of_depth;
     for (const PlanItem& line : plan_.items) plan_.bound_delta_e += line.bound_delta_e;
     plan_.seconds_planning =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -108,8 +122,18 @@ PathLimits Planner::limits(double cut) const {
     return limits;
 }
 
+PathLimits Planner::limits_of_picture() const {
+    PathLimits limits = this->limits(cut_);
+    // Of many rays each may leave more to chance: so it comes to little noise soonest.
+    if (branches_ && tolerance_ >= k_fine_tolerance) {
+        limits.cut_weight = k_picture_gambled_weight;
+        limits.split_weight = k_picture_split_weight;
+    }
+    return limits;
+}
+
 PilotDrawing Planner::draw(const Scene& scene, int samples) const {
-    return draw_pilot(scene, pixels_, limits(cut_), samples);
+    return draw_pilot(scene, pixels_, limits(cut_), samples, k_node_counts[1], progress_);
 }
 
 PathWork Planner::work_of(const Scene& scene, const PilotDrawing& drawing, int samples) const {
@@ -139,9 +163,13 @@ void Planner::settle_without_pilot() {
 
 // As many pixels as the picture's price allows.
 void Planner::choose_pixels() {
+    StonePixels all = std::move(pixels_);
+    const int least = branches_ ? k_least_pixels : k_least_plain_pixels;
+    pixels_ = all.stretch(0, static_cast<std::size_t>(least));
     const Scene scene = at_pilot_wavelengths(with_effects(false));
     const double mean_guess = std::max(tolerance_ * 0.1, 1e-4);
-    const PilotDrawing glance = draw_pilot(scene, pixels_, limits(mean_guess), 1);
+    const PilotDrawing glance =
+        draw_pilot(scene, pixels_, limits(mean_guess), 1, k_node_counts[1], progress_);
     const PathWork work = work_of(scene, glance, 1);
     const bool spectral = on(Effects::dispersion) && user_.wavelengths_nm.empty();
     const double bands = spectral ? 4 : 1;
@@ -149,24 +177,72 @@ void Planner::choose_pixels() {
     beams.pixels = pixels_.in_picture;
     beams.bands = bands;
     beams.events_per_ray = work.events / std::max(work.rays, 1.0);
+    beams.parted = work.general;
+    beams.tolerance = 0.3 * tolerance_;
     const double by_paths = pixels_.in_picture * 16 * bands * price_ns(work);
-    const double picture = work.general ? by_paths : std::min(by_paths, price_ns(beams));
-    // Rays of one pilot pixel: of the cuts and effects, of the wavelengths, of the samples.
-    const double rays = 4 * 8 + (spectral ? 4 * (36 + 16) + 16 : 8) + 20;
+    const double picture = std::min(by_paths, price_ns(beams));
+    // Rays of one pilot pixel: of the cuts and effects, of the wavelengths.
+    const double rays = k_pilot_rays * (6 + (spectral ? 12 : 1));
     const double affordable = std::max(k_planning_share * picture, k_planning_ns) /
                               (rays * std::max(price_ns(work), 1.0));
     const int wanted =
-        static_cast<int>(std::clamp(affordable, double(k_least_pixels), double(k_most_pixels)));
-    if (wanted > static_cast<int>(pixels_.at.size())) pixels_ = stone_pixels(scene_, wanted);
+        static_cast<int>(std::clamp(affordable, double(least), double(k_most_pixels)));
+    if (wanted > least) {
+        all = stone_pixels(scene_, wanted + k_proof_pixels);
+        pixels_ = all.stretch(0, static_cast<std::size_t>(wanted));
+    }
+    // A stone of few pixels is proven at all of them.
+    std::size_t first = pixels_.at.size();
+    if (all.at.size() < first + k_proof_pixels) first = 0;
+    prover_.emplace(scene_, all.stretch(first, k_proof_pixels), tolerance_, progress_);
+}
+
+// What is known beforehand needs no pilot.
+void Planner::drop_what_changes_nothing() {
+    if (!user_.effects_auto || !same_light_everywhere(scene_.lights) || on(Effects::absorption) ||
+        scene_.camera.optics.analyzer)
+        return;
+    for (Effects effect : {Effects::dispersion, Effects::birefringence, Effects::polarization,
+                           Effects::pleochroism, Effects::coherence}) {
+        if (!on(effect)) continue;
+        PlanItem& line = item(effect);
+        Scene without = with_effects(false, effect);
+        if (effect != Effects::dispersion && make_plan(without).on(effect)) continue;
+        line.on = false;
+        line.why = k_same_light;
+        line.bound = 0;
+    }
+    if (make_plan(with_effects(false)).splits) return;
+    branches_ = !scene_.stone.convex;
+}
+
+// A depth that the scene names may be shallower than the light goes.
+void Planner::bound_depth() {
+    if (user_.depth == 0) return;
+    const Scene scene = at_pilot_wavelengths(with_effects(false));
+    PathLimits deep = limits(std::min(cut_, 0.01 * tolerance_));
+    deep.alike = true;
+    PathLimits shallow = deep;
+    deep.depth = k_deepest;
+    const auto at = [&](const PathLimits& how) {
+        return draw_pilot(scene, pixels_, how, k_pilot_rays, k_node_counts[1], progress_);
+    };
+    const PilotDrawing cut_short = at(shallow), whole = at(deep);
+    const ColourError error = colour_error(cut_short.rgb, whole.rgb);
+    // Beforehand: what goes no further sees at most the brightest light.
+    const double known =
+        whole.mean > 0 ? cut_short.remainder * whole.brightest / whole.mean : error.bound();
+    plan_.bound_of_depth = branches_ ? error.bound() : std::min(error.bound(), known);
+    cut_delta_e_ += error.bound_delta_e();
 }
 
 // The largest weight that may be let go.
 void Planner::choose_cut() {
     const Scene scene = at_pilot_wavelengths(with_effects(false));
-    double cut = std::min(0.25 * tolerance_, 0.02);
+    double cut = std::min(0.5 * tolerance_, 0.04);
     if (branches_) {
         // Nothing is cut: small paths gamble, and that makes noise and no bias.
-        cut_ = k_gambled_weight;
+        cut_ = 0;
         first_ = draw(scene, k_pilot_rays);
         work_ = whole_ = work_of(scene, first_, k_pilot_rays);
         return;
@@ -174,7 +250,8 @@ void Planner::choose_cut() {
     // Down by factors of four, until the next step changes little and the remainder of the steps
     // beyond is small by the brightest light, or is beyond rounding.
     const auto at = [&](double weight) {
-        return draw_pilot(scene, pixels_, limits(weight), k_pilot_rays);
+        return draw_pilot(scene, pixels_, limits(weight), k_pilot_rays, k_node_counts[1],
+                          progress_);
     };
     PilotDrawing coarse = at(cut);
     for (;;) {

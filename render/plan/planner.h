@@ -10,17 +10,18 @@
 #include "render/plan.h"
 #include "render/plan/pilot_picture.h"
 #include "render/plan/price.h"
+#include "render/plan/proof.h"
 #include "render/plan/scene_plan.h"
 
 namespace culet {
 
 // How the tolerance is shared out.
-constexpr double k_share_of_cut = 0.15, k_share_of_effects = 0.5, k_share_of_wavelengths = 0.35;
+constexpr double k_share_of_cut = 0.2, k_share_of_effects = 0.5, k_share_of_wavelengths = 0.5;
 // Effects that cost next to nothing go only where they change next to nothing.
 constexpr double k_share_of_cheap = 0.05;
 // Rays of a pilot in each pixel; behind a lens. A mean over so few differs by more than one over
 // the pixel.
-constexpr int k_pilot_rays = 4, k_spectral_rays = 9, k_lens_rays = 16;
+constexpr int k_pilot_rays = 4, k_lens_rays = 16;
 constexpr const char* k_same_light = "the light is the same from everywhere: nothing changes";
 
 std::vector<double> even_wavelengths(int count);
@@ -28,15 +29,16 @@ std::vector<double> even_wavelengths(int count);
 /// much as all of them, and each at least twice.
 int turns_for(int rays, int wavelengths);
 
-/// Of noise, which the finished picture shows anew: with one and a half standard errors.
-inline double likely(const ColourError& noise) {
-    return noise.radiance + 1.5 * noise.radiance_spread;
-}
-
 class Planner {
 public:
-    explicit Planner(const Scene& whole);
+    /// `progress` is told 0, and may stop it; it must outlive the planner.
+    explicit Planner(const Scene& whole, const Progress& progress);
     ScenePlan run();
+
+    /// Holds pictures against the truth; null where there was no pilot. After `run`.
+    Prover* prover() { return prover_ ? &*prover_ : nullptr; }
+    /// The next finer set of wavelengths.
+    static int next_wavelength_count(int count);
 
 private:
     PlanItem& item(Effects effect) { return plan_.items[static_cast<std::size_t>(effect)]; }
@@ -46,7 +48,13 @@ private:
     Scene with_effects(bool dispersion, std::optional<Effects> without = {}) const;
     Scene at_pilot_wavelengths(Scene scene) const;
     PilotDrawing draw(const Scene& scene, int samples) const;
+    /// Half the pixels: many wavelengths are dear.
+    PilotDrawing draw_spectra(const Scene& scene, int samples) const;
+    /// What is missing without dispersion.
+    ColourError dispersion_gone(Scene whole, Scene flat, const PilotDrawing& fine,
+                                double allowed) const;
     PathLimits limits(double cut) const;
+    PathLimits limits_of_picture() const;
     // Of one eye ray.
     PathWork work_of(const Scene& scene, const PilotDrawing& drawing, int samples) const;
 
@@ -58,21 +66,27 @@ private:
     void try_without(Effects effect, double share);
     void choose_wavelengths();
     void choose_engine_and_samples();
-    void choose_beam_wavelengths();
-    /// The fewest of `counts` that serve, tried on `pilot` from that level on.
-    void settle_wavelengths(Scene pilot, const std::vector<int>& counts, std::size_t first_level,
-                            int rays);
+    void drop_what_changes_nothing();
+    /// The fewest of `counts` that serve, held against `fine`, a drawing of `pilot` at that level.
+    void settle_wavelengths(Scene pilot, const std::vector<int>& counts, std::size_t level,
+                            const PilotDrawing& fine);
     double room_for_wavelengths() const;
     int samples_for(double room) const;
+    /// The reference's settings, and its price.
+    double choose_reference(double room);
+    double choose_beams(double room);
+    void bound_depth();
     void estimate_times();
     void add_resolutions();
 
     Scene scene_;                // of one window
     const RenderSettings user_;  // as the scene has them
+    const Progress& progress_;
     double tolerance_;
     ScenePlan plan_;
-    StonePixels pixels_;
-    bool branches_ = false;  // trees of light paths double
+    StonePixels pixels_;            // of the pilots
+    std::optional<Prover> prover_;  // of others
+    bool branches_ = false;         // trees of light paths double
     double cut_ = 0;
     double spent_ = 0;       // of the tolerance
     PilotDrawing first_;     // with the effects that are on, without dispersion

@@ -12,16 +12,27 @@ namespace culet {
 
 namespace {
 
-// Of the difference of four and sixteen rays, what is the four's.
-constexpr double k_of_four = 0.94;
-// Beams of a round brilliant in a light with sharp edges were off by 1 to 3 over the root of its
-// pixels.
-constexpr double k_beam_error = 3;
 constexpr int k_most_side = 40;  // of the grid of rays in a pixel
-// What beams are held against may be off by this share of what is left of the tolerance, and cost
-// this share of the picture.
-constexpr double k_check_noise = 0.3, k_check_price = 0.3;
-constexpr int k_least_checked = 64, k_most_checked = 400;
+// Beams whose borders and cuts are those of a tolerance t were off by 0.15 to 0.2 t^0.5 in pictures
+// of 1500 pixels of a round brilliant in a light with sharp edges, and by less in larger ones: a
+// proposal, and the finished picture is held against the reference.
+constexpr double k_beam_error = 0.2, k_beam_error_pixels = 1500, k_least_beam_tolerance = 5e-4;
+// Of what is left of the tolerance, what beams may be off by.
+constexpr double k_share_of_beams = 0.65;
+// What the truth's few rays may be off by, as a share of what pictures may: enough for the proof to
+// succeed, and few rays.
+constexpr double k_share_of_truth = 0.5;
+// CIEDE2000 of noise of the mean radiance: about, in pictures of many colours.
+constexpr double k_delta_e_of_noise = 40;
+// Of the beams' error, what one of its causes brings at least to be made less.
+constexpr double k_blame = 0.4;
+// What of a crystal's light beams let go, as a multiple of the tolerance.
+constexpr double k_cut_of_crystals = 0.3;
+
+// With which the rays of a pixel take turns.
+int nodes_for(int rays) {
+    return rays <= 4 ? 15 : rays < 36 ? 29 : 57;
+}
 
 bool hard_edged(const Lights& lights) {
     return !lights.spheres.empty() || !lights.hemispheres.empty() || !lights.caps.empty() ||
@@ -33,8 +44,9 @@ bool hard_edged(const Lights& lights) {
 int rays_to_reach(double room, int rays, double off) {
     constexpr double k_power = 0.7;
     const double wanted = rays * std::pow(off / room, 1 / k_power);
-    const int side = static_cast<int>(std::ceil(std::sqrt(std::min(wanted, 1e6))));
-    return std::min(side, k_most_side) * std::min(side, k_most_side);
+    int side = std::min(static_cast<int>(std::ceil(std::sqrt(std::min(wanted, 1e6)))), k_most_side);
+    while (Prover::takes_grid(side)) ++side;
+    return side * side;
 }
 
 double Planner::Noise::at(double count) const {
@@ -43,107 +55,153 @@ double Planner::Noise::at(double count) const {
 
 int Planner::samples_for(double room) const {
     for (int side = 1; side < k_most_side; ++side) {
-        if (noise_.at(side * side) <= room) return side * side;
+        if (noise_.at(side * side) <= room && !Prover::takes_grid(side)) return side * side;
     }
     return k_most_side * k_most_side;
 }
 
-void Planner::choose_engine_and_samples() {
-    RenderSettings& settings = plan_.settings;
-    settings.cut_weight = limits(cut_).cut_weight;
-    settings.split_weight = limits(cut_).split_weight;
-    plan_.mean_radiance = first_.mean;
-    plan_.pilot_pixels = static_cast<int>(pixels_.at.size());
-    if (!dispersed_) {
-        const Scene flat = at_pilot_wavelengths(with_effects(false));
-        const ColourError noise = colour_error(draw(flat, 4).rgb, draw(flat, 16).rgb);
-        noise_ = {4, k_of_four * likely(noise), k_of_four * noise.bound_delta_e(), 0.7};
+FinerBeams finer_beams(const RenderSettings& settings, const BeamErrors& errors, double share,
+                       bool wavelengths_are_open) {
+    FinerBeams finer{settings, 1};
+    const double borders =
+        std::sqrt(std::max(0.0, errors.all * errors.all - errors.cut * errors.cut -
+                                    errors.wavelengths * errors.wavelengths));
+    const double blamed =
+        std::min(k_blame * errors.all, std::max({borders, errors.cut, errors.wavelengths}));
+    share = std::clamp(share, 0.25, 0.7);
+    if (borders >= blamed) {
+        finer.settings.tolerance = std::max(share * share * settings.tolerance, 1e-5);
+        finer.price /= share;
     }
-    const bool open = user_.wavelengths_nm.empty();
-    const double room = std::max(tolerance_ - spent_, 0.25 * tolerance_);
+    if (errors.cut >= blamed && settings.cut_weight) {
+        // What is cut falls more slowly than the weight at which it is.
+        finer.settings.cut_weight = std::pow(share, 1.3) * *settings.cut_weight;
+        finer.price /= share;
+    }
+    const int count = static_cast<int>(settings.wavelengths_nm.size());
+    if (errors.wavelengths >= blamed && wavelengths_are_open && count >= 3) {
+        const int more = Planner::next_wavelength_count(count);
+        finer.settings.wavelengths_nm = even_wavelengths(more);
+        finer.price *= static_cast<double>(more) / count;
+    }
+    return finer;
+}
+
+RenderSettings with_rays(const RenderSettings& settings, int rays, bool wavelengths_are_open) {
+    RenderSettings more = settings;
+    more.samples = rays;
+    // Where the rays take turns with the wavelengths, more rays carry more of these.
+    if (settings.wavelength_turns <= 1) return more;
+    const int before = static_cast<int>(settings.wavelengths_nm.size());
+    const int nodes = wavelengths_are_open ? std::max(before, nodes_for(rays)) : before;
+    if (nodes != before) more.wavelengths_nm = even_wavelengths(nodes);
+    more.wavelength_turns = turns_for(rays, nodes);
+    return more;
+}
+
+double Planner::choose_reference(double room) {
     RenderSettings& reference = plan_.reference;
-    reference = settings;
+    reference = plan_.settings;
     reference.engine = "reference";
     reference.samples = user_.samples > 0 ? user_.samples : samples_for(room);
-    double bands = 1, bands_of_ray = 1;
+    double bands_of_ray = 1;
     if (dispersed_) {
-        if (open) {
-            const bool few = reference.samples <= 4 && !on(Effects::coherence);
-            reference.wavelengths_nm = even_wavelengths(few                      ? 15
-                                                        : reference.samples < 36 ? 29
-                                                                                 : 57);
+        if (user_.wavelengths_nm.empty()) {
+            const int least = on(Effects::coherence) ? 29 : 15;
+            reference.wavelengths_nm =
+                even_wavelengths(std::max(nodes_for(reference.samples), least));
         }
-        bands = static_cast<double>(reference.wavelengths_nm.size());
-        reference.wavelength_turns =
-            turns_for(reference.samples, static_cast<int>(reference.wavelengths_nm.size()));
-        bands_of_ray = bands / reference.wavelength_turns;
+        const int bands = static_cast<int>(reference.wavelengths_nm.size());
+        reference.wavelength_turns = turns_for(reference.samples, bands);
+        bands_of_ray = static_cast<double>(bands) / reference.wavelength_turns;
+        work_.nodes = 1;
     } else {
         Scene drawn = with_effects(false);
-        drawn.settings.wavelengths_nm = settings.wavelengths_nm;
+        drawn.settings.wavelengths_nm = reference.wavelengths_nm;
         const Plan plan = make_plan(drawn);
-        bands = bands_of_ray = static_cast<double>(plan.bands.size());
+        bands_of_ray = static_cast<double>(plan.bands.size());
         work_.nodes = plan.bands.front().count;
     }
-    if (dispersed_) work_.nodes = 1;
-    const double by_paths = pixels_.in_picture * reference.samples * bands_of_ray * price_ns(work_);
+    return pixels_.in_picture * reference.samples * bands_of_ray * price_ns(work_);
+}
 
-    // Beams: what they are off by falls with the size of the picture; at the least so much.
+// To the settings, whatever the engine will be; the price.
+double Planner::choose_beams(double room) {
+    RenderSettings& settings = plan_.settings;
+    const double allowed = k_share_of_beams * room / k_beam_error,
+                 size = std::max(pixels_.in_picture, 1.0) / k_beam_error_pixels;
+    settings.tolerance = std::clamp(allowed * allowed * size,
+                                    std::min(k_least_beam_tolerance, tolerance_), tolerance_);
+    Scene tried = with_effects(on(Effects::dispersion));
+    tried.settings.wavelengths_nm = settings.wavelengths_nm;
+    const Plan plan = make_plan(tried);
+    if (branches_) {
+        // Beams are cut, and not gambled on.
+        settings.cut_weight = k_cut_of_crystals * tolerance_;
+    }
     BeamWork beams;
     beams.pixels = pixels_.in_picture;
-    beams.bands = dispersed_ ? std::min(bands, tolerance_ < 0.02 ? 29.0 : 8.0) : bands;
-    beams.nodes = work_.nodes;
+    beams.tolerance = settings.tolerance;
+    beams.bands = static_cast<double>(plan.bands.size());
+    beams.nodes = plan.bands.front().count;
     beams.polarised = work_.polarised;
     beams.events_per_ray = work_.events;
+    beams.parted = plan.splits && settings.crystal_beams != CrystalBeams::merged;
     const int pupil = std::clamp(samples_for(2 * room), 16, 256);
-    beams.views = !on(Effects::aperture) ? 1 : user_.samples > 0 ? user_.samples : pupil;
-    const double expected = k_beam_error / std::sqrt(std::max(pixels_.in_picture, 1.0));
-    const int check_rays = samples_for(k_check_noise * room);
-    const double check_pixel = bands_of_ray * check_rays * price_ns(work_);
-    const double drawing = price_ns(beams);
-    const double checked = std::clamp(k_check_price * drawing / std::max(check_pixel, 1.0),
-                                      double{k_least_checked}, double{k_most_checked});
-    const double by_beams = drawing + checked * check_pixel;
-    Scene tried = with_effects(on(Effects::dispersion));
-    tried.settings.wavelengths_nm = reference.wavelengths_nm;
-    const Plan plan = make_plan(tried);
-    const std::string refused = refused_by_beams(scene_, plan);
+    if (on(Effects::aperture) && user_.samples == 0) settings.samples = pupil;
+    beams.views = on(Effects::aperture) ? settings.samples : 1;
+    return price_ns(beams);
+}
 
-    settings.engine = "reference";
+void Planner::choose_engine_and_samples() {
+    RenderSettings& settings = plan_.settings;
+    settings.cut_weight = limits_of_picture().cut_weight;
+    settings.split_weight = limits_of_picture().split_weight;
+    plan_.mean_radiance = first_.mean;
+    plan_.pilot_pixels = static_cast<int>(pixels_.at.size());
+    const double room = std::max(tolerance_ - spent_, 0.25 * tolerance_);
+    noise_ = {16, prover_->noise_of_16(), 0, dispersed_ ? 0.6 : 0.7};
+    noise_.delta_e = k_delta_e_of_noise * noise_.radiance;
+    const double by_paths = choose_reference(room);
+    Scene tried = with_effects(on(Effects::dispersion));
+    tried.settings.wavelengths_nm = plan_.reference.wavelengths_nm;
+    const std::string refused = refused_by_beams(scene_, make_plan(tried));
+    const double beams_room = std::max(room - (dispersed_ ? wavelength_bound_ : 0), 0.25 * room);
+    const double by_beams = refused.empty() ? choose_beams(beams_room) : 0;
+
     if (user_.engine != "auto") {
         settings.engine = user_.engine;
         plan_.engine_why = "as the scene says";
     } else if (!refused.empty()) {
+        settings.engine = "reference";
         plan_.engine_why = refused;
-    } else if (plan.splits) {
-        plan_.engine_why = "the two waves of a crystal go their own ways";
-    } else if (expected > room) {
-        plan_.engine_why = "beams would be off by more than the tolerance in so small a picture";
     } else if (by_beams <= by_paths) {
         settings.engine = "beams";
         plan_.engine_why =
             fmt::format("the reference would take about {:.2g} times as long at {} rays a pixel",
-                        by_paths / by_beams, reference.samples);
+                        by_paths / by_beams, plan_.reference.samples);
     } else {
+        settings.engine = "reference";
         plan_.engine_why =
             fmt::format("{} rays a pixel do: beams would take about {:.2g} times as long",
-                        reference.samples, by_beams / by_paths);
+                        plan_.reference.samples, by_beams / by_paths);
     }
-    plan_.bound_of_sampling = noise_.at(reference.samples);
-    if (settings.engine == "reference") {
-        settings = reference;
-        noise_.delta_e *= noise_.at(reference.samples) / std::max(noise_.radiance, 1e-300);
+    plan_.bound_of_sampling = noise_.at(plan_.reference.samples);
+    if (!drawn_by_beams(settings)) {
+        settings = plan_.reference;
+        noise_.delta_e *= plan_.bound_of_sampling / std::max(noise_.radiance, 1e-300);
         plan_.seconds = by_paths;
+        if (dispersed_) wavelength_bound_ = wavelength_delta_e_ = 0;
     } else {
-        if (dispersed_ && open) choose_beam_wavelengths();
-        if (on(Effects::aperture) && user_.samples == 0) settings.samples = pupil;
-        settings.checked_samples = check_rays;
-        settings.checked_pixels = static_cast<int>(checked);
-        settings.wavelength_turns = reference.wavelength_turns;
         plan_.seconds = by_beams;
         noise_.delta_e = 0;
+        if (dispersed_) spent_ += wavelength_bound_;
     }
-    plan_.seconds_everything =
-        pixels_.in_picture * whole_bands_ * std::max(reference.samples, 16) * price_ns(whole_);
+    plan_.price_ns = plan_.seconds;
+    plan_.reference_ns = by_paths;
+    plan_.seconds_everything = pixels_.in_picture * whole_bands_ *
+                               std::max(plan_.reference.samples, 16) * price_ns(whole_);
+    prover_->take(samples_for(k_share_of_truth * room));
 }
 
 void Planner::estimate_times() {

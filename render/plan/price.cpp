@@ -1,15 +1,27 @@
 #include "render/plan/price.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace culet {
 
 namespace {
 
-// Measured (tests/bench/plan_bench --section prices).
-constexpr double k_ray = 150, k_event = 55, k_plain_event = 45, k_leaf_node = 1.5;
+// Measured (bench_plan --prices): nanoseconds.
+constexpr double k_ray = 60, k_event = 150, k_plain_event = 135, k_leaf_node = 1.5;
 constexpr double k_general_ray = 1500, k_general_event = 450;
-constexpr double k_beam = 2300, k_fragment = 4, k_beams_of_event = 12, k_beam_power = 2.2;
+// Beams of a picture of 1600 pixels of the stone at tolerance 0.03, on round brilliants and steps
+// of quartz, garnet, sapphire, zircon and diamond: within a factor of 1.6.
+constexpr double k_stone = 8e6, k_beam = 1300, k_pixels = 1600, k_tolerance = 0.03;
+struct BeamCount {
+    double at_one_event, of_events, of_pixels, of_tolerance;  // and powers
+    double at(const BeamWork& work) const {
+        return at_one_event * std::pow(std::max(work.events_per_ray, 1.0), of_events) *
+               std::pow(std::max(work.pixels, 1.0) / k_pixels, of_pixels) *
+               std::pow(k_tolerance / work.tolerance, of_tolerance);
+    }
+};
+constexpr BeamCount k_single{330, 1.1, 0.5, 0.37}, k_parted{11500, 0.45, 0.4, 0.85};
 
 }  // namespace
 
@@ -21,11 +33,9 @@ double price_ns(const PathWork& work) {
 }
 
 double price_ns(const BeamWork& work) {
-    // Beams grow like a power of the depth at which light is let go, far below exponentially.
-    const double beams = k_beams_of_event * std::pow(work.events_per_ray, k_beam_power) + 100;
-    const double fragments = work.pixels * work.events_per_ray;
+    const double beams = (work.parted ? k_parted : k_single).at(work);
     const double each = work.views * work.bands * (work.polarised ? 1.08 : 1.0);
-    return each * (k_beam * beams + k_fragment * work.nodes * fragments);
+    return k_stone + each * k_beam * beams * (1 + 0.02 * (work.nodes - 1));
 }
 
 }  // namespace culet

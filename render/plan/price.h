@@ -18,9 +18,11 @@ double price_ns(const PathWork& work);
 struct BeamWork {
     double pixels = 0;  ///< of the stone
     double bands = 1;
-    double events_per_ray = 1;
-    double views = 1;  ///< points of the pupil
+    double events_per_ray = 1;  ///< of the reference's rays; parted: of their trees
+    double tolerance = 0.01;    ///< of the beams' settings
+    double views = 1;           ///< points of the pupil
     bool polarised = true;
+    bool parted = false;  ///< a crystal's two waves, each its own way
     int nodes = 1;
 };
 double price_ns(const BeamWork& work);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "render/scene.h"
+#include "stone/progress.h"
 
 namespace culet {
 
@@ -35,24 +36,44 @@ struct PlanItem {
 };
 
 struct ScenePlan {
+    double tolerance = 0;  ///< that was asked for
     /// The scene's settings with every open choice made: a scene with these draws the same picture.
+    /// Their tolerance is what beams need to keep the one that was asked for.
     RenderSettings settings;
     std::vector<PlanItem> items;  ///< the effects in the order of `Effects`, then the rest
     std::string engine_why;
     double bound = 0, bound_delta_e = 0;  ///< of all together, but for samples and beams
     double bound_of_sampling = 0;         ///< the reference's: of few rays in a pixel
+    double bound_of_wavelengths = 0;      ///< in `bound`: of so few of them
+    double bound_of_depth = 0;            ///< in `bound`: of the depth that the scene names
     double seconds = 0;                   ///< estimated processor time of the picture
     double seconds_everything = 0;        ///< the same with everything on, by the reference
     double seconds_planning = 0;          ///< that this plan took
     RenderSettings reference;  ///< what the reference would need, where beams do not hold
-    double mean_radiance = 0;  ///< of the stone, as the pilot sees it
-    int pilot_pixels = 0;      ///< 0: nothing was open, or tolerance 0: no pilot
+    double price_ns = 0, reference_ns = 0;  ///< of the picture, and by that (plan/price.h)
+    double mean_radiance = 0;               ///< of the stone, as the pilot sees it
+    int pilot_pixels = 0;                   ///< 0: nothing was open, or tolerance 0: no pilot
 
     const PlanItem& item(const std::string& name) const;
 };
 
-/// Throws InputError as `render` does.
-ScenePlan plan_scene(const Scene& scene);
+/// Throws InputError as `render` does, and Interrupted.
+ScenePlan plan_scene(const Scene& scene, const Progress& progress = {});
+
+/// What beams are off by, and about how much of it for what they cut and for their wavelengths; the
+/// rest is for where their borders are.
+struct BeamErrors {
+    double all = 0, cut = 0, wavelengths = 0;
+};
+/// Beams to be off by that share of it, and how many times as long they take.
+struct FinerBeams {
+    RenderSettings settings;
+    double price = 1;
+};
+FinerBeams finer_beams(const RenderSettings& settings, const BeamErrors& errors, double share,
+                       bool wavelengths_are_open);
+/// Of the reference, with so many rays a pixel.
+RenderSettings with_rays(const RenderSettings& settings, int rays, bool wavelengths_are_open);
 
 /// How many rays a pixel, where `rays` were off by `off` and may be by `room`: what the mean of N
 /// is off by falls about as N^-0.7.

@@ -1,0 +1,261 @@
+#include "render/plan/proof.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/colour_error.h"
+#include "render/plan/planner.h"
+
+namespace culet {
+
+namespace {
+
+constexpr std::size_t k_first_pixels = 48, k_most_pixels = 768, k_noise_pixels = 48;
+constexpr double k_standard_errors = 3;
+// Half the difference between every other ray of a grid and the rest, over what all are off by.
+constexpr double k_halves_over_noise = 1.19;
+// Sides of the truth's grids, one after the other. Grids of different sides are off independently.
+constexpr std::array k_sides{4, 5, 7, 11, 15, 22, 32, 46};
+// What the truth's paths are cut at, as a share of the tolerance. Trees that branch gamble: the
+// quickest way to little noise is to follow few branches where few rays do.
+constexpr double k_cut_share = 0.01;
+constexpr double k_gambled_weight = 0.04, k_split_weight = 0.6, k_fine_gambled_weight = 0.01,
+                 k_fine_split_weight = 0.3;
+// Below this tolerance the truth takes the finest wavelengths, and larger trees.
+constexpr double k_fine_tolerance = 0.02;
+// Every pixel has this share of a mean chance at least: none counts more than five times.
+constexpr double k_even_share = 0.2;
+
+Rgb pixel_of(const Picture& picture, int x, int y) {
+    const float* rgb = picture.at(x, y);
+    return {rgb[0], rgb[1], rgb[2]};
+}
+
+double apart(const Rgb& a, const Rgb& b) {
+    double sum = 0;
+    for (std::size_t c = 0; c < 3; ++c) sum += std::abs(a[c] - b[c]) / 3;
+    return sum;
+}
+
+double mean_of(const Rgb& rgb) {
+    return (rgb[0] + rgb[1] + rgb[2]) / 3;
+}
+
+}  // namespace
+
+double Proof::error() const {
+    return std::sqrt(std::max(0.0, difference * difference - noise * noise));
+}
+
+Prover::Prover(const Scene& scene, StonePixels some, double tolerance, const Progress& progress)
+    : scene_(scene),
+      some_(std::move(some)),
+      nodes_(k_node_counts[tolerance < k_fine_tolerance ? 3 : 2]),
+      windows_(scene.camera.optics.two_windows ? 2 : 1),
+      progress_(progress) {
+    const Plan plan = make_plan(scene_, nodes_);
+    const bool branches = plan.splits || !scene_.stone.convex, fine = tolerance < k_fine_tolerance;
+    // Interference depends on how wide the wavelengths' bands are.
+    if (plan.on(Effects::coherence)) nodes_ = k_node_counts.back();
+    // Other random paths than the picture's.
+    limits_.seed = scene_.settings.seed + 1;
+    limits_.depth = scene_.settings.depth > 0 ? scene_.settings.depth : k_deepest;
+    limits_.cut_weight = !branches ? std::max(k_cut_share * tolerance, 1e-7)
+                         : fine    ? k_fine_gambled_weight
+                                   : k_gambled_weight;
+    limits_.split_weight = fine ? k_fine_split_weight : k_split_weight;
+    limits_.roulette = branches;
+    work_.general = plan.general;
+    work_.polarised = plan.polarised;
+    work_.nodes = plan.bands.front().count;
+    levels_.resize(1);
+    levels_[0].samples = grid(0);
+}
+
+// No grid that the scene asks for, whose picture would share the truth's rays.
+int Prover::grid(std::size_t level) const {
+    int side = k_sides[level];
+    if (side * side == scene_.settings.samples) side += level == 0 ? 2 : 1;
+    return side * side;
+}
+
+bool Prover::takes_grid(int side) {
+    return std::find(k_sides.begin(), k_sides.end(), side) != k_sides.end();
+}
+
+int Prover::samples() const {
+    int sum = 0;
+    for (const Level& level : levels_) sum += level.samples;
+    return sum;
+}
+
+void Prover::take(int wanted) {
+    while (samples() < wanted && levels_.size() < k_sides.size()) take_more();
+}
+
+void Prover::take_more() {
+    if (levels_.size() == k_sides.size()) return;
+    Level more;
+    more.samples = grid(levels_.size());
+    levels_.push_back(more);
+}
+
+double Prover::pixel_ns() const {
+    return rays_drawn_ > 0 ? price_ns(work_) * samples() / rays_drawn_ : 0;
+}
+
+PilotDrawing Prover::draw(const StonePixels& pixels, int samples) {
+    Scene scene = scene_;
+    scene.settings.wavelength_turns = turns_for(samples, nodes_);
+    PilotDrawing drawing = draw_pilot(scene, pixels, limits_, samples, nodes_, progress_);
+    work_.rays += drawing.rays;
+    work_.events += drawing.events;
+    rays_drawn_ += static_cast<double>(pixels.at.size()) * samples;
+    return drawing;
+}
+
+double Prover::noise_of_16() {
+    const PilotDrawing drawing = draw(some_.stretch(0, k_noise_pixels), levels_[0].samples);
+    double squares = 0, sum = 0;
+    for (double halves : drawing.halves_apart) {
+        sum += halves;
+        squares += halves * halves;
+    }
+    if (!(drawing.few_rays > 0)) return 0;
+    // Few pixels easily miss the reflexes that are off most: one and a half standard errors more.
+    const double count = static_cast<double>(drawing.halves_apart.size());
+    const double spread = std::sqrt(std::max(0.0, squares * count - sum * sum) / count) / sum;
+    return (1 + 1.5 * spread) * drawing.few_rays / k_halves_over_noise;
+}
+
+// As often as the picture changes much beside a pixel.
+void Prover::choose(const Picture& picture) {
+    if (!chosen_.pixels.at.empty()) return;
+    chosen_.pixels.in_picture = some_.in_picture;
+    const int width = picture.width / windows_, height = picture.height;
+    std::vector<std::pair<int, int>> at;
+    std::vector<double> contrast;
+    double sum = 0;
+    for (int y = 0; y < height && !picture.coverage.empty(); ++y) {
+        for (int x = 0; x < width; ++x) {
+            const std::size_t pixel =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                static_cast<std::size_t>(x);
+            if (picture.coverage[pixel] < 0.5f) continue;
+            const Rgb here = pixel_of(picture, x, y);
+            double most = 0;
+            for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+                if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height) continue;
+                most = std::max(most, apart(here, pixel_of(picture, x + dx, y + dy)));
+            }
+            if (!std::isfinite(most)) most = 0;
+            at.emplace_back(x, y);
+            contrast.push_back(most);
+            sum += most;
+        }
+    }
+    const double count = static_cast<double>(at.size());
+    if (at.size() <= k_first_pixels) {
+        // A stone of few pixels, or of none that the picture tells of.
+        chosen_.pixels.at = at.empty() ? some_.at : at;
+        chosen_.counts.assign(chosen_.pixels.at.size(), 1.0);
+        chosen_.all = !at.empty();
+        return;
+    }
+    // Chances, and their sums; then the golden ratio's multiples, evenly spread over these.
+    std::vector<double> sums, chances;
+    double total = 0;
+    for (double c : contrast) {
+        chances.push_back(k_even_share + (sum > 0 ? (1 - k_even_share) * c * count / sum : 0));
+        total += chances.back();
+        sums.push_back(total);
+    }
+    const std::size_t most = std::min(k_most_pixels, at.size());
+    for (std::size_t i = 0; i < most; ++i) {
+        const double place =
+            total * std::fmod(0.6180339887498949 * (static_cast<double>(i) + 0.5), 1.0);
+        const std::size_t pixel =
+            std::min(static_cast<std::size_t>(std::upper_bound(sums.begin(), sums.end(), place) -
+                                              sums.begin()),
+                     at.size() - 1);
+        chosen_.pixels.at.push_back(at[pixel]);
+        chosen_.counts.push_back(total / count / chances[pixel]);
+    }
+}
+
+void Prover::draw_up_to(std::size_t count) {
+    count = std::min(count, chosen_.pixels.at.size());
+    for (Level& level : levels_) {
+        if (level.rgb.size() >= count) continue;
+        const std::size_t first = level.rgb.size();
+        const StonePixels more = chosen_.pixels.stretch(first, count - first);
+        const PilotDrawing drawing = draw(more, level.samples);
+        for (std::size_t i = 0; i < more.at.size(); ++i) {
+            level.radiance += mean_of(drawing.rgb[i]) * chosen_.counts[first + i];
+            level.halves += drawing.halves_apart[i] * chosen_.counts[first + i];
+        }
+        level.cut += (drawing.cut + drawing.remainder) * static_cast<double>(more.at.size());
+        level.rgb.insert(level.rgb.end(), drawing.rgb.begin(), drawing.rgb.end());
+    }
+}
+
+Rgb Prover::truth(std::size_t pixel) const {
+    Rgb sum{};
+    for (const Level& level : levels_) {
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += level.samples * level.rgb[pixel][c];
+    }
+    const double all = samples();
+    for (double& v : sum) v /= all;
+    return sum;
+}
+
+Proof Prover::prove(const Picture& picture, double room, double most_ns) {
+    choose(picture);
+    Proof proof;
+    std::size_t wanted = k_first_pixels;
+    std::vector<Rgb> seen, true_pixels;
+    for (int look = 0; look < k_looks; ++look, wanted *= 2) {
+        draw_up_to(wanted);
+        const std::size_t count = std::min(wanted, chosen_.pixels.at.size());
+        seen.clear();
+        true_pixels.clear();
+        double errors = 0, squares = 0, sizes = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto [x, y] = chosen_.pixels.at[i];
+            seen.push_back(pixel_of(picture, x, y));
+            true_pixels.push_back(truth(i));
+            double error = chosen_.counts[i] * apart(seen.back(), true_pixels.back());
+            // A pixel of no number is as wrong as can be.
+            if (!std::isfinite(error)) error = 1e100;
+            errors += error;
+            squares += error * error;
+            sizes += chosen_.counts[i] * mean_of(true_pixels.back());
+        }
+        const double pixels = static_cast<double>(count);
+        proof.pixels = static_cast<int>(count);
+        proof.samples = samples();
+        if (!(sizes > 0)) return proof;
+        proof.difference = errors / sizes;
+        proof.spread =
+            std::sqrt(std::max(0.0, squares - errors * errors / pixels) * pixels / (pixels - 1)) /
+            sizes;
+        double noise = 0, cut = 0;
+        for (const Level& level : levels_) {
+            const double share = static_cast<double>(level.samples) / samples();
+            noise += std::pow(share * level.halves / level.radiance / k_halves_over_noise, 2);
+            cut += share * level.cut / static_cast<double>(level.rgb.size());
+        }
+        proof.noise = std::sqrt(noise);
+        // What the truth itself has cut counts as light of the mean radiance.
+        proof.bound = proof.difference + (chosen_.all ? 0 : k_standard_errors * proof.spread) + cut;
+        if (proof.bound <= room || count < wanted || chosen_.all) break;
+        if (proof.error() - k_standard_errors * proof.spread > room) break;
+        if (static_cast<double>(2 * wanted) * pixel_ns() > most_ns) break;
+    }
+    const ColourError colours = colour_error(seen, true_pixels);
+    proof.bound_delta_e = colours.bound_delta_e();
+    return proof;
+}
+
+}  // namespace culet

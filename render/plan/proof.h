@@ -1,0 +1,89 @@
+#pragma once
+// How far a finished picture is from the truth, and how sure that is: the reference with everything
+// on at a few of its pixels, and at more as long as these leave it open.
+//
+// The error of a picture p is the mean over the stone's pixels of |p - t| over the mean of t. A
+// true pixel t is drawn with few rays, which are off by some e of mean 0, whatever p: then
+// |p - t - e| is no smaller in the mean than |p - t| (Jensen's inequality). So the mean over pixels
+// chosen by chance with three of its standard errors is a bound, and the more is allowed the fewer
+// pixels and rays it takes. Pixels beside which the picture changes much are chosen more often, and
+// count less (Hansen & Hurwitz 1943): that is where pictures are off. One picture is looked at
+// `k_looks` times at most, with a bound each: were the errors' means normally distributed, one of
+// these would be too low in 1 picture of 180.
+
+#include <cstdint>
+
+#include "render/path.h"
+#include "render/picture.h"
+#include "render/plan/pilot_picture.h"
+#include "render/plan/price.h"
+
+namespace culet {
+
+struct Proof {
+    int pixels = 0, samples = 0;
+    double difference = 0;  ///< mean over them, with the noise of the truth's rays
+    double spread = 0;      ///< its standard error
+    double noise = 0;       ///< about what the truth's few rays are off by
+    double bound = 0, bound_delta_e = 0;
+
+    /// The difference less the noise, as of independent quantities.
+    double error() const;
+};
+
+class Prover {
+public:
+    static constexpr int k_looks = 4;
+
+    /// `scene`: one window, with the effects that pictures are held against; `tolerance`: that is
+    /// to be decided; `some`: pixels of the stone. Nothing is drawn yet. `progress` must outlive
+    /// it.
+    Prover(const Scene& scene, StonePixels some, double tolerance, const Progress& progress);
+
+    /// What 16 rays of the truth are off by, as some pixels show it, which are drawn for it.
+    double noise_of_16();
+    /// The truth with so many rays or more.
+    void take(int samples);
+    /// With about twice as many; what was drawn counts.
+    void take_more();
+    int samples() const;
+    /// Price of a pixel with these (price.h), as what was drawn shows it.
+    double pixel_ns() const;
+
+    /// Looks at more and more pixels until the bound fits into `room`, or the picture is certainly
+    /// too far off, or pixels worth `most_ns` were looked at.
+    Proof prove(const Picture& picture, double room, double most_ns);
+
+    /// A picture must not have this square of rays in its pixels: the truth has such a grid.
+    static bool takes_grid(int side);
+
+private:
+    // Rays of one grid in each of the first pixels.
+    struct Level {
+        int samples = 0;
+        std::vector<Rgb> rgb;
+        double halves = 0, radiance = 0, cut = 0;  // sums over the pixels, as they count
+    };
+    struct Chosen {
+        StonePixels pixels;
+        std::vector<double> counts;  // of each, 1 in the mean
+        bool all = false;            // each pixel of the stone once
+    };
+    int grid(std::size_t level) const;
+    void choose(const Picture& picture);
+    PilotDrawing draw(const StonePixels& pixels, int samples);
+    void draw_up_to(std::size_t count);
+    Rgb truth(std::size_t pixel) const;
+
+    Scene scene_;
+    StonePixels some_;
+    PathLimits limits_;
+    int nodes_, windows_;
+    const Progress& progress_;
+    Chosen chosen_;
+    std::vector<Level> levels_;
+    PathWork work_;
+    double rays_drawn_ = 0;  // pixels x samples
+};
+
+}  // namespace culet
