@@ -14,6 +14,7 @@
 #include "render/plan/verify.h"
 #include "stone/errors.h"
 #include "tests/bench/cpu_time.h"
+#include "tests/bench/hand_chosen.h"
 #include "tests/bench/plan_scenes.h"
 
 namespace {
@@ -24,7 +25,8 @@ struct Options {
     int pixels = 64, checked = 60, first = 0, count = 60, every = 1;
     int truth_rays = 400;
     std::vector<double> tolerances{0.1, 0.03, 0.01, 0.003};
-    bool turns = false, prices = false, beams_only = false;
+    bool turns = false, prices = false, beams_only = false, against_cheapest = false, list = false,
+         automatic_only = false;
 };
 
 // A picture of the settled settings: whole by beams, at the truth's pixels by the reference.
@@ -177,6 +179,67 @@ void prices() {
     }
 }
 
+// Everything on, at some pixels; the same for all tolerances.
+Truth truth_of(const Scene& scene, const Options& options) {
+    ScenePlan finest;
+    finest.settings.wavelengths_nm.assign(57, 0);
+    finest.settings.cut_weight = 1e-3;
+    return draw_truth(scene, finest, options.checked, options.truth_rays);
+}
+
+// The automatic picture, with all that makes it, beside the cheapest of a sweep.
+int against_cheapest(const Options& options) {
+    std::vector<PlanScene> scenes = plan_scenes(options.pixels);
+    fmt::print("{:<36}{:>6} {:<10}{:>5}{:>4}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>8}  {}\n", "scene",
+               "tol", "engine", "rays", "nm", "bound", "measured", "plan ms", "CPU ms", "hand ms",
+               "error", "ratio", "by hand");
+    std::vector<std::vector<double>> ratios(options.tolerances.size());
+    const double finest = *std::min_element(options.tolerances.begin(), options.tolerances.end());
+    for (int i = options.first; i < std::min(options.first + options.count, 60);
+         i += options.every) {
+        const PlanScene& item = scenes[static_cast<std::size_t>(i)];
+        const Truth truth = truth_of(item.scene, options);
+        const std::vector<HandChosen> by_hand = options.automatic_only
+                                                    ? std::vector<HandChosen>{}
+                                                    : hand_chosen(item.scene, truth, finest);
+        for (std::size_t t = 0; options.list && t < by_hand.size(); ++t)
+            fmt::print("    {:<50}{:>9.2f}{:>9.4f}\n", by_hand[t].words, 1e3 * by_hand[t].cpu,
+                       by_hand[t].error);
+        for (std::size_t t = 0; t < options.tolerances.size(); ++t) {
+            Scene scene = item.scene;
+            scene.settings.tolerance = options.tolerances[t];
+            RenderResult drawn;
+            const Clocks took = quickest([&] { drawn = render(scene); }, 1, 0);
+            const Clocks planned = quickest([&] { plan_scene(scene); }, 1, 0);
+            const Verification found = hold_against(truth, drawn.picture);
+            const HandChosen* best = cheapest_within(by_hand, options.tolerances[t]);
+            const double ratio = best != nullptr ? took.cpu / best->cpu : 0;
+            if (best != nullptr) ratios[t].push_back(ratio);
+            fmt::print(
+                "{:<36}{:>6g} {:<10}{:>5}{:>4}{:>9.2g}{:>9.2g}{:>9.1f}{:>9.1f}{:>9.1f}{:>9.2g}"
+                "{:>8.2f}  {}{}{}\n",
+                item.name.substr(0, 35), options.tolerances[t], drawn.stats.engine,
+                drawn.stats.plan->settings.samples, drawn.stats.wavelengths_nm.size(),
+                drawn.stats.error_bound, found.measured, 1e3 * planned.cpu, 1e3 * took.cpu,
+                best != nullptr ? 1e3 * best->cpu : 0, best != nullptr ? best->error : 0, ratio,
+                best != nullptr ? best->words : "-",
+                found.measured > options.tolerances[t] ? " OVER" : "",
+                found.measured > drawn.stats.error_bound ? " BOUND" : "");
+            for (const std::string& note : drawn.stats.notes)
+                if (options.list) fmt::print("    {}\n", note);
+            if (options.list) fmt::print("{}", explain(*drawn.stats.plan));
+            std::fflush(stdout);
+        }
+    }
+    for (std::size_t t = 0; t < options.tolerances.size(); ++t) {
+        fmt::print(
+            "tolerance {:g}: {} scenes, time / cheapest {:.3g} in the median, {:.3g} at worst\n",
+            options.tolerances[t], ratios[t].size(), median(ratios[t]),
+            ratios[t].empty() ? 0 : *std::max_element(ratios[t].begin(), ratios[t].end()));
+    }
+    return 0;
+}
+
 int run(const Options& options) {
     std::vector<PlanScene> scenes = plan_scenes(options.pixels);
     std::vector<double> ratios, planning, planning_ms;
@@ -195,10 +258,7 @@ int run(const Options& options) {
             const ScenePlan plan = plan_scene(scene);
             const double plan_cpu = clocks().cpu - start.cpu;
             if (truth.pixels.at.empty()) {
-                ScenePlan finest;
-                finest.settings.wavelengths_nm.assign(57, 0);
-                finest.settings.cut_weight = 1e-3;
-                truth = draw_truth(item.scene, finest, options.checked, options.truth_rays);
+                truth = truth_of(item.scene, options);
             }
             Scene settled = item.scene;
             settled.settings = plan.settings;
@@ -274,6 +334,10 @@ int main(int argc, char** argv) {
     program.add_option("--tolerance", options.tolerances, "instead of 0.1 0.03 0.01 0.003");
     program.add_flag("--prices", options.prices, "what each effect costs, on and off");
     program.add_flag("--turns", options.turns, "rays that take turns with wavelengths");
+    program.add_flag("--against-cheapest", options.against_cheapest,
+                     "hold the whole time against the cheapest of a sweep");
+    program.add_flag("--automatic-only", options.automatic_only, "with it: no sweep");
+    program.add_flag("--list", options.list, "with it: list the sweep and the plans");
     program.add_flag("--beams-only", options.beams_only, "do not fall back to the reference");
     CLI11_PARSE(program, argc, argv);
     try {
@@ -281,6 +345,7 @@ int main(int argc, char** argv) {
             prices();
             return 0;
         }
+        if (options.against_cheapest) return against_cheapest(options);
         if (options.turns) {
             turns(options);
             return 0;
