@@ -57,18 +57,6 @@ RenderSettings settled_by(const RenderSettings& asked, const RenderStats& stats)
     return settled;
 }
 
-// What one has to do to draw so: automatic settings are planned first.
-void draw_for_time(const Scene& scene, const RenderStats& known, const Progress& progress) {
-    if (!known.plan || known.engine == "reference") {
-        // Beams that were not near enough, and rays that were too few, are in the time of `render`.
-        drawn(scene, progress);
-        return;
-    }
-    Scene settled = scene;
-    settled.settings = plan_scene(scene).settings;
-    drawn(settled, progress);
-}
-
 class SceneStudier {
 public:
     SceneStudier(const Scene& scene, const SceneStudyOptions& options, const Progress& progress)
@@ -101,7 +89,7 @@ public:
 private:
     void prepare();
     void try_out(const StudyCandidate& candidate);
-    void time_once(const RenderSettings& settings, const RenderStats& known, DrawnTimes& times);
+    void time_once(const RenderSettings& settings, DrawnTimes& times);
     void try_by_hand();
     void search();
     void time_again();
@@ -181,12 +169,8 @@ void SceneStudier::try_out(const StudyCandidate& candidate) {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count());
     StudiedRender render;
     if (candidate.automatic) {
-        // All that `render` does: where it drew by beams, with their check.
+        // All that `render` does: the plan, its pictures, and their proof.
         render.checked_cpu = times.cpu.front();
-        if (result.stats.engine != "reference") {
-            times = {};
-            time_once(candidate.settings, result.stats, times);
-        }
     }
     render.id = static_cast<int>(study_.renders.size());
     render.sweep = candidate.sweep;
@@ -212,13 +196,12 @@ void SceneStudier::try_out(const StudyCandidate& candidate) {
 }
 
 // One more drawing, for its time.
-void SceneStudier::time_once(const RenderSettings& settings, const RenderStats& known,
-                             DrawnTimes& times) {
+void SceneStudier::time_once(const RenderSettings& settings, DrawnTimes& times) {
     const Scene scene = scene_with(settings);
     const auto wall = std::chrono::steady_clock::now();
     const double cpu = clock_.spent();
     clock_.within(std::numeric_limits<double>::infinity(),
-                  [&](const Progress& progress) { draw_for_time(scene, known, progress); });
+                  [&](const Progress& progress) { drawn(scene, progress); });
     times.cpu.push_back(clock_.spent() - cpu);
     times.wall.push_back(
         std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count());
@@ -305,7 +288,7 @@ void SceneStudier::time_again() {
             StudiedRender& render = study_.renders[static_cast<std::size_t>(id)];
             if (clock_.spent() + render.cpu.median > clock_.share(1)) continue;
             DrawnTimes& times = times_[static_cast<std::size_t>(id)];
-            time_once(render.settings, render.stats, times);
+            time_once(render.settings, times);
             render.runs = static_cast<int>(times.cpu.size());
             render.cpu = of_runs(times.cpu);
             render.wall = of_runs(times.wall);

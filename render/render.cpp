@@ -16,8 +16,8 @@ namespace culet {
 namespace {
 
 constexpr int k_most_rays = 1600;  // of the plan
-// Drawn so often at most: beams, finer ones, and the reference.
-constexpr int k_most_drawings = 4;
+// Drawn so often at most: beams, finer ones, and the reference; a crystal's waves as one.
+constexpr int k_most_drawings = 4, k_most_as_one = 1;
 // Of the tolerance, what finer beams and more rays aim at. Finer beams take longer by about the
 // inverse of what is left of the error.
 constexpr double k_aim = 0.7;
@@ -83,104 +83,164 @@ double seconds_of(const RenderStats& stats) {
     return stats.seconds_setup + stats.seconds_build + stats.seconds_shade + stats.seconds_check;
 }
 
-}  // namespace
+// What is open in a scene, and how its pictures are drawn and proven.
+struct Work {
+    const Scene& scene;
+    Drawer drawer;
+    double tolerance = scene.settings.tolerance;
+    bool engine_is_open = scene.settings.engine == "auto",
+         rays_are_open = scene.settings.samples == 0,
+         wavelengths_are_open = scene.settings.wavelengths_nm.empty();
+};
 
-RenderResult render(const Scene& scene, const Progress& progress) {
-    if (!leaves_something_open(scene.settings)) return drawn(scene, progress);
-    require_renderable(scene);
-    Planner planner(scene, progress);
-    ScenePlan plan = planner.run();
-    Prover* prover = planner.prover();
-    if (prover == nullptr || plan.pilot_pixels == 0) {
-        Scene settled = scene;
-        settled.settings = plan.settings;
-        RenderResult result = drawn(settled, progress);
-        add_plan(plan, result.stats);
-        result.stats.plan = plan;
-        return result;
+struct ProvenPicture {
+    RenderResult result;
+    bool proven = false;
+};
+
+// How a picture is drawn that was not near enough; none: there is no other way.
+struct NextDrawing {
+    RenderSettings settings;
+    double price = 0;
+    std::string note;
+};
+std::optional<NextDrawing> next_drawing(const Work& work, ScenePlan& plan,
+                                        const RenderSettings& settings, double price,
+                                        const RenderStats& stats, const Proof& proof,
+                                        bool last_by_beams) {
+    const double off = proof.error() + 2 * proof.spread;
+    const double room = k_aim * std::max(work.tolerance - plan.bound, 0.3 * work.tolerance);
+    if (!drawn_by_beams(settings)) {
+        const int rays = settings.samples;
+        if (!work.rays_are_open || rays >= k_most_rays) return std::nullopt;
+        const int more =
+            std::max(rays_to_reach(room, rays, std::max(off - plan.bound, stats.sampling_error)),
+                     rays_to_reach(1, rays, 1.3));
+        return NextDrawing{
+            with_rays(settings, more, work.wavelengths_are_open), price * more / rays,
+            fmt::format("{} rays a pixel were off by {:.2g}: drawn with more", rays, proof.bound)};
     }
-    // Where the picture shows more error than the pilot did: finer beams, then the reference, and
-    // more rays.
-    const double tolerance = scene.settings.tolerance;
-    const bool engine_is_open = scene.settings.engine == "auto",
-               rays_are_open = scene.settings.samples == 0,
-               wavelengths_are_open = scene.settings.wavelengths_nm.empty();
-    double price = plan.price_ns;
-    Drawer drawer(scene, progress);
+    // The proof has seen more of what few rays are off by than the plan.
+    const int rays = work.rays_are_open ? std::max(plan.reference.samples,
+                                                   rays_to_reach(room, proof.samples, proof.noise))
+                                        : plan.reference.samples;
+    const double by_paths = plan.reference_ns * rays / plan.reference.samples;
+    const FinerBeams finer =
+        finer_beams(settings, {proof.error(), stats.remainder, 0.5 * plan.bound_of_wavelengths},
+                    k_aim * work.tolerance / off, work.wavelengths_are_open);
+    if (settings.engine == "beams" && !last_by_beams &&
+        (!work.engine_is_open || price * finer.price < by_paths)) {
+        // Half as many wavelengths are off by twice as much, or more.
+        const double count = static_cast<double>(settings.wavelengths_nm.size()),
+                     more = static_cast<double>(finer.settings.wavelengths_nm.size());
+        if (more > 0) plan.bound_of_wavelengths *= count / more;
+        return NextDrawing{
+            finer.settings, price * finer.price,
+            fmt::format("beams came to within {:.2g} only: drawn with finer ones", proof.bound)};
+    }
+    if (!work.engine_is_open) return std::nullopt;
+    return NextDrawing{
+        with_rays(plan.reference, rays, work.wavelengths_are_open), by_paths,
+        fmt::format("beams came to within {:.2g} only: drawn by the reference instead",
+                    proof.bound)};
+}
+
+// Draws as planned, and anew where the picture shows more error than the pilot did: by finer beams,
+// then by the reference, and with more rays; `most` times at most.
+ProvenPicture draw_and_prove(Work& work, ScenePlan plan, Prover& prover, int most) {
     RenderSettings settings = plan.settings;
+    double price = plan.price_ns, seconds_before = 0;
     std::optional<RenderResult> best;
     std::vector<std::string> notes;
-    double seconds_before = 0;
+    ProvenPicture done;
     for (int drawing = 1;; ++drawing) {
-        RenderResult next = drawer.draw(settings);
+        RenderResult next = work.drawer.draw(settings);
         RenderStats& stats = next.stats;
         const auto start = std::chrono::steady_clock::now();
         const double most_ns = std::max(k_least_proof_ns, k_proof_share * price);
-        Proof proof = prover->prove(next.picture, tolerance, most_ns);
+        Proof proof = prover.prove(next.picture, work.tolerance, most_ns);
         // Near enough, but for what the truth's few rays are off by.
         const auto nearly = [&] {
-            return proof.bound > tolerance && proof.error() + 2 * proof.spread <= tolerance;
+            return proof.bound > work.tolerance &&
+                   proof.error() + 2 * proof.spread <= work.tolerance;
         };
         for (int finer = 0; finer < 2 && nearly(); ++finer) {
-            prover->take_more();
-            proof = prover->prove(next.picture, tolerance, most_ns);
+            prover.take_more();
+            proof = prover.prove(next.picture, work.tolerance, most_ns);
         }
+        done.proven = proof.bound <= work.tolerance;
+        std::optional<NextDrawing> other;
+        if (!done.proven && drawing < most)
+            other = next_drawing(work, plan, settings, price, stats, proof, drawing + 1 == most);
         add_plan(plan, stats);
         add_proof(proof, plan, stats);
         stats.seconds_check =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         stats.seconds_setup += seconds_before;
         seconds_before = seconds_of(stats) - plan.seconds_planning;
-        const double sampling_error = stats.sampling_error, cut = stats.remainder;
         if (!best || stats.error_bound < best->stats.error_bound) {
             best = std::move(next);
             plan.settings = settings;
             plan.bound_delta_e = proof.bound_delta_e;
         }
-        if (proof.bound <= tolerance || drawing == k_most_drawings) break;
-        const double off = proof.error() + 2 * proof.spread;
-        const double room = k_aim * std::max(tolerance - plan.bound, 0.3 * tolerance);
-        if (drawn_by_beams(settings)) {
-            // The proof has seen more of what few rays are off by than the plan.
-            const int rays = rays_are_open
-                                 ? std::max(plan.reference.samples,
-                                            rays_to_reach(room, proof.samples, proof.noise))
-                                 : plan.reference.samples;
-            const double by_paths = plan.reference_ns * rays / plan.reference.samples;
-            const FinerBeams finer =
-                finer_beams(settings, {proof.error(), cut, 0.5 * plan.bound_of_wavelengths},
-                            k_aim * tolerance / off, wavelengths_are_open);
-            if (settings.engine == "beams" && drawing + 1 < k_most_drawings &&
-                (!engine_is_open || price * finer.price < by_paths)) {
-                notes.push_back(fmt::format(
-                    "beams came to within {:.2g} only: drawn with finer ones", proof.bound));
-                plan.bound_of_wavelengths *= static_cast<double>(settings.wavelengths_nm.size()) /
-                                             static_cast<double>(std::max<std::size_t>(
-                                                 finer.settings.wavelengths_nm.size(), 1));
-                settings = finer.settings;
-                price *= finer.price;
-                continue;
+        if (!other) break;
+        settings = other->settings;
+        price = other->price;
+        notes.push_back(other->note);
+    }
+    done.result = std::move(*best);
+    for (const std::string& note : notes) done.result.stats.notes.push_back(note);
+    done.result.stats.plan = std::move(plan);
+    return done;
+}
+
+// Crystals whose two waves may go as one: what that is off by, a pilot of few rays shows as far too
+// much, because it shifts light within the pixel.
+bool may_go_as_one(const Scene& scene) {
+    const Plan plan = make_plan(scene);
+    return scene.settings.effects_auto && scene.settings.engine == "auto" && plan.splits &&
+           !plan.stokes && scene.stone.convex;
+}
+
+}  // namespace
+
+RenderResult render(const Scene& scene, const Progress& progress) {
+    if (!leaves_something_open(scene.settings)) return drawn(scene, progress);
+    require_renderable(scene);
+    Work work{scene, Drawer(scene, progress)};
+    std::optional<Prover> prover;
+    double seconds_before = 0;
+    if (may_go_as_one(scene)) {
+        Planner planner(scene, progress, true);
+        const ScenePlan plan = planner.run();
+        prover = planner.take_prover();
+        if (prover && plan.pilot_pixels > 0 && drawn_by_beams(plan.settings)) {
+            ProvenPicture one = draw_and_prove(work, plan, *prover, k_most_as_one);
+            if (one.proven) {
+                for (PlanItem& line : one.result.stats.plan->items) {
+                    if (line.why == k_as_one) line.bound = one.result.stats.error_bound;
+                }
+                return std::move(one.result);
             }
-            if (!engine_is_open) break;
-            notes.push_back(fmt::format(
-                "beams came to within {:.2g} only: drawn by the reference instead", proof.bound));
-            settings = with_rays(plan.reference, rays, wavelengths_are_open);
-            price = by_paths;
-        } else {
-            const int rays = settings.samples;
-            if (!rays_are_open || rays >= k_most_rays) break;
-            const int more =
-                std::max(rays_to_reach(room, rays, std::max(off - plan.bound, sampling_error)),
-                         rays_to_reach(1, rays, 1.3));
-            settings = with_rays(settings, more, wavelengths_are_open);
-            notes.push_back(fmt::format("{} rays a pixel were off by {:.2g}: drawn with more", rays,
-                                        proof.bound));
-            price *= static_cast<double>(more) / rays;
+            seconds_before = seconds_of(one.result.stats);
         }
     }
-    for (const std::string& note : notes) best->stats.notes.push_back(note);
-    best->stats.plan = plan;
-    return std::move(*best);
+    Planner planner(scene, progress);
+    planner.give_prover(std::move(prover));
+    const ScenePlan plan = planner.run();
+    prover = planner.take_prover();
+    RenderResult result;
+    if (!prover || plan.pilot_pixels == 0) {
+        Scene settled = scene;
+        settled.settings = plan.settings;
+        result = drawn(settled, progress);
+        add_plan(plan, result.stats);
+        result.stats.plan = plan;
+    } else {
+        result = draw_and_prove(work, plan, *prover, k_most_drawings).result;
+    }
+    result.stats.seconds_setup += seconds_before;
+    return result;
 }
 
 }  // namespace culet

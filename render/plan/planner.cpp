@@ -31,11 +31,12 @@ constexpr double k_split_weight = 0.1, k_gambled_weight = 0.01, k_picture_split_
 
 }  // namespace
 
-Planner::Planner(const Scene& whole, const Progress& progress)
+Planner::Planner(const Scene& whole, const Progress& progress, bool one_wave)
     : scene_(whole),
       user_(whole.settings),
       progress_(progress),
-      tolerance_(whole.settings.tolerance) {
+      tolerance_(whole.settings.tolerance),
+      one_wave_(one_wave) {
     // The two windows of a dichroscope are one view, seen twice.
     if (scene_.camera.optics.two_windows) scene_.camera.width /= 2;
     const Plan base = make_plan(scene_);
@@ -50,6 +51,12 @@ Planner::Planner(const Scene& whole, const Progress& progress)
     }
     plan_.settings = user_;
     plan_.settings.effects_auto = false;
+    if (!one_wave_) return;
+    for (Effects effect : {Effects::birefringence, Effects::pleochroism, Effects::coherence}) {
+        item(effect).on = false;
+        item(effect).why = k_as_one;
+    }
+    branches_ = !scene_.stone.convex;
 }
 
 ScenePlan Planner::run() {
@@ -194,7 +201,8 @@ void Planner::choose_pixels() {
     // A stone of few pixels is proven at all of them.
     std::size_t first = pixels_.at.size();
     if (all.at.size() < first + k_proof_pixels) first = 0;
-    prover_.emplace(scene_, all.stretch(first, k_proof_pixels), tolerance_, progress_);
+    if (!prover_)
+        prover_.emplace(scene_, all.stretch(first, k_proof_pixels), tolerance_, progress_);
 }
 
 // What is known beforehand needs no pilot.

@@ -22,6 +22,7 @@ constexpr double k_share_of_cheap = 0.05;
 // Rays of a pilot in each pixel; behind a lens. A mean over so few differs by more than one over
 // the pixel.
 constexpr int k_pilot_rays = 4, k_lens_rays = 16;
+constexpr const char* k_as_one = "the two waves go as one";
 constexpr const char* k_same_light = "the light is the same from everywhere: nothing changes";
 
 std::vector<double> even_wavelengths(int count);
@@ -31,12 +32,15 @@ int turns_for(int rays, int wavelengths);
 
 class Planner {
 public:
-    /// `progress` is told 0, and may stop it; it must outlive the planner.
-    explicit Planner(const Scene& whole, const Progress& progress);
+    /// `one_wave`: a crystal's two waves are to go as one, which only the finished picture can show
+    /// to be near enough. `progress` is told 0, and may stop it; it must outlive the planner.
+    Planner(const Scene& whole, const Progress& progress, bool one_wave = false);
     ScenePlan run();
 
-    /// Holds pictures against the truth; null where there was no pilot. After `run`.
-    Prover* prover() { return prover_ ? &*prover_ : nullptr; }
+    /// Holds pictures against the truth; none where there was no pilot. After `run`.
+    std::optional<Prover> take_prover() { return std::move(prover_); }
+    /// Before `run`: of the same scene, whose drawings count.
+    void give_prover(std::optional<Prover> prover) { prover_ = std::move(prover); }
     /// The next finer set of wavelengths.
     static int next_wavelength_count(int count);
 
@@ -83,6 +87,7 @@ private:
     const RenderSettings user_;  // as the scene has them
     const Progress& progress_;
     double tolerance_;
+    bool one_wave_;
     ScenePlan plan_;
     StonePixels pixels_;            // of the pilots
     std::optional<Prover> prover_;  // of others

@@ -53,7 +53,7 @@ Prover::Prover(const Scene& scene, StonePixels some, double tolerance, const Pro
       some_(std::move(some)),
       nodes_(k_node_counts[tolerance < k_fine_tolerance ? 3 : 2]),
       windows_(scene.camera.optics.two_windows ? 2 : 1),
-      progress_(progress) {
+      progress_(&progress) {
     const Plan plan = make_plan(scene_, nodes_);
     const bool branches = plan.splits || !scene_.stone.convex, fine = tolerance < k_fine_tolerance;
     // Interference depends on how wide the wavelengths' bands are.
@@ -108,7 +108,7 @@ double Prover::pixel_ns() const {
 PilotDrawing Prover::draw(const StonePixels& pixels, int samples) {
     Scene scene = scene_;
     scene.settings.wavelength_turns = turns_for(samples, nodes_);
-    PilotDrawing drawing = draw_pilot(scene, pixels, limits_, samples, nodes_, progress_);
+    PilotDrawing drawing = draw_pilot(scene, pixels, limits_, samples, nodes_, *progress_);
     work_.rays += drawing.rays;
     work_.events += drawing.events;
     rays_drawn_ += static_cast<double>(pixels.at.size()) * samples;

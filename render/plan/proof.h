@@ -79,7 +79,7 @@ private:
     StonePixels some_;
     PathLimits limits_;
     int nodes_, windows_;
-    const Progress& progress_;
+    const Progress* progress_;
     Chosen chosen_;
     std::vector<Level> levels_;
     PathWork work_;
