@@ -17,7 +17,7 @@ namespace {
 
 constexpr int k_most_rays = 1600;  // of the plan
 // Drawn so often at most: beams, finer ones, and the reference; a crystal's waves as one.
-constexpr int k_most_drawings = 4, k_most_as_one = 1;
+constexpr int k_most_drawings = 4, k_most_as_one = 2;
 // Of the tolerance, what finer beams and more rays aim at. Finer beams take longer by about the
 // inverse of what is left of the error.
 constexpr double k_aim = 0.7;
@@ -104,10 +104,11 @@ struct NextDrawing {
     double price = 0;
     std::string note;
 };
+enum class Way { any, beams_as_one };
 std::optional<NextDrawing> next_drawing(const Work& work, ScenePlan& plan,
                                         const RenderSettings& settings, double price,
-                                        const RenderStats& stats, const Proof& proof,
-                                        bool last_by_beams) {
+                                        const RenderStats& stats, const Proof& proof, Way way,
+                                        bool last) {
     const double off = proof.error() + 2 * proof.spread;
     const double room = k_aim * std::max(work.tolerance - plan.bound, 0.3 * work.tolerance);
     if (!drawn_by_beams(settings)) {
@@ -128,8 +129,10 @@ std::optional<NextDrawing> next_drawing(const Work& work, ScenePlan& plan,
     const FinerBeams finer =
         finer_beams(settings, {proof.error(), stats.remainder, 0.5 * plan.bound_of_wavelengths},
                     k_aim * work.tolerance / off, work.wavelengths_are_open);
-    if (settings.engine == "beams" && !last_by_beams &&
-        (!work.engine_is_open || price * finer.price < by_paths)) {
+    const bool only_beams = way == Way::beams_as_one || !work.engine_is_open;
+    // Finer beams do not bring the second wave back.
+    if (way == Way::beams_as_one && proof.error() > work.tolerance) return std::nullopt;
+    if (settings.engine == "beams" && (only_beams || (!last && price * finer.price < by_paths))) {
         // Half as many wavelengths are off by twice as much, or more.
         const double count = static_cast<double>(settings.wavelengths_nm.size()),
                      more = static_cast<double>(finer.settings.wavelengths_nm.size());
@@ -138,7 +141,7 @@ std::optional<NextDrawing> next_drawing(const Work& work, ScenePlan& plan,
             finer.settings, price * finer.price,
             fmt::format("beams came to within {:.2g} only: drawn with finer ones", proof.bound)};
     }
-    if (!work.engine_is_open) return std::nullopt;
+    if (only_beams) return std::nullopt;
     return NextDrawing{
         with_rays(plan.reference, rays, work.wavelengths_are_open), by_paths,
         fmt::format("beams came to within {:.2g} only: drawn by the reference instead",
@@ -146,8 +149,9 @@ std::optional<NextDrawing> next_drawing(const Work& work, ScenePlan& plan,
 }
 
 // Draws as planned, and anew where the picture shows more error than the pilot did: by finer beams,
-// then by the reference, and with more rays; `most` times at most.
-ProvenPicture draw_and_prove(Work& work, ScenePlan plan, Prover& prover, int most) {
+// then by the reference, and with more rays.
+ProvenPicture draw_and_prove(Work& work, ScenePlan plan, Prover& prover, Way way) {
+    const int most = way == Way::any ? k_most_drawings : k_most_as_one;
     RenderSettings settings = plan.settings;
     double price = plan.price_ns, seconds_before = 0;
     std::optional<RenderResult> best;
@@ -171,7 +175,8 @@ ProvenPicture draw_and_prove(Work& work, ScenePlan plan, Prover& prover, int mos
         done.proven = proof.bound <= work.tolerance;
         std::optional<NextDrawing> other;
         if (!done.proven && drawing < most)
-            other = next_drawing(work, plan, settings, price, stats, proof, drawing + 1 == most);
+            other =
+                next_drawing(work, plan, settings, price, stats, proof, way, drawing + 1 == most);
         add_plan(plan, stats);
         add_proof(proof, plan, stats);
         stats.seconds_check =
@@ -215,7 +220,7 @@ RenderResult render(const Scene& scene, const Progress& progress) {
         const ScenePlan plan = planner.run();
         prover = planner.take_prover();
         if (prover && plan.pilot_pixels > 0 && drawn_by_beams(plan.settings)) {
-            ProvenPicture one = draw_and_prove(work, plan, *prover, k_most_as_one);
+            ProvenPicture one = draw_and_prove(work, plan, *prover, Way::beams_as_one);
             if (one.proven) {
                 for (PlanItem& line : one.result.stats.plan->items) {
                     if (line.why == k_as_one) line.bound = one.result.stats.error_bound;
@@ -237,7 +242,7 @@ RenderResult render(const Scene& scene, const Progress& progress) {
         add_plan(plan, result.stats);
         result.stats.plan = plan;
     } else {
-        result = draw_and_prove(work, plan, *prover, k_most_drawings).result;
+        result = draw_and_prove(work, plan, *prover, Way::any).result;
     }
     result.stats.seconds_setup += seconds_before;
     return result;

@@ -21,7 +21,7 @@ constexpr double k_share_of_cut = 0.2, k_share_of_effects = 0.5, k_share_of_wave
 constexpr double k_share_of_cheap = 0.05;
 // Rays of a pilot in each pixel; behind a lens. A mean over so few differs by more than one over
 // the pixel.
-constexpr int k_pilot_rays = 4, k_lens_rays = 16;
+constexpr int k_pilot_rays = 4, k_spectral_rays = 9, k_lens_rays = 16;
 constexpr const char* k_as_one = "the two waves go as one";
 constexpr const char* k_same_light = "the light is the same from everywhere: nothing changes";
 
@@ -52,7 +52,8 @@ private:
     Scene with_effects(bool dispersion, std::optional<Effects> without = {}) const;
     Scene at_pilot_wavelengths(Scene scene) const;
     PilotDrawing draw(const Scene& scene, int samples) const;
-    /// Half the pixels: many wavelengths are dear.
+    /// A quarter of the pixels: many wavelengths are dear, and so are rays enough for their colours
+    /// to be those of a pixel rather than of a ray.
     PilotDrawing draw_spectra(const Scene& scene, int samples) const;
     /// What is missing without dispersion.
     ColourError dispersion_gone(Scene whole, Scene flat, const PilotDrawing& fine,

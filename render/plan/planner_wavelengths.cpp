@@ -21,8 +21,8 @@ constexpr double k_coarse_tolerance = 0.05;
 constexpr double k_beyond = 0.5, k_beyond_two = 0.17;
 
 constexpr int k_fine_rays = 36;
-// Of what four rays are off by without dispersion, what so many are off by at the least.
-constexpr double k_of_more_rays = 0.35;
+// Of what nine rays are off by without dispersion, what so many are off by at the least.
+constexpr double k_of_more_rays = 0.5;
 
 bool is_coloured(const LightColour& light) {
     const Rgb* rgb = std::get_if<Rgb>(&light.value);
@@ -80,7 +80,7 @@ double Planner::room_for_wavelengths() const {
 }
 
 PilotDrawing Planner::draw_spectra(const Scene& scene, int samples) const {
-    return draw_pilot(scene, pixels_.stretch(0, (pixels_.at.size() + 1) / 2), limits(cut_), samples,
+    return draw_pilot(scene, pixels_.stretch(0, (pixels_.at.size() + 3) / 4), limits(cut_), samples,
                       k_node_counts[1], progress_);
 }
 
@@ -88,7 +88,7 @@ PilotDrawing Planner::draw_spectra(const Scene& scene, int samples) const {
 // more of them decide.
 ColourError Planner::dispersion_gone(Scene whole, Scene flat, const PilotDrawing& fine,
                                      double allowed) const {
-    const ColourError gone = colour_error(draw_spectra(flat, k_pilot_rays).rgb, fine.rgb);
+    const ColourError gone = colour_error(draw_spectra(flat, k_spectral_rays).rgb, fine.rgb);
     const bool open = gone.bound() > allowed && k_of_more_rays * gone.radiance <= allowed;
     if (!open || !user_.effects_auto) return gone;
     // In turns, as the reference draws them.
@@ -117,7 +117,7 @@ void Planner::choose_wavelengths() {
     dispersed_ = (on(Effects::dispersion) || on(Effects::coherence)) && bands > 1;
     whole_bands_ = dispersed_ ? (open ? k_node_counts[2] : static_cast<double>(bands)) : 1;
     if (dispersed_) {
-        const PilotDrawing fine = draw_spectra(whole, k_pilot_rays);
+        const PilotDrawing fine = draw_spectra(whole, k_spectral_rays);
         if (on(Effects::dispersion)) {
             if (flat_spectrum) flat = finest(flat);
             const double allowed = k_share_of_effects * tolerance_ - spent_;
@@ -147,7 +147,7 @@ void Planner::choose_wavelengths() {
         return;
     }
     const Scene all = finest(with_effects(false));
-    settle_wavelengths(all, counts, level, draw_spectra(all, k_pilot_rays));
+    settle_wavelengths(all, counts, level, draw_spectra(all, k_spectral_rays));
 }
 
 void Planner::settle_wavelengths(Scene pilot, const std::vector<int>& counts, std::size_t level,
@@ -157,7 +157,7 @@ void Planner::settle_wavelengths(Scene pilot, const std::vector<int>& counts, st
         pilot.settings.wavelengths_nm = even_wavelengths(counts[i]);
         std::vector<Rgb> seen;
         if (!anew) seen = colours_of(fine, pilot.settings.wavelengths_nm);
-        if (seen.empty()) seen = draw_spectra(pilot, k_pilot_rays).rgb;
+        if (seen.empty()) seen = draw_spectra(pilot, k_spectral_rays).rgb;
         return colour_error(seen, fine.rgb);
     };
     spectrum_ = true;
