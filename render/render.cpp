@@ -22,7 +22,8 @@ constexpr int k_most_drawings = 4, k_most_as_one = 2;
 // inverse of what is left of the error.
 constexpr double k_aim = 0.7;
 // A proof may take this share of the picture's price before it is drawn anew, which takes longer.
-constexpr double k_proof_share = 1, k_least_proof_ns = 2e7;
+// Two waves take far longer than one.
+constexpr double k_proof_share = 1, k_proof_share_as_one = 15, k_least_proof_ns = 6e7;
 
 bool leaves_something_open(const RenderSettings& settings) {
     return settings.tolerance > 0 &&
@@ -161,18 +162,21 @@ ProvenPicture draw_and_prove(Work& work, ScenePlan plan, Prover& prover, Way way
         RenderResult next = work.drawer.draw(settings);
         RenderStats& stats = next.stats;
         const auto start = std::chrono::steady_clock::now();
-        const double most_ns = std::max(k_least_proof_ns, k_proof_share * price);
-        Proof proof = prover.prove(next.picture, work.tolerance, most_ns);
-        // Near enough, but for what the truth's few rays are off by.
-        const auto nearly = [&] {
-            return proof.bound > work.tolerance &&
-                   proof.error() + 2 * proof.spread <= work.tolerance;
-        };
-        for (int finer = 0; finer < 2 && nearly(); ++finer) {
-            prover.take_more();
-            proof = prover.prove(next.picture, work.tolerance, most_ns);
-        }
+        const double share = way == Way::any ? k_proof_share : k_proof_share_as_one;
+        const Proof proof =
+            prover.prove(next.picture, work.tolerance, std::max(k_least_proof_ns, share * price));
         done.proven = proof.bound <= work.tolerance;
+        fprintf(
+            stderr,
+            "   %s tol %.4f cut %.4f nm %zu rays %d price %.0f ms (ref %.0f): %d px %d "
+            "rays diff %.4f spread %.4f noise %.4f bound %.4f remainder %.4f wl %.4f; took "
+            "%.0f check %.0f ms\n",
+            settings.engine.c_str(), settings.tolerance, settings.cut_weight.value_or(-1),
+            settings.wavelengths_nm.size(), settings.samples, price * 1e-6,
+            plan.reference_ns * 1e-6, proof.pixels, proof.samples, proof.difference, proof.spread,
+            proof.noise, proof.bound, stats.remainder, plan.bound_of_wavelengths,
+            1e3 * (stats.seconds_build + stats.seconds_shade),
+            1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
         std::optional<NextDrawing> other;
         if (!done.proven && drawing < most)
             other =

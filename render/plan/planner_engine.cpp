@@ -18,16 +18,18 @@ constexpr int k_most_side = 40;  // of the grid of rays in a pixel
 // proposal, and the finished picture is held against the reference.
 constexpr double k_beam_error = 0.2, k_beam_error_pixels = 1500, k_least_beam_tolerance = 5e-4;
 // Of what is left of the tolerance, what beams may be off by.
-constexpr double k_share_of_beams = 0.65;
+constexpr double k_share_of_beams = 0.65, k_share_of_noise = 0.8;
 // What the truth's few rays may be off by, as a share of what pictures may: enough for the proof to
 // succeed, and few rays.
-constexpr double k_share_of_truth = 0.5;
+constexpr double k_share_of_truth = 0.7;
 // CIEDE2000 of noise of the mean radiance: about, in pictures of many colours.
 constexpr double k_delta_e_of_noise = 40;
 // Of the beams' error, what one of its causes brings at least to be made less.
 constexpr double k_blame = 0.4;
-// What of a crystal's light beams let go, as a multiple of the tolerance.
-constexpr double k_cut_of_crystals = 0.3;
+// Crystals' beams that were cut at 0.009 left 0.047 of the light, and others in proportion to the
+// cut to the power of 0.6; it may be a third of the tolerance.
+constexpr double k_crystal_cut = 0.009, k_crystal_remainder = 0.047, k_crystal_power = 1 / 0.6,
+                 k_share_of_crystal_cut = 0.35;
 
 // With which the rays of a pixel take turns.
 int nodes_for(int rays) {
@@ -75,8 +77,8 @@ FinerBeams finer_beams(const RenderSettings& settings, const BeamErrors& errors,
     }
     if (errors.cut >= blamed && settings.cut_weight) {
         // What is cut falls more slowly than the weight at which it is.
-        finer.settings.cut_weight = std::pow(share, 1.3) * *settings.cut_weight;
-        finer.price /= share;
+        finer.settings.cut_weight = std::pow(share, k_crystal_power) * *settings.cut_weight;
+        finer.price /= std::pow(share, 1.4);
     }
     const int count = static_cast<int>(settings.wavelengths_nm.size());
     if (errors.wavelengths >= blamed && wavelengths_are_open && count >= 3) {
@@ -103,7 +105,7 @@ double Planner::choose_reference(double room) {
     RenderSettings& reference = plan_.reference;
     reference = plan_.settings;
     reference.engine = "reference";
-    reference.samples = user_.samples > 0 ? user_.samples : samples_for(room);
+    reference.samples = user_.samples > 0 ? user_.samples : samples_for(k_share_of_noise * room);
     double bands_of_ray = 1;
     if (dispersed_) {
         if (user_.wavelengths_nm.empty()) {
@@ -137,11 +139,13 @@ double Planner::choose_beams(double room) {
     const Plan plan = make_plan(tried);
     if (branches_) {
         // Beams are cut, and not gambled on.
-        settings.cut_weight = k_cut_of_crystals * tolerance_;
+        settings.cut_weight =
+            k_crystal_cut *
+            std::pow(k_share_of_crystal_cut * tolerance_ / k_crystal_remainder, k_crystal_power);
     }
     BeamWork beams;
     beams.pixels = pixels_.in_picture;
-    beams.tolerance = settings.tolerance;
+    beams.tolerance = branches_ ? *settings.cut_weight : settings.tolerance;
     beams.bands = static_cast<double>(plan.bands.size());
     beams.nodes = plan.bands.front().count;
     beams.polarised = work_.polarised;
@@ -159,14 +163,19 @@ void Planner::choose_engine_and_samples() {
     settings.split_weight = limits_of_picture().split_weight;
     plan_.mean_radiance = first_.mean;
     plan_.pilot_pixels = static_cast<int>(pixels_.at.size());
-    const double room = std::max(tolerance_ - spent_, 0.25 * tolerance_);
+    // Errors of causes of their own add up as their squares do, about: the proof will tell.
+    const auto left_of = [&](double other) {
+        return std::sqrt(std::max(std::pow(tolerance_, 2) - std::pow(spent_, 2) - other * other,
+                                  std::pow(0.4 * tolerance_, 2)));
+    };
+    const double room = left_of(0);
     noise_ = {16, prover_->noise_of_16(), 0, dispersed_ ? 0.6 : 0.7};
     noise_.delta_e = k_delta_e_of_noise * noise_.radiance;
     const double by_paths = choose_reference(room);
     Scene tried = with_effects(on(Effects::dispersion));
     tried.settings.wavelengths_nm = plan_.reference.wavelengths_nm;
     const std::string refused = refused_by_beams(scene_, make_plan(tried));
-    const double beams_room = std::max(room - (dispersed_ ? wavelength_bound_ : 0), 0.25 * room);
+    const double beams_room = left_of(dispersed_ ? wavelength_bound_ : 0);
     const double by_beams = refused.empty() ? choose_beams(beams_room) : 0;
 
     if (user_.engine != "auto") {
@@ -201,7 +210,7 @@ void Planner::choose_engine_and_samples() {
     plan_.reference_ns = by_paths;
     plan_.seconds_everything = pixels_.in_picture * whole_bands_ *
                                std::max(plan_.reference.samples, 16) * price_ns(whole_);
-    prover_->take(samples_for(k_share_of_truth * room));
+    prover_->take(samples_for(k_share_of_truth * tolerance_));
 }
 
 void Planner::estimate_times() {

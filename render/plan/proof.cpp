@@ -17,6 +17,10 @@ constexpr double k_standard_errors = 3;
 constexpr double k_halves_over_noise = 1.19;
 // Sides of the truth's grids, one after the other. Grids of different sides are off independently.
 constexpr std::array k_sides{4, 5, 7, 11, 15, 22, 32, 46};
+// Of a picture whose error is this share of what it may be, no proof is sought any further.
+constexpr double k_hopeless = 0.97;
+// Of the noise's square, what the next grid takes away.
+constexpr double k_gone_by_rays = 0.6;
 // What the truth's paths are cut at, as a share of the tolerance. Trees that branch gamble: the
 // quickest way to little noise is to follow few branches where few rays do.
 constexpr double k_cut_share = 0.01;
@@ -210,51 +214,69 @@ Rgb Prover::truth(std::size_t pixel) const {
     return sum;
 }
 
-Proof Prover::prove(const Picture& picture, double room, double most_ns) {
-    choose(picture);
+Proof Prover::look(const Picture& picture, std::size_t wanted) {
+    draw_up_to(wanted);
+    const std::size_t count = std::min(wanted, chosen_.pixels.at.size());
     Proof proof;
-    std::size_t wanted = k_first_pixels;
+    proof.pixels = static_cast<int>(count);
+    proof.samples = samples();
     std::vector<Rgb> seen, true_pixels;
-    for (int look = 0; look < k_looks; ++look, wanted *= 2) {
-        draw_up_to(wanted);
-        const std::size_t count = std::min(wanted, chosen_.pixels.at.size());
-        seen.clear();
-        true_pixels.clear();
-        double errors = 0, squares = 0, sizes = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto [x, y] = chosen_.pixels.at[i];
-            seen.push_back(pixel_of(picture, x, y));
-            true_pixels.push_back(truth(i));
-            double error = chosen_.counts[i] * apart(seen.back(), true_pixels.back());
-            // A pixel of no number is as wrong as can be.
-            if (!std::isfinite(error)) error = 1e100;
-            errors += error;
-            squares += error * error;
-            sizes += chosen_.counts[i] * mean_of(true_pixels.back());
-        }
-        const double pixels = static_cast<double>(count);
-        proof.pixels = static_cast<int>(count);
-        proof.samples = samples();
-        if (!(sizes > 0)) return proof;
-        proof.difference = errors / sizes;
+    double errors = 0, squares = 0, sizes = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto [x, y] = chosen_.pixels.at[i];
+        seen.push_back(pixel_of(picture, x, y));
+        true_pixels.push_back(truth(i));
+        double error = chosen_.counts[i] * apart(seen.back(), true_pixels.back());
+        // A pixel of no number is as wrong as can be.
+        if (!std::isfinite(error)) error = 1e100;
+        errors += error;
+        squares += error * error;
+        sizes += chosen_.counts[i] * mean_of(true_pixels.back());
+    }
+    if (!(sizes > 0)) return proof;
+    const double pixels = static_cast<double>(count);
+    proof.difference = errors / sizes;
+    if (!chosen_.all && count > 1) {
         proof.spread =
             std::sqrt(std::max(0.0, squares - errors * errors / pixels) * pixels / (pixels - 1)) /
             sizes;
-        double noise = 0, cut = 0;
-        for (const Level& level : levels_) {
-            const double share = static_cast<double>(level.samples) / samples();
-            noise += std::pow(share * level.halves / level.radiance / k_halves_over_noise, 2);
-            cut += share * level.cut / static_cast<double>(level.rgb.size());
-        }
-        proof.noise = std::sqrt(noise);
-        // What the truth itself has cut counts as light of the mean radiance.
-        proof.bound = proof.difference + (chosen_.all ? 0 : k_standard_errors * proof.spread) + cut;
-        if (proof.bound <= room || count < wanted || chosen_.all) break;
-        if (proof.error() - k_standard_errors * proof.spread > room) break;
-        if (static_cast<double>(2 * wanted) * pixel_ns() > most_ns) break;
     }
-    const ColourError colours = colour_error(seen, true_pixels);
-    proof.bound_delta_e = colours.bound_delta_e();
+    double noise = 0, cut = 0;
+    for (const Level& level : levels_) {
+        const double share = static_cast<double>(level.samples) / samples();
+        noise += std::pow(share * level.halves / level.radiance / k_halves_over_noise, 2);
+        cut += share * level.cut / static_cast<double>(level.rgb.size());
+    }
+    proof.noise = std::sqrt(noise);
+    // What the truth itself has cut counts as light of the mean radiance.
+    proof.bound = proof.difference + k_standard_errors * proof.spread + cut;
+    proof.bound_delta_e = colour_error(seen, true_pixels).bound_delta_e();
+    return proof;
+}
+
+Proof Prover::prove(const Picture& picture, double room, double most_ns) {
+    choose(picture);
+    std::size_t wanted = k_first_pixels;
+    Proof proof = look(picture, wanted);
+    for (int more = 1; more < k_looks && proof.bound > room; ++more) {
+        const double error = proof.error();
+        if (error - k_standard_errors * proof.spread > room || error > k_hopeless * room) break;
+        // Twice the pixels, or more rays: whatever lowers the bound by more.
+        const double by_pixels = (1 - std::sqrt(0.5)) * k_standard_errors * proof.spread,
+                     by_rays =
+                         proof.difference -
+                         std::sqrt(std::max(0.0, std::pow(proof.difference, 2) -
+                                                     k_gone_by_rays * proof.noise * proof.noise));
+        if (2 * pixel_ns() * static_cast<double>(wanted) > most_ns) break;
+        if (by_rays > by_pixels && levels_.size() < k_sides.size()) {
+            take_more();
+        } else if (wanted < chosen_.pixels.at.size()) {
+            wanted *= 2;
+        } else {
+            break;
+        }
+        proof = look(picture, wanted);
+    }
     return proof;
 }
 

@@ -9,7 +9,7 @@
 // pixels and rays it takes. Pixels beside which the picture changes much are chosen more often, and
 // count less (Hansen & Hurwitz 1943): that is where pictures are off. One picture is looked at
 // `k_looks` times at most, with a bound each: were the errors' means normally distributed, one of
-// these would be too low in 1 picture of 180.
+// these would be too low in 1 picture of 150.
 
 #include <cstdint>
 
@@ -33,7 +33,7 @@ struct Proof {
 
 class Prover {
 public:
-    static constexpr int k_looks = 4;
+    static constexpr int k_looks = 5;
 
     /// `scene`: one window, with the effects that pictures are held against; `tolerance`: that is
     /// to be decided; `some`: pixels of the stone. Nothing is drawn yet. `progress` must outlive
@@ -50,8 +50,8 @@ public:
     /// Price of a pixel with these (price.h), as what was drawn shows it.
     double pixel_ns() const;
 
-    /// Looks at more and more pixels until the bound fits into `room`, or the picture is certainly
-    /// too far off, or pixels worth `most_ns` were looked at.
+    /// Looks at more and more pixels, or with more rays, until the bound fits into `room`, or the
+    /// picture is certainly too far off, or pixels worth `most_ns` were looked at.
     Proof prove(const Picture& picture, double room, double most_ns);
 
     /// A picture must not have this square of rays in its pixels: the truth has such a grid.
@@ -74,6 +74,7 @@ private:
     PilotDrawing draw(const StonePixels& pixels, int samples);
     void draw_up_to(std::size_t count);
     Rgb truth(std::size_t pixel) const;
+    Proof look(const Picture& picture, std::size_t wanted);
 
     Scene scene_;
     StonePixels some_;

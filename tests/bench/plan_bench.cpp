@@ -25,73 +25,8 @@ struct Options {
     int pixels = 64, checked = 60, first = 0, count = 60, every = 1;
     int truth_rays = 400;
     std::vector<double> tolerances{0.1, 0.03, 0.01, 0.003};
-    bool turns = false, prices = false, beams_only = false, against_cheapest = false, list = false,
-         automatic_only = false;
+    bool turns = false, prices = false, against_cheapest = false, list = false;
 };
-
-// A picture of the settled settings: whole by beams, at the truth's pixels by the reference.
-struct Drawn {
-    Verification found;
-    double cpu = 0, bound = 0;
-    std::string engine;
-    int samples = 0;
-    std::size_t wavelengths = 0;
-};
-
-Drawn drawn_by_reference(const Scene& scene, const Truth& truth) {
-    PathLimits limits;
-    const RenderSettings& settings = scene.settings;
-    limits.seed = settings.seed;
-    limits.depth = settings.depth > 0 ? settings.depth : k_deepest;
-    limits.cut_weight = *settings.cut_weight;
-    limits.split_weight = *settings.split_weight;
-    limits.roulette = make_plan(scene).splits;
-    const Clocks start = clocks();
-    const PilotDrawing drawing = draw_pilot(scene, truth.pixels, limits, settings.samples);
-    Drawn result;
-    result.cpu = (clocks().cpu - start.cpu) * truth.pixels.in_picture /
-                 static_cast<double>(truth.pixels.at.size());
-    Picture picture;
-    picture.width = scene.camera.width;
-    picture.height = scene.camera.height;
-    picture.rgb.resize(3 * picture.pixels());
-    for (std::size_t i = 0; i < truth.pixels.at.size(); ++i) {
-        const auto [x, y] = truth.pixels.at[i];
-        for (std::size_t c = 0; c < 3; ++c)
-            picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                             static_cast<std::size_t>(x)) +
-                        c] = static_cast<float>(drawing.rgb[i][c]);
-    }
-    result.found = hold_against(truth, picture);
-    result.bound =
-        settings.samples > 1 ? drawing.few_rays : std::numeric_limits<double>::quiet_NaN();
-    result.engine = "reference";
-    return result;
-}
-
-Drawn drawn(const Scene& scene, const Truth& truth) {
-    Drawn result;
-    if (scene.settings.engine == "reference") {
-        result = drawn_by_reference(scene, truth);
-    } else {
-        const Clocks start = clocks();
-        const RenderResult rendered = render(scene);
-        result.cpu = clocks().cpu - start.cpu;
-        result.found = hold_against(truth, rendered.picture);
-        result.bound = rendered.stats.engine_error;
-        result.engine = rendered.stats.engine;
-    }
-    result.samples = scene.settings.samples;
-    result.wavelengths = scene.settings.wavelengths_nm.size();
-    return result;
-}
-
-// As render() has it.
-double bound_of(const ScenePlan& plan, const Drawn& result) {
-    return plan.bound + (result.engine == "reference"
-                             ? std::max(plan.bound_of_sampling, result.bound)
-                             : result.bound);
-}
 
 double median(std::vector<double> values) {
     if (values.empty()) return 0;
@@ -187,44 +122,62 @@ Truth truth_of(const Scene& scene, const Options& options) {
     return draw_truth(scene, finest, options.checked, options.truth_rays);
 }
 
-// The automatic picture, with all that makes it, beside the cheapest of a sweep.
-int against_cheapest(const Options& options) {
+// The automatic picture, with all that makes it, against the truth; and beside the cheapest of a
+// sweep.
+int run(const Options& options) {
     std::vector<PlanScene> scenes = plan_scenes(options.pixels);
-    fmt::print("{:<36}{:>6} {:<10}{:>5}{:>4}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>8}  {}\n", "scene",
-               "tol", "engine", "rays", "nm", "bound", "measured", "plan ms", "CPU ms", "hand ms",
-               "error", "ratio", "by hand");
-    std::vector<std::vector<double>> ratios(options.tolerances.size());
+    fmt::print("{:<36}{:>6} {:<10}{:>5}{:>4}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>9}{:>8}  {}\n",
+               "scene", "tol", "engine", "rays", "nm", "bound", "measured", "noise", "plan ms",
+               "CPU ms", "hand ms", "error", "ratio", "by hand");
+    struct Sums {
+        std::vector<double> ratios, bounds, planning, planning_ms, cpu_ms;
+        int over = 0, under = 0, cases = 0;
+    };
+    std::vector<Sums> sums(options.tolerances.size());
     const double finest = *std::min_element(options.tolerances.begin(), options.tolerances.end());
     for (int i = options.first; i < std::min(options.first + options.count, 60);
          i += options.every) {
         const PlanScene& item = scenes[static_cast<std::size_t>(i)];
         const Truth truth = truth_of(item.scene, options);
-        const std::vector<HandChosen> by_hand = options.automatic_only
-                                                    ? std::vector<HandChosen>{}
-                                                    : hand_chosen(item.scene, truth, finest);
-        for (std::size_t t = 0; options.list && t < by_hand.size(); ++t)
+        const std::vector<HandChosen> by_hand = options.against_cheapest
+                                                    ? hand_chosen(item.scene, truth, finest)
+                                                    : std::vector<HandChosen>{};
+        for (std::size_t t = 0; options.list && t < by_hand.size(); ++t) {
             fmt::print("    {:<50}{:>9.2f}{:>9.4f}\n", by_hand[t].words, 1e3 * by_hand[t].cpu,
                        by_hand[t].error);
+        }
         for (std::size_t t = 0; t < options.tolerances.size(); ++t) {
+            const double tolerance = options.tolerances[t];
             Scene scene = item.scene;
-            scene.settings.tolerance = options.tolerances[t];
+            scene.settings.tolerance = tolerance;
             RenderResult drawn;
             const Clocks took = quickest([&] { drawn = render(scene); }, 1, 0);
-            const Clocks planned = quickest([&] { plan_scene(scene); }, 1, 0);
+            // Where nothing was drawn twice, what was not drawing is planning and proof.
+            const double planned = drawn.stats.plan->seconds_planning;
             const Verification found = hold_against(truth, drawn.picture);
-            const HandChosen* best = cheapest_within(by_hand, options.tolerances[t]);
-            const double ratio = best != nullptr ? took.cpu / best->cpu : 0;
-            if (best != nullptr) ratios[t].push_back(ratio);
+            const HandChosen* best = cheapest_within(by_hand, tolerance);
+            Sums& sum = sums[t];
+            ++sum.cases;
+            const double bound = drawn.stats.error_bound,
+                         ratio = best != nullptr ? took.cpu / best->cpu : 0;
+            // As far as the truth can tell.
+            const double certain = found.measured - 2 * found.spread;
+            const bool over = found.measured > tolerance, under = found.measured > bound;
+            sum.over += certain > tolerance;
+            sum.under += certain > bound;
+            if (best != nullptr) sum.ratios.push_back(ratio);
+            if (found.measured > 0) sum.bounds.push_back(bound / found.measured);
+            sum.planning.push_back(planned / took.cpu);
+            sum.planning_ms.push_back(1e3 * planned);
+            sum.cpu_ms.push_back(1e3 * took.cpu);
             fmt::print(
-                "{:<36}{:>6g} {:<10}{:>5}{:>4}{:>9.2g}{:>9.2g}{:>9.1f}{:>9.1f}{:>9.1f}{:>9.2g}"
-                "{:>8.2f}  {}{}{}\n",
-                item.name.substr(0, 35), options.tolerances[t], drawn.stats.engine,
-                drawn.stats.plan->settings.samples, drawn.stats.wavelengths_nm.size(),
-                drawn.stats.error_bound, found.measured, 1e3 * planned.cpu, 1e3 * took.cpu,
+                "{:<36}{:>6g} {:<10}{:>5}{:>4}{:>9.2g}{:>9.2g}{:>9.2g}{:>9.1f}{:>9.1f}{:>9.1f}"
+                "{:>9.2g}{:>8.2f}  {}{}{}\n",
+                item.name.substr(0, 35), tolerance, drawn.stats.engine,
+                drawn.stats.plan->settings.samples, drawn.stats.wavelengths_nm.size(), bound,
+                found.measured, found.noise, 1e3 * planned, 1e3 * took.cpu,
                 best != nullptr ? 1e3 * best->cpu : 0, best != nullptr ? best->error : 0, ratio,
-                best != nullptr ? best->words : "-",
-                found.measured > options.tolerances[t] ? " OVER" : "",
-                found.measured > drawn.stats.error_bound ? " BOUND" : "");
+                best != nullptr ? best->words : "-", over ? " OVER" : "", under ? " BOUND" : "");
             for (const std::string& note : drawn.stats.notes)
                 if (options.list) fmt::print("    {}\n", note);
             if (options.list) fmt::print("{}", explain(*drawn.stats.plan));
@@ -232,91 +185,18 @@ int against_cheapest(const Options& options) {
         }
     }
     for (std::size_t t = 0; t < options.tolerances.size(); ++t) {
+        const Sums& sum = sums[t];
         fmt::print(
-            "tolerance {:g}: {} scenes, time / cheapest {:.3g} in the median, {:.3g} at worst\n",
-            options.tolerances[t], ratios[t].size(), median(ratios[t]),
-            ratios[t].empty() ? 0 : *std::max_element(ratios[t].begin(), ratios[t].end()));
-    }
-    return 0;
-}
-
-int run(const Options& options) {
-    std::vector<PlanScene> scenes = plan_scenes(options.pixels);
-    std::vector<double> ratios, planning, planning_ms;
-    int cases = 0, over = 0, under = 0;
-    fmt::print("{:<40}{:>7} {:<10}{:>5}{:>4} {:>9}{:>9}{:>9}{:>8}{:>9}{:>9}  {}\n", "scene", "tol",
-               "engine", "rays", "nm", "bound", "measured", "noise", "dE", "plan ms", "CPU ms",
-               "off");
-    for (int i = options.first; i < std::min(options.first + options.count, 60);
-         i += options.every) {
-        PlanScene& item = scenes[static_cast<std::size_t>(i)];
-        Truth truth;
-        for (double tolerance : options.tolerances) {
-            Scene scene = item.scene;
-            scene.settings.tolerance = tolerance;
-            const Clocks start = clocks();
-            const ScenePlan plan = plan_scene(scene);
-            const double plan_cpu = clocks().cpu - start.cpu;
-            if (truth.pixels.at.empty()) {
-                truth = truth_of(item.scene, options);
-            }
-            Scene settled = item.scene;
-            settled.settings = plan.settings;
-            Drawn result = drawn(settled, truth);
-            double bound = bound_of(plan, result);
-            if (result.engine != "reference" && bound > tolerance && options.beams_only) {
-                fmt::print(
-                    "    beams: {:.2g} by their check with {} rays at {} pixels, measured "
-                    "{:.2g}, plan {:.2g}, {:.1f} ms\n",
-                    result.bound, plan.settings.checked_samples, plan.settings.checked_pixels,
-                    result.found.measured, plan.bound, 1e3 * result.cpu);
-            } else if (result.engine != "reference" && bound > tolerance) {
-                const double before = result.cpu;
-                fmt::print(
-                    "    beams: {:.2g} by their check with {} rays at {} pixels, measured "
-                    "{:.2g}, plan {:.2g}, {:.1f} ms\n",
-                    result.bound, plan.settings.checked_samples, plan.settings.checked_pixels,
-                    result.found.measured, plan.bound, 1e3 * before);
-                settled.settings = plan.reference;
-                result = drawn(settled, truth);
-                result.engine = "ref. after";
-                result.cpu += before;
-                bound = bound_of(plan, result);
-            }
-            // As render() does, once.
-            const double room = tolerance - plan.bound;
-            if (bound > tolerance && settled.settings.engine == "reference" && room > 0) {
-                const double before = result.cpu;
-                settled.settings.samples =
-                    rays_to_reach(room, settled.settings.samples, bound - plan.bound);
-                result = drawn(settled, truth);
-                result.cpu += before;
-                bound = plan.bound + result.bound;
-            }
-            const Verification& found = result.found;
-            std::string off;
-            for (const PlanItem& line : plan.items) {
-                if (!line.on && line.bound > 0) off += line.name + " ";
-            }
-            fmt::print(
-                "{:<40}{:>7g} {:<10}{:>5}{:>4} {:>9.2g}{:>9.2g}{:>9.2g}{:>8.2g}{:>9.1f}"
-                "{:>9.1f}  {}{}{}\n",
-                item.name, tolerance, result.engine, result.samples, result.wavelengths, bound,
-                found.measured, found.noise, found.delta_e, 1e3 * plan_cpu, 1e3 * result.cpu, off,
-                found.measured > tolerance ? "OVER " : "", found.measured > bound ? "BOUND " : "");
-            std::fflush(stdout);
-            ++cases;
-            over += found.measured > tolerance;
-            under += found.measured > bound;
-            if (found.measured > 0) ratios.push_back(bound / found.measured);
-            planning.push_back(plan_cpu / result.cpu);
-            planning_ms.push_back(1e3 * plan_cpu);
+            "tolerance {:g}: {} scenes, {} certainly over it, {} certainly over the bound; in the "
+            "median bound / measured {:.3g}, planning / all {:.3g} ({:.3g} ms of {:.3g})",
+            options.tolerances[t], sum.cases, sum.over, sum.under, median(sum.bounds),
+            median(sum.planning), median(sum.planning_ms), median(sum.cpu_ms));
+        if (!sum.ratios.empty()) {
+            fmt::print("; time / cheapest {:.3g} in the median, {:.3g} at worst",
+                       median(sum.ratios), *std::max_element(sum.ratios.begin(), sum.ratios.end()));
         }
+        fmt::print("\n");
     }
-    fmt::print(
-        "{} cases: {} over the tolerance, {} over the bound; bound / measured in the median "
-        "{:.3g}; planning / picture in the median {:.3g}, {:.3g} ms\n",
-        cases, over, under, median(ratios), median(planning), median(planning_ms));
     return 0;
 }
 
@@ -336,16 +216,13 @@ int main(int argc, char** argv) {
     program.add_flag("--turns", options.turns, "rays that take turns with wavelengths");
     program.add_flag("--against-cheapest", options.against_cheapest,
                      "hold the whole time against the cheapest of a sweep");
-    program.add_flag("--automatic-only", options.automatic_only, "with it: no sweep");
-    program.add_flag("--list", options.list, "with it: list the sweep and the plans");
-    program.add_flag("--beams-only", options.beams_only, "do not fall back to the reference");
+    program.add_flag("--list", options.list, "the sweep, and the plans");
     CLI11_PARSE(program, argc, argv);
     try {
         if (options.prices) {
             prices();
             return 0;
         }
-        if (options.against_cheapest) return against_cheapest(options);
         if (options.turns) {
             turns(options);
             return 0;
