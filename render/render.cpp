@@ -166,17 +166,6 @@ ProvenPicture draw_and_prove(Work& work, ScenePlan plan, Prover& prover, Way way
         const Proof proof =
             prover.prove(next.picture, work.tolerance, std::max(k_least_proof_ns, share * price));
         done.proven = proof.bound <= work.tolerance;
-        fprintf(
-            stderr,
-            "   %s tol %.4f cut %.4f nm %zu rays %d price %.0f ms (ref %.0f): %d px %d "
-            "rays diff %.4f spread %.4f noise %.4f bound %.4f remainder %.4f wl %.4f; took "
-            "%.0f check %.0f ms\n",
-            settings.engine.c_str(), settings.tolerance, settings.cut_weight.value_or(-1),
-            settings.wavelengths_nm.size(), settings.samples, price * 1e-6,
-            plan.reference_ns * 1e-6, proof.pixels, proof.samples, proof.difference, proof.spread,
-            proof.noise, proof.bound, stats.remainder, plan.bound_of_wavelengths,
-            1e3 * (stats.seconds_build + stats.seconds_shade),
-            1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
         std::optional<NextDrawing> other;
         if (!done.proven && drawing < most)
             other =
