@@ -105,11 +105,13 @@ struct NextDrawing {
     double price = 0;
     std::string note;
 };
-enum class Way { any, beams_as_one };
+enum class Way { any, as_one };
 std::optional<NextDrawing> next_drawing(const Work& work, ScenePlan& plan,
                                         const RenderSettings& settings, double price,
                                         const RenderStats& stats, const Proof& proof, Way way,
                                         bool last) {
+    // No finer drawing brings the second wave back.
+    if (way == Way::as_one && proof.error() > work.tolerance) return std::nullopt;
     const double off = proof.error() + 2 * proof.spread;
     const double room = k_aim * std::max(work.tolerance - plan.bound, 0.3 * work.tolerance);
     if (!drawn_by_beams(settings)) {
@@ -130,9 +132,7 @@ std::optional<NextDrawing> next_drawing(const Work& work, ScenePlan& plan,
     const FinerBeams finer =
         finer_beams(settings, {proof.error(), stats.remainder, 0.5 * plan.bound_of_wavelengths},
                     k_aim * work.tolerance / off, work.wavelengths_are_open);
-    const bool only_beams = way == Way::beams_as_one || !work.engine_is_open;
-    // Finer beams do not bring the second wave back.
-    if (way == Way::beams_as_one && proof.error() > work.tolerance) return std::nullopt;
+    const bool only_beams = way == Way::as_one || !work.engine_is_open;
     if (settings.engine == "beams" && (only_beams || (!last && price * finer.price < by_paths))) {
         // Half as many wavelengths are off by twice as much, or more.
         const double count = static_cast<double>(settings.wavelengths_nm.size()),
@@ -212,8 +212,8 @@ RenderResult render(const Scene& scene, const Progress& progress) {
         Planner planner(scene, progress, true);
         const ScenePlan plan = planner.run();
         prover = planner.take_prover();
-        if (prover && plan.pilot_pixels > 0 && drawn_by_beams(plan.settings)) {
-            ProvenPicture one = draw_and_prove(work, plan, *prover, Way::beams_as_one);
+        if (prover && plan.pilot_pixels > 0) {
+            ProvenPicture one = draw_and_prove(work, plan, *prover, Way::as_one);
             if (one.proven) {
                 for (PlanItem& line : one.result.stats.plan->items) {
                     if (line.why == k_as_one) line.bound = one.result.stats.error_bound;

@@ -28,8 +28,8 @@ constexpr double k_gambled_weight = 0.04, k_split_weight = 0.6, k_fine_gambled_w
                  k_fine_split_weight = 0.3;
 // Below this tolerance the truth takes the finest wavelengths, and larger trees.
 constexpr double k_fine_tolerance = 0.02;
-// Every pixel has this share of a mean chance at least: none counts more than five times.
-constexpr double k_even_share = 0.2;
+// Every pixel has this share of a mean chance at least: none counts more than two and a half times.
+constexpr double k_even_share = 0.4;
 
 Rgb pixel_of(const Picture& picture, int x, int y) {
     const float* rgb = picture.at(x, y);
@@ -199,7 +199,9 @@ void Prover::draw_up_to(std::size_t count) {
             level.radiance += mean_of(drawing.rgb[i]) * chosen_.counts[first + i];
             level.halves += drawing.halves_apart[i] * chosen_.counts[first + i];
         }
-        level.cut += (drawing.cut + drawing.remainder) * static_cast<double>(more.at.size());
+        // What a depth leaves out that the scene names, the plan has bounded.
+        const double lost = drawing.cut + (scene_.settings.depth > 0 ? 0 : drawing.remainder);
+        level.cut += lost * static_cast<double>(more.at.size());
         level.rgb.insert(level.rgb.end(), drawing.rgb.begin(), drawing.rgb.end());
     }
 }
