@@ -19,6 +19,9 @@ constexpr double k_halves_over_noise = 1.19;
 constexpr std::array k_sides{4, 5, 7, 11, 15, 22, 32, 46};
 // Of a picture whose error is this share of what it may be, no proof is sought any further.
 constexpr double k_hopeless = 0.97;
+// Noise that is more than this share of the difference hides what the picture is off by; finding it
+// out may cost so many times as much as usual, because drawing anew would not help.
+constexpr double k_noisy = 0.5, k_noisy_price = 4;
 // Of the noise's square, what the next grid takes away.
 constexpr double k_gone_by_rays = 0.6;
 // What the truth's paths are cut at, as a share of the tolerance. Trees that branch gamble: the
@@ -262,14 +265,19 @@ Proof Prover::prove(const Picture& picture, double room, double most_ns) {
     Proof proof = look(picture, wanted);
     for (int more = 1; more < k_looks && proof.bound > room; ++more) {
         const double error = proof.error();
-        if (error - k_standard_errors * proof.spread > room || error > k_hopeless * room) break;
+        // As long as the noise is what is seen, the picture cannot be blamed.
+        const bool noisy = proof.noise > k_noisy * proof.difference;
+        if (!noisy &&
+            (error - k_standard_errors * proof.spread > room || error > k_hopeless * room))
+            break;
         // Twice the pixels, or more rays: whatever lowers the bound by more.
         const double by_pixels = (1 - std::sqrt(0.5)) * k_standard_errors * proof.spread,
                      by_rays =
                          proof.difference -
                          std::sqrt(std::max(0.0, std::pow(proof.difference, 2) -
                                                      k_gone_by_rays * proof.noise * proof.noise));
-        if (2 * pixel_ns() * static_cast<double>(wanted) > most_ns) break;
+        if (2 * pixel_ns() * static_cast<double>(wanted) > (noisy ? k_noisy_price : 1) * most_ns)
+            break;
         if (by_rays > by_pixels && levels_.size() < k_sides.size()) {
             take_more();
         } else if (wanted < chosen_.pixels.at.size()) {
