@@ -21,6 +21,9 @@ constexpr int k_most_drawings = 4, k_most_as_one = 2;
 // Of the tolerance, what finer beams and more rays aim at. Finer beams take longer by about the
 // inverse of what is left of the error.
 constexpr double k_aim = 0.7;
+// The last drawing is the reference's, which is off by nothing but its few rays, unless it would
+// take so many times as long.
+constexpr double k_last_by_beams = 4;
 // A proof may take this share of the picture's price before it is drawn anew, which takes longer.
 // Two waves take far longer than one.
 constexpr double k_proof_share = 1, k_proof_share_as_one = 15, k_least_proof_ns = 6e7;
@@ -133,7 +136,8 @@ std::optional<NextDrawing> next_drawing(const Work& work, ScenePlan& plan,
         finer_beams(settings, {proof.error(), stats.remainder, 0.5 * plan.bound_of_wavelengths},
                     k_aim * work.tolerance / off, work.wavelengths_are_open);
     const bool only_beams = way == Way::as_one || !work.engine_is_open;
-    if (settings.engine == "beams" && (only_beams || (!last && price * finer.price < by_paths))) {
+    if (settings.engine == "beams" &&
+        (only_beams || price * finer.price * (last ? k_last_by_beams : 1) < by_paths)) {
         // Half as many wavelengths are off by twice as much, or more.
         const double count = static_cast<double>(settings.wavelengths_nm.size()),
                      more = static_cast<double>(finer.settings.wavelengths_nm.size());
