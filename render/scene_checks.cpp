@@ -39,6 +39,10 @@ void require_renderable(const Scene& scene) {
                                 stone.name.empty() ? "stone" : stone.name, fault.what));
         }
     }
+    if (!(volume(stone.solid) > 0)) {
+        throw InputError(fmt::format("{}: the mesh encloses no volume: it is flat",
+                                     stone.name.empty() ? "stone" : stone.name));
+    }
     const double size = diameter(stone.solid);
     if (stone.convex) {
         for (const Facet& facet : stone.solid.facets) {

@@ -1,8 +1,11 @@
 #include "stone/stone.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -34,16 +37,43 @@ std::string extension_of(const std::filesystem::path& file) {
     return extension;
 }
 
+// Areas go with the fourth power before a root is taken, and edges may be 1e-13 of the whole: what
+// is larger or smaller runs out of a double's exponents, and is no unit that a stone is measured
+// in.
+constexpr double k_largest_coordinate = 1e50, k_smallest_extent = 1e-50;
+
+void require_sane_size(const Solid& solid, const std::filesystem::path& file) {
+    if (solid.vertices.empty()) return;
+    Vec3 least = solid.vertices.front(), most = least;
+    for (const Vec3& v : solid.vertices) {
+        least = glm::min(least, v);
+        most = glm::max(most, v);
+    }
+    double largest = 0, extent = 0;
+    for (int k = 0; k < 3; ++k) {
+        largest = std::max({largest, std::abs(least[k]), std::abs(most[k])});
+        extent = std::max(extent, most[k] - least[k]);
+    }
+    if (largest > k_largest_coordinate || (extent > 0 && extent < k_smallest_extent)) {
+        throw InputError(
+            file, fmt::format("has coordinates up to {:.2g} and is {:.2g} across: between {:g} and "
+                              "{:g} can be computed with; write it in another unit",
+                              largest, extent, k_smallest_extent, k_largest_coordinate));
+    }
+}
+
 }  // namespace
 
 SolidFile read_solid(const std::filesystem::path& file) {
     const std::string extension = extension_of(file);
     if (extension == ".asc" || extension == ".gem") {
         ReadCut cut = extension == ".asc" ? read_gemcad_asc(file) : read_gemcad_gem(file);
+        require_sane_size(cut.solid, file);
         return {std::move(cut.solid), std::move(cut.notes)};
     }
     if (extension == ".obj" || extension == ".off" || extension == ".ply" || extension == ".stl") {
         ReadSolid mesh = read_mesh(file);
+        require_sane_size(mesh.solid, file);
         return {std::move(mesh.solid), std::move(mesh.notes)};
     }
     throw InputError(

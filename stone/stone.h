@@ -40,8 +40,9 @@ double inclination(const Vec3& normal, const Vec3& up);
 /// Azimuth of a normal about +z, radians in [0, 2 pi), counter-clockwise from +x seen from above.
 double azimuth(const Vec3& normal);
 
-/// The mesh or cut file IN FILE's format (.obj .off .ply .stl .asc .gem), without any check.
-/// Throws InputError for an unknown extension.
+/// The mesh or cut file IN FILE's format (.obj .off .ply .stl .asc .gem), checked for nothing but
+/// its size. Throws InputError for an unknown extension, coordinates beyond 1e50, and a mesh less
+/// than 1e-50 across.
 struct SolidFile {
     Solid solid;
     std::vector<std::string> notes;

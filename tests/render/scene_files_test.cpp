@@ -11,6 +11,7 @@
 
 #include "render/image_io.h"
 #include "render/light_presets.h"
+#include "render/scene_checks.h"
 #include "render/scene_io.h"
 #include "stone/errors.h"
 
@@ -139,6 +140,16 @@ TEST_F(SceneStones, radiances_that_no_picture_can_hold_are_refused) {
                           ", 1]\n"),
                   "");
     }
+}
+
+// All of it in one plane: nothing is inside.
+TEST_F(SceneStones, a_flat_stone_is_refused) {
+    std::string flat = k_tetrahedron;
+    const std::size_t apex = flat.rfind("v ");
+    flat.replace(apex, flat.find('\n', apex) - apex, "v 0.3 0.3 0");
+    write("flat.obj", flat);
+    const Scene scene = read("mesh = \"flat.obj\"\nmaterial = \"diamond\"\n" + k_light);
+    EXPECT_THROW(require_renderable(scene), InputError);
 }
 
 TEST_F(SceneStones, environments_of_every_kind) {

@@ -254,6 +254,27 @@ TEST_P(BadFile, MayNotBeRead) {
     EXPECT_THROW(read_solid(file()), InputError);
 }
 
+// Areas and volumes of such a stone overflow or vanish: it was told to be not convex, of volume
+// nan.
+TEST(BadSize, AStoneOfNoUnitIsRefused) {
+    const ScratchFolder folder;
+    const auto file = folder / "cube.obj";
+    for (const double factor : {1e-300, 1e-51, 1e51, 1e150, 1e300}) {
+        Solid solid = cube();
+        for (Vec3& v : solid.vertices) v *= factor;
+        for (Facet& f : solid.facets) f.plane.offset *= factor;
+        write_solid(solid, file);
+        EXPECT_THROW(read_solid(file), InputError) << factor;
+    }
+    for (const double factor : {1e-40, 1e40}) {
+        Solid solid = cube();
+        for (Vec3& v : solid.vertices) v *= factor;
+        for (Facet& f : solid.facets) f.plane.offset *= factor;
+        write_solid(solid, file);
+        EXPECT_TRUE(find_faults(read_solid(file).solid).empty()) << factor;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Formats, BadFile,
                          testing::Values("obj", "off", "ply", "stl", "asc", "gem"),
                          [](const auto& format) { return std::string(format.param); });
