@@ -50,7 +50,7 @@ int run_render(const RenderOptions& options) {
         settings.push_back(fmt::format("render.tolerance={}", options.tolerance));
     if (options.explain) {
         require_writable(options.stats);
-        const ScenePlan plan = plan_scene(scene_of(options, settings));
+        const ScenePlan plan = plan_to_explain(scene_of(options, settings));
         if (options.stats != "-") fmt::print("{}", explain(plan));
         if (!options.stats.empty()) write_text(options.stats, plan_json(plan));
         return exit_good;

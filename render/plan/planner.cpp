@@ -42,7 +42,7 @@ Planner::Planner(const Scene& whole)
     plan_.settings.effects_auto = false;
 }
 
-ScenePlan Planner::run() {
+ScenePlan Planner::run(bool everything) {
     const auto start = std::chrono::steady_clock::now();
     say_what_is_known();
     if (tolerance_ > 0) pixels_ = stone_pixels(scene_, k_least_pixels);
@@ -70,7 +70,11 @@ ScenePlan Planner::run() {
     plan_.reference.effects = plan_.settings.effects;
     add_resolutions();
     plan_.bound = spent_;
-    for (const PlanItem& line : plan_.items) plan_.bound_delta_e += line.bound_delta_e;
+    if (everything) measure_what_the_scene_forbids();
+    for (const PlanItem& line : plan_.items) {
+        // Whether waves interfere is a matter of the light, which the scene settles.
+        if (line.name != name_of(Effects::coherence)) plan_.bound_delta_e += line.bound_delta_e;
+    }
     plan_.seconds_planning =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return std::move(plan_);

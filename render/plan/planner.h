@@ -36,7 +36,8 @@ inline double likely(const ColourError& noise) {
 class Planner {
 public:
     explicit Planner(const Scene& whole);
-    ScenePlan run();
+    /// `everything`: what the scene switches off is measured too.
+    ScenePlan run(bool everything = false);
 
 private:
     PlanItem& item(Effects effect) { return plan_.items[static_cast<std::size_t>(effect)]; }
@@ -56,6 +57,8 @@ private:
     void choose_cut();
     void choose_effects();
     void try_without(Effects effect, double share);
+    void bound_coherence();
+    void measure_what_the_scene_forbids();
     void choose_wavelengths();
     void choose_engine_and_samples();
     void choose_beam_wavelengths();

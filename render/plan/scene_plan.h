@@ -24,7 +24,8 @@ struct PlanItem {
     std::string fidelity;  ///< "both waves, each its own way", "15 wavelengths", ...; empty: off
     std::string why;       ///< "garnet is isotropic", "bound 0.0004 under tolerance 0.01", ...
     /// Of the error that remains, as planned: of leaving it out where it is off, of its fidelity
-    /// where it is on. NaN: not known.
+    /// where it is on. Coherence: of adding the two waves' powers, were they to interfere. NaN: not
+    /// known.
     double bound = 0;
     double bound_delta_e = 0;  ///< the same as CIEDE2000, mean
     /// What the picture would be off by without it, as the pilot sees it; NaN: not looked at.
@@ -39,20 +40,25 @@ struct ScenePlan {
     RenderSettings settings;
     std::vector<PlanItem> items;  ///< the effects in the order of `Effects`, then the rest
     std::string engine_why;
-    double bound = 0, bound_delta_e = 0;  ///< of all together, but for samples and beams
-    double bound_of_sampling = 0;         ///< the reference's: of few rays in a pixel
-    double seconds = 0;                   ///< estimated processor time of the picture
-    double seconds_everything = 0;        ///< the same with everything on, by the reference
-    double seconds_planning = 0;          ///< that this plan took
-    RenderSettings reference;  ///< what the reference would need, where beams do not hold
-    double mean_radiance = 0;  ///< of the stone, as the pilot sees it
-    int pilot_pixels = 0;      ///< 0: nothing was open, or tolerance 0: no pilot
+    /// Of all together, but for samples, beams, and what the scene settles itself: effects that it
+    /// switches off, and whether the two waves of a crystal interfere.
+    double bound = 0, bound_delta_e = 0;
+    double bound_of_sampling = 0;   ///< the reference's: of few rays in a pixel
+    double seconds = 0;             ///< estimated processor time of the picture
+    double seconds_everything = 0;  ///< the same with everything on, by the reference
+    double seconds_planning = 0;    ///< that this plan took
+    RenderSettings reference;       ///< what the reference would need, where beams do not hold
+    double mean_radiance = 0;       ///< of the stone, as the pilot sees it
+    int pilot_pixels = 0;           ///< 0: nothing was open, or tolerance 0: no pilot
 
     const PlanItem& item(const std::string& name) const;
 };
 
 /// Throws InputError as `render` does.
 ScenePlan plan_scene(const Scene& scene);
+/// The same plan for people who want to know: what effects would bring that the scene switches off
+/// is measured too, and is part of the bound.
+ScenePlan plan_to_explain(const Scene& scene);
 
 /// How many rays a pixel, where `rays` were off by `off` and may be by `room`: what the mean of N
 /// is off by falls about as N^-0.7.
