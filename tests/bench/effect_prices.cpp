@@ -18,7 +18,7 @@ namespace culet {
 
 namespace {
 
-constexpr int k_rays = 9, k_pupil = 16, k_rounds = 5;
+constexpr int k_rays = 9, k_pupil = 16, k_rounds = 4;
 constexpr double k_cut = 1e-3, k_gambled = 1e-2, k_split = 0.1;
 const std::vector<double> k_sodium{589.3}, k_three{450, 550, 610};
 
@@ -43,6 +43,7 @@ Scene with_effects(const char* material, int pixels, const std::vector<double>& 
         std::find(effects.begin(), effects.end(), Effects::birefringence) != effects.end();
     settings.cut_weight = splits ? k_gambled : k_cut;
     settings.split_weight = k_split;
+    settings.crystal_beams = CrystalBeams::merged;
     return scene;
 }
 
