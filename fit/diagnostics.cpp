@@ -8,6 +8,7 @@
 #include "fit/covariance.h"
 #include "fit/disagreement.h"
 #include "fit/facet_functions.h"
+#include "fit/finish.h"
 #include "fit/linear.h"
 #include "fit/snooping.h"
 #include "fit/statistics.h"
@@ -20,8 +21,6 @@ namespace {
 constexpr double k_no_redundancy = 1e-6;
 // An error of size limit + 0.84 sigma is found in 80 of 100 cases.
 constexpr double k_power_80 = 0.8416212335729143;
-// What is left of hard equations is rounding below this part of the half diameter.
-constexpr double k_hard_limit = 1e-9;
 
 void find_open_freedoms(const System& system, const Shape& shape, const Covariance& covariance,
                         const Vec3& middle, Diagnosis& diagnosis) {

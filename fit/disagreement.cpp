@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "fit/finish.h"
 #include "fit/linear.h"
 #include "fit/statistics.h"
 
@@ -94,9 +95,7 @@ std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::M
 std::vector<int> disagreeing_exact_readings(const System& system, const Shape& shape,
                                             const std::shared_ptr<const Outline>& outline) {
     const Linearised linear = linearise(system, shape, outline, false);
-    // What rounding leaves, against what a contradiction leaves.
-    constexpr double k_rounding = 1e-9;
-    if (!(linear.worst_hard() > k_rounding)) return {};
+    if (!(linear.worst_hard() > k_hard_limit)) return {};
     const Eigen::Index unknowns = linear.layout.size();
     // Where nothing more can be done, the equations that miss are those that take part.
     std::set<int> readings;

@@ -8,6 +8,10 @@
 
 namespace culet {
 
+/// What is left of hard equations after the last stage is rounding: not more than this part of the
+/// half diameter, or so many radians. Exact readings that miss by more contradict each other.
+inline constexpr double k_hard_limit = 1e-12;
+
 struct Finished {
     Shape shape;
     std::shared_ptr<const Outline> outline;  ///< the corners at the end

@@ -87,7 +87,7 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
     for (std::size_t r = 0; r < system.readings().size(); ++r) {
         const Reading& reading = system.readings()[r];
         const double unit = system.unit_of(reading);
-        if (reading.exact && std::abs(diagnosis.readings[r].residual) > 10 * k_hard_limit * unit) {
+        if (reading.exact && std::abs(diagnosis.readings[r].residual) > k_hard_limit * unit) {
             broken.push_back(reading.id);
         }
     }

@@ -27,33 +27,34 @@ std::optional<Shape> leaning_better(Relaxation& relaxation, SaddleSolver& solver
         return std::nullopt;
     const auto count = static_cast<Eigen::Index>(folded.size());
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(relaxation.freedoms().size());
-    // In units of sigma; the value grows by the shift, the residual shrinks by it.
-    Eigen::VectorXd r(count), d(count), sigma(count);
+    // A value that grows by its shift takes as much off the residual. Of what the turn of facet i
+    // adds to chi-square, r(i) is half the part that is linear and big(i, i) the square one.
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(count);
+    Eigen::MatrixXd shifts = Eigen::MatrixXd::Zero(sheet.rows.count(), count);
     for (Eigen::Index i = 0; i < count; ++i) {
-        sigma(i) = std::sqrt(sheet.rows.variance[folded[std::size_t(i)].row]);
+        for (const auto& [row, shift] : folded[std::size_t(i)].turns) {
+            r(i) -= shift * sheet.rows.residual[std::size_t(row)] /
+                    sheet.rows.variance[std::size_t(row)];
+            shifts(row, i) = shift;
+        }
     }
-    Eigen::MatrixXd ones = Eigen::MatrixXd::Zero(sheet.rows.count(), count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-        const Relaxation::Folded& f = folded[std::size_t(i)];
-        r(i) = sheet.rows.residual[f.row] / sigma(i);
-        d(i) = -f.shift / sigma(i);
-        ones(f.row, i) = -sigma(i);
-    }
-    const auto solved = solver.solve_all(Eigen::MatrixXd(), ones, k_precision);
+    const auto solved = solver.solve_all(Eigen::MatrixXd(), shifts, k_precision);
     if (!solved.good) return std::nullopt;
-    Eigen::MatrixXd big(count, count);
+    Eigen::MatrixXd big = Eigen::MatrixXd::Zero(count, count);
     for (Eigen::Index k = 0; k < count; ++k) {
-        // forces = (J x - b) / variance
-        big.row(k) = solved.forces.row(folded[std::size_t(k)].row) * sigma(k);
+        for (const auto& [row, shift] : folded[std::size_t(k)].turns) {
+            // forces = (J x - b) / variance
+            big.row(k) -= shift * solved.forces.row(row);
+        }
     }
     std::vector<bool> turned(std::size_t(count), false);
-    const auto shift_of = [&](Eigen::Index i) { return turned[std::size_t(i)] ? -d(i) : d(i); };
+    const auto turn_of = [&](Eigen::Index i) { return turned[std::size_t(i)] ? -1.0 : 1.0; };
     bool any = false;
     for (int round = 0; round < 4 * count; ++round) {
         double best = -k_least_gain;
         Eigen::Index first = -1, second = -1;
         for (Eigen::Index i = 0; i < count; ++i) {
-            const double a = shift_of(i);
+            const double a = turn_of(i);
             const double alone = 2 * a * r(i) + a * a * big(i, i);
             if (alone < best) {
                 best = alone;
@@ -61,7 +62,7 @@ std::optional<Shape> leaning_better(Relaxation& relaxation, SaddleSolver& solver
                 second = -1;
             }
             for (Eigen::Index k = 0; k < i; ++k) {
-                const double b = shift_of(k);
+                const double b = turn_of(k);
                 const double both =
                     alone + 2 * b * r(k) + b * b * big(k, k) + 2 * a * b * big(i, k);
                 if (both < best) {
@@ -75,15 +76,14 @@ std::optional<Shape> leaning_better(Relaxation& relaxation, SaddleSolver& solver
         any = true;
         for (Eigen::Index i : {first, second}) {
             if (i < 0) continue;
-            r += big.col(i) * shift_of(i);
+            r += big.col(i) * turn_of(i);
             turned[std::size_t(i)] = !turned[std::size_t(i)];
         }
     }
     if (!any) return std::nullopt;
     Eigen::VectorXd right = Eigen::VectorXd::Zero(sheet.rows.count());
     for (Eigen::Index i = 0; i < count; ++i) {
-        if (turned[std::size_t(i)])
-            right(folded[std::size_t(i)].row) = folded[std::size_t(i)].shift;
+        if (turned[std::size_t(i)]) right += shifts.col(i);
     }
     const auto s = solver.solve(none, right, k_precision);
     if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > k_longest) return std::nullopt;

@@ -9,12 +9,12 @@
 
 namespace culet {
 
-/// By how much the merit changes when some readings are taken the other way follows from the
-/// residuals r and the matrix R = 1 - J C J' of their redundancies (both in units of sigma),
-/// exactly where equations are linear: 2 d'r + d'R d for shifts d of the values. One and two at a
-/// time are turned over as long as that gains. Returns the shape moved to where the others are
-/// meant; nothing when none should be. Only facets within this sine of upright are asked. `solver`
-/// may know the pattern of the equations from steps before.
+/// By how much the merit changes when the readings of some facets are taken the other way follows
+/// from the residuals r and the matrix R = 1 - J C J' of their redundancies (both in units of
+/// sigma), exactly where equations are linear: 2 d'r + d'R d for shifts d of the values. One and
+/// two facets at a time are turned over as long as that gains. Returns the shape moved to where the
+/// others are meant; nothing when none should be. Only facets within this sine of upright are
+/// asked. `solver` may know the pattern of the equations from steps before.
 std::optional<Shape> leaning_better(Relaxation& relaxation, SaddleSolver& solver,
                                     const Shape& shape, const Softness& softness, double within);
 

@@ -13,9 +13,6 @@ namespace culet {
 
 namespace {
 
-// What is left of hard equations after the last stage is rounding; an exact reading that misses by
-// more than this part of the half diameter contradicts another.
-constexpr double k_hard_limit = 1e-9;
 // Two starts whose chi-squares differ by less have ended in the same stone: a third of a sigma in
 // one reading.
 constexpr double k_same = 0.1;

@@ -322,12 +322,16 @@ Sheet Relaxation::hard_sheet(const Shape& shape, const std::vector<Held>& held) 
 
 std::vector<Relaxation::Folded> Relaxation::folded(const Shape& shape, double within) const {
     std::vector<Folded> result;
+    std::map<std::pair<int, bool>, std::size_t> known;
     int row = static_cast<int>(incidences_.size());
     for (const Equation& e : equations_) {
         if (e.other_value && !e.exact) {
             const int f = system_.readings()[std::size_t(e.reading)].facets[0];
             if (std::abs(shape.normals[f].z) < within) {
-                result.push_back({row, *e.other_value - e.value});
+                const double shift = *e.other_value - e.value;
+                const auto [at, is_new] = known.try_emplace({f, shift > 0}, result.size());
+                if (is_new) result.emplace_back();
+                result[at->second].turns.push_back({row, shift});
             }
         }
         ++row;

@@ -89,10 +89,14 @@ public:
     double expected_misfit(const Softness& softness) const;
     Eigen::VectorXd metric() const;
     /// Rows of `sheet` that may as well mean another value, and by how much more that is: of facets
-    /// within this sine of upright.
+    /// within this sine of upright. However often a facet was read, it leans one way: readings of
+    /// the same facet that would turn to the same side are one.
     struct Folded {
-        int row = -1;
-        double shift = 0;
+        struct Turn {
+            int row = -1;
+            double shift = 0;
+        };
+        std::vector<Turn> turns;
     };
     std::vector<Folded> folded(const Shape& shape, double within) const;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <set>
 
 namespace culet {
 
@@ -102,13 +103,24 @@ void add_vanishing(const System& system, const Finished& finished, const Inferen
     }
 }
 
-// A facet whose outline is shut by the held corners.
-void add_shut_facets(const System& system, const Finished& finished,
+// A facet whose outline is shut by the held corners. One that is as small without being held is as
+// small as the readings say.
+void add_shut_facets(const System& system, const Finished& finished, const Inference& inference,
                      std::vector<ShapeFinding>& findings) {
     const Outline& outline = *finished.outline;
+    std::set<int> held_points, held_facets;
+    for (const Equation& e : inference.linear().hard) {
+        if (e.facet < 0 || e.point < 0) continue;
+        held_points.insert(e.point);
+        held_facets.insert(e.facet);
+    }
     for (std::size_t f = 0; f < outline.loops.size(); ++f) {
         double width = 0;
         const std::vector<int>& loop = outline.loops[f];
+        const bool is_held = held_facets.contains(static_cast<int>(f)) ||
+                             std::any_of(loop.begin(), loop.end(), [&](int c) {
+                                 return held_points.contains(outline.corners[std::size_t(c)].point);
+                             });
         for (std::size_t i = 0; i < loop.size(); ++i) {
             for (std::size_t j = 0; j < i; ++j) {
                 width = std::max(
@@ -124,7 +136,7 @@ void add_shut_facets(const System& system, const Finished& finished,
             for (int c : loop) corners.push_back(outline.corners[std::size_t(c)]);
             shape_area = enclosed_area(corners)(finished.shape).value;
         }
-        if (loop.size() >= 3 && shape_area > 1e-5 * std::max(width, 1e-5)) continue;
+        if (loop.size() >= 3 && shape_area > (is_held ? 1e-5 * std::max(width, 1e-5) : 0)) continue;
         ShapeFinding finding;
         finding.kind = ShapeFinding::Kind::facet_vanishes;
         finding.facets = {name(system, static_cast<int>(f))};
@@ -240,7 +252,7 @@ std::vector<ShapeFinding> find_open_shape(const System& system, const Finished& 
     std::vector<ShapeFinding> findings;
     if (!finished.outline) return findings;
     add_vanishing(system, finished, inference, findings);
-    add_shut_facets(system, finished, findings);
+    add_shut_facets(system, finished, inference, findings);
     add_open_edges(system, finished, inference, findings);
     add_open_facets(system, finished, diagnosis, findings);
     add_same_planes(system, finished, diagnosis, inference, findings);

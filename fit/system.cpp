@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 #include "fit/azimuth_turn.h"
@@ -73,6 +74,49 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
     widen_for_rounding(readings_, alike, int(solid_.facets.size()));
 }
 
+double System::scale_of_readings(const Vec3& up) const {
+    // In logarithms, read over drawn: of the overall lengths, and of single edges.
+    std::vector<double> overall, edges;
+    for (const Reading& r : readings_) {
+        double mine = 0;
+        if (r.kind == ReadingKind::depth) {
+            mine = width_along(solid_, up);
+        } else if (r.kind == ReadingKind::width) {
+            const Vec3 direction =
+                r.has_direction
+                    ? r.direction
+                    : times_transposed(upright_, Vec3{std::cos(r.azimuth), std::sin(r.azimuth), 0});
+            mine = width_along(solid_, direction);
+        }
+        if (mine > 0 && r.value > 0) overall.push_back(std::log(r.value / mine));
+    }
+    const auto [least, most] = std::minmax_element(overall.begin(), overall.end());
+    // Within the errors of a drawing.
+    const double drawn = std::log(3.0);
+    if (!overall.empty() && *most - *least < drawn) {
+        return std::exp(std::accumulate(overall.begin(), overall.end(), 0.0) /
+                        double(overall.size()));
+    }
+    // A needle whose table is drawn askew is as wide as it is long: there, and where nothing
+    // overall was read, the middle one of what single lengths say.
+    for (const Reading& r : readings_) {
+        if (r.kind != ReadingKind::edge || r.facets.size() != 2 || !(r.value > 0)) continue;
+        for (const Edge& e : edges_.edges) {
+            if (std::minmax(e.left, e.right) != std::minmax(r.facets[0], r.facets[1])) continue;
+            const double mine = glm::length(solid_.vertices[e.from] - solid_.vertices[e.to]);
+            if (mine > 0) edges.push_back(std::log(r.value / mine));
+            break;
+        }
+    }
+    std::vector<double> all = overall;
+    all.insert(all.end(), edges.begin(), edges.end());
+    if (all.empty()) return 1;
+    const auto middle = all.begin() + std::ptrdiff_t(all.size() / 2);
+    std::nth_element(all.begin(), middle, all.end());
+    // The mesh's own size is as good as edges that differ no more than drawings do.
+    return overall.empty() && std::abs(*middle) < drawn ? 1 : std::exp(*middle);
+}
+
 void System::bring_upright() {
     Vec3 mean(0);
     for (const Vec3& v : solid_.vertices) mean += v / static_cast<double>(solid_.vertices.size());
@@ -99,48 +143,7 @@ void System::bring_upright() {
     }
     outward_ = turn_to_z(out_up);
 
-    // A common scale for the mesh from the overall lengths that were read.
-    double log_sum = 0;
-    int lengths = 0;
-    for (const Reading& r : readings_) {
-        double mine = 0;
-        if (r.kind == ReadingKind::depth) {
-            mine = width_along(solid_, up);
-        } else if (r.kind == ReadingKind::width) {
-            const Vec3 direction =
-                r.has_direction
-                    ? r.direction
-                    : times_transposed(upright_, Vec3{std::cos(r.azimuth), std::sin(r.azimuth), 0});
-            mine = width_along(solid_, direction);
-        }
-        if (mine > 0 && r.value > 0) {
-            log_sum += std::log(r.value / mine);
-            ++lengths;
-        }
-    }
-    if (lengths == 0) {
-        // Single edges say less: the middle one of what they say.
-        std::vector<double> ratios;
-        for (const Reading& r : readings_) {
-            if (r.kind != ReadingKind::edge || r.facets.size() != 2 || !(r.value > 0)) continue;
-            for (const Edge& e : edges_.edges) {
-                if (std::minmax(e.left, e.right) != std::minmax(r.facets[0], r.facets[1])) continue;
-                const double mine = glm::length(solid_.vertices[e.from] - solid_.vertices[e.to]);
-                if (mine > 0) ratios.push_back(std::log(r.value / mine));
-                break;
-            }
-        }
-        if (!ratios.empty()) {
-            const auto middle = ratios.begin() + std::ptrdiff_t(ratios.size() / 2);
-            std::nth_element(ratios.begin(), middle, ratios.end());
-            // Within the errors of a drawing, the mesh's own size is as good.
-            if (std::abs(*middle) > std::log(3.0)) {
-                log_sum = *middle;
-                lengths = 1;
-            }
-        }
-    }
-    mesh_scale_ = lengths > 0 ? std::exp(log_sum / lengths) : 1;
+    mesh_scale_ = scale_of_readings(up);
     scale_ = 0.5 * diameter(solid_) * mesh_scale_;
     check(scale_ > 0 && std::isfinite(scale_), "a solid without size");
 

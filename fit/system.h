@@ -148,6 +148,8 @@ public:
 
 private:
     void bring_upright();
+    /// By how much the mesh is too small for the lengths that were read.
+    double scale_of_readings(const Vec3& up) const;
     void list_incidences(const FitOptions& options);
     void add_extras();
     void pair_facets();

@@ -70,27 +70,34 @@ std::optional<LinearPolarisation> polarisation_in(const TomlTable& table,
     return polarisation;
 }
 
+// A picture's floats end at 3e38 and lose digits below 1e-38: what several lights add up to, and
+// what is left of it behind a stone, must fit, too.
+constexpr double k_brightest = 1e36, k_dimmest = 1e-36;
+
+double checked_radiance(const TomlTable& table, const char* key, double value) {
+    if (value < 0) table.fail(key, fmt::format("{} must not be negative, found {}", key, value));
+    if (value > k_brightest || (value > 0 && value < k_dimmest)) {
+        table.fail(key,
+                   fmt::format("{} of {:g} is {} than a picture can hold (0, or {:g} to "
+                               "{:g}): scale all lights by one factor",
+                               key, value, value > 1 ? "more" : "less", k_dimmest, k_brightest));
+    }
+    return value;
+}
+
 LightColour radiance_alone_in(const TomlTable& table) {
     switch (table.kind("radiance")) {
         case TomlTable::Kind::missing:
             return {1.0};
         case TomlTable::Kind::number: {
-            const double value = *table.number("radiance");
-            if (value < 0)
-                table.fail("radiance",
-                           fmt::format("radiance must not be negative, found {}", value));
-            return {value};
+            return {checked_radiance(table, "radiance", *table.number("radiance"))};
         }
         case TomlTable::Kind::list: {
             const auto list = *table.numbers("radiance");
             if (list.size() != 3)
                 table.fail("radiance",
                            fmt::format("a colour has three numbers, found {}", list.size()));
-            for (double v : list) {
-                if (v < 0)
-                    table.fail("radiance",
-                               fmt::format("radiance must not be negative, found {}", v));
-            }
+            for (double v : list) checked_radiance(table, "radiance", v);
             return {Rgb{list[0], list[1], list[2]}};
         }
         case TomlTable::Kind::text: {
@@ -196,10 +203,7 @@ Lights lights_of(const TomlTable& table, double stone_diameter, std::vector<std:
         lights.environment = read_environment(table, notes);
     }
     if (const auto constant = table.number("constant")) {
-        if (*constant < 0)
-            table.fail("constant",
-                       fmt::format("constant must not be negative, found {}", *constant));
-        lights.constant = *constant;
+        lights.constant = checked_radiance(table, "constant", *constant);
     }
     lights.polarisation = polarisation_in(table, std::nullopt);
     for (const TomlTable& t : table.tables("sphere")) {

@@ -7,7 +7,8 @@
 //   noise: in standard deviations, drawn from `seed`; alternate: every reading off by so many of
 //   its own, by turns up and down; repeat: so many of each; exact_conflict_deg: two exact readings
 //   of one facet that differ by so much
-// [mesh]: shaken, by so much of the diameter. [expect]: status, one or several.
+// [mesh]: shaken, by so much of the diameter; or shaken_of_shortest_edge, by so much of the truth's
+// shortest edge. [expect]: status, one or several.
 
 #include <fmt/format.h>
 
@@ -125,6 +126,18 @@ int not_numbers(const FitResult& result) {
     return bad;
 }
 
+double shortest_edge(const Solid& solid) {
+    double shortest = diameter(solid);
+    for (const Facet& f : solid.facets) {
+        for (std::size_t i = 0; i < f.corners.size(); ++i) {
+            const Vec3 &a = solid.vertices[std::size_t(f.corners[i])],
+                       &b = solid.vertices[std::size_t(f.corners[(i + 1) % f.corners.size()])];
+            shortest = std::min(shortest, glm::distance(a, b));
+        }
+    }
+    return shortest;
+}
+
 Case make_case(const TomlTable& parameters) {
     Case c;
     const TomlTable stone = parameters.table("stone").value();
@@ -133,9 +146,11 @@ Case make_case(const TomlTable& parameters) {
     c.mesh = test::stone_of(c.truth, table_name);
     c.readings = make_readings(parameters.table("readings").value(), c.truth, table_name);
     if (const auto mesh = parameters.table("mesh")) {
-        mesh->refuse_unknown({"shaken"});
-        c.mesh.solid = test::shaken(
-            c.truth, diameter(c.truth) * mesh->number("shaken").value_or(0) / std::sqrt(3.0), 7);
+        mesh->refuse_unknown({"shaken", "shaken_of_shortest_edge"});
+        const double by =
+            diameter(c.truth) * mesh->number("shaken").value_or(0) +
+            shortest_edge(c.truth) * mesh->number("shaken_of_shortest_edge").value_or(0);
+        c.mesh.solid = test::shaken(c.truth, by / std::sqrt(3.0), 7);
     }
     if (const auto expect = parameters.table("expect")) {
         c.expected = expect->words("status").value_or(std::vector<std::string>{});

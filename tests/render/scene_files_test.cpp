@@ -125,6 +125,22 @@ TEST_F(SceneStones, too_much_is_refused_before_it_is_begun) {
               std::string::npos);
 }
 
+// A float ends at 3.4e38 and loses digits below 1.2e-38.
+TEST_F(SceneStones, radiances_that_no_picture_can_hold_are_refused) {
+    const std::string head = "stone = \"stone.toml\"\n[light]\n";
+    for (const char* fits : {"0", "1e-35", "1e35"}) {
+        EXPECT_EQ(read(head + "constant = " + fits + "\n").lights.constant, std::stod(fits));
+    }
+    for (const char* beyond : {"1e-300", "1e-37", "1e37", "1e300"}) {
+        const std::string said = refusal(head + "constant = " + beyond + "\n");
+        EXPECT_NE(said.find(":3:"), std::string::npos) << said;
+        EXPECT_NE(said.find("scale all lights"), std::string::npos) << said;
+        EXPECT_NE(refusal(head + "[[light.lobe]]\ndirection = [0, 0, 1]\nradiance = [1, " + beyond +
+                          ", 1]\n"),
+                  "");
+    }
+}
+
 TEST_F(SceneStones, environments_of_every_kind) {
     const std::string scene = "stone = \"stone.toml\"\n[light]\nenvironment = \"map.exr\"\n";
     write_picture(map(8, 4, 0.5f), folder_ / "map.exr");
