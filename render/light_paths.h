@@ -28,7 +28,8 @@ namespace culet {
 // A Sink has
 //   void leaf(const Vec3& origin, const Vec3& direction, const NodeWeights&, const PathTrace&);
 //   void remainder(const NodeWeights&), absorbed(const NodeWeights&), cut(const NodeWeights&);
-template <class Sink>
+// `single`: the band has one node, and loops over nodes are none.
+template <class Sink, bool single = !k_has_effects>
 class LightPaths {
 public:
     /// `trace`: room for the way, and where to look first: what the last ray met there. It changes
@@ -64,7 +65,7 @@ public:
     }
 
 private:
-    int nodes() const { return k_has_effects ? band_.count : 1; }
+    int nodes() const { return single ? 1 : band_.count; }
     NodeWeights weighted(double weight, const NodeWeights& tau) const {
         NodeWeights result;  // the band's nodes only
         for (int i = 0; i < nodes(); ++i) result[i] = weight * tau[i];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
 #include "render/built_effects.h"
@@ -243,11 +244,18 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
                 sums.variance += share * share * gather.variance();
                 take(gather);
             } else {
-                Gather gather(lights_, band, seen);
-                LightPaths<Gather>(body_.planes(), band, limits, gather, memory.trace)
-                    .trace(ray, *entry);
+                const auto follow = [&](auto one) {
+                    Gather<one> gather(lights_, band, seen);
+                    LightPaths<Gather<one>, one>(body_.planes(), band, limits, gather, memory.trace)
+                        .trace(ray, *entry);
+                    take(gather);
+                };
+                if (!k_has_effects || band.count == 1) {
+                    follow(std::true_type{});
+                } else {
+                    follow(std::false_type{});
+                }
                 sums.events += memory.trace.length;
-                take(gather);
             }
             ++sums.rays;
         }
