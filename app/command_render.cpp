@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "app/options.h"
 #include "app/terminal.h"
@@ -17,8 +18,9 @@ namespace {
 struct RenderOptions {
     CommonOptions common;
     std::string scene, out, stats, engine, effects, tonemap = "none";
-    int depth = -1;
-    double tolerance = -1, exposure = 1;
+    std::optional<int> depth;
+    std::optional<double> tolerance;
+    double exposure = 1;
     bool spectral = false, explain = false, verify = false;
 };
 
@@ -45,12 +47,13 @@ int run_render(const RenderOptions& options) {
     if (!options.engine.empty()) settings.push_back("render.engine=\"" + options.engine + "\"");
     if (!options.effects.empty())
         settings.push_back("render.effects=" + effects_setting(options.effects));
-    if (options.depth >= 0) settings.push_back(fmt::format("render.depth={}", options.depth));
-    if (options.tolerance >= 0)
-        settings.push_back(fmt::format("render.tolerance={}", options.tolerance));
+    if (options.depth) settings.push_back(fmt::format("render.depth={}", *options.depth));
+    if (options.tolerance)
+        settings.push_back(fmt::format("render.tolerance={}", *options.tolerance));
     if (options.explain) {
         require_writable(options.stats);
-        const ScenePlan plan = plan_scene(scene_of(options, settings));
+        const ScenePlan plan = plan_to_explain(scene_of(options, settings),
+                                               progress_line("planning", options.common.quiet));
         if (options.stats != "-") fmt::print("{}", explain(plan));
         if (!options.stats.empty()) write_text(options.stats, plan_json(plan));
         return exit_good;

@@ -67,4 +67,25 @@ inline FaceAmplitudes fresnel(double n1, double n2, double q1) {
     return face;
 }
 
+/// What unpolarised light does at a face: `fresnel` without phases and without what is transmitted.
+struct FaceReflection {
+    double mean = 1;  ///< of the powers of s and p
+    double q2 = 0;    ///< as above
+    bool total = true;
+};
+inline FaceReflection mean_reflection(double n1, double n2, double q1) {
+    FaceReflection face;
+    const double e1 = n1 * n1, e2 = n2 * n2;
+    q1 = std::clamp(q1, 0.0, n1);
+    const double q2_squared = (n2 - n1) * (n2 + n1) + q1 * q1;
+    if (!(q2_squared > 0)) return face;
+    const double q2 = std::sqrt(q2_squared);
+    // Squared, a small r needs no digits of its own: no differences are rationalised.
+    const double r_s = (q1 - q2) / (q1 + q2), r_p = (e2 * q1 - e1 * q2) / (e2 * q1 + e1 * q2);
+    face.mean = 0.5 * (r_s * r_s + r_p * r_p);
+    face.q2 = q2;
+    face.total = false;
+    return face;
+}
+
 }  // namespace culet

@@ -30,7 +30,8 @@ private:
     int count_;
 };
 
-/// Adds up what the leaves of one ray see, at the nodes of its band.
+/// Adds up what the leaves of one ray see, at the nodes of its band; `single`: at its only one.
+template <bool single>
 class Gather : public Lost {
 public:
     Gather(const LightField& lights, const Band& band, double* radiance)
@@ -39,10 +40,11 @@ public:
     void leaf(const Vec3& at, const Vec3& direction, const NodeWeights& weight,
               const PathTrace& trace) {
         seen(trace);
+        const int count = single ? 1 : band_.count;
         NodeWeights radiance;
-        std::fill_n(radiance.begin(), band_.count, 0.0);
-        lights_.add_radiance(at, direction, 1.0, band_.first, band_.count, radiance.data());
-        for (int i = 0; i < band_.count; ++i) radiance_[band_.first + i] += weight[i] * radiance[i];
+        std::fill_n(radiance.begin(), count, 0.0);
+        lights_.add_radiance(at, direction, 1.0, band_.first, count, radiance.data());
+        for (int i = 0; i < count; ++i) radiance_[band_.first + i] += weight[i] * radiance[i];
     }
 
 private:

@@ -16,6 +16,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "render/built_effects.h"
 #include "render/convex_body.h"
 #include "render/fresnel.h"
 #include "render/path.h"
@@ -27,7 +28,8 @@ namespace culet {
 // A Sink has
 //   void leaf(const Vec3& origin, const Vec3& direction, const NodeWeights&, const PathTrace&);
 //   void remainder(const NodeWeights&), absorbed(const NodeWeights&), cut(const NodeWeights&);
-template <class Sink>
+// `single`: the band has one node, and loops over nodes are none.
+template <class Sink, bool single = !k_has_effects>
 class LightPaths {
 public:
     /// `trace`: room for the way, and where to look first: what the last ray met there. It changes
@@ -48,10 +50,12 @@ public:
     /// Follows an eye ray that enters the stone at `entry`.
     void trace(const EyeRay& ray, const BodyHit& entry) {
         trace_.length = 0;
-        std::fill_n(tau_.begin(), band_.count, 1.0);
+        std::fill_n(tau_.begin(), nodes(), 1.0);
         const Vec3 at = body_.on_facet(entry.facet, ray.origin + entry.distance * ray.direction);
         // What is off is not in the loop at all.
-        if (limits_.polarised) {
+        if (!k_has_effects) {
+            trace_scalar<false>(at, ray.direction, entry.facet);
+        } else if (limits_.polarised) {
             band_.absorbs ? trace_polarised<true>(at, ray.direction, entry.facet)
                           : trace_polarised<false>(at, ray.direction, entry.facet);
         } else {
@@ -61,9 +65,10 @@ public:
     }
 
 private:
+    int nodes() const { return single ? 1 : band_.count; }
     NodeWeights weighted(double weight, const NodeWeights& tau) const {
         NodeWeights result;  // the band's nodes only
-        for (int i = 0; i < band_.count; ++i) result[i] = weight * tau[i];
+        for (int i = 0; i < nodes(); ++i) result[i] = weight * tau[i];
         return result;
     }
     bool too_small(double weight, const NodeWeights& tau) const {
@@ -71,7 +76,7 @@ private:
     }
     double largest(double weight, const NodeWeights& tau) const {
         double most = 0;
-        for (int i = 0; i < band_.count; ++i) most = std::max(most, tau[i]);
+        for (int i = 0; i < nodes(); ++i) most = std::max(most, tau[i]);
         return weight * most;
     }
     int guess() const { return trace_.facets[trace_.length]; }
@@ -203,13 +208,11 @@ private:
             if constexpr (absorbs) absorb(weight, hit.distance, tau);
             const Vec3& n = body_.normal(hit.facet);
             const double q = band_.n * glm::dot(direction, n);
-            const FaceAmplitudes out = fresnel(band_.n, 1.0, q);
+            const FaceReflection out = mean_reflection(band_.n, 1.0, q);
             push(hit.facet);
-            const double reflectance = 0.5 * (std::norm(out.r_s) + std::norm(out.r_p));
             if (!out.total) {
-                leaf(at, refracted(direction, n, band_.n, q, out.q2), weight * (1 - reflectance),
-                     tau);
-                weight *= reflectance;
+                leaf(at, refracted(direction, n, band_.n, q, out.q2), weight * (1 - out.mean), tau);
+                weight *= out.mean;
             }
             direction = mirrored(direction, n);
         }

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 
+#include "render/built_effects.h"
 #include "render/crystal_paths.h"
 #include "render/eye_optics.h"
 #include "render/gather.h"
@@ -216,8 +218,9 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
         }
         sums.hit += share;
         double* seen = memory.stone.data() + half_[i] * values;
-        for (std::size_t b = 0; b < plan_.bands.size(); ++b) {
-            if (static_cast<int>(b % static_cast<std::size_t>(turns_)) != turn_[i]) continue;
+        for (std::size_t b = 0; b < (k_has_effects ? plan_.bands.size() : 1); ++b) {
+            if (k_has_effects && static_cast<int>(b % static_cast<std::size_t>(turns_)) != turn_[i])
+                continue;
             const Band& band = plan_.bands[b];
             const double part = share * band_factor_[b];
             PathLimits limits = limits_;
@@ -229,7 +232,7 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
                 sums.cut += part * lost.cut_ / nodes_;
                 sums.deepest = std::max(sums.deepest, lost.deepest_);
             };
-            if (plan_.general) {
+            if (k_has_effects && plan_.general) {
                 GatherStokes gather(lights_, band, stone_luminance_, usual_, nodes_, planes(),
                                     seen);
                 CrystalPaths<GatherStokes> paths(body_, band, limits, gather);
@@ -241,11 +244,18 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
                 sums.variance += share * share * gather.variance();
                 take(gather);
             } else {
-                Gather gather(lights_, band, seen);
-                LightPaths<Gather>(body_.planes(), band, limits, gather, memory.trace)
-                    .trace(ray, *entry);
+                const auto follow = [&](auto one) {
+                    Gather<one> gather(lights_, band, seen);
+                    LightPaths<Gather<one>, one>(body_.planes(), band, limits, gather, memory.trace)
+                        .trace(ray, *entry);
+                    take(gather);
+                };
+                if (!k_has_effects || band.count == 1) {
+                    follow(std::true_type{});
+                } else {
+                    follow(std::false_type{});
+                }
                 sums.events += memory.trace.length;
-                take(gather);
             }
             ++sums.rays;
         }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "render/band.h"
+#include "render/built_effects.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/beams/beam_shading.cpp"
@@ -33,18 +34,25 @@ void ShadeBeam(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t*
                int facet_count, const Fragments& fragments) {
     using Follow =
         void (*)(const ShadingJob&, const ShadedEye&, const std::uint16_t*, int, const Fragments&);
-    static constexpr Follow k_follow[8] = {
-        follow_all<false, false, false, false>, follow_all<false, false, true, false>,
-        follow_all<false, true, false, false>,  follow_all<false, true, true, false>,
-        follow_all<true, false, false, false>,  follow_all<true, false, true, false>,
-        follow_all<true, true, false, false>,   follow_all<true, true, true, false>};
-    const bool many = job.lights->nodes > 1 || !job.optics->absorption.empty();
     const bool soft = fragments.soft && job.lights->any_edge;
-    const bool general = job.optics->crystal || job.optics->response;
-    const Follow follow =
-        general ? (soft ? follow_all<true, true, true, true> : follow_all<true, false, true, true>)
+    if constexpr (k_has_effects) {
+        static constexpr Follow k_follow[8] = {
+            follow_all<false, false, false, false>, follow_all<false, false, true, false>,
+            follow_all<false, true, false, false>,  follow_all<false, true, true, false>,
+            follow_all<true, false, false, false>,  follow_all<true, false, true, false>,
+            follow_all<true, true, false, false>,   follow_all<true, true, true, false>};
+        const bool many = job.lights->nodes > 1 || !job.optics->absorption.empty();
+        const bool general = job.optics->crystal || job.optics->response;
+        const Follow follow =
+            general
+                ? (soft ? follow_all<true, true, true, true> : follow_all<true, false, true, true>)
                 : k_follow[(job.optics->polarised ? 4 : 0) + (soft ? 2 : 0) + (many ? 1 : 0)];
-    follow(job, eye, facets, facet_count, fragments);
+        follow(job, eye, facets, facet_count, fragments);
+    } else {
+        const Follow follow =
+            soft ? follow_all<false, true, false, false> : follow_all<false, false, false, false>;
+        follow(job, eye, facets, facet_count, fragments);
+    }
 }
 
 // What rounding leaves of a whole pixel.

@@ -102,7 +102,7 @@ public:
                            out_.before + static_cast<size_t>(i) * static_cast<size_t>(out_.stride) +
                                first);
         }
-        if (out_.absorbed != nullptr)
+        if (k_has_effects && out_.absorbed != nullptr)
             hn::StoreU(absorbed * uncovered_, k_floats, out_.absorbed + first);
         if (out_.follows != nullptr)
             hn::StoreU(hn::IfThenElseZero(follows_, number(1.0f)), k_floats, out_.follows + first);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "render/built_effects.h"
+
 namespace culet {
 
 namespace {
@@ -225,7 +227,7 @@ void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, 
     const double of_sums = options_.share * pass.weight * nodes;
     sums_.remainder +=
         of_sums * static_cast<double>(sum_of_shared(left_.data(), share, covered.count));
-    if (pass.optics.absorbs())
+    if (k_has_effects && pass.optics.absorbs())
         sums_.absorbed +=
             of_sums * static_cast<double>(sum_of_shared(absorbed_.data(), share, covered.count));
 }
@@ -359,7 +361,7 @@ StripSums StripPainter::paint(int strip, const ScreenView& view, const SortedBea
     if (hides_) visible_.assign(count, 0.0f);
     bool parted = false;
     for (const ShadingPass& pass : passes) {
-        if (pass.parted) {
+        if (k_has_effects && pass.parted) {
             parted = true;
             paint_parted(fronts, pass);
             continue;

@@ -88,6 +88,11 @@ double absorbed_across(const Scene& scene) {
     return 1 - std::exp(-strongest * diameter(scene.stone.solid) * mm_per(scene.stone.unit));
 }
 
+double waves_behind(const Scene& scene) {
+    return index_spans(scene).birefringence * scene.immersion * diameter(scene.stone.solid) *
+           mm_per(scene.stone.unit) / (k_d_line_nm * 1e-6);
+}
+
 double absorbance_apart(const Scene& scene) {
     const Material& material = scene.stone.material;
     double apart = 0;

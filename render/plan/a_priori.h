@@ -36,6 +36,8 @@ double aperture_blur(const Scene& scene);
 
 /// Largest share of light that one pass through the stone loses: 1 - exp(-K d).
 double absorbed_across(const Scene& scene);
+/// Waves that one of a crystal's two lags behind the other on one way across, at most (D line).
+double waves_behind(const Scene& scene);
 /// Largest difference of two principal rays' absorbance (decadic) on one way across.
 double absorbance_apart(const Scene& scene);
 

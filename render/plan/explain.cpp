@@ -19,6 +19,10 @@ ScenePlan plan_scene(const Scene& scene, const Progress& progress) {
     return Planner(scene, progress).run();
 }
 
+ScenePlan plan_to_explain(const Scene& scene, const Progress& progress) {
+    return Planner(scene, progress).run(true);
+}
+
 namespace {
 
 std::string in_seconds(double seconds) {
@@ -36,12 +40,12 @@ std::string explain(const ScenePlan& plan) {
         text += fmt::format("{:<19}{:<5}", line.name, line.on ? "on:" : "off:");
         if (!line.fidelity.empty()) text += line.fidelity + "; ";
         text += line.why;
-        if (line.on && line.seconds_without < 0.97 * line.seconds_with) {
-            text += fmt::format(" ({}, without it {})", in_seconds(line.seconds_with),
-                                in_seconds(line.seconds_without));
-        } else if (!line.on && line.seconds_with > 1.03 * line.seconds_without) {
-            text += fmt::format(" ({}, with it {})", in_seconds(line.seconds_without),
-                                in_seconds(line.seconds_with));
+        // Of what was weighed; what a scene cannot have takes no time either way.
+        if (line.seconds_with != line.seconds_without || line.matters > 0) {
+            text += fmt::format(" ({}, {} it {})",
+                                in_seconds(line.on ? line.seconds_with : line.seconds_without),
+                                line.on ? "without" : "with",
+                                in_seconds(line.on ? line.seconds_without : line.seconds_with));
         }
         text += "\n";
     }

@@ -59,7 +59,7 @@ Planner::Planner(const Scene& whole, const Progress& progress, bool one_wave)
     branches_ = !scene_.stone.convex;
 }
 
-ScenePlan Planner::run() {
+ScenePlan Planner::run(bool everything) {
     const auto start = std::chrono::steady_clock::now();
     say_what_is_known();
     plan_.tolerance = tolerance_;
@@ -91,7 +91,11 @@ ScenePlan Planner::run() {
     add_resolutions();
     plan_.bound_of_wavelengths = wavelength_bound_;
     plan_.bound = spent_ + plan_.bound_of_depth;
-    for (const PlanItem& line : plan_.items) plan_.bound_delta_e += line.bound_delta_e;
+    if (everything) measure_what_the_scene_forbids();
+    for (const PlanItem& line : plan_.items) {
+        // Whether waves interfere is a matter of the light, which the scene settles.
+        if (line.name != name_of(Effects::coherence)) plan_.bound_delta_e += line.bound_delta_e;
+    }
     plan_.seconds_planning =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return std::move(plan_);

@@ -35,7 +35,8 @@ public:
     /// `one_wave`: a crystal's two waves are to go as one, which only the finished picture can show
     /// to be near enough. `progress` is told 0, and may stop it; it must outlive the planner.
     Planner(const Scene& whole, const Progress& progress, bool one_wave = false);
-    ScenePlan run();
+    /// `everything`: what the scene switches off is measured too.
+    ScenePlan run(bool everything = false);
 
     /// Holds pictures against the truth; none where there was no pilot. After `run`.
     std::optional<Prover> take_prover() { return std::move(prover_); }
@@ -69,6 +70,8 @@ private:
     void choose_cut();
     void choose_effects();
     void try_without(Effects effect, double share);
+    void bound_coherence();
+    void measure_what_the_scene_forbids();
     void choose_wavelengths();
     void choose_engine_and_samples();
     void drop_what_changes_nothing();

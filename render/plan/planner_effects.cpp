@@ -11,12 +11,14 @@ namespace culet {
 
 namespace {
 
+constexpr std::size_t k_coherence_pixels = 16;
+
 // "Garnet (almandine), coloured" is "garnet" in a sentence.
 std::string spoken(const Material& material) {
     std::string name = material.name.empty() ? material.id : material.name;
     name = name.substr(0, name.find_first_of("(,"));
     while (!name.empty() && name.back() == ' ') name.pop_back();
-    if (name.empty()) return "the stone";
+    if (name.empty() || name.starts_with("material of")) return "the stone";
     if (name.size() > 1 && std::islower(static_cast<unsigned char>(name[1])))
         name[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(name[0])));
     return name;
@@ -31,8 +33,12 @@ void Planner::say_what_is_known() {
         for (Effects effect : {Effects::birefringence, Effects::pleochroism, Effects::coherence})
             item(effect).why = stone + " is isotropic";
     }
-    if (!on(Effects::absorption) && scene_.stone.material.absorption_per_mm[0].max() == 0)
+    if (absorbed_across(scene_) == 0) {
         item(Effects::absorption).why = stone + " is clear";
+        if (!isotropic) item(Effects::pleochroism).why = stone + " is clear: no wave is absorbed";
+    } else if (!isotropic && absorbance_apart(scene_) == 0) {
+        item(Effects::pleochroism).why = stone + "'s waves are absorbed alike";
+    }
     if (on(Effects::birefringence)) {
         item(Effects::birefringence).why =
             fmt::format("{}'s two images lie up to {:.2g} px apart", stone, images_apart(scene_));
@@ -103,9 +109,104 @@ void Planner::try_without(Effects effect, double share) {
     work_ = work_of(without, gone, samples);
 }
 
+// Beside the error of all else: powers that are added are what the scene says of its light, and
+// interfering waves are drawn from the mean of their places, so that neither is the other's truth.
+void Planner::bound_coherence() {
+    PlanItem& line = item(Effects::coherence);
+    if (line.on || !on(Effects::birefringence)) {
+        line.bound = line.bound_delta_e = 0;
+        return;
+    }
+    const std::string waves =
+        fmt::format("one lags up to {:.2g} waves behind the other", waves_behind(scene_));
+    if (same_light_everywhere(scene_.lights) && !on(Effects::absorption)) {
+        line.bound = line.bound_delta_e = 0;
+        line.why = fmt::format("{}; {}", k_same_light, waves);
+        return;
+    }
+    Scene apart = at_pilot_wavelengths(with_effects(false));
+    apart.settings.coherence = false;
+    Scene together = apart;
+    together.settings.coherence = true;
+    // Every wavelength has a tree of its own where waves interfere: fewer pixels, evenly spread.
+    StonePixels few;
+    const std::size_t step = std::max<std::size_t>(1, pixels_.at.size() / k_coherence_pixels);
+    for (std::size_t i = 0; i < pixels_.at.size(); i += step) few.at.push_back(pixels_.at[i]);
+    const PilotDrawing powers = draw_pilot(apart, few, limits(cut_), k_pilot_rays),
+                       waves_met = draw_pilot(together, few, limits(cut_), k_pilot_rays);
+    const ColourError error = colour_error(powers.rgb, waves_met.rgb);
+    line.seconds_without = price_ns(work_of(apart, powers, k_pilot_rays));
+    line.seconds_with = price_ns(work_of(together, waves_met, k_pilot_rays)) *
+                        static_cast<double>(make_plan(together).bands.size());
+    line.matters = error.radiance;
+    line.matters_delta_e = error.delta_e;
+    line.bound = error.bound();
+    line.bound_delta_e = error.bound_delta_e();
+    line.why += fmt::format("; {}; as interfering waves they would change the picture by {:.2g}",
+                            waves, error.radiance);
+}
+
+// What the scene switches off is left out all the same: the difference to the picture with it.
+void Planner::measure_what_the_scene_forbids() {
+    if (user_.effects_auto || pixels_.at.empty()) return;
+    Scene everything = with_effects(false);
+    everything.settings.effects_auto = true;
+    const Plan whole = make_plan(everything);
+    const Scene drawn = with_effects(false);
+    // Of all wavelengths of an eye ray.
+    const auto price_of = [&](const Scene& scene, const PilotDrawing& drawing, int samples) {
+        const Scene piloted = at_pilot_wavelengths(scene);
+        return price_ns(work_of(piloted, drawing, samples)) *
+               static_cast<double>(make_plan(piloted).bands.size());
+    };
+    const auto drawing_of = [&](const Scene& scene, int samples) {
+        branches_ = make_plan(scene).splits || !scene.stone.convex;
+        return draw(at_pilot_wavelengths(scene), samples);
+    };
+    const int samples = scene_.camera.aperture_radius > 0 ? k_lens_rays : k_pilot_rays;
+    const PilotDrawing here = drawing_of(drawn, samples);
+    const double price = price_of(drawn, here, samples);
+    bool any = false;
+    for (int e = 0; e < k_effect_count; ++e) {
+        const Effects effect = static_cast<Effects>(e);
+        PlanItem& line = item(effect);
+        if (user_.effects[static_cast<std::size_t>(e)] || effect == Effects::coherence ||
+            !whole.on(effect))
+            continue;
+        any = true;
+        Scene with = drawn;
+        auto& effects = with.settings.effects;
+        effects[static_cast<std::size_t>(e)] = true;
+        // Waves are absorbed unlike only where there are two of them and light is absorbed at all.
+        if (effect == Effects::pleochroism) {
+            effects[static_cast<std::size_t>(Effects::birefringence)] = true;
+            effects[static_cast<std::size_t>(Effects::absorption)] = true;
+        }
+        const PilotDrawing there = drawing_of(with, samples);
+        const ColourError error = colour_error(here.rgb, there.rgb);
+        line.seconds_with = plan_.seconds * price_of(with, there, samples) / price;
+        line.matters = error.radiance;
+        line.matters_delta_e = error.delta_e;
+        line.bound = error.bound();
+        line.bound_delta_e = error.bound_delta_e();
+        line.why = fmt::format("switched off by the scene; with it the picture differs by {:.2g}",
+                               error.radiance);
+    }
+    if (!any) return;
+    plan_.bound += colour_error(here.rgb, drawing_of(everything, samples).rgb).bound();
+}
+
 void Planner::choose_effects() {
     // The dearest first.
+    const bool two_waves = on(Effects::birefringence);
     try_without(Effects::birefringence, 0.4);
+    if (two_waves && !on(Effects::birefringence)) {
+        for (Effects effect : {Effects::pleochroism, Effects::coherence}) {
+            PlanItem& line = item(effect);
+            if (effect == Effects::coherence || line.on) line.why = "the two waves go as one";
+            line.on = false;
+        }
+    }
     try_without(Effects::aperture, 0.3);
     try_without(Effects::polarization, 0.15);
     try_without(Effects::pleochroism, k_share_of_cheap);
@@ -114,14 +215,7 @@ void Planner::choose_effects() {
         item(Effects::pleochroism).on = false;
         item(Effects::pleochroism).why = "nothing is absorbed";
     }
-    if (!on(Effects::birefringence)) {
-        for (Effects effect : {Effects::pleochroism, Effects::coherence}) {
-            PlanItem& line = item(effect);
-            if (!line.on) continue;
-            line.on = false;
-            line.why = "the two waves go as one";
-        }
-    }
+    bound_coherence();
 }
 
 }  // namespace culet

@@ -25,7 +25,8 @@ struct PlanItem {
     std::string fidelity;  ///< "both waves, each its own way", "15 wavelengths", ...; empty: off
     std::string why;       ///< "garnet is isotropic", "bound 0.0004 under tolerance 0.01", ...
     /// Of the error that remains, as planned: of leaving it out where it is off, of its fidelity
-    /// where it is on. NaN: not known.
+    /// where it is on. Coherence: of adding the two waves' powers, were they to interfere. NaN: not
+    /// known.
     double bound = 0;
     double bound_delta_e = 0;  ///< the same as CIEDE2000, mean
     /// What the picture would be off by without it, as the pilot sees it; NaN: not looked at.
@@ -42,14 +43,16 @@ struct ScenePlan {
     RenderSettings settings;
     std::vector<PlanItem> items;  ///< the effects in the order of `Effects`, then the rest
     std::string engine_why;
-    double bound = 0, bound_delta_e = 0;  ///< of all together, but for samples and beams
-    double bound_of_sampling = 0;         ///< the reference's: of few rays in a pixel
-    double bound_of_wavelengths = 0;      ///< in `bound`: of so few of them
-    double bound_of_depth = 0;            ///< in `bound`: of the depth that the scene names
-    double seconds = 0;                   ///< estimated processor time of the picture
-    double seconds_everything = 0;        ///< the same with everything on, by the reference
-    double seconds_planning = 0;          ///< that this plan took
-    RenderSettings reference;  ///< what the reference would need, where beams do not hold
+    /// Of all together, but for samples, beams, and what the scene settles itself: effects that it
+    /// switches off, and whether the two waves of a crystal interfere.
+    double bound = 0, bound_delta_e = 0;
+    double bound_of_sampling = 0;     ///< the reference's: of few rays in a pixel
+    double bound_of_wavelengths = 0;  ///< in `bound`: of so few of them
+    double bound_of_depth = 0;        ///< in `bound`: of the depth that the scene names
+    double seconds = 0;               ///< estimated processor time of the picture
+    double seconds_everything = 0;    ///< the same with everything on, by the reference
+    double seconds_planning = 0;      ///< that this plan took
+    RenderSettings reference;         ///< what the reference would need, where beams do not hold
     double price_ns = 0, reference_ns = 0;  ///< of the picture, and by that (plan/price.h)
     double mean_radiance = 0;               ///< of the stone, as the pilot sees it
     int pilot_pixels = 0;                   ///< 0: nothing was open, or tolerance 0: no pilot
@@ -59,6 +62,9 @@ struct ScenePlan {
 
 /// Throws InputError as `render` does, and Interrupted.
 ScenePlan plan_scene(const Scene& scene, const Progress& progress = {});
+/// The same plan for people who want to know: what effects would bring that the scene switches off
+/// is measured too, and is part of the bound.
+ScenePlan plan_to_explain(const Scene& scene, const Progress& progress = {});
 
 /// What beams are off by, and about how much of it for what they cut and for their wavelengths; the
 /// rest is for where their borders are.

@@ -14,6 +14,7 @@
 #include "render/plan/verify.h"
 #include "stone/errors.h"
 #include "tests/bench/cpu_time.h"
+#include "tests/bench/effect_prices.h"
 #include "tests/bench/hand_chosen.h"
 #include "tests/bench/plan_scenes.h"
 
@@ -65,52 +66,6 @@ void turns(const Options& options) {
                 std::fflush(stdout);
             }
         }
-    }
-}
-
-// What each effect costs where it is on, on stones that have it; and a plain stone beside the same
-// stone with a material that could do nothing else.
-void prices() {
-    struct Case {
-        const char* material;
-        std::vector<Effects> on;
-        std::vector<double> wavelengths;
-    };
-    const std::vector<Case> cases{
-        {"cubic_zirconia", {}, {589.3}},
-        {"cubic_zirconia", {Effects::polarization}, {589.3}},
-        {"garnet_almandine", {}, {450, 550, 610}},
-        {"garnet_almandine", {Effects::absorption}, {450, 550, 610}},
-        {"cubic_zirconia", {}, {450, 550, 610}},
-        {"cubic_zirconia", {Effects::dispersion}, {450, 550, 610}},
-        {"corundum", {}, {589.3}},
-        {"corundum", {Effects::birefringence}, {589.3}},
-        {"ruby_pale", {Effects::birefringence, Effects::absorption}, {589.3}},
-        {"ruby_pale",
-         {Effects::birefringence, Effects::absorption, Effects::pleochroism},
-         {589.3}}};
-    fmt::print("{:<18}{:<44}{:>3} {:>12}\n", "material", "on", "nm", "ns an eye ray");
-    for (const Case& each : cases) {
-        Scene scene = plan_scene_of(each.material, "round-brilliant", "smooth", 256).scene;
-        RenderSettings& settings = scene.settings;
-        settings.effects_auto = false;
-        settings.effects.fill(false);
-        settings.wavelengths_nm = each.wavelengths;
-        settings.threads = 1;
-        std::string names;
-        for (Effects effect : each.on) {
-            settings.effects[static_cast<std::size_t>(effect)] = true;
-            names += std::string(name_of(effect)) + " ";
-        }
-        const StonePixels pixels = stone_pixels(scene, 1500);
-        PathLimits limits;
-        limits.depth = k_deepest;
-        limits.cut_weight = make_plan(scene).splits ? 0.01 : 1e-3;
-        limits.split_weight = 0.1;
-        limits.roulette = make_plan(scene).splits;
-        const Clocks best = quickest([&] { draw_pilot(scene, pixels, limits, 16); }, 5, 0.5);
-        fmt::print("{:<18}{:<44}{:>3} {:>12.0f}\n", each.material, names, each.wavelengths.size(),
-                   1e9 * best.cpu / (16.0 * static_cast<double>(pixels.at.size())));
     }
 }
 
@@ -220,7 +175,7 @@ int main(int argc, char** argv) {
     CLI11_PARSE(program, argc, argv);
     try {
         if (options.prices) {
-            prices();
+            print_effect_prices(128);
             return 0;
         }
         if (options.turns) {

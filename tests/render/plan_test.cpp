@@ -329,34 +329,48 @@ TEST(Turns, bring_each_wavelength_its_share) {
 
 struct GalleryScene {
     const char* file;
-    std::set<std::string> on;
+    std::set<std::string> on;  // of all lines but samples, which the engine decides
 };
 class Gallery : public testing::TestWithParam<GalleryScene> {};
 
+Scene gallery_scene(const std::string& file) {
+    return read_scene(std::string(CULET_SOURCE_DIR "/samples/effects/") + file);
+}
+
+std::set<std::string> verdict(const ScenePlan& plan) {
+    std::set<std::string> on;
+    for (const PlanItem& line : plan.items) {
+        if (line.on && line.name != "samples") on.insert(line.name);
+    }
+    return on;
+}
+
 TEST_P(Gallery, calls_for_its_effect) {
-    const Scene scene =
-        read_scene(std::string(CULET_SOURCE_DIR "/samples/effects/") + GetParam().file);
+    const Scene scene = gallery_scene(GetParam().file);
     const ScenePlan plan = plan_scene(scene);
-    EXPECT_EQ(effects_on(plan), GetParam().on) << explain(plan);
+    EXPECT_EQ(verdict(plan), GetParam().on) << explain(plan);
     EXPECT_LE(plan.bound, scene.settings.tolerance);
 }
 
-// The waves of a crystal carry polarisation, and pleochroism is theirs.
+// Beside its effect every scene has light paths of some depth. The waves of a crystal carry
+// polarisation, pleochroism is theirs and a matter of absorption, and colours need wavelengths.
+const std::set<std::string> k_pleochroic{"birefringence", "polarization", "absorption",
+                                         "pleochroism",   "depth",        "wavelengths"};
 INSTANTIATE_TEST_SUITE_P(
     Samples, Gallery,
-    testing::Values(GalleryScene{"zircon-doubling.toml", {"birefringence", "polarization"}},
-                    GalleryScene{"tourmaline-across.toml",
-                                 {"birefringence", "polarization", "absorption", "pleochroism"}},
-                    GalleryScene{"tourmaline-along.toml",
-                                 {"birefringence", "polarization", "absorption", "pleochroism"}},
-                    GalleryScene{"andalusite-across.toml",
-                                 {"birefringence", "polarization", "absorption", "pleochroism"}},
-                    GalleryScene{"diamond-fire.toml", {"dispersion"}},
-                    GalleryScene{"garnet-depth.toml", {}},
-                    GalleryScene{"brewster.toml", {"polarization"}},
-                    GalleryScene{"depth-of-field.toml", {"aperture"}},
-                    GalleryScene{"ruby-absorption.toml",
-                                 {"birefringence", "polarization", "absorption", "pleochroism"}}),
+    testing::Values(GalleryScene{"zircon-doubling.toml",
+                                 {"birefringence", "polarization", "depth"}},
+                    GalleryScene{"tourmaline-across.toml", k_pleochroic},
+                    GalleryScene{"tourmaline-along.toml", k_pleochroic},
+                    GalleryScene{"andalusite-across.toml", k_pleochroic},
+                    GalleryScene{"andalusite-along.toml", k_pleochroic},
+                    GalleryScene{"diamond-fire.toml", {"dispersion", "depth", "wavelengths"}},
+                    GalleryScene{"garnet-depth.toml", {"depth"}},
+                    GalleryScene{"brewster.toml", {"polarization", "depth"}},
+                    GalleryScene{"brewster-glare.toml", {"polarization", "depth"}},
+                    GalleryScene{"depth-of-field.toml", {"aperture", "depth"}},
+                    GalleryScene{"light-edges.toml", {"light_edges", "depth"}},
+                    GalleryScene{"ruby-absorption.toml", {"absorption", "depth", "wavelengths"}}),
     [](const testing::TestParamInfo<GalleryScene>& which) {
         std::string name = which.param.file;
         name = name.substr(0, name.find('.'));
@@ -365,6 +379,89 @@ INSTANTIATE_TEST_SUITE_P(
         }
         return name;
     });
+
+// Without unequal absorption the two waves of these stones change less than the tolerance.
+TEST(GalleryOfPleochroism, the_split_itself_does_not_show) {
+    for (const char* file : {"tourmaline-across.toml", "tourmaline-along.toml",
+                             "andalusite-across.toml", "andalusite-along.toml"}) {
+        Scene scene = gallery_scene(file);
+        EXPECT_GT(plan_scene(scene).item("birefringence").matters, scene.settings.tolerance);
+        auto& absorption = scene.stone.material.absorption_per_mm;
+        absorption[1] = absorption[2] = absorption[0];
+        const ScenePlan plan = plan_scene(scene);
+        EXPECT_LT(plan.item("birefringence").matters, scene.settings.tolerance) << file << "\n"
+                                                                                << explain(plan);
+        EXPECT_FALSE(plan.item("pleochroism").on) << file;
+        EXPECT_TRUE(plan.item("absorption").on) << file;
+    }
+}
+
+// Fresnel's equations: at Brewster's angle light that vibrates in the plane of incidence is not
+// reflected, light across it by ((n^2 - 1) / (n^2 + 1))^2, 15.5 % for n = 1.5168.
+TEST(GalleryOfBrewster, the_table_shines_in_one_vibration_only) {
+    const auto table_of = [](const char* file) {
+        Scene scene = gallery_scene(file);
+        const RenderResult result = render(scene);
+        // Above the middle, where nothing but the lamp's mirror image and the dim room are seen.
+        const float* rgb = result.picture.at(80, 83);
+        return static_cast<double>(rgb[1]);
+    };
+    const double dark = table_of("brewster.toml"), shining = table_of("brewster-glare.toml");
+    EXPECT_NEAR(shining - dark, 0.155 * 3.0, 0.08) << "the lamp's radiance is 3 in its middle";
+    EXPECT_LT(dark, 0.15) << "the room's is 0.1";
+}
+
+TEST(Explain, has_a_line_for_every_effect_of_the_catalogue) {
+    Scene scene = small_scene("garnet_almandine");
+    scene.stone.material.absorption_per_mm = {};
+    const ScenePlan plan = plan_scene(scene);
+    std::vector<std::string> names;
+    for (const PlanItem& line : plan.items) {
+        names.push_back(line.name);
+        EXPECT_FALSE(line.why.empty()) << line.name;
+        EXPECT_GT(line.seconds_with, 0) << line.name;
+        EXPECT_GT(line.seconds_without, 0) << line.name;
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"dispersion", "birefringence", "polarization",
+                                               "absorption", "pleochroism", "aperture", "coherence",
+                                               "depth", "wavelengths", "samples", "light_edges",
+                                               "environment_filter", "objects"}));
+    EXPECT_EQ(plan.item("birefringence").why, "garnet is isotropic");
+    EXPECT_EQ(plan.item("absorption").why, "garnet is clear");
+    EXPECT_EQ(plan.item("aperture").why, "pinhole camera");
+    EXPECT_EQ(plan.item("environment_filter").why, "there is no environment map");
+    EXPECT_EQ(plan.item("light_edges").why, "no light has an edge");
+}
+
+TEST(Explain, measures_what_the_scene_switches_off) {
+    Scene scene = gallery_scene("zircon-doubling.toml");
+    scene.settings.effects_auto = false;
+    scene.settings.effects.fill(false);
+    const ScenePlan plan = plan_scene(scene), told = plan_to_explain(scene);
+    const PlanItem& split = told.item("birefringence");
+    EXPECT_FALSE(split.on);
+    EXPECT_GT(split.bound, 0.05) << "the scene is made for it";
+    EXPECT_GT(split.seconds_with, 5 * split.seconds_without) << "trees double";
+    EXPECT_GE(told.bound, split.matters);
+    EXPECT_LT(plan.bound, 0.05) << "a picture is drawn as it was asked for";
+    EXPECT_EQ(told.item("absorption").bound, 0) << "zircon is clear";
+    EXPECT_EQ(told.settings.samples, plan.settings.samples);
+}
+
+// physics: powers are added exactly where light comes from all directions alike and nothing is
+// absorbed; else interference near the optic axis changes something.
+TEST(Explain, bounds_what_interference_would_change) {
+    Scene even = gallery_scene("zircon-doubling.toml");
+    even.lights.lobes.clear();
+    EXPECT_EQ(plan_scene(even).item("coherence").bound, 0);
+    const ScenePlan plan = plan_scene(gallery_scene("zircon-doubling.toml"));
+    const PlanItem& line = plan.item("coherence");
+    EXPECT_FALSE(line.on);
+    EXPECT_GT(line.bound, 0);
+    EXPECT_GE(line.bound, line.matters);
+    EXPECT_NE(line.why.find("waves behind"), std::string::npos) << line.why;
+    EXPECT_LT(plan.bound, line.bound) << "it is the light's matter, beside the sum";
+}
 
 }  // namespace
 

@@ -1,0 +1,211 @@
+// culet render --explain and --verify as a user runs them, on the scenes of samples/effects.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/run_program.h"
+
+namespace culet {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ProgramRun;
+using test::run_culet;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// The catalogue of effects, in the order of the plan.
+const std::vector<std::string> k_lines{
+    "dispersion",  "birefringence",      "polarization", "absorption",  "pleochroism",
+    "aperture",    "coherence",          "depth",        "wavelengths", "samples",
+    "light_edges", "environment_filter", "objects"};
+
+class RenderPlan : public testing::Test {
+protected:
+    RenderPlan() {
+        std::string pattern = (fs::temp_directory_path() / "culet-plan-XXXXXX").string();
+        folder_ = ::mkdtemp(pattern.data());
+    }
+    ~RenderPlan() override {
+        std::error_code ignored;
+        fs::remove_all(folder_, ignored);
+    }
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    nlohmann::json json(const std::string& name) const {
+        std::ifstream stream(folder_ / name, std::ios::binary);
+        return nlohmann::json::parse(std::string{std::istreambuf_iterator<char>(stream), {}});
+    }
+    bool nothing_was_written() const { return fs::is_empty(folder_); }
+
+    // Pictures of 48 x 48 pixels.
+    static ProgramRun render(const std::string& scene, std::vector<std::string> more) {
+        std::vector<std::string> arguments{
+            "render", std::string(CULET_SOURCE_DIR "/samples/effects/") + scene, "--set",
+            "camera.size=[48,48]"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_culet(arguments);
+    }
+    fs::path folder_;
+};
+
+nlohmann::json item_of(const nlohmann::json& plan, const std::string& name) {
+    for (const auto& item : plan["items"]) {
+        if (item["name"] == name) return item;
+    }
+    ADD_FAILURE() << "no line for " << name;
+    return {};
+}
+
+TEST_F(RenderPlan, ExplainsEveryEffectInALine) {
+    const ProgramRun run = render("zircon-doubling.toml", {"--explain"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.err, "");
+    std::istringstream lines(run.out);
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_TRUE(line.starts_with("engine")) << line;
+    for (const std::string& name : k_lines) {
+        std::getline(lines, line);
+        EXPECT_TRUE(line.starts_with(name + " ")) << line;
+        EXPECT_TRUE(line.find(" on: ") != std::string::npos ||
+                    line.find(" off: ") != std::string::npos)
+            << line;
+    }
+    std::getline(lines, line);
+    EXPECT_TRUE(line.starts_with("error bound")) << line;
+    std::getline(lines, line);
+    EXPECT_TRUE(line.starts_with("time")) << line;
+    EXPECT_FALSE(std::getline(lines, line)) << line;
+    EXPECT_THAT(run.out, HasSubstr("zircon's two images lie up to"));
+    EXPECT_THAT(run.out, HasSubstr("off: pinhole camera"));
+    EXPECT_THAT(run.out, HasSubstr("off: there is no environment map"));
+    EXPECT_THAT(run.out, HasSubstr("without it"));
+    EXPECT_TRUE(nothing_was_written());
+}
+
+TEST_F(RenderPlan, ExplainsWithoutDrawing) {
+    const ProgramRun run =
+        render("garnet-depth.toml", {"--explain", "-o", file("picture.png"), "--tolerance", "0.1"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_TRUE(nothing_was_written());
+}
+
+TEST_F(RenderPlan, ExplainsAsJson) {
+    const ProgramRun run =
+        render("tourmaline-across.toml", {"--explain", "--json", file("plan.json")});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("pleochroism        on:"));
+    const nlohmann::json plan = json("plan.json");
+    EXPECT_EQ(plan["schema"], 1);
+    EXPECT_EQ(plan["tolerance"], 0.05);
+    ASSERT_EQ(plan["items"].size(), k_lines.size());
+    for (std::size_t i = 0; i < k_lines.size(); ++i) {
+        const nlohmann::json& item = plan["items"][i];
+        EXPECT_EQ(item["name"], k_lines[i]);
+        EXPECT_TRUE(item["on"].is_boolean());
+        EXPECT_FALSE(item["why"].get<std::string>().empty()) << item;
+        EXPECT_TRUE(item["error_bound"].is_number()) << item;
+        EXPECT_TRUE(item["error_bound_deltaE00"].is_number()) << item;
+        EXPECT_GT(item["seconds_with"], 0) << item;
+        EXPECT_GT(item["seconds_without"], 0) << item;
+    }
+    EXPECT_TRUE(item_of(plan, "pleochroism")["on"]);
+    EXPECT_GT(item_of(plan, "pleochroism")["matters"], 0);
+    for (const char* key : {"engine", "engine_why", "error_bound", "error_bound_deltaE00",
+                            "seconds", "seconds_everything", "seconds_planning", "samples"})
+        EXPECT_TRUE(plan.contains(key)) << key;
+    // On stdout it stands alone.
+    const ProgramRun alone = render("tourmaline-across.toml", {"--explain", "--json", "-"});
+    EXPECT_EQ(alone.exit_code, 0);
+    ASSERT_TRUE(nlohmann::json::accept(alone.out)) << alone.out;
+    EXPECT_EQ(nlohmann::json::parse(alone.out)["items"].size(), k_lines.size());
+}
+
+TEST_F(RenderPlan, ExplainsWhatIsSwitchedOffByHand) {
+    const ProgramRun run =
+        render("zircon-doubling.toml", {"--explain", "--effects", "none", "--json", "-"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const nlohmann::json plan = nlohmann::json::parse(run.out);
+    const nlohmann::json split = item_of(plan, "birefringence");
+    EXPECT_FALSE(split["on"]);
+    EXPECT_THAT(split["why"].get<std::string>(), HasSubstr("switched off by the scene"));
+    EXPECT_GT(split["error_bound"], 0.05);
+    EXPECT_GE(plan["error_bound"], split["matters"]);
+    EXPECT_THAT(item_of(plan, "absorption")["why"].get<std::string>(), HasSubstr("clear"));
+}
+
+TEST_F(RenderPlan, VerifiesAPicture) {
+    const ProgramRun run = render("garnet-depth.toml", {"-o", file("picture.png"), "--verify",
+                                                        "--stats", file("stats.json")});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.out, "");
+    EXPECT_THAT(run.err, HasSubstr("measured error"));
+    EXPECT_THAT(run.err, HasSubstr("error bound"));
+    EXPECT_TRUE(fs::exists(folder_ / "picture.png"));
+    const nlohmann::json found = json("stats.json")["verification"];
+    EXPECT_TRUE(found["holds"]);
+    EXPECT_GT(found["pixels"], 0);
+    EXPECT_GE(found["measured"], 0);
+    EXPECT_LE(found["measured"], found["error_bound"]);
+    EXPECT_GT(found["deltaE00"], 0);
+    // The stats carry the plan too.
+    EXPECT_EQ(json("stats.json")["plan"]["items"].size(), k_lines.size());
+}
+
+TEST_F(RenderPlan, AVerificationThatFailsIsToldByTheExitCode) {
+    // Without the split, which this scene is made for: the picture is there, and not to be trusted.
+    const ProgramRun run =
+        render("zircon-doubling.toml", {"-o", file("picture.png"), "--verify", "--effects", "none",
+                                        "--stats", file("stats.json")});
+    EXPECT_EQ(run.exit_code, 1) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("the error bound does not hold"));
+    EXPECT_TRUE(fs::exists(folder_ / "picture.png"));
+    EXPECT_FALSE(json("stats.json")["verification"]["holds"]);
+}
+
+TEST_F(RenderPlan, StatsHaveNoVerificationUnlessAsked) {
+    const ProgramRun run = render("garnet-depth.toml", {"-o", file("picture.png"), "--stats", "-"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, Not(HasSubstr("measured error")));
+    EXPECT_FALSE(nlohmann::json::parse(run.out).contains("verification"));
+}
+
+TEST_F(RenderPlan, RefusesInOneLineAndWritesNothing) {
+    const auto refused = [&](const std::string& scene, std::vector<std::string> more,
+                             const std::string& why) {
+        const ProgramRun run = render(scene, std::move(more));
+        EXPECT_EQ(run.exit_code, 2) << why;
+        EXPECT_EQ(run.out, "") << why;
+        EXPECT_THAT(run.err, HasSubstr(why));
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_TRUE(nothing_was_written()) << why;
+    };
+    const std::string scene = "garnet-depth.toml";
+    const std::string picture = file("picture.png"), stats = file("stats.json");
+    refused("none.toml", {"--explain"}, "none.toml");
+    refused(scene, {"--explain", "--effects", "fire"}, "no effect \"fire\"");
+    refused(scene, {"--explain", "--tolerance", "-0.1"}, "tolerance");
+    refused(scene, {"--explain", "--tolerance", "nan"}, "tolerance");
+    refused(scene, {"--explain", "--depth", "-1"}, "depth");
+    refused(scene, {"--explain", "--engine", "warp"}, "no engine \"warp\"");
+    refused(scene, {"--explain", "--json", file("nowhere/plan.json")}, "nowhere");
+    refused(scene, {"--verify"}, "-o IMAGE");
+    refused(scene, {"--verify", "-o", file("picture.bmp")}, ".exr, .png or .hdr");
+    refused(scene, {"--verify", "-o", file("nowhere/picture.png")}, "nowhere");
+    refused(scene, {"--verify", "-o", picture, "--stats", file("nowhere/s.json")}, "nowhere");
+    refused(scene, {"--verify", "-o", picture, "--stats", stats, "--set", "camera.size=[0,0]"},
+            "size");
+    refused(scene, {"--verify", "-o", picture, "--stats", stats, "--effects", "all,fire"},
+            "no effect");
+    refused("zircon-doubling.toml",
+            {"--verify", "-o", picture, "--stats", stats, "--set", "camera.position=[0.1,0,0.5]"},
+            "inside the stone");
+}
+
+}  // namespace
+}  // namespace culet
