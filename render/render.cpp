@@ -220,7 +220,8 @@ RenderResult render(const Scene& scene, const Progress& progress) {
             ProvenPicture one = draw_and_prove(work, plan, *prover, Way::as_one);
             if (one.proven) {
                 for (PlanItem& line : one.result.stats.plan->items) {
-                    if (line.why == k_as_one) line.bound = one.result.stats.error_bound;
+                    const bool alone = line.name != name_of(Effects::coherence);
+                    if (line.why == k_as_one && alone) line.bound = one.result.stats.error_bound;
                 }
                 return std::move(one.result);
             }
