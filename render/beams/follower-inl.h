@@ -131,15 +131,18 @@ private:
         return most <= number(-1e-6f * stone_.size);
     }
 
-    // The next point's change: it stays in the plane.
-    HWY_INLINE static void move(V3& point, const V3& direction_change, const V& length, const V3& a,
-                                const V& towards, const V3& along) {
-        const V3 moved = plus(point, length, direction_change);
-        point = plus(moved, hn::Neg(dot(a, moved)) / towards, along);
+    // How far a neighbouring ray's point moves along its ray to be in the plane. Of rays beside the
+    // beam, which hardly meet its facets, more than this says nothing, and would grow from facet to
+    // facet until it is no number.
+    HWY_INLINE V into_plane(const V3& moved, const V3& a, const V& towards) const {
+        const V farthest = number(1e6f * stone_.size);
+        return hn::Clamp(hn::Neg(dot(a, moved)) / towards, hn::Neg(farthest), farthest);
     }
+    // The next point's change: it stays in the plane.
     HWY_INLINE void move(V3& point, const V3& direction_change, const V& length, const V3& a,
                          const V& towards) {
-        move(point, direction_change, length, a, towards, ray_.direction);
+        const V3 moved = plus(point, length, direction_change);
+        point = plus(moved, into_plane(moved, a, towards), ray_.direction);
     }
 
     HWY_INLINE void absorb(const V& length, V& absorbed) {
@@ -214,7 +217,7 @@ private:
             const auto change = [&](const V3& g, const V3& dv, V3& point, V3& inside,
                                     V3& outside) HWY_ATTR {
                 const V3 moved = plus(g, later, dv);
-                point = plus(moved, hn::Neg(dot(N, moved)) / towards, v);
+                point = plus(moved, into_plane(moved, N, towards), v);
                 const V3 turned = over * plus(dv, hn::Neg(dot(along, dv)), along);
                 const V dq1 = hn::Neg(dot(N, turned)), dq2 = q1 * dq1 / q2;
                 inside = over_n * plus(turned, dq1 - dq2, N);
