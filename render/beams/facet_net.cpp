@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -42,6 +43,22 @@ FacetNet::FacetNet(const Solid& convex) : size_(diameter(convex)) {
             const auto [line, fresh] = line_of.try_emplace(std::minmax(edge.from, edge.to), lines_);
             lines_ += fresh;
             edge.line = line->second;
+        }
+    }
+    far_along_.resize(static_cast<std::size_t>(lines_));
+    for (int f = 0; f < facets(); ++f) {
+        for (const NetEdge& edge : edges(f)) {
+            if (edge.from > edge.to) continue;
+            const Vec3& low = corners_[static_cast<std::size_t>(edge.from)];
+            const double length = glm::distance(low, corners_[static_cast<std::size_t>(edge.to)]);
+            // Round a facet seen from outside its edges run along n x n of the facet beyond.
+            const Vec3 along = glm::cross(plane(f).normal, plane(edge.beyond).normal);
+            const double across = glm::length(along);
+            const double turned_by_corners = too_short / length,
+                         turned_by_planes = std::numeric_limits<double>::epsilon() / across;
+            if (length * length < too_short * size_ && turned_by_planes < turned_by_corners) {
+                far_along_[static_cast<std::size_t>(edge.line)] = low + (size_ / across) * along;
+            }
         }
     }
     for (const std::vector<NetEdge>& edges : edges_) {

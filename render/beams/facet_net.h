@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "stone/solid.h"
@@ -49,6 +50,11 @@ public:
         return walk(exits_[cell_of(from, d)], x, d);
     }
     const std::vector<Vec3>& corners() const { return corners_; }
+    /// Of a line whose edge is so short that corners which were made one may turn it: a point far
+    /// along it, in the direction of its higher corner, where its planes cross.
+    const std::optional<Vec3>& far_along(int line) const {
+        return far_along_[static_cast<std::size_t>(line)];
+    }
     double size() const { return size_; }
 
 private:
@@ -67,6 +73,7 @@ private:
     std::vector<Plane> planes_;
     std::vector<std::vector<NetEdge>> edges_;
     std::vector<std::vector<NetNeighbour>> neighbours_;
+    std::vector<std::optional<Vec3>> far_along_;
     std::vector<int> exits_;  // of rays from a facet's middle, where walks begin
     std::vector<Vec3> corners_;
     int lines_ = 0;

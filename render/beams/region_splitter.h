@@ -52,7 +52,8 @@ private:
         if (stamp_of_line_[i] != stamp_) {
             stamp_of_line_[i] = stamp_;
             const int low = std::min(edge.from, edge.to), high = std::max(edge.from, edge.to);
-            lines_[i] = glm::cross(image(low), image(high));
+            const std::optional<Vec3>& far = net_->far_along(edge.line);
+            lines_[i] = glm::cross(image(low), far ? view_->map.of(*far) : image(high));
         }
         return lines_[i];
     }
