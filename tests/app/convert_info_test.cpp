@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/run_program.h"
+#include "tests/scratch_folder.h"
 
 namespace culet {
 namespace {
@@ -20,15 +21,6 @@ const std::string k_design = CULET_SOURCE_DIR "/tests/stone/designs/srb_class_an
 
 class ConvertInfo : public testing::Test {
 protected:
-    ConvertInfo() {
-        std::string pattern =
-            (std::filesystem::temp_directory_path() / "culet-app-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-    }
-    ~ConvertInfo() override {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
     static std::string text(const std::string& name) {
         std::ifstream stream(name, std::ios::binary);
@@ -44,7 +36,7 @@ protected:
         EXPECT_EQ(run.err.rfind("culet: error: ", 0), 0u) << run.err;
     }
 
-    std::filesystem::path folder_;
+    test::ScratchFolder folder_;
 };
 
 TEST_F(ConvertInfo, DesignGoesThroughEveryFormatAndBack) {
@@ -111,8 +103,8 @@ TEST_F(ConvertInfo, WhatCannotBeDoneIsOneLine) {
     expect_one_error_line(run_culet({"convert", k_design}));
     expect_one_error_line(run_culet({"convert", k_design, file("a.obj"), "--meet-tolerance", "7"}));
     expect_one_error_line(run_culet({"info", file("missing.asc")}));
-    expect_one_error_line(run_culet({"info", folder_.string()}));
-    expect_one_error_line(run_culet({"info", k_design, "--json", folder_.string()}));
+    expect_one_error_line(run_culet({"info", folder_.path().string()}));
+    expect_one_error_line(run_culet({"info", k_design, "--json", folder_.path().string()}));
     write("a.xyz", "1 2 3\n");
     expect_one_error_line(run_culet({"info", file("a.xyz")}));
     write("bad\n\033[31m.obj", "v 0 0\n");

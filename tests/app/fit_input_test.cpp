@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "tests/app/run_program.h"
+#include "tests/scratch_folder.h"
 
 namespace culet {
 namespace {
@@ -111,15 +112,9 @@ const Change in_triangles = [](Drawing& d) {
 class FitInput : public testing::Test {
 protected:
     FitInput() {
-        std::string pattern = (fs::temp_directory_path() / "culet-input-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
         fs::copy(k_sample / "readings.csv", folder_ / "readings.csv");
         fs::copy(k_sample / "stone.toml", folder_ / "stone.toml");
         fs::copy(k_sample / "hand.obj", folder_ / "hand.obj");
-    }
-    ~FitInput() override {
-        std::error_code ignored;
-        fs::remove_all(folder_, ignored);
     }
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
 
@@ -148,7 +143,7 @@ protected:
         EXPECT_FALSE(fs::exists(file("fitted.obj")));
     }
 
-    fs::path folder_;
+    test::ScratchFolder folder_;
 };
 
 TEST_F(FitInput, BadlyMadeMeshesAreMendedAndFitted) {

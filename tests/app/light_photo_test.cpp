@@ -14,6 +14,7 @@
 #include "render/image_io.h"
 #include "tests/app/run_program.h"
 #include "tests/compare/light/simulated_ball.h"
+#include "tests/scratch_folder.h"
 
 namespace culet {
 namespace {
@@ -25,14 +26,6 @@ using ::testing::HasSubstr;
 
 class LightAndPhoto : public testing::Test {
 protected:
-    LightAndPhoto() {
-        std::string pattern = (fs::temp_directory_path() / "culet-light-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-    }
-    ~LightAndPhoto() override {
-        std::error_code ignored;
-        fs::remove_all(folder_, ignored);
-    }
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
     std::string write(const Photo& photo, const std::string& name) const {
         Picture picture;
@@ -69,7 +62,7 @@ protected:
         EXPECT_THAT(run.err, HasSubstr(about));
         EXPECT_TRUE(run.out.empty());
     }
-    fs::path folder_;
+    test::ScratchFolder folder_;
 };
 
 TEST_F(LightAndPhoto, TwoBallsBecomeAnEnvironmentThatTheRendererReads) {

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/run_program.h"
+#include "tests/scratch_folder.h"
 
 namespace culet {
 namespace {
@@ -21,14 +22,6 @@ const fs::path k_samples = fs::path(CULET_SOURCE_DIR) / "samples";
 
 class MainJob : public testing::Test {
 protected:
-    MainJob() {
-        std::string pattern = (fs::temp_directory_path() / "culet-job-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-    }
-    ~MainJob() override {
-        std::error_code ignored;
-        fs::remove_all(folder_, ignored);
-    }
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
     static std::string text(const std::string& name) {
         std::ifstream stream(name, std::ios::binary);
@@ -49,7 +42,7 @@ protected:
         return file("scene.toml");
     }
 
-    fs::path folder_;
+    test::ScratchFolder folder_;
 };
 
 TEST_F(MainJob, FitRenderAndCompareEndInOneReport) {

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/run_program.h"
+#include "tests/scratch_folder.h"
 
 namespace culet {
 namespace {
@@ -22,18 +23,12 @@ using test::run_culet;
 class Register : public testing::Test {
 protected:
     Register() {
-        std::string pattern = (fs::temp_directory_path() / "culet-register-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
         EXPECT_EQ(run_culet({"cut", "round-brilliant", "-o", file("stone.obj"), "-q"}).exit_code,
                   0);
         write("truth.toml", scene("[6.8, 3.1, 39.3]", "[0.1, 1, 0]"));
         write("start.toml", scene("[-2, 9, 44]", "[-0.15, 1, 0]"));
         EXPECT_EQ(
             run_culet({"render", file("truth.toml"), "-o", file("photo.png"), "-q"}).exit_code, 0);
-    }
-    ~Register() override {
-        std::error_code ignored;
-        fs::remove_all(folder_, ignored);
     }
     static std::string scene(const std::string& position, const std::string& up) {
         return "# where the camera is about\nmesh = \"stone.obj\"\nmaterial = "
@@ -55,7 +50,7 @@ protected:
         return {std::istreambuf_iterator<char>(stream), {}};
     }
 
-    fs::path folder_;
+    test::ScratchFolder folder_;
 };
 
 TEST_F(Register, writes_a_scene_that_renders_at_once) {

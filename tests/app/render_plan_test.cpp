@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/app/run_program.h"
+#include "tests/scratch_folder.h"
 
 namespace culet {
 namespace {
@@ -27,20 +28,12 @@ const std::vector<std::string> k_lines{
 
 class RenderPlan : public testing::Test {
 protected:
-    RenderPlan() {
-        std::string pattern = (fs::temp_directory_path() / "culet-plan-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-    }
-    ~RenderPlan() override {
-        std::error_code ignored;
-        fs::remove_all(folder_, ignored);
-    }
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
     nlohmann::json json(const std::string& name) const {
         std::ifstream stream(folder_ / name, std::ios::binary);
         return nlohmann::json::parse(std::string{std::istreambuf_iterator<char>(stream), {}});
     }
-    bool nothing_was_written() const { return fs::is_empty(folder_); }
+    bool nothing_was_written() const { return fs::is_empty(folder_.path()); }
 
     // Pictures of 48 x 48 pixels.
     static ProgramRun render(const std::string& scene, std::vector<std::string> more) {
@@ -50,7 +43,7 @@ protected:
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run_culet(arguments);
     }
-    fs::path folder_;
+    test::ScratchFolder folder_;
 };
 
 nlohmann::json item_of(const nlohmann::json& plan, const std::string& name) {

@@ -10,6 +10,7 @@
 
 #include "tests/app/run_program.h"
 #include "tests/page/xml.h"
+#include "tests/scratch_folder.h"
 
 namespace culet {
 namespace {
@@ -22,14 +23,6 @@ using ::testing::HasSubstr;
 
 class StudyCommand : public testing::Test {
 protected:
-    StudyCommand() {
-        std::string pattern = (fs::temp_directory_path() / "culet-study-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-    }
-    ~StudyCommand() override {
-        std::error_code ignored;
-        fs::remove_all(folder_, ignored);
-    }
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
     std::string text(const std::string& name) const {
         std::ifstream stream(folder_ / name, std::ios::binary);
@@ -66,7 +59,7 @@ protected:
                "[light]\nconstant = 0.2\n[[light.lobe]]\ndirection = [0, 0, 1]\nexponent = 4\n"
                "[render]\ntolerance = 0.1\n";
     }
-    fs::path folder_;
+    test::ScratchFolder folder_;
 };
 
 TEST_F(StudyCommand, WritesTablesChartsJsonAndPage) {

@@ -14,6 +14,7 @@
 #include "render/scene_checks.h"
 #include "render/scene_io.h"
 #include "stone/errors.h"
+#include "tests/scratch_folder.h"
 
 namespace {
 
@@ -26,16 +27,11 @@ const char* const k_tetrahedron =
 class SceneStones : public testing::Test {
 protected:
     void SetUp() override {
-        folder_ = fs::path(testing::TempDir()) /
-                  ("culet_scene_stones_" +
-                   std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
-        fs::create_directories(folder_);
         write("mesh.obj", k_tetrahedron);
         write("stone.toml",
               "[stone]\nname = \"Red\"\nmesh = \"mesh.obj\"\nunit = \"cm\"\n"
               "material = \"corundum\"\noptic_axis = [1, 0, 0]\n");
     }
-    void TearDown() override { fs::remove_all(folder_); }
     void write(const char* name, const std::string& text) const {
         std::ofstream(folder_ / name, std::ios::binary) << text;
     }
@@ -58,7 +54,7 @@ protected:
         picture.rgb.assign(3 * picture.pixels(), value);
         return picture;
     }
-    fs::path folder_;
+    test::ScratchFolder folder_;
 };
 
 const std::string k_light = "[light]\nconstant = 1\n";

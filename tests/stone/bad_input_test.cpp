@@ -14,6 +14,7 @@
 #include "stone/mesh_io.h"
 #include "stone/output_file.h"
 #include "stone/stone.h"
+#include "tests/scratch_folder.h"
 #include "tests/stone/synthetic_solids.h"
 
 namespace culet {

@@ -11,6 +11,7 @@
 #include "stone/gemcad_io.h"
 #include "stone/mesh_io.h"
 #include "stone/stone.h"
+#include "tests/scratch_folder.h"
 #include "tests/stone/synthetic_solids.h"
 
 namespace culet {

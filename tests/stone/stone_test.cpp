@@ -8,6 +8,7 @@
 #include "stone/checks.h"
 #include "stone/errors.h"
 #include "stone/proportions.h"
+#include "tests/scratch_folder.h"
 #include "tests/stone/synthetic_solids.h"
 
 namespace culet {

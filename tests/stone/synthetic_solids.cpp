@@ -1,9 +1,6 @@
 #include "tests/stone/synthetic_solids.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <glm/geometric.hpp>
@@ -117,18 +114,6 @@ double plane_difference(const Solid& a, const Solid& b) {
             {worst, glm::length(p.normal - q.normal), std::abs(p.offset - q.offset) / size});
     }
     return worst;
-}
-
-ScratchFolder::ScratchFolder() {
-    static std::atomic<int> count{0};
-    path_ = std::filesystem::temp_directory_path() /
-            ("culet-test-" + std::to_string(::getpid()) + "-" + std::to_string(count++));
-    std::filesystem::create_directories(path_);
-}
-
-ScratchFolder::~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
 }
 
 std::vector<std::filesystem::path> committed_designs() {

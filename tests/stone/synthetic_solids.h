@@ -36,19 +36,6 @@ Solid turned_inside_out(const Solid& solid);
 /// same name; infinite when the names differ.
 double plane_difference(const Solid& a, const Solid& b);
 
-/// A folder of its own for a test's files, removed at the end.
-class ScratchFolder {
-public:
-    ScratchFolder();
-    ~ScratchFolder();
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
-private:
-    std::filesystem::path path_;
-};
-
 /// `.asc` designs of the repository, and those beside it where they are.
 std::vector<std::filesystem::path> committed_designs();
 std::vector<std::filesystem::path> shared_designs();

@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "stone/errors.h"
+#include "tests/scratch_folder.h"
 
 namespace culet {
 namespace {
@@ -44,12 +45,7 @@ cv::Mat page_of(const std::string& svg, double pixels_per_mm, double width_mm, d
 
 class Boards : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "culet-board-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-    fs::path folder_;
+    test::ScratchFolder folder_;
 };
 
 TEST_F(Boards, the_lens_that_took_them_is_found) {

@@ -10,6 +10,7 @@
 
 #include "stone/errors.h"
 #include "tests/compare/photo/synthetic_dng.h"
+#include "tests/scratch_folder.h"
 
 namespace culet {
 namespace {
@@ -19,11 +20,6 @@ namespace fs = std::filesystem;
 
 class RawFiles : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string pattern = (fs::temp_directory_path() / "culet-raw-XXXXXX").string();
-        folder_ = ::mkdtemp(pattern.data());
-    }
-    void TearDown() override { fs::remove_all(folder_); }
     fs::path file(const std::string& bytes, const std::string& name = "shot.dng") const {
         std::ofstream(folder_ / name, std::ios::binary) << bytes;
         return folder_ / name;
@@ -33,7 +29,7 @@ protected:
     }
 
 private:
-    fs::path folder_;
+    test::ScratchFolder folder_;
 };
 
 // A ramp of greys: equal channels, proportional to the light, 1 where green clips.
