@@ -9,7 +9,7 @@ namespace culet {
 namespace {
 
 // Of the calibration's own workings: a cached table of another version is not used.
-constexpr int k_version = 1;
+constexpr int k_version = 2;
 
 void add_colour(Fingerprint& print, const LightColour& colour) {
     std::visit(
@@ -91,6 +91,7 @@ void add_camera(Fingerprint& print, const Camera& camera) {
     print.add(camera.orthographic_width.value_or(-1));
     print.add(camera.width);
     print.add(camera.height);
+    for (const double c : line_of_sight_in(camera)) print.add(c);
     print.add(camera.aperture_radius);
     print.add(camera.focus_distance);
     print.add(camera.cone.value_or(-1));
@@ -108,9 +109,18 @@ void add_settings(Fingerprint& print, const RenderSettings& settings) {
     print.add(settings.crystal_beams ? static_cast<int>(*settings.crystal_beams) : -1);
     print.add(settings.depth);
     print.add(settings.tolerance);
+    print.add(settings.cut_weight.value_or(-1));
+    print.add(settings.split_weight.value_or(-1));
+    print.add(settings.wavelength_turns);
+    print.add(static_cast<double>(settings.most_beams));
+    print.add(settings.checked_pixels);
+    print.add(settings.checked_samples);
     print.add(settings.effects_auto ? 1 : 0);
     for (const bool on : settings.effects) print.add(on ? 1 : 0);
+    print.add(settings.coherence ? (*settings.coherence ? 1 : 0) : -1);
+    print.add(settings.bandwidth_nm.value_or(-1));
     print.add(settings.wavelengths_nm);
+    print.add(settings.samples);
     print.add(static_cast<int>(settings.filter));
     print.add(settings.filter_radius);
     print.add(static_cast<double>(settings.seed));
@@ -163,6 +173,7 @@ void Fingerprint::add(const Solid& solid) {
 
 void Fingerprint::add(const Scene& scene) {
     add(scene.stone.solid);
+    add(scene.stone.convex ? 1 : 0);
     add(static_cast<int>(scene.stone.unit));
     add(scene.stone.up);
     for (const Vec3& axis : scene.stone.crystal.axes) add(axis);

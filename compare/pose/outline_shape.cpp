@@ -31,10 +31,7 @@ const Directions& directions() {
 /// of a convex stone is convex, and that point is in it.
 std::vector<PicturePoint> outline_of(const WireSolid& wire, const StoneView& view) {
     const Projection project(view);
-    const EyePlace eye = eye_of(view);
-    std::vector<char> seen(wire.solid.facets.size());
-    for (std::size_t f = 0; f < seen.size(); ++f)
-        seen[f] = eye.sees(wire.solid.facets[f].plane) ? 1 : 0;
+    const std::vector<char> seen = facets_seen(wire, view);
     std::vector<std::pair<double, PicturePoint>> corners;
     for (const Edge& edge : wire.edges) {
         if (seen[static_cast<std::size_t>(edge.left)] == seen[static_cast<std::size_t>(edge.right)])

@@ -74,12 +74,16 @@ WireSolid::WireSolid(const Solid& solid_) : solid(solid_) {
     diameter = culet::diameter(solid);
 }
 
+std::vector<char> facets_seen(const WireSolid& wire, const StoneView& view) {
+    const EyePlace eye = eye_of(view);
+    std::vector<char> seen;
+    for (const Facet& facet : wire.solid.facets) seen.push_back(eye.sees(facet.plane) ? 1 : 0);
+    return seen;
+}
+
 std::vector<WireEdge> visible_edges(const WireSolid& wire, const StoneView& view) {
     const Projection project(view);
-    const EyePlace eye = eye_of(view);
-    std::vector<char> seen(wire.solid.facets.size());
-    for (std::size_t f = 0; f < seen.size(); ++f)
-        seen[f] = eye.sees(wire.solid.facets[f].plane) ? 1 : 0;
+    const std::vector<char> seen = facets_seen(wire, view);
     std::vector<PicturePoint> corners;
     corners.reserve(wire.solid.vertices.size());
     for (const Vec3& vertex : wire.solid.vertices) corners.push_back(project(vertex));

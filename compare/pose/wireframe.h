@@ -19,6 +19,9 @@ struct WireSolid {
     double diameter = 0;
 };
 
+/// 1 for each facet that is turned to the eye, else 0.
+std::vector<char> facets_seen(const WireSolid& wire, const StoneView& view);
+
 struct WireEdge {
     int edge = -1;  ///< of WireSolid::edges
     PicturePoint from, to;

@@ -178,7 +178,20 @@ TEST(Fingerprint, tells_scenes_apart_by_each_of_their_parts) {
         [](Scene& s) { s.lights.lobes[0].radiance.value = 1.0; },
         [](Scene& s) { s.stone.solid.facets[3].plane.offset *= 1 + 1e-12; },
         [](Scene& s) { s.stone.material = catalogue_material("quartz"); },
+        [](Scene& s) { s.stone.convex = false; },
+        [](Scene& s) {
+            s.camera.principal_point = {60, 61};
+        },
         [](Scene& s) { s.settings.depth = 9; },
+        [](Scene& s) { s.settings.samples = 9; },
+        [](Scene& s) { s.settings.cut_weight = 1e-3; },
+        [](Scene& s) { s.settings.split_weight = 0.1; },
+        [](Scene& s) { s.settings.wavelength_turns = 2; },
+        [](Scene& s) { s.settings.most_beams = 1000; },
+        [](Scene& s) { s.settings.checked_pixels = 100; },
+        [](Scene& s) { s.settings.checked_samples = 4; },
+        [](Scene& s) { s.settings.coherence = false; },
+        [](Scene& s) { s.settings.bandwidth_nm = 1; },
         [](Scene& s) { s.immersion = 1.33; }};
     for (std::size_t i = 0; i < changes.size(); ++i) {
         Scene other = scene;
