@@ -55,7 +55,7 @@ void add_vanishing(const System& system, const Finished& finished, const Inferen
     const std::vector<Equation>& hard = inference.linear().hard;
     std::vector<Eigen::Index> held;
     for (std::size_t i = 0; i < hard.size(); ++i) {
-        if (hard[i].facet >= 0 && hard[i].point >= 0) held.push_back(Eigen::Index(i));
+        if (hard[i].holds_corner()) held.push_back(Eigen::Index(i));
     }
     if (held.empty()) return;
     // Of an edge both ends may be held, which is one condition said twice: they are let go
@@ -110,7 +110,7 @@ void add_shut_facets(const System& system, const Finished& finished, const Infer
     const Outline& outline = *finished.outline;
     std::set<int> held_points, held_facets;
     for (const Equation& e : inference.linear().hard) {
-        if (e.facet < 0 || e.point < 0) continue;
+        if (!e.holds_corner()) continue;
         held_points.insert(e.point);
         held_facets.insert(e.facet);
     }

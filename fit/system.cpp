@@ -75,8 +75,8 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
 }
 
 double System::scale_of_readings(const Vec3& up) const {
-    // In logarithms, read over drawn: of the overall lengths, and of single edges.
-    std::vector<double> overall, edges;
+    // In logarithms, read over drawn: of the overall lengths, then of single edges too.
+    std::vector<double> logs;
     for (const Reading& r : readings_) {
         double mine = 0;
         if (r.kind == ReadingKind::depth) {
@@ -88,14 +88,14 @@ double System::scale_of_readings(const Vec3& up) const {
                     : times_transposed(upright_, Vec3{std::cos(r.azimuth), std::sin(r.azimuth), 0});
             mine = width_along(solid_, direction);
         }
-        if (mine > 0 && r.value > 0) overall.push_back(std::log(r.value / mine));
+        if (mine > 0 && r.value > 0) logs.push_back(std::log(r.value / mine));
     }
-    const auto [least, most] = std::minmax_element(overall.begin(), overall.end());
+    const auto [least, most] = std::minmax_element(logs.begin(), logs.end());
     // Within the errors of a drawing.
     const double drawn = std::log(3.0);
-    if (!overall.empty() && *most - *least < drawn) {
-        return std::exp(std::accumulate(overall.begin(), overall.end(), 0.0) /
-                        double(overall.size()));
+    const bool any_overall = !logs.empty();
+    if (any_overall && *most - *least < drawn) {
+        return std::exp(std::accumulate(logs.begin(), logs.end(), 0.0) / double(logs.size()));
     }
     // A needle whose table is drawn askew is as wide as it is long: there, and where nothing
     // overall was read, the middle one of what single lengths say.
@@ -104,17 +104,15 @@ double System::scale_of_readings(const Vec3& up) const {
         for (const Edge& e : edges_.edges) {
             if (std::minmax(e.left, e.right) != std::minmax(r.facets[0], r.facets[1])) continue;
             const double mine = glm::length(solid_.vertices[e.from] - solid_.vertices[e.to]);
-            if (mine > 0) edges.push_back(std::log(r.value / mine));
+            if (mine > 0) logs.push_back(std::log(r.value / mine));
             break;
         }
     }
-    std::vector<double> all = overall;
-    all.insert(all.end(), edges.begin(), edges.end());
-    if (all.empty()) return 1;
-    const auto middle = all.begin() + std::ptrdiff_t(all.size() / 2);
-    std::nth_element(all.begin(), middle, all.end());
+    if (logs.empty()) return 1;
+    const auto middle = logs.begin() + std::ptrdiff_t(logs.size() / 2);
+    std::nth_element(logs.begin(), middle, logs.end());
     // The mesh's own size is as good as edges that differ no more than drawings do.
-    return overall.empty() && std::abs(*middle) < drawn ? 1 : std::exp(*middle);
+    return !any_overall && std::abs(*middle) < drawn ? 1 : std::exp(*middle);
 }
 
 void System::bring_upright() {

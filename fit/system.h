@@ -28,7 +28,8 @@ struct Equation {
     int reading = -1;  ///< index, or -1
     int incidence = -1;
     int facet = -1, point = -1;  ///< of held corners: which stays below which
-    int group = -1;              ///< of estimated uncertainty, or -1
+    bool holds_corner() const { return facet >= 0 && point >= 0; }
+    int group = -1;  ///< of estimated uncertainty, or -1
     bool exact = false;
     double value = 0, sigma = 1;
     double size = 1;  ///< of the quantity, by which early stages soften it
