@@ -44,15 +44,11 @@ constexpr double k_largest_coordinate = 1e50, k_smallest_extent = 1e-50;
 
 void require_sane_size(const Solid& solid, const std::filesystem::path& file) {
     if (solid.vertices.empty()) return;
-    Vec3 least = solid.vertices.front(), most = least;
-    for (const Vec3& v : solid.vertices) {
-        least = glm::min(least, v);
-        most = glm::max(most, v);
-    }
     double largest = 0, extent = 0;
-    for (int k = 0; k < 3; ++k) {
-        largest = std::max({largest, std::abs(least[k]), std::abs(most[k])});
-        extent = std::max(extent, most[k] - least[k]);
+    for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)}) {
+        extent = std::max(extent, width_along(solid, axis));
+        for (const Vec3& v : solid.vertices)
+            largest = std::max(largest, std::abs(glm::dot(axis, v)));
     }
     if (largest > k_largest_coordinate || (extent > 0 && extent < k_smallest_extent)) {
         throw InputError(
@@ -66,18 +62,21 @@ void require_sane_size(const Solid& solid, const std::filesystem::path& file) {
 
 SolidFile read_solid(const std::filesystem::path& file) {
     const std::string extension = extension_of(file);
+    SolidFile read;
     if (extension == ".asc" || extension == ".gem") {
         ReadCut cut = extension == ".asc" ? read_gemcad_asc(file) : read_gemcad_gem(file);
-        require_sane_size(cut.solid, file);
-        return {std::move(cut.solid), std::move(cut.notes)};
-    }
-    if (extension == ".obj" || extension == ".off" || extension == ".ply" || extension == ".stl") {
+        read = {std::move(cut.solid), std::move(cut.notes)};
+    } else if (extension == ".obj" || extension == ".off" || extension == ".ply" ||
+               extension == ".stl") {
         ReadSolid mesh = read_mesh(file);
-        require_sane_size(mesh.solid, file);
-        return {std::move(mesh.solid), std::move(mesh.notes)};
+        read = {std::move(mesh.solid), std::move(mesh.notes)};
+    } else {
+        throw InputError(file,
+                         "is of an unknown kind: a mesh or cut ends in .obj, .off, .ply, .stl, "
+                         ".asc or .gem");
     }
-    throw InputError(
-        file, "is of an unknown kind: a mesh or cut ends in .obj, .off, .ply, .stl, .asc or .gem");
+    require_sane_size(read.solid, file);
+    return read;
 }
 
 void write_solid(const Solid& solid, const std::filesystem::path& file) {
