@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "render/colour.h"
+
 namespace culet {
 
 /// Rows run from the top, columns from the left. Linear scene radiance in sRGB primaries (white
@@ -40,6 +42,7 @@ struct Picture {
         return rgb.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                                  static_cast<std::size_t>(x));
     }
+    Rgb pixel(int x, int y) const { return {at(x, y)[0], at(x, y)[1], at(x, y)[2]}; }
 };
 
 }  // namespace culet

@@ -19,6 +19,7 @@ constexpr double k_drawn_by_planes = 0.02;
 
 void require_renderable(const Scene& scene) {
     const Stone& stone = scene.stone;
+    const std::string name = stone.name.empty() ? "stone" : stone.name;
     for (const Fault& fault : find_faults(stone.solid, {.planarity = k_drawn_by_planes})) {
         switch (fault.kind) {
             case FaultKind::unused_vertex:
@@ -34,14 +35,12 @@ void require_renderable(const Scene& scene) {
                 if (stone.convex) break;
                 [[fallthrough]];
             default:
-                throw InputError(
-                    fmt::format("{}: {}; culet info lists all that is wrong with a mesh",
-                                stone.name.empty() ? "stone" : stone.name, fault.what));
+                throw InputError(fmt::format(
+                    "{}: {}; culet info lists all that is wrong with a mesh", name, fault.what));
         }
     }
     if (!(volume(stone.solid) > 0)) {
-        throw InputError(fmt::format("{}: the mesh encloses no volume: it is flat",
-                                     stone.name.empty() ? "stone" : stone.name));
+        throw InputError(fmt::format("{}: the mesh encloses no volume: it is flat", name));
     }
     const double size = diameter(stone.solid);
     if (stone.convex) {
@@ -52,8 +51,7 @@ void require_renderable(const Scene& scene) {
                         "{}: a corner stands {:.2g} above the plane of facet {}: the stone "
                         "is not convex; say convex = false if that is meant (a rough "
                         "hand-made mesh: fit it first)",
-                        stone.name.empty() ? "stone" : stone.name,
-                        height_above(facet.plane, corner), facet.name));
+                        name, height_above(facet.plane, corner), facet.name));
                 }
             }
         }

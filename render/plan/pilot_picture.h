@@ -40,6 +40,10 @@ struct PilotDrawing {
     double seconds = 0;  ///< that it took, of all threads together
 };
 
+/// Half the difference between every other ray of a grid and the rest is so many times what all of
+/// them are off by: 2^(3/4) / 2^(1/2), where that falls with the number of rays as N^-3/4.
+constexpr double k_halves_over_noise = 1.19;
+
 /// `nodes`: wavelengths where a spectrum is called for and the scene names none. `scene`: with the
 /// settings to draw with; their depth and tolerance are left aside for `limits`. `progress` is told
 /// 0, and may stop it: Interrupted.

@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::size_t k_first_pixels = 48, k_most_pixels = 768, k_noise_pixels = 48;
 constexpr double k_standard_errors = 3;
-// Half the difference between every other ray of a grid and the rest, over what all are off by.
-constexpr double k_halves_over_noise = 1.19;
 // Sides of the truth's grids, one after the other. Grids of different sides are off independently.
 constexpr std::array k_sides{4, 5, 7, 11, 15, 22, 32, 46};
 // Of a picture whose error is this share of what it may be, no proof is sought any further.
@@ -33,11 +31,6 @@ constexpr double k_gambled_weight = 0.04, k_split_weight = 0.6, k_fine_gambled_w
 constexpr double k_fine_tolerance = 0.02;
 // Every pixel has this share of a mean chance at least: none counts more than two and a half times.
 constexpr double k_even_share = 0.4;
-
-Rgb pixel_of(const Picture& picture, int x, int y) {
-    const float* rgb = picture.at(x, y);
-    return {rgb[0], rgb[1], rgb[2]};
-}
 
 double apart(const Rgb& a, const Rgb& b) {
     double sum = 0;
@@ -150,11 +143,11 @@ void Prover::choose(const Picture& picture) {
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
                 static_cast<std::size_t>(x);
             if (picture.coverage[pixel] < 0.5f) continue;
-            const Rgb here = pixel_of(picture, x, y);
+            const Rgb here = picture.pixel(x, y);
             double most = 0;
             for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
                 if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height) continue;
-                most = std::max(most, apart(here, pixel_of(picture, x + dx, y + dy)));
+                most = std::max(most, apart(here, picture.pixel(x + dx, y + dy)));
             }
             if (!std::isfinite(most)) most = 0;
             at.emplace_back(x, y);
@@ -229,7 +222,7 @@ Proof Prover::look(const Picture& picture, std::size_t wanted) {
     double errors = 0, squares = 0, sizes = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const auto [x, y] = chosen_.pixels.at[i];
-        seen.push_back(pixel_of(picture, x, y));
+        seen.push_back(picture.pixel(x, y));
         true_pixels.push_back(truth(i));
         double error = chosen_.counts[i] * apart(seen.back(), true_pixels.back());
         // A pixel of no number is as wrong as can be.

@@ -12,9 +12,6 @@ namespace culet {
 namespace {
 
 constexpr int k_verified_samples = 64, k_least_nodes = 29;
-// Half the difference between every other ray of a grid and the rest is larger than what all of
-// them are off by: 2^(3/4) / 2^(1/2), where that falls with the number of rays as N^-3/4.
-constexpr double k_halves_over_noise = 1.19;
 
 }  // namespace
 
@@ -44,10 +41,7 @@ Truth draw_truth(const Scene& scene, const ScenePlan& plan, int pixels, int samp
 
 Verification hold_against(const Truth& truth, const Picture& picture) {
     std::vector<Rgb> seen;
-    for (const auto& [x, y] : truth.pixels.at) {
-        const float* rgb = picture.at(x, y);
-        seen.push_back({rgb[0], rgb[1], rgb[2]});
-    }
+    for (const auto& [x, y] : truth.pixels.at) seen.push_back(picture.pixel(x, y));
     const ColourError error = colour_error(seen, truth.drawing.rgb);
     Verification result;
     result.pixels = static_cast<int>(seen.size());
