@@ -139,16 +139,6 @@ RenderResult render_with_reference(const Scene& whole, const Progress& progress)
                         "was followed, chosen by power",
                         whole_picture.sampled, stats.rays, limits.most_splits));
     }
-    if (settings.tolerance > 0 && stats.standard_error > settings.tolerance) {
-        stats.notes.push_back(
-            fmt::format("paths chosen at random leave a standard error of {:.3g} a pixel, over the "
-                        "tolerance {:.3g}: more samples lower it",
-                        stats.standard_error, settings.tolerance));
-    }
-    if (settings.tolerance > 0 && stats.error_bound > settings.tolerance) {
-        stats.notes.push_back(fmt::format("the error bound {:.3g} is over the tolerance {:.3g}",
-                                          stats.error_bound, settings.tolerance));
-    }
     stats.effects.assign(plan.effects.begin(), plan.effects.end());
     stats.wavelengths_nm = plan.wavelengths_nm;
     stats.seconds_shade = seconds_since(shading);

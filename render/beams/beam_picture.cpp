@@ -278,11 +278,6 @@ void FrameRenderer::State::check(double filled) {
     stats.error_bound = stats.engine_error;
     if (stats.mean_radiance > 0)
         stats.error_bound += stats.remainder * called->lights.max_radiance() / stats.mean_radiance;
-    const double tolerance = scene.settings.tolerance;
-    if (tolerance > 0 && stats.error_bound > tolerance) {
-        stats.notes.push_back(fmt::format("the error bound {:.3g} is over the tolerance {:.3g}",
-                                          stats.error_bound, tolerance));
-    }
     stats.seconds_check = seconds_since(start);
 }
 

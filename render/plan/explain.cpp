@@ -20,7 +20,14 @@ ScenePlan plan_scene(const Scene& scene, const Progress& progress) {
 }
 
 ScenePlan plan_to_explain(const Scene& scene, const Progress& progress) {
-    return Planner(scene, progress).run(true);
+    ScenePlan plan = Planner(scene, progress).run(true);
+    for (PlanItem& line : plan.items) {
+        if (line.name == name_of(Effects::birefringence) && line.on && tried_as_one_wave(scene))
+            line.why +=
+                ", which a few rays overrate: the picture is first drawn as one wave, and "
+                "kept if that is proven";
+    }
+    return plan;
 }
 
 namespace {

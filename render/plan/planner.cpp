@@ -59,6 +59,12 @@ Planner::Planner(const Scene& whole, const Progress& progress, bool one_wave)
     branches_ = !scene_.stone.convex;
 }
 
+bool tried_as_one_wave(const Scene& scene) {
+    const Plan plan = make_plan(scene);
+    return scene.settings.effects_auto && scene.settings.engine == "auto" && plan.splits &&
+           !plan.stokes && scene.stone.convex;
+}
+
 ScenePlan Planner::run(bool everything) {
     const auto start = std::chrono::steady_clock::now();
     say_what_is_known();
@@ -233,7 +239,6 @@ void Planner::bound_depth() {
     if (user_.depth == 0) return;
     const Scene scene = at_pilot_wavelengths(with_effects(false));
     PathLimits deep = limits(std::min(cut_, 0.01 * tolerance_));
-    deep.alike = true;
     PathLimits shallow = deep;
     deep.depth = k_deepest;
     const auto at = [&](const PathLimits& how) {

@@ -30,6 +30,10 @@ std::vector<double> even_wavelengths(int count);
 /// much as all of them, and each at least twice.
 int turns_for(int rays, int wavelengths);
 
+/// Whether `render` first draws a crystal's two waves as one: what that is off by, a pilot of few
+/// rays shows as far too much, because it shifts light within the pixel.
+bool tried_as_one_wave(const Scene& scene);
+
 class Planner {
 public:
     /// `one_wave`: a crystal's two waves are to go as one, which only the finished picture can show

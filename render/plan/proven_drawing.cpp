@@ -1,0 +1,154 @@
+#include "render/plan/proven_drawing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "render/beams/beam_picture.h"
+#include "render/reference.h"
+
+namespace culet {
+
+namespace {
+
+constexpr int k_most_rays = 1600;  // of the plan
+// Drawn so often at most: beams, finer ones, and the reference; a crystal's waves as one.
+constexpr int k_most_drawings = 4, k_most_as_one = 2;
+// Of the tolerance, what finer beams and more rays aim at. Finer beams take longer by about the
+// inverse of what is left of the error.
+constexpr double k_aim = 0.7;
+// The last drawing is the reference's, which is off by nothing but its few rays, unless it would
+// take so many times as long.
+constexpr double k_last_by_beams = 4;
+// A proof may take this share of the picture's price before it is drawn anew, which takes longer.
+// Two waves take far longer than one.
+constexpr double k_proof_share = 1, k_proof_share_as_one = 15, k_least_proof_ns = 6e7;
+
+void add_proof(const Proof& proof, const ScenePlan& plan, RenderStats& stats) {
+    stats.error_bound = proof.bound + plan.bound_of_depth;
+    stats.checked_pixels = proof.pixels;
+    if (stats.engine != "reference") stats.engine_error = proof.bound;
+}
+
+}  // namespace
+
+void add_plan(const ScenePlan& plan, RenderStats& stats) {
+    for (EffectDecision& decision : stats.effects) {
+        const PlanItem& line = plan.item(name_of(decision.effect));
+        decision.why = line.why;
+        decision.error_bound = line.bound;
+    }
+    stats.seconds_setup += plan.seconds_planning;
+}
+
+double seconds_of(const RenderStats& stats) {
+    return stats.seconds_setup + stats.seconds_build + stats.seconds_shade + stats.seconds_check;
+}
+
+// Beams are held against the truth by the prover, not by their own check.
+RenderResult ProvenDrawing::draw_with(const RenderSettings& settings) {
+    drawn_.settings = settings;
+    if (!drawn_by_beams(settings)) return render_with_reference(drawn_, progress_);
+    if (frames_) {
+        frames_->draw_with(settings);
+    } else {
+        frames_.emplace(drawn_);
+        frames_->report_to(progress_);
+    }
+    return frames_->draw(false);
+}
+
+ProvenDrawing::Next ProvenDrawing::more_rays(const ScenePlan& plan, const Tried& tried,
+                                             double room) const {
+    const int rays = tried.settings.samples;
+    const double off = tried.proof.error() + 2 * tried.proof.spread - plan.bound;
+    const int more = std::max(rays_to_reach(room, rays, std::max(off, tried.stats.sampling_error)),
+                              rays_to_reach(1, rays, 1.3));
+    return {with_rays(tried.settings, more, scene_.settings.wavelengths_nm.empty()),
+            tried.price * more / rays,
+            fmt::format("{} rays a pixel were off by {:.2g}: drawn with more", rays,
+                        tried.proof.bound)};
+}
+
+std::optional<ProvenDrawing::Next> ProvenDrawing::next(ScenePlan& plan, const Tried& tried, Way way,
+                                                       bool last) const {
+    const RenderSettings &user = scene_.settings, &settings = tried.settings;
+    const Proof& proof = tried.proof;
+    const bool rays_are_open = user.samples == 0,
+               wavelengths_are_open = user.wavelengths_nm.empty();
+    if (way == Way::as_one && proof.error() > user.tolerance) return std::nullopt;
+    const double room = k_aim * std::max(user.tolerance - plan.bound, 0.3 * user.tolerance);
+    if (!drawn_by_beams(settings)) {
+        if (!rays_are_open || settings.samples >= k_most_rays) return std::nullopt;
+        return more_rays(plan, tried, room);
+    }
+    // The proof has seen more of what few rays are off by than the plan.
+    const int rays = rays_are_open ? std::max(plan.reference.samples,
+                                              rays_to_reach(room, proof.samples, proof.noise))
+                                   : plan.reference.samples;
+    const double by_paths = plan.reference_ns * rays / plan.reference.samples;
+    const double off = proof.error() + 2 * proof.spread;
+    const FinerBeams finer = finer_beams(
+        settings, {proof.error(), tried.stats.remainder, 0.5 * plan.bound_of_wavelengths},
+        k_aim * user.tolerance / off, wavelengths_are_open);
+    const bool only_beams = way == Way::as_one || user.engine != "auto";
+    if (settings.engine == "beams" &&
+        (only_beams || tried.price * finer.price * (last ? k_last_by_beams : 1) < by_paths)) {
+        // Half as many wavelengths are off by twice as much, or more.
+        const double count = static_cast<double>(settings.wavelengths_nm.size()),
+                     more = static_cast<double>(finer.settings.wavelengths_nm.size());
+        if (more > 0) plan.bound_of_wavelengths *= count / more;
+        return Next{
+            finer.settings, tried.price * finer.price,
+            fmt::format("beams came to within {:.2g} only: drawn with finer ones", proof.bound)};
+    }
+    if (only_beams) return std::nullopt;
+    return Next{with_rays(plan.reference, rays, wavelengths_are_open), by_paths,
+                fmt::format("beams came to within {:.2g} only: drawn by the reference instead",
+                            proof.bound)};
+}
+
+ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
+    const int most = way == Way::any ? k_most_drawings : k_most_as_one;
+    const double tolerance = scene_.settings.tolerance;
+    RenderSettings settings = plan.settings;
+    double price = plan.price_ns, seconds_before = 0;
+    std::optional<RenderResult> best;
+    std::vector<std::string> notes;
+    ProvenPicture done;
+    for (int drawing = 1;; ++drawing) {
+        RenderResult result = draw_with(settings);
+        RenderStats& stats = result.stats;
+        const auto start = std::chrono::steady_clock::now();
+        const double share = way == Way::any ? k_proof_share : k_proof_share_as_one;
+        const Proof proof =
+            prover.prove(result.picture, tolerance, std::max(k_least_proof_ns, share * price));
+        done.proven = proof.bound <= tolerance;
+        std::optional<Next> other;
+        if (!done.proven && drawing < most)
+            other = next(plan, {settings, price, stats, proof}, way, drawing + 1 == most);
+        add_plan(plan, stats);
+        add_proof(proof, plan, stats);
+        stats.seconds_check =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        stats.seconds_setup += seconds_before;
+        seconds_before = seconds_of(stats) - plan.seconds_planning;
+        if (!best || stats.error_bound < best->stats.error_bound) {
+            best = std::move(result);
+            plan.settings = settings;
+            plan.bound_delta_e = proof.bound_delta_e;
+        }
+        if (!other) break;
+        settings = other->settings;
+        price = other->price;
+        notes.push_back(other->note);
+    }
+    done.result = std::move(*best);
+    for (const std::string& note : notes) done.result.stats.notes.push_back(note);
+    done.result.stats.plan = std::move(plan);
+    return done;
+}
+
+}  // namespace culet

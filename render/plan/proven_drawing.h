@@ -1,0 +1,56 @@
+#pragma once
+// Pictures as a plan proposes them, drawn anew where the proof finds them not near enough: by finer
+// beams, then by the reference, and with more rays.
+
+#include <optional>
+
+#include "render/plan/proof.h"
+#include "render/plan/scene_plan.h"
+#include "render/render.h"
+
+namespace culet {
+
+struct ProvenPicture {
+    RenderResult result;
+    bool proven = false;  ///< within the tolerance
+};
+
+class ProvenDrawing {
+public:
+    /// Both must outlive it.
+    ProvenDrawing(const Scene& scene, const Progress& progress)
+        : scene_(scene), drawn_(scene), progress_(progress) {}
+
+    /// `as_one`: a crystal's two waves go as one, and no finer drawing brings the second back.
+    enum class Way { any, as_one };
+    /// The nearest of at most four pictures. Throws Interrupted.
+    ProvenPicture draw(ScenePlan plan, Prover& prover, Way way);
+
+private:
+    // How a picture is drawn that was not near enough.
+    struct Next {
+        RenderSettings settings;
+        double price = 0;
+        std::string note;
+    };
+    struct Tried {
+        const RenderSettings& settings;
+        double price;
+        const RenderStats& stats;
+        const Proof& proof;
+    };
+    RenderResult draw_with(const RenderSettings& settings);
+    std::optional<Next> next(ScenePlan& plan, const Tried& tried, Way way, bool last) const;
+    Next more_rays(const ScenePlan& plan, const Tried& tried, double room) const;
+
+    const Scene& scene_;
+    Scene drawn_;
+    const Progress& progress_;
+    std::optional<FrameRenderer> frames_;
+};
+
+void add_plan(const ScenePlan& plan, RenderStats& stats);
+/// Of all that a picture took.
+double seconds_of(const RenderStats& stats);
+
+}  // namespace culet
