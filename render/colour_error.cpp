@@ -52,4 +52,28 @@ ColourError colour_error(const std::vector<Rgb>& seen, const std::vector<Rgb>& t
     return error;
 }
 
+ColourError error_in_common(const std::array<std::vector<Rgb>, 2>& seen,
+                            const std::array<std::vector<Rgb>, 2>& truth) {
+    std::vector<Rgb> mean_seen = seen[0], mean_truth = truth[0];
+    double common = 0, squares = 0;
+    for (std::size_t i = 0; i < mean_truth.size(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double one = seen[0][i][c] - truth[0][i][c],
+                         other = seen[1][i][c] - truth[1][i][c];
+            common += one * other;
+            squares += std::pow(0.5 * (one + other), 2);
+            mean_seen[i][c] = 0.5 * (seen[0][i][c] + seen[1][i][c]);
+            mean_truth[i][c] = 0.5 * (truth[0][i][c] + truth[1][i][c]);
+        }
+    }
+    ColourError error = colour_error(mean_seen, mean_truth);
+    if (!(squares > 0)) return error;
+    const double open = 1 / std::sqrt(static_cast<double>(mean_truth.size())),
+                 share = std::sqrt(std::min(1.0, std::max(0.0, common) / squares + open));
+    for (double* part :
+         {&error.radiance, &error.radiance_spread, &error.delta_e, &error.delta_e_spread})
+        *part *= share;
+    return error;
+}
+
 }  // namespace culet

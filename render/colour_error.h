@@ -1,6 +1,7 @@
 #pragma once
 // How far some pixels are from what they should be, and how sure that is.
 
+#include <array>
 #include <vector>
 
 #include "render/colour.h"
@@ -23,5 +24,12 @@ struct ColourError {
 
 /// Both of one size. All 0 where no pixel is lit.
 ColourError colour_error(const std::vector<Rgb>& seen, const std::vector<Rgb>& truth);
+
+/// The same of pixels that were drawn twice with few rays each, independently. Colours of single
+/// rays are far stronger than those of a pixel: of the mean of both differences, the share that
+/// the two have in common. What the products of P pixels leave open of that, 1/sqrt(P) of the
+/// squares, counts as common.
+ColourError error_in_common(const std::array<std::vector<Rgb>, 2>& seen,
+                            const std::array<std::vector<Rgb>, 2>& truth);
 
 }  // namespace culet

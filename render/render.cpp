@@ -43,19 +43,24 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
             seconds_before = seconds_of(one.result.stats);
         }
     }
-    Planner planner(scene, progress);
-    planner.give_prover(std::move(prover));
-    const ScenePlan plan = planner.run();
-    prover = planner.take_prover();
     RenderResult result;
-    if (!prover || plan.pilot_pixels == 0) {
-        Scene settled = scene;
-        settled.settings = plan.settings;
-        result = drawn(settled, progress);
-        add_plan(plan, result.stats);
-        result.stats.plan = plan;
-    } else {
-        result = drawing.draw(plan, *prover, ProvenDrawing::Way::any).result;
+    for (const Planner::Leave leave : {Planner::Leave::likely, Planner::Leave::surely}) {
+        Planner planner(scene, progress, false, leave);
+        planner.give_prover(std::move(prover));
+        const ScenePlan plan = planner.run();
+        prover = planner.take_prover();
+        if (!prover || plan.pilot_pixels == 0) {
+            Scene settled = scene;
+            settled.settings = plan.settings;
+            result = drawn(settled, progress);
+            add_plan(plan, result.stats);
+            result.stats.plan = plan;
+            break;
+        }
+        ProvenPicture picture = drawing.draw(plan, *prover, ProvenDrawing::Way::any);
+        result = std::move(picture.result);
+        if (!picture.misjudged || leave == Planner::Leave::surely) break;
+        seconds_before += seconds_of(result.stats);
     }
     result.stats.seconds_setup += seconds_before;
     return result;

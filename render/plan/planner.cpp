@@ -18,11 +18,14 @@ constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 const std::vector<double> k_pilot_nm{450, 550, 610};
 constexpr int k_least_pixels = 96, k_most_pixels = 400;
 // Of stones whose light paths do not branch: their rays cost little.
-constexpr int k_least_plain_pixels = 192;
+constexpr int k_least_plain_pixels = 96;
 // That tell how noisy the truth is; they are others than the pilots'.
 constexpr int k_proof_pixels = 64;
 // Of the picture's price that a plan may cost, and what it may cost in any case.
 constexpr double k_planning_share = 0.04, k_planning_ns = 1.5e6;
+// The weights that are tried for what may be let go.
+constexpr double k_coarsest_cut = 0.3, k_cut_step = 3;
+constexpr int k_more_cuts = 3;
 // Trees that branch: far below the noise of a pixel's few rays, and half as dear as following
 // paths of a tenth of these weights. Pictures that are held against each other should differ by
 // what is looked at rather than by chance; the finished one may leave more to it.
@@ -31,12 +34,13 @@ constexpr double k_split_weight = 0.1, k_gambled_weight = 0.01, k_picture_split_
 
 }  // namespace
 
-Planner::Planner(const Scene& whole, const Progress& progress, bool one_wave)
+Planner::Planner(const Scene& whole, const Progress& progress, bool one_wave, Leave leave)
     : scene_(whole),
       user_(whole.settings),
       progress_(progress),
       tolerance_(whole.settings.tolerance),
-      one_wave_(one_wave) {
+      one_wave_(one_wave),
+      leave_(leave) {
     // The two windows of a dichroscope are one view, seen twice.
     if (scene_.camera.optics.two_windows) scene_.camera.width /= 2;
     const Plan base = make_plan(scene_);
@@ -256,7 +260,7 @@ void Planner::bound_depth() {
 // The largest weight that may be let go.
 void Planner::choose_cut() {
     const Scene scene = at_pilot_wavelengths(with_effects(false));
-    double cut = std::min(0.5 * tolerance_, 0.04);
+    double cut = std::min(k_coarsest_cut, 9 * tolerance_);
     if (branches_) {
         // Nothing is cut: small paths gamble, and that makes noise and no bias.
         cut_ = 0;
@@ -264,34 +268,53 @@ void Planner::choose_cut() {
         work_ = whole_ = work_of(scene, first_, k_pilot_rays);
         return;
     }
-    // Down by factors of four, until the next step changes little and the remainder of the steps
+    // Down by factors of three, until the next step changes little and the remainder of the steps
     // beyond is small by the brightest light, or is beyond rounding.
     const auto at = [&](double weight) {
         return draw_pilot(scene, pixels_, limits(weight), k_pilot_rays, k_node_counts[1],
                           progress_);
     };
+    cuts_.clear();
     PilotDrawing coarse = at(cut);
     for (;;) {
-        PilotDrawing fine = at(cut / 4);
+        PilotDrawing fine = at(cut / k_cut_step);
         const ColourError error = colour_error(coarse.rgb, fine.rgb);
         // What further steps bring: each about a third of the one before.
         const double bound = 1.5 * error.bound();
+        // Beforehand: what is cut at a path's end is less than the cut, and sees at most the
+        // brightest light.
+        const double known = fine.mean > 0 ? cut * fine.brightest / fine.mean : bound;
+        for (CutChoice& coarser : cuts_) {
+            coarser.error += error.radiance;
+            coarser.bound += error.bound();
+            coarser.bound_delta_e += error.bound_delta_e();
+        }
+        cuts_.push_back({cut, std::min(1.5 * error.radiance, known), std::min(bound, known),
+                         1.5 * error.bound_delta_e()});
         if (bound <= k_share_of_cut * tolerance_ || cut < 1e-8) {
-            cut_ = cut;
-            // Beforehand: what is cut at a path's end is less than the cut, and sees at most the
-            // brightest light.
-            const double known = fine.mean > 0 ? cut * fine.brightest / fine.mean : bound;
-            cut_bound_ = std::min(bound, known);
-            cut_delta_e_ = 1.5 * error.bound_delta_e();
             first_ = std::move(fine);
             work_ = whole_ = work_of(scene, coarse, k_pilot_rays);
             first_.seconds = coarse.seconds;
             break;
         }
         coarse = std::move(fine);
-        cut /= 4;
+        cut /= k_cut_step;
     }
-    spent_ += cut_bound_;
+    take(cuts_.back());
+    // Finer ones, should a picture show that the pilot's few pixels missed what matters.
+    for (int more = 0; more < k_more_cuts; ++more) {
+        CutChoice finer = cuts_.back();
+        for (double* part : {&finer.weight, &finer.error, &finer.bound, &finer.bound_delta_e})
+            *part /= k_cut_step;
+        cuts_.push_back(finer);
+    }
+}
+
+void Planner::take(const CutChoice& choice) {
+    cut_ = choice.weight;
+    cut_error_ = choice.error;
+    cut_bound_ = choice.bound;
+    cut_delta_e_ = choice.bound_delta_e;
 }
 
 }  // namespace culet

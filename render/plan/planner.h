@@ -8,6 +8,7 @@
 
 #include "render/colour_error.h"
 #include "render/plan.h"
+#include "render/plan/beam_proposal.h"
 #include "render/plan/pilot_picture.h"
 #include "render/plan/price.h"
 #include "render/plan/proof.h"
@@ -15,13 +16,14 @@
 
 namespace culet {
 
-// How the tolerance is shared out.
+// How the tolerance is shared out. Errors of causes of their own add up as squares do: what all
+// effects that are left out are likely off by.
 constexpr double k_share_of_cut = 0.2, k_share_of_effects = 0.5, k_share_of_wavelengths = 0.5;
 // Effects that cost next to nothing go only where they change next to nothing.
 constexpr double k_share_of_cheap = 0.05;
 // Rays of a pilot in each pixel; behind a lens. A mean over so few differs by more than one over
 // the pixel.
-constexpr int k_pilot_rays = 4, k_spectral_rays = 9, k_lens_rays = 16;
+constexpr int k_pilot_rays = 4, k_spectral_rays = 4, k_other_spectral_rays = 5, k_lens_rays = 16;
 constexpr const char* k_as_one = "the two waves go as one";
 constexpr const char* k_same_light = "the light is the same from everywhere: nothing changes";
 
@@ -34,11 +36,20 @@ int turns_for(int rays, int wavelengths);
 /// rays shows as far too much, because it shifts light within the pixel.
 bool tried_as_one_wave(const Scene& scene);
 
+/// Two drawings of the same pixels by other rays.
+struct TwoDrawings {
+    PilotDrawing one, other;
+};
+
 class Planner {
 public:
+    /// Likely: effects go that are likely to change little enough. Surely: only those that are sure
+    /// to change nothing; a picture has shown that few pixels misjudge the scene.
+    enum class Leave { likely, surely };
     /// `one_wave`: a crystal's two waves are to go as one, which only the finished picture can show
     /// to be near enough. `progress` is told 0, and may stop it; it must outlive the planner.
-    Planner(const Scene& whole, const Progress& progress, bool one_wave = false);
+    Planner(const Scene& whole, const Progress& progress, bool one_wave = false,
+            Leave leave = Leave::likely);
     /// `everything`: what the scene switches off is measured too.
     ScenePlan run(bool everything = false);
 
@@ -57,12 +68,12 @@ private:
     Scene with_effects(bool dispersion, std::optional<Effects> without = {}) const;
     Scene at_pilot_wavelengths(Scene scene) const;
     PilotDrawing draw(const Scene& scene, int samples) const;
-    /// A quarter of the pixels: many wavelengths are dear, and so are rays enough for their colours
-    /// to be those of a pixel rather than of a ray.
-    PilotDrawing draw_spectra(const Scene& scene, int samples) const;
-    /// What is missing without dispersion.
-    ColourError dispersion_gone(Scene whole, Scene flat, const PilotDrawing& fine,
-                                double allowed) const;
+    /// Twice, independently, at half the pixels: many wavelengths are dear.
+    TwoDrawings draw_spectra(const Scene& scene) const;
+    /// Whether something that is likely to be off by so much may be left out, with all that is:
+    /// `share` of the tolerance at most.
+    bool may_go(double bound, double likely, double share) const;
+    void leave_out(double bound, double likely);
     PathLimits limits(double cut) const;
     PathLimits limits_of_picture() const;
     // Of one eye ray.
@@ -81,12 +92,16 @@ private:
     void drop_what_changes_nothing();
     /// The fewest of `counts` that serve, held against `fine`, a drawing of `pilot` at that level.
     void settle_wavelengths(Scene pilot, const std::vector<int>& counts, std::size_t level,
-                            const PilotDrawing& fine);
-    double room_for_wavelengths() const;
+                            const TwoDrawings& fine);
+    void take(const CutChoice& cut);
+    void take(const WavelengthChoice& set);
     int samples_for(double room) const;
     /// The reference's settings, and its price.
     double choose_reference(double room);
-    double choose_beams(double room);
+    double choose_beams();
+    double choose_beams_of_two_waves(double room);
+    int choose_pupil(double room);
+    void measure_noise();
     void bound_depth();
     void estimate_times();
     void add_resolutions();
@@ -96,15 +111,19 @@ private:
     const Progress& progress_;
     double tolerance_;
     bool one_wave_;
+    Leave leave_;
     ScenePlan plan_;
     StonePixels pixels_;            // of the pilots
     std::optional<Prover> prover_;  // of others
     bool branches_ = false;         // trees of light paths double
     double cut_ = 0;
-    double spent_ = 0;       // of the tolerance
+    double spent_ = 0;     // of the tolerance, by bounds
+    double left_out_ = 0;  // what effects that are left out are likely off by
+    std::vector<CutChoice> cuts_;
+    std::vector<WavelengthChoice> sets_;
     PilotDrawing first_;     // with the effects that are on, without dispersion
     PathWork work_, whole_;  // of one of its eye rays; the same with everything on
-    double cut_bound_ = 0, cut_delta_e_ = 0;
+    double cut_error_ = 0, cut_bound_ = 0, cut_delta_e_ = 0;
     double wavelength_bound_ = 0, wavelength_delta_e_ = 0;
     bool spectrum_ = false;  // the wavelengths were chosen
     double whole_bands_ = 1, bands_ = 1;

@@ -66,7 +66,18 @@ void Planner::say_what_is_known() {
     }
 }
 
-// Leaves an effect out if that costs less than `share` of the tolerance.
+bool Planner::may_go(double bound, double likely, double share) const {
+    if (leave_ == Leave::surely) return bound <= 0;
+    return bound <= tolerance_ && likely <= share * tolerance_ &&
+           std::hypot(left_out_, likely) <= k_share_of_effects * tolerance_;
+}
+
+void Planner::leave_out(double bound, double likely) {
+    spent_ += bound;
+    left_out_ = std::hypot(left_out_, likely);
+}
+
+// Leaves an effect out if that is likely to cost less than `share` of the tolerance.
 void Planner::try_without(Effects effect, double share) {
     if (!on(effect)) return;
     PlanItem& line = item(effect);
@@ -94,8 +105,8 @@ void Planner::try_without(Effects effect, double share) {
                  price_without = price_ns(work_of(without, gone, samples));
     line.seconds_with = price;  // relative, until times are estimated
     line.seconds_without = price_without;
-    if (!user_.effects_auto || bound > share * tolerance_ ||
-        spent_ + bound > k_share_of_effects * tolerance_) {
+    if (!user_.effects_auto ||
+        !may_go(bound, std::min(bound, error.radiance + error.radiance_spread), share)) {
         line.why += fmt::format("; without it the picture is off by {:.2g}", error.radiance);
         return;
     }
@@ -104,7 +115,7 @@ void Planner::try_without(Effects effect, double share) {
     line.bound_delta_e = exact ? 0 : error.bound_delta_e();
     line.why =
         exact ? k_same_light : fmt::format("bound {:.2g} under tolerance {:g}", bound, tolerance_);
-    spent_ += bound;
+    leave_out(bound, std::min(bound, error.radiance));
     first_ = gone;
     work_ = work_of(without, gone, samples);
 }
@@ -208,7 +219,7 @@ void Planner::choose_effects() {
         }
     }
     try_without(Effects::aperture, 0.3);
-    try_without(Effects::polarization, 0.15);
+    try_without(Effects::polarization, 0.3);
     try_without(Effects::pleochroism, k_share_of_cheap);
     try_without(Effects::absorption, k_share_of_cheap);
     if (!on(Effects::absorption) && on(Effects::pleochroism)) {

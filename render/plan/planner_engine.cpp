@@ -19,6 +19,11 @@ constexpr int k_most_side = 40;  // of the grid of rays in a pixel
 constexpr double k_beam_error = 0.2, k_beam_error_pixels = 1500, k_least_beam_tolerance = 5e-4;
 // Of what is left of the tolerance, what beams may be off by.
 constexpr double k_share_of_beams = 0.65, k_share_of_noise = 0.8;
+// Where the two waves of a crystal go as one for a try, that is the most of it.
+constexpr double k_share_as_one = 0.4;
+// Beams that are so many times as cheap as 16 rays are taken without a look at the reference.
+constexpr double k_far_cheaper = 2;
+constexpr double k_unknown_noise = std::numeric_limits<double>::quiet_NaN();
 // What the truth's few rays may be off by, as a share of what pictures may: enough for the proof to
 // succeed, and few rays.
 constexpr double k_share_of_truth = 0.7;
@@ -131,7 +136,7 @@ double Planner::choose_reference(double room) {
 }
 
 // To the settings, whatever the engine will be; the price.
-double Planner::choose_beams(double room) {
+double Planner::choose_beams_of_two_waves(double room) {
     RenderSettings& settings = plan_.settings;
     const double allowed = k_share_of_beams * room / k_beam_error,
                  size = std::max(pixels_.in_picture, 1.0) / k_beam_error_pixels;
@@ -140,24 +145,62 @@ double Planner::choose_beams(double room) {
     Scene tried = with_effects(on(Effects::dispersion));
     tried.settings.wavelengths_nm = settings.wavelengths_nm;
     const Plan plan = make_plan(tried);
-    if (branches_) {
-        // Beams are cut, and not gambled on.
-        settings.cut_weight =
-            k_crystal_cut *
-            std::pow(k_share_of_crystal_cut * tolerance_ / k_crystal_remainder, k_crystal_power);
-    }
+    // Beams are cut, and not gambled on.
+    settings.cut_weight =
+        k_crystal_cut *
+        std::pow(k_share_of_crystal_cut * tolerance_ / k_crystal_remainder, k_crystal_power);
     BeamWork beams;
     beams.pixels = pixels_.in_picture;
-    beams.tolerance = branches_ ? *settings.cut_weight : settings.tolerance;
+    beams.tolerance = *settings.cut_weight;
     beams.bands = static_cast<double>(plan.bands.size());
     beams.nodes = plan.bands.front().count;
     beams.polarised = work_.polarised;
     beams.events_per_ray = work_.events;
     beams.parted = plan.splits && settings.crystal_beams != CrystalBeams::merged;
-    const int pupil = std::clamp(samples_for(2 * room), 16, 256);
-    if (on(Effects::aperture) && user_.samples == 0) settings.samples = pupil;
-    beams.views = on(Effects::aperture) ? settings.samples : 1;
+    beams.views = choose_pupil(room);
     return price_ns(beams);
+}
+
+// Points of the pupil that beams take; 1 without one.
+int Planner::choose_pupil(double room) {
+    RenderSettings& settings = plan_.settings;
+    if (!on(Effects::aperture)) return 1;
+    if (user_.samples == 0) settings.samples = std::clamp(samples_for(2 * room), 16, 256);
+    return settings.samples;
+}
+
+double Planner::choose_beams() {
+    Scene tried = with_effects(on(Effects::dispersion));
+    tried.settings.wavelengths_nm = plan_.settings.wavelengths_nm;
+    BeamProposal proposal;
+    proposal.cuts = cuts_;
+    proposal.sets = sets_;
+    proposal.effects = left_out_;
+    proposal.pixels = pixels_.in_picture;
+    proposal.events_per_ray = work_.events;
+    proposal.views = choose_pupil(tolerance_);
+    proposal.bands = static_cast<int>(make_plan(tried).bands.size());
+    proposal.dispersed = dispersed_;
+    proposal.polarised = work_.polarised;
+    proposal.previews = user_.engine != "beams";
+    proposal.borders_are_open = user_.engine != "preview";
+    plan_.proposed =
+        proposal.cheapest((one_wave_ ? k_share_as_one : k_share_of_beams) * tolerance_);
+    plan_.beams = std::move(proposal);
+    return plan_.proposed.price_ns;
+}
+
+// What the reference's rays are off by, as the truth's first pixels show it.
+void Planner::measure_noise() {
+    noise_.radiance = prover_->noise_of_16();
+    noise_.power = dispersed_ ? 0.6 : 0.7;
+    // A small bright light that no ray of the pilot met brings as much as all the rest, as far as
+    // is known: the light's root mean square is that of the brightest over the mean at most.
+    const double rare = first_.mean > 0 ? first_.brightest / first_.mean : 1;
+    if (rare > k_rare_light)
+        noise_.radiance =
+            std::max(noise_.radiance, std::min(k_rare_noise * std::sqrt(rare), k_most_noise));
+    noise_.delta_e = k_delta_e_of_noise * noise_.radiance;
 }
 
 void Planner::choose_engine_and_samples() {
@@ -168,25 +211,27 @@ void Planner::choose_engine_and_samples() {
     plan_.pilot_pixels = static_cast<int>(pixels_.at.size());
     // Errors of causes of their own add up as their squares do, about: the proof will tell.
     const auto left_of = [&](double other) {
-        return std::sqrt(std::max(std::pow(tolerance_, 2) - std::pow(spent_, 2) - other * other,
+        return std::sqrt(std::max(std::pow(tolerance_, 2) - std::pow(left_out_, 2) - other * other,
                                   std::pow(0.4 * tolerance_, 2)));
     };
-    const double room = left_of(0);
-    const double pilot_noise = prover_->noise_of_16();
-    noise_ = {16, pilot_noise, 0, dispersed_ ? 0.6 : 0.7};
-    // A small bright light that no ray of the pilot met brings as much as all the rest, as far as
-    // is known: the light's root mean square is that of the brightest over the mean at most.
-    const double rare = first_.mean > 0 ? first_.brightest / first_.mean : 1;
-    if (rare > k_rare_light)
-        noise_.radiance =
-            std::max(noise_.radiance, std::min(k_rare_noise * std::sqrt(rare), k_most_noise));
-    noise_.delta_e = k_delta_e_of_noise * noise_.radiance;
-    const double by_paths = choose_reference(room);
+    const double room = left_of(branches_ ? 0 : cut_error_);
     Scene tried = with_effects(on(Effects::dispersion));
-    tried.settings.wavelengths_nm = plan_.reference.wavelengths_nm;
+    tried.settings.wavelengths_nm = settings.wavelengths_nm;
     const std::string refused = refused_by_beams(scene_, make_plan(tried));
-    const double beams_room = left_of(dispersed_ ? wavelength_bound_ : 0);
-    const double by_beams = refused.empty() ? choose_beams(beams_room) : 0;
+    // As if 16 rays did: where beams are far cheaper than that, nobody needs to know.
+    noise_ = {16, k_share_of_noise * room, 0, 0.7};
+    double by_paths = choose_reference(room), by_beams = 0;
+    if (refused.empty()) {
+        by_beams = branches_
+                       ? choose_beams_of_two_waves(left_of(dispersed_ ? wavelength_bound_ : 0))
+                       : choose_beams();
+    }
+    const bool noise_matters = branches_ || !refused.empty() || user_.engine == "reference" ||
+                               k_far_cheaper * by_beams > by_paths;
+    if (noise_matters) {
+        measure_noise();
+        by_paths = choose_reference(room);
+    }
 
     if (user_.engine != "auto") {
         settings.engine = user_.engine;
@@ -205,23 +250,29 @@ void Planner::choose_engine_and_samples() {
             fmt::format("{} rays a pixel do: beams would take about {:.2g} times as long",
                         plan_.reference.samples, by_beams / by_paths);
     }
-    plan_.bound_of_sampling = noise_.at(plan_.reference.samples);
+    plan_.bound_of_sampling = noise_matters ? noise_.at(plan_.reference.samples) : k_unknown_noise;
     if (!drawn_by_beams(settings)) {
         settings = plan_.reference;
         noise_.delta_e *= plan_.bound_of_sampling / std::max(noise_.radiance, 1e-300);
         plan_.seconds = by_paths;
+        plan_.beams.reset();
+        // The rays take turns with many.
         if (dispersed_) wavelength_bound_ = wavelength_delta_e_ = 0;
     } else {
         plan_.seconds = by_beams;
         noise_.delta_e = 0;
-        if (dispersed_) spent_ += wavelength_bound_;
+        if (plan_.beams) {
+            plan_.proposed.apply_to(settings);
+            take(plan_.proposed.cut);
+            take(plan_.proposed.wavelengths);
+        }
     }
+    spent_ += cut_bound_ + wavelength_bound_;
     plan_.price_ns = plan_.seconds;
     plan_.reference_ns = by_paths;
     plan_.seconds_everything = pixels_.in_picture * whole_bands_ *
                                std::max(plan_.reference.samples, 16) * price_ns(whole_);
-    noise_.radiance = pilot_noise;
-    prover_->take(samples_for(k_share_of_truth * tolerance_));
+    if (noise_matters) prover_->take(samples_for(k_share_of_truth * tolerance_));
 }
 
 void Planner::estimate_times() {
@@ -299,23 +350,28 @@ void Planner::add_resolutions() {
         piloted ? wavelength_bound_ : unknown, wavelength_delta_e_);
     const bool edges = hard_edged(scene_.lights);
     add("samples", !beams,
-        beams ? "exact areas"
-              : fmt::format("{} ray{} a pixel", settings.samples, settings.samples == 1 ? "" : "s"),
+        settings.engine == "preview" ? "exact areas, one colour a region"
+        : beams
+            ? "exact areas"
+            : fmt::format("{} ray{} a pixel", settings.samples, settings.samples == 1 ? "" : "s"),
         beams               ? "beams tile the picture"
         : user_.samples > 0 ? "as the scene says"
         : piloted           ? fmt::format("{} would be off by {:.2g}", noise_.rays, noise_.radiance)
                             : "a guess",
         beams ? 0 : plan_.bound_of_sampling, beams ? 0 : noise_.delta_e);
     add("light_edges", edges,
-        !edges  ? ""
-        : beams ? "averaged over the pixel"
-                : "by the rays of the pixel",
+        !edges                         ? ""
+        : settings.engine == "preview" ? "one colour a region"
+        : beams                        ? "averaged over the pixel"
+                                       : "by the rays of the pixel",
         edges ? "lights with sharp edges" : "no light has an edge", 0, 0);
     const bool map = scene_.lights.environment != nullptr;
-    add("environment_filter", map && beams, map && beams ? "mean over what a pixel sees" : "",
-        !map    ? "there is no environment map"
-        : beams ? "a pixel sees many texels"
-                : "every ray looks up its own texels",
+    const bool filtered = map && settings.engine == "beams";
+    add("environment_filter", filtered, filtered ? "mean over what a pixel sees" : "",
+        !map                           ? "there is no environment map"
+        : settings.engine == "preview" ? "one colour a region"
+        : beams                        ? "a pixel sees many texels"
+                                       : "every ray looks up its own texels",
         0, 0);
     add("objects", false, "", "nothing stands beside the stone", 0, 0);
 }

@@ -19,10 +19,8 @@ constexpr double k_coarse_tolerance = 0.05;
 // What lies beyond the finer of two sets, as a share of their difference.
 // Errors fall to less than a half from one set to the next: of a set two steps below, a sixth.
 constexpr double k_beyond = 0.5, k_beyond_two = 0.17;
-
-constexpr int k_fine_rays = 36;
-// Of what nine rays are off by without dispersion, what so many are off by at the least.
-constexpr double k_of_more_rays = 0.5;
+// Of three standard errors, what makes an error likely.
+constexpr double k_likely = 0.5;
 
 bool is_coloured(const LightColour& light) {
     const Rgb* rgb = std::get_if<Rgb>(&light.value);
@@ -37,6 +35,10 @@ bool coloured(const Lights& lights) {
     };
     return lights.environment || any(lights.spheres) || any(lights.lobes) ||
            any(lights.hemispheres) || any(lights.caps) || any(lights.planes);
+}
+
+std::array<std::vector<Rgb>, 2> colours_of(const TwoDrawings& drawn) {
+    return {drawn.one.rgb, drawn.other.rgb};
 }
 
 // Colours of a drawing's pixels from some of its wavelengths alone; empty: it has not all of them.
@@ -75,26 +77,13 @@ int turns_for(int rays, int wavelengths) {
     return std::max(1, std::min(rays / 2, wavelengths / 4 + 1));
 }
 
-double Planner::room_for_wavelengths() const {
-    return std::max(k_share_of_wavelengths * tolerance_, 0.5 * (tolerance_ - 2 * spent_));
-}
-
-PilotDrawing Planner::draw_spectra(const Scene& scene, int samples) const {
-    return draw_pilot(scene, pixels_.stretch(0, (pixels_.at.size() + 3) / 4), limits(cut_), samples,
-                      k_node_counts[1], progress_);
-}
-
-// Colours of single rays are far stronger than those of their mean: where a few rays leave it open,
-// more of them decide.
-ColourError Planner::dispersion_gone(Scene whole, Scene flat, const PilotDrawing& fine,
-                                     double allowed) const {
-    const ColourError gone = colour_error(draw_spectra(flat, k_spectral_rays).rgb, fine.rgb);
-    const bool open = gone.bound() > allowed && k_of_more_rays * gone.radiance <= allowed;
-    if (!open || !user_.effects_auto) return gone;
-    // In turns, as the reference draws them.
-    whole.settings.wavelength_turns =
-        turns_for(k_fine_rays, static_cast<int>(make_plan(whole).bands.size()));
-    return colour_error(draw_spectra(flat, k_fine_rays).rgb, draw_spectra(whole, k_fine_rays).rgb);
+TwoDrawings Planner::draw_spectra(const Scene& scene) const {
+    const StonePixels half = pixels_.stretch(0, (pixels_.at.size() + 1) / 2);
+    // Squares lie on a grid, others do not: patterns of their own.
+    const auto draw = [&](int rays) {
+        return draw_pilot(scene, half, limits(cut_), rays, k_node_counts[1], progress_);
+    };
+    return {draw(k_spectral_rays), draw(k_other_spectral_rays)};
 }
 
 // With dispersion the reference's rays take turns with the wavelengths: many of both are needed
@@ -117,22 +106,23 @@ void Planner::choose_wavelengths() {
     dispersed_ = (on(Effects::dispersion) || on(Effects::coherence)) && bands > 1;
     whole_bands_ = dispersed_ ? (open ? k_node_counts[2] : static_cast<double>(bands)) : 1;
     if (dispersed_) {
-        const PilotDrawing fine = draw_spectra(whole, k_spectral_rays);
+        const TwoDrawings fine = draw_spectra(whole);
         if (on(Effects::dispersion)) {
             if (flat_spectrum) flat = finest(flat);
-            const double allowed = k_share_of_effects * tolerance_ - spent_;
-            const ColourError gone = dispersion_gone(whole, flat, fine, allowed);
+            const ColourError gone =
+                error_in_common(colours_of(draw_spectra(flat)), colours_of(fine));
             dispersion.matters = gone.radiance;
             dispersion.matters_delta_e = gone.delta_e;
             dispersion.seconds_with = 2;
             dispersion.seconds_without = 1;
-            if (user_.effects_auto && gone.bound() <= allowed) {
+            if (user_.effects_auto &&
+                may_go(gone.bound(), gone.radiance + gone.radiance_spread, k_share_of_effects)) {
                 dispersion.on = false;
                 dispersion.bound = gone.bound();
                 dispersion.bound_delta_e = gone.bound_delta_e();
                 dispersion.why =
                     fmt::format("bound {:.2g} under tolerance {:g}", gone.bound(), tolerance_);
-                spent_ += gone.bound();
+                leave_out(gone.bound(), gone.radiance);
                 dispersed_ = on(Effects::coherence);
             } else {
                 dispersion.why +=
@@ -141,57 +131,60 @@ void Planner::choose_wavelengths() {
         }
         if (dispersed_ && open) settle_wavelengths(whole, counts, level, fine);
     }
+    if (!open) sets_ = {{}};
     if (!open || dispersed_) return;
     if (!flat_spectrum) {
+        sets_ = {{}};
         plan_.settings.wavelengths_nm = flat_plan.wavelengths_nm;
         return;
     }
     const Scene all = finest(with_effects(false));
-    settle_wavelengths(all, counts, level, draw_spectra(all, k_spectral_rays));
+    settle_wavelengths(all, counts, level, draw_spectra(all));
 }
 
 void Planner::settle_wavelengths(Scene pilot, const std::vector<int>& counts, std::size_t level,
-                                 const PilotDrawing& fine) {
+                                 const TwoDrawings& fine) {
     const bool anew = coloured(scene_.lights);
     const auto error_of = [&](std::size_t i) {
         pilot.settings.wavelengths_nm = even_wavelengths(counts[i]);
-        std::vector<Rgb> seen;
-        if (!anew) seen = colours_of(fine, pilot.settings.wavelengths_nm);
-        if (seen.empty()) seen = draw_spectra(pilot, k_spectral_rays).rgb;
-        return colour_error(seen, fine.rgb);
+        const std::vector<double>& nm = pilot.settings.wavelengths_nm;
+        std::array<std::vector<Rgb>, 2> seen;
+        if (!anew) seen = {colours_of(fine.one, nm), colours_of(fine.other, nm)};
+        if (seen[0].empty()) seen = colours_of(draw_spectra(pilot));
+        return error_in_common(seen, colours_of(fine));
     };
     spectrum_ = true;
-    std::size_t chosen = level;
-    ColourError error;
-    double factor = 1 + k_beyond;
+    sets_.clear();
+    const auto offer = [&](std::size_t i, const ColourError& error, double factor) {
+        sets_.push_back({counts[i], factor * error.radiance, factor * error.bound(),
+                         factor * error.bound_delta_e()});
+    };
+    // Down from the finest, until the colours are others than asked for.
     for (std::size_t i = level; i-- > 0;) {
         const ColourError here = error_of(i);
-        factor = 1 + (i + 1 == level ? k_beyond : k_beyond_two);
-        // The finished picture is held against the truth: likely is enough, as long as the sum of
-        // all bounds stays below the tolerance.
-        const double likely = factor * (here.radiance + 1.5 * here.radiance_spread);
-        if (likely > room_for_wavelengths() || spent_ + factor * here.bound() > tolerance_) {
-            factor = 1 + (chosen + 1 == level ? k_beyond : k_beyond_two);
-            if (chosen < level) break;
-            // Not even the next coarser set: what lies beyond the finest is less than to it.
-            error = here;
-            factor = k_beyond;
-            break;
+        if (i + 1 == level) {
+            // What lies beyond the finest is less than to it.
+            if (level + 1 < counts.size()) offer(level + 1, here, k_beyond_two);
+            offer(level, here, k_beyond);
         }
-        chosen = i;
-        error = here;
+        offer(i, here, 1 + (i + 1 == level ? k_beyond : k_beyond_two));
+        if (here.radiance > tolerance_) break;
     }
-    if (chosen == level && level + 1 < counts.size() &&
-        factor * error.bound() > room_for_wavelengths()) {
-        // Finer than what it was held against.
-        ++chosen;
-        factor = k_beyond_two;
+    // The finished picture is held against the truth: likely is enough.
+    const WavelengthChoice* chosen = &sets_.front();
+    for (const WavelengthChoice& set : sets_) {
+        const double likely = set.error + k_likely * (set.bound - set.error);
+        if (likely > k_share_of_wavelengths * tolerance_) break;
+        chosen = &set;
     }
-    plan_.settings.wavelengths_nm = even_wavelengths(counts[chosen]);
-    wavelength_bound_ = factor * error.bound();
-    wavelength_delta_e_ = factor * error.bound_delta_e();
-    // The reference's rays take turns with more wavelengths than these.
-    if (!dispersed_) spent_ += wavelength_bound_;
+    take(*chosen);
+}
+
+void Planner::take(const WavelengthChoice& set) {
+    if (set.count == 0) return;
+    plan_.settings.wavelengths_nm = even_wavelengths(set.count);
+    wavelength_bound_ = set.bound;
+    wavelength_delta_e_ = set.bound_delta_e;
 }
 
 int Planner::next_wavelength_count(int count) {

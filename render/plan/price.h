@@ -20,7 +20,8 @@ struct BeamWork {
     double bands = 1;
     double events_per_ray = 1;  ///< of the reference's rays; parted: of their trees
     double tolerance = 0.01;    ///< of the beams' settings
-    double views = 1;           ///< points of the pupil
+    double cut = 0;    ///< their cut_weight, one way through the stone; 0: as the tolerance
+    double views = 1;  ///< points of the pupil
     bool polarised = true;
     bool parted = false;  ///< a crystal's two waves, each its own way
     int nodes = 1;

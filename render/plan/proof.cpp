@@ -15,7 +15,8 @@ constexpr std::size_t k_first_pixels = 48, k_most_pixels = 768, k_noise_pixels =
 constexpr double k_standard_errors = 3;
 // Sides of the truth's grids, one after the other. Grids of different sides are off independently.
 constexpr std::array k_sides{4, 5, 7, 11, 15, 22, 32, 46};
-// Of a picture whose error is this share of what it may be, no proof is sought any further.
+// Of a picture whose error, less a standard error, is this share of what it may be, no proof is
+// sought any further.
 constexpr double k_hopeless = 0.97;
 // Noise that is more than this share of the difference hides what the picture is off by; finding it
 // out may cost so many times as much as usual, because drawing anew would not help.
@@ -260,9 +261,7 @@ Proof Prover::prove(const Picture& picture, double room, double most_ns) {
         const double error = proof.error();
         // As long as the noise is what is seen, the picture cannot be blamed.
         const bool noisy = proof.noise > k_noisy * proof.difference;
-        if (!noisy &&
-            (error - k_standard_errors * proof.spread > room || error > k_hopeless * room))
-            break;
+        if (!noisy && error - proof.spread > k_hopeless * room) break;
         // Twice the pixels, or more rays: whatever lowers the bound by more.
         const double by_pixels = (1 - std::sqrt(0.5)) * k_standard_errors * proof.spread,
                      by_rays =

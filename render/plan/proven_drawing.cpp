@@ -14,11 +14,16 @@ namespace culet {
 namespace {
 
 constexpr int k_most_rays = 1600;  // of the plan
-// Drawn so often at most: beams, finer ones, and the reference; a crystal's waves as one.
-constexpr int k_most_drawings = 4, k_most_as_one = 2;
+// Drawn so often at most: previews, beams, finer ones, and the reference; a crystal's waves as one.
+constexpr int k_most_drawings = 5, k_most_as_one = 2;
 // Of the tolerance, what finer beams and more rays aim at. Finer beams take longer by about the
 // inverse of what is left of the error.
-constexpr double k_aim = 0.7;
+constexpr double k_aim = 0.7, k_bound_aim = 0.9, k_least_aim = 0.3;
+// Beams are drawn anew at so many times the price at most: what a few pixels say may be chance.
+constexpr double k_steepest = 4;
+// Finer beams that are off by this share still are to blame for something else: effects that were
+// left out, else all that the pilot saw.
+constexpr double k_no_better = 0.8;
 // The last drawing is the reference's, which is off by nothing but its few rays, unless it would
 // take so many times as long.
 constexpr double k_last_by_beams = 4;
@@ -72,6 +77,38 @@ ProvenDrawing::Next ProvenDrawing::more_rays(const ScenePlan& plan, const Tried&
                         tried.proof.bound)};
 }
 
+std::optional<ProvenDrawing::Next> ProvenDrawing::finer_beams_than(ScenePlan& plan,
+                                                                   const Tried& tried) const {
+    const Proof& proof = tried.proof;
+    const double tolerance = scene_.settings.tolerance;
+    const std::string note =
+        fmt::format("beams came to within {:.2g} only: drawn with finer ones", proof.bound);
+    if (plan.beams) {
+        plan.beams->learn(plan.proposed, proof.error() - proof.spread);
+        // Where the bound is far above the error it stays so.
+        const double room =
+            tolerance * std::clamp(k_bound_aim * proof.error() / proof.bound, k_least_aim, k_aim);
+        const ProposedBeams finer =
+            tried.no_better ? plan.beams->finer_in_all(plan.proposed)
+                            : plan.beams->cheapest(room, tried.price, k_steepest * tried.price);
+        if (!(finer.price_ns > 0)) return std::nullopt;
+        plan.proposed = finer;
+        Next next{tried.settings, finer.price_ns, note};
+        finer.apply_to(next.settings);
+        return next;
+    }
+    if (tried.settings.engine != "beams") return std::nullopt;
+    const double off = proof.error() + 2 * proof.spread;
+    const FinerBeams finer = finer_beams(
+        tried.settings, {proof.error(), tried.stats.remainder, 0.5 * plan.bound_of_wavelengths},
+        k_aim * tolerance / off, scene_.settings.wavelengths_nm.empty());
+    // Half as many wavelengths are off by twice as much, or more.
+    const double count = static_cast<double>(tried.settings.wavelengths_nm.size()),
+                 more = static_cast<double>(finer.settings.wavelengths_nm.size());
+    if (more > 0) plan.bound_of_wavelengths *= count / more;
+    return Next{finer.settings, tried.price * finer.price, note};
+}
+
 std::optional<ProvenDrawing::Next> ProvenDrawing::next(ScenePlan& plan, const Tried& tried, Way way,
                                                        bool last) const {
     const RenderSettings &user = scene_.settings, &settings = tried.settings;
@@ -89,21 +126,10 @@ std::optional<ProvenDrawing::Next> ProvenDrawing::next(ScenePlan& plan, const Tr
                                               rays_to_reach(room, proof.samples, proof.noise))
                                    : plan.reference.samples;
     const double by_paths = plan.reference_ns * rays / plan.reference.samples;
-    const double off = proof.error() + 2 * proof.spread;
-    const FinerBeams finer = finer_beams(
-        settings, {proof.error(), tried.stats.remainder, 0.5 * plan.bound_of_wavelengths},
-        k_aim * user.tolerance / off, wavelengths_are_open);
     const bool only_beams = way == Way::as_one || user.engine != "auto";
-    if (settings.engine == "beams" &&
-        (only_beams || tried.price * finer.price * (last ? k_last_by_beams : 1) < by_paths)) {
-        // Half as many wavelengths are off by twice as much, or more.
-        const double count = static_cast<double>(settings.wavelengths_nm.size()),
-                     more = static_cast<double>(finer.settings.wavelengths_nm.size());
-        if (more > 0) plan.bound_of_wavelengths *= count / more;
-        return Next{
-            finer.settings, tried.price * finer.price,
-            fmt::format("beams came to within {:.2g} only: drawn with finer ones", proof.bound)};
-    }
+    const std::optional<Next> finer = finer_beams_than(plan, tried);
+    if (finer && (only_beams || finer->price * (last ? k_last_by_beams : 1) < by_paths))
+        return finer;
     if (only_beams) return std::nullopt;
     return Next{with_rays(plan.reference, rays, wavelengths_are_open), by_paths,
                 fmt::format("beams came to within {:.2g} only: drawn by the reference instead",
@@ -114,10 +140,18 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
     const int most = way == Way::any ? k_most_drawings : k_most_as_one;
     const double tolerance = scene_.settings.tolerance;
     RenderSettings settings = plan.settings;
-    double price = plan.price_ns, seconds_before = 0;
+    double price = plan.price_ns, seconds_before = 0, error_before = 0;
     std::optional<RenderResult> best;
     std::vector<std::string> notes;
     ProvenPicture done;
+    if (misjudged_ && plan.beams) {
+        const ProposedBeams finer = plan.beams->finer_in_all(*misjudged_);
+        if (finer.price_ns > 0) {
+            plan.proposed = finer;
+            plan.proposed.apply_to(settings);
+            price = finer.price_ns;
+        }
+    }
     for (int drawing = 1;; ++drawing) {
         RenderResult result = draw_with(settings);
         RenderStats& stats = result.stats;
@@ -127,8 +161,13 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
             prover.prove(result.picture, tolerance, std::max(k_least_proof_ns, share * price));
         done.proven = proof.bound <= tolerance;
         std::optional<Next> other;
-        if (!done.proven && drawing < most)
-            other = next(plan, {settings, price, stats, proof}, way, drawing + 1 == most);
+        const double error = proof.error();
+        const bool no_better = drawing > 1 && error > k_no_better * error_before;
+        done.misjudged = !done.proven && no_better && plan.beams && plan.beams->effects > 0;
+        error_before = error;
+        if (!done.proven && !done.misjudged && drawing < most)
+            other =
+                next(plan, {settings, price, stats, proof, no_better}, way, drawing + 1 == most);
         add_plan(plan, stats);
         add_proof(proof, plan, stats);
         stats.seconds_check =
@@ -145,6 +184,7 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
         price = other->price;
         notes.push_back(other->note);
     }
+    if (done.misjudged) misjudged_ = plan.proposed;
     done.result = std::move(*best);
     for (const std::string& note : notes) done.result.stats.notes.push_back(note);
     done.result.stats.plan = std::move(plan);

@@ -12,7 +12,8 @@ namespace culet {
 
 struct ProvenPicture {
     RenderResult result;
-    bool proven = false;  ///< within the tolerance
+    bool proven = false;     ///< within the tolerance
+    bool misjudged = false;  ///< not for its beams: the plan left out more than it saw
 };
 
 class ProvenDrawing {
@@ -38,15 +39,18 @@ private:
         double price;
         const RenderStats& stats;
         const Proof& proof;
+        bool no_better;  // than the one before
     };
     RenderResult draw_with(const RenderSettings& settings);
     std::optional<Next> next(ScenePlan& plan, const Tried& tried, Way way, bool last) const;
+    std::optional<Next> finer_beams_than(ScenePlan& plan, const Tried& tried) const;
     Next more_rays(const ScenePlan& plan, const Tried& tried, double room) const;
 
     const Scene& scene_;
     Scene drawn_;
     const Progress& progress_;
     std::optional<FrameRenderer> frames_;
+    std::optional<ProposedBeams> misjudged_;  // that were not near enough for what was left out
 };
 
 void add_plan(const ScenePlan& plan, RenderStats& stats);

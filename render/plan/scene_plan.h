@@ -8,9 +8,11 @@
 // known beforehand and of what a pilot picture shows, with three standard errors. A pilot can miss
 // a light that none of its rays meet; `verify` looks at the finished picture.
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "render/plan/beam_proposal.h"
 #include "render/scene.h"
 #include "stone/progress.h"
 
@@ -54,6 +56,8 @@ struct ScenePlan {
     double seconds_planning = 0;      ///< that this plan took
     RenderSettings reference;         ///< what the reference would need, where beams do not hold
     double price_ns = 0, reference_ns = 0;  ///< of the picture, and by that (plan/price.h)
+    std::optional<BeamProposal> beams;      ///< what else beams could do, where they are proposed
+    ProposedBeams proposed;                 ///< of these
     double mean_radiance = 0;               ///< of the stone, as the pilot sees it
     int pilot_pixels = 0;                   ///< 0: nothing was open, or tolerance 0: no pilot
 
