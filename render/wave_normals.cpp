@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <type_traits>
 
 #include "render/complex_vector.h"
 #include "stone/perpendicular.h"
@@ -110,6 +111,10 @@ public:
                 if (slope == 0.0) return root;
                 const Number move = F / slope;
                 root.w -= move;
+                // A step too far, to where no wave travels.
+                if constexpr (std::is_floating_point_v<Number>) {
+                    if (root.w + Q2_ < 0) return root;
+                }
                 const Number next = std::sqrt(root.w + Q2_);
                 root.q = std::abs(next - root.q) <= std::abs(next + root.q) ? next : -next;
                 change = std::abs(move) / (std::abs(root.w) + scale());

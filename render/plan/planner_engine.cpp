@@ -35,9 +35,9 @@ constexpr double k_delta_e_of_noise = 40;
 // Of the beams' error, what one of its causes brings at least to be made less.
 constexpr double k_blame = 0.4;
 // Crystals' beams that were cut at 0.009 left 0.047 of the light, and others in proportion to the
-// cut to the power of 0.6; it may be a third of the tolerance.
+// cut to the power of 0.6; what is cut may be this share of the tolerance, and the proof will tell.
 constexpr double k_crystal_cut = 0.009, k_crystal_remainder = 0.047, k_crystal_power = 1 / 0.6,
-                 k_share_of_crystal_cut = 0.35;
+                 k_share_of_crystal_cut = 0.5;
 
 // With which the rays of a pixel take turns.
 int nodes_for(int rays) {

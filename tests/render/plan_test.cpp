@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <random>
 #include <set>
 
 #include "render/colour_error.h"
@@ -66,6 +67,29 @@ TEST(ColourError, is_zero_for_equal_pixels_and_relative_to_the_mean) {
     EXPECT_NEAR(twice.radiance, error.radiance, 1e-15);
     EXPECT_NEAR(twice.delta_e, error.delta_e, 1e-12);
     EXPECT_EQ(colour_error({{0, 0, 0}}, {{0, 0, 0}}).radiance, 0) << "a dark picture";
+}
+
+// Closed form: differences are kept that both drawings show, and vanish that they do not.
+TEST(ColourError, in_common_is_what_two_drawings_both_show) {
+    std::mt19937 random(5);
+    std::normal_distribution<double> noise(0, 0.3);
+    const std::size_t pixels = 4096;
+    const std::vector<Rgb> truth(pixels, Rgb{1, 1, 1});
+    std::array<std::vector<Rgb>, 2> brighter, apart, noisy{truth, truth};
+    brighter.fill(std::vector<Rgb>(pixels, Rgb{1.25, 1.25, 1.25}));
+    apart = {brighter[0], std::vector<Rgb>(pixels, Rgb{0.75, 0.75, 0.75})};
+    for (auto& drawing : noisy) {
+        for (Rgb& pixel : drawing) pixel[1] += noise(random);
+    }
+    const std::array<std::vector<Rgb>, 2> both{truth, truth};
+    EXPECT_NEAR(error_in_common(brighter, both).radiance, 0.25, 1e-12);
+    EXPECT_EQ(error_in_common(apart, both).radiance, 0);
+    std::vector<Rgb> mean = truth;
+    for (std::size_t i = 0; i < pixels; ++i) mean[i][1] = 0.5 * (noisy[0][i][1] + noisy[1][i][1]);
+    // Products of P independent pairs sum to 0 within 3 sqrt(P) of the two variances, and 1/sqrt(P)
+    // of the squares, which are half of one variance, is left open: (6 + 1) / 64.
+    EXPECT_LE(error_in_common(noisy, both).radiance,
+              std::sqrt(7.0 / 64) * colour_error(mean, truth).radiance);
 }
 
 TEST(Plan, in_the_same_light_from_everywhere_nothing_but_depth_matters) {
