@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "render/beams/beam_picture.h"
 #include "render/plan/planner.h"
 #include "render/plan/proven_drawing.h"
@@ -44,6 +46,7 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
         }
     }
     RenderResult result;
+    std::vector<std::string> tried;
     for (const Planner::Leave leave : {Planner::Leave::likely, Planner::Leave::surely}) {
         Planner planner(scene, progress, false, leave);
         planner.give_prover(std::move(prover));
@@ -61,7 +64,16 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
         result = std::move(picture.result);
         if (!picture.misjudged || leave == Planner::Leave::surely) break;
         seconds_before += seconds_of(result.stats);
+        tried = result.stats.notes;
+        tried.push_back(
+            "what was left out matters more than its pilot saw: drawn with all that is "
+            "not sure to change nothing");
     }
+    // What it says of the scene, every picture says.
+    for (const std::string& note : result.stats.notes) {
+        if (std::find(tried.begin(), tried.end(), note) == tried.end()) tried.push_back(note);
+    }
+    result.stats.notes = std::move(tried);
     result.stats.seconds_setup += seconds_before;
     return result;
 }

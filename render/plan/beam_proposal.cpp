@@ -115,6 +115,16 @@ ProposedBeams BeamProposal::finer_in_all(const ProposedBeams& drawn) const {
     return best;
 }
 
+ProposedBeams BeamProposal::as_fine_as(const ProposedBeams& drawn) const {
+    for (const ProposedBeams& beams : all()) {
+        if (beams.preview == drawn.preview && beams.tolerance == drawn.tolerance &&
+            beams.cut.weight == drawn.cut.weight &&
+            beams.wavelengths.count == drawn.wavelengths.count)
+            return beams;
+    }
+    return {};
+}
+
 void BeamProposal::learn(const ProposedBeams& drawn, double error) {
     const double guessed =
         std::hypot(guess_ * std::hypot(drawn.cut.error, drawn.wavelengths.error), drawn.borders);

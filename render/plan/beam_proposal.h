@@ -53,6 +53,8 @@ public:
     /// The cheapest of those that are finer in all that can still be made finer: what is to blame
     /// is not known.
     ProposedBeams finer_in_all(const ProposedBeams& drawn) const;
+    /// The same choices, where they are among these; else a price of 0.
+    ProposedBeams as_fine_as(const ProposedBeams& drawn) const;
     /// These were off by so much at least: what was guessed is put right.
     void learn(const ProposedBeams& drawn, double error);
 

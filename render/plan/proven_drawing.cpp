@@ -145,12 +145,14 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
     std::vector<std::string> notes;
     ProvenPicture done;
     if (misjudged_ && plan.beams) {
-        const ProposedBeams finer = plan.beams->finer_in_all(*misjudged_);
-        if (finer.price_ns > 0) {
-            plan.proposed = finer;
+        // The same with all effects: that tells what is to blame.
+        const ProposedBeams same = plan.beams->as_fine_as(misjudged_->beams);
+        if (same.price_ns > 0) {
+            plan.proposed = same;
             plan.proposed.apply_to(settings);
-            price = finer.price_ns;
+            price = same.price_ns;
         }
+        error_before = misjudged_->error;
     }
     for (int drawing = 1;; ++drawing) {
         RenderResult result = draw_with(settings);
@@ -162,7 +164,7 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
         done.proven = proof.bound <= tolerance;
         std::optional<Next> other;
         const double error = proof.error();
-        const bool no_better = drawing > 1 && error > k_no_better * error_before;
+        const bool no_better = error_before > 0 && error > k_no_better * error_before;
         done.misjudged = !done.proven && no_better && plan.beams && plan.beams->effects > 0;
         error_before = error;
         if (!done.proven && !done.misjudged && drawing < most)
@@ -184,7 +186,7 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
         price = other->price;
         notes.push_back(other->note);
     }
-    if (done.misjudged) misjudged_ = plan.proposed;
+    if (done.misjudged) misjudged_ = {plan.proposed, error_before};
     done.result = std::move(*best);
     for (const std::string& note : notes) done.result.stats.notes.push_back(note);
     done.result.stats.plan = std::move(plan);

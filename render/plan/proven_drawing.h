@@ -50,7 +50,11 @@ private:
     Scene drawn_;
     const Progress& progress_;
     std::optional<FrameRenderer> frames_;
-    std::optional<ProposedBeams> misjudged_;  // that were not near enough for what was left out
+    struct Misjudged {
+        ProposedBeams beams;
+        double error = 0;
+    };
+    std::optional<Misjudged> misjudged_;  // not near enough, for what was left out
 };
 
 void add_plan(const ScenePlan& plan, RenderStats& stats);
