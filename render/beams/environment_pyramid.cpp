@@ -31,10 +31,11 @@ Vec3 direction_at(double u, double v, double& solid_angle) {
 }  // namespace
 
 EnvironmentPyramid::EnvironmentPyramid(const EnvironmentMap& map) {
-    const int wanted = static_cast<int>(std::bit_ceil(2 * static_cast<unsigned>(map.height)));
+    // The square is as wide as a circle of directions, twice the map's height.
+    const int wanted = static_cast<int>(std::bit_ceil(4 * static_cast<unsigned>(map.height)));
     const int finest = std::min(k_finest, wanted);
-    // Averages, so that a single texel keeps its light.
-    const int subsamples = 2 * wanted / finest;
+    // Averages where texels are not as fine, so that a single texel of the map keeps its light.
+    const int subsamples = wanted > finest ? 2 * wanted / finest : 1;
     std::size_t start = 0;
     for (int side = finest; side >= 1; side /= 2) {
         // Next to the horizon's corners a texel is sqrt(3) times as long as at the zenith.

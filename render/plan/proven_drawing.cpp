@@ -21,6 +21,8 @@ constexpr int k_most_drawings = 5, k_most_as_one = 2;
 constexpr double k_aim = 0.7, k_bound_aim = 0.9, k_least_aim = 0.3;
 // Beams are drawn anew at so many times the price at most: what a few pixels say may be chance.
 constexpr double k_steepest = 4;
+constexpr int k_more_grids = 2;
+constexpr double k_suspect = 0.25;  // of the difference: noise that may be all of it
 // Finer beams that are off by this share still are to blame for something else: effects that were
 // left out, else all that the pilot saw.
 constexpr double k_no_better = 0.8;
@@ -159,13 +161,22 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
         RenderStats& stats = result.stats;
         const auto start = std::chrono::steady_clock::now();
         const double share = way == Way::any ? k_proof_share : k_proof_share_as_one;
-        const Proof proof =
-            prover.prove(result.picture, tolerance, std::max(k_least_proof_ns, share * price));
+        const double most_ns = std::max(k_least_proof_ns, share * price);
+        const auto no_better_than_before = [&](const Proof& found) {
+            return plan.beams && error_before > 0 && found.bound > tolerance &&
+                   found.error() > k_no_better * error_before;
+        };
+        Proof proof = prover.prove(result.picture, tolerance, most_ns);
+        if (no_better_than_before(proof) && proof.noise > k_suspect * proof.difference) {
+            // First the truth is suspected, whose rays may be noisier than they look.
+            for (int more = 0; more < k_more_grids; ++more) prover.take_more();
+            proof = prover.prove(result.picture, tolerance, most_ns);
+        }
+        const bool no_better = no_better_than_before(proof);
         done.proven = proof.bound <= tolerance;
+        done.misjudged = no_better && plan.beams->effects > 0;
         std::optional<Next> other;
         const double error = proof.error();
-        const bool no_better = error_before > 0 && error > k_no_better * error_before;
-        done.misjudged = !done.proven && no_better && plan.beams && plan.beams->effects > 0;
         error_before = error;
         if (!done.proven && !done.misjudged && drawing < most)
             other =

@@ -394,6 +394,7 @@ INSTANTIATE_TEST_SUITE_P(
                     GalleryScene{"brewster-glare.toml", {"polarization", "depth"}},
                     GalleryScene{"depth-of-field.toml", {"aperture", "depth"}},
                     GalleryScene{"light-edges.toml", {"light_edges", "depth"}},
+                    GalleryScene{"environment-map.toml", {"environment_filter", "depth"}},
                     GalleryScene{"ruby-absorption.toml", {"absorption", "depth", "wavelengths"}}),
     [](const testing::TestParamInfo<GalleryScene>& which) {
         std::string name = which.param.file;
