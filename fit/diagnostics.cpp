@@ -154,6 +154,7 @@ Diagnosis diagnose(const System& system, const Shape& shape,
         residuals_only(system, linear, counted, diagnosis);
         return diagnosis;
     }
+    diagnosis.dof = options.binding;
     std::vector<double> redundancy(counted.size());
     for (std::size_t i = 0; i < counted.size(); ++i) {
         redundancy[i] = 1 - covariance->leverages()(counted[i]);

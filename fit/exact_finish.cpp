@@ -27,13 +27,19 @@ constexpr int k_most_choices = 12;
 // tenth of a sigma or less.
 constexpr std::size_t k_creeping = 6;
 constexpr double k_crumb = 0.01, k_all_but_met = 1e-6;
+// In how many rounds a step may find out which corners it has to stop.
+constexpr int k_most_rounds = 4;
 // Steps in a row that gain nothing, at the end.
 constexpr int k_quiet = 2;
 // Of chi-square: where a step gains less, the shape tells what the readings mean.
 constexpr double k_little = 0.05;
 
+// Exact equations that are nearly one (of corners held where planes are nearly parallel) are
+// factored with this variance, where that can be done.
+constexpr double k_least_close = 1e-11;
+
 // What a correction leaves, the next one takes.
-constexpr double k_correction_precision = 1;
+constexpr double k_correction_precision = 1e-3;
 
 std::span<const double> steps(const Eigen::VectorXd& step) {
     return {step.data(), static_cast<std::size_t>(step.size())};
@@ -98,7 +104,7 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
     const Eigen::VectorXd metric = relaxation.metric();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(freedoms.size());
     double damping = k_first_damping;
-    int quiet = 0, choices = 0;
+    int quiet = 0, choices = 0, refused = 0;
     std::vector<double> merits;
     bool curved = false;
     // The readings are asked again what they mean here. At a kink (a caliper's jaw that touches two
@@ -125,74 +131,89 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
         return true;
     };
     Eigen::VectorXd forces;
+    double least = SaddleSolver::k_least_variance;
+    bool may_be_close = true;
     for (int i = 0; i < iterations; ++i) {
         result.iterations = i + 1;
-        bool factored = false;
-        if (curved) {
-            factored =
-                solver.factor(sheet.rows, damping * metric, relaxation.curvature(shape, forces));
-        }
-        if (!factored) {
-            curved = false;
-            factored = solver.factor(sheet.rows, damping * metric);
-        }
-        bool better = false;
+        bool factored = false, better = false;
         double length = 0;
-        if (factored) {
+        // A step that lifts corners above their neighbours is taken again with those pressed down
+        // (semismooth Newton), as in the earlier stages.
+        std::vector<int> pressed = sheet.above;
+        for (int round = 0; round < k_most_rounds && !better; ++round) {
+            factored = curved && solver.factor(sheet.rows, damping * metric,
+                                               relaxation.curvature(shape, forces), least);
+            if (!factored) {
+                curved = false;
+                factored = solver.factor(sheet.rows, damping * metric, {}, least);
+            }
+            if (!factored && least == k_least_close) {
+                least = SaddleSolver::k_least_variance;
+                may_be_close = false;
+                factored = solver.factor(sheet.rows, damping * metric);
+            }
+            if (!factored) break;
             const double precision = step_precision(sheet.rows);
             const auto s = solver.solve(none, -sheet.rows.residuals(), precision);
-            if (s.good) {
-                Eigen::VectorXd step = s.unknowns;
-                length = step.cwiseAbs().maxCoeff();
-                // Half a unit is half the stone's radius: no linearisation holds so far.
-                if (length > 0.2) step *= 0.2 / length;
-                Shape next = freedoms.moved_with_turn(shape, steps(step));
+            if (!s.good) break;
+            Eigen::VectorXd step = s.unknowns;
+            length = step.cwiseAbs().maxCoeff();
+            // Half a unit is half the stone's radius: no linearisation holds so far.
+            if (length > 0.2) step *= 0.2 / length;
+            Shape next = freedoms.moved_with_turn(shape, steps(step));
 
-                // Second-order correction: back onto the curved constraints, same factors.
-                double off_before = 1e300;
-                for (int k = 0; k < 4; ++k) {
-                    const Relaxation::Missed missed =
-                        relaxation.missed(next, softness, held, k_all_but_exact);
-                    if (missed.worst < 1e-13 || !(missed.worst < 0.5 * off_before)) break;
-                    off_before = missed.worst;
-                    Eigen::VectorXd back = Eigen::VectorXd::Zero(sheet.rows.count());
-                    const Eigen::Index common = std::min(back.size(), missed.residuals.size());
-                    back.head(common) = -missed.residuals.head(common);
-                    const auto correction = solver.solve(none, back, k_correction_precision);
-                    if (!correction.good) break;
-                    next = freedoms.moved(next, steps(correction.unknowns));
+            // Second-order correction: back onto the curved constraints, same factors.
+            double off_before = 1e300;
+            for (int k = 0; k < 4; ++k) {
+                const Relaxation::Missed missed =
+                    relaxation.missed(next, softness, sheet.holding, k_all_but_exact);
+                if (missed.worst < 1e-13) break;
+                if (!(missed.worst < 0.5 * off_before)) {
+                    if (may_be_close) least = k_least_close;
+                    break;
                 }
-                Sheet there = relaxation.sheet(next, softness, held);
-                // The hard equations first: their size is the size of what they leave undone.
-                // Hard equations are brought to rounding at the end; so little does not count.
-                const double before =
-                                 sheet.merit + 1e6 * std::max(0.0, sheet.hard_sum - k_nearly_met),
-                             after =
-                                 there.merit + 1e6 * std::max(0.0, there.hard_sum - k_nearly_met);
-                better = there.finite && after <= before * (1 + 1e-12) + 1e-9;
-                if (better) {
-                    const double gain = before - after;
-                    quiet = gain < 1e-8 * (1 + before) || length < 1e-12 ? quiet + 1 : 0;
-                    // The next step of Newton's would have the square of this length.
-                    if (curved && length < 1e-7 && quiet > 0) quiet = k_quiet;
-                    shape = std::move(next);
-                    // The exact Hessian near the end: weak freedoms would creep.
-                    if (length < 1e-2) {
-                        forces = s.forces;
-                        curved = true;
-                    }
-                    sheet = std::move(there);
-                    damping = std::max(k_least_damping, damping / 5);
-                    // Once in each meaning, when there is little left to gain from it.
-                    if (!asked && gain < k_little && sheet.hard_sum < k_all_but_met) {
-                        meaning_changes();
-                    }
-                }
+                off_before = missed.worst;
+                Eigen::VectorXd back = Eigen::VectorXd::Zero(sheet.rows.count());
+                const Eigen::Index common = std::min(back.size(), missed.residuals.size());
+                back.head(common) = -missed.residuals.head(common);
+                const auto correction = solver.solve(none, back, k_correction_precision);
+                if (!correction.good) break;
+                next = freedoms.moved(next, steps(correction.unknowns));
             }
+            Sheet there = relaxation.sheet(next, softness, held);
+            if (!there.finite) break;
+            // The hard equations first: their size is the size of what they leave undone.
+            // Hard equations are brought to rounding at the end; so little does not count.
+            const double before = sheet.merit + 1e6 * std::max(0.0, sheet.hard_sum - k_nearly_met),
+                         after = there.merit + 1e6 * std::max(0.0, there.hard_sum - k_nearly_met);
+            better = after <= before * (1 + 1e-12) + 1e-9;
+            if (!better) {
+                if (there.above == pressed) break;
+                pressed = std::move(there.above);
+                sheet = relaxation.sheet(shape, softness, held, &pressed);
+                continue;
+            }
+            const double gain = before - after;
+            quiet = gain < 1e-8 * (1 + before) || length < 1e-12 ? quiet + 1 : 0;
+            // The next step of Newton's would have the square of this length.
+            if (curved && length < 1e-7 && quiet > 0) quiet = k_quiet;
+            shape = std::move(next);
+            // The exact Hessian near the end: weak freedoms would creep.
+            if (length < 1e-2) {
+                forces = s.forces;
+                curved = true;
+            }
+            sheet = std::move(there);
+            damping = std::max(k_least_damping, damping / 5);
+            refused = 0;
+            // Once in each meaning, when there is little left to gain from it.
+            if (!asked && gain < k_little && sheet.hard_sum < k_all_but_met) meaning_changes();
         }
         if (!better) {
             curved = false;
-            damping *= 10;
+            // The longer nothing helps, the larger the strides.
+            damping *= std::pow(10, std::clamp(++refused / 2, 1, 4));
+            if (pressed != sheet.above) sheet = relaxation.sheet(shape, softness, held);
             // Nothing more to gain at the size of rounding; or no step is better.
             if ((factored && length < 1e-9) || damping > 1e8) {
                 if (ends(factored)) break;
