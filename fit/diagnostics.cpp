@@ -210,6 +210,17 @@ Diagnosis diagnose(const System& system, const Shape& shape,
         snoop(system, there, from_there.usable() ? from_there : *covariance, options, diagnosis);
     } else {
         snoop(system, linear, *covariance, options, diagnosis);
+        if (!diagnosis.suspects.empty() && !options.held.empty()) {
+            // What holds a corner bends readings beside it that hardly anything else checks.
+            const Linearised there = linearise(system, shape, outline, false, options.held);
+            const Covariance from_there(there);
+            if (from_there.usable()) {
+                for (ReadingCheck& c : diagnosis.readings) c.suspect = false;
+                diagnosis.suspects.clear();
+                diagnosis.suspicions.clear();
+                snoop(system, there, from_there, options, diagnosis);
+            }
+        }
     }
     if (linear.worst_hard() > k_hard_limit) {
         diagnosis.disagreeing = disagreeing_exact_readings(system, shape, outline);

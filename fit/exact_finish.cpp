@@ -22,6 +22,10 @@ constexpr double k_nearly_met = 1e-10;
 // Facets that may lean either way at the end.
 constexpr double k_nearly_upright = 0.1;
 constexpr int k_most_choices = 12;
+// A shape that leans another way is better within so many steps, or far off: twice chi-square and
+// so much.
+constexpr int k_hurry = 10;
+constexpr double k_far_off = 100;
 // Along kinks (edges of no length, corners about to rise) steps may creep for ever. Where so many
 // of them, half of them refused, together gain no more than this in chi-square, what is left is a
 // tenth of a sigma or less.
@@ -59,19 +63,22 @@ double step_precision(const SparseRows& rows) {
 // Smallest steps onto the hard equations, until rounding is all that is left.
 Shape onto_constraints(const Relaxation& relaxation, Shape shape, const std::vector<Held>& held) {
     Sheet sheet = relaxation.hard_sheet(shape, held);
-    SaddleSolver solver;
-    if (!solver.factor(sheet.rows, relaxation.metric())) return shape;
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(relaxation.freedoms().size());
-    for (int i = 0; i < 10 && sheet.hard_worst > 1e-16; ++i) {
-        // The same factors do: what they miss is of second order in steps of rounding size.
-        if (i == 1 && !solver.factor(sheet.rows, relaxation.metric())) break;
-        const auto s = solver.solve(none, -sheet.rows.residuals());
-        if (!s.good) break;
-        const Shape next = relaxation.freedoms().moved(shape, steps(s.unknowns));
-        Sheet there = relaxation.hard_sheet(next, held);
-        if (!there.finite || there.hard_worst >= sheet.hard_worst) break;
-        shape = next;
-        sheet = std::move(there);
+    for (const double least : {SaddleSolver::k_least_variance, k_least_close}) {
+        SaddleSolver solver;
+        if (!solver.factor(sheet.rows, relaxation.metric(), {}, least)) break;
+        for (int i = 0; i < 10 && sheet.hard_worst > 1e-16; ++i) {
+            // The same factors do: what they miss is of second order in steps of rounding size.
+            if (i == 1 && !solver.factor(sheet.rows, relaxation.metric(), {}, least)) break;
+            const auto s = solver.solve(none, -sheet.rows.residuals());
+            if (!s.good) break;
+            const Shape next = relaxation.freedoms().moved(shape, steps(s.unknowns));
+            Sheet there = relaxation.hard_sheet(next, held);
+            if (!there.finite || there.hard_worst >= sheet.hard_worst) break;
+            shape = next;
+            sheet = std::move(there);
+        }
+        if (sheet.hard_worst < k_rounding) break;
     }
     return shape;
 }
@@ -92,7 +99,7 @@ struct Settled {
 };
 
 Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
-               const std::vector<Held>& held, int iterations) {
+               const std::vector<Held>& held, int iterations, double goal = 1e300) {
     const Freedoms& freedoms = relaxation.freedoms();
     Softness softness;
     softness.with_priors = false;
@@ -156,6 +163,18 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
             const double precision = step_precision(sheet.rows);
             const auto s = solver.solve(none, -sheet.rows.residuals(), precision);
             if (!s.good) break;
+            const std::size_t before_release = pressed.size();
+            for (std::size_t k = 0; k < sheet.holding.size(); ++k) {
+                if (s.forces(sheet.first_holding + Eigen::Index(k)) >= 0) continue;
+                // It is held up, not down.
+                const auto at =
+                    std::lower_bound(pressed.begin(), pressed.end(), sheet.holding_hinge[k]);
+                if (at != pressed.end() && *at == sheet.holding_hinge[k]) pressed.erase(at);
+            }
+            if (pressed.size() < before_release && round + 1 < k_most_rounds) {
+                sheet = relaxation.sheet(shape, softness, held, &pressed);
+                continue;
+            }
             Eigen::VectorXd step = s.unknowns;
             length = step.cwiseAbs().maxCoeff();
             // Half a unit is half the stone's radius: no linearisation holds so far.
@@ -204,7 +223,8 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
                 curved = true;
             }
             sheet = std::move(there);
-            damping = std::max(k_least_damping, damping / 5);
+            // A step that was refused a moment ago would be so again.
+            if (refused == 0) damping = std::max(k_least_damping, damping / 5);
             refused = 0;
             // Once in each meaning, when there is little left to gain from it.
             if (!asked && gain < k_little && sheet.hard_sum < k_all_but_met) meaning_changes();
@@ -220,6 +240,7 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
             }
         }
         merits.push_back(sheet.merit);
+        if (i >= k_hurry && !(sheet.merit < 2 * goal + k_far_off)) break;
         const bool creeps = sheet.hard_sum < k_all_but_met && creeps_on(merits);
         if ((quiet >= k_quiet || creeps) && ends(true)) break;
     }
@@ -251,7 +272,7 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         const auto leaning =
             leaning_better(relaxation, solver, settled.shape, softness, k_nearly_upright);
         if (!leaning) break;
-        Settled other = settle(relaxation, solver, *leaning, {}, iterations);
+        Settled other = settle(relaxation, solver, *leaning, {}, iterations, settled.chi2);
         other.iterations += settled.iterations;
         if (!(other.chi2 < settled.chi2 - 1e-3)) break;
         settled = std::move(other);
@@ -260,21 +281,24 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
     // Penalties let corners stand a hair above their neighbours. Those are held just below from now
     // on: an active set that only grows, since a corner that readings push out will be pushed
     // again.
-    const std::vector<Facet>& facets = relaxation.system().stone().solid.facets;
-    const auto is_corner = [&](int facet, int point) {
-        const std::vector<int>& loop = facets[facet].corners;
-        return std::find(loop.begin(), loop.end(), point) != loop.end();
-    };
     for (int round = 0; round < 8 && settled.chi2 < hopeless; ++round) {
         const std::size_t before = result.held.size();
-        for (const Held& h : relaxation.above(settled.shape)) {
-            // An edge that would turn over shows at both its ends: one of them is enough.
+        const std::vector<Held> above = relaxation.above(settled.shape);
+        for (const Held& h : above) {
+            // An edge that would turn over shows at both its ends: one of them is enough, most
+            // often.
             const bool known =
                 std::any_of(result.held.begin(), result.held.end(), [&](const Held& other) {
-                    return other == h ||
-                           (is_corner(h.facet, other.point) && is_corner(other.facet, h.point));
+                    return other == h || relaxation.are_ends_of_one_edge(other, h);
                 });
             if (!known) result.held.push_back(h);
+        }
+        if (result.held.size() == before) {
+            for (const Held& h : above) {
+                if (std::find(result.held.begin(), result.held.end(), h) == result.held.end()) {
+                    result.held.push_back(h);
+                }
+            }
         }
         if (result.held.size() == before) break;
         const int earlier = settled.iterations;

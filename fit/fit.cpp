@@ -150,7 +150,9 @@ FitResult fit_stone(const Stone& drawn, const std::vector<Reading>& readings,
     const Finished& finished = best.finished;
     const Diagnosis diagnosis = [&] {
         Diagnosis plain = diagnose(system, finished.shape, finished.outline,
-                                   {.significance = options.significance, .binding = best.binding});
+                                   {.significance = options.significance,
+                                    .binding = best.binding,
+                                    .held = conditions_of(finished.shape, best.held)});
         if (!needs_robust_view(plain) || options.loss != Loss::none) return plain;
         // A gross error bends the whole stone: look for it from a fit that it does not pull.
         System reweighted = system;

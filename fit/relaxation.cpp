@@ -16,7 +16,9 @@ constexpr double k_mesh_sigma = 0.4;
 constexpr double k_hold_below = 1e-7;
 // About so far: an edge that would turn over asks its two ends to be held, which one length of the
 // edge can do but about.
-constexpr double k_hold_sigma = 1e-6;
+constexpr double k_hold_sigma = 1e-8;
+// Held corners this near to their level lie at it.
+constexpr double k_at_level = 0.1 * k_hold_below;
 // Corners that share a caliper's jaw are level to this part of the half diameter.
 constexpr double k_tie_sigma = 1e-6;
 
@@ -152,9 +154,23 @@ bool Relaxation::binds(const Shape& shape, const Held& held) const {
     return height(shape, held.facet, held.point) > -1.5 * k_hold_below;
 }
 
+bool Relaxation::are_ends_of_one_edge(const Held& one, const Held& other) const {
+    const auto is_corner = [&](int facet, int point) {
+        const std::vector<int>& loop = system_.stone().solid.facets[std::size_t(facet)].corners;
+        return std::find(loop.begin(), loop.end(), point) != loop.end();
+    };
+    return is_corner(one.facet, other.point) && is_corner(other.facet, one.point);
+}
+
 int Relaxation::binding(const Shape& shape, const std::vector<Held>& held) const {
-    return static_cast<int>(
-        std::count_if(held.begin(), held.end(), [&](const Held& h) { return binds(shape, h); }));
+    std::vector<Held> found;
+    for (const Held& h : held) {
+        const bool is_known = std::any_of(found.begin(), found.end(), [&](const Held& other) {
+            return are_ends_of_one_edge(other, h);
+        });
+        if (!is_known && binds(shape, h)) found.push_back(h);
+    }
+    return static_cast<int>(found.size());
 }
 
 std::vector<Held> Relaxation::above(const Shape& shape) const {
@@ -220,22 +236,25 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness, const std:
                   e.exact ? soft2 : e.sigma * e.sigma + softness.readings * softness.readings);
         }
     }
-    const auto counts = [&](int hinge, double residual) {
-        if (residual > 0) sheet.above.push_back(hinge);
-        return pressed ? std::binary_search(pressed->begin(), pressed->end(), hinge) : residual > 0;
+    const auto counts = [&](int hinge, bool is_above) {
+        if (is_above) sheet.above.push_back(hinge);
+        return pressed ? std::binary_search(pressed->begin(), pressed->end(), hinge) : is_above;
     };
     // Hard but for what an edge's other end asks: squares of such weight would forbid every step
     // that bends.
     std::vector<int> held_hinges;
+    sheet.first_holding = sheet.rows.count();
     for (const Held& h : held) {
         held_hinges.push_back(hinge_of(h));
         const double residual = height(shape, h.facet, h.point) + k_hold_below;
         if (!std::isfinite(residual)) sheet.finite = false;
         count_hard(std::max(0.0, residual));
-        if (!counts(held_hinges.back(), residual)) continue;
+        // What holds it brings it to its level; whether it still should, the force there tells.
+        if (!counts(held_hinges.back(), residual > -k_at_level)) continue;
         incident(h.facet, h.point);
         row.close(sheet.rows, residual, k_hold_sigma * k_hold_sigma);
         sheet.holding.push_back(h);
+        sheet.holding_hinge.push_back(held_hinges.back());
     }
     std::sort(held_hinges.begin(), held_hinges.end());
     for (const Tie& tie : ties_) {
@@ -251,7 +270,7 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness, const std:
         if (!std::isfinite(residual)) sheet.finite = false;
         if (std::binary_search(held_hinges.begin(), held_hinges.end(), i)) continue;
         if (residual > 0) sheet.merit += residual * residual / variance;
-        if (!counts(i, residual)) continue;
+        if (!counts(i, residual > 0)) continue;
         incident(f, p);
         row.close(sheet.rows, residual, variance);
     }

@@ -40,7 +40,9 @@ struct Sheet {
     /// Hinges that are positive: corners above a neighbour facet, or above where they are held
     /// below it. Indices of the relaxation's own, sorted.
     std::vector<int> above;
-    std::vector<Held> holding;  ///< those held corners that have a row
+    std::vector<Held> holding;       ///< those held corners that have a row
+    std::vector<int> holding_hinge;  ///< each one's index in `above`
+    int first_holding = 0;           ///< row
     bool finite = true;
 };
 
@@ -81,7 +83,9 @@ public:
     Sheet hard_sheet(const Shape& shape, const std::vector<Held>& held) const;
     /// Positive hinges.
     std::vector<Held> above(const Shape& shape) const;
-    /// How many of the held corners lie where they are held, not lower.
+    /// Each corner lies on the other's facet: of the edge between the facets, or one that they cut.
+    bool are_ends_of_one_edge(const Held& one, const Held& other) const;
+    /// How many of the held corners lie where they are held, not lower; an edge's two ends are one.
     int binding(const Shape& shape, const std::vector<Held>& held) const;
     bool is_convex(const Shape& shape) const { return above(shape).empty(); }
 
