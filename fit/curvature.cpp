@@ -56,6 +56,35 @@ void bend_edge(const Quantity& length, const Shape& shape, const Freedoms::Chart
     }
 }
 
+// A distance l between corners turns with e_i . e_k / l, the part along it left out.
+template <typename Add>
+void bend_distance(const Quantity& length, const Freedoms::Chart& chart, double force, Add add) {
+    if (length.slopes.size() != 2 || !(length.value > 0)) return;
+    struct Freedom {
+        int column;
+        Vec3 across;
+    };
+    std::array<Freedom, 6> freedoms{};
+    std::size_t count = 0;
+    const Vec3& along = length.slopes[0].slope;
+    for (std::size_t end = 0; end < 2; ++end) {
+        if (length.slopes[end].by != Quantity::By::point) return;
+        const Freedoms::Slots& slots = chart.points[length.slopes[end].index];
+        for (int k = 0; k < slots.count; ++k) {
+            const Vec3& step = slots.along[std::size_t(k)];
+            const Vec3 across = step - glm::dot(step, along) * along;
+            freedoms[count++] = {slots.column + k, end == 0 ? across : -across};
+        }
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t k = 0; k < count; ++k) {
+            const Freedom &a = freedoms[i], &b = freedoms[k];
+            if (a.column < b.column) continue;
+            add(a.column, b.column, force * glm::dot(a.across, b.across) / length.value);
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<SymmetricEntry> Relaxation::curvature(const Shape& shape,
@@ -108,7 +137,9 @@ std::vector<SymmetricEntry> Relaxation::curvature(const Shape& shape,
                 }
             }
         } else if (reading.kind == ReadingKind::edge) {
-            bend_edge(e.formula(shape), shape, chart, force, add);
+            const Quantity length = e.formula(shape);
+            bend_edge(length, shape, chart, force, add);
+            bend_distance(length, chart, force, add);
         }
     }
     return entries;

@@ -221,10 +221,7 @@ void describe_extra_facets(const System& system, const Finished& finished,
 
 }  // namespace
 
-void describe_findings(const System& system, const Finished& finished,
-                       const std::vector<Held>& held, const Diagnosis& diagnosis,
-                       const System::Pose& pose, FitResult& result) {
-    if (!result.options.findings || !finished.outline) return;
+std::vector<Equation> conditions_of(const Shape& shape, const std::vector<Held>& held) {
     std::vector<Equation> conditions;
     for (const Held& corner : held) {
         Equation e;
@@ -233,10 +230,18 @@ void describe_findings(const System& system, const Finished& finished,
         e.facet = corner.facet;
         e.point = corner.point;
         e.formula = height(corner.facet, Corner{corner.point, {-1, -1, -1}});
-        e.value = e.formula(finished.shape).value;
+        e.value = e.formula(shape).value;
         conditions.push_back(std::move(e));
     }
-    const Inference inference(system, finished.shape, finished.outline, conditions);
+    return conditions;
+}
+
+void describe_findings(const System& system, const Finished& finished,
+                       const std::vector<Held>& held, const Diagnosis& diagnosis,
+                       const System::Pose& pose, FitResult& result) {
+    if (!result.options.findings || !finished.outline) return;
+    const Inference inference(system, finished.shape, finished.outline,
+                              conditions_of(finished.shape, held));
     describe_axis(system, finished.shape, pose, inference.usable() ? &inference : nullptr, result);
     if (!inference.usable()) return;
     describe_meets(system, finished.shape, inference, result);

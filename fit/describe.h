@@ -11,6 +11,9 @@ namespace culet {
 
 /// Own axis, tiers, meets, edges and facets. `result` holds facets, readings and tests already.
 /// `held` are corners (point below facet) that the fit had to hold down.
+/// Held corners as exact equations, as they lie.
+std::vector<Equation> conditions_of(const Shape& shape, const std::vector<Held>& held);
+
 void describe_findings(const System& system, const Finished& finished,
                        const std::vector<Held>& held, const Diagnosis& diagnosis,
                        const System::Pose& pose, FitResult& result);

@@ -154,6 +154,7 @@ Diagnosis diagnose(const System& system, const Shape& shape,
         residuals_only(system, linear, counted, diagnosis);
         return diagnosis;
     }
+    diagnosis.dof = options.binding;
     std::vector<double> redundancy(counted.size());
     for (std::size_t i = 0; i < counted.size(); ++i) {
         redundancy[i] = 1 - covariance->leverages()(counted[i]);
@@ -209,6 +210,17 @@ Diagnosis diagnose(const System& system, const Shape& shape,
         snoop(system, there, from_there.usable() ? from_there : *covariance, options, diagnosis);
     } else {
         snoop(system, linear, *covariance, options, diagnosis);
+        if (!diagnosis.suspects.empty() && !options.held.empty()) {
+            // What holds a corner bends readings beside it that hardly anything else checks.
+            const Linearised there = linearise(system, shape, outline, false, options.held);
+            const Covariance from_there(there);
+            if (from_there.usable()) {
+                for (ReadingCheck& c : diagnosis.readings) c.suspect = false;
+                diagnosis.suspects.clear();
+                diagnosis.suspicions.clear();
+                snoop(system, there, from_there, options, diagnosis);
+            }
+        }
     }
     if (linear.worst_hard() > k_hard_limit) {
         diagnosis.disagreeing = disagreeing_exact_readings(system, shape, outline);

@@ -58,6 +58,11 @@ struct Diagnosis {
 struct DiagnosisOptions {
     double significance = 0.001;
     bool full = true;  ///< false: only what variance components need
+    /// Corners that the fit holds, each of which costs the readings a freedom: given which bounds
+    /// bind, chi-square has so many degrees of freedom more (Silvapulle & Sen 2005, chapter 3).
+    int binding = 0;
+    /// These, as exact equations: readings beside them are suspects only if they are with them.
+    std::vector<Equation> held{};
     /// Look for wrong readings from this fit, which they did not bend; same readings.
     const Finished* seen_from = nullptr;
 };

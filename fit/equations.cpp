@@ -19,6 +19,9 @@ constexpr double k_released_sigma = 0.2;
 // A hand-made mesh is off by as much as 20 % of its width.
 constexpr double k_mesh_sigma = 0.4;
 
+// Of an edge's length: planes whose sine is less are told apart by less than the edge's ends are.
+constexpr double k_nearly_one_plane = 0.3;
+
 std::vector<Corner> corners_of(const Outline& outline, int facet) {
     std::vector<Corner> corners;
     for (int c : outline.loops[facet]) corners.push_back(outline.corners[c]);
@@ -37,6 +40,14 @@ std::vector<Corner> shared_edge(const Outline& outline, int a, int b) {
         }
     }
     return {};
+}
+
+// The line in which two planes cross turns round where they pass through one plane, the line
+// through two corners where these pass each other. Lengths go by the one that is farther from
+// turning: a facet that turns by an angle moves corners by about as many half diameters.
+bool is_nearly_one_plane(const Shape& shape, int a, int b, const Corner& from, const Corner& to) {
+    const double sine = glm::length(glm::cross(shape.normals[a], shape.normals[b]));
+    return sine < k_nearly_one_plane * glm::length(place_of(shape, to) - place_of(shape, from));
 }
 
 Corner farthest(const Shape& shape, const std::vector<Corner>& corners, const Vec3& direction) {
@@ -247,7 +258,8 @@ std::vector<Equation> System::reading_equations(const Shape& shape,
                     } else {
                         const std::vector<Corner> ends = edge_of(a, b);
                         terms.push_back(meets_hold && stone_.convex && ends[0].point >= 0 &&
-                                                ends[1].point >= 0
+                                                ends[1].point >= 0 &&
+                                                !is_nearly_one_plane(shape, a, b, ends[0], ends[1])
                                             ? edge_length(a, b, ends[0], ends[1])
                                             : corner_distance(ends[0], ends[1]));
                     }

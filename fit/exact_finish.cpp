@@ -22,18 +22,28 @@ constexpr double k_nearly_met = 1e-10;
 // Facets that may lean either way at the end.
 constexpr double k_nearly_upright = 0.1;
 constexpr int k_most_choices = 12;
+// A shape that leans another way is better within so many steps, or far off: twice chi-square and
+// so much.
+constexpr int k_hurry = 10;
+constexpr double k_far_off = 100;
 // Along kinks (edges of no length, corners about to rise) steps may creep for ever. Where so many
 // of them, half of them refused, together gain no more than this in chi-square, what is left is a
 // tenth of a sigma or less.
 constexpr std::size_t k_creeping = 6;
 constexpr double k_crumb = 0.01, k_all_but_met = 1e-6;
+// In how many rounds a step may find out which corners it has to stop.
+constexpr int k_most_rounds = 4;
 // Steps in a row that gain nothing, at the end.
 constexpr int k_quiet = 2;
 // Of chi-square: where a step gains less, the shape tells what the readings mean.
 constexpr double k_little = 0.05;
 
+// Exact equations that are nearly one (of corners held where planes are nearly parallel) are
+// factored with this variance, where that can be done.
+constexpr double k_least_close = 1e-11;
+
 // What a correction leaves, the next one takes.
-constexpr double k_correction_precision = 1;
+constexpr double k_correction_precision = 1e-3;
 
 std::span<const double> steps(const Eigen::VectorXd& step) {
     return {step.data(), static_cast<std::size_t>(step.size())};
@@ -53,19 +63,22 @@ double step_precision(const SparseRows& rows) {
 // Smallest steps onto the hard equations, until rounding is all that is left.
 Shape onto_constraints(const Relaxation& relaxation, Shape shape, const std::vector<Held>& held) {
     Sheet sheet = relaxation.hard_sheet(shape, held);
-    SaddleSolver solver;
-    if (!solver.factor(sheet.rows, relaxation.metric())) return shape;
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(relaxation.freedoms().size());
-    for (int i = 0; i < 10 && sheet.hard_worst > 1e-16; ++i) {
-        // The same factors do: what they miss is of second order in steps of rounding size.
-        if (i == 1 && !solver.factor(sheet.rows, relaxation.metric())) break;
-        const auto s = solver.solve(none, -sheet.rows.residuals());
-        if (!s.good) break;
-        const Shape next = relaxation.freedoms().moved(shape, steps(s.unknowns));
-        Sheet there = relaxation.hard_sheet(next, held);
-        if (!there.finite || there.hard_worst >= sheet.hard_worst) break;
-        shape = next;
-        sheet = std::move(there);
+    for (const double least : {SaddleSolver::k_least_variance, k_least_close}) {
+        SaddleSolver solver;
+        if (!solver.factor(sheet.rows, relaxation.metric(), {}, least)) break;
+        for (int i = 0; i < 10 && sheet.hard_worst > 1e-16; ++i) {
+            // The same factors do: what they miss is of second order in steps of rounding size.
+            if (i == 1 && !solver.factor(sheet.rows, relaxation.metric(), {}, least)) break;
+            const auto s = solver.solve(none, -sheet.rows.residuals());
+            if (!s.good) break;
+            const Shape next = relaxation.freedoms().moved(shape, steps(s.unknowns));
+            Sheet there = relaxation.hard_sheet(next, held);
+            if (!there.finite || there.hard_worst >= sheet.hard_worst) break;
+            shape = next;
+            sheet = std::move(there);
+        }
+        if (sheet.hard_worst < k_rounding) break;
     }
     return shape;
 }
@@ -86,7 +99,7 @@ struct Settled {
 };
 
 Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
-               const std::vector<Held>& held, int iterations) {
+               const std::vector<Held>& held, int iterations, double goal = 1e300) {
     const Freedoms& freedoms = relaxation.freedoms();
     Softness softness;
     softness.with_priors = false;
@@ -98,7 +111,7 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
     const Eigen::VectorXd metric = relaxation.metric();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(freedoms.size());
     double damping = k_first_damping;
-    int quiet = 0, choices = 0;
+    int quiet = 0, choices = 0, refused = 0;
     std::vector<double> merits;
     bool curved = false;
     // The readings are asked again what they mean here. At a kink (a caliper's jaw that touches two
@@ -125,80 +138,109 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
         return true;
     };
     Eigen::VectorXd forces;
+    double least = SaddleSolver::k_least_variance;
+    bool may_be_close = true;
     for (int i = 0; i < iterations; ++i) {
         result.iterations = i + 1;
-        bool factored = false;
-        if (curved) {
-            factored =
-                solver.factor(sheet.rows, damping * metric, relaxation.curvature(shape, forces));
-        }
-        if (!factored) {
-            curved = false;
-            factored = solver.factor(sheet.rows, damping * metric);
-        }
-        bool better = false;
+        bool factored = false, better = false;
         double length = 0;
-        if (factored) {
+        // A step that lifts corners above their neighbours is taken again with those pressed down
+        // (semismooth Newton), as in the earlier stages.
+        std::vector<int> pressed = sheet.above;
+        for (int round = 0; round < k_most_rounds && !better; ++round) {
+            factored = curved && solver.factor(sheet.rows, damping * metric,
+                                               relaxation.curvature(shape, forces), least);
+            if (!factored) {
+                curved = false;
+                factored = solver.factor(sheet.rows, damping * metric, {}, least);
+            }
+            if (!factored && least == k_least_close) {
+                least = SaddleSolver::k_least_variance;
+                may_be_close = false;
+                factored = solver.factor(sheet.rows, damping * metric);
+            }
+            if (!factored) break;
             const double precision = step_precision(sheet.rows);
             const auto s = solver.solve(none, -sheet.rows.residuals(), precision);
-            if (s.good) {
-                Eigen::VectorXd step = s.unknowns;
-                length = step.cwiseAbs().maxCoeff();
-                // Half a unit is half the stone's radius: no linearisation holds so far.
-                if (length > 0.2) step *= 0.2 / length;
-                Shape next = freedoms.moved_with_turn(shape, steps(step));
-
-                // Second-order correction: back onto the curved constraints, same factors.
-                double off_before = 1e300;
-                for (int k = 0; k < 4; ++k) {
-                    const Relaxation::Missed missed =
-                        relaxation.missed(next, softness, held, k_all_but_exact);
-                    if (missed.worst < 1e-13 || !(missed.worst < 0.5 * off_before)) break;
-                    off_before = missed.worst;
-                    Eigen::VectorXd back = Eigen::VectorXd::Zero(sheet.rows.count());
-                    const Eigen::Index common = std::min(back.size(), missed.residuals.size());
-                    back.head(common) = -missed.residuals.head(common);
-                    const auto correction = solver.solve(none, back, k_correction_precision);
-                    if (!correction.good) break;
-                    next = freedoms.moved(next, steps(correction.unknowns));
-                }
-                Sheet there = relaxation.sheet(next, softness, held);
-                // The hard equations first: their size is the size of what they leave undone.
-                // Hard equations are brought to rounding at the end; so little does not count.
-                const double before =
-                                 sheet.merit + 1e6 * std::max(0.0, sheet.hard_sum - k_nearly_met),
-                             after =
-                                 there.merit + 1e6 * std::max(0.0, there.hard_sum - k_nearly_met);
-                better = there.finite && after <= before * (1 + 1e-12) + 1e-9;
-                if (better) {
-                    const double gain = before - after;
-                    quiet = gain < 1e-8 * (1 + before) || length < 1e-12 ? quiet + 1 : 0;
-                    // The next step of Newton's would have the square of this length.
-                    if (curved && length < 1e-7 && quiet > 0) quiet = k_quiet;
-                    shape = std::move(next);
-                    // The exact Hessian near the end: weak freedoms would creep.
-                    if (length < 1e-2) {
-                        forces = s.forces;
-                        curved = true;
-                    }
-                    sheet = std::move(there);
-                    damping = std::max(k_least_damping, damping / 5);
-                    // Once in each meaning, when there is little left to gain from it.
-                    if (!asked && gain < k_little && sheet.hard_sum < k_all_but_met) {
-                        meaning_changes();
-                    }
-                }
+            if (!s.good) break;
+            const std::size_t before_release = pressed.size();
+            for (std::size_t k = 0; k < sheet.holding.size(); ++k) {
+                if (s.forces(sheet.first_holding + Eigen::Index(k)) >= 0) continue;
+                // It is held up, not down.
+                const auto at =
+                    std::lower_bound(pressed.begin(), pressed.end(), sheet.holding_hinge[k]);
+                if (at != pressed.end() && *at == sheet.holding_hinge[k]) pressed.erase(at);
             }
+            if (pressed.size() < before_release && round + 1 < k_most_rounds) {
+                sheet = relaxation.sheet(shape, softness, held, &pressed);
+                continue;
+            }
+            Eigen::VectorXd step = s.unknowns;
+            length = step.cwiseAbs().maxCoeff();
+            // Half a unit is half the stone's radius: no linearisation holds so far.
+            if (length > 0.2) step *= 0.2 / length;
+            Shape next = freedoms.moved_with_turn(shape, steps(step));
+
+            // Second-order correction: back onto the curved constraints, same factors.
+            double off_before = 1e300;
+            for (int k = 0; k < 4; ++k) {
+                const Relaxation::Missed missed =
+                    relaxation.missed(next, softness, sheet.holding, k_all_but_exact);
+                if (missed.worst < 1e-13) break;
+                if (!(missed.worst < 0.5 * off_before)) {
+                    if (may_be_close) least = k_least_close;
+                    break;
+                }
+                off_before = missed.worst;
+                Eigen::VectorXd back = Eigen::VectorXd::Zero(sheet.rows.count());
+                const Eigen::Index common = std::min(back.size(), missed.residuals.size());
+                back.head(common) = -missed.residuals.head(common);
+                const auto correction = solver.solve(none, back, k_correction_precision);
+                if (!correction.good) break;
+                next = freedoms.moved(next, steps(correction.unknowns));
+            }
+            Sheet there = relaxation.sheet(next, softness, held);
+            if (!there.finite) break;
+            // The hard equations first: their size is the size of what they leave undone.
+            // Hard equations are brought to rounding at the end; so little does not count.
+            const double before = sheet.merit + 1e6 * std::max(0.0, sheet.hard_sum - k_nearly_met),
+                         after = there.merit + 1e6 * std::max(0.0, there.hard_sum - k_nearly_met);
+            better = after <= before * (1 + 1e-12) + 1e-9;
+            if (!better) {
+                if (there.above == pressed) break;
+                pressed = std::move(there.above);
+                sheet = relaxation.sheet(shape, softness, held, &pressed);
+                continue;
+            }
+            const double gain = before - after;
+            quiet = gain < 1e-8 * (1 + before) || length < 1e-12 ? quiet + 1 : 0;
+            // The next step of Newton's would have the square of this length.
+            if (curved && length < 1e-7 && quiet > 0) quiet = k_quiet;
+            shape = std::move(next);
+            // The exact Hessian near the end: weak freedoms would creep.
+            if (length < 1e-2) {
+                forces = s.forces;
+                curved = true;
+            }
+            sheet = std::move(there);
+            // A step that was refused a moment ago would be so again.
+            if (refused == 0) damping = std::max(k_least_damping, damping / 5);
+            refused = 0;
+            // Once in each meaning, when there is little left to gain from it.
+            if (!asked && gain < k_little && sheet.hard_sum < k_all_but_met) meaning_changes();
         }
         if (!better) {
             curved = false;
-            damping *= 10;
+            // The longer nothing helps, the larger the strides.
+            damping *= std::pow(10, std::clamp(++refused / 2, 1, 4));
+            if (pressed != sheet.above) sheet = relaxation.sheet(shape, softness, held);
             // Nothing more to gain at the size of rounding; or no step is better.
             if ((factored && length < 1e-9) || damping > 1e8) {
                 if (ends(factored)) break;
             }
         }
         merits.push_back(sheet.merit);
+        if (i >= k_hurry && !(sheet.merit < 2 * goal + k_far_off)) break;
         const bool creeps = sheet.hard_sum < k_all_but_met && creeps_on(merits);
         if ((quiet >= k_quiet || creeps) && ends(true)) break;
     }
@@ -230,7 +272,7 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         const auto leaning =
             leaning_better(relaxation, solver, settled.shape, softness, k_nearly_upright);
         if (!leaning) break;
-        Settled other = settle(relaxation, solver, *leaning, {}, iterations);
+        Settled other = settle(relaxation, solver, *leaning, {}, iterations, settled.chi2);
         other.iterations += settled.iterations;
         if (!(other.chi2 < settled.chi2 - 1e-3)) break;
         settled = std::move(other);
@@ -239,21 +281,24 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
     // Penalties let corners stand a hair above their neighbours. Those are held just below from now
     // on: an active set that only grows, since a corner that readings push out will be pushed
     // again.
-    const std::vector<Facet>& facets = relaxation.system().stone().solid.facets;
-    const auto is_corner = [&](int facet, int point) {
-        const std::vector<int>& loop = facets[facet].corners;
-        return std::find(loop.begin(), loop.end(), point) != loop.end();
-    };
     for (int round = 0; round < 8 && settled.chi2 < hopeless; ++round) {
         const std::size_t before = result.held.size();
-        for (const Held& h : relaxation.above(settled.shape)) {
-            // An edge that would turn over shows at both its ends: one of them is enough.
+        const std::vector<Held> above = relaxation.above(settled.shape);
+        for (const Held& h : above) {
+            // An edge that would turn over shows at both its ends: one of them is enough, most
+            // often.
             const bool known =
                 std::any_of(result.held.begin(), result.held.end(), [&](const Held& other) {
-                    return other == h ||
-                           (is_corner(h.facet, other.point) && is_corner(other.facet, h.point));
+                    return other == h || relaxation.are_ends_of_one_edge(other, h);
                 });
             if (!known) result.held.push_back(h);
+        }
+        if (result.held.size() == before) {
+            for (const Held& h : above) {
+                if (std::find(result.held.begin(), result.held.end(), h) == result.held.end()) {
+                    result.held.push_back(h);
+                }
+            }
         }
         if (result.held.size() == before) break;
         const int earlier = settled.iterations;

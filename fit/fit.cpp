@@ -46,9 +46,11 @@ const char* name_of(FitStatus status) {
 
 namespace {
 
-// A gross error: beyond this the equations' bend matters.
+// A gross error: beyond this the equations' bend matters. Not where no reading is a suspect: next
+// to corners that are held, readings that nothing checks have residuals that say nothing.
 bool needs_robust_view(const Diagnosis& diagnosis) {
-    return std::any_of(diagnosis.readings.begin(), diagnosis.readings.end(),
+    return !diagnosis.suspects.empty() &&
+           std::any_of(diagnosis.readings.begin(), diagnosis.readings.end(),
                        [](const ReadingCheck& c) { return std::abs(c.normalized) > 8; });
 }
 
@@ -148,7 +150,9 @@ FitResult fit_stone(const Stone& drawn, const std::vector<Reading>& readings,
     const Finished& finished = best.finished;
     const Diagnosis diagnosis = [&] {
         Diagnosis plain = diagnose(system, finished.shape, finished.outline,
-                                   {.significance = options.significance});
+                                   {.significance = options.significance,
+                                    .binding = best.binding,
+                                    .held = conditions_of(finished.shape, best.held)});
         if (!needs_robust_view(plain) || options.loss != Loss::none) return plain;
         // A gross error bends the whole stone: look for it from a fit that it does not pull.
         System reweighted = system;
@@ -156,7 +160,9 @@ FitResult fit_stone(const Stone& drawn, const std::vector<Reading>& readings,
         reweight(reweighted, robust, Loss::cauchy, options.iterations);
         if (!robust.sound || !robust.finished.outline) return plain;
         return diagnose(system, finished.shape, finished.outline,
-                        {.significance = options.significance, .seen_from = &robust.finished});
+                        {.significance = options.significance,
+                         .binding = best.binding,
+                         .seen_from = &robust.finished});
     }();
     const System::Pose pose = system.pose_of(finished.shape);
     result.iterations = finished.iterations;

@@ -27,8 +27,8 @@ struct Stage {
     double incidence, readings;
 };
 // Of the half diameter. From the schedule that brought 20 of 20 rough meshes home in trials.
-constexpr std::array<Stage, 5> k_stages{
-    {{0.1, 0.05}, {0.03, 0.02}, {0.01, 0.005}, {0.003, 0.0}, {0.001, 0.0}}};
+constexpr std::array<Stage, 6> k_stages{
+    {{0.1, 0.05}, {0.03, 0.02}, {0.01, 0.005}, {0.003, 0.0}, {0.001, 0.0}, {0.0003, 0.0}}};
 
 // The best of a stage trades misfit for nearness to the mesh: of a rough mesh about this part of
 // what the priors leave. It only decides which starts are finished first.

@@ -1,6 +1,8 @@
 #include "fit/inference.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
 
 #include "fit/statistics.h"
 
@@ -83,6 +85,21 @@ Eigen::MatrixXd Inference::reach(const Eigen::MatrixXd& rows) const {
 Eigen::MatrixXd Inference::covariance(const Eigen::MatrixXd& rows) const {
     const Eigen::MatrixXd product = rows * times_covariance(rows);
     return 0.5 * (product + product.transpose());
+}
+
+std::vector<double> Inference::sigmas(const std::vector<Quantity>& quantities) const {
+    constexpr std::size_t k_at_a_time = 64;
+    std::vector<double> result;
+    for (std::size_t from = 0; from < quantities.size(); from += k_at_a_time) {
+        const std::size_t to = std::min(quantities.size(), from + k_at_a_time);
+        const Eigen::MatrixXd rows = rows_of(
+            {quantities.begin() + std::ptrdiff_t(from), quantities.begin() + std::ptrdiff_t(to)});
+        const Eigen::MatrixXd spread = times_covariance(rows);
+        for (Eigen::Index k = 0; k < rows.rows(); ++k) {
+            result.push_back(std::sqrt(std::max(0.0, rows.row(k).dot(spread.col(k)))));
+        }
+    }
+    return result;
 }
 
 Eigen::MatrixXd Inference::multiplier_covariance(const Eigen::MatrixXd& combinations) const {

@@ -33,6 +33,8 @@ public:
     Eigen::MatrixXd times_covariance(const Eigen::MatrixXd& rows) const;
     /// rows C rows': symmetric. Costs one sparse solve a row.
     Eigen::MatrixXd covariance(const Eigen::MatrixXd& rows) const;
+    /// Of each quantity alone, some at a time: room for a few of them only.
+    std::vector<double> sigmas(const std::vector<Quantity>& quantities) const;
 
     /// What the hard equations alone leave open, whatever was read: rows Z (Z' M Z)^-1 Z' rows'
     /// with Z their null space and M the mesh's metric.

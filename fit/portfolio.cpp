@@ -30,10 +30,11 @@ bool agrees(const System& system, const Candidate& candidate, int free, int coun
             double significance) {
     if (system.has_estimated_groups()) return true;
     const double chi2 = candidate.finished.chi2;
-    if (chi2_tail(chi2, std::max(0, counted - free)) > significance && counted > free) return true;
-    if (!(chi2_tail(chi2, counted) > significance)) return false;
-    const Diagnosis d =
-        diagnose(system, candidate.finished.shape, candidate.finished.outline, {.full = false});
+    const int least = counted - free + candidate.binding;
+    if (chi2_tail(chi2, std::max(0, least)) > significance && counted > free) return true;
+    if (!(chi2_tail(chi2, counted + candidate.binding) > significance)) return false;
+    const Diagnosis d = diagnose(system, candidate.finished.shape, candidate.finished.outline,
+                                 {.full = false, .binding = candidate.binding});
     // Readings that say less than one of them together contradict nobody.
     return chi2_tail(d.chi2, std::max(1.0, d.dof)) > significance;
 }
@@ -83,6 +84,7 @@ Candidate finish_candidate(const System& system, Relaxation& relaxation, const S
     candidate.finished = std::move(exact.finished);
     candidate.held = std::move(exact.held);
     candidate.cost_of_holding = exact.cost_of_holding;
+    candidate.binding = relaxation.binding(candidate.finished.shape, candidate.held);
     candidate.sound = relaxation.is_convex(candidate.finished.shape) &&
                       volume(system.met_solid(candidate.finished.shape)) > 0;
     return candidate;
@@ -128,9 +130,10 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
         const double chi2 = candidate.finished.chi2;
         // An optimum that agrees but poorly, or that lies where an edge has no length, may be a
         // lesser one: others get a chance.
-        const bool accept = candidate.agrees && candidate.cost_of_holding < k_cheap &&
-                            (system.has_estimated_groups() ||
-                             chi2_tail(chi2, std::max(1, counted - free)) > k_agrees_well);
+        const bool accept =
+            candidate.agrees && candidate.cost_of_holding < k_cheap &&
+            (system.has_estimated_groups() ||
+             chi2_tail(chi2, std::max(1, counted - free + candidate.binding)) > k_agrees_well);
         const bool again = good && std::any_of(ends.begin(), ends.end(), [&](double other) {
                                return std::abs(other - chi2) < k_same;
                            });

@@ -18,6 +18,7 @@ struct Candidate {
     bool agrees = false;     ///< passes the chi-square test
     std::vector<Held> held;  ///< corners that the readings want above a neighbour facet
     double cost_of_holding = 0;
+    int binding = 0;  ///< how many of them bind: each like one more exact reading
 };
 
 struct Portfolio {

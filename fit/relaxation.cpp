@@ -17,6 +17,8 @@ constexpr double k_hold_below = 1e-7;
 // About so far: an edge that would turn over asks its two ends to be held, which one length of the
 // edge can do but about.
 constexpr double k_hold_sigma = 1e-8;
+// Held corners this near to their level lie at it.
+constexpr double k_at_level = 0.1 * k_hold_below;
 // Corners that share a caliper's jaw are level to this part of the half diameter.
 constexpr double k_tie_sigma = 1e-6;
 
@@ -110,6 +112,12 @@ void Relaxation::choose(const Shape& shape, bool meets_hold) {
     }
 }
 
+int Relaxation::hinge_of(const Held& held) const {
+    const auto at =
+        std::lower_bound(hinges_.begin(), hinges_.end(), std::make_pair(held.facet, held.point));
+    return static_cast<int>(at - hinges_.begin());
+}
+
 double Relaxation::height(const Shape& shape, int facet, int point) const {
     return glm::dot(shape.normals[facet], shape.points[point]) - shape.offsets[facet];
 }
@@ -140,6 +148,29 @@ double Relaxation::expected_misfit(const Softness& softness) const {
 Eigen::VectorXd Relaxation::metric() const {
     const std::vector<double>& m = freedoms_.metric();
     return Eigen::Map<const Eigen::VectorXd>(m.data(), Eigen::Index(m.size()));
+}
+
+bool Relaxation::binds(const Shape& shape, const Held& held) const {
+    return height(shape, held.facet, held.point) > -1.5 * k_hold_below;
+}
+
+bool Relaxation::are_ends_of_one_edge(const Held& one, const Held& other) const {
+    const auto is_corner = [&](int facet, int point) {
+        const std::vector<int>& loop = system_.stone().solid.facets[std::size_t(facet)].corners;
+        return std::find(loop.begin(), loop.end(), point) != loop.end();
+    };
+    return is_corner(one.facet, other.point) && is_corner(other.facet, one.point);
+}
+
+int Relaxation::binding(const Shape& shape, const std::vector<Held>& held) const {
+    std::vector<Held> found;
+    for (const Held& h : held) {
+        const bool is_known = std::any_of(found.begin(), found.end(), [&](const Held& other) {
+            return are_ends_of_one_edge(other, h);
+        });
+        if (!is_known && binds(shape, h)) found.push_back(h);
+    }
+    return static_cast<int>(found.size());
 }
 
 std::vector<Held> Relaxation::above(const Shape& shape) const {
@@ -205,15 +236,27 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness, const std:
                   e.exact ? soft2 : e.sigma * e.sigma + softness.readings * softness.readings);
         }
     }
+    const auto counts = [&](int hinge, bool is_above) {
+        if (is_above) sheet.above.push_back(hinge);
+        return pressed ? std::binary_search(pressed->begin(), pressed->end(), hinge) : is_above;
+    };
     // Hard but for what an edge's other end asks: squares of such weight would forbid every step
     // that bends.
+    std::vector<int> held_hinges;
+    sheet.first_holding = sheet.rows.count();
     for (const Held& h : held) {
+        held_hinges.push_back(hinge_of(h));
         const double residual = height(shape, h.facet, h.point) + k_hold_below;
+        if (!std::isfinite(residual)) sheet.finite = false;
+        count_hard(std::max(0.0, residual));
+        // What holds it brings it to its level; whether it still should, the force there tells.
+        if (!counts(held_hinges.back(), residual > -k_at_level)) continue;
         incident(h.facet, h.point);
         row.close(sheet.rows, residual, k_hold_sigma * k_hold_sigma);
-        if (!std::isfinite(residual)) sheet.finite = false;
-        count_hard(residual);
+        sheet.holding.push_back(h);
+        sheet.holding_hinge.push_back(held_hinges.back());
     }
+    std::sort(held_hinges.begin(), held_hinges.end());
     for (const Tie& tie : ties_) {
         row.point(tie.one, tie.direction);
         row.point(tie.other, -tie.direction);
@@ -225,15 +268,13 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness, const std:
         const double residual = height(shape, f, p);
         const double variance = softness.hinge * softness.hinge / hinge_images_[std::size_t(i)];
         if (!std::isfinite(residual)) sheet.finite = false;
-        if (residual > 0) sheet.above.push_back(i);
-        const bool counts =
-            pressed ? std::binary_search(pressed->begin(), pressed->end(), i) : residual > 0;
-        const bool is_held = std::find(held.begin(), held.end(), Held{f, p}) != held.end();
-        if (residual > 0 && !is_held) sheet.merit += residual * residual / variance;
-        if (!counts || is_held) continue;
+        if (std::binary_search(held_hinges.begin(), held_hinges.end(), i)) continue;
+        if (residual > 0) sheet.merit += residual * residual / variance;
+        if (!counts(i, residual > 0)) continue;
         incident(f, p);
         row.close(sheet.rows, residual, variance);
     }
+    std::sort(sheet.above.begin(), sheet.above.end());
     sheet.prior_stiffness = Eigen::VectorXd::Zero(size);
     sheet.prior_gradient = Eigen::VectorXd::Zero(size);
     if (softness.with_priors) {
@@ -255,11 +296,11 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness, const std:
 }
 
 Relaxation::Missed Relaxation::missed(const Shape& shape, const Softness& softness,
-                                      const std::vector<Held>& held, double sharp) const {
+                                      const std::vector<Held>& holding, double sharp) const {
     Missed missed;
     const std::size_t readings = softness.with_readings ? equations_.size() : 0;
     missed.residuals =
-        Eigen::VectorXd::Zero(Eigen::Index(incidences_.size() + readings + held.size()));
+        Eigen::VectorXd::Zero(Eigen::Index(incidences_.size() + readings + holding.size()));
     Eigen::Index row = 0;
     const auto put = [&](double residual, bool is_hard) {
         missed.residuals(row) = residual;
@@ -278,7 +319,7 @@ Relaxation::Missed Relaxation::missed(const Shape& shape, const Softness& softne
             e.exact ? soft2 : e.sigma * e.sigma + softness.readings * softness.readings;
         if (variance < sharp) put(e.formula(shape).value - e.value, variance == 0);
     }
-    for (const Held& h : held) {
+    for (const Held& h : holding) {
         put(height(shape, h.facet, h.point) + k_hold_below, true);
         ++row;
     }
@@ -315,6 +356,8 @@ Sheet Relaxation::hard_sheet(const Shape& shape, const std::vector<Held>& held) 
         }
     }
     for (const Held& h : held) {
+        // Nothing pulls up what lies well below.
+        if (!binds(shape, h)) continue;
         incident(h.facet, h.point, k_hold_below, k_hold_sigma * k_hold_sigma);
     }
     return sheet;

@@ -37,8 +37,12 @@ struct Sheet {
     double hard_sum = 0;  ///< sum of sizes of what is left of hard equations
     double hard_worst = 0;
     double chi2 = 0;  ///< of readings and soft meets, at their own uncertainties
-    /// Hinges that are positive: corners above a neighbour facet. Indices of the relaxation's own.
+    /// Hinges that are positive: corners above a neighbour facet, or above where they are held
+    /// below it. Indices of the relaxation's own, sorted.
     std::vector<int> above;
+    std::vector<Held> holding;       ///< those held corners that have a row
+    std::vector<int> holding_hinge;  ///< each one's index in `above`
+    int first_holding = 0;           ///< row
     bool finite = true;
 };
 
@@ -61,23 +65,28 @@ public:
     }
 
     /// Rows are of incidences, readings, corners that are held, and last of hinges that count: a
-    /// hinge that says nothing would fill the factors all the same.
+    /// hinge that says nothing would fill the factors all the same. A corner that is held has a row
+    /// where it would rise, and none where nothing pulls it up.
     /// `pressed`: hinges whose rows count instead of those that are positive here. A step that
     /// stops corners before they rise above a facet has to know which will (semismooth Newton).
     Sheet sheet(const Shape& shape, const Softness& softness, const std::vector<Held>& held = {},
                 const std::vector<int>* pressed = nullptr);
     /// By how much hard equations are missed, and readings of no more variance than `sharp`: in the
-    /// rows of such a sheet, zero in others.
+    /// rows of a sheet that holds these corners, zero in others.
     struct Missed {
         Eigen::VectorXd residuals;
         double worst = 0;  ///< of the hard ones
     };
-    Missed missed(const Shape& shape, const Softness& softness, const std::vector<Held>& held,
+    Missed missed(const Shape& shape, const Softness& softness, const std::vector<Held>& holding,
                   double sharp) const;
     /// Incidences and other hard equations only: variance 0, no priors.
     Sheet hard_sheet(const Shape& shape, const std::vector<Held>& held) const;
     /// Positive hinges.
     std::vector<Held> above(const Shape& shape) const;
+    /// Each corner lies on the other's facet: of the edge between the facets, or one that they cut.
+    bool are_ends_of_one_edge(const Held& one, const Held& other) const;
+    /// How many of the held corners lie where they are held, not lower; an edge's two ends are one.
+    int binding(const Shape& shape, const std::vector<Held>& held) const;
     bool is_convex(const Shape& shape) const { return above(shape).empty(); }
 
     /// Readings and soft meets; equations that hold exactly.
@@ -106,6 +115,8 @@ public:
 
 private:
     double height(const Shape& shape, int facet, int point) const;
+    int hinge_of(const Held& held) const;
+    bool binds(const Shape& shape, const Held& held) const;
 
     const System& system_;
     const Freedoms& freedoms_;

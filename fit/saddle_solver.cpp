@@ -12,9 +12,6 @@ namespace culet {
 
 namespace {
 
-// Exact equations are factored with this variance and refined to none: far above rounding, far
-// below the variance of anything that is read (lengths are in half diameters).
-constexpr double k_least_variance = 1e-9;
 constexpr int k_refinements = 12;
 // Columns of a row that may be folded into a layout as it stands.
 constexpr std::size_t k_most_short = 12;
@@ -70,7 +67,7 @@ bool SaddleSolver::place_curvature() {
 }
 
 bool SaddleSolver::factor(const SparseRows& rows, const Eigen::VectorXd& stiffness,
-                          const std::vector<SymmetricEntry>& curvature) {
+                          const std::vector<SymmetricEntry>& curvature, double least) {
     const auto columns_of = [](const SparseRows& of, int i) {
         return std::span(of.column).subspan(std::size_t(of.begin[i]),
                                             std::size_t(of.begin[i + 1] - of.begin[i]));
@@ -134,7 +131,7 @@ bool SaddleSolver::factor(const SparseRows& rows, const Eigen::VectorXd& stiffne
     for (int i = 0; i < unknowns_; ++i) fronts_.add(slot_[source++], stiffness(i));
     for (int i = 0; i < equations_; ++i) {
         if (!is_folded_[i]) {
-            fronts_.add(slot_[source++], -std::max(rows.variance[i], k_least_variance));
+            fronts_.add(slot_[source++], -std::max(rows.variance[i], least));
             for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
                 fronts_.add(slot_[source++], rows.slope[k]);
             }

@@ -23,8 +23,14 @@ public:
     /// Entries of P beside its diagonal come in `curvature`: row >= column. False when
     /// the matrix cannot be factored, or curvature has made it indefinite on what the equations
     /// leave free (told by the signs of the pivots).
+    /// Exact equations are factored with the variance `least`, and solutions refined to none: the
+    /// smaller it is, the nearer to each other exact equations may be before refinement fails, and
+    /// the sooner equations that repeat each other cannot be factored.
     bool factor(const SparseRows& rows, const Eigen::VectorXd& stiffness,
-                const std::vector<SymmetricEntry>& curvature = {});
+                const std::vector<SymmetricEntry>& curvature = {}, double least = k_least_variance);
+    /// Far above rounding, far below the variance of anything that is read (lengths are in half
+    /// diameters).
+    static constexpr double k_least_variance = 1e-9;
     struct Solution {
         Eigen::VectorXd unknowns, forces;
         bool good = false;

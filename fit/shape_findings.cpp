@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <set>
+
+#include "fit/covariance.h"
 
 namespace culet {
 
@@ -144,8 +147,24 @@ void add_shut_facets(const System& system, const Finished& finished, const Infer
     }
 }
 
+// Cheaply, the most that a quantity's sigma may be: without the corners that are held.
+class MostSigma {
+public:
+    MostSigma(const Shape& shape, const Diagnosis& diagnosis)
+        : writer_(shape), covariance_(diagnosis.covariance.get()) {}
+    double operator()(const Quantity& q) const {
+        constexpr double k_margin = 1.1;
+        if (covariance_ == nullptr) return std::numeric_limits<double>::infinity();
+        return k_margin * std::sqrt(covariance_->total_variance(writer_.function(q)));
+    }
+
+private:
+    RowWriter writer_;
+    const Covariance* covariance_;
+};
+
 void add_open_edges(const System& system, const Finished& finished, const Inference& inference,
-                    std::vector<ShapeFinding>& findings) {
+                    const MostSigma& most_sigma, std::vector<ShapeFinding>& findings) {
     if (system.splits()) return;
     std::vector<const Edge*> edges;
     std::vector<Quantity> lengths;
@@ -154,14 +173,14 @@ void add_open_edges(const System& system, const Finished& finished, const Infere
         const double length =
             glm::length(place_of(finished.shape, a) - place_of(finished.shape, b));
         if (!(length < k_short_edge) || !(length > 1e-9)) continue;
+        const Quantity quantity = corner_distance(a, b)(finished.shape);
+        if (length > 2 * most_sigma(quantity)) continue;
         edges.push_back(&edge);
-        lengths.push_back(corner_distance(a, b)(finished.shape));
+        lengths.push_back(quantity);
     }
-    const Eigen::MatrixXd rows = inference.rows_of(lengths);
-    const Eigen::MatrixXd spread = inference.times_covariance(rows);
+    const std::vector<double> sigmas = inference.sigmas(lengths);
     for (std::size_t i = 0; i < edges.size(); ++i) {
-        const Eigen::Index k = Eigen::Index(i);
-        const double sigma = std::sqrt(std::max(0.0, rows.row(k).dot(spread.col(k))));
+        const double sigma = sigmas[i];
         if (!(lengths[i].value < 2 * sigma) || !(sigma < 0.5)) continue;
         ShapeFinding finding;
         finding.kind = ShapeFinding::Kind::edge_open;
@@ -203,7 +222,11 @@ void add_open_facets(const System& system, const Finished& finished, const Diagn
 }
 
 void add_same_planes(const System& system, const Finished& finished, const Diagnosis& diagnosis,
-                     const Inference& inference, std::vector<ShapeFinding>& findings) {
+                     const Inference& inference, const MostSigma& most_sigma,
+                     std::vector<ShapeFinding>& findings) {
+    std::vector<const Edge*> edges;
+    std::vector<Quantity> angles;
+    std::vector<double> values;
     for (const Edge& edge : system.edges().edges) {
         const Vec3 &a = finished.shape.normals[std::size_t(edge.left)],
                    &b = finished.shape.normals[std::size_t(edge.right)];
@@ -218,15 +241,20 @@ void add_same_planes(const System& system, const Finished& finished, const Diagn
         // What both might be apart at most, before asking for their common covariance.
         const double most = own(s, a) + own(t, b);
         if (!(angle < 2 * most) || !(angle < 0.2)) continue;
-        const Eigen::MatrixXd rows =
-            inference.rows_of({tilt_between(edge.left, edge.right)(finished.shape)});
-        const double sigma = std::sqrt(std::max(0.0, inference.covariance(rows)(0, 0)));
-        if (!(angle < 2 * sigma) || !(sigma < 0.5)) continue;
+        const Quantity quantity = tilt_between(edge.left, edge.right)(finished.shape);
+        if (angle > 2 * most_sigma(quantity)) continue;
+        edges.push_back(&edge);
+        angles.push_back(quantity);
+        values.push_back(angle);
+    }
+    const std::vector<double> sigmas = inference.sigmas(angles);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (!(values[i] < 2 * sigmas[i]) || !(sigmas[i] < 0.5)) continue;
         ShapeFinding finding;
         finding.kind = ShapeFinding::Kind::same_plane;
-        finding.facets = {name(system, edge.left), name(system, edge.right)};
-        finding.value = angle;
-        finding.sigma = sigma;
+        finding.facets = {name(system, edges[i]->left), name(system, edges[i]->right)};
+        finding.value = values[i];
+        finding.sigma = sigmas[i];
         findings.push_back(std::move(finding));
     }
 }
@@ -253,9 +281,10 @@ std::vector<ShapeFinding> find_open_shape(const System& system, const Finished& 
     if (!finished.outline) return findings;
     add_vanishing(system, finished, inference, findings);
     add_shut_facets(system, finished, inference, findings);
-    add_open_edges(system, finished, inference, findings);
+    const MostSigma most_sigma(finished.shape, diagnosis);
+    add_open_edges(system, finished, inference, most_sigma, findings);
     add_open_facets(system, finished, diagnosis, findings);
-    add_same_planes(system, finished, diagnosis, inference, findings);
+    add_same_planes(system, finished, diagnosis, inference, most_sigma, findings);
     return findings;
 }
 
