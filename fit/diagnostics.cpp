@@ -70,13 +70,14 @@ void snoop(const System& system, const Linearised& linear, const Covariance& cov
         return column;
     };
     const double pairs = std::max(1.0, 0.5 * double(count) * double(count - 1));
-    const std::vector<Outlier> outliers = find_outliers(
-        residuals, diagnosis.suspect_limit, chi2_quantile(options.significance / pairs, 2),
-        std::max<std::size_t>(3, counted.size() / 10));
+    const Outliers outliers = find_outliers(residuals, diagnosis.suspect_limit,
+                                            chi2_quantile(options.significance / pairs, 2),
+                                            std::max<std::size_t>(3, counted.size() / 10));
     const auto reading_of = [&](Eigen::Index i) {
         return linear.soft[std::size_t(counted[std::size_t(i)])].reading;
     };
-    for (const Outlier& outlier : outliers) {
+    diagnosis.throughout = outliers.throughout;
+    for (const Outlier& outlier : outliers.found) {
         const int reading = reading_of(outlier.equation);
         if (reading < 0 || diagnosis.readings[std::size_t(reading)].suspect) continue;
         diagnosis.readings[std::size_t(reading)].suspect = true;

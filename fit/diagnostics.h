@@ -47,6 +47,7 @@ struct Diagnosis {
     bool analysed = true;
     std::shared_ptr<const Covariance> covariance;  ///< of the unknowns; null for `full` = false
     double chi2 = 0, dof = 0;
+    bool throughout = false;  ///< no few readings explain the contradictions (snooping.h)
     double suspect_limit = 0;
     std::vector<Undetermined> undetermined;
     int undetermined_freedoms = 0;

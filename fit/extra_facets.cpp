@@ -375,6 +375,8 @@ std::vector<ExtraFacet> suspect_extra_facets(const System& system, const Finishe
                                              double significance) {
     std::vector<ExtraFacet> found;
     if (!system.stone().convex || !finished.outline || !diagnosis.covariance) return found;
+    // What is left would not agree, see below.
+    if (diagnosis.throughout) return found;
     const Signatures signatures(system, finished.shape, *finished.outline, linear);
     Remains remains(linear, *diagnosis.covariance);
     std::vector<Candidate> candidates = candidates_of(system, finished.shape);

@@ -23,6 +23,9 @@ constexpr double k_cheap = 1;
 constexpr int k_patience = 6, k_patience_good = 2;
 // Starts times facets that are tried, but no fewer starts than these.
 constexpr int k_most_facets = 4500, k_least_starts = 4;
+// Of all starts together; those of readings that fit no stone take ten times as many each as
+// others.
+constexpr int k_most_steps = 4000;
 
 // The chi-square test by counting: the least redundancy that there can be decides what is accepted
 // at once, and only in between is it counted out.
@@ -103,12 +106,12 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
     Portfolio result;
     Starts starts(system);
     std::vector<double> ends;
-    int fruitless = 0;
+    int fruitless = 0, steps = 0;
     std::vector<Approach> waiting;
     // Each costs a large stone as much as all of them a small one.
     const int facets = static_cast<int>(system.stone().solid.facets.size());
     const int most = std::min(options.starts, std::max(k_least_starts, k_most_facets / facets));
-    while (result.starts < most) {
+    while (result.starts < most && (steps < k_most_steps || result.starts < k_least_starts)) {
         const double begin = 0.7 * result.starts / (result.starts + 1.0);
         const Progress part = [&](double fraction) {
             return !progress || progress(begin + (0.7 - begin) * fraction);
@@ -124,6 +127,7 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
                              result.best.sound ? result.best.finished.chi2 : 1e300);
         candidate.start = rough->start;
         candidate.finished.iterations += graded.steps;
+        steps += candidate.finished.iterations;
         const bool good = candidate.sound && candidate.finished.converged &&
                           candidate.finished.worst_hard < k_hard_limit;
         candidate.agrees = good && agrees(system, candidate, free, counted, options.significance);

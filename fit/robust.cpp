@@ -59,6 +59,7 @@ std::vector<double> reweight(System& system, Candidate& candidate, Loss loss, in
         // A start that was sound stays so, or the weights lead nowhere.
         if (candidate.sound && !next.sound) break;
         candidate = std::move(next);
+        if (!candidate.finished.converged) break;
     }
     return weights;
 }

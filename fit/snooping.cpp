@@ -13,6 +13,7 @@ using Index = Eigen::Index;
 constexpr double k_checked = 1e-4;
 // How many of the most conspicuous equations are tried as one half of a pair.
 constexpr std::size_t k_pair_candidates = 40;
+constexpr std::size_t k_few = 8, k_many = 40;
 // Twice the log of the likelihood ratio below which two explanations are as good as each other.
 constexpr double k_alternative = 3;
 
@@ -148,9 +149,10 @@ std::vector<Index> less(std::vector<Index> set, std::size_t at) {
 
 }  // namespace
 
-std::vector<Outlier> find_outliers(const Residuals& residuals, double limit, double pair_limit,
-                                   std::size_t most) {
+Outliers find_outliers(const Residuals& residuals, double limit, double pair_limit,
+                       std::size_t most) {
     Search search(residuals);
+    Outliers result;
     Search::State state = search.without({});
     const double enough = limit * limit;
     for (int round = 0; round < 50 && state.set.size() < most; ++round) {
@@ -188,6 +190,12 @@ std::vector<Outlier> find_outliers(const Residuals& residuals, double limit, dou
         }
         if (!(next.gain > state.gain)) break;
         state = std::move(next);
+        if (state.set.size() < k_few) continue;
+        Index standing_out = 0;
+        for (Index i = 0; i < state.values.size(); ++i)
+            standing_out += Search::gain_of(state, i) > enough ? 1 : 0;
+        result.throughout = standing_out > state.values.size() / 10 || state.set.size() >= k_many;
+        if (result.throughout) break;
     }
 
     std::vector<Outlier> outliers;
@@ -214,9 +222,8 @@ std::vector<Outlier> find_outliers(const Residuals& residuals, double limit, dou
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return gains[a] > gains[b]; });
-    std::vector<Outlier> sorted;
-    for (const std::size_t i : order) sorted.push_back(std::move(outliers[i]));
-    return sorted;
+    for (const std::size_t i : order) result.found.push_back(std::move(outliers[i]));
+    return result;
 }
 
 }  // namespace culet

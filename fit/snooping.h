@@ -26,12 +26,19 @@ struct Outlier {
     std::vector<Eigen::Index> alternatives;
 };
 
+struct Outliers {
+    std::vector<Outlier> found;
+    /// More than a tenth of the rest stood out still when the first eight were set aside, or forty
+    /// were not enough: no few readings explain it, and the search ended there.
+    bool throughout = false;
+};
+
 /// The set of equations that, set aside, leaves nothing standing out: grown by the best one or the
 /// best two at a time (two errors may hide each other), pruned and exchanged until no change makes
 /// it better. An equation enters when chi2 drops by more than `limit`^2, two together when it drops
 /// by more than `pair_limit`. The gravest first. Equations whose redundancy is below 1e-4 cannot be
 /// checked.
-std::vector<Outlier> find_outliers(const Residuals& residuals, double limit, double pair_limit,
-                                   std::size_t most);
+Outliers find_outliers(const Residuals& residuals, double limit, double pair_limit,
+                       std::size_t most);
 
 }  // namespace culet
