@@ -221,6 +221,7 @@ void Planner::choose_engine_and_samples() {
     // As if 16 rays did: where beams are far cheaper than that, nobody needs to know.
     noise_ = {16, k_share_of_noise * room, 0, 0.7};
     double by_paths = choose_reference(room), by_beams = 0;
+    const RenderSettings of_neither = settings;
     if (refused.empty()) {
         by_beams = branches_
                        ? choose_beams_of_two_waves(left_of(dispersed_ ? wavelength_bound_ : 0))
@@ -230,7 +231,10 @@ void Planner::choose_engine_and_samples() {
                                k_far_cheaper * by_beams > by_paths;
     if (noise_matters) {
         measure_noise();
+        const RenderSettings of_beams = settings;
+        settings = of_neither;
         by_paths = choose_reference(room);
+        settings = of_beams;
     }
 
     if (user_.engine != "auto") {
