@@ -220,6 +220,8 @@ void Planner::choose_engine_and_samples() {
     const std::string refused = refused_by_beams(scene_, make_plan(tried));
     // As if 16 rays did: where beams are far cheaper than that, nobody needs to know.
     noise_ = {16, k_share_of_noise * room, 0, 0.7};
+    // Points of a pupil are as many as the noise asks for, whatever draws them.
+    if (on(Effects::aperture)) measure_noise();
     double by_paths = choose_reference(room), by_beams = 0;
     const RenderSettings of_neither = settings;
     if (refused.empty()) {
@@ -227,10 +229,10 @@ void Planner::choose_engine_and_samples() {
                        ? choose_beams_of_two_waves(left_of(dispersed_ ? wavelength_bound_ : 0))
                        : choose_beams();
     }
-    const bool noise_matters = branches_ || !refused.empty() || user_.engine == "reference" ||
-                               k_far_cheaper * by_beams > by_paths;
+    const bool noise_matters = branches_ || on(Effects::aperture) || !refused.empty() ||
+                               user_.engine == "reference" || k_far_cheaper * by_beams > by_paths;
+    if (noise_matters && !on(Effects::aperture)) measure_noise();
     if (noise_matters) {
-        measure_noise();
         const RenderSettings of_beams = settings;
         settings = of_neither;
         by_paths = choose_reference(room);
