@@ -2,13 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 
 #include "fit/fit.h"
 #include "stone/errors.h"
 #include "tests/fit/test_stones.h"
+#include "tests/scratch_folder.h"
 
 namespace culet {
 namespace {
@@ -18,13 +18,6 @@ using ::testing::HasSubstr;
 
 class ReadingFiles : public ::testing::Test {
 protected:
-    void SetUp() override {
-        folder_ =
-            std::filesystem::temp_directory_path() / ("culet_fit_" + std::to_string(getpid()));
-        std::filesystem::create_directories(folder_);
-    }
-    void TearDown() override { std::filesystem::remove_all(folder_); }
-
     std::filesystem::path write(const std::string& name, const std::string& text) const {
         std::ofstream(folder_ / name, std::ios::binary) << text;
         return folder_ / name;
@@ -44,7 +37,7 @@ protected:
         return "no complaint";
     }
 
-    std::filesystem::path folder_;
+    ScratchFolder folder_;
     Stone stone_ = stone_of(brilliant());
 };
 

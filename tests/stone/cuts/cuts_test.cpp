@@ -5,10 +5,8 @@
 #include "stone/cuts/cuts.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 #include <glm/geometric.hpp>
 #include <random>
 
@@ -16,6 +14,7 @@
 #include "stone/errors.h"
 #include "stone/mesh_io.h"
 #include "stone/units.h"
+#include "tests/scratch_folder.h"
 
 namespace {
 
@@ -294,9 +293,7 @@ TEST(Cuts, steps_that_cannot_be_cut_are_answered_with_the_range) {
 }
 
 TEST(Cuts, every_cut_comes_back_from_a_mesh_file) {
-    const auto folder =
-        std::filesystem::temp_directory_path() / ("culet_cuts_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder);
+    const test::ScratchFolder folder;
     for (const CutKind& kind : cut_kinds()) {
         const Solid solid = make_cut(kind.name);
         const auto file = folder / (kind.name + ".obj");
@@ -311,7 +308,6 @@ TEST(Cuts, every_cut_comes_back_from_a_mesh_file) {
                       1e-12);
         }
     }
-    std::filesystem::remove_all(folder);
 }
 
 TEST(Cuts, wrong_names_and_values_are_answered_with_what_to_do) {
