@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 
 #include "render/colour_error.h"
 #include "render/plan/a_priori.h"
@@ -11,8 +10,6 @@
 namespace culet {
 
 namespace {
-
-constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 
 // Wavelengths that pilots of effects are drawn at: three carry any colour of light.
 const std::vector<double> k_pilot_nm{450, 550, 610};

@@ -2,6 +2,7 @@
 // How a plan is made: what is known beforehand, then pilots of the scene with this or that left
 // out.
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ constexpr double k_share_of_cheap = 0.05;
 // Rays of a pilot in each pixel; behind a lens. A mean over so few differs by more than one over
 // the pixel.
 constexpr int k_pilot_rays = 4, k_spectral_rays = 4, k_other_spectral_rays = 5, k_lens_rays = 16;
+constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* k_as_one = "the two waves go as one";
 constexpr const char* k_same_light = "the light is the same from everywhere: nothing changes";
 
@@ -120,7 +122,8 @@ private:
     double spent_ = 0;     // of the tolerance, by bounds
     double left_out_ = 0;  // what effects that are left out are likely off by
     std::vector<CutChoice> cuts_;
-    std::vector<WavelengthChoice> sets_;
+    // As the scene says, or to choose from.
+    std::vector<WavelengthChoice> sets_{WavelengthChoice{}};
     PilotDrawing first_;     // with the effects that are on, without dispersion
     PathWork work_, whole_;  // of one of its eye rays; the same with everything on
     double cut_error_ = 0, cut_bound_ = 0, cut_delta_e_ = 0;

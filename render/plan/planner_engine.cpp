@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "render/beams/beam_picture.h"
 #include "render/colour_error.h"
@@ -23,7 +22,6 @@ constexpr double k_share_of_beams = 0.65, k_share_of_noise = 0.8;
 constexpr double k_share_as_one = 0.4;
 // Beams that are so many times as cheap as 16 rays are taken without a look at the reference.
 constexpr double k_far_cheaper = 2;
-constexpr double k_unknown_noise = std::numeric_limits<double>::quiet_NaN();
 // What the truth's few rays may be off by, as a share of what pictures may: enough for the proof to
 // succeed, and few rays.
 constexpr double k_share_of_truth = 0.7;
@@ -256,7 +254,7 @@ void Planner::choose_engine_and_samples() {
             fmt::format("{} rays a pixel do: beams would take about {:.2g} times as long",
                         plan_.reference.samples, by_beams / by_paths);
     }
-    plan_.bound_of_sampling = noise_matters ? noise_.at(plan_.reference.samples) : k_unknown_noise;
+    plan_.bound_of_sampling = noise_matters ? noise_.at(plan_.reference.samples) : k_unknown;
     if (!drawn_by_beams(settings)) {
         settings = plan_.reference;
         noise_.delta_e *= plan_.bound_of_sampling / std::max(noise_.radiance, 1e-300);
@@ -306,7 +304,8 @@ void Planner::estimate_times() {
 
 void Planner::add_resolutions() {
     const RenderSettings& settings = plan_.settings;
-    const bool beams = drawn_by_beams(settings), piloted = !pixels_.at.empty();
+    const bool beams = drawn_by_beams(settings), preview = settings.engine == "preview",
+               piloted = !pixels_.at.empty();
     const auto add = [&](const char* name, bool is_on, std::string fidelity, std::string why,
                          double bound, double delta_e) {
         PlanItem line;
@@ -319,7 +318,6 @@ void Planner::add_resolutions() {
         line.seconds_with = line.seconds_without = plan_.seconds;
         plan_.items.push_back(std::move(line));
     };
-    const double unknown = std::numeric_limits<double>::quiet_NaN();
     for (PlanItem& line : plan_.items) {
         if (!line.on) continue;
         if (line.name == "dispersion") line.fidelity = "each wavelength its own way";
@@ -341,7 +339,7 @@ void Planner::add_resolutions() {
         depth = fmt::format("paths above {:.2g} of the light", cut_);
         why = fmt::format("{:.3g} faces on average", work_.events);
     }
-    add("depth", true, depth, why, piloted ? cut_bound_ : unknown, cut_delta_e_);
+    add("depth", true, depth, why, piloted ? cut_bound_ : k_unknown, cut_delta_e_);
     const std::size_t count = settings.wavelengths_nm.size();
     add("wavelengths", count > 1,
         count == 0   ? "as the scene calls for"
@@ -353,10 +351,10 @@ void Planner::add_resolutions() {
         : count == 3                  ? "lights in colours, and nothing else depends on wavelength"
         : count == 1                  ? "nothing depends on wavelength"
                                       : "a guess",
-        piloted ? wavelength_bound_ : unknown, wavelength_delta_e_);
+        piloted ? wavelength_bound_ : k_unknown, wavelength_delta_e_);
     const bool edges = hard_edged(scene_.lights);
     add("samples", !beams,
-        settings.engine == "preview" ? "exact areas, one colour a region"
+        preview ? "exact areas, one colour a region"
         : beams
             ? "exact areas"
             : fmt::format("{} ray{} a pixel", settings.samples, settings.samples == 1 ? "" : "s"),
@@ -366,18 +364,18 @@ void Planner::add_resolutions() {
                             : "a guess",
         beams ? 0 : plan_.bound_of_sampling, beams ? 0 : noise_.delta_e);
     add("light_edges", edges,
-        !edges                         ? ""
-        : settings.engine == "preview" ? "one colour a region"
-        : beams                        ? "averaged over the pixel"
-                                       : "by the rays of the pixel",
+        !edges    ? ""
+        : preview ? "one colour a region"
+        : beams   ? "averaged over the pixel"
+                  : "by the rays of the pixel",
         edges ? "lights with sharp edges" : "no light has an edge", 0, 0);
     const bool map = scene_.lights.environment != nullptr;
-    const bool filtered = map && settings.engine == "beams";
+    const bool filtered = map && beams && !preview;
     add("environment_filter", filtered, filtered ? "mean over what a pixel sees" : "",
-        !map                           ? "there is no environment map"
-        : settings.engine == "preview" ? "one colour a region"
-        : beams                        ? "a pixel sees many texels"
-                                       : "every ray looks up its own texels",
+        !map      ? "there is no environment map"
+        : preview ? "one colour a region"
+        : beams   ? "a pixel sees many texels"
+                  : "every ray looks up its own texels",
         0, 0);
     add("objects", false, "", "nothing stands beside the stone", 0, 0);
 }

@@ -131,10 +131,8 @@ void Planner::choose_wavelengths() {
         }
         if (dispersed_ && open) settle_wavelengths(whole, counts, level, fine);
     }
-    if (!open) sets_ = {{}};
     if (!open || dispersed_) return;
     if (!flat_spectrum) {
-        sets_ = {{}};
         plan_.settings.wavelengths_nm = flat_plan.wavelengths_nm;
         return;
     }
