@@ -301,6 +301,10 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
             }
         }
         if (result.held.size() == before) break;
+        // Planes have three freedoms each.
+        result.is_no_stone =
+            result.held.size() > 3 * relaxation.system().stone().solid.facets.size();
+        if (result.is_no_stone) break;
         const int earlier = settled.iterations;
         settled = settle(relaxation, solver, settled.shape, result.held, iterations);
         settled.iterations += earlier;

@@ -14,6 +14,8 @@ struct ExactFinish {
     std::vector<Held> held;
     /// By how much holding them made chi-square larger.
     double cost_of_holding = 0;
+    /// More corners would have to be held than so few planes can keep: nothing like a stone.
+    bool is_no_stone = false;
 };
 
 /// Ends early, with corners above their neighbours, where chi-square is larger than `hopeless`.

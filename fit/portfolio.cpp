@@ -21,11 +21,13 @@ constexpr double k_agrees_well = 0.2;
 constexpr double k_cheap = 1;
 // Starts in a row that gave nothing better; good: the best agrees, or the mesh was drawn with care.
 constexpr int k_patience = 6, k_patience_good = 2;
+// Starts in a row from the first that gave nothing like a stone: the readings are no stone's.
+constexpr int k_patience_without_stone = 5;
 // Starts times facets that are tried, but no fewer starts than these.
 constexpr int k_most_facets = 4500, k_least_starts = 4;
-// Of all starts together; those of readings that fit no stone take ten times as many each as
-// others.
-constexpr int k_most_steps = 4000;
+// Steps of all starts together, times facets: those of readings that fit no stone take ten times as
+// many each as others, and each step of a large stone takes longer.
+constexpr double k_most_work = 250'000;
 
 // The chi-square test by counting: the least redundancy that there can be decides what is accepted
 // at once, and only in between is it counted out.
@@ -87,6 +89,7 @@ Candidate finish_candidate(const System& system, Relaxation& relaxation, const S
     candidate.finished = std::move(exact.finished);
     candidate.held = std::move(exact.held);
     candidate.cost_of_holding = exact.cost_of_holding;
+    candidate.is_no_stone = exact.is_no_stone;
     candidate.binding = relaxation.binding(candidate.finished.shape, candidate.held);
     candidate.sound = relaxation.is_convex(candidate.finished.shape) &&
                       volume(system.met_solid(candidate.finished.shape)) > 0;
@@ -106,12 +109,13 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
     Portfolio result;
     Starts starts(system);
     std::vector<double> ends;
-    int fruitless = 0, steps = 0;
+    int fruitless = 0, without_stone = 0;
+    double work = 0;
     std::vector<Approach> waiting;
     // Each costs a large stone as much as all of them a small one.
     const int facets = static_cast<int>(system.stone().solid.facets.size());
     const int most = std::min(options.starts, std::max(k_least_starts, k_most_facets / facets));
-    while (result.starts < most && (steps < k_most_steps || result.starts < k_least_starts)) {
+    while (result.starts < most && (work < k_most_work || result.starts < k_least_starts)) {
         const double begin = 0.7 * result.starts / (result.starts + 1.0);
         const Progress part = [&](double fraction) {
             return !progress || progress(begin + (0.7 - begin) * fraction);
@@ -127,7 +131,8 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
                              result.best.sound ? result.best.finished.chi2 : 1e300);
         candidate.start = rough->start;
         candidate.finished.iterations += graded.steps;
-        steps += candidate.finished.iterations;
+        without_stone += candidate.is_no_stone;
+        work += static_cast<double>(candidate.finished.iterations) * facets;
         const bool good = candidate.sound && candidate.finished.converged &&
                           candidate.finished.worst_hard < k_hard_limit;
         candidate.agrees = good && agrees(system, candidate, free, counted, options.significance);
@@ -153,6 +158,7 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
             result.best.sound && result.best.finished.converged &&
             fruitless >=
                 (result.best.agrees || starts.mesh_is_good() ? k_patience_good : k_patience);
+        if (without_stone == result.starts && without_stone >= k_patience_without_stone) break;
         // Ending twice where it ended before is no accident, if nothing better was seen.
         if (accept || tired || (again && result.best.finished.chi2 > chi2 - k_same)) break;
     }
