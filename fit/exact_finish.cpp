@@ -66,10 +66,14 @@ Shape onto_constraints(const Relaxation& relaxation, Shape shape, const std::vec
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(relaxation.freedoms().size());
     for (const double least : {SaddleSolver::k_least_variance, k_least_close}) {
         SaddleSolver solver;
-        if (!solver.factor(sheet.rows, relaxation.metric(), {}, least)) break;
+        std::vector<Held> factored;
         for (int i = 0; i < 10 && sheet.hard_worst > 1e-16; ++i) {
-            // The same factors do: what they miss is of second order in steps of rounding size.
-            if (i == 1 && !solver.factor(sheet.rows, relaxation.metric(), {}, least)) break;
+            // After two steps the same factors do: what they miss is of second order in steps of
+            // rounding size. Not where other corners bind than before, which have rows then.
+            if (i < 2 || sheet.holding != factored) {
+                if (!solver.factor(sheet.rows, relaxation.metric(), {}, least)) break;
+                factored = sheet.holding;
+            }
             const auto s = solver.solve(none, -sheet.rows.residuals());
             if (!s.good) break;
             const Shape next = relaxation.freedoms().moved(shape, steps(s.unknowns));
@@ -282,6 +286,8 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
     // on: an active set that only grows, since a corner that readings push out will be pushed
     // again.
     for (int round = 0; round < 8 && settled.chi2 < hopeless; ++round) {
+        // What does not meet will not with more corners held.
+        if (settled.worst_hard > k_all_but_met) break;
         const std::size_t before = result.held.size();
         const std::vector<Held> above = relaxation.above(settled.shape);
         for (const Held& h : above) {

@@ -359,6 +359,7 @@ Sheet Relaxation::hard_sheet(const Shape& shape, const std::vector<Held>& held) 
         // Nothing pulls up what lies well below.
         if (!binds(shape, h)) continue;
         incident(h.facet, h.point, k_hold_below, k_hold_sigma * k_hold_sigma);
+        sheet.holding.push_back(h);
     }
     return sheet;
 }

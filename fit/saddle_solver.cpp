@@ -5,6 +5,7 @@
 #include <cmath>
 #include <ranges>
 #include <span>
+#include <stdexcept>
 
 #include "fit/elimination_order.h"
 
@@ -15,6 +16,14 @@ namespace {
 constexpr int k_refinements = 12;
 // Columns of a row that may be folded into a layout as it stands.
 constexpr std::size_t k_most_short = 12;
+// Larger solutions are those of a matrix that is singular but for rounding. Up to here their
+// products with any entry of a sheet, and sums of such, are numbers.
+constexpr double k_most = 1e150;
+
+template <typename Numbers>
+bool are_sound(const Numbers& numbers) {
+    return numbers.allFinite() && (numbers.array().abs() < k_most).all();
+}
 
 }  // namespace
 
@@ -231,7 +240,7 @@ SaddleSolver::Sides SaddleSolver::refined(const Sides& right, double precision) 
         return size;
     };
     solve_once<W>(right, x);
-    if (precision >= 1) return x;
+    if (precision >= 1 || !are_sound(x)) return x;
     std::array<double, W> size = off(x, left), enough{};
     for (int k = 0; k < W; ++k) {
         enough[std::size_t(k)] = precision * right.col(k).lpNorm<Eigen::Infinity>();
@@ -242,6 +251,7 @@ SaddleSolver::Sides SaddleSolver::refined(const Sides& right, double precision) 
         if (std::find(done.begin(), done.end(), false) == done.end()) break;
         Sides next_left(right.rows(), W);
         solve_once<W>(left, next);
+        if (!are_sound(next)) break;
         next += x;
         const std::array<double, W> next_size = off(next, next_left);
         for (std::size_t k = 0; k < W; ++k) {
@@ -258,12 +268,15 @@ SaddleSolver::Sides SaddleSolver::refined(const Sides& right, double precision) 
 
 SaddleSolver::Solution SaddleSolver::solve(const Eigen::VectorXd& a, const Eigen::VectorXd& b,
                                            double precision) const {
+    if (a.size() != unknowns_ || b.size() != equations_) {
+        throw std::logic_error("right-hand sides of another system than was factored");
+    }
     Sides right(unknowns_ + equations_, 1);
     right.topRows(unknowns_) = a;
     right.bottomRows(equations_) = b;
     const Sides x = refined<1>(right, precision);
     Solution solution;
-    solution.good = x.allFinite();
+    solution.good = are_sound(x);
     solution.unknowns = x.topRows(unknowns_);
     solution.forces = x.bottomRows(equations_);
     return solution;
@@ -285,7 +298,7 @@ SaddleSolver::Solutions SaddleSolver::solve_all(const Eigen::MatrixXd& a, const 
         all.unknowns.middleCols(from, width) = x.topLeftCorner(unknowns_, width);
         all.forces.middleCols(from, width) = x.bottomLeftCorner(equations_, width);
     }
-    all.good = all.unknowns.allFinite() && all.forces.allFinite();
+    all.good = are_sound(all.unknowns) && are_sound(all.forces);
     return all;
 }
 
