@@ -16,6 +16,11 @@ constexpr double k_beside = 1e-3;
 // Every face is a call within a call, of 5 kB of stack each, and threads have 4 MB (8 at most).
 // What is left of a beam then counts as remainder.
 constexpr int k_deepest_call = 200;
+// Where the ray of reference meets a facet's plane outside the stone it may have come too far, and
+// what it lost on the way back is less than nothing: to first order right for the points of the
+// beam, if it is small. No more than this, of an absorption so strong that nothing is of first
+// order.
+constexpr double k_most_regained = 1;
 
 std::array<double, 3> with_changes(const std::array<double, 3>& v) {
     return {v[0], (v[1] - v[0]) / k_beside, (v[2] - v[0]) / k_beside};
@@ -183,7 +188,9 @@ void PartedBeams::follow(const Rays& rays, int facet, const FacetRegion& part, i
                     double alpha = 0;
                     for (std::size_t axis = 0; axis < 3; ++axis)
                         alpha += shares[axis] * band_.absorption[axis][node];
-                    ray.transmitted[node] *= std::exp(-alpha * way);
+                    double& transmitted = ray.transmitted[node];
+                    transmitted *= std::exp(std::min(-alpha * way, k_most_regained));
+                    transmitted = std::min(transmitted, std::exp(k_most_regained));
                 }
             }
             hits[i] = hit_face(band_.crystal, band_.n_outside, ray.mode, plane.normal);

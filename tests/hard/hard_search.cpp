@@ -1,6 +1,7 @@
 // hard_search [--cases N | --seconds S] [--seed K] [--keep FOLDER]: looks for hard cases. Each is a
 // case file with every number drawn between easy and absurd; one that does not hold stays in FOLDER
 // (found/ in the results folder), ready to be copied into the corpus.
+// hard_search --again FILE...: runs such files again.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -229,6 +230,10 @@ std::string any_case(Draw& draw) {
     }
 }
 
+std::filesystem::path results_of_search() {
+    return std::filesystem::path(CULET_HARD_RESULTS) / "search";
+}
+
 struct Options {
     int cases = 200;
     double seconds = 0;
@@ -256,7 +261,7 @@ public:
                 fmt::format("# Found by hard_search, seed {}.\nmay_be_refused = true\n", seed) +
                     any_case(draw));
             const int before = failures();
-            run_case(read_case(file), std::filesystem::path(CULET_HARD_RESULTS) / "search");
+            run_case(read_case(file), results_of_search());
             if (failures() == before) {
                 std::filesystem::remove(file);
                 const std::filesystem::path results = CULET_HARD_RESULTS;
@@ -280,10 +285,26 @@ private:
     Options options_;
 };
 
+class Again : public testing::Test {
+public:
+    explicit Again(std::filesystem::path file) : file_(std::move(file)) {}
+    void TestBody() override { run_case(read_case(file_), results_of_search()); }
+
+private:
+    std::filesystem::path file_;
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
     testing::InitGoogleTest(&argc, argv);
+    if (argc > 1 && std::string(argv[1]) == "--again") {
+        for (int i = 2; i < argc; ++i) {
+            testing::RegisterTest("HardSearch", argv[i], nullptr, nullptr, __FILE__, __LINE__,
+                                  [file = argv[i]]() -> testing::Test* { return new Again(file); });
+        }
+        return RUN_ALL_TESTS();
+    }
     Options options;
     for (int i = 1; i + 1 < argc; i += 2) {
         const std::string name = argv[i];
