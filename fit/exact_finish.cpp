@@ -285,7 +285,9 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
     // Penalties let corners stand a hair above their neighbours. Those are held just below from now
     // on: an active set that only grows, since a corner that readings push out will be pushed
     // again.
-    for (int round = 0; round < 8 && settled.chi2 < hopeless; ++round) {
+    // A few steps a round, or it leads nowhere.
+    int left = iterations;
+    for (int round = 0; round < 8 && left > 0 && settled.chi2 < hopeless; ++round) {
         // What does not meet will not with more corners held.
         if (settled.worst_hard > k_all_but_met) break;
         const std::size_t before = result.held.size();
@@ -312,7 +314,8 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
             result.held.size() > 3 * relaxation.system().stone().solid.facets.size();
         if (result.is_no_stone) break;
         const int earlier = settled.iterations;
-        settled = settle(relaxation, solver, settled.shape, result.held, iterations);
+        settled = settle(relaxation, solver, settled.shape, result.held, left);
+        left -= settled.iterations;
         settled.iterations += earlier;
     }
     result.cost_of_holding = result.held.empty() ? 0 : std::max(0.0, settled.chi2 - free_chi2);

@@ -25,9 +25,10 @@ constexpr int k_patience = 6, k_patience_good = 2;
 constexpr int k_patience_without_stone = 5;
 // Starts times facets that are tried, but no fewer starts than these.
 constexpr int k_most_facets = 4500, k_least_starts = 4;
-// Steps of all starts together, times facets: those of readings that fit no stone take ten times as
-// many each as others, and each step of a large stone takes longer.
-constexpr double k_most_work = 250'000;
+// Steps of all starts together times equations, and at least so many starts: those of readings that
+// fit no stone take ten times as many steps each as others. The less while none gave a stone.
+constexpr double k_most_work = 2e6, k_most_work_in_vain = 1e6;
+constexpr int k_least_starts_in_vain = 2;
 
 // The chi-square test by counting: the least redundancy that there can be decides what is accepted
 // at once, and only in between is it counted out.
@@ -115,7 +116,13 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
     // Each costs a large stone as much as all of them a small one.
     const int facets = static_cast<int>(system.stone().solid.facets.size());
     const int most = std::min(options.starts, std::max(k_least_starts, k_most_facets / facets));
-    while (result.starts < most && (work < k_most_work || result.starts < k_least_starts)) {
+    const auto may_go_on = [&] {
+        const bool found = result.best.sound;
+        return result.starts < most &&
+               (work < (found ? k_most_work : k_most_work_in_vain) ||
+                result.starts < (found ? k_least_starts : k_least_starts_in_vain));
+    };
+    while (may_go_on()) {
         const double begin = 0.7 * result.starts / (result.starts + 1.0);
         const Progress part = [&](double fraction) {
             return !progress || progress(begin + (0.7 - begin) * fraction);
@@ -132,7 +139,7 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
         candidate.start = rough->start;
         candidate.finished.iterations += graded.steps;
         without_stone += candidate.is_no_stone;
-        work += static_cast<double>(candidate.finished.iterations) * facets;
+        work += static_cast<double>(candidate.finished.iterations) * (counted + hard);
         const bool good = candidate.sound && candidate.finished.converged &&
                           candidate.finished.worst_hard < k_hard_limit;
         candidate.agrees = good && agrees(system, candidate, free, counted, options.significance);
