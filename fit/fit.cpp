@@ -69,7 +69,8 @@ std::vector<Reading> without(const std::vector<Reading>& readings,
 std::optional<FitResult> fit_without_gross(const Stone& stone, const std::vector<Reading>& readings,
                                            std::vector<std::size_t> far, const FitOptions& options,
                                            const Progress& progress) {
-    while (!far.empty()) {
+    // Each round is a whole search.
+    for (int round = 0; round < 3 && !far.empty(); ++round) {
         FitResult result = fit_stone(stone, without(readings, far), options, progress);
         if (result.status == FitStatus::not_converged) return std::nullopt;
         const std::vector<std::size_t> wrong = contradicted_angles(result, readings, far);

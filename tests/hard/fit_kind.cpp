@@ -11,6 +11,7 @@
 // shortest edge. [expect]: status, one or several.
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -214,6 +215,22 @@ Subject fit_subject(const HardCase&, const HardPoint&, const TomlTable& paramete
         const FitResult other = fit_stone(c->mesh, readings);
         if (other.status != c->result().status) return Measured{1e300, std::nan(""), other.message};
         return Measured{shape_error(other.solid, c->result().solid), std::nan(""), ""};
+    };
+    // What was in memory before says nothing: new memory is filled with other bytes each time.
+    is["same_again"] = [c] {
+        double apart = 0;
+        std::optional<FitResult> before;
+        for (const int filled_with : {0x01, 0xa5}) {
+            mallopt(M_PERTURB, filled_with);
+            FitResult now = fit_stone(c->mesh, c->readings);
+            mallopt(M_PERTURB, 0);
+            if (before) {
+                apart += now.solid.vertices != before->solid.vertices;
+                apart += now.iterations != before->iterations || now.chi2 != before->chi2;
+            }
+            before = std::move(now);
+        }
+        return Measured{apart, std::nan(""), ""};
     };
     is["units"] = [c] {
         Measured worst;
