@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <memory>
 
+#include "app/near_light_options.h"
 #include "app/options.h"
 #include "app/terminal.h"
 #include "compare/light/ball_series.h"
 #include "compare/light/light_probe.h"
+#include "compare/photo/lens.h"
 #include "render/environment_layout.h"
 #include "render/image_io.h"
 #include "stone/errors.h"
@@ -25,32 +28,14 @@ struct LightArguments {
     std::vector<std::string> photos;
     std::vector<std::vector<std::string>> views;
     std::vector<std::string> balls, exposures;
-    std::string out, cube, picture, json, distance, reflectance, towards;
+    NearLightWords near;
+    std::string out, cube, picture, json, distance, reflectance, towards, camera, table;
+    bool moved = false;
     double photographer_deg = 10;
     double turned_deg = 0;
     int width = 0, passes = 20;
     const CLI::Option* turned_given = nullptr;
 };
-
-// "1,2,3" as numbers; `what` says what was expected.
-std::vector<double> numbers_in(const std::string& text, std::size_t least, std::size_t most,
-                               const std::string& what) {
-    std::vector<double> result;
-    std::size_t at = 0;
-    while (at <= text.size()) {
-        const std::size_t comma = std::min(text.find(',', at), text.size());
-        const std::string word = text.substr(at, comma - at);
-        char* end = nullptr;
-        const double value = std::strtod(word.c_str(), &end);
-        if (word.empty() || *end != '\0' || !std::isfinite(value))
-            throw InputError(fmt::format("\"{}\": {}", text, what));
-        result.push_back(value);
-        at = comma + 1;
-    }
-    if (result.size() < least || result.size() > most)
-        throw InputError(fmt::format("\"{}\": {}", text, what));
-    return result;
-}
 
 ProbeOptions probe_options(const LightArguments& a) {
     ProbeOptions options;
@@ -90,6 +75,18 @@ ProbeOptions probe_options(const LightArguments& a) {
         throw InputError("--width is an even number of pixels, 16 to 8192");
     options.width = a.width;
     options.passes = a.passes;
+    options.moved = a.moved;
+    if (a.moved && options.turned)
+        throw InputError("--turned is the camera's, which stands still with --moved: not both");
+    options.near_lights = near_requests(a.near);
+    if (!(a.near.ball_radius >= 0)) throw InputError("--ball-radius is over 0");
+    options.ball_radius = a.near.ball_radius;
+    if (!options.near_lights.empty() && a.table.empty()) {
+        throw InputError(
+            "near lights stand beside the environment: say with --table LIGHT.toml where the "
+            "scene's "
+            "[light] table is to be written");
+    }
     return options;
 }
 
@@ -120,7 +117,8 @@ Picture picture_of(const EnvironmentMap& map, Picture::Environment kind) {
 }
 
 int run_light(const LightArguments& a) {
-    for (const std::string& file : {a.out, a.cube, a.picture, a.json}) require_writable(file);
+    for (const std::string& file : {a.out, a.cube, a.picture, a.json, a.table})
+        require_writable(file);
     for (const std::string& file : {a.out, a.cube}) {
         if (!file.empty() && !file.ends_with(".exr") && !file.ends_with(".hdr"))
             throw InputError(std::filesystem::path(file), "light is written as .exr or .hdr");
@@ -132,6 +130,7 @@ int run_light(const LightArguments& a) {
         if (!view.empty()) series.views.emplace_back(view.begin(), view.end());
     }
     for (const std::string& text : a.exposures) series.exposures.push_back(parse_exposure(text));
+    if (!a.camera.empty()) series.lens = read_lens(a.camera);
     ReadSeries read =
         read_ball_series(series, progress_line("reading photographs", a.common.quiet));
     give_balls(a, read.views);
@@ -145,12 +144,29 @@ int run_light(const LightArguments& a) {
         write_picture(picture_of(cube, Picture::Environment::cube), a.cube);
     }
     if (!a.picture.empty()) write_text(a.picture, coverage_png(probe));
+    if (!a.table.empty()) {
+        const std::filesystem::path beside = std::filesystem::absolute(a.table).parent_path();
+        const std::filesystem::path map = std::filesystem::absolute(a.out);
+        const std::filesystem::path way = map.lexically_relative(beside);
+        write_text(a.table, light_toml(probe, (way.empty() ? map : way).generic_string()));
+    }
     if (!a.json.empty()) write_text(a.json, light_json(probe, given));
 
     for (const ProbeViewResult& view : probe.views) {
         say(fmt::format("{}: ball at {:.1f},{:.1f} with radius {:.1f} px, {:.0f} radii away ({})",
                         view.name, view.circle.x, view.circle.y, view.circle.radius, view.distance,
                         view.distance_from),
+            a.common.quiet);
+    }
+    for (const NearLight& light : probe.near_lights) {
+        if (!light.usable()) continue;
+        say(fmt::format(
+                "near light: {:.4g} x {:.4g}, {:.4g} away{}, radiance {:.4g}, {:.4g}, {:.4g}",
+                2 * glm::length(light.window.u), 2 * glm::length(light.window.v), light.distance,
+                light.from == "parallax"
+                    ? fmt::format(" +- {:.2g}", light.distance_sigma)
+                    : fmt::format(" ({})", light.from == "distance" ? "given" : light.from),
+                light.radiance[0], light.radiance[1], light.radiance[2]),
             a.common.quiet);
     }
     for (std::size_t v = 0; v < probe.alignments.size(); ++v) {
@@ -214,6 +230,38 @@ void add_command_light(CLI::App& program, int& exit_code) {
                                        "counter-clockwise from above (otherwise found)")
                           ->type_name("DEGREES");
     command
+        ->add_option("--camera", a->camera,
+                     "camera file: take out the lens's distortion, and use its focal length")
+        ->type_name("FILE");
+    command
+        ->add_option("--near", a->near.places,
+                     "a near light: its pixel in the first picture (and in the second; otherwise "
+                     "found); it becomes a window of the scene and leaves the environment")
+        ->type_name("X,Y[,X2,Y2]")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--near-distance", a->near.distances,
+                     "of each --near light from the ball's middle, in the stone's unit, or find "
+                     "(otherwise by its parallax)")
+        ->type_name("LENGTH")
+        ->allow_extra_args(false);
+    command
+        ->add_option("--near-window", a->near.windows,
+                     "a near light measured with a ruler from the ball's middle: middle, half "
+                     "width, half height, in the stone's unit and frame")
+        ->type_name("M,U,V")
+        ->allow_extra_args(false);
+    command->add_flag("--moved", a->moved,
+                      "the camera stood still and the ball was moved: later views show only how "
+                      "far near lights are");
+    command
+        ->add_option("--ball-radius", a->near.ball_radius, "in the stone's unit, for near lights")
+        ->type_name("LENGTH");
+    command
+        ->add_option("--table", a->table,
+                     "the scene's [light] table: the environment and the near lights")
+        ->type_name("FILE");
+    command
         ->add_option("--photographer", a->photographer_deg,
                      "half angle around the camera that the other view replaces")
         ->type_name("DEGREES")
@@ -238,8 +286,12 @@ void add_command_light(CLI::App& program, int& exit_code) {
         "  culet light front-*.dng side-*.dng -o room.exr --picture room.png --reflectance 0.6\n"
         "  culet light a.exr b.exr -o room.exr --ball 512,380,300 --ball 506,384,299 --distance "
         "25\n"
-        "Exit codes: 0 good; 1 the views do not fit together in one way only, or disagree; 2 could "
-        "not be done.");
+        "  culet light here.exr there.exr --moved --camera camera.toml --near 498,402 "
+        "--ball-radius "
+        "10 -o room.exr --table light.toml\n"
+        "Exit codes: 0 good; 1 the views do not fit together in one way only, or disagree, or a "
+        "near "
+        "light's distance cannot be told; 2 could not be done.");
     command->callback([a, &exit_code] { exit_code = run_light(*a); });
 }
 

@@ -136,6 +136,13 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
         view.name = name;
         view.photo = std::move(merged.photo);
         view.focal_px = focal_px;
+        if (series.lens) {
+            const Lens lens =
+                lens_for(*series.lens, view.photo.width, view.photo.height, view.name);
+            undistort(view.photo, lens);
+            view.focal_px = (lens.focal_x + lens.focal_y) / 2;
+            view.principal = PixelPlace{lens.principal_x, lens.principal_y};
+        }
         result.views.push_back(std::move(view));
         if (progress &&
             !progress(0.6 + 0.4 * static_cast<double>(g + 1) / static_cast<double>(groups.size())))

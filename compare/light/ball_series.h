@@ -9,6 +9,7 @@
 
 #include "compare/light/light_probe.h"
 #include "compare/photo/bracket.h"
+#include "compare/photo/lens.h"
 
 namespace culet {
 
@@ -17,6 +18,8 @@ struct BallSeries {
     /// Files of each view in order, when the user said so; else found.
     std::vector<std::vector<std::filesystem::path>> views;
     std::vector<double> exposures;  ///< of the files in the order named; empty: from EXIF
+    /// Taken out of the pictures; its focal length and middle stand in for those of EXIF.
+    std::optional<Lens> lens;
 };
 
 struct SortedShot {
@@ -36,7 +39,7 @@ struct ReadSeries {
 };
 
 /// Reads, groups and merges. Throws InputError: unreadable, exposures missing or of the wrong
-/// number, the same exposure twice in a view, NaN.
+/// number, the same exposure twice in a view, NaN, pictures of another shape than the lens's.
 ReadSeries read_ball_series(const BallSeries& series, const Progress& progress = {});
 
 }  // namespace culet

@@ -23,6 +23,16 @@ double ramp(double value, double from, double to) {
     return t * t * (3 - 2 * t);
 }
 
+bool is_left_out(const BallView& view, const Vec3& direction) {
+    const auto place = view.ball.place_of(direction);
+    if (!place) return false;
+    const long x = std::lround(place->x), y = std::lround(place->y);
+    const int width = view.picture->width;
+    if (x < 0 || y < 0 || x >= width || y >= view.picture->height) return false;
+    return (*view.left_out)[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                            static_cast<std::size_t>(x)] != 0;
+}
+
 }  // namespace
 
 double BallView::quality(const Vec3& direction) const {
@@ -30,6 +40,7 @@ double BallView::quality(const Vec3& direction) const {
     const double theta = std::acos(std::clamp(cosine, -1.0, 1.0));
     const double limit = k_pi - ball.blind_half_angle();
     if (theta >= limit - k_near_rim) return 0;  // pixels there are half background
+    if (left_out && is_left_out(*this, direction)) return 0;
     const double density = (1 + cosine) / 2;
     const double q = density * density * ramp(theta, photographer.within, photographer.beyond) *
                      (1 - ramp(theta, limit - k_rim, limit - k_near_rim));

@@ -1,6 +1,7 @@
 #pragma once
 // One picture of a mirror ball: what it shows in a direction, and how well.
 
+#include <cstdint>
 #include <glm/mat3x3.hpp>
 #include <memory>
 #include <vector>
@@ -23,11 +24,13 @@ struct BallView {
     MirrorBall ball;
     PhotographerCone photographer;
     glm::dmat3 world_from_camera{1.0};
+    /// Pixels that are not to be used, 1 each (the reflex of a near light); none: all are used.
+    std::shared_ptr<const std::vector<std::uint8_t>> left_out = nullptr;
 
     /// 0..1: ((1 + cos theta) / 2)^2, theta counted from the camera's direction, which is the
     /// density of the ball's picture: 1 in the middle, 0 at the rim, where the picture is pressed
     /// flat; next to none of the photographer, so that a view alone keeps what it shows there; 0 in
-    /// the blind cone and the last three degrees before it.
+    /// the blind cone and the last three degrees before it, and where a pixel is left out.
     double quality(const Vec3& direction_in_camera) const;
 };
 

@@ -7,10 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <numbers>
-#include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
-#include "compare/pixels.h"
+#include "compare/light/view_places.h"
 #include "render/environment_layout.h"
 #include "stone/errors.h"
 #include "stone/units.h"
@@ -22,25 +20,7 @@ namespace {
 constexpr double k_pi = std::numbers::pi;
 constexpr double k_smallest_radius = 20;  // pixels
 constexpr double k_usual_distance = 30;   // radii, where nothing says better
-// Gains nearer to 1 than this are lamps' flicker, shutters' scatter or the error of finding them:
-// exposures that differ on purpose differ by a third of a stop.
-constexpr double k_rounding = 0.01;
-// Pixels: an outline is no better known than this, whatever its edges' scatter says, for light
-// beside and behind the ball draws them one way.
-constexpr double k_least_sigma = 0.15;
 constexpr int k_narrowest = 128, k_widest = 4096;
-
-glm::dmat3 world_from_camera(double azimuth, double elevation) {
-    const double ca = std::cos(azimuth), sa = std::sin(azimuth);
-    const double ce = std::cos(elevation), se = std::sin(elevation);
-    const Vec3 forward(ce * ca, ce * sa, se), up(-se * ca, -se * sa, ce);
-    return {glm::cross(forward, up), up, -forward};
-}
-
-glm::dmat3 about_vertical(double angle) {
-    const double c = std::cos(angle), s = std::sin(angle);
-    return {Vec3(c, 0, -s), Vec3(0, 1, 0), Vec3(s, 0, c)};  // columns
-}
 
 [[noreturn]] void refuse(const ProbeView& view, const std::string& message) {
     throw InputError(std::filesystem::path(view.name), message);
@@ -76,76 +56,6 @@ FoundBall ball_in(const ProbeView& view) {
     refuse(view,
            "no ball found: give its middle and radius in pixels with --ball X,Y,RADIUS, or "
            "photograph it larger and against a plain ground");
-}
-
-// The picture cut to the ball and shrunk to what the map can hold; the geometry with it.
-struct Prepared {
-    std::shared_ptr<const Photo> picture;
-    ViewPrior prior;
-    double left = 0, top = 0, factor = 1;  // of the cut in the photograph
-
-    BallCircle in_photograph(const BallCircle& c) const {
-        return {(c.x + 0.5) * factor - 0.5 + left, (c.y + 0.5) * factor - 0.5 + top,
-                c.radius * factor};
-    }
-};
-
-std::vector<float> shrunk(const float* values, int channels, const Photo& photo,
-                          const cv::Rect& cut, int factor) {
-    const cv::Mat whole(photo.height, photo.width, CV_32FC(channels), const_cast<float*>(values));
-    cv::Mat part = whole(cut).clone();
-    if (factor > 1) {
-        cv::Mat small;
-        cv::resize(part, small, cv::Size(part.cols / factor, part.rows / factor), 0, 0,
-                   cv::INTER_AREA);
-        part = small;
-    }
-    const auto* first = part.ptr<float>();
-    return {first, first + part.total() * static_cast<std::size_t>(channels)};
-}
-
-Prepared prepared(const ProbeView& view, const FoundBall& ball, const ProbeOptions& options,
-                  int width) {
-    const Photo& photo = view.photo;
-    const BallCircle& c = ball.circle;
-    const int factor = std::max(1, static_cast<int>(k_pi * c.radius / (2.0 * width)));
-    const double margin = 2 + 0.03 * c.radius;
-    cv::Rect cut;
-    cut.x = std::max(0, static_cast<int>(c.x - c.radius - margin));
-    cut.y = std::max(0, static_cast<int>(c.y - c.radius - margin));
-    cut.width = std::min(photo.width, static_cast<int>(c.x + c.radius + margin) + 1) - cut.x;
-    cut.height = std::min(photo.height, static_cast<int>(c.y + c.radius + margin) + 1) - cut.y;
-    cut.width -= cut.width % factor;
-    cut.height -= cut.height % factor;
-    auto small = std::make_shared<Photo>();
-    small->width = cut.width / factor;
-    small->height = cut.height / factor;
-    small->rgb = shrunk(photo.rgb.data(), 3, photo, cut, factor);
-    std::vector<float> saturated = photo.saturated;
-    if (saturated.empty() && photo.saturation > 0) {
-        saturated.resize(photo.rgb.size() / 3);
-        const auto clip = static_cast<float>(0.99 * photo.saturation);
-        for (std::size_t i = 0; i < saturated.size(); ++i) {
-            saturated[i] =
-                std::max({photo.rgb[3 * i], photo.rgb[3 * i + 1], photo.rgb[3 * i + 2]}) >= clip;
-        }
-    }
-    if (!saturated.empty()) small->saturated = shrunk(saturated.data(), 1, photo, cut, factor);
-
-    Prepared result;
-    result.factor = factor;
-    result.left = cut.x;
-    result.top = cut.y;
-    const auto inside = [&](double x, double from) { return (x - from + 0.5) / factor - 0.5; };
-    const PixelPlace principal =
-        view.principal.value_or(PixelPlace{(photo.width - 1) / 2.0, (photo.height - 1) / 2.0});
-    result.prior.circle = {inside(c.x, cut.x), inside(c.y, cut.y), c.radius / factor};
-    result.prior.circle_sigma_px = std::max(k_least_sigma, 2 * ball.sigma_px) / factor;
-    result.prior.principal = {inside(principal.x, cut.x), inside(principal.y, cut.y)};
-    result.prior.focal_px = options.distance > 0 ? 0 : view.focal_px / factor;
-    result.prior.distance = options.distance;
-    result.picture = std::move(small);
-    return result;
 }
 
 // Share of the ball that is over-exposed; refuses a ball in the dark.
@@ -191,7 +101,7 @@ void judge(LightProbe& probe) {
         probe.worst_disagreement = *worst;
     }
     const double missing = 100 * (1 - probe.covered);
-    if (probe.views.size() == 1) {
+    if (probe.views.size() == 1 || probe.moved) {
         probe.notes.push_back(
             fmt::format("one view: the {:.0f} degrees behind the ball are filled from around "
                         "them, and camera and photographer are still in the light; a second view "
@@ -229,6 +139,48 @@ void judge(LightProbe& probe) {
             "lights change or the ball move?)",
             probe.mean_disagreement);
     }
+    for (const NearLight& near : probe.near_lights) {
+        probe.notes.insert(probe.notes.end(), near.notes.begin(), near.notes.end());
+        if (!near.usable() && probe.doubt.empty()) probe.doubt = near.doubt;
+    }
+}
+
+// Requests in radii of the ball and pixels of the cut pictures.
+std::vector<NearLightRequest> requests_of(const ProbeOptions& options,
+                                          const std::vector<CutToBall>& ready) {
+    std::vector<NearLightRequest> requests = options.near_lights;
+    if (requests.empty()) return requests;
+    if (!(options.ball_radius > 0))
+        throw InputError(
+            "a near light needs the ball's radius, in the stone's unit: --ball-radius");
+    for (NearLightRequest& request : requests) {
+        if (request.at) {
+            request.name = fmt::format("{:g},{:g}", request.at->x, request.at->y);
+            request.at = ready[0].in_cut(*request.at);
+        }
+        if (request.at_other) {
+            if (ready.size() < 2) {
+                throw InputError(
+                    "--near X,Y,X2,Y2 says where a second picture shows the light: "
+                    "there is one picture only");
+            }
+            request.at_other = ready[1].in_cut(*request.at_other);
+        }
+        if (request.distance) *request.distance /= options.ball_radius;
+        if (request.measured) {
+            for (Vec3* v : {&request.measured->middle, &request.measured->u, &request.measured->v})
+                *v /= options.ball_radius;
+        }
+    }
+    return requests;
+}
+
+void in_stone_units(NearLight& light, const ProbeOptions& options) {
+    for (Vec3* v : {&light.window.middle, &light.window.u, &light.window.v})
+        *v *= options.ball_radius;
+    light.distance *= options.ball_radius;
+    light.distance_sigma *= options.ball_radius;
+    for (std::size_t c = 0; c < 3; ++c) light.radiance[c] /= options.reflectance[c];
 }
 
 }  // namespace
@@ -236,6 +188,8 @@ void judge(LightProbe& probe) {
 LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& options,
                        const Progress& progress) {
     if (views.empty()) throw InputError("no photograph of a ball was given");
+    if (options.moved && views.size() < 2)
+        throw InputError("--moved needs the ball at two places: one photograph was given");
     for (const ProbeView& view : views) {
         if (view.photo.width != views[0].photo.width ||
             view.photo.height != views[0].photo.height) {
@@ -269,68 +223,80 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
                             : 1;
     const int width = options.width > 0 ? coarser * options.width : natural;
 
-    std::vector<Prepared> ready;
-    std::vector<BallView> seen;
-    std::vector<double> gains{1};
+    PlacedViews placed;
+    placed.gains.assign(views.size(), 1.0);
+    probe.moved = options.moved;
     for (std::size_t v = 0; v < views.size(); ++v) {
-        ready.push_back(prepared(views[v], balls[v], options, width));
+        placed.cuts.push_back(
+            cut_to_ball(views[v], balls[v].circle, balls[v].sigma_px, options, width));
         ProbeViewResult result;
         result.name = views[v].name;
         result.support = balls[v].support;
         result.found = !views[v].ball;
-        result.over_exposed = over_exposed(views[v], *ready[v].picture, ready[v].prior.circle);
-        result.distance_from = options.distance > 0    ? "given"
-                               : views[v].focal_px > 0 ? "focal length"
-                               : views.size() > 1      ? "both views"
-                                                       : "assumed";
+        result.over_exposed =
+            over_exposed(views[v], *placed.cuts[v].picture, placed.cuts[v].prior.circle);
+        result.distance_from = options.moved && v > 0               ? "the first ball"
+                               : options.distance > 0               ? "given"
+                               : views[v].focal_px > 0              ? "focal length"
+                               : views.size() > 1 && !options.moved ? "both views"
+                                                                    : "assumed";
         probe.views.push_back(result);
-        seen.push_back({ready[v].picture, ball_of(ready[v].prior, k_usual_distance),
-                        options.photographer, glm::dmat3(1.0)});
+        placed.seen.push_back({placed.cuts[v].picture,
+                               ball_of(placed.cuts[v].prior, k_usual_distance),
+                               options.photographer, glm::dmat3(1.0)});
+        placed.places.push_back({placed.seen.back()});
     }
-    seen[0].world_from_camera =
+    const std::vector<NearLightRequest> requests = requests_of(options, placed.cuts);
+    std::vector<ViewPrior> priors;
+    for (const CutToBall& cut : placed.cuts) priors.push_back(cut.prior);
+    placed.seen[0].world_from_camera =
         world_from_camera(options.towards_azimuth, options.towards_elevation);
-    for (std::size_t v = 1; v < views.size(); ++v) {
-        std::optional<glm::dmat3> turned;
-        if (options.turned) turned = about_vertical(*options.turned);
-        // To the first view; further ones, where the first shows too little in common, to others.
-        std::size_t to = 0;
-        std::optional<ViewAlignment> best;
-        for (std::size_t candidate = 0; candidate < v; ++candidate) {
-            ViewAlignment a =
-                align_views(seen[candidate], ready[candidate].prior, seen[v], ready[v].prior,
-                            candidate == 0 && v == 1 ? turned : std::nullopt);
-            if (!best || (best->ambiguous && !a.ambiguous)) {
-                best = a;
-                to = candidate;
-            }
-            if (!best->ambiguous) break;
+    const auto find_near = [&] {
+        for (std::size_t v = 0; v < placed.seen.size(); ++v) {
+            placed.places[v].view = placed.seen[v];
+            placed.places[v].view.left_out = nullptr;
+            placed.places[v].gain = placed.gains[v];
         }
-        seen[to].ball = best->first;
-        seen[v].ball = best->second;
-        seen[v].world_from_camera = seen[to].world_from_camera * best->first_from_second;
-        gains.push_back(gains[to] * (std::abs(best->gain - 1) < k_rounding ? 1.0 : best->gain));
-        // What was refined with one view stays as it is for the next.
-        ready[to].prior.circle = best->first.circle();
-        ready[to].prior.circle_sigma_px = 0.02;
-        if (ready[to].prior.focal_px <= 0) ready[to].prior.distance = best->first.distance();
-        probe.alignments.push_back(*best);
-        if (progress &&
-            !progress(0.2 + 0.3 * static_cast<double>(v) / static_cast<double>(views.size() - 1)))
-            throw Interrupted();
+        return find_near_lights(placed.places, requests);
+    };
+    FoundNearLights near;
+    if (options.moved) {
+        place_moved_balls(placed);
+    } else {
+        align_all(placed, options,
+                  [&](double done) { return !progress || progress(0.2 + 0.3 * done); });
     }
+    if (!requests.empty()) near = find_near();
+    if (!requests.empty() && !options.moved && placed.seen.size() > 1) {
+        // Turned until a near light agrees, the views hide its parallax: once more from what is
+        // left of the room without it.
+        leave_out(near, placed);
+        align_without_near_lights(placed, priors);
+        near = find_near();
+    }
+    leave_out(near, placed);
+    probe.alignments = placed.alignments;
     for (std::size_t v = 0; v < views.size(); ++v) {
         ProbeViewResult& result = probe.views[v];
-        result.circle = ready[v].in_photograph(seen[v].ball.circle());
-        result.distance = seen[v].ball.distance();
-        result.focal_px = seen[v].ball.focal_px() * ready[v].factor;
-        result.gain = gains[v];
-        result.world_from_camera = seen[v].world_from_camera;
-        const Vec3 a = seen[0].world_from_camera * seen[0].ball.towards_camera();
-        const Vec3 b = seen[v].world_from_camera * seen[v].ball.towards_camera();
-        result.turned = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+        result.circle = placed.cuts[v].in_photograph(placed.seen[v].ball.circle());
+        result.distance = placed.seen[v].ball.distance();
+        result.focal_px = placed.seen[v].ball.focal_px() * placed.cuts[v].factor;
+        result.gain = placed.gains[v];
+        result.world_from_camera = placed.seen[v].world_from_camera;
+        result.centre = placed.places[v].centre;
+        const Vec3 a = placed.seen[0].world_from_camera * placed.seen[0].ball.towards_camera();
+        const Vec3 b = placed.seen[v].world_from_camera * placed.seen[v].ball.towards_camera();
+        result.turned =
+            options.moved ? 0 : std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
     }
-    probe.light = merge_views(seen, gains, width, options.passes,
+    // Balls elsewhere see other near light, and tell of the stone's place only through it.
+    const std::vector<BallView> merged =
+        options.moved ? std::vector<BallView>{placed.seen[0]} : std::move(placed.seen);
+    placed.gains.resize(merged.size());
+    probe.light = merge_views(merged, placed.gains, width, options.passes,
                               [&](double done) { return !progress || progress(0.5 + 0.5 * done); });
+    for (NearLight& light : near.lights) in_stone_units(light, options);
+    probe.near_lights = std::move(near.lights);
     if (coarser > 1) probe.light = coarsened(probe.light, coarser);
     for (std::size_t i = 0; i < probe.light.map.rgb.size(); ++i)
         probe.light.map.rgb[i] /= static_cast<float>(options.reflectance[i % 3]);

@@ -7,6 +7,7 @@
 
 #include "compare/light/ball_finder.h"
 #include "compare/light/light_merge.h"
+#include "compare/light/near_light.h"
 #include "compare/light/view_alignment.h"
 #include "compare/photo.h"
 #include "stone/progress.h"
@@ -35,6 +36,12 @@ struct ProbeOptions {
     std::optional<double> turned;
     int width = 0;    ///< of the lat-long map; 0: as fine as the ball shows it
     int passes = 20;  ///< of sharpening (light_merge.h)
+    /// The camera stood still, and the ball was moved: further views tell how far near lights are,
+    /// and nothing else.
+    bool moved = false;
+    /// Lights to be taken out of the map and found as windows; lengths in the stone's unit.
+    std::vector<NearLightRequest> near_lights;
+    double ball_radius = 0;  ///< in the stone's unit; needed with near lights
 };
 
 struct ProbeViewResult {
@@ -47,7 +54,8 @@ struct ProbeViewResult {
     double gain = 1;            ///< that brings it to the first view
     double over_exposed = 0;    ///< share of the ball
     glm::dmat3 world_from_camera{1.0};
-    double turned = 0;  ///< from the first view, radians
+    double turned = 0;     ///< from the first view, radians
+    Vec3 centre{0, 0, 0};  ///< of a ball that was moved, in its radii, in the stone's frame
 };
 
 struct LightProbe {
@@ -56,7 +64,9 @@ struct LightProbe {
     std::vector<ViewAlignment> alignments;  ///< of the second and further views to the first
     double mean_disagreement = 0, worst_disagreement = 0;  ///< stops: mean, 99 % of what two see
     double covered = 0;                                    ///< share of all directions
-    std::vector<std::string> notes;                        ///< for people, one line each
+    bool moved = false;                                    ///< views are balls, not cameras
+    std::vector<NearLight> near_lights;  ///< lengths in the stone's unit, radiance as the map's
+    std::vector<std::string> notes;      ///< for people, one line each
     /// Empty when the result can be trusted; else why not.
     std::string doubt;
     bool usable() const { return doubt.empty(); }
@@ -66,6 +76,10 @@ struct LightProbe {
 /// or too small, a black picture.
 LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& options,
                        const Progress& progress = {});
+
+/// The `[light]` table of a scene: the environment, and the near lights as `[[light.plane]]`.
+/// `environment` is its path as the scene will say it.
+std::string light_toml(const LightProbe& probe, const std::string& environment);
 
 /// One JSON object with `schema`; angles in degrees.
 std::string light_json(const LightProbe& probe, const ProbeOptions& options);

@@ -62,6 +62,10 @@ void draw_panel(cv::Mat& sheet, int top, const std::string& caption, const cv::M
     write(sheet, to, 608, y + 12);
 }
 
+Json list_of(const Vec3& v) {
+    return {number(v.x), number(v.y), number(v.z)};
+}
+
 Json json_of(const ProbeViewResult& view) {
     Json rotation = Json::array();
     for (int row = 0; row < 3; ++row) {
@@ -81,7 +85,28 @@ Json json_of(const ProbeViewResult& view) {
             {"gain", number(view.gain)},
             {"over_exposed", number(view.over_exposed)},
             {"turned_deg", number(degrees(view.turned))},
+            {"centre_radii", list_of(view.centre)},
             {"world_from_camera", rotation}};
+}
+
+Json json_of(const NearLight& light) {
+    Json json{{"status", light.usable() ? "good" : "doubtful"},
+              {"doubt", light.doubt},
+              {"from", light.from},
+              {"radiance", light.radiance},
+              {"over_exposed", number(light.over)},
+              {"distance", number(light.distance)},
+              {"distance_sigma", number(light.distance_sigma)},
+              {"residual_deg", number(degrees(light.residual))}};
+    if (!light.usable()) return json;
+    json["point"] = list_of(light.window.middle);
+    json["normal"] = list_of(light.normal);
+    json["u"] = list_of(light.window.u);
+    json["v"] = list_of(light.window.v);
+    json["tilt_deg"] = number(degrees(light.tilt));
+    json["tilt_sigma_deg"] = number(degrees(light.tilt_sigma));
+    json["tilt_found"] = !light.facing;
+    return json;
 }
 
 }  // namespace
@@ -110,8 +135,41 @@ std::string light_json(const LightProbe& probe, const ProbeOptions& options) {
                                       {"sigma_deg", number(degrees(a.sigma))},
                                       {"ambiguous", a.ambiguous}});
     }
+    if (!probe.near_lights.empty()) {
+        json["ball_radius"] = number(options.ball_radius);
+        json["near_lights"] = Json::array();
+        for (const NearLight& light : probe.near_lights)
+            json["near_lights"].push_back(json_of(light));
+    }
     json["notes"] = probe.notes;
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string light_toml(const LightProbe& probe, const std::string& environment) {
+    const auto vector = [](const Vec3& v) {
+        return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", v.x, v.y, v.z);
+    };
+    // JSON's escapes of a path are TOML's, too.
+    std::string toml =
+        fmt::format("[light]\nenvironment = {}\n",
+                    Json(environment).dump(-1, ' ', false, Json::error_handler_t::replace));
+    for (const NearLight& light : probe.near_lights) {
+        if (!light.usable()) continue;
+        const std::string how =
+            light.from == "measured"
+                ? std::string("as measured")
+                : fmt::format("{:.4g} away{}, edges within {:.2f} degrees", light.distance,
+                              light.from == "parallax"
+                                  ? fmt::format(" (sigma {:.2g})", light.distance_sigma)
+                                  : std::string(" as given"),
+                              degrees(light.residual));
+        toml += fmt::format(
+            "\n[[light.plane]]  # {}\npoint = {}\nnormal = {}\nu = {}\nv = {}\nradiance = {}\n",
+            how, vector(light.window.middle), vector(light.normal), vector(light.window.u),
+            vector(light.window.v),
+            vector({light.radiance[0], light.radiance[1], light.radiance[2]}));
+    }
+    return toml;
 }
 
 std::string coverage_png(const LightProbe& probe) {
@@ -123,7 +181,7 @@ std::string coverage_png(const LightProbe& probe) {
                painted(light.coverage, light.map.width, light.map.height, 1, ColourMap::error),
                ColourMap::error, "unseen", "in the middle of a ball");
     const std::string caption =
-        probe.views.size() > 1
+        probe.views.size() > 1 && !probe.moved
             ? fmt::format("Disagreement of the views: {:.2f} stops on average, 99 % below {:.2f}",
                           probe.mean_disagreement, probe.worst_disagreement)
             : std::string("Disagreement: needs a second view");

@@ -92,7 +92,7 @@ Vec3 MirrorBall::ray(const PixelPlace& place) const {
     return ray_through(place, principal_, focal_px_);
 }
 
-std::optional<Vec3> MirrorBall::direction_of(const PixelPlace& place) const {
+std::optional<MirrorBall::Reflection> MirrorBall::reflection_at(const PixelPlace& place) const {
     const Vec3 v = ray(place);
     // The ray's nearest point to the centre lies at `beside` from it, |beside| = L sin psi.
     const double along = glm::dot(v, centre_);
@@ -100,7 +100,13 @@ std::optional<Vec3> MirrorBall::direction_of(const PixelPlace& place) const {
     const double inside = 1 - glm::dot(beside, beside);
     if (inside <= 0) return std::nullopt;
     const Vec3 normal = beside - std::sqrt(inside) * v;
-    return glm::normalize(v - 2 * glm::dot(v, normal) * normal);
+    return Reflection{normal, glm::normalize(v - 2 * glm::dot(v, normal) * normal)};
+}
+
+std::optional<Vec3> MirrorBall::direction_of(const PixelPlace& place) const {
+    const auto reflection = reflection_at(place);
+    if (!reflection) return std::nullopt;
+    return reflection->direction;
 }
 
 std::optional<PixelPlace> MirrorBall::place_of(const Vec3& direction) const {
@@ -128,6 +134,24 @@ std::optional<PixelPlace> MirrorBall::place_of(const Vec3& direction) const {
     if (point.z >= 0) return std::nullopt;
     return PixelPlace{principal_.x - focal_px_ * point.x / point.z,
                       principal_.y + focal_px_ * point.y / point.z};
+}
+
+std::optional<PixelPlace> MirrorBall::place_of_point(const Vec3& at, double nearness) const {
+    // Alhazen's problem by iteration: the direction from the point of the ball that showed the last
+    // direction. Each step's error is the last one's times about half the nearness.
+    constexpr int k_steps = 60;
+    Vec3 direction = glm::normalize(at);
+    for (int i = 0; i < k_steps; ++i) {
+        const auto place = place_of(direction);
+        if (!place) return std::nullopt;
+        const auto reflection = reflection_at(*place);
+        if (!reflection) return std::nullopt;
+        const Vec3 next = glm::normalize(at - nearness * reflection->at);
+        const double step = glm::length(next - direction);
+        direction = next;
+        if (step < 1e-13) break;
+    }
+    return place_of(direction);
 }
 
 double MirrorBall::blind_half_angle() const {

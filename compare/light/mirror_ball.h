@@ -3,7 +3,8 @@
 //
 // Camera frame: x to the right of the picture, y up, z from the scene towards the camera; the
 // camera is a pinhole that looks along -z. Pixels: x to the right, y down, the centre of the first
-// pixel at (0, 0). Lengths in radii of the ball. What the ball reflects is far away.
+// pixel at (0, 0). Lengths in radii of the ball. What the ball reflects is far away
+// unless a function speaks of a point.
 
 #include <limits>
 #include <optional>
@@ -37,9 +38,21 @@ public:
     /// Where the light of a pixel comes from: the unit direction after the reflection, exact for a
     /// finite distance; nothing beside the ball.
     std::optional<Vec3> direction_of(const PixelPlace& place) const;
+    /// The same with where on the unit ball it was reflected, from the ball's centre: what is near
+    /// lies on this line.
+    struct Reflection {
+        Vec3 at, direction;
+    };
+    std::optional<Reflection> reflection_at(const PixelPlace& place) const;
     /// The pixel that shows a direction; nothing in the blind cone behind the ball.
     std::optional<PixelPlace> place_of(const Vec3& direction) const;
 
+    /// The pixel that shows a point of the camera's frame, from the ball's centre: the light that
+    /// comes from `at / nearness`, so that nearness 0 is a direction. Nothing in the blind cone.
+    std::optional<PixelPlace> place_of_point(const Vec3& at, double nearness) const;
+
+    /// From the camera to the ball's centre, in its radii and the camera's frame.
+    const Vec3& centre() const { return centre_; }
     /// Unit direction from the ball to the camera.
     const Vec3& towards_camera() const { return towards_camera_; }
     double distance() const { return distance_; }

@@ -47,12 +47,13 @@ std::optional<NullWorth> null_worth(World world, const Score& photo, const Calib
     const std::size_t primary = index_of(calibration, photo.key);
     Score against = photo;
     against.null.clear();
-    std::vector<double> answers;
+    std::vector<double> answers, errors;
     for (const CalibrationDraw& draw : calibration.draws) {
         if (draw.world != world) continue;
         if (draw.scores[primary]) against.null.push_back(*draw.scores[primary]);
         // A draw that could not even be laid on the model is as far from it as any.
         answers.push_back(scale.answer(draw.scores).value_or(scale.largest_answer()));
+        errors.push_back(scale.of(draw.scores).deg.value_or(std::exp(scale.largest_answer())));
     }
     if (against.null.size() < 5) return std::nullopt;
     fill_null(against);
@@ -67,8 +68,8 @@ std::optional<NullWorth> null_worth(World world, const Score& photo, const Calib
             answers.begin(), answers.end(), [&](double a) { return a <= *photo_answer; }));
         worth.p = (worth.as_good + 1.0) / (worth.draws + 1.0);
     }
-    worth.least_deg = std::exp(*std::min_element(answers.begin(), answers.end()));
-    worth.median_deg = std::exp(middle(answers));
+    worth.least_deg = *std::min_element(errors.begin(), errors.end());
+    worth.median_deg = middle(errors);
     return worth;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -185,6 +186,52 @@ FacetErrorScale::FacetErrorScale(const Calibration& calibration,
     for (const double v : smoothed(variances)) {
         spread_.push_back(std::sqrt(std::max(v, k_least_variance)));
     }
+    joint_ = JointScores(joint_draws(calibration));
+}
+
+JointDraws FacetErrorScale::joint_draws(const Calibration& calibration) const {
+    JointDraws joint;
+    joint.levels = levels_;
+    joint.draws.resize(levels_.size());
+    for (const Curve& curve : curves_) joint.curves.push_back(curve.stretched);
+    for (const CalibrationDraw& draw : calibration.draws) {
+        if (draw.world != World::facet_error) continue;
+        const auto level = std::find(levels_deg_.begin(), levels_deg_.end(), draw.facet_error_deg);
+        joint.draws[static_cast<std::size_t>(level - levels_deg_.begin())].push_back(
+            stretched(draw.scores));
+    }
+    return joint;
+}
+
+std::vector<double> FacetErrorScale::stretched(
+    const std::vector<std::optional<double>>& scores) const {
+    std::vector<double> result;
+    for (const Curve& curve : curves_) {
+        const std::optional<double>& score = scores[curve.key];
+        result.push_back(score ? stretch(*score, curve.higher_is_better, curve.name)
+                               : std::numeric_limits<double>::quiet_NaN());
+    }
+    return result;
+}
+
+std::optional<FacetErrorScale::Explained> FacetErrorScale::explained(
+    const std::vector<std::optional<double>>& scores) const {
+    const auto average = averaged(scores);
+    const auto joint = joint_.of(stretched(scores));
+    if (!average || !joint) return std::nullopt;
+    if (joint->misfit <= 1) return Explained{joint->log_error, joint->misfit};
+    // `average_` rises with the levels.
+    std::vector<double> negative = average_;
+    for (double& v : negative) v = -v;
+    return Explained{inverse_of_falling(levels_, negative, -*average), joint->misfit};
+}
+
+std::optional<double> FacetErrorScale::answer(
+    const std::vector<std::optional<double>>& scores) const {
+    if (!usable()) return std::nullopt;
+    const auto found = explained(scores);
+    if (!found) return std::nullopt;
+    return found->log_deg + 0.5 * std::log(std::max(1.0, found->misfit));
 }
 
 double FacetErrorScale::logarithm(const Curve& curve, double score) const {
@@ -226,12 +273,9 @@ std::optional<double> FacetErrorScale::averaged(
 EquivalentError FacetErrorScale::of(const std::vector<std::optional<double>>& scores) const {
     EquivalentError result;
     if (!usable()) return result;
-    const auto average = averaged(scores);
-    if (!average) return result;
-    // `average_` rises with the levels.
-    std::vector<double> negative = average_;
-    for (double& v : negative) v = -v;
-    const double log_deg = inverse_of_falling(levels_, negative, -*average);
+    const auto found = explained(scores);
+    if (!found) return result;
+    const double log_deg = found->log_deg;
     const double spread = 1.96 * interpolated(levels_, spread_, log_deg);
     result.deg = std::exp(log_deg);
     result.low_deg = std::exp(log_deg - spread);

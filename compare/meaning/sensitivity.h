@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compare/meaning/calibration.h"
+#include "compare/meaning/joint_scores.h"
 
 namespace culet {
 
@@ -36,10 +37,12 @@ struct EquivalentError {
     bool at_least = false, at_most = false;  ///< beyond the curve's ends
 };
 
-/// Equivalent facet errors by several scores together. Each score's curve is made monotone and
-/// inverted in the logarithm of the error; the scores' answers are averaged with weights that are
-/// the inverse of the variance that each shows for right stones of about that error; and the
-/// average's own curve is inverted in turn, which takes its bias away.
+/// Equivalent facet errors by several scores together: the one that explains the scores best as
+/// they go together for right stones (joint_scores.h). Where none does, because the scores
+/// disagree as no right stone's do, each score's curve is made monotone and inverted in the
+/// logarithm of the error; the scores' answers are averaged with weights that are the inverse of
+/// the variance that each shows for right stones of about that error; and the average's own curve
+/// is inverted in turn, which takes its bias away.
 class FacetErrorScale {
 public:
     /// Of the calibration's draws with facet errors; `keys`: the scores that take part.
@@ -51,10 +54,10 @@ public:
     EquivalentError of(const std::vector<std::optional<double>>& scores) const;
     /// The curves with values, equivalents and weights of these scores.
     std::vector<SensitivityCurve> curves(const std::vector<std::optional<double>>& scores) const;
-    /// The scores' weighted average, log degrees, before its own curve is inverted: for ranking.
-    std::optional<double> answer(const std::vector<std::optional<double>>& scores) const {
-        return averaged(scores);
-    }
+    /// For ranking: the logarithm of the equivalent error, larger by half the logarithm of what
+    /// the scores' misfit is over the largest of right stones (as errors are scaled whose residuals
+    /// are too large: Birge 1932).
+    std::optional<double> answer(const std::vector<std::optional<double>>& scores) const;
     double largest_answer() const { return levels_.empty() ? 0 : levels_.back(); }
 
     static constexpr double k_least_deg = 0.01;  ///< stands for an error of 0
@@ -71,13 +74,20 @@ private:
     };
     double logarithm(const Curve& curve, double score) const;
     double weight(const Curve& curve, double log_deg) const;
+    std::vector<double> stretched(const std::vector<std::optional<double>>& scores) const;
+    JointDraws joint_draws(const Calibration& calibration) const;
+    struct Explained {
+        double log_deg = 0, misfit = 0;
+    };
+    std::optional<Explained> explained(const std::vector<std::optional<double>>& scores) const;
     std::optional<double> averaged(const std::vector<std::optional<double>>& scores) const;
 
     std::vector<double> levels_;      // log degrees
     std::vector<double> levels_deg_;  // 0 for the ceiling
     std::vector<Curve> curves_;
     std::vector<double> average_;  // the average's own monotone curve, a level each
-    std::vector<double> spread_;   // standard deviation of the average, a level each
+    JointScores joint_;
+    std::vector<double> spread_;  // standard deviation of the average, a level each
 };
 
 /// Non-decreasing least-squares fit (pool adjacent violators), weights alike.

@@ -43,11 +43,11 @@ double sum_of_agreement(const Target& target, const StoneView& view, double& var
         const int count = static_cast<int>(length / step);
         if (count < 3) continue;
         const double nx = dy / length, ny = -dx / length;
+        const EdgeMap::Direction along = target.edges.direction(nx, ny);
         double of_edge = 0;
         for (int i = 1; i + 1 < count; ++i) {
             const double share = (i + 0.5) / count;
-            of_edge += target.edges.agreement({edge.from.x + share * dx, edge.from.y + share * dy},
-                                              nx, ny);
+            of_edge += along.agreement({edge.from.x + share * dx, edge.from.y + share * dy});
         }
         const double witnesses = std::max(1.0, length / independent);
         const double mean = of_edge / (count - 2);

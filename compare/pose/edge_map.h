@@ -19,13 +19,29 @@ public:
     /// stone's diameter, `diameter_px`) are near.
     EdgeMap(const cv::Mat& colour, const cv::Mat& mask, double diameter_px, double reach);
 
-    /// 1 on an edge whose direction is that of the line with this unit normal, falling to 0 at
-    /// `reach` from it, less what is found on the average of the stone.
-    float agreement(const PicturePoint& at, double normal_x, double normal_y) const {
-        const int direction = direction_of(normal_x, normal_y);
-        const int x = static_cast<int>(at.x * scale_), y = static_cast<int>(at.y * scale_);
-        if (x < 0 || y < 0 || x >= width_ || y >= height_) return -chance_[direction];
-        return near_[direction].at<float>(y, x) - chance_[direction];
+    /// The map of one direction.
+    class Direction {
+    public:
+        /// 1 on an edge of this direction, falling to 0 at `reach` from it, less what is found on
+        /// the average of the stone.
+        float agreement(const PicturePoint& at) const {
+            const int x = static_cast<int>(at.x * scale_), y = static_cast<int>(at.y * scale_);
+            if (x < 0 || y < 0 || x >= near_.cols || y >= near_.rows) return -chance_;
+            return near_.at<float>(y, x) - chance_;
+        }
+
+    private:
+        friend class EdgeMap;
+        Direction(const cv::Mat& near, float chance, double scale)
+            : near_(near), chance_(chance), scale_(scale) {}
+        const cv::Mat& near_;
+        float chance_;
+        double scale_;
+    };
+    /// Of lines with this unit normal.
+    Direction direction(double normal_x, double normal_y) const {
+        const auto k = static_cast<std::size_t>(direction_of(normal_x, normal_y));
+        return {near_[k], chance_[k], scale_};
     }
     /// Standard deviation of `agreement` over the stone.
     double spread() const { return spread_; }

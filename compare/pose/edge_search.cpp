@@ -76,19 +76,23 @@ std::vector<FoundEdge> edges_across(const EdgePicture& picture, const WirePoint&
                                     double reach) {
     const int half = static_cast<int>(std::ceil(reach / k_step)) + 4;
     const int count = 2 * half + 1;
-    std::vector<cv::Vec3f> linear(static_cast<std::size_t>(count)), shown(linear);
-    for (int i = 0; i < count; ++i) {
-        const double t = (i - half) * k_step;
-        cv::Vec3f light(0, 0, 0), code(0, 0, 0);
+    const auto across = [&](const cv::Mat& plane, std::size_t i) {
+        const double t = (static_cast<double>(i) - half) * k_step;
+        cv::Vec3f sum(0, 0, 0);
         for (const double s : {-k_along, 0.0, k_along}) {
             const double x = point.at.x + t * point.normal_x - s * point.normal_y;
             const double y = point.at.y + t * point.normal_y + s * point.normal_x;
-            light += bilinear(picture.linear, x, y);
-            code += bilinear(picture.encoded, x, y);
+            sum += bilinear(plane, x, y);
         }
-        linear[static_cast<std::size_t>(i)] = light * (1.0f / 3);
-        shown[static_cast<std::size_t>(i)] = code * (1.0f / 3);
-    }
+        return sum * (1.0f / 3);
+    };
+    std::vector<cv::Vec3f> linear(static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = across(picture.linear, i);
+    // As shown, only where it is asked for: beside peaks.
+    const auto shown_step = [&](std::size_t i, std::size_t apart) {
+        return static_cast<double>(
+            step_between(across(picture.encoded, i + apart), across(picture.encoded, i - apart)));
+    };
     // Change over one pixel.
     std::vector<float> slope(linear.size(), 0.0f);
     for (std::size_t i = 1; i + 1 < linear.size(); ++i)
@@ -96,9 +100,8 @@ std::vector<FoundEdge> edges_across(const EdgePicture& picture, const WirePoint&
     std::vector<FoundEdge> found;
     for (std::size_t i = 3; i + 3 < slope.size(); ++i) {
         if (!(slope[i] > slope[i - 1] && slope[i] >= slope[i + 1])) continue;
-        const double contrast = static_cast<double>(step_between(shown[i + 3], shown[i - 3]));
-        const double near = static_cast<double>(step_between(shown[i + 1], shown[i - 1]));
-        if (contrast < picture.least_step || near < 0.5 * picture.least_step) continue;
+        const double contrast = shown_step(i, 3);
+        if (contrast < picture.least_step || shown_step(i, 1) < 0.5 * picture.least_step) continue;
         FoundEdge edge;
         edge.offset = (middle_of_peak(slope, i) - half) * k_step;
         if (std::abs(edge.offset) > reach) continue;

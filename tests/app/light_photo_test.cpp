@@ -108,6 +108,111 @@ TEST_F(LightAndPhoto, TwoBallsBecomeAnEnvironmentThatTheRendererReads) {
     }
 }
 
+// A window 9 radii away, its ball 10 mm in radius; the camera's file stands in for its distance.
+TEST_F(LightAndPhoto, ANearWindowBecomesAPlaneOfTheScene) {
+    const Vec3 middle{-9, 2, 1}, u{0, 1.5, 0}, v{0, 0, 1};
+    simulated::BallShot shot;
+    shot.width = 620;
+    shot.height = 180;
+    shot.radius = 60;
+    shot.centre_x = 100;
+    shot.centre_y = 90;
+    shot.distance = 25;
+    shot.samples = 2;
+    shot.world_from_camera = simulated::camera_at(0, 0);
+    shot.near = [&](const Vec3& from, const Vec3& direction) -> std::optional<Rgb> {
+        const double t = (middle.x - from.x) / direction.x;
+        const Vec3 at = from + t * direction - middle;
+        if (!(t > 0) || std::abs(at.y) > u.y || std::abs(at.z) > v.z) return std::nullopt;
+        return Rgb{7, 7, 7};
+    };
+    const auto dim = [](const Vec3& d) { return Rgb{0.3, 0.3, 0.3 + 0.1 * d.z}; };
+    const double focal = 60 * std::sqrt(25.0 * 25 - 1);
+    const simulated::Taken first = simulated::take(shot, dim);
+    const std::string here = write(first.photo, "here.exr");
+    // Moved to the right by 240 pixels, 4 radii: as far away as before, to a thousandth.
+    simulated::BallShot beside = shot;
+    beside.centre_x = 340;
+    const Vec3 ray((100 - 309.5) / focal, 0, -1), other((340 - 309.5) / focal, 0, -1);
+    const Vec3 moved = 25.0 * (glm::normalize(other) - glm::normalize(ray));
+    beside.place = shot.world_from_camera * moved;
+    const simulated::Taken second = simulated::take(beside, dim);
+    const std::string there = write(second.photo, "there.exr");
+    const auto outline = [](const simulated::Taken& t) {
+        return std::to_string(t.x) + "," + std::to_string(t.y) + "," + std::to_string(t.radius);
+    };
+    std::ofstream(file("lens.toml"))
+        << "[lens]\nsize = [620, 180]\nfocal_px = [" << focal << ", " << focal
+        << "]\nprincipal_px = [309.5, 89.5]\ndistortion = [0, 0, 0, 0, 0]\n";
+    const std::vector<std::string> words{"light",
+                                         here,
+                                         there,
+                                         "--moved",
+                                         "--camera",
+                                         file("lens.toml"),
+                                         "--ball-radius",
+                                         "10",
+                                         "--reflectance",
+                                         "0.6",
+                                         "--ball",
+                                         outline(first),
+                                         "--ball",
+                                         outline(second),
+                                         "--width",
+                                         "64",
+                                         "--sharpen",
+                                         "2",
+                                         "-o",
+                                         file("room.exr"),
+                                         "--table",
+                                         file("light.toml"),
+                                         "--json",
+                                         "-",
+                                         "-q"};
+    std::vector<std::string> near = words;
+    // Seen from the ball, the window is 20 degrees to the left of the camera and 6 above it: by
+    // the sine of half of that, times 60 pixels.
+    near.insert(near.end(), {"--near", "89,87"});
+    const ProgramRun run = run_culet(near);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto json = nlohmann::json::parse(run.out);
+    const auto& light = json.at("near_lights").at(0);
+    EXPECT_EQ(light.at("from"), "parallax");
+    // Outlines to 0.15 pixels of 60, doubled by the reflection, seen 4 radii apart.
+    const double bound = 92.0 * 9.2 / 4 * std::sqrt(2.0) * 2 * 0.15 / 60;
+    EXPECT_NEAR(light.at("distance").get<double>(), 10 * glm::length(middle), 3 * bound);
+    EXPECT_NEAR(light.at("radiance").at(0).get<double>(), 7, 0.05);
+
+    ASSERT_EQ(run_culet({"cut", "round-brilliant", "-o", file("cut.obj"), "-q"}).exit_code, 0);
+    std::ofstream(file("scene.toml"))
+        << "material = \"diamond\"\nmesh = \"cut.obj\"\n"
+        << std::ifstream(file("light.toml")).rdbuf() << "[camera]\nsize = [16, 16]\n";
+    const ProgramRun info = run_culet({"info", file("scene.toml")});
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+
+    const auto refused = [&](const std::vector<std::string>& more, const std::string& about) {
+        std::vector<std::string> all = words;
+        all.insert(all.end(), more.begin(), more.end());
+        expect_refused(all, about);
+    };
+    refused({"--near", "95"}, "X,Y,X2,Y2");
+    refused({"--near", "89,87,1"}, "X,Y,X2,Y2");
+    refused({"--near", "89,87", "--near-distance", "5"}, "outside the ball");
+    refused({"--near-distance", "50"}, "0 lights");
+    refused({"--near-window", "1,2,3"}, "half its width");
+    refused({"--near-window", "-90,0,0,0,1,0,0,1,0"}, "right angles");
+    refused({"--near-window", "-90,0,0,1,0,0,0,0,1"}, "through the ball");
+    refused({"--near", "100,50"}, "pixel 100,50 shows no light");
+    refused({"--turned", "90"}, "stands still");
+    const std::string env = file("none.exr");
+    expect_refused({"light", here, "-o", env, "--near", "89,87"}, "--table");
+    expect_refused({"light", here, "-o", env, "--near", "89,87", "--table", file("l.toml"),
+                    "--ball", "100,90,60"},
+                   "--ball-radius");
+    expect_refused({"light", here, "-o", env, "--camera", file("missing.toml")}, "no such file");
+    EXPECT_FALSE(fs::exists(env));
+}
+
 TEST_F(LightAndPhoto, BadBallsAreOneLine) {
     const std::string good = ball(0, "a.exr"), empty = flat("flat.exr", 0.3f);
     const std::string env = file("env.exr");

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -65,6 +66,10 @@ struct BallShot {
     double photographer = 0;  ///< half angle of a black disc behind the camera, radians
     int samples = 4;          ///< a pixel and axis
     std::function<Rgb(double, double)> background;  ///< of pixels; empty: the panorama itself
+    /// What stands near, before the panorama: its light along a line, in ball radii and the world's
+    /// frame. `place` is the ball's centre there.
+    std::function<std::optional<Rgb>(const Vec3&, const Vec3&)> near;
+    Vec3 place{0, 0, 0};
 };
 
 inline glm::dmat3 camera_at(double azimuth, double elevation) {
@@ -113,7 +118,11 @@ inline Taken take(const BallShot& shot, const Panorama& panorama) {
                     const Vec3 out = v - 2 * glm::dot(v, normal) * normal;
                     const bool photographer =
                         glm::dot(out, -axis) > std::cos(shot.photographer) && shot.photographer > 0;
-                    if (!photographer) light = panorama(shot.world_from_camera * out);
+                    const Vec3 in_world = shot.world_from_camera * out;
+                    std::optional<Rgb> near;
+                    if (shot.near)
+                        near = shot.near(shot.place + shot.world_from_camera * normal, in_world);
+                    if (!photographer) light = near ? *near : panorama(in_world);
                     for (double& c : light) c *= shot.reflectance;
                 } else {
                     light = shot.background ? shot.background(sx, sy)

@@ -1,0 +1,105 @@
+#include "compare/pose/pose_candidates.h"
+
+#include <algorithm>
+#include <glm/matrix.hpp>
+
+#include "compare/pose/same_look.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+constexpr int k_views_each = 12;  // of the coarse search, of either chirality
+constexpr int k_turned_from = 3;  // of these, turned all round
+constexpr int k_turned_each = 8;
+constexpr std::size_t k_refined = 24;
+
+void sort_by_score(std::vector<SeenView>& found) {
+    std::stable_sort(found.begin(), found.end(), [](const SeenView& a, const SeenView& b) {
+        return a.coarse.score > b.coarse.score;
+    });
+}
+
+std::vector<Candidate> worth_refining(const PoseTask& task, const std::vector<SeenView>& found) {
+    std::vector<Candidate> candidates;
+    for (const SeenView& one : found) {
+        const SeenView image = images_of(task, one.side, one.coarse.view).front();
+        const bool known =
+            std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& other) {
+                return other.side == image.side &&
+                       angle_between(other.view, image.coarse.view) < radians(k_same_view_deg);
+            });
+        if (!known) candidates.push_back({image.side, image.coarse.view, {}, {}});
+        if (candidates.size() >= k_refined) break;
+    }
+    return candidates;
+}
+
+}  // namespace
+
+std::vector<Candidate> coarse_candidates(const PoseTask& task) {
+    std::vector<SeenView> found;
+    for (const auto& side : task.sides) {
+        for (const CoarseView& view :
+             search_views(target_of(task, *side), side->start, task.options.search, k_views_each,
+                          task.progress))
+            found.push_back({side.get(), view});
+    }
+    sort_by_score(found);
+    report(task, 0.3);
+    if (task.options.all_turns) {
+        std::vector<SeenView> turned;
+        const std::size_t from = std::min<std::size_t>(k_turned_from, found.size());
+        for (std::size_t i = 0; i < from; ++i) {
+            for (const auto& side : task.sides) {
+                // A stone that looks alike mirrored looks so from the mirrored direction.
+                StoneView view = found[i].coarse.view;
+                if (side.get() != found[i].side) view.turn = mirrored_turn(view.turn);
+                for (const CoarseView& one :
+                     turned_views(target_of(task, *side), view, k_turned_each))
+                    turned.push_back({side.get(), one});
+            }
+        }
+        found.insert(found.end(), turned.begin(), turned.end());
+        sort_by_score(found);
+    }
+    report(task, 0.4);
+    return worth_refining(task, found);
+}
+
+std::vector<SeenView> images_of(const PoseTask& task, const PhotoSide* side,
+                                const StoneView& view) {
+    const glm::dmat3 flip(-1, 0, 0, 0, 1, 0, 0, 0, 1);
+    std::vector<SeenView> images;
+    for (const glm::dmat3& symmetry : task.symmetries) {
+        const bool mirrors = glm::determinant(symmetry) < 0;
+        SeenView image{side, {view, 0, 0}};
+        StoneView& there = image.coarse.view;
+        there.turn = view.turn * glm::transpose(symmetry);
+        if (mirrors) {
+            if (task.sides.size() < 2) continue;
+            image.side = task.sides[side == task.sides[0].get() ? 1 : 0].get();
+            there.turn = flip * there.turn;
+            there.at.x = task.start.width - view.at.x;
+            there.sight.x = task.start.width - view.sight.x;
+        }
+        images.push_back(image);
+    }
+    std::stable_sort(images.begin(), images.end(), [](const SeenView& a, const SeenView& b) {
+        return nearer_to_start(a.side, a.coarse.view, b.side, b.coarse.view);
+    });
+    return images;
+}
+
+bool nearer_to_start(const PhotoSide* a_side, const StoneView& a, const PhotoSide* b_side,
+                     const StoneView& b) {
+    if (a_side->mirrored != b_side->mirrored) return !a_side->mirrored;
+    return angle_between(a, a_side->start) < angle_between(b, b_side->start);
+}
+
+double angle_between(const StoneView& a, const StoneView& b) {
+    return angle_of(a.turn * glm::transpose(b.turn));
+}
+
+}  // namespace culet

@@ -1,0 +1,110 @@
+#include "compare/pose/pose_task.h"
+
+#include <opencv2/core.hpp>
+
+#include "compare/pixels.h"
+#include "stone/checks.h"
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+constexpr double k_edge_reach = 0.012;  // of the edge map, of the diameter
+
+}  // namespace
+
+PhotoSide::PhotoSide(const cv::Mat& colour, const cv::Mat& mask, double saturation,
+                     const Camera& start_camera, const Vec3& middle, bool mirrored_)
+    : mirrored(mirrored_),
+      shape(outline_shape(mask)),
+      map(colour, mask, shape.diameter, k_edge_reach),
+      picture(colour, saturation) {
+    Camera camera = start_camera;
+    if (mirrored && camera.principal_point)
+        (*camera.principal_point)[0] = camera.width - (*camera.principal_point)[0];
+    start = stone_view(camera, middle);
+}
+
+void require_suitable(const Photo& photo, const Solid& solid, const Camera& start,
+                      const PoseOptions& options) {
+    if (start.cone)
+        throw InputError("a conoscope shows directions, not the stone: no pose to find");
+    if (start.optics.two_windows)
+        throw InputError("a dichroscope's two windows show the stone twice: give one of them");
+    if (!is_closed(solid) || !is_convex(solid)) {
+        throw InputError(
+            "a pose is found for closed, convex stones only: see what culet info says of this one");
+    }
+    const auto pixels =
+        static_cast<std::size_t>(photo.width) * static_cast<std::size_t>(photo.height);
+    if (!options.mask.empty() && options.mask.size() != pixels)
+        throw InputError("the mask has another size than the photograph");
+}
+
+Camera resized_to(const Camera& start, int width, int height) {
+    Camera camera = start;
+    if (camera.principal_point) {
+        (*camera.principal_point)[0] *= static_cast<double>(width) / start.width;
+        (*camera.principal_point)[1] *= static_cast<double>(height) / start.height;
+    }
+    camera.width = width;
+    camera.height = height;
+    return camera;
+}
+
+Silhouette silhouette_of(const Photo& photo, const PoseOptions& options, const cv::Mat& colour) {
+    const auto as_plane = [&](const std::vector<float>& values) {
+        return cv::Mat(photo.height, photo.width, CV_32F, const_cast<float*>(values.data()));
+    };
+    if (!options.mask.empty()) return silhouette_from_coverage(as_plane(options.mask), "mask");
+    if (!photo.coverage.empty()) {
+        const cv::Mat coverage = as_plane(photo.coverage);
+        double least = 0, most = 0;
+        cv::minMaxLoc(coverage, &least, &most);
+        if (least < 0.5 && most > 0.5) return silhouette_from_coverage(coverage, "coverage");
+    }
+    return silhouette_from_background(colour);
+}
+
+cv::Mat exposed(const Photo& photo, double& saturation) {
+    const cv::Mat colour = colour_of(photo);
+    const cv::Mat everywhere(colour.size(), CV_8U, cv::Scalar(255));
+    const double bright = quantile(luminance(colour), everywhere, 0.995);
+    saturation = photo.saturation;
+    if (!(bright > 0)) return colour.clone();
+    saturation /= bright;
+    return colour * (1 / bright);
+}
+
+void make_sides(PoseTask& task, const cv::Mat& colour, const cv::Mat& mask, double saturation) {
+    task.sides.push_back(
+        std::make_unique<PhotoSide>(colour, mask, saturation, task.start, task.wire.middle, false));
+    if (!task.options.both_chiralities) return;
+    cv::Mat flipped, flipped_mask;
+    cv::flip(colour, flipped, 1);
+    cv::flip(mask, flipped_mask, 1);
+    task.sides.push_back(std::make_unique<PhotoSide>(flipped, flipped_mask, saturation, task.start,
+                                                     task.wire.middle, true));
+}
+
+void report(const PoseTask& task, double fraction) {
+    if (task.progress && !task.progress(fraction)) throw Interrupted();
+}
+
+Target target_of(const PoseTask& task, const PhotoSide& side) {
+    return {task.wire, side.shape, side.map, side.start.focal_px(), task.options.facet_error};
+}
+
+RefineSettings settings_of(const PoseTask& task, const PhotoSide& side) {
+    RefineSettings settings;
+    settings.prior_focal_px = task.prior_focal_px;
+    settings.sight = side.start.sight;
+    settings.facet_error = task.options.facet_error;
+    settings.focal_error = task.options.focal_error;
+    settings.principal_point_error = task.options.principal_point_error * task.start.width;
+    settings.diameter_px = side.shape.diameter;
+    return settings;
+}
+
+}  // namespace culet

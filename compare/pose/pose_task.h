@@ -1,0 +1,58 @@
+#pragma once
+// What a pose is looked for in: the photograph as it is and turned left to right, the solid, and
+// where the camera about stood.
+
+#include <memory>
+#include <vector>
+
+#include "compare/pose/coarse_search.h"
+#include "compare/pose/edge_search.h"
+#include "compare/pose/edge_support.h"
+#include "compare/pose/find_pose.h"
+#include "compare/pose/refine_view.h"
+#include "compare/silhouette.h"
+
+namespace culet {
+
+/// One photograph as it is, or turned left to right.
+struct PhotoSide {
+    PhotoSide(const cv::Mat& colour, const cv::Mat& mask, double saturation,
+              const Camera& start_camera, const Vec3& middle, bool mirrored_);
+    bool mirrored;
+    OutlineShape shape;
+    EdgeMap map;
+    EdgePicture picture;
+    StoneView start;
+};
+
+struct PoseTask {
+    WireSolid wire;
+    std::vector<glm::dmat3> symmetries;  ///< of the solid
+    Camera start;                        ///< with the photograph's size
+    const PoseOptions& options;
+    const Progress& progress;
+    std::vector<std::unique_ptr<PhotoSide>> sides;  ///< one, or two with both chiralities
+    double prior_focal_px = 0;
+};
+
+/// Throws InputError for what no pose can be found of.
+void require_suitable(const Photo& photo, const Solid& solid, const Camera& start,
+                      const PoseOptions& options);
+
+/// The start with the photograph's size: the same picture with more or fewer pixels.
+Camera resized_to(const Camera& start, int width, int height);
+
+Silhouette silhouette_of(const Photo& photo, const PoseOptions& options, const cv::Mat& colour);
+
+/// Brought to a common exposure: its bright parts near 1; `saturation` is where it clips then.
+cv::Mat exposed(const Photo& photo, double& saturation);
+
+void make_sides(PoseTask& task, const cv::Mat& colour, const cv::Mat& mask, double saturation);
+
+/// Throws Interrupted.
+void report(const PoseTask& task, double fraction);
+
+Target target_of(const PoseTask& task, const PhotoSide& side);
+RefineSettings settings_of(const PoseTask& task, const PhotoSide& side);
+
+}  // namespace culet
