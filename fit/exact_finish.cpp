@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fit/leaning.h"
+#include "fit/turning.h"
 
 namespace culet {
 
@@ -277,6 +278,14 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
             leaning_better(relaxation, solver, settled.shape, softness, k_nearly_upright);
         if (!leaning) break;
         Settled other = settle(relaxation, solver, *leaning, {}, iterations, settled.chi2);
+        other.iterations += settled.iterations;
+        if (!(other.chi2 < settled.chi2 - 1e-3)) break;
+        settled = std::move(other);
+    }
+    for (int round = 0; round < 4; ++round) {
+        const auto turned = turned_better(relaxation, solver, settled.shape, softness);
+        if (!turned) break;
+        Settled other = settle(relaxation, solver, *turned, {}, iterations, settled.chi2);
         other.iterations += settled.iterations;
         if (!(other.chi2 < settled.chi2 - 1e-3)) break;
         settled = std::move(other);
