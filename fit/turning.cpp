@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "fit/orbits.h"
@@ -15,9 +16,12 @@ namespace culet {
 
 namespace {
 
-// Of the standard uncertainty with which the mesh says how the stone stands; jaws change corners
-// every few degrees.
-constexpr double k_range_sigmas = 5, k_pace_deg = 0.1;
+// Jaws change corners every few degrees. After half a turn a caliper reads the same.
+constexpr double k_pace_deg = 0.1, k_range_deg = 90;
+// A stone is laid between the jaws by eye.
+constexpr double k_laid_sigma_deg = 2;
+// What it costs in chi-square to take the mesh for turned altogether: five sigmas.
+constexpr double k_mesh_is_wrong = 25;
 // Of chi-square, a sigma in one reading: of ends as good as each other the nearest is kept.
 constexpr double k_least_gain = 1;
 // The calipers' variances in the model that does without them.
@@ -49,6 +53,11 @@ using Caliper = Relaxation::Caliper;
 // off by s each turn it by s / sqrt(sum of squared radii).
 struct Standing {
     double angle = 0, sigma = 0;
+
+    double misfit(double turn) const {
+        const double off = std::remainder(turn - angle, std::numbers::pi);
+        return off == 0 ? 0 : std::min(off * off / (sigma * sigma), k_mesh_is_wrong);
+    }
 };
 Standing standing_of_mesh(const std::vector<Vec3>& points, const std::vector<Vec3>& mesh) {
     Vec3 mean(0), mesh_mean(0);
@@ -64,9 +73,10 @@ Standing standing_of_mesh(const std::vector<Vec3>& points, const std::vector<Vec
         radii += a.x * a.x + a.y * a.y;
         mesh_radii += b.x * b.x + b.y * b.y;
     }
-    if (!(radii > 0)) return {};
+    if (!(radii > 0)) return {0, radians(k_range_deg)};
     const double off = std::max(0.0, radii + mesh_radii - 2 * std::hypot(east, north));
-    return {std::atan2(north, east), std::sqrt(off / (2 * double(points.size())) / radii)};
+    const double by_corners = std::sqrt(off / (2 * double(points.size())) / radii);
+    return {std::atan2(north, east), std::hypot(by_corners, radians(k_laid_sigma_deg))};
 }
 
 struct Jaws {
@@ -180,8 +190,8 @@ Misfit misfit_at(const std::vector<Caliper>& calipers, const Corners& corners, d
 
 }  // namespace
 
-std::optional<Shape> turned_better(Relaxation& relaxation, SaddleSolver& solver, const Shape& shape,
-                                   const Softness& softness) {
+std::optional<Turned> turned_better(Relaxation& relaxation, SaddleSolver& solver,
+                                    const Shape& shape, const Softness& softness) {
     relaxation.choose(shape, softness.incidence == 0);
     std::vector<Caliper> calipers = relaxation.calipers_that_tell_the_turn();
     if (calipers.size() < 2) return std::nullopt;
@@ -237,8 +247,15 @@ std::optional<Shape> turned_better(Relaxation& relaxation, SaddleSolver& solver,
     corners.column.assign(shape.points.size(), -1);
     std::vector<int> touched;
     const Standing mesh = standing_of_mesh(shape.points, relaxation.system().mesh_shape().points);
-    const double range = std::min(k_range_sigmas * mesh.sigma, radians(90)),
-                 pace = radians(k_pace_deg);
+    // What the other readings leave at least; then at each turn the calipers.
+    const double others =
+        sheet.rows.residuals().dot(moved.forces) + along_turn * along_turn / of_turn;
+    const double gain = sheet.merit + mesh.misfit(0) - others;
+    if (!(gain > k_least_gain)) return std::nullopt;
+    const double range = gain > k_mesh_is_wrong
+                             ? radians(k_range_deg)
+                             : std::min(mesh.sigma * std::sqrt(gain), radians(k_range_deg));
+    const double pace = radians(k_pace_deg);
     const int from = static_cast<int>(std::floor((mesh.angle - range) / pace)),
               to = static_cast<int>(std::ceil((mesh.angle + range) / pace));
     for (int k = from; k <= to; ++k) {
@@ -266,15 +283,14 @@ std::optional<Shape> turned_better(Relaxation& relaxation, SaddleSolver& solver,
     corners.covariance =
         functionals.transpose() * solved.unknowns - with_turn * with_turn.transpose() / of_turn;
 
-    // What the other readings leave at least; then at each turn the calipers.
-    const double others =
-        sheet.rows.residuals().dot(moved.forces) + along_turn * along_turn / of_turn;
+    double best_sum = gain - k_least_gain;
     Misfit best;
-    best.chi2 = sheet.merit - others - k_least_gain;
     int best_pace = 0;
     for (int k = from; k <= to; ++k) {
         Misfit misfit = misfit_at(calipers, corners, k * pace, pace);
-        if (!(misfit.chi2 < best.chi2)) continue;
+        const double sum = misfit.chi2 + mesh.misfit(k * pace);
+        if (!(sum < best_sum)) continue;
+        best_sum = sum;
         best = std::move(misfit);
         best_pace = k;
     }
@@ -283,10 +299,10 @@ std::optional<Shape> turned_better(Relaxation& relaxation, SaddleSolver& solver,
     step +=
         solved.unknowns * best.forces - turned.unknowns * (with_turn.dot(best.forces) / of_turn);
     if (!(step.cwiseAbs().maxCoeff() < k_longest)) return std::nullopt;
-    Shape result = moved_by(step);
+    Turned result{moved_by(step), mesh.misfit(0) - mesh.misfit(best_pace * pace)};
     const glm::dmat3 by = turn_about_z(best_pace * pace);
-    for (Vec3& n : result.normals) n = by * n;
-    for (Vec3& p : result.points) p = by * p;
+    for (Vec3& n : result.shape.normals) n = by * n;
+    for (Vec3& p : result.shape.points) p = by * p;
     return result;
 }
 

@@ -178,6 +178,38 @@ void time_table(BenchTables& tables, unsigned seeds, bool large) {
     tables.remark(fmt::format("most memory: {:.0f} MB", double(usage.ru_maxrss) / 1024));
 }
 
+// From an earlier result, after one reading was read again (by another draw of its error).
+void refit_table(BenchTables& tables, unsigned seeds) {
+    tables.section("refit", "from the last result after one edited reading; figure: 10 ms",
+                   {"readings", "ms, least", "ms", "ms, most", "as fresh"});
+    for (const Class& c : k_classes) {
+        std::vector<double> times;
+        std::size_t count = 0;
+        unsigned same = 0;
+        for (unsigned seed = 1; seed <= seeds; ++seed) {
+            const Truth truth = make_truth(c.kind, c.symmetric, seed);
+            auto readings = read_by_instruments(truth, 1000 + seed);
+            FitOptions options;
+            options.start = fit_mesh(truth.stone, readings).result.solid;
+            const auto again = read_by_instruments(truth, 5000 + seed);
+            std::size_t edited = (7 * seed) % readings.size();
+            while (!readings[edited].value) edited = (edited + 1) % readings.size();
+            readings[edited].value = again[edited].value;
+            const Trial trial = fit_mesh(truth.stone, readings, options);
+            const Trial fresh = fit_mesh(truth.stone, readings);
+            times.push_back(1e3 * trial.cpu);
+            count = readings.size();
+            same += trial.result.start == "earlier result" &&
+                    trial.result.chi2 < fresh.result.chi2 + 0.1;
+        }
+        tables.line(c.name(), {fmt::format("{}", count),
+                               fmt::format("{:.1f}", *std::min_element(times.begin(), times.end())),
+                               fmt::format("{:.1f}", median(times)),
+                               fmt::format("{:.1f}", *std::max_element(times.begin(), times.end())),
+                               fmt::format("{}/{}", same, seeds)});
+    }
+}
+
 }  // namespace
 }  // namespace culet::bench
 
@@ -195,7 +227,7 @@ int main(int argc, char** argv) {
                    "noise and drawn: this one only, as the tables name it");
     app.add_option("--at", chosen.at, "noise and drawn: these errors only, in percent");
     app.add_option("--kicks", kicks, "in all")->check(CLI::Range(1, 1000000));
-    app.add_option("--section", section, "run this part only: noise, drawn, kick, times");
+    app.add_option("--section", section, "run this part only: noise, drawn, kick, refit, times");
     app.add_option("--json", json, "also write the tables here");
     app.add_flag("--verbose", chosen.verbose, "name each failure on stderr");
     app.add_flag("--large", large, "also time a stone of 1000 facets");
@@ -217,6 +249,7 @@ int main(int argc, char** argv) {
                           chosen.parts({0.05, 0.1, 0.2, 0.3}), chosen, wrongly_drawn);
         }
         if (wanted("kick")) kick_table(tables, kicks, chosen.verbose);
+        if (wanted("refit")) refit_table(tables, chosen.seeds);
         if (wanted("times")) time_table(tables, chosen.seeds, large);
         if (!json.empty()) write_text(json, tables.json({{"schema", "1"}}));
         return 0;
