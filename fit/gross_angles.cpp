@@ -38,9 +38,10 @@ struct Estimate {
 Estimate estimate_of(const FitResult& result, const Reading& r) {
     const FittedFacet& facet = result.facets[std::size_t(r.facets[0])];
     if (r.kind == ReadingKind::inclination) return {facet.inclination, facet.sigma_inclination};
-    // In the turn of the reading, so that both read alike.
-    const double azimuth = facet.azimuth - result.azimuth_zero;
-    return {r.value + wrapped(azimuth - r.value), facet.sigma_azimuth};
+    // From 0 to 360 degrees, or on either side of 0, as readings are written.
+    double azimuth = wrapped(facet.azimuth - result.azimuth_zero);
+    if (azimuth < 0 && r.value >= 0) azimuth += 2 * std::numbers::pi;
+    return {azimuth, facet.sigma_azimuth};
 }
 
 // The narrow width of each facet of the mesh: area over length.
@@ -110,7 +111,9 @@ std::vector<std::size_t> contradicted_angles(const FitResult& without,
     std::vector<std::size_t> wrong;
     for (const std::size_t i : far) {
         const Estimate e = estimate_of(without, readings[i]);
-        const double apart = std::abs(e.value - readings[i].value);
+        const double apart = readings[i].kind == ReadingKind::azimuth
+                                 ? std::abs(wrapped(e.value - readings[i].value))
+                                 : std::abs(e.value - readings[i].value);
         const double limit =
             std::max(4.0, without.suspect_limit) * std::hypot(e.sigma, readings[i].sigma);
         if (apart > std::max(limit, radians(k_still_deg))) {
@@ -135,7 +138,8 @@ void accuse(const std::vector<Reading>& readings, const std::vector<Gross>& gros
         fitted->value = r.value;
         fitted->sigma = r.sigma;
         fitted->fitted = g.estimate;
-        fitted->residual = g.estimate - r.value;
+        fitted->residual =
+            r.kind == ReadingKind::azimuth ? wrapped(g.estimate - r.value) : g.estimate - r.value;
         fitted->normalized = fitted->residual / std::hypot(g.sigma, r.sigma);
         fitted->redundancy = 1;
         fitted->suspect = true;
