@@ -72,12 +72,24 @@ std::vector<Reading> without(const std::vector<Reading>& readings,
     return others;
 }
 
+// In how many rounds those that are wrong are told from those that only seem so.
+constexpr int k_most_rounds = 2;
+// Where the wrong reading was found, the stone is soon found too. Each start costs a large stone as
+// much as all of them a small one.
+constexpr int k_starts_without = 2;
+constexpr std::size_t k_large = 150;
+
+FitOptions with_few_starts(FitOptions options, const Stone& stone) {
+    const int few = stone.solid.facets.size() > k_large ? 1 : k_starts_without;
+    options.starts = std::min(options.starts, few);
+    return options;
+}
+
 // A fit that angles far off the mesh have spoilt, again without those that it then contradicts.
 std::optional<FitResult> fit_without_gross(const Stone& stone, const std::vector<Reading>& readings,
                                            std::vector<std::size_t> far, const FitOptions& options,
                                            const Progress& progress) {
-    // Each round is a whole search.
-    for (int round = 0; round < 3 && !far.empty(); ++round) {
+    for (int round = 0; round < k_most_rounds && !far.empty(); ++round) {
         FitResult result = fit(stone, without(readings, far), options, progress, SetsAside::no);
         if (result.status == FitStatus::not_converged) return std::nullopt;
         const std::vector<std::size_t> wrong = contradicted_angles(result, readings, far);
@@ -203,7 +215,8 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
     }
     judge(system, finished, diagnosis, result);
     if (const auto far = angles_far_from_mesh(system); may_be_bent(result, readings, far)) {
-        auto better = fit_without_gross(drawn, readings, far, options, progress);
+        auto better =
+            fit_without_gross(drawn, readings, far, with_few_starts(options, drawn), progress);
         // What explains a contradiction takes most of chi-square with it.
         if (better &&
             (result.status == FitStatus::not_converged || better->chi2 < 0.5 * result.chi2)) {
@@ -212,10 +225,11 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
     }
     if (sets_aside == SetsAside::yes) {
         auto better = fit_setting_aside(result, readings, [&](const std::vector<Reading>& others) {
-            return fit(drawn, others, options, progress, SetsAside::no);
+            return fit(drawn, others, with_few_starts(options, drawn), progress, SetsAside::no);
         });
         if (better) result = std::move(*better);
     }
+    result.options.starts = options.starts;
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (options.allow_topology) {
