@@ -38,7 +38,7 @@ Proposal proposal_of(const System& system, const Suspicion& suspicion) {
         k_trust * std::hypot(written(reading, suspicion.sigma), written(reading, reading.sigma));
     // A slip is an explanation only where the tolerance is small beside what it explains.
     if (!(tolerance < 0.25 * std::abs(value - wanted))) return proposal;
-    if (const auto slip = find_slip(value, wanted, tolerance, is_angle(reading.kind))) {
+    if (const auto slip = find_slip(value, wanted, tolerance, measured_by(reading.kind))) {
         proposal.slip = slip->what;
         proposal.corrected = is_angle(reading.kind) ? radians(slip->corrected) : slip->corrected;
     }

@@ -136,7 +136,10 @@ void Binder::set_value(Reading& reading) const {
             }
             break;
         case ReadingKind::azimuth:
-            if (v < -360 || v > 360) fail(fmt::format("value {:g} is outside -360..360", v));
+            if (v < -360 || v > 360) {
+                fail(fmt::format("value {:g} is outside -360..360 degrees (a turn less: {:g}?)", v,
+                                 std::fmod(v, 360)));
+            }
             break;
         case ReadingKind::dihedral:
             if (v <= 0 || v >= (stone_.convex ? 180 : 360)) {
@@ -174,8 +177,8 @@ std::string Binder::meant_inclination(double value) const {
     const auto found = facet_of_name_.find(written_->of[0]);
     if (found == facet_of_name_.end()) return {};
     const Vec3& normal = stone_.solid.facets[std::size_t(found->second)].plane.normal;
-    const auto slip =
-        find_slip(value, degrees(inclination(normal, stone_up())), k_slip_tolerance_deg, true);
+    const auto slip = find_slip(value, degrees(inclination(normal, stone_up())),
+                                k_slip_tolerance_deg, Measured::angle);
     return slip ? fmt::format(" ({}: {:g}?)", slip->what, slip->corrected) : std::string();
 }
 

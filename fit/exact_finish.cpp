@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fit/leaning.h"
+#include "fit/turning.h"
 
 namespace culet {
 
@@ -21,6 +22,7 @@ constexpr double k_rounding = 1e-14;
 constexpr double k_nearly_met = 1e-10;
 // Facets that may lean either way at the end.
 constexpr double k_nearly_upright = 0.1;
+constexpr int k_most_meanings = 8;
 constexpr int k_most_choices = 12;
 // A shape that leans another way is better within so many steps, or far off: twice chi-square and
 // so much.
@@ -244,7 +246,7 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
             }
         }
         merits.push_back(sheet.merit);
-        if (i >= k_hurry && !(sheet.merit < 2 * goal + k_far_off)) break;
+        if (i >= k_hurry && !(sheet.chi2 < 2 * goal + k_far_off)) break;
         const bool creeps = sheet.hard_sum < k_all_but_met && creeps_on(merits);
         if ((quiet >= k_quiet || creeps) && ends(true)) break;
     }
@@ -272,14 +274,21 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
     Settled settled = settle(relaxation, solver, start, {}, iterations);
     Softness softness;
     softness.with_priors = false;
-    for (int round = 0; round < 4; ++round) {
+    // What the readings may as well mean: each meaning has an end of its own.
+    const auto gains_from = [&](const Shape& another, double may_rise) {
+        const double goal = settled.chi2 + may_rise;
+        Settled other = settle(relaxation, solver, another, {}, iterations, goal);
+        other.iterations += settled.iterations;
+        if (!(other.chi2 < goal - 1e-3)) return false;
+        settled = std::move(other);
+        return true;
+    };
+    for (int round = 0; round < k_most_meanings; ++round) {
         const auto leaning =
             leaning_better(relaxation, solver, settled.shape, softness, k_nearly_upright);
-        if (!leaning) break;
-        Settled other = settle(relaxation, solver, *leaning, {}, iterations, settled.chi2);
-        other.iterations += settled.iterations;
-        if (!(other.chi2 < settled.chi2 - 1e-3)) break;
-        settled = std::move(other);
+        if (leaning && gains_from(*leaning, 0)) continue;
+        const auto turned = turned_better(relaxation, solver, settled.shape, softness);
+        if (!turned || !gains_from(turned->shape, turned->nearer)) break;
     }
     const double free_chi2 = settled.chi2;
     // Penalties let corners stand a hair above their neighbours. Those are held just below from now

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "fit/assess.h"
 #include "fit/describe.h"
@@ -22,6 +23,7 @@
 #include "fit/portfolio.h"
 #include "fit/refit.h"
 #include "fit/robust.h"
+#include "fit/set_aside.h"
 #include "fit/shape_findings.h"
 #include "fit/statistics.h"
 #include "fit/system.h"
@@ -46,6 +48,11 @@ const char* name_of(FitStatus status) {
 
 namespace {
 
+// Whether a fit that finds no stone is tried again without its first suspect.
+enum class SetsAside { no, yes };
+FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const FitOptions& options,
+              const Progress& progress, SetsAside sets_aside);
+
 // A gross error: beyond this the equations' bend matters. Not where no reading is a suspect: next
 // to corners that are held, readings that nothing checks have residuals that say nothing.
 bool needs_robust_view(const Diagnosis& diagnosis) {
@@ -65,13 +72,25 @@ std::vector<Reading> without(const std::vector<Reading>& readings,
     return others;
 }
 
+// In how many rounds those that are wrong are told from those that only seem so.
+constexpr int k_most_rounds = 2;
+// Where the wrong reading was found, the stone is soon found too. Each start costs a large stone as
+// much as all of them a small one.
+constexpr int k_starts_without = 2;
+constexpr std::size_t k_large = 150;
+
+FitOptions with_few_starts(FitOptions options, const Stone& stone) {
+    const int few = stone.solid.facets.size() > k_large ? 1 : k_starts_without;
+    options.starts = std::min(options.starts, few);
+    return options;
+}
+
 // A fit that angles far off the mesh have spoilt, again without those that it then contradicts.
 std::optional<FitResult> fit_without_gross(const Stone& stone, const std::vector<Reading>& readings,
                                            std::vector<std::size_t> far, const FitOptions& options,
                                            const Progress& progress) {
-    // Each round is a whole search.
-    for (int round = 0; round < 3 && !far.empty(); ++round) {
-        FitResult result = fit_stone(stone, without(readings, far), options, progress);
+    for (int round = 0; round < k_most_rounds && !far.empty(); ++round) {
+        FitResult result = fit(stone, without(readings, far), options, progress, SetsAside::no);
         if (result.status == FitStatus::not_converged) return std::nullopt;
         const std::vector<std::size_t> wrong = contradicted_angles(result, readings, far);
         if (wrong.size() == far.size()) {
@@ -81,6 +100,17 @@ std::optional<FitResult> fit_without_gross(const Stone& stone, const std::vector
         far = wrong;
     }
     return std::nullopt;
+}
+
+// Azimuths are said to count from the mesh, and count from elsewhere.
+std::string other_turn(const System& system) {
+    constexpr double k_noticed_deg = 5;
+    const double turn = degrees(std::remainder(system.mesh_turn(), 2 * std::numbers::pi));
+    if (!system.stone().azimuth_from_mesh || std::abs(turn) < k_noticed_deg) return {};
+    return fmt::format(
+        "by the azimuths read, the mesh stands turned by {:.0f} degrees: it was turned back; check "
+        "where azimuths, those of widths too, are counted from",
+        -turn);
 }
 
 // The mesh was drawn in another unit, most likely.
@@ -98,12 +128,10 @@ std::string other_size(const System& system) {
         factor > 1 ? "small" : "large", guess.empty() ? "" : ", as if drawn in another unit");
 }
 
-}  // namespace
-
-FitResult fit_stone(const Stone& drawn, const std::vector<Reading>& readings,
-                    const FitOptions& options, const Progress& progress) {
+FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const FitOptions& options,
+              const Progress& progress, SetsAside sets_aside) {
     if (const auto left_out = meaningless_azimuths(readings); !left_out.empty()) {
-        FitResult result = fit_stone(drawn, without(readings, left_out), options, progress);
+        FitResult result = fit(drawn, without(readings, left_out), options, progress, sets_aside);
         put_left_out(readings, left_out, result);
         return result;
     }
@@ -141,6 +169,7 @@ FitResult fit_stone(const Stone& drawn, const std::vector<Reading>& readings,
         result.notes.push_back(
             "by the azimuths read, the mesh is the mirror image of the stone: it was mirrored");
     }
+    if (const std::string note = other_turn(system); !note.empty()) result.notes.push_back(note);
     if (const std::string note = other_size(system); !note.empty()) result.notes.push_back(note);
     if (progress && !progress(0.7)) throw Interrupted();
     if (system.has_estimated_groups()) {
@@ -186,13 +215,21 @@ FitResult fit_stone(const Stone& drawn, const std::vector<Reading>& readings,
     }
     judge(system, finished, diagnosis, result);
     if (const auto far = angles_far_from_mesh(system); may_be_bent(result, readings, far)) {
-        auto better = fit_without_gross(drawn, readings, far, options, progress);
+        auto better =
+            fit_without_gross(drawn, readings, far, with_few_starts(options, drawn), progress);
         // What explains a contradiction takes most of chi-square with it.
         if (better &&
             (result.status == FitStatus::not_converged || better->chi2 < 0.5 * result.chi2)) {
             result = std::move(*better);
         }
     }
+    if (sets_aside == SetsAside::yes) {
+        auto better = fit_setting_aside(result, readings, [&](const std::vector<Reading>& others) {
+            return fit(drawn, others, with_few_starts(options, drawn), progress, SetsAside::no);
+        });
+        if (better) result = std::move(*better);
+    }
+    result.options.starts = options.starts;
     result.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (options.allow_topology) {
@@ -202,6 +239,13 @@ FitResult fit_stone(const Stone& drawn, const std::vector<Reading>& readings,
     }
     if (progress) progress(1);
     return result;
+}
+
+}  // namespace
+
+FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
+                    const FitOptions& options, const Progress& progress) {
+    return fit(stone, readings, options, progress, SetsAside::yes);
 }
 
 }  // namespace culet

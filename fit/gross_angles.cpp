@@ -9,6 +9,7 @@
 
 #include "fit/fitted_parts.h"
 #include "fit/slips.h"
+#include "stone/errors.h"
 #include "stone/units.h"
 
 namespace culet {
@@ -37,9 +38,10 @@ struct Estimate {
 Estimate estimate_of(const FitResult& result, const Reading& r) {
     const FittedFacet& facet = result.facets[std::size_t(r.facets[0])];
     if (r.kind == ReadingKind::inclination) return {facet.inclination, facet.sigma_inclination};
-    // In the turn of the reading, so that both read alike.
-    const double azimuth = facet.azimuth - result.azimuth_zero;
-    return {r.value + wrapped(azimuth - r.value), facet.sigma_azimuth};
+    // From 0 to 360 degrees, or on either side of 0, as readings are written.
+    double azimuth = wrapped(facet.azimuth - result.azimuth_zero);
+    if (azimuth < 0 && r.value >= 0) azimuth += 2 * std::numbers::pi;
+    return {azimuth, facet.sigma_azimuth};
 }
 
 // The narrow width of each facet of the mesh: area over length.
@@ -98,7 +100,7 @@ bool may_be_bent(const FitResult& result, const std::vector<Reading>& readings,
     if (far.empty()) return false;
     if (result.status == FitStatus::not_converged) return true;
     if (result.status != FitStatus::contradictory) return false;
-    if (result.suspects.empty()) return true;
+    if (result.suspects.size() != 1) return true;
     return std::none_of(far.begin(), far.end(),
                         [&](std::size_t i) { return readings[i].id == result.suspects.front(); });
 }
@@ -109,7 +111,9 @@ std::vector<std::size_t> contradicted_angles(const FitResult& without,
     std::vector<std::size_t> wrong;
     for (const std::size_t i : far) {
         const Estimate e = estimate_of(without, readings[i]);
-        const double apart = std::abs(e.value - readings[i].value);
+        const double apart = readings[i].kind == ReadingKind::azimuth
+                                 ? std::abs(wrapped(e.value - readings[i].value))
+                                 : std::abs(e.value - readings[i].value);
         const double limit =
             std::max(4.0, without.suspect_limit) * std::hypot(e.sigma, readings[i].sigma);
         if (apart > std::max(limit, radians(k_still_deg))) {
@@ -119,51 +123,73 @@ std::vector<std::size_t> contradicted_angles(const FitResult& without,
     return wrong;
 }
 
-void put_back_gross(const std::vector<Reading>& readings, const std::vector<std::size_t>& gross,
-                    FitResult& result) {
+void accuse(const std::vector<Reading>& readings, const std::vector<Gross>& gross,
+            FitResult& result) {
     std::vector<Proposal> proposals;
     std::vector<std::string> ids;
     std::string text;
-    for (const std::size_t i : gross) {
-        const Reading& r = readings[i];
-        const Estimate e = estimate_of(result, r);
-        FittedReading fitted = as_taken(r);
-        fitted.fitted = e.value;
-        fitted.residual = e.value - r.value;
-        fitted.normalized = fitted.residual / std::hypot(e.sigma, r.sigma);
-        fitted.redundancy = 1;
-        fitted.suspect = true;
-        fitted.left_out = "no stone could be found with it";
-        result.readings.insert(result.readings.begin() + std::ptrdiff_t(i), std::move(fitted));
+    for (const Gross& g : gross) {
+        const Reading& r = readings[g.reading];
+        const double unit = is_angle(r.kind) ? degrees(1) : 1;
+        const auto fitted =
+            std::find_if(result.readings.begin(), result.readings.end(),
+                         [&](const FittedReading& other) { return other.id == r.id; });
+        check(fitted != result.readings.end(), "an accused reading is not listed");
+        fitted->value = r.value;
+        fitted->sigma = r.sigma;
+        fitted->fitted = g.estimate;
+        fitted->residual =
+            r.kind == ReadingKind::azimuth ? wrapped(g.estimate - r.value) : g.estimate - r.value;
+        fitted->normalized = fitted->residual / std::hypot(g.sigma, r.sigma);
+        fitted->redundancy = 1;
+        fitted->suspect = true;
+        fitted->left_out = "no stone could be found with it";
         Proposal proposal;
         proposal.id = r.id;
-        proposal.in_radians = true;
-        proposal.estimate = e.value;
-        proposal.sigma = e.sigma;
-        const double tolerance = 3.5 * degrees(std::hypot(e.sigma, r.sigma));
-        if (const auto slip = find_slip(degrees(r.value), degrees(e.value), tolerance, true)) {
+        proposal.in_radians = is_angle(r.kind);
+        proposal.estimate = g.estimate;
+        proposal.sigma = g.sigma;
+        if (const auto slip =
+                find_slip(unit * r.value, unit * g.estimate,
+                          3.5 * unit * std::hypot(g.sigma, r.sigma), measured_by(r.kind))) {
             proposal.slip = slip->what;
-            proposal.corrected = radians(slip->corrected);
+            proposal.corrected = slip->corrected / unit;
         }
-        text += fmt::format(
-            "{}{} ({} of {}: read {:g}, the others say {:.4g}{})", text.empty() ? "" : ", ", r.id,
-            name_of(r.kind), r.of.empty() ? result.facets[std::size_t(r.facets[0])].name : r.of[0],
-            degrees(r.value), degrees(e.value),
-            proposal.slip.empty()
-                ? ""
-                : fmt::format("; {}: {:g}?", proposal.slip, degrees(proposal.corrected)));
+        std::string of;
+        for (const std::string& name : r.of) of += (of.empty() ? " of " : "/") + name;
+        if (of.empty() && !r.facets.empty()) {
+            of = " of " + result.facets[std::size_t(r.facets[0])].name;
+        }
+        text +=
+            fmt::format("{}{} ({}{}: read {:g}, the others say {:.4g}{})", text.empty() ? "" : ", ",
+                        r.id, name_of(r.kind), of, unit * r.value, unit * g.estimate,
+                        proposal.slip.empty()
+                            ? ""
+                            : fmt::format("; {}: {:g}?", proposal.slip, unit * proposal.corrected));
         proposals.push_back(std::move(proposal));
         ids.push_back(r.id);
     }
     result.suspects.insert(result.suspects.begin(), ids.begin(), ids.end());
     result.proposals.insert(result.proposals.begin(), proposals.begin(), proposals.end());
-    const std::string left_out = fmt::format("{} cannot belong to the others and {} left out", text,
-                                             gross.size() == 1 ? "is" : "are");
+    const std::string left_out =
+        fmt::format("reading{} {} cannot belong to the others and {} left out",
+                    gross.size() == 1 ? "" : "s", text, gross.size() == 1 ? "is" : "are");
     result.message = result.status == FitStatus::converged
                          ? left_out
                          : left_out + "; without: " + result.message;
     if (result.status != FitStatus::not_converged) result.status = FitStatus::contradictory;
     result.notes.push_back(left_out);
+}
+
+void put_back_gross(const std::vector<Reading>& readings, const std::vector<std::size_t>& gross,
+                    FitResult& result) {
+    std::vector<Gross> all;
+    for (const std::size_t i : gross) {
+        result.readings.insert(result.readings.begin() + std::ptrdiff_t(i), as_taken(readings[i]));
+        const Estimate e = estimate_of(result, readings[i]);
+        all.push_back({i, e.value, e.sigma});
+    }
+    accuse(readings, all, result);
 }
 
 }  // namespace culet

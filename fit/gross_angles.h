@@ -16,7 +16,7 @@ namespace culet {
 std::vector<std::size_t> angles_far_from_mesh(const System& system);
 
 /// Whether a fit with this result would do better without them: it found no stone, or its readings
-/// disagree without any of these being named first.
+/// disagree and more than one is named, or another than these first.
 bool may_be_bent(const FitResult& result, const std::vector<Reading>& readings,
                  const std::vector<std::size_t>& far);
 
@@ -26,8 +26,19 @@ std::vector<std::size_t> contradicted_angles(const FitResult& without,
                                              const std::vector<Reading>& readings,
                                              const std::vector<std::size_t>& far);
 
-/// The result of a fit without them with these in their places again, named as suspects before all
-/// others with what they should be. The status is `contradictory` at best.
+/// A reading that cannot belong to the others, and what they say that it should be.
+struct Gross {
+    std::size_t reading = 0;
+    double estimate = 0, sigma = 0;
+};
+
+/// Names them as suspects before all others, with what they should be and the slip that would
+/// explain it. The status is `contradictory` at best. The result is of a fit that does without them
+/// and lists them all the same.
+void accuse(const std::vector<Reading>& readings, const std::vector<Gross>& gross,
+            FitResult& result);
+
+/// The result of a fit without these angles with them in their places again, accused.
 void put_back_gross(const std::vector<Reading>& readings, const std::vector<std::size_t>& gross,
                     FitResult& result);
 

@@ -216,7 +216,8 @@ std::vector<WrittenReading> read_readings_csv(const std::filesystem::path& file)
             throw InputError(file, row.line,
                              std::to_string(row.fields.size()) + " fields under a header of " +
                                  std::to_string(header.size()) +
-                                 "; quote a field that contains a comma");
+                                 "; write numbers with a decimal point, and quote a field that "
+                                 "contains a comma");
         }
         const auto field = [&](std::size_t column) -> std::string {
             const int i = at[column];

@@ -4,11 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include "stone/errors.h"
+#include "stone/half_edges.h"
+#include "stone/units.h"
 
 namespace culet {
 
@@ -84,11 +89,105 @@ bool mesh_is_in_another_unit(const std::vector<Reading>& readings, const Stone& 
     return std::max(middle, 1 / middle) > 2.5 && ratios.back() < 8 * ratios.front();
 }
 
+// Logarithms of how much larger readings are than the mesh, in their order, and whose they are.
+struct Asked {
+    std::vector<double> logs;
+    const Reading* first = nullptr;
+
+    void add(const Reading& reading, double of_mesh) {
+        if (!(of_mesh > 0) || !(reading.value > 0)) return;
+        logs.push_back(std::log(reading.value / of_mesh));
+        if (first == nullptr) first = &reading;
+    }
+    double middle() const {
+        std::vector<double> sorted = logs;
+        const auto at = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
+        std::nth_element(sorted.begin(), at, sorted.end());
+        return *at;
+    }
+};
+
+Asked asked_by_overall_lengths(const std::vector<Reading>& readings, const Stone& stone) {
+    Asked asked;
+    for (const Reading& r : readings) {
+        if (r.kind == ReadingKind::depth) asked.add(r, width_along(stone.solid, stone.up));
+        if (r.kind == ReadingKind::width) asked.add(r, diameter(stone.solid));
+    }
+    return asked;
+}
+
+Asked asked_by_edges(const std::vector<Reading>& readings, const Stone& stone) {
+    Asked asked;
+    std::map<std::pair<int, int>, double> lengths;
+    for (const Edge& e : half_edges(stone.solid).edges) {
+        lengths[std::minmax(e.left, e.right)] =
+            glm::length(stone.solid.vertices[e.from] - stone.solid.vertices[e.to]);
+    }
+    for (const Reading& r : readings) {
+        if (r.kind != ReadingKind::edge || r.facets.size() != 2) continue;
+        const auto found = lengths.find(std::minmax(r.facets[0], r.facets[1]));
+        if (found != lengths.end()) asked.add(r, found->second);
+    }
+    return asked;
+}
+
+// No mesh, however rough, has its edges so many times too long for its widths.
+constexpr double k_two_units = 8;
+constexpr std::size_t k_enough_edges = 5;
+
+void refuse_lengths_of_two_units(const Asked& overall, const Asked& edges, const Stone& stone) {
+    if (overall.logs.empty() || edges.logs.size() < k_enough_edges) return;
+    const double apart = overall.middle() - edges.middle();
+    if (std::abs(apart) < std::log(k_two_units)) return;
+    const bool few_overall = overall.logs.size() < edges.logs.size();
+    const Reading& named = few_overall ? *overall.first : *edges.first;
+    throw InputError(
+        named.file, named.line,
+        fmt::format("{} '{}' and others like it are about {:.3g} times too {} for the {} {}: is "
+                    "one kind in another unit? Every length must be in the stone's unit ({})",
+                    name_of(named.kind), named.id, std::exp(std::abs(apart)),
+                    (apart < 0) == few_overall ? "small" : "large",
+                    few_overall ? edges.logs.size() : overall.logs.size(),
+                    few_overall ? "edges that were read" : "widths and depths that were read",
+                    name_of(stone.unit)));
+}
+
+// A rough mesh may be collapsed to a twentieth of its volume; not to less.
+constexpr double k_impossible_volume = 100;
+
+void refuse_impossible_volume(const Reading& reading, const Stone& stone, double larger) {
+    const bool weighed = reading.kind == ReadingKind::weight;
+    const double mm3 =
+        std::abs(volume(stone.solid)) * std::pow(std::exp(larger) * mm_per(stone.unit), 3);
+    const double expected = weighed ? carat(mm3, stone.material.density_g_cm3.value_or(0)) : mm3;
+    if (!(expected > 0) || !(reading.value > 0)) return;
+    const double ratio = reading.value / expected;
+    if (std::max(ratio, 1 / ratio) < k_impossible_volume) return;
+    throw InputError(
+        reading.file, reading.line,
+        fmt::format("{} '{}' is {:g} {}, but a stone of this mesh's shape and of the lengths that "
+                    "were read has about {:.3g}; check the value{}",
+                    name_of(reading.kind), reading.id, reading.value, weighed ? "ct" : "mm3",
+                    expected,
+                    weighed ? ", its unit (carat) and the density" : " and its unit (mm3)"));
+}
+
 }  // namespace
 
 void refuse_other_units(const std::vector<Reading>& readings, const Stone& stone) {
-    if (mesh_is_in_another_unit(readings, stone)) return;
-    for (const Reading& reading : readings) refuse_other_unit(reading, stone);
+    if (!mesh_is_in_another_unit(readings, stone)) {
+        for (const Reading& reading : readings) refuse_other_unit(reading, stone);
+    }
+    const Asked overall = asked_by_overall_lengths(readings, stone),
+                edges = asked_by_edges(readings, stone);
+    refuse_lengths_of_two_units(overall, edges, stone);
+    const Asked& lengths = overall.logs.empty() ? edges : overall;
+    const double larger = lengths.logs.empty() ? 0 : lengths.middle();
+    for (const Reading& r : readings) {
+        if (r.kind == ReadingKind::volume || r.kind == ReadingKind::weight) {
+            refuse_impossible_volume(r, stone, larger);
+        }
+    }
 }
 
 }  // namespace culet

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <numeric>
 
 namespace culet {
 
@@ -62,6 +63,8 @@ Relaxation::Relaxation(const System& system, const Freedoms& freedoms)
             incidence_images_.push_back(images);
         }
     }
+    points_.resize(system.mesh_shape().points.size());
+    std::iota(points_.begin(), points_.end(), 0);
     choose(system.mesh_shape(), false);
     if (!system.stone().convex) return;
     const std::vector<Facet>& facets = system.stone().solid.facets;
@@ -377,6 +380,30 @@ std::vector<Relaxation::Folded> Relaxation::folded(const Shape& shape, double wi
                 if (is_new) result.emplace_back();
                 result[at->second].turns.push_back({row, shift});
             }
+        }
+        ++row;
+    }
+    return result;
+}
+
+std::vector<Relaxation::Caliper> Relaxation::calipers_that_tell_the_turn() const {
+    std::vector<Caliper> result;
+    // Mirrors and rotations of the stone have a place of their own, which would turn with it.
+    if (!freedoms_.orbits().empty() || !system_.mesh_shape().extras.empty()) return result;
+    int row = static_cast<int>(incidences_.size());
+    for (const Equation& e : equations_) {
+        const Reading& reading = system_.readings()[std::size_t(e.reading)];
+        const bool is_level = std::hypot(e.caliper.x, e.caliper.y) > 0;
+        if (reading.kind == ReadingKind::azimuth && reading.datum.kind == Datum::Kind::up) {
+            return {};
+        }
+        if (is_level) {
+            if (e.caliper.z != 0 || e.exact) return {};
+            const bool across_table = reading.kind == ReadingKind::table_width;
+            result.push_back({row, e.caliper, e.value, e.sigma,
+                              across_table
+                                  ? &system_.mesh_outline()->loops[std::size_t(system_.up_facet())]
+                                  : &points_});
         }
         ++row;
     }

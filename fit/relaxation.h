@@ -108,6 +108,15 @@ public:
         std::vector<Turn> turns;
     };
     std::vector<Folded> folded(const Shape& shape, double within) const;
+    /// Rows of `sheet` that say how wide the stone is along level directions, where nothing else
+    /// says how it stands about up; none where something does.
+    struct Caliper {
+        int row = -1;
+        Vec3 direction{0, 0, 0};
+        double value = 0, sigma = 0;
+        const std::vector<int>* corners = nullptr;  ///< that its jaws may touch
+    };
+    std::vector<Caliper> calipers_that_tell_the_turn() const;
 
     /// Second derivatives of the Lagrangian: of the incidences, which are bilinear, and of
     /// inclinations and edges, without which a turn of the whole stone would seem to change them.
@@ -123,6 +132,7 @@ private:
     std::vector<int> incidences_;              // one of each orbit
     std::vector<std::pair<int, int>> hinges_;  // facet, point: likewise
     std::vector<double> incidence_images_, hinge_images_;
+    std::vector<int> points_;          // all of them
     std::vector<Equation> equations_;  // of the readings, as chosen
     struct Tie {
         int one, other;

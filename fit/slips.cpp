@@ -19,7 +19,12 @@ std::optional<double> number_of(const std::string& text) {
 
 }  // namespace
 
-std::optional<Slip> find_slip(double written, double wanted, double tolerance, bool is_angle) {
+Measured measured_by(ReadingKind kind) {
+    if (is_angle(kind)) return Measured::angle;
+    return kind == ReadingKind::weight ? Measured::weight : Measured::length;
+}
+
+std::optional<Slip> find_slip(double written, double wanted, double tolerance, Measured measured) {
     if (!std::isfinite(written) || !std::isfinite(wanted) || !(tolerance > 0)) return std::nullopt;
     if (std::abs(written - wanted) <= tolerance) return std::nullopt;
     // Kinds of slips, the likelier first; of one kind the nearest counts.
@@ -28,12 +33,15 @@ std::optional<Slip> find_slip(double written, double wanted, double tolerance, b
                      {"decimal point moved", written / 10},
                      {"decimal point moved", written * 100},
                      {"decimal point moved", written / 100}});
-    if (is_angle) {
+    if (measured == Measured::angle) {
         kinds.push_back({{"counted from the other side", 90 - written},
                          {"counted from the other side", 180 - written},
                          {"half a turn off", written + 180},
                          {"half a turn off", written - 180},
                          {"wrong sign", -written}});
+    } else if (measured == Measured::weight) {
+        // 1 ct = 0.2 g
+        kinds.push_back({{"grams for carats", written * 5}, {"mg for carats", written / 200}});
     } else {
         kinds.push_back({{"inches for mm", written * 25.4}, {"mm for inches", written / 25.4}});
     }

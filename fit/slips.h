@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "fit/measurement.h"
+
 namespace culet {
 
 struct Slip {
@@ -11,10 +13,14 @@ struct Slip {
     double corrected = 0;  ///< the value without the slip
 };
 
+/// What a number is: each has slips of its own.
+enum class Measured { angle, length, weight };
+Measured measured_by(ReadingKind kind);
+
 /// The likeliest slip that turns a value near `wanted` (within `tolerance`) into `written`: the
-/// decimal point moved, digits swapped, inches taken for millimetres, an angle from the other side
-/// (90 - a, 180 - a, a +- 180), one digit wrong, lost or doubled. Nothing when none fits, or when
-/// `written` itself is within the tolerance.
-std::optional<Slip> find_slip(double written, double wanted, double tolerance, bool is_angle);
+/// decimal point moved, digits swapped, inches taken for millimetres, grams for carats, an angle
+/// from the other side (90 - a, 180 - a, a +- 180), one digit wrong, lost or doubled. Nothing when
+/// none fits, or when `written` itself is within the tolerance.
+std::optional<Slip> find_slip(double written, double wanted, double tolerance, Measured measured);
 
 }  // namespace culet

@@ -228,7 +228,10 @@ std::vector<std::string> fit_summary(const FitResult& result) {
         if (!sentence.empty()) sentences.push_back(std::move(sentence));
     };
     const bool stands = result.status != FitStatus::not_converged;
-    for (const std::string& note : result.notes) add(sentence_of(note));
+    for (const std::string& note : result.notes) {
+        // The verdict may have said so already.
+        if (sentences.front().find(note) == std::string::npos) add(sentence_of(note));
+    }
     for (const std::string& change : result.changes) add(sentence_of("changed: " + change));
     if (stands) add(least_sure(result));
     add(doubtful(result));

@@ -122,6 +122,8 @@ public:
 
     /// By how much the mesh was made larger to suit the lengths read.
     double mesh_scale() const { return mesh_scale_; }
+    /// By how much it was turned about up, to stand as the azimuths read say.
+    double mesh_turn() const { return turn_; }
     /// Length of the stone's unit that is 1 inside.
     double scale() const { return scale_; }
     /// Within 10 degrees of upright in the mesh.

@@ -177,18 +177,23 @@ TEST(Slips, AreRecognised) {
     };
     for (const Row& row : {Row{344, 34.4, "decimal point moved"}, Row{43.5, 34.5, "swapped"},
                            Row{55.5, 34.5, "other side"}}) {
-        const auto slip = find_slip(row.written, row.meant + 0.03, 0.2, true);
+        const auto slip = find_slip(row.written, row.meant + 0.03, 0.2, Measured::angle);
         ASSERT_TRUE(slip) << row.written;
         EXPECT_NEAR(slip->corrected, row.meant, 1e-9);
         EXPECT_THAT(slip->what, HasSubstr(row.what));
     }
-    const auto inch = find_slip(0.2559, 6.5, 0.02, false);
+    const auto inch = find_slip(0.2559, 6.5, 0.02, Measured::length);
     ASSERT_TRUE(inch);
     EXPECT_EQ(inch->what, "inches for mm");
-    EXPECT_NEAR(find_slip(1.24, 1.42, 0.01, false)->corrected, 1.42, 1e-12);
-    EXPECT_FALSE(find_slip(34.5, 34.52, 0.1, true));
-    EXPECT_FALSE(find_slip(NAN, 1, 0.1, true));
-    EXPECT_FALSE(find_slip(77.77, 34.5, 0.01, false));
+    EXPECT_NEAR(find_slip(1.24, 1.42, 0.01, Measured::length)->corrected, 1.42, 1e-12);
+    // A stone of 1.2 ct, weighed as 0.24 g.
+    const auto grams = find_slip(0.24, 1.203, 0.01, Measured::weight);
+    ASSERT_TRUE(grams);
+    EXPECT_EQ(grams->what, "grams for carats");
+    EXPECT_NEAR(grams->corrected, 1.2, 1e-12);
+    EXPECT_FALSE(find_slip(34.5, 34.52, 0.1, Measured::angle));
+    EXPECT_FALSE(find_slip(NAN, 1, 0.1, Measured::angle));
+    EXPECT_FALSE(find_slip(77.77, 34.5, 0.01, Measured::length));
 }
 
 TEST(Slips, OfAReadingAreNamedWithTheirCorrection) {

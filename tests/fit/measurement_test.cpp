@@ -162,6 +162,7 @@ TEST_F(ReadingFiles, ComplaintsNameTheLine) {
         complaint("inclination,C1,34,0.1,,,,a\ninclination,C2,34,0.1,,,,a\n"),
         ::testing::AllOf(HasSubstr("r.csv:3"), HasSubstr("'a' is taken"), HasSubstr("r.csv:2")));
     EXPECT_THAT(complaint("inclination,C1,34,0.1,,,,,,,\n"), HasSubstr("11 fields"));
+    EXPECT_THAT(complaint("azimuth,C1,364.9,0.1\n"), HasSubstr("4.9?"));
     EXPECT_THAT(complaint("inclination,\"C1,34,0.1\n"), HasSubstr("never closed"));
     EXPECT_THAT(complaint(std::string("inclination,\0C1,34,0.1\n", 24)), HasSubstr("zero byte"));
 }
@@ -175,6 +176,20 @@ TEST_F(ReadingFiles, LengthsInAnotherUnitAreNamed) {
     EXPECT_THAT(complaint("width,0,600,0.001\n"), HasSubstr("100 times"));
     EXPECT_THAT(complaint("width,0,40,0.001\n"), HasSubstr("check"));
     EXPECT_EQ(complaint("width,0,6.3,0.001\n"), "no complaint");
+}
+
+// One kind in mm, the other in inches: neither is the mesh's fault. A volume in another unit.
+TEST_F(ReadingFiles, LengthsOfTwoUnitsAreNamed) {
+    std::string edges, widths;
+    for (int k = 1; k <= 8; ++k) edges += "edge,T/S" + std::to_string(k) + ",1.4,0.01\n";
+    for (int k = 0; k < 4; ++k) widths += "width," + std::to_string(45 * k) + ",0.256,0.001\n";
+    EXPECT_THAT(complaint(edges + widths),
+                ::testing::AllOf(HasSubstr("r.csv:10"), HasSubstr("too small for the 8 edges"),
+                                 HasSubstr("another unit")));
+    EXPECT_THAT(complaint("width,0,6.3,0.01\nvolume,,100000,10\n"),
+                ::testing::AllOf(HasSubstr("r.csv:3"), HasSubstr("its unit (mm3)")));
+    EXPECT_THAT(complaint("width,0,6.3,0.01\nweight,,250,1\n"), HasSubstr("its unit (carat)"));
+    EXPECT_EQ(complaint("width,0,6.3,0.01\nweight,,0.2,0.01\n"), "no complaint");
 }
 
 TEST_F(ReadingFiles, WeightNeedsDensity) {
