@@ -6,17 +6,16 @@
 #include <glm/matrix.hpp>
 
 #include "fit/azimuth_turn.h"
+#include "stone/least_rotation.h"
 
 namespace culet {
 
 namespace {
 
-// The shortest turn that brings `up` to +z.
+// The least turn that brings `up` to +z.
 glm::dmat3 turn_to_z(const Vec3& up) {
-    if (up.z < -1 + 1e-12) return {1, 0, 0, 0, -1, 0, 0, 0, -1};
-    const double s = 1 / (1 + up.z);
-    return glm::transpose(glm::dmat3{1 - up.x * up.x * s, -up.x * up.y * s, -up.x, -up.x * up.y * s,
-                                     1 - up.y * up.y * s, -up.y, up.x, up.y, up.z});
+    const auto turned = [&](const Vec3& v) { return turned_with(up, {0, 0, 1}, v); };
+    return {turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1})};
 }
 
 glm::dmat3 about_up(double angle) {

@@ -14,6 +14,7 @@
 #include "fit/rounding.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
+#include "stone/least_rotation.h"
 
 namespace culet {
 
@@ -27,12 +28,11 @@ Vec3 times_transposed(const std::array<Vec3, 3>& rows, const Vec3& v) {
     return v.x * rows[0] + v.y * rows[1] + v.z * rows[2];
 }
 
-// The shortest turn that brings a unit direction to +z (half a turn about x for -z).
+// The least turn that brings a unit direction to +z (half a turn about x for -z), by rows.
 std::array<Vec3, 3> turn_to_z(const Vec3& n) {
-    if (n.z < -1 + 1e-12) return {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, -1}};
-    const double s = 1 / (1 + n.z);
-    return {Vec3{1 - n.x * n.x * s, -n.x * n.y * s, -n.x},
-            Vec3{-n.x * n.y * s, 1 - n.y * n.y * s, -n.y}, Vec3{n.x, n.y, n.z}};
+    if (n == Vec3{0, 0, -1}) return {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, -1}};
+    const Vec3 z{0, 0, 1};
+    return {turned_with(z, n, {1, 0, 0}), turned_with(z, n, {0, 1, 0}), n};
 }
 
 Vec3 about_z(const Vec3& v, double angle) {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "render/least_rotation.h"
+#include "stone/least_rotation.h"
 #include "render/scene.h"
 
 namespace culet {

@@ -4,7 +4,7 @@
 #include <limits>
 #include <numbers>
 
-#include "render/least_rotation.h"
+#include "stone/least_rotation.h"
 #include "render/path.h"
 #include "render/scene.h"
 #include "stone/perpendicular.h"

@@ -22,8 +22,8 @@
 #include "render/complex_vector.h"
 #include "tests/hard/hard_kinds.h"
 #include "tests/hard/textbook.h"
+#include "tests/random_attitudes.h"
 #include "tests/render/face_judge.h"
-#include "tests/render/random_attitudes.h"
 
 namespace culet::hard {
 

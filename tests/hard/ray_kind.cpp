@@ -18,7 +18,7 @@
 #include "render/probe.h"
 #include "stone/errors.h"
 #include "tests/hard/hard_scenes.h"
-#include "tests/render/random_attitudes.h"
+#include "tests/random_attitudes.h"
 
 namespace culet::hard {
 

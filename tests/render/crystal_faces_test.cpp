@@ -11,8 +11,8 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "tests/random_attitudes.h"
 #include "tests/render/face_judge.h"
-#include "tests/render/random_attitudes.h"
 
 namespace culet {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "render/complex_vector.h"
 #include "render/fresnel.h"
+#include "tests/random_attitudes.h"
 #include "tests/render/face_judge.h"
-#include "tests/render/random_attitudes.h"
 
 namespace culet {
 namespace {

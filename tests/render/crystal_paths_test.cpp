@@ -10,8 +10,8 @@
 #include <random>
 
 #include "render/eye_optics.h"
-#include "render/least_rotation.h"
 #include "render/light_paths.h"
+#include "stone/least_rotation.h"
 #include "stone/perpendicular.h"
 #include "tests/render/ray_stones.h"
 

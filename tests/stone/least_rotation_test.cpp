@@ -1,14 +1,14 @@
 // The least rotation between two directions, held against a quaternion's where that is well
 // conditioned, and against what any rotation keeps where the two are all but opposite.
 
-#include "render/least_rotation.h"
+#include "stone/least_rotation.h"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 
-#include "tests/render/random_attitudes.h"
+#include "tests/random_attitudes.h"
 
 namespace culet {
 namespace {
@@ -22,12 +22,11 @@ TEST(LeastRotation, is_that_of_a_quaternion) {
         const Vec3 from = random.direction(), to = random.direction(), v = random.direction();
         const double cosine = glm::dot(from, to);
         if (cosine < -0.9) continue;
-        const auto q = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(from.x, from.y, from.z),
-                                                          Eigen::Vector3d(to.x, to.y, to.z));
-        const Eigen::Vector3d w = q * Eigen::Vector3d(v.x, v.y, v.z);
-        // Half of the way between the two is known to so much.
-        const double limit = k_rounding / std::sqrt(1 + cosine);
-        EXPECT_LT(glm::length(turned_with(from, to, v) - Vec3(w.x(), w.y(), w.z())), limit);
+        const glm::dquat q =
+            glm::angleAxis(std::acos(cosine), glm::normalize(glm::cross(from, to)));
+        // The angle is known from its cosine to so much, and the axis likewise.
+        const double limit = k_rounding / std::sqrt(1 - cosine * cosine);
+        EXPECT_LT(glm::length(turned_with(from, to, v) - q * v), limit);
     }
 }
 
