@@ -45,7 +45,7 @@ private:
 };
 
 // `scale`: of shapes whose diameter is some 2 to 3.5.
-std::string stone(Draw& draw, double scale = 1) {
+std::string stone(Draw& draw, double scale = 1, double turned = 0.7) {
     const std::string shape = draw.one_of(
         {"random", "twins", "nick", "culet", "box", "bipyramid", "sphere", "cut", "culet"});
     std::string text = fmt::format("\n[stone]\nshape = \"{}\"\n", shape);
@@ -72,7 +72,7 @@ std::string stone(Draw& draw, double scale = 1) {
                             draw.one_of({"T", "P1", "C1", "G1"}), draw.power(-13, 0));
     }
     text += fmt::format("scale = {}\n", shape == "cut" ? 0.3 * scale : scale);
-    if (draw.chance(0.7)) text += fmt::format("turn = {}\n", draw.whole(1, 1 << 30));
+    if (draw.chance(turned)) text += fmt::format("turn = {}\n", draw.whole(1, 1 << 30));
     return text;
 }
 
@@ -198,7 +198,8 @@ std::string crystal_case(Draw& draw) {
 }
 
 std::string fit_case(Draw& draw) {
-    return "kind = \"fit\"\n" + stone(draw, draw.chance(0.5) ? 1 : draw.power(-9, 9)) +
+    // Readings are made as of a stone that stands upright: of a turned one they are no stone's.
+    return "kind = \"fit\"\n" + stone(draw, draw.chance(0.5) ? 1 : draw.power(-9, 9), 0.2) +
            "contract = 1e-9\n" +
            fmt::format("shift = {}\n", draw.chance(0.7) ? 0 : draw.power(0, 6)) +
            fmt::format("\n[mesh]\nshaken = {}\n", draw.chance(0.5) ? 0 : draw.power(-6, -1)) +
