@@ -58,6 +58,13 @@ bool is_convex(const Solid& solid) {
     if (!is_closed(solid)) return false;
     const double allowance = std::min(planarity(solid), k_largest_miss * diameter(solid));
     const Vec3 middle = centroid(solid);
+    // Of a surface that turns over the volume is that of differences: it may all but vanish, and
+    // the middle lie anywhere. Strictly within a convex solid there is no corner.
+    const double reach = glm::length(middle - solid.vertices.front());
+    if (!std::isfinite(reach) ||
+        std::find(solid.vertices.begin(), solid.vertices.end(), middle) != solid.vertices.end()) {
+        return false;
+    }
     double seen = 0;
     const std::vector<std::vector<int>> neighbours = tested_neighbours(solid);
     std::vector<bool> on_facet(solid.vertices.size());
