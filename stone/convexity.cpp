@@ -60,11 +60,7 @@ bool is_convex(const Solid& solid) {
     const Vec3 middle = centroid(solid);
     // Of a surface that turns over the volume is that of differences: it may all but vanish, and
     // the middle lie anywhere. Strictly within a convex solid there is no corner.
-    const double reach = glm::length(middle - solid.vertices.front());
-    if (!std::isfinite(reach) ||
-        std::find(solid.vertices.begin(), solid.vertices.end(), middle) != solid.vertices.end()) {
-        return false;
-    }
+    if (!std::isfinite(middle.x + middle.y + middle.z)) return false;
     double seen = 0;
     const std::vector<std::vector<int>> neighbours = tested_neighbours(solid);
     std::vector<bool> on_facet(solid.vertices.size());
@@ -72,6 +68,7 @@ bool is_convex(const Solid& solid) {
         const Facet& facet = solid.facets[f];
         std::vector<Vec3> loop;
         for (const int corner : facet.corners) loop.push_back(solid.vertices[corner]);
+        if (std::find(loop.begin(), loop.end(), middle) != loop.end()) return false;
         const Plane own = plane_through(loop);
         if (own.normal == Vec3{0, 0, 0}) return false;
         if (!is_convex_outline(flat_outline(solid, facet, own.normal), allowance)) return false;
