@@ -37,7 +37,7 @@ protected:
         };
         replace("\"stone.toml\"", "\"" + (k_samples / "dravite-step/stone.toml").string() + "\"");
         replace("[480, 400]", "[120, 100]");
-        replace("samples = 4", "samples = 1");
+        replace("[render]", "[render]\nsamples = 1");
         std::ofstream(file("scene.toml")) << scene;
         return file("scene.toml");
     }
