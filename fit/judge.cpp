@@ -14,7 +14,7 @@ namespace culet {
 namespace {
 
 // Contract with the user: corners lie on their planes to this part of the diameter.
-constexpr double k_planarity = 1e-9;
+constexpr double k_planarity = 1e-12;
 
 std::string names(const std::vector<std::string>& list) {
     std::string text;
