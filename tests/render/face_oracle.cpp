@@ -66,19 +66,20 @@ Vec null_vector(const Matrix& m) {
     return (1 / Number(sqrt(norm_of(best)))) * best;
 }
 
-// Two orthogonal null vectors of a real matrix of rank 1.
+// Two orthogonal null vectors of a symmetric matrix of rank 1, which is a multiple of row row^T.
+// The rows are complex for waves that do not travel.
 std::array<Vec, 2> null_plane(const Matrix& m) {
-    RealVec row{};
+    Vec row{};
     for (int i = 0; i < 3; ++i)
-        if (norm_of(m[i]) > dot(row, row)) row = real_part(m[i]);
-    row = unit(row);
+        if (norm_of(m[i]) > norm_of(row)) row = m[i];
     int least = 0;
     for (int i = 1; i < 3; ++i)
-        if (abs(row[i]) < abs(row[least])) least = i;
-    RealVec other{};
+        if (norm_of(row[i]) < norm_of(row[least])) least = i;
+    Vec other{};
     other[least] = 1;
-    const RealVec u = unit(cross(row, other));
-    return {complex_of(u), complex_of(cross(row, u))};
+    const auto of_length_one = [](const Vec& v) { return (1 / Number(sqrt(norm_of(v)))) * v; };
+    const Vec u = of_length_one(cross(row, other));
+    return {u, of_length_one(cross(row, conjugate(u)))};
 }
 
 struct Wave100 {
@@ -172,6 +173,7 @@ public:
             wave.complete(n_, crystal_.axes[odd_]);
         }
         // Pairs of one N that are no pair of forward and backward grazing waves: a plane of fields.
+        // In a crystal of three equal indices those that do not travel are such pairs too.
         for (int i = 0; i < 4; ++i)
             for (int j = 0; j < i; ++j) {
                 if (norm_of(found[i].q - found[j].q) > k_same * k_same) continue;
@@ -181,14 +183,14 @@ public:
                     largest = std::max(largest, norm_of(m[r]));
                     minors = std::max(minors, norm_of(cross(m[r], m[(r + 1) % 3])));
                 }
-                if (minors > Real("1e-60") * largest * largest || !found[i].propagates) continue;
+                if (minors > Real("1e-60") * largest * largest) continue;
                 const std::array<Vec, 2> fields = null_plane(m);
                 found[i].E = fields[0];
                 found[j].E = fields[1];
                 found[j].N = found[i].N;
                 found[i].complete(n_, crystal_.axes[odd_]);
                 found[j].complete(n_, crystal_.axes[odd_]);
-                make_orthogonal(found[i], found[j]);
+                if (found[i].propagates) make_orthogonal(found[i], found[j]);
             }
         std::sort(found.begin(), found.end(),
                   [](const Wave100& a, const Wave100& b) { return a.forward() > b.forward(); });

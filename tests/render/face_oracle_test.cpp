@@ -9,6 +9,7 @@
 
 #include "render/complex_vector.h"
 #include "stone/perpendicular.h"
+#include "tests/random_attitudes.h"
 
 namespace culet {
 namespace {
@@ -95,6 +96,25 @@ TEST(FaceOracle, waves_of_a_tilted_axis_obey_the_index_formula) {
                     cosine * cosine / (n_o * n_o) + (1 - cosine * cosine) / (n_e * n_e), 1e-14);
         const Vec3 eps_N = n_o * n_o * N + (n_e * n_e - n_o * n_o) * glm::dot(axis, N) * axis;
         EXPECT_NEAR(glm::length(pair[1].ray - glm::normalize(eps_N)), 0, 1e-14);
+    }
+}
+
+TEST(FaceOracle, waves_of_three_equal_indices_that_do_not_travel_are_those_of_glass) {
+    // Fresnel with an imaginary q inside (Born & Wolf 1.5.4): all is reflected, with the phases of
+    // s and p.
+    const double n = 1.3, n_outside = 1.4, K = 1.39, q = std::sqrt(n_outside * n_outside - K * K);
+    const Complex inside{0, std::sqrt(K * K - n * n)};
+    const double outer = n_outside * n_outside, inner = n * n;
+    for (unsigned seed = 1; seed <= 10; ++seed) {
+        const Answer a =
+            oracle::solve({RandomAttitudes(seed).frame(), {n, n, n}, n_outside, {K, 0, 0}});
+        EXPECT_LT(a.imbalance, 1e-40);
+        for (const oracle::Wave& wave : a.towards) EXPECT_FALSE(wave.propagates);
+        EXPECT_NEAR(std::abs(a.back[0][0] - (q - inside) / (q + inside)), 0, 1e-14);
+        EXPECT_NEAR(
+            std::abs(a.back[1][1] - (inner * q - outer * inside) / (inner * q + outer * inside)), 0,
+            1e-14);
+        EXPECT_LT(std::abs(a.back[0][1]) + std::abs(a.back[1][0]), 1e-30);
     }
 }
 
