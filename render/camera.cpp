@@ -2,8 +2,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "stone/least_rotation.h"
 #include "render/scene.h"
+#include "stone/least_rotation.h"
 
 namespace culet {
 

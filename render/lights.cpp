@@ -4,9 +4,9 @@
 #include <limits>
 #include <numbers>
 
-#include "stone/least_rotation.h"
 #include "render/path.h"
 #include "render/scene.h"
+#include "stone/least_rotation.h"
 #include "stone/perpendicular.h"
 
 namespace culet {
