@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "compare/meaning/level_curve.h"
+
 namespace culet {
 
 namespace {
@@ -14,19 +16,12 @@ constexpr int k_steps = 400;  // over all levels: hundredths of the error betwee
 // On the scores' logarithmic scales: below, draws agree by chance.
 constexpr double k_least_deviation = 1e-3;
 
-double between(const std::vector<double>& x, const std::vector<double>& y, double at) {
-    const auto above = std::upper_bound(x.begin() + 1, x.end() - 1, at);
-    const auto i = static_cast<std::size_t>(above - x.begin());
-    return y[i - 1] + (y[i] - y[i - 1]) * (at - x[i - 1]) / (x[i] - x[i - 1]);
-}
-
 }  // namespace
 
 JointScores::JointScores(const JointDraws& draws) : levels_(draws.levels), curves_(draws.curves) {
     const std::size_t scores = curves_.size(), levels = levels_.size();
-    // Variances about the curves; of a few draws each, shared with the neighbours.
-    std::vector<std::vector<double>> variance(scores, std::vector<double>(levels, 0.0));
     for (std::size_t s = 0; s < scores; ++s) {
+        std::vector<double> variances;
         for (std::size_t l = 0; l < levels; ++l) {
             double sum = 0, count = 0;
             for (const auto& draw : draws.draws[l]) {
@@ -35,18 +30,11 @@ JointScores::JointScores(const JointDraws& draws) : levels_(draws.levels), curve
                 sum += off * off;
                 ++count;
             }
-            variance[s][l] = count > 0 ? sum / count : 1;
+            variances.push_back(count > 0 ? sum / count : 1);
         }
         deviations_.emplace_back();
-        for (std::size_t l = 0; l < levels; ++l) {
-            double sum = 2 * variance[s][l], weight = 2;
-            for (const std::size_t next : {l - 1, l + 1}) {
-                if (next >= levels) continue;  // the one before the first wraps round, too
-                sum += variance[s][next];
-                ++weight;
-            }
-            deviations_[s].push_back(std::max(k_least_deviation, std::sqrt(sum / weight)));
-        }
+        for (const double variance : smoothed(variances))
+            deviations_[s].push_back(std::max(k_least_deviation, std::sqrt(variance)));
     }
     std::vector<double> products(scores * scores, 0.0);
     double complete = 0;
@@ -101,8 +89,8 @@ std::optional<JointScores::Answer> JointScores::fitted(const std::vector<double>
         const double at = levels_.front() + i * step;
         for (Eigen::Index a = 0; a < count; ++a) {
             const std::size_t s = known[static_cast<std::size_t>(a)];
-            z[a] = (scores[s] - between(levels_, curves_[s], at)) /
-                   between(levels_, deviations_[s], at);
+            z[a] = (scores[s] - interpolated(levels_, curves_[s], at)) /
+                   interpolated(levels_, deviations_[s], at);
         }
         const double squares = factor.matrixL().solve(z).squaredNorm();
         if (squares < best.misfit) best = {at, squares};

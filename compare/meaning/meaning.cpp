@@ -43,29 +43,30 @@ double middle(std::vector<double> values) {
 
 std::optional<NullWorth> null_worth(World world, const Score& photo, const Calibration& calibration,
                                     const FacetErrorScale& scale,
-                                    std::optional<double> photo_answer) {
+                                    std::optional<double> photo_rank) {
     const std::size_t primary = index_of(calibration, photo.key);
     Score against = photo;
     against.null.clear();
-    std::vector<double> answers, errors;
+    std::vector<double> ranks, errors;
     for (const CalibrationDraw& draw : calibration.draws) {
         if (draw.world != world) continue;
         if (draw.scores[primary]) against.null.push_back(*draw.scores[primary]);
         // A draw that could not even be laid on the model is as far from it as any.
-        answers.push_back(scale.answer(draw.scores).value_or(scale.largest_answer()));
-        errors.push_back(scale.of(draw.scores).deg.value_or(std::exp(scale.largest_answer())));
+        const EquivalentError error = scale.of(draw.scores);
+        ranks.push_back(error.rank.value_or(scale.largest_rank()));
+        errors.push_back(error.deg.value_or(std::exp(scale.largest_rank())));
     }
     if (against.null.size() < 5) return std::nullopt;
     fill_null(against);
     NullWorth worth;
     worth.world = world;
-    worth.draws = static_cast<int>(answers.size());
+    worth.draws = static_cast<int>(ranks.size());
     worth.mean = against.null_mean;
     worth.sd = against.null_sd;
     worth.z = against.z.value_or(0);
-    if (photo_answer) {
+    if (photo_rank) {
         worth.as_good = static_cast<int>(std::count_if(
-            answers.begin(), answers.end(), [&](double a) { return a <= *photo_answer; }));
+            ranks.begin(), ranks.end(), [&](double rank) { return rank <= *photo_rank; }));
         worth.p = (worth.as_good + 1.0) / (worth.draws + 1.0);
     }
     worth.least_deg = *std::min_element(errors.begin(), errors.end());
@@ -159,14 +160,14 @@ Meaning meaning_of(const std::vector<Score>& scores, const Calibration& calibrat
     const auto values = values_of(scores, calibration);
     meaning.equivalent = scale.of(values);
     meaning.curves = scale.curves(values);
-    const std::optional<double> answer = scale.answer(values);
-    meaning.evidence = -answer.value_or(scale.largest_answer());
+    const std::optional<double> rank = meaning.equivalent.rank;
+    meaning.evidence = -rank.value_or(scale.largest_rank());
 
     const std::string primary = geometry_only ? "cw_ssim" : k_primary;
     for (const Score& score : scores) {
         if (score.key != primary || !score.value) continue;
         for (const World world : {World::light, World::pose, World::both}) {
-            if (auto worth = null_worth(world, score, calibration, scale, answer)) {
+            if (auto worth = null_worth(world, score, calibration, scale, rank)) {
                 meaning.nulls.push_back(*worth);
             }
         }

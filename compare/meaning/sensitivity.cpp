@@ -6,6 +6,8 @@
 #include <map>
 #include <numeric>
 
+#include "compare/meaning/level_curve.h"
+
 namespace culet {
 
 namespace {
@@ -16,29 +18,6 @@ double stretch(double score, bool higher_is_better, const std::string& key) {
     if (key == "nmi") return std::log(std::max(1e-4, score - 1));
     if (higher_is_better) return -std::log(std::max(1e-4, 1 - score));
     return -std::log(std::max(1e-4, score));
-}
-
-double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
-    if (at <= x.front()) return y.front();
-    if (at >= x.back()) return y.back();
-    const auto above = std::upper_bound(x.begin(), x.end(), at);
-    const auto i = static_cast<std::size_t>(above - x.begin());
-    const double part = (at - x[i - 1]) / (x[i] - x[i - 1]);
-    return y[i - 1] + part * (y[i] - y[i - 1]);
-}
-
-// Where a non-increasing curve over x has this value: the middle of a flat stretch.
-double inverse_of_falling(const std::vector<double>& x, const std::vector<double>& y,
-                          double value) {
-    std::size_t first = 0;  // the first with y <= value
-    while (first < y.size() && y[first] > value) ++first;
-    if (first == y.size()) return x.back();
-    std::size_t last = first;
-    while (last + 1 < y.size() && y[last + 1] == y[first] && y[first] == value) ++last;
-    if (y[first] == value) return (x[first] + x[last]) / 2;
-    if (first == 0) return x.front();
-    const double part = (y[first - 1] - value) / (y[first - 1] - y[first]);
-    return x[first - 1] + part * (x[first] - x[first - 1]);
 }
 
 struct Moments {
@@ -57,31 +36,6 @@ Moments moments(const std::vector<double>& values) {
     return m;
 }
 
-std::vector<double> falling(std::vector<double> values) {
-    for (double& v : values) v = -v;
-    values = monotone(values);
-    for (double& v : values) v = -v;
-    return values;
-}
-
-// Variances of a few draws each are shared with the neighbours.
-std::vector<double> smoothed(const std::vector<double>& values) {
-    std::vector<double> result;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        double sum = 2 * values[i], weight = 2;
-        if (i > 0) {
-            sum += values[i - 1];
-            ++weight;
-        }
-        if (i + 1 < values.size()) {
-            sum += values[i + 1];
-            ++weight;
-        }
-        result.push_back(sum / weight);
-    }
-    return result;
-}
-
 // Two scores may agree by chance on eight draws: none is believed to better than 10 %.
 constexpr double k_least_variance = 0.1 * 0.1;
 
@@ -89,27 +43,6 @@ constexpr double k_least_variance = 0.1 * 0.1;
 
 std::vector<double> facet_errors_deg() {
     return {0.02, 0.05, 0.1, 0.2, 0.5, 1, 2};
-}
-
-std::vector<double> monotone(const std::vector<double>& values) {
-    struct Block {
-        double sum = 0;
-        std::size_t count = 0;
-        double mean() const { return sum / static_cast<double>(count); }
-    };
-    std::vector<Block> blocks;
-    for (const double value : values) {
-        blocks.push_back({value, 1});
-        while (blocks.size() > 1 && blocks[blocks.size() - 2].mean() > blocks.back().mean()) {
-            const Block last = blocks.back();
-            blocks.pop_back();
-            blocks.back().sum += last.sum;
-            blocks.back().count += last.count;
-        }
-    }
-    std::vector<double> result;
-    for (const Block& block : blocks) result.insert(result.end(), block.count, block.mean());
-    return result;
 }
 
 FacetErrorScale::FacetErrorScale(const Calibration& calibration,
@@ -226,14 +159,6 @@ std::optional<FacetErrorScale::Explained> FacetErrorScale::explained(
     return Explained{inverse_of_falling(levels_, negative, -*average), joint->misfit};
 }
 
-std::optional<double> FacetErrorScale::answer(
-    const std::vector<std::optional<double>>& scores) const {
-    if (!usable()) return std::nullopt;
-    const auto found = explained(scores);
-    if (!found) return std::nullopt;
-    return found->log_deg + 0.5 * std::log(std::max(1.0, found->misfit));
-}
-
 double FacetErrorScale::logarithm(const Curve& curve, double score) const {
     return inverse_of_falling(levels_, curve.stretched,
                               stretch(score, curve.higher_is_better, curve.name));
@@ -278,6 +203,7 @@ EquivalentError FacetErrorScale::of(const std::vector<std::optional<double>>& sc
     const double log_deg = found->log_deg;
     const double spread = 1.96 * interpolated(levels_, spread_, log_deg);
     result.deg = std::exp(log_deg);
+    result.rank = log_deg + 0.5 * std::log(std::max(1.0, found->misfit));
     result.low_deg = std::exp(log_deg - spread);
     result.high_deg = std::exp(log_deg + spread);
     result.at_least = log_deg >= levels_.back() - 1e-9;

@@ -35,6 +35,10 @@ struct EquivalentError {
     double low_deg = 0,
            high_deg = 0;  ///< 95 % of right stones are within, by the curve's own draws
     bool at_least = false, at_most = false;  ///< beyond the curve's ends
+    /// For ranking: the logarithm of the error, larger by half the logarithm of what the scores'
+    /// misfit is over the largest of right stones (as errors are scaled whose residuals are too
+    /// large: Birge 1932).
+    std::optional<double> rank;
 };
 
 /// Equivalent facet errors by several scores together: the one that explains the scores best as
@@ -54,11 +58,8 @@ public:
     EquivalentError of(const std::vector<std::optional<double>>& scores) const;
     /// The curves with values, equivalents and weights of these scores.
     std::vector<SensitivityCurve> curves(const std::vector<std::optional<double>>& scores) const;
-    /// For ranking: the logarithm of the equivalent error, larger by half the logarithm of what
-    /// the scores' misfit is over the largest of right stones (as errors are scaled whose residuals
-    /// are too large: Birge 1932).
-    std::optional<double> answer(const std::vector<std::optional<double>>& scores) const;
-    double largest_answer() const { return levels_.empty() ? 0 : levels_.back(); }
+    /// The rank of what is as far from the stone as any.
+    double largest_rank() const { return levels_.empty() ? 0 : levels_.back(); }
 
     static constexpr double k_least_deg = 0.01;  ///< stands for an error of 0
 
@@ -89,8 +90,5 @@ private:
     JointScores joint_;
     std::vector<double> spread_;  // standard deviation of the average, a level each
 };
-
-/// Non-decreasing least-squares fit (pool adjacent violators), weights alike.
-std::vector<double> monotone(const std::vector<double>& values);
 
 }  // namespace culet

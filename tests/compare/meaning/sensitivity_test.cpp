@@ -1,3 +1,4 @@
+#include "compare/meaning/level_curve.h"
 #include "compare/meaning/sensitivity.h"
 
 #include <gtest/gtest.h>
