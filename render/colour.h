@@ -47,6 +47,10 @@ private:
 
 /// Y of linear sRGB, 1 for white.
 double luminance(const Rgb& rgb);
+/// Of the three floats of a pixel.
+inline double luminance(const float* rgb) {
+    return luminance(Rgb{rgb[0], rgb[1], rgb[2]});
+}
 
 /// Linear light to the sRGB encoding (IEC 61966-2-1), 0..1 to 0..1.
 double srgb_encoded(double linear);

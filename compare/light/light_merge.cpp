@@ -10,6 +10,7 @@
 #include <limits>
 #include <numbers>
 
+#include "render/colour.h"
 #include "render/environment_layout.h"
 #include "stone/errors.h"
 
@@ -22,10 +23,6 @@ constexpr double k_pi = std::numbers::pi;
 constexpr double k_seen = 1e-4;
 // Each correction to this power: Richardson and Lucy's steps are timid (Meinel 1986).
 constexpr double k_boldness = 1.6;
-
-double luminance_of(const float* rgb) {
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
 
 // Pull and push (Grossman & Gortler 1998 in spirit): means over ever larger blocks fill what
 // holds nothing. Blocks are weighted by solid angle.
@@ -279,7 +276,7 @@ MergedLight merge_views(const std::vector<BallView>& views, const std::vector<do
             merged.coverage[i] =
                 1 - (1 - merged.coverage[i]) * (1 - static_cast<float>(q > k_seen ? q : 0));
             if (q < 0.01) continue;  // too near a rim to say who is right
-            const float y = static_cast<float>(gains[v] * luminance_of(&map.rgb[3 * i]));
+            const float y = static_cast<float>(gains[v] * luminance(&map.rgb[3 * i]));
             low[i] = seen_by[i] == 0 ? y : std::min(low[i], y);
             high[i] = seen_by[i] == 0 ? y : std::max(high[i], y);
             ++seen_by[i];
@@ -290,7 +287,7 @@ MergedLight merge_views(const std::vector<BallView>& views, const std::vector<do
         for (std::size_t c = 0; c < 3; ++c)
             merged.map.rgb[3 * i + c] = static_cast<float>(sum[3 * i + c] / weight[i]);
         merged.over_exposed[i] = static_cast<float>(over[i] / weight[i]);
-        mean += luminance_of(&merged.map.rgb[3 * i]) / static_cast<double>(texels);
+        mean += luminance(&merged.map.rgb[3 * i]) / static_cast<double>(texels);
     }
     for (std::size_t i = 0; i < texels; ++i) {
         const auto floor = static_cast<float>(1e-3 * mean);

@@ -7,8 +7,10 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+#include <opencv2/core.hpp>
 
 #include "compare/light/reflex.h"
+#include "compare/pixels.h"
 #include "stone/errors.h"
 #include "stone/units.h"
 
@@ -23,13 +25,6 @@ constexpr double k_edge_sigma_px = 0.1;
 constexpr double k_least_brightness = 0.25;
 // Of its extents: what lies so far inside a window measured with a ruler is window.
 constexpr double k_surely_inside = 0.8;
-
-double luminance_of(const Photo& picture, int x, int y) {
-    const float* rgb =
-        &picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                          static_cast<std::size_t>(x))];
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
 
 Reflex reflex_or_refuse(const BallPlace& place, const PixelPlace& seed, const std::string& where) {
     ReflexSearch search = reflex_at(*place.view.picture, place.view.ball.circle(), seed);
@@ -78,6 +73,7 @@ std::vector<Reflex> reflexes_along(const BallPlace& place, const EdgeSight& line
     constexpr double k_nearest = 0.8;  // 1 / distance: the light is outside the ball
     const MirrorBall& ball = place.view.ball;
     const Photo& picture = *place.view.picture;
+    const cv::Mat light = luminance(colour_of(picture));
     const int beside = 2 + static_cast<int>(0.02 * ball.circle().radius);
     const glm::dmat3 camera_from_world = glm::transpose(place.view.world_from_camera);
     const double forward = glm::dot(line.from, line.direction);
@@ -89,29 +85,23 @@ std::vector<Reflex> reflexes_along(const BallPlace& place, const EdgeSight& line
         const Vec3 at = w * (line.from - place.centre) + along * line.direction;
         const auto pixel = ball.place_of_point(camera_from_world * at, w);
         if (!pixel) continue;
-        PixelPlace brightest;
-        double most = -1;
-        const int x0 = static_cast<int>(std::lround(pixel->x));
-        const int y0 = static_cast<int>(std::lround(pixel->y));
-        for (int y = std::max(0, y0 - beside); y <= std::min(picture.height - 1, y0 + beside);
-             ++y) {
-            for (int x = std::max(0, x0 - beside); x <= std::min(picture.width - 1, x0 + beside);
-                 ++x) {
-                const double light = luminance_of(picture, x, y);
-                if (light > most) {
-                    most = light;
-                    brightest = {static_cast<double>(x), static_cast<double>(y)};
-                }
-            }
-        }
+        const cv::Rect around = cv::Rect(static_cast<int>(std::lround(pixel->x)) - beside,
+                                         static_cast<int>(std::lround(pixel->y)) - beside,
+                                         2 * beside + 1, 2 * beside + 1) &
+                                cv::Rect(0, 0, light.cols, light.rows);
+        if (around.empty()) continue;
+        double most = 0;
+        cv::Point brightest;
+        cv::minMaxLoc(light(around), nullptr, &most, nullptr, &brightest);
+        brightest += around.tl();
         if (most < bright) continue;
-        const auto index = static_cast<std::size_t>(std::lround(brightest.y)) *
-                               static_cast<std::size_t>(picture.width) +
-                           static_cast<std::size_t>(std::lround(brightest.x));
+        const auto index = static_cast<std::size_t>(brightest.y * picture.width + brightest.x);
         const bool known = std::any_of(found.begin(), found.end(),
                                        [&](const Reflex& r) { return r.inside[index] != 0; });
         if (known) continue;
-        ReflexSearch search = reflex_at(picture, ball.circle(), brightest);
+        ReflexSearch search =
+            reflex_at(picture, ball.circle(),
+                      {static_cast<double>(brightest.x), static_cast<double>(brightest.y)});
         if (search.found) found.push_back(std::move(*search.found));
     }
     return found;

@@ -82,7 +82,7 @@ ReflexSearch reflex_at(const Photo& picture, const BallCircle& ball, const Pixel
         at.x >= picture.width || at.y >= picture.height)
         return {std::nullopt, NoReflex::beside_the_ball};
     const cv::Mat light = luminance(colour_of(picture));
-    cv::Mat on_ball(light.size(), CV_8U, cv::Scalar(0)), rim;
+    cv::Mat on_ball(light.size(), CV_8U, cv::Scalar(0));
     for (int y = 0; y < light.rows; ++y)
         for (int x = 0; x < light.cols; ++x)
             if (std::hypot(x - ball.x, y - ball.y) <= k_rim * ball.radius)

@@ -11,6 +11,7 @@
 
 #include "compare/light/even_directions.h"
 #include "compare/light/view_refinement.h"
+#include "render/colour.h"
 #include "render/environment_layout.h"
 #include "stone/units.h"
 
@@ -45,10 +46,6 @@ double angle_between(const glm::dmat3& a, const glm::dmat3& b) {
     return std::acos(std::clamp((d[0][0] + d[1][1] + d[2][2] - 1) / 2, -1.0, 1.0));
 }
 
-double luminance_of(const float* rgb) {
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
-
 // Log-luminance of a view in its camera's frame, low-passed, as a lat-long map of its own.
 struct SmoothMap {
     int width = 0, height = 0;
@@ -73,14 +70,14 @@ SmoothMap smoothed(const ViewMap& map, double sigma, int width) {
     std::vector<Vec3> direction;
     std::vector<float> value, weight, row_of;
     double mean = 0;
-    for (std::size_t i = 0; i < map.quality.size(); ++i) mean += luminance_of(&map.rgb[3 * i]);
+    for (std::size_t i = 0; i < map.quality.size(); ++i) mean += luminance(&map.rgb[3 * i]);
     mean = std::max(mean / static_cast<double>(map.quality.size()), 1e-30);
     for (int y = 0; y < map.height; ++y) {
         for (int x = 0; x < map.width; ++x) {
             const std::size_t i = static_cast<std::size_t>(y) * map.width + x;
             direction.push_back(lat_long_direction(x + 0.5, y + 0.5, map.width, map.height));
             value.push_back(
-                static_cast<float>(std::log2(luminance_of(&map.rgb[3 * i]) / mean + 1e-3)));
+                static_cast<float>(std::log2(luminance(&map.rgb[3 * i]) / mean + 1e-3)));
             weight.push_back(static_cast<float>(std::sqrt(map.quality[i]) *
                                                 lat_long_solid_angle(y, map.width, map.height)));
         }

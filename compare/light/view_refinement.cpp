@@ -15,6 +15,7 @@
 
 #include "compare/light/even_directions.h"
 #include "compare/light/light_merge.h"
+#include "render/colour.h"
 #include "render/environment_layout.h"
 
 namespace culet {
@@ -37,10 +38,6 @@ glm::dmat3 turn(const Vec3& rotation) {
     const double angle = glm::length(rotation);
     if (angle < 1e-15) return glm::dmat3(1.0);
     return glm::mat3_cast(glm::angleAxis(angle, rotation / angle));
-}
-
-double luminance_of(const float* rgb) {
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 }
 
 double median(std::vector<double> values) {
@@ -217,7 +214,7 @@ private:
 
 double mean_luminance(const Photo& picture) {
     double sum = 0;
-    for (std::size_t i = 0; i < picture.rgb.size(); i += 3) sum += luminance_of(&picture.rgb[i]);
+    for (std::size_t i = 0; i < picture.rgb.size(); i += 3) sum += luminance(&picture.rgb[i]);
     return std::max(sum / static_cast<double>(picture.rgb.size() / 3), 1e-30);
 }
 
@@ -227,7 +224,7 @@ cv::Mat log_luminance(const Photo& picture, double floor, double sigma_px) {
     for (int y = 0; y < picture.height; ++y) {
         for (int x = 0; x < picture.width; ++x) {
             const std::size_t i = static_cast<std::size_t>(y) * picture.width + x;
-            plane.at<float>(y, x) = static_cast<float>(luminance_of(&picture.rgb[3 * i]));
+            plane.at<float>(y, x) = static_cast<float>(luminance(&picture.rgb[3 * i]));
         }
     }
     if (sigma_px > 0) cv::GaussianBlur(plane, plane, {}, sigma_px, sigma_px, cv::BORDER_REPLICATE);
@@ -318,7 +315,7 @@ std::vector<Pixel> pixels_seen_by_both(const BallView& own, const MirrorBall& ba
             const bool over = !picture.saturated.empty() && picture.saturated[i] > 0;
             if (a < 2e-2 || b < 2e-2 || over) continue;
             pixels.push_back(
-                {place, std::log2(luminance_of(&picture.rgb[3 * i]) + floor), std::sqrt(a * b)});
+                {place, std::log2(luminance(&picture.rgb[3 * i]) + floor), std::sqrt(a * b)});
         }
     }
     // Every k-th, with k odd against rows of even length.
@@ -436,8 +433,8 @@ double gain_of(const Problem& problem, const Parameters& p) {
                     continue;
                 const double w = std::sqrt(first.quality[i] * second.quality[i]) *
                                  lat_long_solid_angle(row, k_width, first.height);
-                one += w * luminance_of(&first.rgb[3 * i]);
-                two += w * luminance_of(&second.rgb[3 * i]);
+                one += w * luminance(&first.rgb[3 * i]);
+                two += w * luminance(&second.rgb[3 * i]);
                 weight += w;
             }
             if (one <= 0 || two <= 0) continue;

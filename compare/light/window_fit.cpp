@@ -35,15 +35,6 @@ struct Frame {
 template <class Number>
 using Vector = std::array<Number, 3>;
 
-template <class Number>
-Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-template <class Number>
-Number dot(const Vector<Number>& a, const Vector<Number>& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /// Middle and half-extents, all times the nearness.
 template <class Number>
 struct ScaledWindow {
@@ -89,9 +80,13 @@ Number inside_edges(const ScaledWindow<Number>& w, const Vector<Number>& place,
         const double sign = side % 2 == 0 ? 1 : -1;
         Vector<Number> on_edge;
         for (std::size_t k = 0; k < 3; ++k) on_edge[k] = middle[k] + sign * out[k];
-        const Vector<Number> normal = cross(on_edge, edge);
-        Number inside = dot(normal, direction) / sqrt(dot(normal, normal));
-        if (dot(normal, middle) < 0.0) inside = -inside;
+        Vector<Number> normal;
+        ceres::CrossProduct(on_edge.data(), edge.data(), normal.data());
+        const auto along = [&](const Vector<Number>& v) {
+            return ceres::DotProduct(normal.data(), v.data());
+        };
+        Number inside = along(direction) / sqrt(along(normal));
+        if (along(middle) < 0.0) inside = -inside;
         if (inside < least) least = inside;
     }
     return least;
