@@ -84,8 +84,7 @@ ProbeOptions probe_options(const LightArguments& a) {
     if (!options.near_lights.empty() && a.table.empty()) {
         throw InputError(
             "near lights stand beside the environment: say with --table LIGHT.toml where the "
-            "scene's "
-            "[light] table is to be written");
+            "scene's [light] table is to be written");
     }
     return options;
 }
@@ -284,14 +283,12 @@ void add_command_light(CLI::App& program, int& exit_code) {
     command->footer(
         "Examples:\n"
         "  culet light front-*.dng side-*.dng -o room.exr --picture room.png --reflectance 0.6\n"
-        "  culet light a.exr b.exr -o room.exr --ball 512,380,300 --ball 506,384,299 --distance "
-        "25\n"
+        "  culet light a.exr b.exr -o room.exr --ball 512,380,300 --ball 506,384,299 "
+        "--distance 25\n"
         "  culet light here.exr there.exr --moved --camera camera.toml --near 498,402 "
-        "--ball-radius "
-        "10 -o room.exr --table light.toml\n"
+        "--ball-radius 10 -o room.exr --table light.toml\n"
         "Exit codes: 0 good; 1 the views do not fit together in one way only, or disagree, or a "
-        "near "
-        "light's distance cannot be told; 2 could not be done.");
+        "near light's distance cannot be told; 2 could not be done.");
     command->callback([a, &exit_code] { exit_code = run_light(*a); });
 }
 

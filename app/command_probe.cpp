@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
@@ -23,28 +22,9 @@ struct ProbeOptions {
     int most = 20;
 };
 
-std::vector<double> numbers_of(const std::string& option, const std::string& text,
-                               std::size_t count) {
-    std::vector<double> numbers;
-    std::size_t at = 0;
-    while (at <= text.size()) {
-        const std::size_t end = std::min(text.find(',', at), text.size());
-        double value = 0;
-        const auto [stop, problem] = std::from_chars(text.data() + at, text.data() + end, value);
-        if (problem != std::errc() || stop != text.data() + end || !std::isfinite(value)) break;
-        numbers.push_back(value);
-        at = end + 1;
-    }
-    if (at <= text.size() || numbers.size() != count) {
-        throw InputError(
-            fmt::format("{} {}: expected {} numbers separated by commas", option, text, count));
-    }
-    return numbers;
-}
-
 EyeRay ray_of(const ProbeOptions& options, const Scene& scene) {
     if (!options.pixel.empty()) {
-        const auto xy = numbers_of("--pixel", options.pixel, 2);
+        const auto xy = numbers_in(options.pixel, 2, 2, "--pixel is X,Y from the top left");
         if (xy[0] < 0 || xy[1] < 0 || xy[0] >= scene.camera.width || xy[1] >= scene.camera.height) {
             throw InputError(
                 fmt::format("--pixel {}: the picture has {} x {} pixels, counted from 0",
@@ -54,7 +34,8 @@ EyeRay ray_of(const ProbeOptions& options, const Scene& scene) {
         const auto middle = [](double v) { return v == std::floor(v) ? v + 0.5 : v; };
         return EyeRays(scene.camera).through(middle(xy[0]), middle(xy[1]));
     }
-    const auto r = numbers_of("--ray", options.ray, 6);
+    const auto r =
+        numbers_in(options.ray, 6, 6, "--ray is OX,OY,OZ,DX,DY,DZ: a point and a direction");
     const Vec3 direction{r[3], r[4], r[5]};
     if (!(glm::length(direction) > 0)) throw InputError("--ray: the direction must not be zero");
     return {{r[0], r[1], r[2]}, glm::normalize(direction)};

@@ -2,33 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <glm/geometric.hpp>
 
+#include "app/options.h"
 #include "stone/errors.h"
 
 namespace culet {
-
-std::vector<double> numbers_in(const std::string& text, std::size_t least, std::size_t most,
-                               const std::string& what) {
-    std::vector<double> result;
-    std::size_t at = 0;
-    while (at <= text.size()) {
-        const std::size_t comma = std::min(text.find(',', at), text.size());
-        const std::string word = text.substr(at, comma - at);
-        char* end = nullptr;
-        const double value = std::strtod(word.c_str(), &end);
-        if (word.empty() || *end != '\0' || !std::isfinite(value))
-            throw InputError(fmt::format("\"{}\": {}", text, what));
-        result.push_back(value);
-        at = comma + 1;
-    }
-    if (result.size() < least || result.size() > most)
-        throw InputError(fmt::format("\"{}\": {}", text, what));
-    return result;
-}
 
 std::vector<NearLightRequest> near_requests(const NearLightWords& a) {
     std::vector<NearLightRequest> requests;

@@ -14,10 +14,6 @@ struct NearLightWords {
     double ball_radius = 0;
 };
 
-/// "1,2,3" as numbers; `what` says what was expected. Throws InputError.
-std::vector<double> numbers_in(const std::string& text, std::size_t least, std::size_t most,
-                               const std::string& what);
-
 /// In the stone's unit and pixels of the photographs. Throws InputError.
 std::vector<NearLightRequest> near_requests(const NearLightWords& words);
 

@@ -1,5 +1,13 @@
 #include "app/options.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "stone/errors.h"
+
 namespace culet {
 
 void add_common(CLI::App& command, CommonOptions& options, bool reads_toml) {
@@ -14,6 +22,25 @@ void add_common(CLI::App& command, CommonOptions& options, bool reads_toml) {
             ->type_name("KEY=VALUE")
             ->allow_extra_args(false);
     }
+}
+
+std::vector<double> numbers_in(const std::string& text, std::size_t least, std::size_t most,
+                               const std::string& expected) {
+    std::vector<double> numbers;
+    const char *at = text.data(), *const end = at + text.size();
+    bool good = true;
+    while (good && at <= end) {
+        const char* const comma = std::find(at, end, ',');
+        while (at < comma && *at == ' ') ++at;
+        double value = 0;
+        const auto [stop, problem] = std::from_chars(at, comma, value);
+        good = problem == std::errc() && stop == comma && std::isfinite(value);
+        numbers.push_back(value);
+        at = comma + 1;
+    }
+    if (!good || numbers.size() < least || numbers.size() > most)
+        throw InputError(fmt::format("\"{}\": {}", text, expected));
+    return numbers;
 }
 
 }  // namespace culet

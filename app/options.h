@@ -29,6 +29,10 @@ struct CommonOptions {
 /// Adds -q, -v, --threads, --seed and, for commands that read TOML, --set.
 void add_common(CLI::App& command, CommonOptions& options, bool reads_toml = false);
 
+/// "1,2,3" as numbers, so many; `expected` says in an error what the option is. Throws InputError.
+std::vector<double> numbers_in(const std::string& text, std::size_t least, std::size_t most,
+                               const std::string& expected);
+
 /// Each registers one subcommand; its callback stores the exit code in `exit_code` and throws
 /// InputError, InternalError or Interrupted. Parsing, calling and writing only: no formula.
 void add_command_fit(CLI::App& program, int& exit_code);
