@@ -229,8 +229,8 @@ void Planner::choose_engine_and_samples() {
     }
     const bool noise_matters = branches_ || on(Effects::aperture) || !refused.empty() ||
                                user_.engine == "reference" || k_far_cheaper * by_beams > by_paths;
-    if (noise_matters && !on(Effects::aperture)) measure_noise();
     if (noise_matters) {
+        if (!on(Effects::aperture)) measure_noise();
         const RenderSettings of_beams = settings;
         settings = of_neither;
         by_paths = choose_reference(room);
