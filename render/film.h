@@ -16,9 +16,9 @@ public:
     Film(const Scene& scene, const Camera& camera, const Plan& plan, const WavelengthSet& colours,
          int planes);
 
-    /// Of pixel (x, y) of the window: `stokes[plane * nodes + node]`. Different pixels may be put
-    /// from different threads.
-    void put(int x, int y, const PixelSums& sums, const double* stokes);
+    /// Of pixel (x, y) of the window: `estimates[plane * nodes + node]`, whose Stokes parameters
+    /// need not be light's. Different pixels may be put from different threads.
+    void put(int x, int y, const PixelSums& sums, const double* estimates);
 
     /// The finished picture; `noisy`: it has a standard error worth keeping.
     Picture take(bool noisy);

@@ -2,6 +2,7 @@
 // Stokes parameters at the eye.
 
 #include <array>
+#include <cmath>
 #include <complex>
 
 namespace culet {
@@ -14,6 +15,17 @@ using Stokes = std::array<double, 4>;
 /// From the coherency <a_i conj(a_j)> of the amplitudes along x and y.
 inline Stokes stokes_of(double xx, double yy, std::complex<double> xy) {
     return {xx + yy, xx - yy, 2 * xy.real(), 2 * xy.imag()};
+}
+
+/// What light can be: S0 is no less than the polarised part's length. The nearest such to an
+/// estimate with noise, which may show less light than none; what it estimates is no farther from
+/// it than before (projection onto a convex cone: Boyd & Vandenberghe 2004, 8.1).
+inline Stokes nearest_light(const Stokes& s) {
+    const double polarised = std::hypot(s[1], s[2], s[3]);
+    if (polarised <= s[0]) return s;
+    if (polarised <= -s[0]) return {};
+    const double whole = (s[0] + polarised) / 2, part = whole / polarised;
+    return {whole, part * s[1], part * s[2], part * s[3]};
 }
 
 }  // namespace culet
