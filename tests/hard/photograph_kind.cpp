@@ -100,6 +100,7 @@ Subject photograph_subject(const HardCase& hard_case, const HardPoint&,
     c->render = make_photo(parameters.table("render").value(), hard_case.name + ".render", true);
     if (const auto mask = parameters.table("mask")) {
         std::int64_t left = mask->integer("pixels").value_or(0);
+        if (left > 140 * 140) mask->fail("pixels", "is more than fits the middle");
         c->mask.assign(c->photo.rgb.size() / 3, 0.0f);
         const std::int64_t side = static_cast<std::int64_t>(std::ceil(std::sqrt(double(left))));
         for (std::int64_t y = 0; y < side; ++y) {
