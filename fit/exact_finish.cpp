@@ -332,6 +332,7 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
     result.finished.outline = relaxation.system().mesh_outline();
     result.finished.converged = settled.converged;
     result.finished.iterations = settled.iterations;
+    result.finished.work = solver.work();
     result.finished.chi2 = settled.chi2;
     result.finished.worst_hard = settled.worst_hard;
     return result;

@@ -18,6 +18,7 @@ struct Finished {
     bool converged = false;
     bool enclosed = true;  ///< split meets: the planes enclose a solid
     int iterations = 0;
+    double work = 0;  ///< multiplications of its factorisations, about; 0: not counted
     double chi2 = 0;
     double worst_hard = 0;  ///< what is left of the hard equations
 };

@@ -74,14 +74,13 @@ std::vector<Reading> without(const std::vector<Reading>& readings,
 
 // In how many rounds those that are wrong are told from those that only seem so.
 constexpr int k_most_rounds = 2;
-// Where the wrong reading was found, the stone is soon found too. Each start costs a large stone as
-// much as all of them a small one.
+// Where the wrong reading was found, the stone is soon found too. One start is enough where those
+// of all readings were dear: a large stone, or readings of none.
 constexpr int k_starts_without = 2;
-constexpr std::size_t k_large = 150;
+constexpr double k_dear = 2e9;
 
-FitOptions with_few_starts(FitOptions options, const Stone& stone) {
-    const int few = stone.solid.facets.size() > k_large ? 1 : k_starts_without;
-    options.starts = std::min(options.starts, few);
+FitOptions with_few_starts(FitOptions options, const Portfolio& all) {
+    options.starts = std::min(options.starts, all.work > k_dear ? 1 : k_starts_without);
     return options;
 }
 
@@ -216,7 +215,7 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
     judge(system, finished, diagnosis, result);
     if (const auto far = angles_far_from_mesh(system); may_be_bent(result, readings, far)) {
         auto better =
-            fit_without_gross(drawn, readings, far, with_few_starts(options, drawn), progress);
+            fit_without_gross(drawn, readings, far, with_few_starts(options, portfolio), progress);
         // What explains a contradiction takes most of chi-square with it.
         if (better &&
             (result.status == FitStatus::not_converged || better->chi2 < 0.5 * result.chi2)) {
@@ -225,7 +224,7 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
     }
     if (sets_aside == SetsAside::yes) {
         auto better = fit_setting_aside(result, readings, [&](const std::vector<Reading>& others) {
-            return fit(drawn, others, with_few_starts(options, drawn), progress, SetsAside::no);
+            return fit(drawn, others, with_few_starts(options, portfolio), progress, SetsAside::no);
         });
         if (better) result = std::move(*better);
     }

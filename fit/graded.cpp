@@ -164,6 +164,7 @@ Approach approach(Relaxation& relaxation, const Start& start, const Progress& pr
         ++result.stages;
     }
     result.steps = run.steps;
+    result.work = run.solver.work();
     return result;
 }
 
@@ -176,6 +177,7 @@ Graded graded_fit(Relaxation& relaxation, const Approach& rough, const Progress&
         run.stage(result.shape, k_stages[i], 0.2 + 0.1 * double(i));
     }
     result.steps = rough.steps + run.steps;
+    result.work = run.solver.work();
     return result;
 }
 

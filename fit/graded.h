@@ -19,13 +19,15 @@ struct Approach {
     double misfit = 0;          ///< what is left of the latest stage's merit, but for its priors
     bool is_plausible = false;  ///< no more than the true stone would leave
     int steps = 0;
+    double work = 0;  ///< multiplications of its factorisations, about
 };
 /// Throws Interrupted when progress says so.
 Approach approach(Relaxation& relaxation, const Start& start, const Progress& progress = {});
 
 struct Graded {
     Shape shape;
-    int steps = 0;
+    int steps = 0;    ///< the approach's, too
+    double work = 0;  ///< multiplications of its own factorisations, about
 };
 
 /// The stages that follow. Throws Interrupted when progress says so.

@@ -24,7 +24,8 @@ struct Candidate {
 
 struct Portfolio {
     Candidate best;
-    int starts = 0;  ///< tried
+    int starts = 0;   ///< tried
+    double work = 0;  ///< of all starts, about, in multiplications
 };
 
 /// The last stage from a shape that is nearly right; ends early where chi-square is larger than

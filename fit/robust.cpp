@@ -57,7 +57,7 @@ std::vector<double> reweight(System& system, Candidate& candidate, Loss loss, in
         next.start = candidate.start;
         next.finished.iterations += candidate.finished.iterations;
         // A start that was sound stays so, or the weights lead nowhere.
-        if (candidate.sound && !next.sound) break;
+        if ((candidate.sound && !next.sound) || next.is_no_stone) break;
         candidate = std::move(next);
         if (!candidate.finished.converged) break;
     }

@@ -47,6 +47,8 @@ public:
     };
     Solutions solve_all(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                         double precision = 1e-13) const;
+    /// What all its factorisations and solutions took, about, in multiplications.
+    double work() const { return work_; }
     /// log |det| of the matrix as it was factored: log det C + log det (P + J'C^-1 J).
     double log_determinant() const;
 
@@ -75,6 +77,7 @@ private:
     std::vector<std::size_t> curved_;      // of curvature
     std::set<std::vector<int>> past_;      // columns of soft rows that were there before
     Fronts fronts_;
+    double work_ = 0;
 };
 
 }  // namespace culet
