@@ -105,6 +105,7 @@ int solve_stage(Relaxation& relaxation, SaddleSolver& solver, Shape& shape,
 struct StageRunner {
     Relaxation& relaxation;
     const Progress& progress;
+    const std::vector<int>& sides;  ///< known ones stay
     SaddleSolver solver{};
     int steps = 0;
 
@@ -123,8 +124,8 @@ struct StageRunner {
     void let_lean(Shape& shape, const Stage& stage, double fraction) {
         if (stage.incidence <= k_leaning_until) return;
         for (int round = 0; round < 3; ++round) {
-            const auto other =
-                leaning_better(relaxation, solver, shape, softness_of(stage, true), k_may_lean);
+            const auto other = leaning_better(relaxation, solver, shape, softness_of(stage, true),
+                                              k_may_lean, sides);
             if (!other) break;
             shape = relaxation.freedoms().symmetrised(*other);
             once(shape, stage, {.with_readings = true}, fraction);
@@ -137,9 +138,10 @@ struct StageRunner {
 Approach approach(Relaxation& relaxation, const Start& start, const Progress& progress) {
     Approach result;
     result.start = start.name;
+    result.sides = start.sides;
     result.shape = relaxation.freedoms().symmetrised(start.shape);
     relaxation.forget_ties();  // of another start
-    StageRunner run{relaxation, progress};
+    StageRunner run{relaxation, progress, start.sides};
     // First a convex stone with planar facets, whatever its size: lengths of edges that a rough
     // mesh has inside out would hold it there.
     const bool keep = start.keep_normals_at_first;
@@ -172,7 +174,7 @@ Graded graded_fit(Relaxation& relaxation, const Approach& rough, const Progress&
     Graded result;
     result.shape = rough.shape;
     relaxation.forget_ties();
-    StageRunner run{relaxation, progress};
+    StageRunner run{relaxation, progress, rough.sides};
     for (std::size_t i = rough.stages; i < k_stages.size(); ++i) {
         run.stage(result.shape, k_stages[i], 0.2 + 0.1 * double(i));
     }

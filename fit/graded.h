@@ -4,6 +4,7 @@
 // stage, so that a bad start can still change its mind; hinges keep the stone convex on the way.
 
 #include <string>
+#include <vector>
 
 #include "fit/relaxation.h"
 #include "fit/starts.h"
@@ -15,6 +16,7 @@ namespace culet {
 struct Approach {
     std::string start;  ///< its name
     Shape shape;
+    std::vector<int> sides;     ///< of the start
     std::size_t stages = 0;     ///< that it has gone through
     double misfit = 0;          ///< what is left of the latest stage's merit, but for its priors
     bool is_plausible = false;  ///< no more than the true stone would leave

@@ -18,9 +18,13 @@ constexpr double k_longest = 0.5;
 }  // namespace
 
 std::optional<Shape> leaning_better(Relaxation& relaxation, SaddleSolver& solver,
-                                    const Shape& shape, const Softness& softness, double within) {
+                                    const Shape& shape, const Softness& softness, double within,
+                                    const std::vector<int>& sides) {
     relaxation.choose(shape, softness.incidence == 0);
-    const std::vector<Relaxation::Folded> folded = relaxation.folded(shape, within);
+    std::vector<Relaxation::Folded> folded = relaxation.folded(shape, within);
+    std::erase_if(folded, [&](const Relaxation::Folded& f) {
+        return !sides.empty() && sides[std::size_t(f.facet)] != 0;
+    });
     if (folded.empty()) return std::nullopt;
     const Sheet sheet = relaxation.sheet(shape, softness);
     if (!solver.factor(sheet.rows, sheet.prior_stiffness + k_damping * relaxation.metric()))

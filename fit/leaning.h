@@ -3,6 +3,7 @@
 // it has two meanings, and each has an optimum of its own.
 
 #include <optional>
+#include <vector>
 
 #include "fit/relaxation.h"
 #include "fit/saddle_solver.h"
@@ -14,8 +15,10 @@ namespace culet {
 /// sigma), exactly where equations are linear: 2 d'r + d'R d for shifts d of the values. One and
 /// two facets at a time are turned over as long as that gains. Returns the shape moved to where the
 /// others are meant; nothing when none should be. Only facets within this sine of upright are
-/// asked. `solver` may know the pattern of the equations from steps before.
+/// asked, and of them those whose entry in `sides` (none: of all) is 0. `solver` may know the
+/// pattern of the equations from steps before.
 std::optional<Shape> leaning_better(Relaxation& relaxation, SaddleSolver& solver,
-                                    const Shape& shape, const Softness& softness, double within);
+                                    const Shape& shape, const Softness& softness, double within,
+                                    const std::vector<int>& sides = {});
 
 }  // namespace culet

@@ -377,7 +377,7 @@ std::vector<Relaxation::Folded> Relaxation::folded(const Shape& shape, double wi
             if (std::abs(shape.normals[f].z) < within) {
                 const double shift = *e.other_value - e.value;
                 const auto [at, is_new] = known.try_emplace({f, shift > 0}, result.size());
-                if (is_new) result.emplace_back();
+                if (is_new) result.push_back({f, {}});
                 result[at->second].turns.push_back({row, shift});
             }
         }

@@ -105,6 +105,7 @@ public:
             int row = -1;
             double shift = 0;
         };
+        int facet = -1;
         std::vector<Turn> turns;
     };
     std::vector<Folded> folded(const Shape& shape, double within) const;

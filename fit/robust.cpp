@@ -12,6 +12,8 @@ namespace {
 
 constexpr double k_huber = 1.345, k_cauchy = 2.385;
 constexpr int k_rounds = 40;
+// Steps times readings: of large stones whose steps are many a few rounds have to do.
+constexpr double k_most_work = 3e5;
 // A weight never goes to nothing: a sigma a million times as large says as much.
 constexpr double k_least_weight = 1e-12;
 
@@ -34,7 +36,9 @@ std::vector<double> reweight(System& system, Candidate& candidate, Loss loss, in
     const std::size_t count = system.readings().size();
     std::vector<double> weights(count, 1), sigmas;
     for (const Reading& r : system.readings()) sigmas.push_back(r.sigma);
+    const int before = candidate.finished.iterations;
     for (int round = 0; round < k_rounds; ++round) {
+        if (double(candidate.finished.iterations - before) * double(count) > k_most_work) break;
         const Finished& finished = candidate.finished;
         std::vector<double> worst(count, 0);
         for (const Equation& e : system.equations(finished.shape, finished.outline)) {

@@ -9,6 +9,7 @@
 
 #include "fit/azimuth_turn.h"
 #include "fit/canonical.h"
+#include "fit/closing_sides.h"
 #include "stone/checks.h"
 
 namespace culet {
@@ -187,6 +188,8 @@ void Starts::find_sides() {
                      as_down = std::abs(drawn - (std::numbers::pi - r.value));
         if (std::abs(as_up - as_down) > 6 * turn) sides_[f] = as_up < as_down ? 1 : -1;
     }
+    // Not where facets follow each other: those that were not read have the sides of others.
+    if (system_.exact_motions().empty()) sides_ = closing_sides(system_, std::move(sides_), rough);
 }
 
 Shape looking_as(const System& system, Shape shape, const std::vector<int>& sides) {

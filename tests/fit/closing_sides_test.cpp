@@ -1,0 +1,106 @@
+// Which way facets look, told by the edges read round them. Expected is how the stones were made.
+#include "fit/closing_sides.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "stone/checks.h"
+#include "tests/bench/fit_trials.h"
+
+namespace culet {
+namespace {
+
+using namespace bench;
+
+// Inclinations and edges as read, and every facet's azimuth to 0.1 degrees.
+std::vector<WrittenReading> with_azimuths(const Truth& truth, unsigned seed) {
+    std::vector<WrittenReading> readings = read_by_instruments(truth, seed);
+    std::mt19937 random(seed);
+    std::normal_distribution<double> error(0, 0.1);
+    for (const Facet& f : truth.stone.solid.facets) {
+        if (f.name == truth.stone.up_facet) continue;
+        WrittenReading r;
+        r.kind = "azimuth";
+        r.of = {f.name};
+        const Vec3& n = f.plane.normal;
+        r.sigma = 0.1 / std::hypot(n.x, n.y);
+        r.value = degrees(std::atan2(n.y, n.x)) + error(random) / std::hypot(n.x, n.y);
+        readings.push_back(std::move(r));
+    }
+    return readings;
+}
+
+struct Found {
+    int right = 0, wrong = 0, unknown = 0;
+};
+// From a mesh that says nothing of any facet but where it puts the corners.
+Found sides_found(const Truth& truth, const Stone& mesh, double noise,
+                  const std::vector<WrittenReading>& written) {
+    const std::vector<Reading> readings = bind_readings(written, mesh);
+    const System system(mesh, readings, {});
+    const double rough = noise * diameter(truth.stone.solid) / std::sqrt(3.0) / system.scale();
+    const std::size_t count = mesh.solid.facets.size();
+    const std::vector<int> sides = closing_sides(system, std::vector<int>(count, 0), rough);
+    Found found;
+    for (std::size_t f = 0; f < count; ++f) {
+        const Facet& facet = truth.stone.solid.facets[f];
+        if (facet.name == truth.stone.up_facet) continue;
+        if (sides[f] == 0) {
+            ++found.unknown;
+        } else {
+            ++((sides[f] > 0) == (facet.plane.normal.z > 0) ? found.right : found.wrong);
+        }
+    }
+    return found;
+}
+
+Stone aimed_at_zero(Stone mesh) {
+    mesh.azimuth_from_mesh = true;
+    return mesh;
+}
+
+TEST(ClosingSides, OfEveryFacetAreFoundFromACrudeMesh) {
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        const Truth truth = make_tiered(120, seed);
+        const double noise = 0.03;
+        const Stone mesh = aimed_at_zero(noisy_mesh(truth.stone, noise, seed));
+        const Found found = sides_found(truth, mesh, noise, with_azimuths(truth, seed));
+        EXPECT_EQ(found.wrong, 0) << seed;
+        EXPECT_GT(found.right, 9 * found.unknown) << seed;
+    }
+}
+
+TEST(ClosingSides, AreLeftAloneWhereTheMeshKnowsThem) {
+    const Truth truth = make_tiered(60, 1);
+    const Stone mesh = aimed_at_zero(truth.stone);
+    const std::vector<Reading> readings = bind_readings(with_azimuths(truth, 1), mesh);
+    const System system(mesh, readings, {});
+    // Even wrong ones: it is not asked again.
+    const std::vector<int> known(mesh.solid.facets.size(), 1);
+    EXPECT_EQ(closing_sides(system, known, 0.01), known);
+}
+
+TEST(ClosingSides, AreNotToldWithoutAzimuths) {
+    const Truth truth = make_tiered(60, 1);
+    const std::vector<Reading> readings = bind_readings(read_by_instruments(truth, 1), truth.stone);
+    const System system(truth.stone, readings, {});
+    const std::vector<int> none(truth.stone.solid.facets.size(), 0);
+    EXPECT_EQ(closing_sides(system, none, 0.01), none);
+}
+
+// Neighbours along the girdle that all lean the wrong way hold each other: turned over one by one,
+// each makes chi-square larger.
+TEST(ClosingSides, LetAStoneOfManyGirdleFacetsBeFoundFromAShakenMesh) {
+    const Truth truth = make_tiered(200, 4);
+    const auto readings = with_azimuths(truth, 5);
+    const Trial reference = fit_mesh(aimed_at_zero(truth.stone), readings);
+    const Trial trial = fit_mesh(aimed_at_zero(noisy_mesh(truth.stone, 0.01, 6)), readings);
+    EXPECT_TRUE(succeeds(truth.stone, trial, reference))
+        << trial.result.chi2 << " against " << reference.result.chi2 << "; " << trial.result.message
+        << trial.refusal;
+}
+
+}  // namespace
+}  // namespace culet
