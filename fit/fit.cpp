@@ -28,6 +28,8 @@
 #include "fit/statistics.h"
 #include "fit/system.h"
 #include "fit/topology.h"
+#include "fit/turned_azimuths.h"
+#include "fit/unread_size.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -134,6 +136,13 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
         put_left_out(readings, left_out, result);
         return result;
     }
+    if (!says_size(readings)) {
+        std::vector<Reading> with_size = readings;
+        with_size.push_back(size_of_mesh(drawn));
+        FitResult result = fit(drawn, with_size, options, progress, sets_aside);
+        take_back_size(with_size.back(), result);
+        return result;
+    }
     const auto begin = std::chrono::steady_clock::now();
     const std::optional<Stone> mirrored = mirrored_to_azimuths(drawn, readings);
     const Stone& stone = mirrored ? *mirrored : drawn;
@@ -213,6 +222,18 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
         result.symmetry = find_symmetry(stone, readings, from_here, progress);
     }
     judge(system, finished, diagnosis, result);
+    if (sets_aside == SetsAside::yes && stone.azimuth_from_mesh && !mirrored) {
+        auto better = fit_turning_azimuths_back(
+            result, readings, system.mesh_turn(), [&](const std::vector<Reading>& back) {
+                return fit(drawn, back, with_few_starts(options, drawn), progress, SetsAside::no);
+            });
+        if (better) {
+            better->options = result.options;
+            better->seconds =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+            return *better;
+        }
+    }
     if (const auto far = angles_far_from_mesh(system); may_be_bent(result, readings, far)) {
         auto better =
             fit_without_gross(drawn, readings, far, with_few_starts(options, portfolio), progress);

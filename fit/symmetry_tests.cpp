@@ -268,7 +268,11 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Infer
     if (shape.normals.size() > k_most_facets || !inference.usable()) {
         report.proposed = "C1";
         report.message =
-            fmt::format("{} facets are too many for the tests of symmetry", shape.normals.size());
+            shape.normals.size() > k_most_facets
+                ? fmt::format("symmetry was not looked for: {} facets are more than the {} up to "
+                              "which it is tested, so C1 says nothing of this stone",
+                              shape.normals.size(), k_most_facets)
+                : "symmetry was not looked for: the stone has no covariance to test it by";
         return report;
     }
     const std::vector<Tier> tiers = tiers_of(system, shape, form);

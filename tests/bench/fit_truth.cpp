@@ -222,6 +222,23 @@ Truth make_tiered(int facets, unsigned seed) {
     return truth;
 }
 
+std::vector<WrittenReading> read_azimuths(const Truth& truth, unsigned seed) {
+    Random random(seed);
+    std::normal_distribution<double> normal;
+    std::vector<WrittenReading> readings;
+    for (const Facet& f : truth.stone.solid.facets) {
+        if (f.name == truth.stone.up_facet) continue;
+        const Vec3& n = f.plane.normal;
+        WrittenReading r;
+        r.kind = "azimuth";
+        r.of = {f.name};
+        r.sigma = truth.angle_sigma_deg / std::hypot(n.x, n.y);
+        r.value = degrees(std::atan2(n.y, n.x)) + *r.sigma * normal(random);
+        readings.push_back(std::move(r));
+    }
+    return readings;
+}
+
 std::vector<WrittenReading> read_perfectly(const Truth& truth, int edges) {
     const Solid& solid = truth.stone.solid;
     std::vector<WrittenReading> readings = truth.symmetry;

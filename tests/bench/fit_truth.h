@@ -31,7 +31,9 @@ Truth make_tiered(int facets, unsigned seed);
 /// With symmetry: inclinations, the widths, the depth, the table's edges and the symmetry.
 /// `edges`: how many of the edges are read, evenly spread; negative: all.
 std::vector<WrittenReading> read_by_instruments(const Truth& truth, unsigned seed, int edges = -1);
-/// The same without noise.
+/// Every facet's azimuth but the table's, across the slope to the same sigma as inclinations.
+std::vector<WrittenReading> read_azimuths(const Truth& truth, unsigned seed);
+/// The first without noise.
 std::vector<WrittenReading> read_perfectly(const Truth& truth, int edges = -1);
 
 /// Every corner off by a normal vector of root mean square `part` of the diameter.

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "stone/checks.h"
 #include "tests/bench/fit_trials.h"
@@ -14,21 +13,11 @@ namespace {
 
 using namespace bench;
 
-// Inclinations and edges as read, and every facet's azimuth to 0.1 degrees.
+// Inclinations, edges and azimuths.
 std::vector<WrittenReading> with_azimuths(const Truth& truth, unsigned seed) {
     std::vector<WrittenReading> readings = read_by_instruments(truth, seed);
-    std::mt19937 random(seed);
-    std::normal_distribution<double> error(0, 0.1);
-    for (const Facet& f : truth.stone.solid.facets) {
-        if (f.name == truth.stone.up_facet) continue;
-        WrittenReading r;
-        r.kind = "azimuth";
-        r.of = {f.name};
-        const Vec3& n = f.plane.normal;
-        r.sigma = 0.1 / std::hypot(n.x, n.y);
-        r.value = degrees(std::atan2(n.y, n.x)) + error(random) / std::hypot(n.x, n.y);
-        readings.push_back(std::move(r));
-    }
+    const std::vector<WrittenReading> azimuths = read_azimuths(truth, seed);
+    readings.insert(readings.end(), azimuths.begin(), azimuths.end());
     return readings;
 }
 
