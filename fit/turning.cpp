@@ -188,6 +188,94 @@ Misfit misfit_at(const std::vector<Caliper>& calipers, const Corners& corners, d
     return before;
 }
 
+std::vector<Caliper> evenly_chosen(const std::vector<Caliper>& calipers) {
+    std::vector<Caliper> some;
+    for (std::size_t k = 0; k < k_most_calipers; ++k) {
+        some.push_back(calipers[k * calipers.size() / k_most_calipers]);
+    }
+    return some;
+}
+
+// slope . (the corner's place), as a functional of the freedoms.
+void add_along(Eigen::VectorXd& functional, const Freedoms::Chart& chart, int point,
+               const Vec3& slope) {
+    const Freedoms::Slots& slots = chart.points[std::size_t(point)];
+    for (int k = 0; k < slots.count; ++k) {
+        functional(slots.column + k) += glm::dot(slots.along[std::size_t(k)], slope);
+    }
+}
+
+// How far all corners together turn about up and move, as functionals of the freedoms.
+struct Motions {
+    Eigen::VectorXd turn;
+    std::array<Eigen::VectorXd, 2> shift;  // in the mean
+};
+Motions motions_of(const Shape& shape, const Freedoms::Chart& chart, const Eigen::VectorXd& none) {
+    Motions motions{none, {none, none}};
+    Vec3 mean(0);
+    for (const Vec3& p : shape.points) mean += p / double(shape.points.size());
+    for (std::size_t p = 0; p < shape.points.size(); ++p) {
+        const int point = static_cast<int>(p);
+        const double part = 1 / double(shape.points.size());
+        const Vec3 out = shape.points[p] - mean;
+        add_along(motions.turn, chart, point, {-out.y, out.x, 0});
+        add_along(motions.shift[0], chart, point, Vec3{part, 0, 0});
+        add_along(motions.shift[1], chart, point, Vec3{0, part, 0});
+    }
+    return motions;
+}
+
+// Corners that a jaw may touch at one of these turns get their columns in `corners`.
+std::vector<int> number_touched(const std::vector<Caliper>& calipers, Corners& corners, int from,
+                                int to) {
+    std::vector<int> touched;
+    for (int k = from; k <= to; ++k) {
+        for (const Jaws& j :
+             jaws_at(calipers, corners, corners.places, k * radians(k_pace_deg), true)) {
+            for (const int corner : {j.first, j.second}) {
+                if (corners.column[std::size_t(corner)] >= 0) continue;
+                corners.column[std::size_t(corner)] = 2 * Eigen::Index(touched.size());
+                touched.push_back(corner);
+            }
+        }
+    }
+    return touched;
+}
+
+// Their places, x then y, against the mean of all: nothing says where the stone as a whole lies.
+Eigen::MatrixXd places_of(const std::vector<int>& touched, const Freedoms::Chart& chart,
+                          const Motions& motions) {
+    Eigen::MatrixXd places =
+        Eigen::MatrixXd::Zero(motions.turn.size(), 2 * Eigen::Index(touched.size()));
+    for (std::size_t k = 0; k < touched.size(); ++k) {
+        for (const int axis : {0, 1}) {
+            Eigen::VectorXd functional = -motions.shift[std::size_t(axis)];
+            add_along(functional, chart, touched[k], axis == 0 ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
+            places.col(2 * Eigen::Index(k) + axis) = functional;
+        }
+    }
+    return places;
+}
+
+// Of these turns the one where calipers and mesh together say less than `limit`, and least.
+struct Best {
+    int pace = 0;
+    Misfit misfit;
+};
+Best best_turn(const std::vector<Caliper>& calipers, const Corners& corners, const Standing& mesh,
+               int from, int to, double limit) {
+    const double pace = radians(k_pace_deg);
+    Best best;
+    for (int k = from; k <= to; ++k) {
+        Misfit misfit = misfit_at(calipers, corners, k * pace, pace);
+        const double sum = misfit.chi2 + mesh.misfit(k * pace);
+        if (!(sum < limit)) continue;
+        limit = sum;
+        best = {k, std::move(misfit)};
+    }
+    return best;
+}
+
 }  // namespace
 
 std::optional<Turned> turned_better(Relaxation& relaxation, SaddleSolver& solver,
@@ -202,34 +290,14 @@ std::optional<Turned> turned_better(Relaxation& relaxation, SaddleSolver& solver
     if (!solver.factor(sheet.rows, sheet.prior_stiffness + k_damping * relaxation.metric())) {
         return std::nullopt;
     }
-    if (calipers.size() > k_most_calipers) {
-        std::vector<Caliper> some;
-        for (std::size_t k = 0; k < k_most_calipers; ++k) {
-            some.push_back(calipers[k * calipers.size() / k_most_calipers]);
-        }
-        calipers = std::move(some);
-    }
+    if (calipers.size() > k_most_calipers) calipers = evenly_chosen(calipers);
 
     // Everything else stands still about up, or the model could turn by itself.
     const Freedoms& freedoms = relaxation.freedoms();
     const Freedoms::Chart chart = freedoms.chart(shape);
-    const auto along = [&](Eigen::VectorXd& functional, int point, const Vec3& slope) {
-        const Freedoms::Slots& slots = chart.points[std::size_t(point)];
-        for (int k = 0; k < slots.count; ++k) {
-            functional(slots.column + k) += glm::dot(slots.along[std::size_t(k)], slope);
-        }
-    };
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(freedoms.size());
-    Vec3 mean(0);
-    Eigen::VectorXd turn = none;
-    std::array<Eigen::VectorXd, 2> shift{none, none};  // of all corners in the mean
-    for (const Vec3& p : shape.points) mean += p / double(shape.points.size());
-    for (std::size_t p = 0; p < shape.points.size(); ++p) {
-        const Vec3 out = shape.points[p] - mean;
-        along(turn, static_cast<int>(p), {-out.y, out.x, 0});
-        along(shift[0], static_cast<int>(p), Vec3{1 / double(shape.points.size()), 0, 0});
-        along(shift[1], static_cast<int>(p), Vec3{0, 1 / double(shape.points.size()), 0});
-    }
+    const Motions motions = motions_of(shape, chart, none);
+    const Eigen::VectorXd& turn = motions.turn;
     const auto turned = solver.solve(turn, Eigen::VectorXd::Zero(sheet.rows.count()), k_precision);
     const auto moved = solver.solve(none, -sheet.rows.residuals(), k_precision);
     if (!turned.good || !moved.good) return std::nullopt;
@@ -245,7 +313,6 @@ std::optional<Turned> turned_better(Relaxation& relaxation, SaddleSolver& solver
     Corners corners;
     corners.places = moved_by(step).points;
     corners.column.assign(shape.points.size(), -1);
-    std::vector<int> touched;
     const Standing mesh = standing_of_mesh(shape.points, relaxation.system().mesh_shape().points);
     // What the other readings leave at least; then at each turn the calipers.
     const double others =
@@ -258,49 +325,22 @@ std::optional<Turned> turned_better(Relaxation& relaxation, SaddleSolver& solver
     const double pace = radians(k_pace_deg);
     const int from = static_cast<int>(std::floor((mesh.angle - range) / pace)),
               to = static_cast<int>(std::ceil((mesh.angle + range) / pace));
-    for (int k = from; k <= to; ++k) {
-        for (const Jaws& j : jaws_at(calipers, corners, corners.places, k * pace, true)) {
-            for (const int corner : {j.first, j.second}) {
-                if (corners.column[std::size_t(corner)] >= 0) continue;
-                corners.column[std::size_t(corner)] = 2 * Eigen::Index(touched.size());
-                touched.push_back(corner);
-            }
-        }
-    }
-    const auto count = 2 * static_cast<Eigen::Index>(touched.size());
-    Eigen::MatrixXd functionals = Eigen::MatrixXd::Zero(freedoms.size(), count);
-    for (std::size_t k = 0; k < touched.size(); ++k) {
-        for (const int axis : {0, 1}) {
-            // Against the mean of all: nothing says where the stone as a whole lies.
-            Eigen::VectorXd functional = -shift[std::size_t(axis)];
-            along(functional, touched[k], axis == 0 ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
-            functionals.col(2 * Eigen::Index(k) + axis) = functional;
-        }
-    }
+    const std::vector<int> touched = number_touched(calipers, corners, from, to);
+    const Eigen::MatrixXd functionals = places_of(touched, chart, motions);
     const auto solved = solver.solve_all(functionals, Eigen::MatrixXd(), k_precision);
     if (!solved.good) return std::nullopt;
     const Eigen::VectorXd with_turn = functionals.transpose() * turned.unknowns;
     corners.covariance =
         functionals.transpose() * solved.unknowns - with_turn * with_turn.transpose() / of_turn;
 
-    double best_sum = gain - k_least_gain;
-    Misfit best;
-    int best_pace = 0;
-    for (int k = from; k <= to; ++k) {
-        Misfit misfit = misfit_at(calipers, corners, k * pace, pace);
-        const double sum = misfit.chi2 + mesh.misfit(k * pace);
-        if (!(sum < best_sum)) continue;
-        best_sum = sum;
-        best = std::move(misfit);
-        best_pace = k;
-    }
+    const Best best = best_turn(calipers, corners, mesh, from, to, gain - k_least_gain);
     // It stands there, or so near that it would have come there by itself.
-    if (std::abs(best_pace) < 2) return std::nullopt;
-    step +=
-        solved.unknowns * best.forces - turned.unknowns * (with_turn.dot(best.forces) / of_turn);
+    if (std::abs(best.pace) < 2) return std::nullopt;
+    step += solved.unknowns * best.misfit.forces -
+            turned.unknowns * (with_turn.dot(best.misfit.forces) / of_turn);
     if (!(step.cwiseAbs().maxCoeff() < k_longest)) return std::nullopt;
-    Turned result{moved_by(step), mesh.misfit(0) - mesh.misfit(best_pace * pace)};
-    const glm::dmat3 by = turn_about_z(best_pace * pace);
+    Turned result{moved_by(step), mesh.misfit(0) - mesh.misfit(best.pace * pace)};
+    const glm::dmat3 by = turn_about_z(best.pace * pace);
     for (Vec3& n : result.shape.normals) n = by * n;
     for (Vec3& p : result.shape.points) p = by * p;
     return result;
