@@ -225,7 +225,7 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
     if (sets_aside == SetsAside::yes && stone.azimuth_from_mesh && !mirrored) {
         auto better = fit_turning_azimuths_back(
             result, readings, system.mesh_turn(), [&](const std::vector<Reading>& back) {
-                return fit(drawn, back, with_few_starts(options, drawn), progress, SetsAside::no);
+                return fit(drawn, back, with_few_starts(options, portfolio), progress, SetsAside::no);
             });
         if (better) {
             better->options = result.options;

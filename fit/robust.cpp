@@ -12,8 +12,8 @@ namespace {
 
 constexpr double k_huber = 1.345, k_cauchy = 2.385;
 constexpr int k_rounds = 40;
-// Steps times readings: of large stones whose steps are many a few rounds have to do.
-constexpr double k_most_work = 3e5;
+// In multiplications (SaddleSolver::work), some seconds: of large stones a few rounds have to do.
+constexpr double k_most_work = 5e9;
 // A weight never goes to nothing: a sigma a million times as large says as much.
 constexpr double k_least_weight = 1e-12;
 
@@ -36,9 +36,8 @@ std::vector<double> reweight(System& system, Candidate& candidate, Loss loss, in
     const std::size_t count = system.readings().size();
     std::vector<double> weights(count, 1), sigmas;
     for (const Reading& r : system.readings()) sigmas.push_back(r.sigma);
-    const int before = candidate.finished.iterations;
-    for (int round = 0; round < k_rounds; ++round) {
-        if (double(candidate.finished.iterations - before) * double(count) > k_most_work) break;
+    double work = 0;
+    for (int round = 0; round < k_rounds && work < k_most_work; ++round) {
         const Finished& finished = candidate.finished;
         std::vector<double> worst(count, 0);
         for (const Equation& e : system.equations(finished.shape, finished.outline)) {
@@ -58,6 +57,7 @@ std::vector<double> reweight(System& system, Candidate& candidate, Loss loss, in
         }
         if (change < 0.01) break;
         Candidate next = finish_from(system, finished.shape, iterations);
+        work += next.finished.work;
         next.start = candidate.start;
         next.finished.iterations += candidate.finished.iterations;
         // A start that was sound stays so, or the weights lead nowhere.
