@@ -86,6 +86,25 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> without_hinges(const Linearised& li
     return rows;
 }
 
+// Entry by entry of the sparse factor, each times a row of the dense one.
+DenseRows product(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows,
+                  const DenseRows& columns) {
+    DenseRows result = DenseRows::Zero(rows.rows(), columns.cols());
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, i); it; ++it) {
+            result.row(i) += it.value() * columns.row(it.col());
+        }
+    }
+    return result;
+}
+Eigen::RowVectorXd product(const FunctionRow& function, const DenseRows& columns) {
+    Eigen::RowVectorXd result = Eigen::RowVectorXd::Zero(columns.cols());
+    for (FunctionRow::InnerIterator it(function); it; ++it) {
+        result += it.value() * columns.row(it.index());
+    }
+    return result;
+}
+
 FunctionRow function_row(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows, Eigen::Index i) {
     FunctionRow row(rows.cols());
     for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, i); it; ++it) {
@@ -211,15 +230,10 @@ void Covariance::find_dense(const Linearised& linear) {
     if (size == 0) return;  // exact readings leave nothing free
 
     // Whitened by the metric, so that eigenvalues compare readings with the mesh.
+    const DenseRows basis = free.basis;
     Eigen::MatrixXd metric = Eigen::MatrixXd::Zero(size, size);
-    using RowOf = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
-    for (Eigen::Index i = 0; i < unknowns; ++i) {
-        for (RowOf a(free.basis, i); a; ++a) {
-            for (RowOf b(free.basis, i); b; ++b) {
-                metric(b.col(), a.col()) += linear.metric(i) * a.value() * b.value();
-            }
-        }
-    }
+    metric.selfadjointView<Eigen::Lower>().rankUpdate(
+        Eigen::MatrixXd(basis.transpose() * linear.metric.cwiseSqrt().asDiagonal()));
     const Eigen::LLT<Eigen::MatrixXd> chol(metric);
     if (chol.info() != Eigen::Success) {
         usable_ = false;
@@ -229,10 +243,10 @@ void Covariance::find_dense(const Linearised& linear) {
         if (rows.rows() == 0) return Eigen::MatrixXd(0, size);
         return chol.matrixU().solve<Eigen::OnTheRight>(rows);
     };
-    Eigen::MatrixXd seen = whitened(Eigen::MatrixXd(rows_ * free.basis));
+    Eigen::MatrixXd seen = whitened(product(rows_, basis));
     // Along the gauge nothing is seen: it counts as held, and is taken out at the end.
     const Eigen::MatrixXd along =
-        whitened(Eigen::MatrixXd((linear.metric.asDiagonal() * gauge).transpose() * free.basis));
+        whitened(Eigen::MatrixXd((linear.metric.asDiagonal() * gauge).transpose() * basis));
 
     const Eigen::VectorXd norms = seen.rowwise().norm();
     const double largest = norms.size() > 0 ? norms.maxCoeff() : 0;
@@ -251,14 +265,14 @@ void Covariance::find_dense(const Linearised& linear) {
 
     const Eigen::MatrixXd shifted = normal - k_determined * Eigen::MatrixXd::Identity(size, size);
     const bool all_held = Eigen::LLT<Eigen::MatrixXd>(shifted).info() == Eigen::Success;
-    const auto unwhitened = [&](const Eigen::MatrixXd& columns) -> Eigen::MatrixXd {
-        return free.basis * Eigen::MatrixXd(chol.matrixU().solve(columns));
+    const auto unwhitened = [&](const Eigen::MatrixXd& columns) -> DenseRows {
+        return basis * Eigen::MatrixXd(chol.matrixU().solve(columns));
     };
     if (all_held && !spread) {
         const Eigen::LLT<Eigen::MatrixXd> factor(normal);
         const Eigen::MatrixXd upper =
             factor.matrixU().solve(Eigen::MatrixXd::Identity(size, size));  // (S^-1) = U^-1 U^-T
-        held_ = unwhitened(upper);
+        held_ = basis * Eigen::MatrixXd(chol.matrixU().solve(upper)).triangularView<Eigen::Upper>();
         // Eigen's triangular product looks at the first element of what may have none.
         seen_ = seen.size() > 0 ? Eigen::MatrixXd(seen * upper.triangularView<Eigen::Upper>())
                                 : Eigen::MatrixXd(seen);
@@ -284,9 +298,10 @@ void Covariance::find_dense(const Linearised& linear) {
             seen_ = Eigen::MatrixXd::Zero(rows_.rows(), 0);
         }
     }
-    const auto off_gauge = [&](Eigen::MatrixXd& columns) {
+    const auto off_gauge = [&](DenseRows& columns) {
         if (columns.cols() == 0 || gauge.cols() == 0) return;
-        columns -= gauge * ((linear.metric.asDiagonal() * gauge).transpose() * columns);
+        const Eigen::MatrixXd parts = (linear.metric.asDiagonal() * gauge).transpose() * columns;
+        columns.noalias() -= gauge * parts;
     };
     off_gauge(held_);
     off_gauge(open_);
@@ -335,7 +350,7 @@ void Covariance::find_sparse(const Linearised& linear) {
 
 double Covariance::variance(const FunctionRow& function) const {
     if (!usable_) return std::numeric_limits<double>::quiet_NaN();
-    if (!sparse_) return (function.transpose() * held_).squaredNorm();
+    if (!sparse_) return product(function, held_).squaredNorm();
     const double loose = sparse_->of(sparse_->tight, function);
     if (!sparse_->has_open) return loose;
     const double trusted = sparse_->of(sparse_->trusted, function);
@@ -350,7 +365,7 @@ double Covariance::total_variance(const FunctionRow& function) const {
 
 double Covariance::open_variance(const FunctionRow& function) const {
     if (!usable_) return std::numeric_limits<double>::quiet_NaN();
-    if (!sparse_) return (function.transpose() * open_).squaredNorm();
+    if (!sparse_) return product(function, open_).squaredNorm();
     if (!sparse_->has_open) return 0;
     // An open direction of length q has the variance q^2 / (lambda + prior): what the two priors
     // disagree on.
@@ -361,8 +376,8 @@ double Covariance::open_variance(const FunctionRow& function) const {
 
 Eigen::VectorXd Covariance::with_all(const FunctionRow& function, bool open) const {
     if (!sparse_) {
-        Eigen::VectorXd all = held_ * (function.transpose() * held_).transpose();
-        if (open) all += open_ * (function.transpose() * open_).transpose();
+        Eigen::VectorXd all = held_ * product(function, held_).transpose();
+        if (open) all += open_ * product(function, open_).transpose();
         return all;
     }
     return sparse_->with_all(open && sparse_->has_open ? sparse_->trusted : sparse_->tight,

@@ -21,6 +21,8 @@ namespace culet {
 
 /// Coefficients of a linear function of the unknowns.
 using FunctionRow = Eigen::SparseVector<double>;
+/// Stored row by row: what belongs to one unknown or equation lies together.
+using DenseRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 class Covariance {
 public:
@@ -49,9 +51,7 @@ public:
     int open_freedoms() const { return open_freedoms_; }
     bool is_dense() const { return sparse_ == nullptr; }
     /// Open directions, of length one in the mesh's metric; dense only (else no columns).
-    const Eigen::MatrixXd& open() const { return open_; }
-    /// Factor of the covariance of what is held: held held'; dense only.
-    const Eigen::MatrixXd& held() const { return held_; }
+    const DenseRows& open() const { return open_; }
 
 private:
     struct Sparse;
@@ -60,8 +60,8 @@ private:
 
     bool usable_ = false;
     Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;  // soft, without hinges
-    Eigen::MatrixXd held_, open_;                        // dense
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> seen_;  // rows * held
+    // Dense. The covariance of what is held is held held'; seen: rows * held.
+    DenseRows held_, open_, seen_;
     std::unique_ptr<Sparse> sparse_;
     Eigen::VectorXd leverages_;
     int open_freedoms_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -19,24 +20,25 @@ constexpr double k_preferred = 0.1;
 // Entries this much smaller than the largest of their sum are what cancellation leaves.
 constexpr double k_cancelled = 1e-15;
 
+// Forward elimination: an expression stands in unknowns that were left when it was made. What
+// became of those since is put in at the end, once, from the last one made to the first.
 class Elimination {
 public:
     explicit Elimination(int unknowns)
         : expressions_(std::size_t(unknowns)),
-          uses_(std::size_t(unknowns)),
-          eliminated_(std::size_t(unknowns), false),
+          step_(std::size_t(unknowns), -1),
           sum_(std::size_t(unknowns), 0),
           size_(std::size_t(unknowns), 0) {}
 
     // True when the equation took one more unknown.
     bool add(const Entries& equation, int first_preferred, int end_preferred) {
-        const Entries row = substituted(equation);
+        substitute(equation);
         double largest = 0;
-        for (const auto& [column, value] : row) largest = std::max(largest, std::abs(value));
+        for (const auto& [column, value] : row_) largest = std::max(largest, std::abs(value));
         if (!(largest > k_repeats * most_)) return false;
         int pivot = -1;
-        double best = 0;
-        for (const auto& [column, value] : row) {
+        double best = 0, at_pivot = 0;
+        for (const auto& [column, value] : row_) {
             const bool preferred = column >= first_preferred && column < end_preferred;
             const double rank =
                 std::abs(value) +
@@ -44,104 +46,119 @@ public:
             if (rank > best) {
                 best = rank;
                 pivot = column;
+                at_pivot = value;
             }
         }
-        double at_pivot = 0;
-        for (const auto& [column, value] : row) {
-            if (column == pivot) at_pivot = value;
-        }
-        Entries expression;
-        for (const auto& [column, value] : row) {
+        Entries& expression = expressions_[std::size_t(pivot)];
+        expression.reserve(row_.size() - 1);
+        for (const auto& [column, value] : row_) {
             if (column != pivot) expression.emplace_back(column, -value / at_pivot);
         }
-        // Earlier expressions that used the pivot use its expression instead.
-        for (const int user : std::exchange(uses_[std::size_t(pivot)], {})) {
-            Entries& old = expressions_[std::size_t(user)];
-            const auto there = std::find_if(
-                old.begin(), old.end(), [&](const auto& entry) { return entry.first == pivot; });
-            if (there == old.end()) continue;
-            const double factor = there->second;
-            old.erase(there);
-            begin_sum();
-            for (const auto& [column, value] : old) accumulate(column, value);
-            const std::size_t own = touched_.size();
-            for (const auto& [column, value] : expression) accumulate(column, factor * value);
-            for (std::size_t i = own; i < touched_.size(); ++i) {
-                uses_[std::size_t(touched_[i])].push_back(user);
-            }
-            old = end_sum();
-        }
-        for (const auto& [column, value] : expression) uses_[std::size_t(column)].push_back(pivot);
-        expressions_[std::size_t(pivot)] = std::move(expression);
-        eliminated_[std::size_t(pivot)] = true;
+        step_[std::size_t(pivot)] = static_cast<int>(order_.size());
+        order_.push_back(pivot);
         return true;
     }
 
-    FreeDirections result() const {
+    FreeDirections result() {
+        for (auto pivot = order_.rbegin(); pivot != order_.rend(); ++pivot) {
+            Entries& expression = expressions_[std::size_t(*pivot)];
+            for (const auto& [column, value] : expression) {
+                if (step_[std::size_t(column)] < 0) {
+                    accumulate(column, value);
+                    continue;
+                }
+                for (const auto& [other, factor] : expressions_[std::size_t(column)]) {
+                    accumulate(other, value * factor);
+                }
+            }
+            expression.clear();
+            take_sum(expression);
+        }
         FreeDirections free;
         const int unknowns = int(expressions_.size());
         std::vector<int> place(expressions_.size(), -1);
         int count = 0;
+        std::size_t entries = 0;
         for (int i = 0; i < unknowns; ++i) {
-            if (!eliminated_[std::size_t(i)]) place[std::size_t(i)] = count++;
+            if (step_[std::size_t(i)] < 0) place[std::size_t(i)] = count++;
+            entries += 1 + expressions_[std::size_t(i)].size();
         }
-        std::vector<Eigen::Triplet<double>> entries;
+        free.basis.resize(unknowns, count);
+        free.basis.reserve(Eigen::Index(entries));
         for (int i = 0; i < unknowns; ++i) {
-            if (!eliminated_[std::size_t(i)]) {
-                entries.emplace_back(i, place[std::size_t(i)], 1.0);
+            free.basis.startVec(i);
+            if (step_[std::size_t(i)] < 0) {
+                free.basis.insertBack(i, place[std::size_t(i)]) = 1;
                 continue;
             }
-            for (const auto& [column, value] : expressions_[std::size_t(i)]) {
-                entries.emplace_back(i, place[std::size_t(column)], value);
+            Entries& expression = expressions_[std::size_t(i)];
+            std::sort(expression.begin(), expression.end());
+            for (const auto& [column, value] : expression) {
+                free.basis.insertBack(i, place[std::size_t(column)]) = value;
                 free.growth = std::max(free.growth, std::abs(value));
             }
         }
-        free.basis.resize(unknowns, count);
-        free.basis.setFromTriplets(entries.begin(), entries.end());
+        free.basis.finalize();
         free.rank = unknowns - count;
         return free;
     }
 
 private:
-    void begin_sum() { touched_.clear(); }
-    void accumulate(int column, double value) {
+    // True when the column was not in the sum.
+    bool accumulate(int column, double value) {
         const std::size_t c = std::size_t(column);
-        if (size_[c] == 0 && value != 0) touched_.push_back(column);
+        const bool is_new = size_[c] == 0 && value != 0;
+        if (is_new) touched_.push_back(column);
         sum_[c] += value;
         size_[c] += std::abs(value);
+        return is_new;
     }
-    Entries end_sum() {
-        Entries entries;
+    // What is left of an unknown in the sum, which loses it.
+    double taken(int column) {
+        const std::size_t c = std::size_t(column);
+        const double value = std::abs(sum_[c]) > k_cancelled * size_[c] ? sum_[c] : 0;
+        sum_[c] = size_[c] = 0;
+        return value;
+    }
+    void take_sum(Entries& to) {
         for (const int column : touched_) {
-            const std::size_t c = std::size_t(column);
-            if (std::abs(sum_[c]) > k_cancelled * size_[c]) entries.emplace_back(column, sum_[c]);
-            sum_[c] = size_[c] = 0;
+            if (const double value = taken(column); value != 0) to.emplace_back(column, value);
         }
-        return entries;
+        touched_.clear();
     }
-    Entries substituted(const Entries& equation) {
-        begin_sum();
+    // The equation in unknowns that are left, in `row_`.
+    void substitute(const Entries& equation) {
         most_ = 0;
-        for (const auto& [column, value] : equation) {
-            if (!eliminated_[std::size_t(column)]) {
-                accumulate(column, value);
-                most_ = std::max(most_, std::abs(value));
-                continue;
-            }
-            for (const auto& [other, factor] : expressions_[std::size_t(column)]) {
-                accumulate(other, value * factor);
-                most_ = std::max(most_, std::abs(value * factor));
-            }
+        waiting_.clear();
+        const auto put = [&](int column, double value) {
             most_ = std::max(most_, std::abs(value));
+            const int step = step_[std::size_t(column)];
+            if (!accumulate(column, value) || step < 0) return;
+            waiting_.push_back(step);
+            std::push_heap(waiting_.begin(), waiting_.end(), std::greater<>());
+        };
+        for (const auto& [column, value] : equation) put(column, value);
+        // The earliest first: it stands in later ones only.
+        while (!waiting_.empty()) {
+            std::pop_heap(waiting_.begin(), waiting_.end(), std::greater<>());
+            const int column = order_[std::size_t(waiting_.back())];
+            waiting_.pop_back();
+            const double value = taken(column);
+            if (value == 0) continue;
+            for (const auto& [other, factor] : expressions_[std::size_t(column)]) {
+                put(other, value * factor);
+            }
         }
-        return end_sum();
+        row_.clear();
+        take_sum(row_);
     }
 
-    std::vector<Entries> expressions_;    // of eliminated unknowns, in those that are not
-    std::vector<std::vector<int>> uses_;  // which expressions may use an unknown
-    std::vector<bool> eliminated_;
+    std::vector<Entries> expressions_;  // of eliminated unknowns, in those that are not
+    std::vector<int> step_;             // when each was eliminated; -1: it is left
+    std::vector<int> order_;            // of elimination
     std::vector<double> sum_, size_;
-    std::vector<int> touched_;
+    std::vector<int> touched_, waiting_;
+    Entries row_;
     double most_ = 0;  // the largest term of the latest substitution
 };
 

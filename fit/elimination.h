@@ -6,7 +6,7 @@
 namespace culet {
 
 /// A basis Z of the null space of `rows` (rows * Z = 0), one sparse column a free direction, by
-/// Gauss-Jordan elimination on the largest entries of each row. Equations that repeat others to
+/// elimination on the largest entries of each row. Equations that repeat others to
 /// 1e-10 of their own size add nothing. Chains of equations between neighbours (orbits of a
 /// symmetry, meets of planes) stay sparse, which an orthogonal basis would not.
 /// Columns from `first_preferred` on are eliminated before others where their entries are not much
