@@ -35,8 +35,11 @@ constexpr std::size_t k_creeping = 6;
 constexpr double k_crumb = 0.01, k_all_but_met = 1e-6;
 // In how many rounds a step may find out which corners it has to stop.
 constexpr int k_most_rounds = 4;
-// Steps in a row that gain nothing, at the end.
+// Steps in a row that gain nothing, at the end: this part of chi-square.
 constexpr int k_quiet = 2;
+constexpr double k_no_gain = 1e-8;
+// Of Newton's steps: the next would be gone in rounding.
+constexpr double k_short = 1e-7;
 // Of chi-square: where a step gains less, the shape tells what the readings mean.
 constexpr double k_little = 0.05;
 
@@ -104,8 +107,11 @@ struct Settled {
     double chi2 = 0, worst_hard = 0;
 };
 
+// `near_an_end`: the equations bend as they do where the steps will end, so that the first step may
+// already be Newton's.
 Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
-               const std::vector<Held>& held, int iterations, double goal = 1e300) {
+               const std::vector<Held>& held, int iterations, double goal = 1e300,
+               bool near_an_end = false) {
     const Freedoms& freedoms = relaxation.freedoms();
     Softness softness;
     softness.with_priors = false;
@@ -116,7 +122,7 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
     Sheet sheet = relaxation.sheet(shape, softness, held);
     const Eigen::VectorXd metric = relaxation.metric();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(freedoms.size());
-    double damping = k_first_damping;
+    double damping = near_an_end ? k_least_damping : k_first_damping;
     int quiet = 0, choices = 0, refused = 0;
     std::vector<double> merits;
     bool curved = false;
@@ -146,9 +152,14 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
     Eigen::VectorXd forces;
     double least = SaddleSolver::k_least_variance;
     bool may_be_close = true;
+    if (near_an_end && solver.factor(sheet.rows, damping * metric)) {
+        const auto s = solver.solve(none, -sheet.rows.residuals(), step_precision(sheet.rows));
+        curved = s.good;
+        forces = s.forces;
+    }
     for (int i = 0; i < iterations; ++i) {
         result.iterations = i + 1;
-        bool factored = false, better = false;
+        bool factored = false, better = false, idle = false;
         double length = 0;
         // A step that lifts corners above their neighbours is taken again with those pressed down
         // (semismooth Newton), as in the earlier stages.
@@ -213,15 +224,17 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
                          after = there.merit + 1e6 * std::max(0.0, there.hard_sum - k_nearly_met);
             better = after <= before * (1 + 1e-12) + 1e-9;
             if (!better) {
+                // Newton's step, and the sums' own rounding.
+                idle = curved && length < k_short && after - before < k_no_gain * (1 + before);
                 if (there.above == pressed) break;
                 pressed = std::move(there.above);
                 sheet = relaxation.sheet(shape, softness, held, &pressed);
                 continue;
             }
             const double gain = before - after;
-            quiet = gain < 1e-8 * (1 + before) || length < 1e-12 ? quiet + 1 : 0;
+            quiet = gain < k_no_gain * (1 + before) || length < 1e-12 ? quiet + 1 : 0;
             // The next step of Newton's would have the square of this length.
-            if (curved && length < 1e-7 && quiet > 0) quiet = k_quiet;
+            if (curved && length < k_short && quiet > 0) quiet = k_quiet;
             shape = std::move(next);
             // The exact Hessian near the end: weak freedoms would creep.
             if (length < 1e-2) {
@@ -241,7 +254,7 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
             damping *= std::pow(10, std::clamp(++refused / 2, 1, 4));
             if (pressed != sheet.above) sheet = relaxation.sheet(shape, softness, held);
             // Nothing more to gain at the size of rounding; or no step is better.
-            if ((factored && length < 1e-9) || damping > 1e8) {
+            if ((factored && length < 1e-9) || idle || damping > 1e8) {
                 if (ends(factored)) break;
             }
         }
@@ -268,10 +281,11 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
 }  // namespace
 
 ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterations,
-                         double hopeless) {
+                         double hopeless, double agreeable) {
     ExactFinish result;
     SaddleSolver solver;
-    Settled settled = settle(relaxation, solver, start, {}, iterations);
+    const bool goes_on = agreeable > 0;
+    Settled settled = settle(relaxation, solver, start, {}, iterations, 1e300, goes_on);
     Softness softness;
     softness.with_priors = false;
     // What the readings may as well mean: each meaning has an end of its own.
@@ -283,7 +297,7 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         settled = std::move(other);
         return true;
     };
-    for (int round = 0; round < k_most_meanings; ++round) {
+    for (int round = 0; round < k_most_meanings && !(settled.chi2 < agreeable); ++round) {
         const auto leaning =
             leaning_better(relaxation, solver, settled.shape, softness, k_nearly_upright);
         if (leaning && gains_from(*leaning, 0)) continue;
@@ -323,7 +337,7 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
             result.held.size() > 3 * relaxation.system().stone().solid.facets.size();
         if (result.is_no_stone) break;
         const int earlier = settled.iterations;
-        settled = settle(relaxation, solver, settled.shape, result.held, left);
+        settled = settle(relaxation, solver, settled.shape, result.held, left, 1e300, goes_on);
         left -= settled.iterations;
         settled.iterations += earlier;
     }

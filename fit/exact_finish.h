@@ -19,7 +19,9 @@ struct ExactFinish {
 };
 
 /// Ends early, with corners above their neighbours, where chi-square is larger than `hopeless`.
+/// From the end of an earlier fit, `agreeable` is the chi-square below which readings that changed
+/// a little have not changed their meaning: no other turns and leanings are then looked for.
 ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterations,
-                         double hopeless = 1e300);
+                         double hopeless = 1e300, double agreeable = 0);
 
 }  // namespace culet

@@ -154,14 +154,13 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
 
     std::optional<Candidate> again;
     if (const auto shape = options.start ? shape_of(system, *options.start) : std::nullopt) {
-        again = finish_from(system, *shape, options.iterations);
+        again = refit_from(system, *shape, options.iterations);
     }
     const bool goes_on = again && again->sound && again->finished.converged &&
                          again->finished.worst_hard < k_hard_limit;
     Portfolio portfolio;
     if (goes_on) {
         portfolio.best = std::move(*again);
-        portfolio.best.start = "earlier result";
     } else {
         portfolio = fit_from_starts(system, options, progress);
     }

@@ -80,7 +80,7 @@ std::optional<Approach> best_approach(Relaxation& relaxation, Starts& starts,
 }  // namespace
 
 Candidate finish_candidate(const System& system, Relaxation& relaxation, const Shape& shape,
-                           int iterations, double hopeless) {
+                           int iterations, double hopeless, double agreeable) {
     Candidate candidate;
     if (system.splits()) {
         candidate.finished = finish(system, shape, iterations);
@@ -88,7 +88,7 @@ Candidate finish_candidate(const System& system, Relaxation& relaxation, const S
         candidate.sound = enclosed.closed && enclosed.missing.empty();
         return candidate;
     }
-    ExactFinish exact = exact_finish(relaxation, shape, iterations, hopeless);
+    ExactFinish exact = exact_finish(relaxation, shape, iterations, hopeless, agreeable);
     candidate.finished = std::move(exact.finished);
     candidate.held = std::move(exact.held);
     candidate.cost_of_holding = exact.cost_of_holding;

@@ -29,9 +29,9 @@ struct Portfolio {
 };
 
 /// The last stage from a shape that is nearly right; ends early where chi-square is larger than
-/// `hopeless`.
+/// `hopeless`. `agreeable`: of exact_finish.h.
 Candidate finish_candidate(const System& system, Relaxation& relaxation, const Shape& shape,
-                           int iterations, double hopeless = 1e300);
+                           int iterations, double hopeless = 1e300, double agreeable = 0);
 
 /// Accepts the first candidate that is sound and agrees, or two that end in the same sound stone
 /// (then the readings contradict each other, and no start will help); gives up after several

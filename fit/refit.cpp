@@ -1,16 +1,21 @@
 #include "fit/refit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
 #include "fit/azimuth_turn.h"
+#include "fit/statistics.h"
 #include "stone/least_rotation.h"
 
 namespace culet {
 
 namespace {
+
+// Chance of so large a chi-square, from which on the readings agree well.
+constexpr double k_agrees_well = 0.2;
 
 // The least turn that brings `up` to +z.
 glm::dmat3 turn_to_z(const Vec3& up) {
@@ -43,6 +48,20 @@ Candidate finish_from(const System& system, const Shape& shape, int iterations) 
     Candidate candidate =
         finish_candidate(system, relaxation, freedoms.symmetrised(shape), iterations);
     candidate.start = "last result";
+    return candidate;
+}
+
+Candidate refit_from(const System& system, const Shape& shape, int iterations) {
+    const Freedoms freedoms = system.freedoms();
+    Relaxation relaxation(system, freedoms);
+    // The least redundancy that there can be, by counting: so many shifts at most are unseen.
+    const Relaxation::Counts counts = relaxation.counts();
+    constexpr int k_shifts = 3;
+    const int least = counts.soft + counts.hard + k_shifts - freedoms.size();
+    const double agreeable = chi2_quantile(k_agrees_well, std::max(1, least));
+    Candidate candidate = finish_candidate(system, relaxation, freedoms.symmetrised(shape),
+                                           iterations, 1e300, agreeable);
+    candidate.start = "earlier result";
     return candidate;
 }
 
