@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <map>
 
 #include "fit/covariance.h"
 #include "fit/cut_off.h"
@@ -20,6 +22,8 @@ constexpr double k_checked = 1e-4;
 constexpr double k_no_redundancy = 1e-10;
 // Planes that change more equations than this are tried without asking first what they may bring.
 constexpr std::size_t k_most_asked = 48;
+// Of so many equations the hat matrix has room: 8 MB.
+constexpr Index k_most_kept = 1000;
 // Twice the log of the likelihood ratio below which two explanations are as good as each other.
 constexpr double k_alternative = 3;
 // Shown by a single reading, only what one may well overlook: of the half diameter.
@@ -193,6 +197,9 @@ public:
         values_ = linear.soft_residuals.cwiseProduct(counted_);
         values_ -= covariance.fitted_part(values_);
         redundancy_ = (counted_ - covariance.leverages()).cwiseMax(0).cwiseProduct(counted_);
+        if (count_ <= k_most_kept) {
+            hat_.setConstant(count_, count_, std::numeric_limits<double>::quiet_NaN());
+        }
     }
 
     Index size() const { return count_; }
@@ -205,25 +212,12 @@ public:
     }
 
     // No signature of these equations alone lowers chi-square by more than r'R^-1 r, with both cut
-    // down to them: the maximum of -2 r's - s'Rs.
+    // down to them: the maximum of -2 r's - s'Rs. Planes of all directions and depths at a place
+    // mostly change the same ones.
     double most_of(const std::vector<Index>& equations) const {
-        const Index count = Index(equations.size());
-        Eigen::MatrixXd block(count, count);
-        Eigen::VectorXd values(count);
-        for (Index a = 0; a < count; ++a) {
-            const Index i = equations[std::size_t(a)];
-            values(a) = values_(i);
-            for (Index b = 0; b <= a; ++b) {
-                const Index j = equations[std::size_t(b)];
-                double entry = (i == j ? 1 : 0) - covariance_.leverage(i, j);
-                if (columns_.cols() > 0) entry -= aside_part_.row(i).dot(columns_.row(j));
-                block(a, b) = entry + (i == j ? k_no_redundancy : 0);
-            }
-        }
-        const Eigen::LDLT<Eigen::MatrixXd> factors(block);
-        return factors.info() == Eigen::Success && factors.isPositive()
-                   ? values.dot(factors.solve(values)) * (1 + 1e-6)
-                   : 1e300;
+        const auto [found, is_new] = most_.try_emplace(equations, 0.0);
+        if (is_new) found->second = find_most_of(equations);
+        return found->second;
     }
 
     // R s, as far as R is left.
@@ -238,7 +232,10 @@ public:
         return result - aside_part_ * at;
     }
 
-    void add(const Eigen::VectorXd& change) { values_ += change; }
+    void add(const Eigen::VectorXd& change) {
+        values_ += change;
+        most_.clear();
+    }
 
     void set_aside(Index i) {
         const double own = redundancy_(i);
@@ -259,14 +256,44 @@ public:
             block_.row(Index(k)) = columns_.row(aside_[k]);
         }
         aside_part_ = block_.ldlt().solve(columns_.transpose()).transpose();
+        most_.clear();
     }
 
 private:
+    double leverage(Index i, Index j) const {
+        if (hat_.size() == 0) return covariance_.leverage(i, j);
+        double& known = hat_(std::min(i, j), std::max(i, j));
+        if (std::isnan(known)) known = covariance_.leverage(i, j);
+        return known;
+    }
+
+    double find_most_of(const std::vector<Index>& equations) const {
+        const Index count = Index(equations.size());
+        Eigen::MatrixXd block(count, count);
+        Eigen::VectorXd values(count);
+        for (Index a = 0; a < count; ++a) {
+            const Index i = equations[std::size_t(a)];
+            values(a) = values_(i);
+            for (Index b = 0; b <= a; ++b) {
+                const Index j = equations[std::size_t(b)];
+                double entry = (i == j ? 1 : 0) - leverage(i, j);
+                if (columns_.cols() > 0) entry -= aside_part_.row(i).dot(columns_.row(j));
+                block(a, b) = entry + (i == j ? k_no_redundancy : 0);
+            }
+        }
+        const Eigen::LDLT<Eigen::MatrixXd> factors(block);
+        return factors.info() == Eigen::Success && factors.isPositive()
+                   ? values.dot(factors.solve(values)) * (1 + 1e-6)
+                   : 1e300;
+    }
+
     const Covariance& covariance_;
     Index count_;
     Eigen::VectorXd counted_, values_, redundancy_;
     std::vector<Index> aside_;
     Eigen::MatrixXd columns_ = Eigen::MatrixXd(count_, 0), block_, aside_part_;
+    mutable std::map<std::vector<Index>, double> most_;  // of what is left now
+    mutable Eigen::MatrixXd hat_;  // what is known of it: NaN is not; empty when it would be large
 };
 
 struct Candidate {
