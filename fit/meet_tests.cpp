@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "fit/miss_covariance.h"
 #include "fit/statistics.h"
 
 namespace culet {
@@ -17,12 +18,13 @@ struct Meet {
     MeetTreatment how = MeetTreatment::exact;
     std::vector<int> facets;
     std::vector<Eigen::Index> equations;  // exact: among the hard ones
-    Eigen::MatrixXd apart;                // facets x (facets - 3): U
+    Eigen::MatrixXd together, apart;      // facets x 3 and x (facets - 3): [Q U] is orthogonal
     Eigen::Index first = 0;               // of its columns among all of its kind
 };
 
 // Planes N x = d have a common point when U'd = 0 with U spanning null(N').
-Eigen::MatrixXd ways_apart(const Shape& shape, const std::vector<int>& facets) {
+void find_ways_apart(const Shape& shape, Meet& meet) {
+    const std::vector<int>& facets = meet.facets;
     const Eigen::Index count = Eigen::Index(facets.size());
     Eigen::MatrixXd normals(count, 3);
     for (Eigen::Index i = 0; i < count; ++i) {
@@ -31,7 +33,8 @@ Eigen::MatrixXd ways_apart(const Shape& shape, const std::vector<int>& facets) {
     }
     const Eigen::HouseholderQR<Eigen::MatrixXd> qr(normals);
     const Eigen::MatrixXd q = qr.householderQ();
-    return q.rightCols(count - 3);
+    meet.together = q.leftCols(3);
+    meet.apart = q.rightCols(count - 3);
 }
 
 // Of a meet whose images under an exact symmetry hold, nothing is left to test: its planes are
@@ -62,7 +65,7 @@ std::vector<Meet> meets_of(const System& system, const Shape& shape, const Infer
     }
     std::erase_if(meets, [](const Meet& meet) { return meet.facets.size() < 4; });
     for (Meet& meet : meets) {
-        meet.apart = ways_apart(shape, meet.facets);
+        find_ways_apart(shape, meet);
         if (meet.equations.size() == meet.facets.size()) continue;
         // Partly exact: tested by what came out, like a soft one.
         if (meet.how == MeetTreatment::exact) meet.how = MeetTreatment::soft;
@@ -82,6 +85,48 @@ void let_go(Eigen::VectorXd& x, Eigen::MatrixXd& v, Eigen::Index first, Eigen::I
     x.segment(first, count).setZero();
     v.middleRows(first, count).setZero();
     v.middleCols(first, count).setZero();
+}
+
+// What the readings pull exact meets apart with, and its covariance.
+struct ExactMeets {
+    Eigen::VectorXd pulls;
+    Eigen::MatrixXd covariance;
+};
+ExactMeets exact_meets(const std::vector<Meet>& meets, Eigen::Index columns,
+                       const Inference& inference) {
+    const Eigen::Index hard = Eigen::Index(inference.linear().hard.size());
+    std::vector<Eigen::Triplet<double>> apart, together;
+    std::vector<bool> is_kept(std::size_t(hard), true);
+    Eigen::Index kept = 0;
+    const auto put = [](const Meet& meet, const Eigen::MatrixXd& ways, Eigen::Index first,
+                        std::vector<Eigen::Triplet<double>>& to) {
+        for (Eigen::Index i = 0; i < ways.rows(); ++i) {
+            for (Eigen::Index k = 0; k < ways.cols(); ++k) {
+                to.emplace_back(first + k, meet.equations[std::size_t(i)], ways(i, k));
+            }
+        }
+    };
+    for (const Meet& meet : meets) {
+        put(meet, meet.apart, meet.first, apart);
+        put(meet, meet.together, kept, together);
+        kept += meet.together.cols();
+        for (const Eigen::Index i : meet.equations) is_kept[std::size_t(i)] = false;
+    }
+    for (Eigen::Index i = 0; i < hard; ++i) {
+        if (is_kept[std::size_t(i)]) together.emplace_back(kept++, i, 1.0);
+    }
+    Combinations tested(columns, hard), others(kept, hard);
+    tested.setFromTriplets(apart.begin(), apart.end());
+    others.setFromTriplets(together.begin(), together.end());
+    ExactMeets result;
+    result.pulls = tested * inference.multipliers();
+    if (const auto misses = miss_covariance(inference.linear(), others, tested)) {
+        result.covariance =
+            misses->llt().solve(Eigen::MatrixXd::Identity(misses->rows(), misses->cols()));
+    } else {
+        result.covariance = inference.multiplier_covariance(Eigen::MatrixXd(tested.transpose()));
+    }
+    return result;
 }
 
 // Estimated miss of the plane that is furthest off, and its sigma, from misses along U.
@@ -130,17 +175,13 @@ std::vector<MeetFinding> test_meets(const System& system, const Shape& shape,
     constexpr double k_told = 0.25, k_free = 1e-18;
 
     // Exact meets. V^-1 is the covariance of misses: v in [1 / told, 1 / free].
-    Eigen::MatrixXd combinations =
-        Eigen::MatrixXd::Zero(Eigen::Index(inference.linear().hard.size()), exact_columns);
+    std::vector<Meet> tested;
     for (const Meet& meet : meets) {
-        if (!is_tested(meet)) continue;
-        for (std::size_t i = 0; i < meet.equations.size(); ++i) {
-            combinations.block(meet.equations[i], meet.first, 1, meet.apart.cols()) =
-                meet.apart.row(Eigen::Index(i));
-        }
+        if (is_tested(meet)) tested.push_back(meet);
     }
-    Eigen::MatrixXd v = inference.multiplier_covariance(combinations);
-    Eigen::VectorXd x = combinations.transpose() * inference.multipliers();
+    const ExactMeets exact = exact_meets(tested, exact_columns, inference);
+    Eigen::MatrixXd v = exact.covariance;
+    Eigen::VectorXd x = exact.pulls;
     const double level = options.significance / std::max<double>(1, double(meets.size()));
     std::vector<bool> gone(meets.size(), false);
     for (bool first_round = true;; first_round = false) {
