@@ -218,10 +218,10 @@ Covariance::~Covariance() = default;
 
 void Covariance::find_dense(const Linearised& linear) {
     const Eigen::Index unknowns = linear.layout.size();
-    const FreeDirections free =
-        free_directions(linear.hard_rows, linear.layout.point(0), linear.layout.extra(0));
+    const DenseRows basis =
+        dense_free_directions(linear.hard_rows, linear.layout.point(0), linear.layout.extra(0));
     const Eigen::MatrixXd gauge = gauge_motions(linear, rows_);
-    const Eigen::Index size = free.basis.cols();
+    const Eigen::Index size = basis.cols();
     held_.resize(unknowns, 0);
     open_.resize(unknowns, 0);
     seen_.resize(rows_.rows(), 0);
@@ -230,7 +230,6 @@ void Covariance::find_dense(const Linearised& linear) {
     if (size == 0) return;  // exact readings leave nothing free
 
     // Whitened by the metric, so that eigenvalues compare readings with the mesh.
-    const DenseRows basis = free.basis;
     Eigen::MatrixXd metric = Eigen::MatrixXd::Zero(size, size);
     metric.selfadjointView<Eigen::Lower>().rankUpdate(
         Eigen::MatrixXd(basis.transpose() * linear.metric.cwiseSqrt().asDiagonal()));
@@ -346,6 +345,15 @@ void Covariance::find_sparse(const Linearised& linear) {
         leverages_(i) =
             norms(i) > 0 ? std::min(1.0, sparse_->of(sparse_->tight, function_row(rows_, i))) : 0;
     }
+}
+
+std::optional<DenseRows> Covariance::halves(const std::vector<FunctionRow>& functions) const {
+    if (!usable_ || sparse_) return std::nullopt;
+    DenseRows all(Eigen::Index(functions.size()), held_.cols() + open_.cols());
+    for (std::size_t i = 0; i < functions.size(); ++i) {
+        all.row(Eigen::Index(i)) << product(functions[i], held_), product(functions[i], open_);
+    }
+    return all;
 }
 
 double Covariance::variance(const FunctionRow& function) const {

@@ -13,6 +13,7 @@
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fit/linear.h"
@@ -37,6 +38,9 @@ public:
     double open_variance(const FunctionRow& function) const;
     /// Both parts together.
     double total_variance(const FunctionRow& function) const;
+    /// A row for each function, so that products of two rows are their covariance, open directions
+    /// included. Nothing for large stones, where there is no such factor.
+    std::optional<DenseRows> halves(const std::vector<FunctionRow>& functions) const;
     /// Covariance of a function with every unknown (open directions included when asked).
     Eigen::VectorXd with_all(const FunctionRow& function, bool open) const;
     /// Variance of every soft equation's fitted value, in units of its own: the diagonal of the hat

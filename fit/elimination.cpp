@@ -59,6 +59,30 @@ public:
         return true;
     }
 
+    // Rows of the basis all full.
+    FreeDirections::Dense dense_result() const {
+        std::vector<int> place(expressions_.size(), -1);
+        int count = 0;
+        for (std::size_t i = 0; i < place.size(); ++i) {
+            if (step_[i] < 0) place[i] = count++;
+        }
+        FreeDirections::Dense basis =
+            FreeDirections::Dense::Zero(Eigen::Index(place.size()), count);
+        for (std::size_t i = 0; i < place.size(); ++i) {
+            if (place[i] >= 0) basis(Eigen::Index(i), place[i]) = 1;
+        }
+        for (auto pivot = order_.rbegin(); pivot != order_.rend(); ++pivot) {
+            for (const auto& [column, value] : expressions_[std::size_t(*pivot)]) {
+                if (place[std::size_t(column)] >= 0) {
+                    basis(*pivot, place[std::size_t(column)]) += value;
+                } else {
+                    basis.row(*pivot) += value * basis.row(column);
+                }
+            }
+        }
+        return basis;
+    }
+
     FreeDirections result() {
         for (auto pivot = order_.rbegin(); pivot != order_.rend(); ++pivot) {
             Entries& expression = expressions_[std::size_t(*pivot)];
@@ -164,8 +188,10 @@ private:
 
 }  // namespace
 
-FreeDirections free_directions(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows,
-                               Eigen::Index first_preferred, Eigen::Index end_preferred) {
+namespace {
+
+Elimination eliminated(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows,
+                       Eigen::Index first_preferred, Eigen::Index end_preferred) {
     Elimination elimination(int(rows.cols()));
     // Short equations first: their expressions are short.
     std::vector<std::pair<Eigen::Index, Eigen::Index>> order;
@@ -186,7 +212,20 @@ FreeDirections free_directions(const Eigen::SparseMatrix<double, Eigen::RowMajor
         for (auto& [column, value] : entries) value /= std::sqrt(squares);
         elimination.add(entries, int(first_preferred), int(end_preferred));
     }
-    return elimination.result();
+    return elimination;
+}
+
+}  // namespace
+
+FreeDirections free_directions(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows,
+                               Eigen::Index first_preferred, Eigen::Index end_preferred) {
+    return eliminated(rows, first_preferred, end_preferred).result();
+}
+
+FreeDirections::Dense dense_free_directions(
+    const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows, Eigen::Index first_preferred,
+    Eigen::Index end_preferred) {
+    return eliminated(rows, first_preferred, end_preferred).dense_result();
 }
 
 }  // namespace culet

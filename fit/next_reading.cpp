@@ -25,8 +25,15 @@ struct Candidate {
     FunctionRow function;
     double sigma = 0;   // inside
     std::string group;  // kind and tier
-    double variance = 0;
+    double variance = 0, promise = 0;
 };
+
+// 0 where readings say so little that the variance is no number: an order needs numbers.
+double promise_of(const Candidate& c) {
+    const double squares = c.function.squaredNorm();
+    if (!std::isfinite(c.variance) || !(c.variance > 0) || !(squares > 0)) return 0.0;
+    return c.variance * (c.variance / (c.sigma * c.sigma + c.variance)) / squares;
+}
 
 std::string tier_of(const std::string& name) {
     const std::size_t last = name.find_last_not_of("0123456789");
@@ -149,6 +156,33 @@ std::vector<Candidate> candidates(const System& system, const Shape& shape,
     return all;
 }
 
+// Sums of squared covariances of each candidate with all parts of the total.
+Eigen::VectorXd drops_of(const DenseRows& halves, const std::vector<Candidate>& tried,
+                         const Covariance& covariance) {
+    std::vector<FunctionRow> functions;
+    for (const Candidate& c : tried) functions.push_back(c.function);
+    const Eigen::MatrixXd across = halves * covariance.halves(functions)->transpose();
+    return across.colwise().squaredNorm();
+}
+
+// Likewise from solutions of large equations.
+Eigen::VectorXd drops_one_by_one(const Shape& shape, const Vec3& middle,
+                                 const std::vector<Candidate>& tried,
+                                 const Covariance& covariance) {
+    const Layout layout = layout_of(shape);
+    Eigen::VectorXd drops = Eigen::VectorXd::Zero(Eigen::Index(tried.size()));
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+        const Eigen::VectorXd with = covariance.with_all(tried[i].function, true);
+        for (int f = 0; f < layout.facets; ++f) {
+            const auto [t, u] = tangents(shape.normals[std::size_t(f)]);
+            const double a = with(layout.tilt(f)), b = with(layout.tilt(f) + 1);
+            const double o = with(layout.offset(f)) - glm::dot(middle, a * t + b * u);
+            drops(Eigen::Index(i)) += a * a + b * b + o * o;
+        }
+    }
+    return drops;
+}
+
 }  // namespace
 
 std::vector<NextReading> next_readings(const System& system, const Shape& shape,
@@ -156,45 +190,43 @@ std::vector<NextReading> next_readings(const System& system, const Shape& shape,
                                        const Covariance& covariance) {
     const Layout layout = layout_of(shape);
     const Vec3 middle = middle_of(shape);
-    // Rows whose variances add up to the total.
-    double total = 0;
-    const auto variance_of = [&](const FunctionRow& row) { return covariance.total_variance(row); };
+    // Functions whose variances add up to the total.
+    std::vector<FunctionRow> parts;
     for (int f = 0; f < layout.facets; ++f) {
         for (int k = 0; k < 2; ++k) {
             FunctionRow row(layout.size());
             row.coeffRef(layout.tilt(f) + k) = 1;
-            total += variance_of(row);
+            parts.push_back(std::move(row));
         }
-        total += variance_of(facet_functions(shape, f, layout, middle)[2]);
+        parts.push_back(facet_functions(shape, f, layout, middle)[2]);
+    }
+    const std::optional<DenseRows> halves = covariance.halves(parts);
+    double total = 0;
+    if (halves) {
+        total = halves->squaredNorm();
+    } else {
+        for (const FunctionRow& row : parts) total += covariance.total_variance(row);
     }
     if (!(total > 0) || !std::isfinite(total)) return {};
     std::vector<Candidate> all = candidates(system, shape, *outline);
-    for (Candidate& c : all) c.variance = variance_of(c.function);
-    // 0 where readings say so little that the variance is no number: an order needs numbers.
-    const auto promise = [](const Candidate& c) {
-        const double squares = c.function.squaredNorm();
-        if (!std::isfinite(c.variance) || !(c.variance > 0) || !(squares > 0)) return 0.0;
-        return c.variance * (c.variance / (c.sigma * c.sigma + c.variance)) / squares;
-    };
-    std::stable_sort(all.begin(), all.end(), [&](const Candidate& a, const Candidate& b) {
-        return promise(a) > promise(b);
-    });
+    for (Candidate& c : all) {
+        c.variance = covariance.total_variance(c.function);
+        c.promise = promise_of(c);
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.promise > b.promise; });
     // The most uncertain, but some of every kind and tier: their reach differs.
     std::vector<Candidate> tried;
     std::map<std::string, int> of_group;
     for (Candidate& c : all) {
         if (tried.size() >= k_tried) break;
-        if (++of_group[c.group] <= 2 && promise(c) > 0) tried.push_back(std::move(c));
+        if (++of_group[c.group] <= 2 && c.promise > 0) tried.push_back(std::move(c));
     }
-    for (Candidate& c : tried) {
-        const Eigen::VectorXd with = covariance.with_all(c.function, true);
-        double drop = 0;
-        for (int f = 0; f < layout.facets; ++f) {
-            const auto [t, u] = tangents(shape.normals[std::size_t(f)]);
-            const double a = with(layout.tilt(f)), b = with(layout.tilt(f) + 1);
-            const double o = with(layout.offset(f)) - glm::dot(middle, a * t + b * u);
-            drop += a * a + b * b + o * o;
-        }
+    const Eigen::VectorXd drops = halves ? drops_of(*halves, tried, covariance)
+                                         : drops_one_by_one(shape, middle, tried, covariance);
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+        Candidate& c = tried[i];
+        const double drop = drops(Eigen::Index(i));
         const double share = drop / (c.sigma * c.sigma + c.variance) / total;
         c.reading.reduces = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
         // Tighter than what the mesh says, where only the mesh said something.
