@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "fit/covariance.h"
 #include "fit/extra_facets.h"
 #include "fit/find_symmetry.h"
 #include "fit/meet_tests.h"
@@ -198,8 +199,25 @@ void describe_shape(const System& system, const Finished& finished, const Diagno
 void describe_extra_facets(const System& system, const Finished& finished,
                            const Diagnosis& diagnosis, const Inference& inference,
                            FitResult& result) {
-    result.extra_facets = suspect_extra_facets(system, finished, inference.linear(), diagnosis,
-                                               result.options.significance);
+    const double significance = result.options.significance;
+    result.extra_facets =
+        suspect_extra_facets(system, finished, inference.linear(), diagnosis, significance);
+    // Where a reading stands out, or a facet is found, each reading of a quantity speaks for
+    // itself.
+    const bool stands_out = std::any_of(
+        diagnosis.readings.begin(), diagnosis.readings.end(),
+        [&](const ReadingCheck& c) { return std::abs(c.normalized) > diagnosis.suspect_limit; });
+    if (system.has_repeats() && (stands_out || !result.extra_facets.empty())) {
+        System apart = system;
+        apart.keep_repeats_apart();
+        const Linearised linear = linearise(apart, finished.shape, finished.outline, false);
+        Diagnosis again = diagnosis;
+        again.covariance = std::make_shared<const Covariance>(linear);
+        if (again.covariance->usable()) {
+            result.extra_facets =
+                suspect_extra_facets(apart, finished, linear, again, significance);
+        }
+    }
     for (ExtraFacet& facet : result.extra_facets) {
         facet.depth *= system.scale();
         facet.sigma *= system.scale();

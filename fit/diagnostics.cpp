@@ -22,6 +22,44 @@ constexpr double k_no_redundancy = 1e-6;
 // An error of size limit + 0.84 sigma is found in 80 of 100 cases.
 constexpr double k_power_80 = 0.8416212335729143;
 
+// A reading's part in an equation that counts. Where several share it, `part` of them all is its
+// own weight's root: residual_i = part (residual - off / sigma), and of the hat matrix the entries
+// of two readings are those of their equations times both parts.
+struct Said {
+    Eigen::Index equation = -1;
+    int reading = -1;
+    double off = 0, sigma = 1, part = 1;
+
+    // In sigmas.
+    double residual(const Linearised& linear) const {
+        const Equation& e = linear.soft[std::size_t(equation)];
+        return e.repeats.empty() ? linear.soft_residuals(equation)
+                                 : (linear.soft_residuals(equation) * e.sigma - off) / sigma;
+    }
+    double leverage(const Covariance& covariance) const {
+        return part * part * covariance.leverages()(equation);
+    }
+};
+
+// In the order in which they would stand if none shared an equation.
+std::vector<Said> all_said(const Linearised& linear) {
+    std::vector<Said> all;
+    for (std::size_t i = 0; i < linear.soft.size(); ++i) {
+        const Equation& e = linear.soft[i];
+        if (!e.is_counted()) continue;
+        if (e.repeats.empty()) all.push_back({Eigen::Index(i), e.reading, 0, e.sigma, 1});
+        for (const Repeat& r : e.repeats) {
+            all.push_back({Eigen::Index(i), r.reading, r.off, r.sigma, e.sigma / r.sigma});
+        }
+    }
+    const auto place = [&](const Said& said) {
+        return linear.soft[std::size_t(said.equation)].incidence >= 0 ? -1 : said.reading;
+    };
+    std::stable_sort(all.begin(), all.end(),
+                     [&](const Said& a, const Said& b) { return place(a) < place(b); });
+    return all;
+}
+
 void find_open_freedoms(const System& system, const Shape& shape, const Covariance& covariance,
                         const Vec3& middle, Diagnosis& diagnosis) {
     diagnosis.undetermined_freedoms = covariance.open_freedoms();
@@ -46,26 +84,27 @@ void find_open_freedoms(const System& system, const Shape& shape, const Covarian
 // smallest set of readings that disagrees.
 void snoop(const System& system, const Linearised& linear, const Covariance& covariance,
            const DiagnosisOptions& options, Diagnosis& diagnosis) {
-    std::vector<Eigen::Index> counted;
-    for (std::size_t i = 0; i < linear.soft.size(); ++i) {
-        if (linear.soft[i].is_counted()) counted.push_back(Eigen::Index(i));
-    }
+    const std::vector<Said> counted = all_said(linear);
     const Eigen::Index count = static_cast<Eigen::Index>(counted.size());
     // At the optimum the residuals are R times the errors; elsewhere what a step would take away
     // comes off first.
-    const Eigen::VectorXd settled =
-        linear.soft_residuals - covariance.fitted_part(linear.soft_residuals);
+    const Eigen::VectorXd taken = covariance.fitted_part(linear.soft_residuals);
     Residuals residuals;
     residuals.values.resize(count);
     residuals.redundancy.resize(count);
     for (Eigen::Index i = 0; i < count; ++i) {
-        residuals.values(i) = settled(counted[std::size_t(i)]);
-        residuals.redundancy(i) = 1 - covariance.leverages()(counted[std::size_t(i)]);
+        const Said& said = counted[std::size_t(i)];
+        residuals.values(i) = said.residual(linear) - said.part * taken(said.equation);
+        residuals.redundancy(i) = 1 - said.leverage(covariance);
     }
     residuals.column = [&](Eigen::Index i) {
-        const Eigen::VectorXd all = covariance.leverage_column(counted[std::size_t(i)]);
+        const Said& one = counted[std::size_t(i)];
+        const Eigen::VectorXd all = covariance.leverage_column(one.equation);
         Eigen::VectorXd column(count);
-        for (Eigen::Index k = 0; k < count; ++k) column(k) = -all(counted[std::size_t(k)]);
+        for (Eigen::Index k = 0; k < count; ++k) {
+            const Said& other = counted[std::size_t(k)];
+            column(k) = -one.part * other.part * all(other.equation);
+        }
         column(i) = residuals.redundancy(i);
         return column;
     };
@@ -73,18 +112,15 @@ void snoop(const System& system, const Linearised& linear, const Covariance& cov
     const Outliers outliers = find_outliers(residuals, diagnosis.suspect_limit,
                                             chi2_quantile(options.significance / pairs, 2),
                                             std::max<std::size_t>(3, counted.size() / 10));
-    const auto reading_of = [&](Eigen::Index i) {
-        return linear.soft[std::size_t(counted[std::size_t(i)])].reading;
-    };
+    const auto reading_of = [&](Eigen::Index i) { return counted[std::size_t(i)].reading; };
     diagnosis.throughout = outliers.throughout;
     for (const Outlier& outlier : outliers.found) {
         const int reading = reading_of(outlier.equation);
         if (reading < 0 || diagnosis.readings[std::size_t(reading)].suspect) continue;
         diagnosis.readings[std::size_t(reading)].suspect = true;
         diagnosis.suspects.push_back(reading);
-        const Equation& e = linear.soft[std::size_t(counted[std::size_t(outlier.equation)])];
         const Reading& named = system.readings()[std::size_t(reading)];
-        const double unit = e.sigma * system.unit_of(named);
+        const double unit = counted[std::size_t(outlier.equation)].sigma * system.unit_of(named);
         Suspicion suspicion{
             reading, named.value - outlier.error * unit, outlier.error_sigma * unit, {}};
         for (const Eigen::Index other : outlier.alternatives) {
@@ -108,24 +144,20 @@ void snoop(const System& system, const Linearised& linear, const Covariance& cov
 
 // Without a covariance: what every reading came to, and nothing of how sure that is.
 void residuals_only(const System& system, const Linearised& linear,
-                    const std::vector<Eigen::Index>& counted, Diagnosis& diagnosis) {
+                    const std::vector<Said>& counted, Diagnosis& diagnosis) {
     constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
     diagnosis.analysed = false;
     for (ReadingCheck& c : diagnosis.readings) c.normalized = c.redundancy = k_unknown;
     for (FacetSigma& s : diagnosis.facets) s = {k_unknown, k_unknown, k_unknown, k_unknown};
-    const auto note = [&](const Equation& e, double residual) {
-        if (e.reading < 0) return;
-        ReadingCheck& c = diagnosis.readings[std::size_t(e.reading)];
-        const double in_units =
-            residual * system.unit_of(system.readings()[std::size_t(e.reading)]);
+    const auto note = [&](int reading, double residual) {
+        if (reading < 0) return;
+        ReadingCheck& c = diagnosis.readings[std::size_t(reading)];
+        const double in_units = residual * system.unit_of(system.readings()[std::size_t(reading)]);
         if (std::abs(in_units) > std::abs(c.residual)) c.residual = in_units;
     };
-    for (const Eigen::Index i : counted) {
-        const Equation& e = linear.soft[std::size_t(i)];
-        note(e, linear.soft_residuals(i) * e.sigma);
-    }
+    for (const Said& said : counted) note(said.reading, said.residual(linear) * said.sigma);
     for (std::size_t i = 0; i < linear.hard.size(); ++i) {
-        note(linear.hard[i], linear.hard_residuals(Eigen::Index(i)));
+        note(linear.hard[i].reading, linear.hard_residuals(Eigen::Index(i)));
     }
     // Bounds by counting: no more redundancy than readings, no fewer open freedoms than unknowns
     // that outnumber all equations.
@@ -146,10 +178,7 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     diagnosis.chi2 = linear.chi2();
     diagnosis.readings.resize(system.readings().size());
     diagnosis.facets.resize(shape.normals.size());
-    std::vector<Eigen::Index> counted;
-    for (std::size_t i = 0; i < linear.soft.size(); ++i) {
-        if (linear.soft[i].is_counted()) counted.push_back(Eigen::Index(i));
-    }
+    const std::vector<Said> counted = all_said(linear);
     const auto covariance = std::make_shared<const Covariance>(linear);
     if (!covariance->usable()) {
         residuals_only(system, linear, counted, diagnosis);
@@ -158,12 +187,12 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     diagnosis.dof = options.binding;
     std::vector<double> redundancy(counted.size());
     for (std::size_t i = 0; i < counted.size(); ++i) {
-        redundancy[i] = 1 - covariance->leverages()(counted[i]);
+        redundancy[i] = 1 - counted[i].leverage(*covariance);
         if (redundancy[i] < k_no_redundancy) redundancy[i] = 0;
         diagnosis.dof += redundancy[i];
-        const Equation& e = linear.soft[std::size_t(counted[i])];
+        const Equation& e = linear.soft[std::size_t(counted[i].equation)];
         if (e.group >= 0) {
-            const double miss = linear.soft_residuals(counted[i]) * e.sigma;
+            const double miss = counted[i].residual(linear) * e.sigma;
             diagnosis.group_squares[std::size_t(e.group)] += miss * miss;
             diagnosis.group_redundancy[std::size_t(e.group)] += redundancy[i];
         }
@@ -175,31 +204,30 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     diagnosis.suspect_limit = two_sided_normal_quantile(
         options.significance / std::max<double>(1, double(counted.size())));
     std::vector<int> terms(system.readings().size(), 0);
-    const auto note = [&](const Equation& e, double residual, double r, double w) {
-        if (e.reading < 0) return;
-        const Reading& reading = system.readings()[std::size_t(e.reading)];
-        ReadingCheck& c = diagnosis.readings[std::size_t(e.reading)];
+    const auto note = [&](int which, double sigma, double residual, double r, double w) {
+        if (which < 0) return;
+        const Reading& reading = system.readings()[std::size_t(which)];
+        ReadingCheck& c = diagnosis.readings[std::size_t(which)];
         const double unit = system.unit_of(reading);
-        if (terms[std::size_t(e.reading)]++ == 0 ||
-            std::abs(residual * unit) > std::abs(c.residual)) {
+        if (terms[std::size_t(which)]++ == 0 || std::abs(residual * unit) > std::abs(c.residual)) {
             c.residual = residual * unit;
         }
         if (std::abs(w) > std::abs(c.normalized)) c.normalized = w;
         c.redundancy += r;
         if (r > k_no_redundancy) {
             const double found =
-                e.sigma * unit * (diagnosis.suspect_limit + k_power_80) / std::sqrt(r);
+                sigma * unit * (diagnosis.suspect_limit + k_power_80) / std::sqrt(r);
             c.detectable = c.detectable == 0 ? found : std::max(c.detectable, found);
         }
     };
     for (std::size_t i = 0; i < counted.size(); ++i) {
-        const Equation& e = linear.soft[std::size_t(counted[i])];
-        const double scaled = linear.soft_residuals(counted[i]);
+        const Said& said = counted[i];
+        const double scaled = said.residual(linear);
         const double w = redundancy[i] > k_no_redundancy ? scaled / std::sqrt(redundancy[i]) : 0;
-        note(e, scaled * e.sigma, redundancy[i], w);
+        note(said.reading, said.sigma, scaled * said.sigma, redundancy[i], w);
     }
     for (std::size_t i = 0; i < linear.hard.size(); ++i) {
-        note(linear.hard[i], linear.hard_residuals(Eigen::Index(i)), 0, 0);
+        note(linear.hard[i].reading, 1, linear.hard_residuals(Eigen::Index(i)), 0, 0);
     }
     for (std::size_t r = 0; r < terms.size(); ++r) {
         if (terms[r] > 0) diagnosis.readings[r].redundancy /= terms[r];

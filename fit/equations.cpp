@@ -141,6 +141,26 @@ bool System::has_exact_readings() const {
                        [](const Reading& r) { return r.exact && r.kind != ReadingKind::meet; });
 }
 
+bool System::may_be_merged(const std::vector<int>& group, const Repeats& repeats,
+                           const Shape& shape) const {
+    const Reading& first = readings_[std::size_t(group.front())];
+    if (first.kind == ReadingKind::azimuth) {
+        // Further off, some would be wrapped to the other side.
+        constexpr double k_most = 3;
+        const int datum = first.datum.kind == Datum::Kind::facet ? first.datum.facet : -1;
+        const double error = azimuth_error(first.facets[0], datum, repeats.value)(shape).value;
+        return std::all_of(repeats.all.begin(), repeats.all.end(),
+                           [&](const Repeat& r) { return std::abs(error - r.off) < k_most; });
+    }
+    if (first.kind != ReadingKind::inclination || first.datum.kind != Datum::Kind::up) return true;
+    return std::all_of(group.begin(), group.end(), [&](int r) {
+        return std::all_of(first.facets.begin(), first.facets.end(), [&](int f) {
+            const Vec3& n = shape.normals[std::size_t(f)];
+            return side_of(n, readings_[std::size_t(r)].value) == side_of(n, repeats.value);
+        });
+    });
+}
+
 std::vector<Equation> System::reading_equations(const Shape& shape,
                                                 const std::shared_ptr<const Outline>& outline,
                                                 bool reduced, bool meets_hold) const {
@@ -178,7 +198,17 @@ std::vector<Equation> System::reading_equations(const Shape& shape,
         }
     }
 
+    std::vector<std::optional<Repeats>> repeats(readings_.size());  // with the first of them
+    std::vector<bool> is_merged(readings_.size(), false);
+    for (const std::vector<int>& group : repeated_) {
+        const std::size_t first = std::size_t(group.front());
+        Repeats own = merged(readings_, group, unit_of(readings_[first]));
+        if (!may_be_merged(group, own, shape)) continue;
+        repeats[first] = std::move(own);
+        for (std::size_t k = 1; k < group.size(); ++k) is_merged[std::size_t(group[k])] = true;
+    }
     for (std::size_t r = 0; r < readings_.size(); ++r) {
+        if (is_merged[r]) continue;
         const Reading& reading = readings_[r];
         if (reduced && first_extra_[r] >= 0 && fixed_extras_[first_extra_[r]]) continue;
         const double unit = unit_of(reading);
@@ -187,6 +217,12 @@ std::vector<Equation> System::reading_equations(const Shape& shape,
         base.exact = reading.exact;
         base.value = reading.value / unit;
         base.sigma = reading.exact ? 1 : reading.sigma / unit;
+        if (repeats[r]) {
+            base.value = repeats[r]->value;
+            base.sigma = repeats[r]->sigma;
+            base.scatter = repeats[r]->scatter;
+            base.repeats = std::move(repeats[r]->all);
+        }
         const auto put = [&](Formula formula, double value) {
             Equation e = base;
             e.formula = std::move(formula);

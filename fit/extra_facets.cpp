@@ -409,7 +409,7 @@ std::vector<ExtraFacet> suspect_extra_facets(const System& system, const Finishe
     std::vector<Candidate> candidates = candidates_of(system, finished.shape);
     double planes = 0, equations = 0;
     for (const Candidate& c : candidates) planes += double(c.directions.size());
-    for (const Equation& e : linear.soft) equations += e.is_counted() ? 1 : 0;
+    for (const Equation& e : linear.soft) equations += e.is_counted() ? e.readings() : 0;
     // One-sided, and two-sided.
     const double z = two_sided_normal_quantile(2 * significance / std::max(1.0, planes));
     const double enough = z * z, enough_single = diagnosis.suspect_limit * diagnosis.suspect_limit;

@@ -82,7 +82,8 @@ double Linearised::chi2() const {
     double sum = 0;
     for (std::size_t i = 0; i < soft.size(); ++i) {
         if (soft[i].is_counted())
-            sum += soft_residuals(Eigen::Index(i)) * soft_residuals(Eigen::Index(i));
+            sum +=
+                soft_residuals(Eigen::Index(i)) * soft_residuals(Eigen::Index(i)) + soft[i].scatter;
     }
     return sum;
 }

@@ -132,7 +132,7 @@ Relaxation::Counts Relaxation::counts() const {
         counts.hard += how == MeetTreatment::exact;
         counts.soft += how == MeetTreatment::soft;
     }
-    for (const Equation& e : equations_) ++(e.exact ? counts.hard : counts.soft);
+    for (const Equation& e : equations_) (e.exact ? counts.hard : counts.soft) += e.readings();
     return counts;
 }
 
@@ -234,7 +234,7 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness, const std:
             } else {
                 row.quantity(q);
             }
-            if (!e.exact) sheet.chi2 += residual * residual / (e.sigma * e.sigma);
+            if (!e.exact) sheet.chi2 += residual * residual / (e.sigma * e.sigma) + e.scatter;
             close(residual,
                   e.exact ? soft2 : e.sigma * e.sigma + softness.readings * softness.readings);
         }

@@ -33,6 +33,8 @@ double robust_weight(Loss loss, double z) {
 }
 
 std::vector<double> reweight(System& system, Candidate& candidate, Loss loss, int iterations) {
+    // Each by its own weight.
+    system.keep_repeats_apart();
     const std::size_t count = system.readings().size();
     std::vector<double> weights(count, 1), sigmas;
     for (const Reading& r : system.readings()) sigmas.push_back(r.sigma);

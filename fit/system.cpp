@@ -72,6 +72,7 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
         if (readings_[r].exact) alike.insert(alike.end(), pairs_[r].begin(), pairs_[r].end());
     }
     widen_for_rounding(readings_, alike, int(solid_.facets.size()));
+    repeated_ = repeated_readings(readings_);
 }
 
 double System::scale_of_readings(const Vec3& up) const {

@@ -9,6 +9,7 @@
 #include "fit/fit.h"
 #include "fit/freedoms.h"
 #include "fit/measurement.h"
+#include "fit/repeats.h"
 #include "fit/residuals.h"
 #include "stone/half_edges.h"
 
@@ -41,8 +42,12 @@ struct Equation {
     /// Of a caliper: the corners that its jaws touch, the upper one first, along this direction.
     std::array<Corner, 2> touched{};
     Vec3 caliper{0, 0, 0};
+    /// Of readings of one quantity, which share this equation: its value is their mean.
+    std::vector<Repeat> repeats;
+    double scatter = 0;  ///< about the mean, in sigmas squared
     Formula formula;
 
+    int readings() const { return repeats.empty() ? 1 : static_cast<int>(repeats.size()); }
     /// Takes part in chi-square and in the count of redundancy.
     bool is_counted() const {
         return !exact && role != Role::released && role != Role::prior && role != Role::hinge;
@@ -84,6 +89,10 @@ public:
     void set_reading_sigma(int reading, double sigma) {
         readings_[std::size_t(reading)].sigma = sigma;
     }
+
+    /// From now on every reading has an equation of its own.
+    void keep_repeats_apart() { repeated_.clear(); }
+    bool has_repeats() const { return !repeated_.empty(); }
 
     /// All equations but prior and hinges, for the corners that carry them at this shape.
     std::vector<Equation> equations(const Shape& shape,
@@ -156,6 +165,10 @@ private:
     void list_incidences(const FitOptions& options);
     void add_extras();
     void pair_facets();
+    /// At this shape, what they say is but one thing: facets lean one way, azimuths are less than
+    /// half a turn off.
+    bool may_be_merged(const std::vector<int>& group, const Repeats& repeats,
+                       const Shape& shape) const;
     std::vector<int> rotation_partners(const Reading& reading) const;
     std::vector<int> mirror_partners(const Reading& reading) const;
     void find_exchanges();
@@ -169,6 +182,7 @@ private:
     std::shared_ptr<const Outline> mesh_outline_;
     std::vector<Incidence> incidences_;
     std::vector<int> first_extra_;
+    std::vector<std::vector<int>> repeated_;               // readings of one quantity
     std::vector<std::vector<std::pair<int, int>>> pairs_;  // facets, of symmetry readings
     std::vector<std::optional<Automorphism>> exchanges_;   // of symmetry readings of all facets
     std::vector<SymmetryMotion> exact_motions_;
