@@ -7,6 +7,7 @@
 //     sum over crossing circles j of 2 atan(exp(u_j - u_i)) = 2 pi - pi (number of crossing lines)
 
 #include "fit/canonical.h"
+#include "fit/upper_median.h"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -240,8 +241,7 @@ std::optional<Shape> canonical_polyhedron(const Solid& solid, const HalfEdges& h
     for (const Complex& z : *flat) mean += z / double(flat->size());
     std::vector<double> reach;
     for (const Complex& z : *flat) reach.push_back(std::abs(z - mean));
-    std::nth_element(reach.begin(), reach.begin() + std::ptrdiff_t(reach.size() / 2), reach.end());
-    const double scale = 1 / std::max(1e-300, reach[reach.size() / 2]);
+    const double scale = 1 / std::max(1e-300, upper_median(std::move(reach)));
     std::vector<Vec3> touch;
     for (std::size_t e = 0; e < flat->size(); ++e) {
         const Complex z = ((*flat)[e] - mean) * scale;

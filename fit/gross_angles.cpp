@@ -9,6 +9,7 @@
 
 #include "fit/fitted_parts.h"
 #include "fit/slips.h"
+#include "fit/upper_median.h"
 #include "stone/errors.h"
 #include "stone/units.h"
 
@@ -67,10 +68,7 @@ std::vector<std::size_t> angles_far_from_mesh(const System& system) {
     const Shape& mesh = system.mesh_shape();
     // A rough mesh's small facets are turned further than its large ones.
     const std::vector<double> sizes = facet_sizes(system);
-    std::vector<double> sorted = sizes;
-    std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2),
-                     sorted.end());
-    const double usual = sorted[sorted.size() / 2];
+    const double usual = upper_median(sizes);
     std::vector<std::pair<double, std::size_t>> off;
     for (std::size_t i = 0; i < system.readings().size(); ++i) {
         const Reading& r = system.readings()[i];

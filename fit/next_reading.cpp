@@ -9,6 +9,7 @@
 #include <set>
 
 #include "fit/facet_functions.h"
+#include "fit/upper_median.h"
 
 namespace culet {
 
@@ -49,9 +50,7 @@ double usual_sigma(const System& system, std::initializer_list<ReadingKind> kind
         sigmas.push_back(r.sigma / system.unit_of(r));
     }
     if (sigmas.empty()) return none;
-    std::nth_element(sigmas.begin(), sigmas.begin() + std::ptrdiff_t(sigmas.size() / 2),
-                     sigmas.end());
-    return sigmas[sigmas.size() / 2];
+    return upper_median(std::move(sigmas));
 }
 
 std::vector<Candidate> candidates(const System& system, const Shape& shape,

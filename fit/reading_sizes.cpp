@@ -11,6 +11,7 @@
 #include <numbers>
 #include <utility>
 
+#include "fit/upper_median.h"
 #include "stone/errors.h"
 #include "stone/half_edges.h"
 #include "stone/units.h"
@@ -99,12 +100,7 @@ struct Asked {
         logs.push_back(std::log(reading.value / of_mesh));
         if (first == nullptr) first = &reading;
     }
-    double middle() const {
-        std::vector<double> sorted = logs;
-        const auto at = sorted.begin() + std::ptrdiff_t(sorted.size() / 2);
-        std::nth_element(sorted.begin(), at, sorted.end());
-        return *at;
-    }
+    double middle() const { return upper_median(logs); }
 };
 
 Asked asked_by_overall_lengths(const std::vector<Reading>& readings, const Stone& stone) {

@@ -12,6 +12,7 @@
 #include "fit/azimuth_turn.h"
 #include "fit/canonical.h"
 #include "fit/rounding.h"
+#include "fit/upper_median.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
 #include "stone/least_rotation.h"
@@ -110,10 +111,9 @@ double System::scale_of_readings(const Vec3& up) const {
         }
     }
     if (logs.empty()) return 1;
-    const auto middle = logs.begin() + std::ptrdiff_t(logs.size() / 2);
-    std::nth_element(logs.begin(), middle, logs.end());
+    const double middle = upper_median(logs);
     // The mesh's own size is as good as edges that differ no more than drawings do.
-    return !any_overall && std::abs(*middle) < drawn ? 1 : std::exp(*middle);
+    return !any_overall && std::abs(middle) < drawn ? 1 : std::exp(middle);
 }
 
 void System::bring_upright() {
