@@ -7,8 +7,9 @@
 #include <glm/matrix.hpp>
 
 #include "fit/azimuth_turn.h"
+#include "fit/orbits.h"
 #include "fit/statistics.h"
-#include "stone/least_rotation.h"
+#include "fit/upright_turn.h"
 
 namespace culet {
 
@@ -16,17 +17,6 @@ namespace {
 
 // Chance of so large a chi-square, from which on the readings agree well.
 constexpr double k_agrees_well = 0.2;
-
-// The least turn that brings `up` to +z.
-glm::dmat3 turn_to_z(const Vec3& up) {
-    const auto turned = [&](const Vec3& v) { return turned_with(up, {0, 0, 1}, v); };
-    return {turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1})};
-}
-
-glm::dmat3 about_up(double angle) {
-    const double c = std::cos(angle), s = std::sin(angle);
-    return {c, s, 0, -s, c, 0, 0, 0, 1};
-}
 
 // Where planes of a corner come nearest to each other, near `guess` where they leave it open.
 Vec3 meet_of(const std::vector<Plane>& planes, const Vec3& guess) {
@@ -81,8 +71,9 @@ std::optional<Shape> shape_of(const System& system, const Solid& solid) {
     }
 
     const int up = system.up_facet();
-    glm::dmat3 turn =
+    const auto [x, y, z] =
         turn_to_z(up >= 0 ? planes[std::size_t(up)].normal : glm::normalize(system.stone().up));
+    glm::dmat3 turn = glm::transpose(glm::dmat3(x, y, z));
     // About up: as most facets of the mesh stand, then as the azimuths that were read say.
     double east = 0, north = 0;
     for (std::size_t f = 0; f < planes.size(); ++f) {
@@ -91,9 +82,9 @@ std::optional<Shape> shape_of(const System& system, const Solid& solid) {
         east += n.x * m.x + n.y * m.y;
         north += n.x * m.y - n.y * m.x;
     }
-    if (east != 0 || north != 0) turn = about_up(std::atan2(north, east)) * turn;
+    if (east != 0 || north != 0) turn = turn_about_z(std::atan2(north, east)) * turn;
     if (!system.stone().azimuth_from_mesh) {
-        turn = about_up(azimuth_turn(
+        turn = turn_about_z(azimuth_turn(
                    system.readings(),
                    [&](int facet) { return turn * planes[std::size_t(facet)].normal; })) *
                turn;

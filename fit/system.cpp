@@ -13,9 +13,9 @@
 #include "fit/canonical.h"
 #include "fit/rounding.h"
 #include "fit/upper_median.h"
+#include "fit/upright_turn.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
-#include "stone/least_rotation.h"
 
 namespace culet {
 
@@ -27,18 +27,6 @@ Vec3 times(const std::array<Vec3, 3>& rows, const Vec3& v) {
 
 Vec3 times_transposed(const std::array<Vec3, 3>& rows, const Vec3& v) {
     return v.x * rows[0] + v.y * rows[1] + v.z * rows[2];
-}
-
-// The least turn that brings a unit direction to +z (half a turn about x for -z), by rows.
-std::array<Vec3, 3> turn_to_z(const Vec3& n) {
-    if (n == Vec3{0, 0, -1}) return {Vec3{1, 0, 0}, Vec3{0, -1, 0}, Vec3{0, 0, -1}};
-    const Vec3 z{0, 0, 1};
-    return {turned_with(z, n, {1, 0, 0}), turned_with(z, n, {0, 1, 0}), n};
-}
-
-Vec3 about_z(const Vec3& v, double angle) {
-    const double c = std::cos(angle), s = std::sin(angle);
-    return {c * v.x - s * v.y, s * v.x + c * v.y, v.z};
 }
 
 // A stone is drawn standing on an axis of its file; within this of one, the tilt is a slip of hand.
@@ -154,7 +142,8 @@ void System::bring_upright() {
 
     // Where the readings' azimuths begin on the mesh: the mean direction of their differences.
     turn_ = azimuth_turn(readings_, [&](int facet) { return solid_.facets[facet].plane.normal; });
-    for (Vec3& v : solid_.vertices) v = about_z(v, turn_);
+    const glm::dmat3 turn = turn_about_z(turn_);
+    for (Vec3& v : solid_.vertices) v = turn * v;
     mesh_shape_.points = solid_.vertices;
     auto outline = std::make_shared<Outline>();
     for (std::size_t v = 0; v < solid_.vertices.size(); ++v) {
@@ -316,8 +305,9 @@ std::vector<int> System::rotation_partners(const Reading& reading) const {
         return images;
     }
     const double angle = 2 * std::numbers::pi / reading.order;
+    const glm::dmat3 turn = turn_about_z(angle);
     std::vector<int> found = partners(mesh_shape_, facets, [&](const Plane& plane) {
-        return Plane{about_z(plane.normal, angle), plane.offset};
+        return Plane{turn * plane.normal, plane.offset};
     });
     if (!found.empty()) return found;
     // A rough mesh: facets of one tier follow each other by azimuth.
@@ -453,21 +443,22 @@ System::Pose System::pose_of(const Shape& shape) const {
     pose.turn = turn_of(shape).value;
     Vec3 mean(0);
     for (std::size_t v = 0; v < count; ++v) mean += shape.points[v] / double(count);
-    pose.shift = middle_ - times_transposed(outward_, about_z(mean, pose.turn)) * scale_;
+    pose.shift = middle_ - times_transposed(outward_, turn_about_z(pose.turn) * mean) * scale_;
     return pose;
 }
 
 Vec3 System::outside_point(const Vec3& p, const Pose& pose) const {
-    return times_transposed(outward_, about_z(p, pose.turn)) * scale_ + pose.shift;
+    return times_transposed(outward_, turn_about_z(pose.turn) * p) * scale_ + pose.shift;
 }
 
 Plane System::outside_plane(const Plane& plane, const Pose& pose) const {
-    const Vec3 n = glm::normalize(times_transposed(outward_, about_z(plane.normal, pose.turn)));
+    const Vec3 n =
+        glm::normalize(times_transposed(outward_, turn_about_z(pose.turn) * plane.normal));
     return {n, plane.offset * scale_ + glm::dot(n, pose.shift)};
 }
 
 Vec3 System::inside_direction(const Vec3& direction) const {
-    return about_z(times(upright_, direction), turn_);
+    return turn_about_z(turn_) * times(upright_, direction);
 }
 
 double System::azimuth_zero(const Pose& pose) const {
