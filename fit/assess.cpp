@@ -2,24 +2,15 @@
 
 #include <cmath>
 
+#include "fit/accusation.h"
 #include "fit/covariance.h"
 #include "fit/cut_quantities.h"
 #include "fit/next_reading.h"
 #include "fit/open_freedoms.h"
-#include "fit/slips.h"
-#include "stone/units.h"
 
 namespace culet {
 
 namespace {
-
-// In the unit of files.
-double written(const Reading& reading, double value) {
-    return is_angle(reading.kind) ? degrees(value) : value;
-}
-
-// An estimate is trusted for this many of its own sigmas and the reading's.
-constexpr double k_trust = 3.5;
 
 Proposal proposal_of(const System& system, const Suspicion& suspicion) {
     const Reading& reading = system.readings()[std::size_t(suspicion.reading)];
@@ -32,16 +23,9 @@ Proposal proposal_of(const System& system, const Suspicion& suspicion) {
         proposal.alternatives.push_back(system.readings()[std::size_t(other)].id);
     }
     if (is_relation(reading.kind)) return proposal;
-    const double value = written(reading, reading.value),
-                 wanted = written(reading, suspicion.estimate);
-    const double tolerance =
-        k_trust * std::hypot(written(reading, suspicion.sigma), written(reading, reading.sigma));
     // A slip is an explanation only where the tolerance is small beside what it explains.
-    if (!(tolerance < 0.25 * std::abs(value - wanted))) return proposal;
-    if (const auto slip = find_slip(value, wanted, tolerance, measured_by(reading.kind))) {
-        proposal.slip = slip->what;
-        proposal.corrected = is_angle(reading.kind) ? radians(slip->corrected) : slip->corrected;
-    }
+    const double off = std::abs(reading.value - suspicion.estimate);
+    if (slip_tolerance(reading, suspicion.sigma) < 0.25 * off) explain_by_slip(reading, proposal);
     return proposal;
 }
 

@@ -7,7 +7,6 @@
 //     sum over crossing circles j of 2 atan(exp(u_j - u_i)) = 2 pi - pi (number of crossing lines)
 
 #include "fit/canonical.h"
-#include "fit/upper_median.h"
 
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -18,6 +17,8 @@
 #include <glm/matrix.hpp>
 #include <map>
 #include <numbers>
+
+#include "fit/upper_median.h"
 
 namespace culet {
 

@@ -1,16 +1,13 @@
 #include "fit/gross_angles.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "fit/accusation.h"
 #include "fit/fitted_parts.h"
-#include "fit/slips.h"
 #include "fit/upper_median.h"
-#include "stone/errors.h"
 #include "stone/units.h"
 
 namespace culet {
@@ -119,64 +116,6 @@ std::vector<std::size_t> contradicted_angles(const FitResult& without,
         }
     }
     return wrong;
-}
-
-void accuse(const std::vector<Reading>& readings, const std::vector<Gross>& gross,
-            FitResult& result) {
-    std::vector<Proposal> proposals;
-    std::vector<std::string> ids;
-    std::string text;
-    for (const Gross& g : gross) {
-        const Reading& r = readings[g.reading];
-        const double unit = is_angle(r.kind) ? degrees(1) : 1;
-        const auto fitted =
-            std::find_if(result.readings.begin(), result.readings.end(),
-                         [&](const FittedReading& other) { return other.id == r.id; });
-        check(fitted != result.readings.end(), "an accused reading is not listed");
-        fitted->value = r.value;
-        fitted->sigma = r.sigma;
-        fitted->fitted = g.estimate;
-        fitted->residual =
-            r.kind == ReadingKind::azimuth ? wrapped(g.estimate - r.value) : g.estimate - r.value;
-        fitted->normalized = fitted->residual / std::hypot(g.sigma, r.sigma);
-        fitted->redundancy = 1;
-        fitted->suspect = true;
-        fitted->left_out = "no stone could be found with it";
-        Proposal proposal;
-        proposal.id = r.id;
-        proposal.in_radians = is_angle(r.kind);
-        proposal.estimate = g.estimate;
-        proposal.sigma = g.sigma;
-        if (const auto slip =
-                find_slip(unit * r.value, unit * g.estimate,
-                          3.5 * unit * std::hypot(g.sigma, r.sigma), measured_by(r.kind))) {
-            proposal.slip = slip->what;
-            proposal.corrected = slip->corrected / unit;
-        }
-        std::string of;
-        for (const std::string& name : r.of) of += (of.empty() ? " of " : "/") + name;
-        if (of.empty() && !r.facets.empty()) {
-            of = " of " + result.facets[std::size_t(r.facets[0])].name;
-        }
-        text +=
-            fmt::format("{}{} ({}{}: read {:g}, the others say {:.4g}{})", text.empty() ? "" : ", ",
-                        r.id, name_of(r.kind), of, unit * r.value, unit * g.estimate,
-                        proposal.slip.empty()
-                            ? ""
-                            : fmt::format("; {}: {:g}?", proposal.slip, unit * proposal.corrected));
-        proposals.push_back(std::move(proposal));
-        ids.push_back(r.id);
-    }
-    result.suspects.insert(result.suspects.begin(), ids.begin(), ids.end());
-    result.proposals.insert(result.proposals.begin(), proposals.begin(), proposals.end());
-    const std::string left_out =
-        fmt::format("reading{} {} cannot belong to the others and {} left out",
-                    gross.size() == 1 ? "" : "s", text, gross.size() == 1 ? "is" : "are");
-    result.message = result.status == FitStatus::converged
-                         ? left_out
-                         : left_out + "; without: " + result.message;
-    if (result.status != FitStatus::not_converged) result.status = FitStatus::contradictory;
-    result.notes.push_back(left_out);
 }
 
 void put_back_gross(const std::vector<Reading>& readings, const std::vector<std::size_t>& gross,

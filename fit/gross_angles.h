@@ -26,18 +26,6 @@ std::vector<std::size_t> contradicted_angles(const FitResult& without,
                                              const std::vector<Reading>& readings,
                                              const std::vector<std::size_t>& far);
 
-/// A reading that cannot belong to the others, and what they say that it should be.
-struct Gross {
-    std::size_t reading = 0;
-    double estimate = 0, sigma = 0;
-};
-
-/// Names them as suspects before all others, with what they should be and the slip that would
-/// explain it. The status is `contradictory` at best. The result is of a fit that does without them
-/// and lists them all the same.
-void accuse(const std::vector<Reading>& readings, const std::vector<Gross>& gross,
-            FitResult& result);
-
 /// The result of a fit without these angles with them in their places again, accused.
 void put_back_gross(const std::vector<Reading>& readings, const std::vector<std::size_t>& gross,
                     FitResult& result);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/gross_angles.h"
+#include "fit/accusation.h"
 #include "fit/statistics.h"
 
 namespace culet {
