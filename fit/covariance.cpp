@@ -393,7 +393,13 @@ Eigen::VectorXd Covariance::with_all(const FunctionRow& function, bool open) con
 }
 
 Eigen::VectorXd Covariance::fitted_part(const Eigen::VectorXd& residuals) const {
-    if (!sparse_) return seen_ * (seen_.transpose() * residuals);
+    if (!sparse_) {
+        Eigen::RowVectorXd along = Eigen::RowVectorXd::Zero(seen_.cols());
+        for (Eigen::Index i = 0; i < residuals.size(); ++i) {
+            if (residuals(i) != 0) along += residuals(i) * seen_.row(i);
+        }
+        return seen_ * along.transpose();
+    }
     const Eigen::VectorXd all = rows_.transpose() * residuals;
     return rows_ * sparse_->with_all(sparse_->tight, FunctionRow(all.sparseView()));
 }

@@ -1,282 +1,18 @@
 #include "fit/exact_finish.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "fit/leaning.h"
+#include "fit/settle.h"
 #include "fit/turning.h"
 
 namespace culet {
 
 namespace {
 
-// Freedoms that the readings hold to better than the mesh does are moved by all but this part of
-// their way in each step; those that no reading holds do not move.
-constexpr double k_first_damping = 1e-2;
-constexpr double k_least_damping = 1e-6;
-
-// Variance of equations whose bend is mended within a step: exact ones, corners that are held, and
-// readings sharper than rounding.
-constexpr double k_all_but_exact = 1e-15;
-constexpr double k_rounding = 1e-14;
-constexpr double k_nearly_met = 1e-10;
 // Facets that may lean either way at the end.
 constexpr double k_nearly_upright = 0.1;
 constexpr int k_most_meanings = 8;
-constexpr int k_most_choices = 12;
-// A shape that leans another way is better within so many steps, or far off: twice chi-square and
-// so much.
-constexpr int k_hurry = 10;
-constexpr double k_far_off = 100;
-// Along kinks (edges of no length, corners about to rise) steps may creep for ever. Where so many
-// of them, half of them refused, together gain no more than this in chi-square, what is left is a
-// tenth of a sigma or less.
-constexpr std::size_t k_creeping = 6;
-constexpr double k_crumb = 0.01, k_all_but_met = 1e-6;
-// In how many rounds a step may find out which corners it has to stop.
-constexpr int k_most_rounds = 4;
-// Steps in a row that gain nothing, at the end: this part of chi-square.
-constexpr int k_quiet = 2;
-constexpr double k_no_gain = 1e-8;
-// Of Newton's steps: the next would be gone in rounding.
-constexpr double k_short = 1e-7;
-// Of chi-square: where a step gains less, the shape tells what the readings mean.
-constexpr double k_little = 0.05;
-
-// Exact equations that are nearly one (of corners held where planes are nearly parallel) are
-// factored with this variance, where that can be done.
-constexpr double k_least_close = 1e-11;
-
-// What a correction leaves, the next one takes.
-constexpr double k_correction_precision = 1e-3;
-
-std::span<const double> steps(const Eigen::VectorXd& step) {
-    return {step.data(), static_cast<std::size_t>(step.size())};
-}
-
-// Of a step: the next one mends what it leaves, and hard equations end in rounding; but of a
-// reading it leaves no more than a hundredth of its uncertainty.
-double step_precision(const SparseRows& rows) {
-    double sharpest = 1, largest = 0;
-    for (int i = 0; i < rows.count(); ++i) {
-        if (rows.variance[i] > 0) sharpest = std::min(sharpest, rows.variance[i]);
-        largest = std::max(largest, std::abs(rows.residual[i]));
-    }
-    return largest > 0 ? std::clamp(0.01 * std::sqrt(sharpest) / largest, 1e-13, 1e-7) : 1e-7;
-}
-
-// Smallest steps onto the hard equations, until rounding is all that is left.
-Shape onto_constraints(const Relaxation& relaxation, Shape shape, const std::vector<Held>& held) {
-    Sheet sheet = relaxation.hard_sheet(shape, held);
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(relaxation.freedoms().size());
-    for (const double least : {SaddleSolver::k_least_variance, k_least_close}) {
-        SaddleSolver solver;
-        std::vector<Held> factored;
-        for (int i = 0; i < 10 && sheet.hard_worst > 1e-16; ++i) {
-            // After two steps the same factors do: what they miss is of second order in steps of
-            // rounding size. Not where other corners bind than before, which have rows then.
-            if (i < 2 || sheet.holding != factored) {
-                if (!solver.factor(sheet.rows, relaxation.metric(), {}, least)) break;
-                factored = sheet.holding;
-            }
-            const auto s = solver.solve(none, -sheet.rows.residuals());
-            if (!s.good) break;
-            const Shape next = relaxation.freedoms().moved(shape, steps(s.unknowns));
-            Sheet there = relaxation.hard_sheet(next, held);
-            if (!there.finite || there.hard_worst >= sheet.hard_worst) break;
-            shape = next;
-            sheet = std::move(there);
-        }
-        if (sheet.hard_worst < k_rounding) break;
-    }
-    return shape;
-}
-
-bool creeps_on(const std::vector<double>& merits) {
-    if (merits.size() <= k_creeping) return false;
-    const auto from = merits.end() - std::ptrdiff_t(k_creeping) - 1;
-    std::size_t refused = 0;
-    for (auto m = from; m + 1 != merits.end(); ++m) refused += *m == *(m + 1);
-    return *from - merits.back() < k_crumb && 2 * refused >= k_creeping;
-}
-
-struct Settled {
-    Shape shape;
-    bool converged = false;
-    int iterations = 0;
-    double chi2 = 0, worst_hard = 0;
-};
-
-// `near_an_end`: the equations bend as they do where the steps will end, so that the first step may
-// already be Newton's.
-Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
-               const std::vector<Held>& held, int iterations, double goal = 1e300,
-               bool near_an_end = false) {
-    const Freedoms& freedoms = relaxation.freedoms();
-    Softness softness;
-    softness.with_priors = false;
-    Settled result;
-    Shape shape = start;
-    relaxation.forget_ties();
-    relaxation.choose(shape, true);
-    Sheet sheet = relaxation.sheet(shape, softness, held);
-    const Eigen::VectorXd metric = relaxation.metric();
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(freedoms.size());
-    double damping = near_an_end ? k_least_damping : k_first_damping;
-    int quiet = 0, choices = 0, refused = 0;
-    std::vector<double> merits;
-    bool curved = false;
-    // The readings are asked again what they mean here. At a kink (a caliper's jaw that touches two
-    // corners at once) they would change their mind for ever; `choose` ties the two.
-    bool asked = false;
-    const auto meaning_changes = [&] {
-        if (choices > k_most_choices) return false;
-        asked = true;
-        relaxation.choose(shape, true);
-        Sheet fresh = relaxation.sheet(shape, softness, held);
-        if (std::abs(fresh.merit - sheet.merit) < 1e-9 * (1 + sheet.merit)) return false;
-        ++choices;
-        merits.clear();
-        sheet = std::move(fresh);
-        quiet = 0;
-        asked = false;
-        damping = std::max(damping, 1e-4);
-        if (damping > 1) damping = 1e-2;
-        return true;
-    };
-    const auto ends = [&](bool settled) {
-        if (meaning_changes()) return false;
-        result.converged = settled;
-        return true;
-    };
-    Eigen::VectorXd forces;
-    double least = SaddleSolver::k_least_variance;
-    bool may_be_close = true;
-    if (near_an_end && solver.factor(sheet.rows, damping * metric)) {
-        const auto s = solver.solve(none, -sheet.rows.residuals(), step_precision(sheet.rows));
-        curved = s.good;
-        forces = s.forces;
-    }
-    for (int i = 0; i < iterations; ++i) {
-        result.iterations = i + 1;
-        bool factored = false, better = false, idle = false;
-        double length = 0;
-        // A step that lifts corners above their neighbours is taken again with those pressed down
-        // (semismooth Newton), as in the earlier stages.
-        std::vector<int> pressed = sheet.above;
-        for (int round = 0; round < k_most_rounds && !better; ++round) {
-            factored = curved && solver.factor(sheet.rows, damping * metric,
-                                               relaxation.curvature(shape, forces), least);
-            if (!factored) {
-                curved = false;
-                factored = solver.factor(sheet.rows, damping * metric, {}, least);
-            }
-            if (!factored && least == k_least_close) {
-                least = SaddleSolver::k_least_variance;
-                may_be_close = false;
-                factored = solver.factor(sheet.rows, damping * metric);
-            }
-            if (!factored) break;
-            const double precision = step_precision(sheet.rows);
-            const auto s = solver.solve(none, -sheet.rows.residuals(), precision);
-            if (!s.good) break;
-            const std::size_t before_release = pressed.size();
-            for (std::size_t k = 0; k < sheet.holding.size(); ++k) {
-                if (s.forces(sheet.first_holding + Eigen::Index(k)) >= 0) continue;
-                // It is held up, not down.
-                const auto at =
-                    std::lower_bound(pressed.begin(), pressed.end(), sheet.holding_hinge[k]);
-                if (at != pressed.end() && *at == sheet.holding_hinge[k]) pressed.erase(at);
-            }
-            if (pressed.size() < before_release && round + 1 < k_most_rounds) {
-                sheet = relaxation.sheet(shape, softness, held, &pressed);
-                continue;
-            }
-            Eigen::VectorXd step = s.unknowns;
-            length = step.cwiseAbs().maxCoeff();
-            // Half a unit is half the stone's radius: no linearisation holds so far.
-            if (length > 0.2) step *= 0.2 / length;
-            Shape next = freedoms.moved_with_turn(shape, steps(step));
-
-            // Second-order correction: back onto the curved constraints, same factors.
-            double off_before = 1e300;
-            for (int k = 0; k < 4; ++k) {
-                const Relaxation::Missed missed =
-                    relaxation.missed(next, softness, sheet.holding, k_all_but_exact);
-                if (missed.worst < 1e-13) break;
-                if (!(missed.worst < 0.5 * off_before)) {
-                    if (may_be_close) least = k_least_close;
-                    break;
-                }
-                off_before = missed.worst;
-                Eigen::VectorXd back = Eigen::VectorXd::Zero(sheet.rows.count());
-                const Eigen::Index common = std::min(back.size(), missed.residuals.size());
-                back.head(common) = -missed.residuals.head(common);
-                const auto correction = solver.solve(none, back, k_correction_precision);
-                if (!correction.good) break;
-                next = freedoms.moved(next, steps(correction.unknowns));
-            }
-            Sheet there = relaxation.sheet(next, softness, held);
-            if (!there.finite) break;
-            // The hard equations first: their size is the size of what they leave undone.
-            // Hard equations are brought to rounding at the end; so little does not count.
-            const double before = sheet.merit + 1e6 * std::max(0.0, sheet.hard_sum - k_nearly_met),
-                         after = there.merit + 1e6 * std::max(0.0, there.hard_sum - k_nearly_met);
-            better = after <= before * (1 + 1e-12) + 1e-9;
-            if (!better) {
-                // Newton's step, and the sums' own rounding.
-                idle = curved && length < k_short && after - before < k_no_gain * (1 + before);
-                if (there.above == pressed) break;
-                pressed = std::move(there.above);
-                sheet = relaxation.sheet(shape, softness, held, &pressed);
-                continue;
-            }
-            const double gain = before - after;
-            quiet = gain < k_no_gain * (1 + before) || length < 1e-12 ? quiet + 1 : 0;
-            // The next step of Newton's would have the square of this length.
-            if (curved && length < k_short && quiet > 0) quiet = k_quiet;
-            shape = std::move(next);
-            // The exact Hessian near the end: weak freedoms would creep.
-            if (length < 1e-2) {
-                forces = s.forces;
-                curved = true;
-            }
-            sheet = std::move(there);
-            // A step that was refused a moment ago would be so again.
-            if (refused == 0) damping = std::max(k_least_damping, damping / 5);
-            refused = 0;
-            // Once in each meaning, when there is little left to gain from it.
-            if (!asked && gain < k_little && sheet.hard_sum < k_all_but_met) meaning_changes();
-        }
-        if (!better) {
-            curved = false;
-            // The longer nothing helps, the larger the strides.
-            damping *= std::pow(10, std::clamp(++refused / 2, 1, 4));
-            if (pressed != sheet.above) sheet = relaxation.sheet(shape, softness, held);
-            // Nothing more to gain at the size of rounding; or no step is better.
-            if ((factored && length < 1e-9) || idle || damping > 1e8) {
-                if (ends(factored)) break;
-            }
-        }
-        merits.push_back(sheet.merit);
-        if (i >= k_hurry && !(sheet.chi2 < 2 * goal + k_far_off)) break;
-        const bool creeps = sheet.hard_sum < k_all_but_met && creeps_on(merits);
-        if ((quiet >= k_quiet || creeps) && ends(true)) break;
-    }
-    result.shape = onto_constraints(relaxation, std::move(shape), held);
-    if (!held.empty() && relaxation.hard_sheet(result.shape, {}).hard_worst > k_rounding) {
-        // Corners held next to an edge of no length bind so tightly that meets give way. The meets
-        // alone, from here, move less than what corners are held below.
-        Shape met = onto_constraints(relaxation, result.shape, {});
-        if (relaxation.is_convex(met)) result.shape = std::move(met);
-    }
-    relaxation.forget_ties();
-    relaxation.choose(result.shape, true);
-    const Sheet end = relaxation.sheet(result.shape, softness, held);
-    result.chi2 = end.chi2;
-    result.worst_hard = relaxation.hard_sheet(result.shape, {}).hard_worst;
-    return result;
-}
 
 }  // namespace
 
@@ -285,13 +21,15 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
     ExactFinish result;
     SaddleSolver solver;
     const bool goes_on = agreeable > 0;
-    Settled settled = settle(relaxation, solver, start, {}, iterations, 1e300, goes_on);
+    Settled settled =
+        settle(relaxation, solver, start, {}, {.iterations = iterations, .near_an_end = goes_on});
     Softness softness;
     softness.with_priors = false;
     // What the readings may as well mean: each meaning has an end of its own.
     const auto gains_from = [&](const Shape& another, double may_rise) {
         const double goal = settled.chi2 + may_rise;
-        Settled other = settle(relaxation, solver, another, {}, iterations, goal);
+        Settled other =
+            settle(relaxation, solver, another, {}, {.iterations = iterations, .goal = goal});
         other.iterations += settled.iterations;
         if (!(other.chi2 < goal - 1e-3)) return false;
         settled = std::move(other);
@@ -337,7 +75,8 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
             result.held.size() > 3 * relaxation.system().stone().solid.facets.size();
         if (result.is_no_stone) break;
         const int earlier = settled.iterations;
-        settled = settle(relaxation, solver, settled.shape, result.held, left, 1e300, goes_on);
+        settled = settle(relaxation, solver, settled.shape, result.held,
+                         {.iterations = left, .near_an_end = goes_on});
         left -= settled.iterations;
         settled.iterations += earlier;
     }

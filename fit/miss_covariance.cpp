@@ -16,8 +16,9 @@ constexpr Eigen::Index k_most_dense = 1000;
 // Weights of readings, in the metric. Squared and beside what nothing holds they leave half of a
 // number's digits.
 constexpr double k_most_weight = 1e4;
-// Likewise coefficients of the basis, and what is left of a condition's variance given the others.
-constexpr double k_most_growth = 1e6, k_least_own = 1e-8;
+// Likewise coefficients of the basis. What is left of a condition's variance given the others has
+// six digits then.
+constexpr double k_most_growth = 1e6, k_least_own = 1e-10;
 
 // Adds factor row' row to the lower half.
 void add_square(const Rows& rows, Eigen::Index i, double factor, Eigen::MatrixXd& to) {

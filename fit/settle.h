@@ -1,0 +1,35 @@
+#pragma once
+// Gauss-Newton and Newton steps under hard constraints (Nocedal & Wright 2006, chapter 18) in the
+// freedoms, to the nearest end of one meaning of the readings. Private to the room.
+
+#include <vector>
+
+#include "fit/relaxation.h"
+#include "fit/saddle_solver.h"
+
+namespace culet {
+
+/// Meets that miss by more, all together, do not meet.
+inline constexpr double k_all_but_met = 1e-6;
+
+struct Settled {
+    Shape shape;
+    bool converged = false;
+    int iterations = 0;
+    double chi2 = 0, worst_hard = 0;
+};
+
+struct SettleOptions {
+    int iterations = 100;
+    /// After a few steps it ends where chi-square is not near to it.
+    double goal = 1e300;
+    /// The equations bend as they do where the steps will end, so that the first step may already
+    /// be Newton's.
+    bool near_an_end = false;
+};
+
+/// `held`: corners that stay below a facet. `solver` keeps its layout from call to call.
+Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
+               const std::vector<Held>& held, const SettleOptions& options);
+
+}  // namespace culet
