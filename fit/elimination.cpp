@@ -15,6 +15,9 @@ using Entries = std::vector<std::pair<int, double>>;
 // What is left of an equation after substitution, relative to what went into it, when it only
 // repeats others.
 constexpr double k_repeats = 1e-10;
+// And relative to what its rounding errors are in proportion to: fifty times the unit of rounding,
+// as many terms as are added up.
+constexpr double k_rounding = 1e-14;
 // A preferred column is taken when its entry is at least this part of the largest.
 constexpr double k_preferred = 0.1;
 // Entries this much smaller than the largest of their sum are what cancellation leaves.
@@ -27,6 +30,7 @@ public:
     explicit Elimination(int unknowns)
         : expressions_(std::size_t(unknowns)),
           step_(std::size_t(unknowns), -1),
+          doubts_(std::size_t(unknowns), 0),
           sum_(std::size_t(unknowns), 0),
           size_(std::size_t(unknowns), 0) {}
 
@@ -35,7 +39,7 @@ public:
         substitute(equation);
         double largest = 0;
         for (const auto& [column, value] : row_) largest = std::max(largest, std::abs(value));
-        if (!(largest > k_repeats * most_)) return false;
+        if (!(largest > k_repeats * most_ && largest > k_rounding * doubt_)) return false;
         int pivot = -1;
         double best = 0, at_pivot = 0;
         for (const auto& [column, value] : row_) {
@@ -54,6 +58,7 @@ public:
         for (const auto& [column, value] : row_) {
             if (column != pivot) expression.emplace_back(column, -value / at_pivot);
         }
+        doubts_[std::size_t(pivot)] = doubt_ / std::abs(at_pivot);
         step_[std::size_t(pivot)] = static_cast<int>(order_.size());
         order_.push_back(pivot);
         return true;
@@ -152,7 +157,7 @@ private:
     }
     // The equation in unknowns that are left, in `row_`.
     void substitute(const Entries& equation) {
-        most_ = 0;
+        most_ = doubt_ = 0;
         waiting_.clear();
         const auto put = [&](int column, double value) {
             most_ = std::max(most_, std::abs(value));
@@ -169,21 +174,27 @@ private:
             waiting_.pop_back();
             const double value = taken(column);
             if (value == 0) continue;
+            doubt_ = std::max(doubt_, std::abs(value) * doubts_[std::size_t(column)]);
             for (const auto& [other, factor] : expressions_[std::size_t(column)]) {
                 put(other, value * factor);
             }
         }
+        doubt_ = std::max(doubt_, most_);
         row_.clear();
         take_sum(row_);
     }
 
     std::vector<Entries> expressions_;  // of eliminated unknowns, in those that are not
     std::vector<int> step_;             // when each was eliminated; -1: it is left
+    std::vector<double> doubts_;        // of expressions, see below
     std::vector<int> order_;            // of elimination
     std::vector<double> sum_, size_;
     std::vector<int> touched_, waiting_;
     Entries row_;
     double most_ = 0;  // the largest term of the latest substitution
+    // What its rounding errors are in proportion to (running error analysis, Higham 2002, 3.3): the
+    // largest term, or that of an expression, over the pivot by which it was divided.
+    double doubt_ = 0;
 };
 
 }  // namespace

@@ -93,6 +93,8 @@ protected:
                 if (r.value && r.sigma) {
                     r.sigma = *r.sigma * std::exp2(double(random() % 201) / 100 - 1);
                     r.value = *r.value + *r.sigma * std::normal_distribution<>()(random);
+                    // As the protractor shows what leans a little the other way.
+                    if (r.kind == "inclination" && *r.value > 90) r.value = 180 - *r.value;
                     if (random() % 4 == 0) r.rounding = 0.5 * *r.sigma;
                 }
                 all.push_back(std::move(r));
@@ -141,7 +143,7 @@ TEST_P(RepeatedReadings, SayTheSameTogetherAndApart) {
     if (is_wrong) {
         for (std::size_t i = written.size() / 3;; ++i) {
             if (!written[i].value) continue;
-            written[i].value = *written[i].value + 15 * *written[i].sigma;
+            written[i].value = *written[i].value - 15 * *written[i].sigma;
             break;
         }
     }
