@@ -95,6 +95,7 @@ protected:
                     r.value = *r.value + *r.sigma * std::normal_distribution<>()(random);
                     // As the protractor shows what leans a little the other way.
                     if (r.kind == "inclination" && *r.value > 90) r.value = 180 - *r.value;
+                    if (r.kind == "azimuth" && *r.value > 360) r.value = *r.value - 360;
                     if (random() % 4 == 0) r.rounding = 0.5 * *r.sigma;
                 }
                 all.push_back(std::move(r));
