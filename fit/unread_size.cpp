@@ -6,6 +6,14 @@
 
 namespace culet {
 
+namespace {
+
+// Of the size. Not exact: where the angles are no stone's, nothing can be, and the size is not what
+// they contradict.
+constexpr double k_as_good_as_exact = 1e-6;
+
+}  // namespace
+
 bool says_size(const std::vector<Reading>& readings) {
     return std::any_of(readings.begin(), readings.end(), [](const Reading& r) {
         switch (r.kind) {
@@ -30,7 +38,7 @@ Reading size_of_mesh(const Stone& stone) {
     size.id = "size of the mesh";
     size.kind = ReadingKind::depth;
     size.value = width_along(stone.solid, up);
-    size.exact = true;
+    size.sigma = k_as_good_as_exact * size.value;
     return size;
 }
 

@@ -10,7 +10,7 @@ namespace culet {
 /// Some reading is a length, a volume or a weight.
 bool says_size(const std::vector<Reading>& readings);
 
-/// The depth of the mesh, as an exact reading. Without any length the angles agree best with a
+/// The depth of the mesh, as a reading of a millionth. Without any length the angles agree best with a
 /// stone of no size at all, all of whose planes meet in one point.
 Reading size_of_mesh(const Stone& stone);
 
