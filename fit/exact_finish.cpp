@@ -1,6 +1,8 @@
 #include "fit/exact_finish.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 
 #include "fit/leaning.h"
 #include "fit/settle.h"
@@ -13,6 +15,8 @@ namespace {
 // Facets that may lean either way at the end.
 constexpr double k_nearly_upright = 0.1;
 constexpr int k_most_meanings = 8;
+// Several leanings that promise to be better are tried: what is promised is linear.
+constexpr std::size_t k_most_leanings = 4;
 
 }  // namespace
 
@@ -31,14 +35,21 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         Settled other =
             settle(relaxation, solver, another, {}, {.iterations = iterations, .goal = goal});
         other.iterations += settled.iterations;
+        if (getenv("W"))
+            fprintf(stderr, "settled %.4f other %.4f conv %d hard %g its %d above %zu\n",
+                    settled.chi2, other.chi2, other.converged, other.worst_hard, other.iterations,
+                    relaxation.above(other.shape).size());
         if (!(other.chi2 < goal - 1e-3)) return false;
         settled = std::move(other);
         return true;
     };
     for (int round = 0; round < k_most_meanings && !(settled.chi2 < agreeable); ++round) {
-        const auto leaning =
-            leaning_better(relaxation, solver, settled.shape, softness, k_nearly_upright);
-        if (leaning && gains_from(*leaning, 0)) continue;
+        const std::vector<Shape> leanings = better_leanings(
+            relaxation, solver, settled.shape, softness, k_nearly_upright, k_most_leanings);
+        if (std::any_of(leanings.begin(), leanings.end(),
+                        [&](const Shape& other) { return gains_from(other, 0); })) {
+            continue;
+        }
         const auto turned = turned_better(relaxation, solver, settled.shape, softness);
         if (!turned || !gains_from(turned->shape, turned->nearer)) break;
     }

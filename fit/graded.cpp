@@ -124,10 +124,10 @@ struct StageRunner {
     void let_lean(Shape& shape, const Stage& stage, double fraction) {
         if (stage.incidence <= k_leaning_until) return;
         for (int round = 0; round < 3; ++round) {
-            const auto other = leaning_better(relaxation, solver, shape, softness_of(stage, true),
-                                              k_may_lean, sides);
-            if (!other) break;
-            shape = relaxation.freedoms().symmetrised(*other);
+            const std::vector<Shape> others = better_leanings(
+                relaxation, solver, shape, softness_of(stage, true), k_may_lean, 1, sides);
+            if (others.empty()) break;
+            shape = relaxation.freedoms().symmetrised(others.front());
             once(shape, stage, {.with_readings = true}, fraction);
         }
     }

@@ -1,7 +1,10 @@
 #include "fit/leaning.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace culet {
 
@@ -14,21 +17,127 @@ constexpr double k_precision = 1e-4;
 constexpr double k_least_gain = 0.01;
 // A step this long in one of the freedoms is no longer linear.
 constexpr double k_longest = 0.5;
+// Chains begin at each of so many facets; at more of them, where the first turn costs least.
+constexpr Eigen::Index k_most_begins = 64;
+
+// Which facets to turn so that 2 r't + t'B t is least, t being 1 for those that are turned and 0
+// for the others: one and two at a time as long as that gains, then by chains of turns (Kernighan &
+// Lin 1970), each the best of those that are left although it may cost, of which the part is kept
+// that gains most.
+class Turns {
+public:
+    Turns(Eigen::VectorXd r, const Eigen::MatrixXd& big)
+        : big_(&big), r_(std::move(r)), turned_(std::size_t(r_.size()), 0) {}
+
+    void gain_by_ones_and_twos() {
+        // Each gains; rounding may make it seem so for ever.
+        Eigen::Index left = 4 * r_.size();
+        while (left-- > 0 && gain_by_one_or_two()) continue;
+    }
+    bool gain_by_one_or_two() {
+        double best = -k_least_gain;
+        Eigen::Index first = -1, second = -1;
+        for (Eigen::Index i = 0; i < r_.size(); ++i) {
+            const double one = alone(i);
+            if (one < best) {
+                best = one;
+                first = i;
+                second = -1;
+            }
+            for (Eigen::Index k = 0; k < i; ++k) {
+                const double both = one + alone(k) + 2 * way(i) * way(k) * (*big_)(i, k);
+                if (both < best) {
+                    best = both;
+                    first = i;
+                    second = k;
+                }
+            }
+        }
+        if (first < 0) return false;
+        turn(first);
+        if (second >= 0) turn(second);
+        return true;
+    }
+
+    /// Where the chains lead that begin at each facet, and ones and twos from there.
+    std::vector<Turns> ends_of_chains() const {
+        std::vector<Turns> ends;
+        const Eigen::Index begins = r_.size() <= k_most_begins ? r_.size() : 0;
+        for (Eigen::Index begin = begins > 0 ? 0 : -1; begin < begins; ++begin) {
+            Turns chain = *this, best = *this;
+            std::vector<char> is_taken(turned_.size(), 0);
+            Eigen::Index next = begin;
+            for (std::size_t length = 0; length < turned_.size(); ++length) {
+                if (next < 0) next = chain.cheapest(is_taken);
+                chain.turn(next);
+                is_taken[std::size_t(next)] = 1;
+                next = -1;
+                if (length == 0 || chain.change_ < best.change_) best = chain;
+            }
+            best.gain_by_ones_and_twos();
+            ends.push_back(std::move(best));
+        }
+        return ends;
+    }
+
+    double change() const { return change_; }
+    const std::vector<char>& turned() const { return turned_; }
+
+private:
+    // By how much a facet is turned next: there, or back.
+    double way(Eigen::Index i) const { return turned_[std::size_t(i)] ? -1.0 : 1.0; }
+    double alone(Eigen::Index i) const { return 2 * way(i) * r_(i) + (*big_)(i, i); }
+    Eigen::Index cheapest(const std::vector<char>& is_taken) const {
+        Eigen::Index best = -1;
+        for (Eigen::Index i = 0; i < r_.size(); ++i) {
+            if (!is_taken[std::size_t(i)] && (best < 0 || alone(i) < alone(best))) best = i;
+        }
+        return best;
+    }
+    void turn(Eigen::Index i) {
+        change_ += alone(i);
+        r_ += big_->col(i) * way(i);
+        turned_[std::size_t(i)] ^= 1;
+    }
+
+    const Eigen::MatrixXd* big_;
+    Eigen::VectorXd r_;
+    std::vector<char> turned_;
+    double change_ = 0;
+};
+
+// The best few, the best first; none gains nothing.
+std::vector<std::vector<char>> best_turns(Eigen::VectorXd r, const Eigen::MatrixXd& big,
+                                          std::size_t most) {
+    Turns near(std::move(r), big);
+    near.gain_by_ones_and_twos();
+    std::vector<Turns> ends = near.ends_of_chains();
+    ends.push_back(std::move(near));
+    std::stable_sort(ends.begin(), ends.end(),
+                     [](const Turns& a, const Turns& b) { return a.change() < b.change(); });
+    std::vector<std::vector<char>> best;
+    for (const Turns& end : ends) {
+        if (!(end.change() < -k_least_gain) || best.size() == most) break;
+        if (std::find(best.begin(), best.end(), end.turned()) == best.end())
+            best.push_back(end.turned());
+    }
+    return best;
+}
 
 }  // namespace
 
-std::optional<Shape> leaning_better(Relaxation& relaxation, SaddleSolver& solver,
-                                    const Shape& shape, const Softness& softness, double within,
-                                    const std::vector<int>& sides) {
+std::vector<Shape> better_leanings(Relaxation& relaxation, SaddleSolver& solver, const Shape& shape,
+                                   const Softness& softness, double within, std::size_t most,
+                                   const std::vector<int>& sides) {
     relaxation.choose(shape, softness.incidence == 0);
     std::vector<Relaxation::Folded> folded = relaxation.folded(shape, within);
     std::erase_if(folded, [&](const Relaxation::Folded& f) {
         return !sides.empty() && sides[std::size_t(f.facet)] != 0;
     });
-    if (folded.empty()) return std::nullopt;
+    if (folded.empty()) return {};
     const Sheet sheet = relaxation.sheet(shape, softness);
     if (!solver.factor(sheet.rows, sheet.prior_stiffness + k_damping * relaxation.metric()))
-        return std::nullopt;
+        return {};
     const auto count = static_cast<Eigen::Index>(folded.size());
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(relaxation.freedoms().size());
     // A value that grows by its shift takes as much off the residual. Of what the turn of facet i
@@ -43,7 +152,7 @@ std::optional<Shape> leaning_better(Relaxation& relaxation, SaddleSolver& solver
         }
     }
     const auto solved = solver.solve_all(Eigen::MatrixXd(), shifts, k_precision);
-    if (!solved.good) return std::nullopt;
+    if (!solved.good) return {};
     Eigen::MatrixXd big = Eigen::MatrixXd::Zero(count, count);
     for (Eigen::Index k = 0; k < count; ++k) {
         for (const auto& [row, shift] : folded[std::size_t(k)].turns) {
@@ -51,48 +160,18 @@ std::optional<Shape> leaning_better(Relaxation& relaxation, SaddleSolver& solver
             big.row(k) -= shift * solved.forces.row(row);
         }
     }
-    std::vector<bool> turned(std::size_t(count), false);
-    const auto turn_of = [&](Eigen::Index i) { return turned[std::size_t(i)] ? -1.0 : 1.0; };
-    bool any = false;
-    for (int round = 0; round < 4 * count; ++round) {
-        double best = -k_least_gain;
-        Eigen::Index first = -1, second = -1;
+    std::vector<Shape> others;
+    for (const std::vector<char>& turned : best_turns(std::move(r), big, most)) {
+        Eigen::VectorXd right = Eigen::VectorXd::Zero(sheet.rows.count());
         for (Eigen::Index i = 0; i < count; ++i) {
-            const double a = turn_of(i);
-            const double alone = 2 * a * r(i) + a * a * big(i, i);
-            if (alone < best) {
-                best = alone;
-                first = i;
-                second = -1;
-            }
-            for (Eigen::Index k = 0; k < i; ++k) {
-                const double b = turn_of(k);
-                const double both =
-                    alone + 2 * b * r(k) + b * b * big(k, k) + 2 * a * b * big(i, k);
-                if (both < best) {
-                    best = both;
-                    first = i;
-                    second = k;
-                }
-            }
+            if (turned[std::size_t(i)]) right += shifts.col(i);
         }
-        if (first < 0) break;
-        any = true;
-        for (Eigen::Index i : {first, second}) {
-            if (i < 0) continue;
-            r += big.col(i) * turn_of(i);
-            turned[std::size_t(i)] = !turned[std::size_t(i)];
-        }
+        const auto s = solver.solve(none, right, k_precision);
+        if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > k_longest) continue;
+        others.push_back(relaxation.freedoms().moved(
+            shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())}));
     }
-    if (!any) return std::nullopt;
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(sheet.rows.count());
-    for (Eigen::Index i = 0; i < count; ++i) {
-        if (turned[std::size_t(i)]) right += shifts.col(i);
-    }
-    const auto s = solver.solve(none, right, k_precision);
-    if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > k_longest) return std::nullopt;
-    return relaxation.freedoms().moved(
-        shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())});
+    return others;
 }
 
 }  // namespace culet

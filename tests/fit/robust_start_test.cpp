@@ -61,6 +61,17 @@ TEST(RobustStart, OfTurnsThatOnlyCalipersFeelTheBestIsFound) {
     }
 }
 
+// A girdle's facets stand within half a degree of upright, and which of them lean in and which out is
+// told by their neighbours: here five have to be turned over together, any fewer fits worse.
+TEST(RobustStart, LeaningsThatGainTogetherOnlyAreFound) {
+    const Truth truth = make_truth(TruthKind::round, false, 34);
+    const auto readings = read_by_instruments(truth, 1034);
+    const Trial reference = fit_mesh(truth.stone, readings);
+    const Trial trial = fit_mesh(noisy_mesh(truth.stone, 0.03, 77 * 34 + 5), readings);
+    EXPECT_TRUE(is_valid(truth.stone, trial.result));
+    EXPECT_LT(trial.result.chi2, reference.result.chi2 + 0.1);
+}
+
 TEST(RobustStart, KicksBreakNothing) {
     const Truth truth = make_truth(TruthKind::step, false, 3);
     for (unsigned seed = 1; seed <= 8; ++seed) {
