@@ -30,17 +30,22 @@ Film::Film(const Scene& scene, const Camera& camera, const Plan& plan, const Wav
 }
 
 void Film::put(int x, int y, const PixelSums& sums, const double* estimates) {
-    // Paths that are chosen at random estimate, in a dark pixel, less light than none.
-    std::vector<double> stokes(static_cast<std::size_t>(planes_ * nodes_));
-    for (int i = 0; i < nodes_; ++i) {
-        Stokes seen{};
-        for (int k = 0; k < planes_; ++k) seen[k] = estimates[k * nodes_ + i];
-        seen = nearest_light(seen);
-        for (int k = 0; k < planes_; ++k) stokes[k * nodes_ + i] = seen[k];
+    // Paths that are chosen at random estimate, in a dark pixel, less light than none. Pictures
+    // without a standard error have none such.
+    std::vector<double> nearest;
+    if (!picture_.standard_error.empty()) {
+        nearest.resize(static_cast<std::size_t>(planes_ * nodes_));
+        for (int i = 0; i < nodes_; ++i) {
+            Stokes seen{};
+            for (int k = 0; k < planes_; ++k) seen[k] = estimates[k * nodes_ + i];
+            seen = nearest_light(seen);
+            for (int k = 0; k < planes_; ++k) nearest[k * nodes_ + i] = seen[k];
+        }
     }
+    const double* stokes = nearest.empty() ? estimates : nearest.data();
     // S0 alone is the radiance: nothing stands before the eye.
     std::vector<double> behind_optics(planes_ > 1 ? nodes_ : 0);
-    const double* radiance = planes_ > 1 ? behind_optics.data() : stokes.data();
+    const double* radiance = planes_ > 1 ? behind_optics.data() : stokes;
     for (int window = 0; window < windows_; ++window) {
         const std::size_t pixel =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.width) +
