@@ -144,6 +144,9 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
         return result;
     }
     const auto begin = std::chrono::steady_clock::now();
+    const auto seconds_since_begin = [begin] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
     const std::optional<Stone> mirrored = mirrored_to_azimuths(drawn, readings);
     const Stone& stone = mirrored ? *mirrored : drawn;
     System system(stone, readings, options);
@@ -224,12 +227,12 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
     if (sets_aside == SetsAside::yes && stone.azimuth_from_mesh && !mirrored) {
         auto better = fit_turning_azimuths_back(
             result, readings, system.mesh_turn(), [&](const std::vector<Reading>& back) {
-                return fit(drawn, back, with_few_starts(options, portfolio), progress, SetsAside::no);
+                return fit(drawn, back, with_few_starts(options, portfolio), progress,
+                           SetsAside::no);
             });
         if (better) {
             better->options = result.options;
-            better->seconds =
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+            better->seconds = seconds_since_begin();
             return *better;
         }
     }
@@ -249,12 +252,10 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
         if (better) result = std::move(*better);
     }
     result.options.starts = options.starts;
-    result.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    result.seconds = seconds_since_begin();
     if (options.allow_topology) {
         result = fit_with_changes(stone, readings, options, std::move(result), progress);
-        result.seconds =
-            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        result.seconds = seconds_since_begin();
     }
     if (progress) progress(1);
     return result;

@@ -16,7 +16,6 @@ namespace {
 // Two starts whose chi-squares differ by less have ended in the same stone: a third of a sigma in
 // one reading.
 constexpr double k_same = 0.1;
-constexpr double k_agrees_well = 0.2;
 // What holding edges at no length may cost in chi-square before another start is asked.
 constexpr double k_cheap = 1;
 // Starts in a row that gave nothing better; good: the best agrees, or the mesh was drawn with care.

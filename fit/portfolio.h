@@ -22,6 +22,9 @@ struct Candidate {
     int binding = 0;  ///< how many of them bind: each like one more exact reading
 };
 
+/// Chance of so large a chi-square, from which on the readings agree well.
+inline constexpr double k_agrees_well = 0.2;
+
 struct Portfolio {
     Candidate best;
     int starts = 0;   ///< tried

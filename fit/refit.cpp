@@ -15,9 +15,6 @@ namespace culet {
 
 namespace {
 
-// Chance of so large a chi-square, from which on the readings agree well.
-constexpr double k_agrees_well = 0.2;
-
 // Where planes of a corner come nearest to each other, near `guess` where they leave it open.
 Vec3 meet_of(const std::vector<Plane>& planes, const Vec3& guess) {
     glm::dmat3 normals(0.0);

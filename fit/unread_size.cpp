@@ -15,20 +15,8 @@ constexpr double k_as_good_as_exact = 1e-6;
 }  // namespace
 
 bool says_size(const std::vector<Reading>& readings) {
-    return std::any_of(readings.begin(), readings.end(), [](const Reading& r) {
-        switch (r.kind) {
-            case ReadingKind::distance:
-            case ReadingKind::edge:
-            case ReadingKind::width:
-            case ReadingKind::depth:
-            case ReadingKind::table_width:
-            case ReadingKind::volume:
-            case ReadingKind::weight:
-                return true;
-            default:
-                return false;
-        }
-    });
+    return std::any_of(readings.begin(), readings.end(),
+                       [](const Reading& r) { return !is_angle(r.kind) && !is_relation(r.kind); });
 }
 
 Reading size_of_mesh(const Stone& stone) {
