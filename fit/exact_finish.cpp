@@ -1,8 +1,6 @@
 #include "fit/exact_finish.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 
 #include "fit/leaning.h"
 #include "fit/settle.h"
@@ -35,10 +33,6 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         Settled other =
             settle(relaxation, solver, another, {}, {.iterations = iterations, .goal = goal});
         other.iterations += settled.iterations;
-        if (getenv("W"))
-            fprintf(stderr, "settled %.4f other %.4f conv %d hard %g its %d above %zu\n",
-                    settled.chi2, other.chi2, other.converged, other.worst_hard, other.iterations,
-                    relaxation.above(other.shape).size());
         if (!(other.chi2 < goal - 1e-3)) return false;
         settled = std::move(other);
         return true;

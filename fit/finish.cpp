@@ -16,6 +16,9 @@ constexpr double k_least_damping = 1e-6;
 // Corners that want to stand above a neighbour facet are held this far below it, in half diameters:
 // far above rounding, far below anything one could measure.
 constexpr double k_hold_below = 1e-7;
+// Steps in a row that gain no more, at the end: this part of chi-square, a ten-thousandth of a
+// sigma. Freedoms that the readings all but leave open would creep for ever.
+constexpr double k_no_gain = 1e-8;
 
 std::span<const double> steps(const Eigen::VectorXd& step) {
     return {step.data(), static_cast<std::size_t>(step.size())};
@@ -97,7 +100,7 @@ Finished settle(const System& system, const Shape& start, const std::vector<Equa
             better = std::isfinite(merit_after) && merit_after <= merit_before * (1 + 1e-12) + 1e-9;
             if (better) {
                 const double gain = merit_before - merit_after;
-                quiet = gain < 1e-10 * (1 + merit_before) || length < 1e-12 ? quiet + 1 : 0;
+                quiet = gain < k_no_gain * (1 + merit_before) || length < 1e-12 ? quiet + 1 : 0;
                 shape = next;
                 outline = next_outline;
                 linear = std::move(there);

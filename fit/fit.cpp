@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "fit/as_drawn.h"
 #include "fit/assess.h"
 #include "fit/describe.h"
 #include "fit/diagnostics.h"
@@ -188,7 +189,7 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
     if (progress && !progress(0.95)) throw Interrupted();
 
     const Finished& finished = best.finished;
-    const Diagnosis diagnosis = [&] {
+    const auto diagnose_best = [&] {
         Diagnosis plain = diagnose(system, finished.shape, finished.outline,
                                    {.significance = options.significance,
                                     .binding = best.binding,
@@ -203,7 +204,13 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
                         {.significance = options.significance,
                          .binding = best.binding,
                          .seen_from = &robust.finished});
-    }();
+    };
+    Diagnosis diagnosis = diagnose_best();
+    if (!diagnosis.undetermined.empty()) {
+        const Progress part = [&](double) { return !progress || progress(0.95); };
+        best = end_as_drawn(system, best, diagnosis.undetermined, options, part);
+        diagnosis = diagnose_best();
+    }
     const System::Pose pose = system.pose_of(finished.shape);
     result.iterations = finished.iterations;
     result.chi2 = diagnosis.chi2;

@@ -65,7 +65,7 @@ enum class FitStatus {
     converged,
     not_converged,  ///< no stone was found, or not one that could be cut
     contradictory,  ///< the readings do not agree within their uncertainties
-    undetermined    ///< the readings leave parts of the stone open: those are as in the mesh
+    undetermined    ///< parts of the stone are open: nearly as in the mesh
 };
 const char* name_of(FitStatus status);
 

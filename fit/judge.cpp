@@ -188,7 +188,7 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
             if (facets.empty() || facets.back() != u.facet) facets.push_back(u.facet);
         }
         return end(FitStatus::undetermined,
-                   fmt::format("{} of the stone {} left as in the mesh, for want of readings{}",
+                   fmt::format("{} of the stone {} left to the mesh, for want of readings{}",
                                result.undetermined_freedoms == 1
                                    ? std::string("one freedom")
                                    : fmt::format("{} freedoms", result.undetermined_freedoms),

@@ -140,26 +140,47 @@ GroupTest test_group(const System& system, const AxisGroup& group,
     return test;
 }
 
-TierSymmetry test_tier(const System& system, const FacetOrbit& orbit, const SymmetricModel& model,
-                       const Eigen::MatrixXd& covariance, Contrasts& pooled) {
-    TierSymmetry tier;
-    // Polar angle and azimuth of its facets: directions only.
+// Contrasts that are zero because the frame or exact conditions make them so (the table's, from
+// which all else is read) say nothing of how far a stone is from symmetric.
+Contrasts without_what_holds(const Contrasts& contrasts) {
+    Contrasts free;
+    for (std::size_t i = 0; i < contrasts.values.size(); ++i) {
+        const double value = contrasts.values[i], variance = contrasts.variances[i];
+        if (!(variance > k_exact) && !(value * value > k_exact)) continue;
+        free.values.push_back(value);
+        free.variances.push_back(variance);
+    }
+    return free;
+}
+
+// Where all is held, symmetric it is.
+VarianceComponent spread_of(const Contrasts& free) {
+    return free.values.empty() ? VarianceComponent() : variance_component(free);
+}
+
+// Polar angle and azimuth of facets, two rows each.
+struct Directions {
+    Eigen::VectorXd deviations;
+    Eigen::MatrixXd columns, covariance;
+};
+Directions directions_of(const std::vector<int>& facets, const SymmetricModel& model,
+                         const Eigen::MatrixXd& covariance) {
     std::vector<Eigen::Index> rows;
-    for (int f : orbit.facets) {
-        tier.facets.push_back(system.stone().solid.facets[std::size_t(f)].name);
+    for (int f : facets) {
         rows.push_back(Eigen::Index(3 * f));
         rows.push_back(Eigen::Index(3 * f + 1));
     }
-    const Eigen::Index count = Eigen::Index(rows.size());
-    Eigen::VectorXd deviations(count);
-    Eigen::MatrixXd columns(count, model.columns.cols()), v(count, count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-        deviations(i) = model.deviations(rows[std::size_t(i)]);
-        columns.row(i) = model.columns.row(rows[std::size_t(i)]);
-        for (Eigen::Index k = 0; k < count; ++k) {
-            v(i, k) = covariance(rows[std::size_t(i)], rows[std::size_t(k)]);
-        }
+    return {model.deviations(rows), model.columns(rows, Eigen::all), covariance(rows, rows)};
+}
+
+TierSymmetry test_tier(const System& system, const FacetOrbit& orbit, const SymmetricModel& model,
+                       const Eigen::MatrixXd& covariance) {
+    TierSymmetry tier;
+    for (int f : orbit.facets) {
+        tier.facets.push_back(system.stone().solid.facets[std::size_t(f)].name);
     }
+    const Directions directions = directions_of(orbit.facets, model, covariance);
+    const auto& [deviations, columns, v] = directions;
     const Eigen::VectorXd off =
         deviations - columns * columns.completeOrthogonalDecomposition().solve(deviations);
     double squares = 0;
@@ -171,22 +192,19 @@ TierSymmetry test_tier(const System& system, const FacetOrbit& orbit, const Symm
         tier.worst = tier.facets[i];
     }
     tier.deviation = std::sqrt(squares / double(orbit.facets.size()));
-    const Contrasts contrasts = contrasts_of(deviations, v, columns);
-    const VarianceComponent component = variance_component(contrasts);
+    const Contrasts contrasts = without_what_holds(contrasts_of(deviations, v, columns));
+    const VarianceComponent component = spread_of(contrasts);
     tier.sigma = component.sigma;
     tier.sigma_sigma = component.sigma_sigma;
     tier.at_most = component.at_most;
     double chi2 = 0;
     int tested = 0;
     for (std::size_t i = 0; i < contrasts.values.size(); ++i) {
-        if (!(contrasts.variances[i] > 1e-18) || !(contrasts.variances[i] < k_told)) continue;
+        if (!(contrasts.variances[i] > k_exact) || !(contrasts.variances[i] < k_told)) continue;
         chi2 += contrasts.values[i] * contrasts.values[i] / contrasts.variances[i];
         ++tested;
     }
     tier.p = chi2_tail(chi2, tested);
-    pooled.values.insert(pooled.values.end(), contrasts.values.begin(), contrasts.values.end());
-    pooled.variances.insert(pooled.variances.end(), contrasts.variances.begin(),
-                            contrasts.variances.end());
     return tier;
 }
 
@@ -269,9 +287,10 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Infer
         report.proposed = "C1";
         report.message =
             shape.normals.size() > k_most_facets
-                ? fmt::format("symmetry was not looked for: {} facets are more than the {} up to "
-                              "which it is tested, so C1 says nothing of this stone",
-                              shape.normals.size(), k_most_facets)
+                ? fmt::format(
+                      "symmetry was not looked for: {} facets are more than the {} up to "
+                      "which it is tested, so C1 says nothing of this stone",
+                      shape.normals.size(), k_most_facets)
                 : "symmetry was not looked for: the stone has no covariance to test it by";
         return report;
     }
@@ -291,11 +310,11 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Infer
             test_group(system, group, coordinates, space, options.significance));
     }
     const SymmetricModel model = symmetric_model(coordinates, form);
-    Contrasts pooled;
+    std::vector<int> alike;
     for (const FacetOrbit& orbit : orbits_of(form, shape.normals.size())) {
         // A single facet is unlike nothing, unless turns must leave it level.
         if (orbit.facets.size() == 1 && !orbit.stays && orbit.own_mirror < 0) continue;
-        TierSymmetry tier = test_tier(system, orbit, model, covariance, pooled);
+        TierSymmetry tier = test_tier(system, orbit, model, covariance);
         tier.tier = tier.facets.front();
         for (const Tier& t : tiers) {
             if (std::find(t.facets.begin(), t.facets.end(), orbit.facets.front()) !=
@@ -304,8 +323,16 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Infer
             }
         }
         report.tiers.push_back(std::move(tier));
+        alike.insert(alike.end(), orbit.facets.begin(), orbit.facets.end());
     }
-    const VarianceComponent whole = variance_component(pooled);
+    // Together: a tier alone may be symmetric about an axis of its own.
+    SymmetricModel placed = model;
+    placed.columns.conservativeResize(Eigen::NoChange,
+                                      model.columns.cols() + coordinates.placement.cols());
+    placed.columns.rightCols(coordinates.placement.cols()) = coordinates.placement;
+    const Directions all = directions_of(alike, placed, covariance);
+    const VarianceComponent whole =
+        spread_of(without_what_holds(contrasts_of(all.deviations, all.covariance, all.columns)));
     report.sigma = whole.sigma;
     report.sigma_sigma = whole.sigma_sigma;
     conclude(report, options.significance / double(report.tiers.size() + 1));

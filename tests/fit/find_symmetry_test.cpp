@@ -182,6 +182,43 @@ TEST(FindSymmetry, ATiltedTableIsFoundOut) {
     EXPECT_THAT(report.message, ::testing::HasSubstr("but for T"));
 }
 
+// All pavilion facets of a symmetric stone turned together by 0.75 degrees: each tier is as
+// symmetric as before about an axis of its own, the stone is not. A turn by d about a level axis
+// changes inclination and azimuth (times the sine) of a tier of n facets at inclination i by d^2 n
+// (1 + cos^2 i) / 2 in square; the best common axis stands between crown (sum a) and pavilion (sum
+// b), which leaves d^2 a b / (a + b) over so many contrasts: the scatter to find.
+TEST(FindSymmetry, APavilionAskewIsFarFromSymmetric) {
+    const double d = radians(0.75);
+    const auto turned = [&](double inclination_deg, double azimuth_deg) {
+        const Vec3 n = direction(inclination_deg, azimuth_deg, true);
+        const Vec3 m{std::cos(d) * n.x + std::sin(d) * n.z, n.y,
+                     std::cos(d) * n.z - std::sin(d) * n.x};
+        return Vec3{degrees(std::acos(-m.z)) - inclination_deg,
+                    std::remainder(degrees(std::atan2(m.y, m.x)) - azimuth_deg, 360), 0};
+    };
+    const Solid truth = fold(8, [&](char letter, int k) {
+        if (letter == 'L') return turned(44, 11.25 + 22.5 * k);
+        return letter == 'P' ? turned(41, 45.0 * k) : Vec3(0);
+    });
+    ASSERT_EQ(truth.facets.size(), 65u);
+    const auto square = [](int n, double inclination_deg) {
+        const double c = std::cos(radians(inclination_deg));
+        return 0.5 * n * (1 + c * c);
+    };
+    const double a = square(1, 0) + square(8, 35) + square(16, 43) + square(16, 90),
+                 b = square(16, 44) + square(8, 41);
+    // Two directions a facet, less a mean inclination for each tier, two tilts and a turn.
+    const double contrasts = 2 * 65 - 5 - 3;
+    FitOptions options;
+    options.meets = MeetTreatment::released;
+    const Stone stone = stone_of(fold(8));
+    const SymmetryReport report =
+        find_symmetry(stone, noisy(plane_readings(stone.solid, truth, 0.05, 0.003), 6), options);
+    EXPECT_EQ(report.form, "C8v");
+    EXPECT_EQ(report.proposed, "Cs") << report.message;
+    EXPECT_NEAR(report.sigma / (d * std::sqrt(a * b / (a + b) / contrasts)), 1, 0.12);
+}
+
 // Readings that tell nothing of symmetry leave it open, and that is said.
 TEST(FindSymmetry, IsLeftOpenWhereNothingWasRead) {
     const Solid truth = fold(6);

@@ -4,6 +4,7 @@
 
 #include "stone/checks.h"
 #include "tests/bench/fit_trials.h"
+#include "tests/fit/test_stones.h"
 
 namespace culet {
 namespace {
@@ -19,6 +20,36 @@ std::vector<WrittenReading> angles_of(const Truth& truth, unsigned seed) {
     const std::vector<WrittenReading> azimuths = read_azimuths(truth, seed);
     readings.insert(readings.end(), azimuths.begin(), azimuths.end());
     return readings;
+}
+
+// Meets released, no angle of the girdle read: its facets stay upright, as they were drawn, though
+// the mesh is of other proportions than the stone.
+TEST(Unread, AGirdleStaysUpright) {
+    const test::BrilliantSize drawn{.radius = 1, .crown_deg = 30, .pavilion_deg = 43};
+    const Solid truth = test::brilliant();
+    const Stone mesh = test::stone_of(test::brilliant(drawn));
+    std::vector<Reading> readings;
+    for (const Reading& r : test::plane_readings(mesh.solid, truth, 0.1, 0.01)) {
+        const bool is_girdle = std::any_of(r.facets.begin(), r.facets.end(), [&](int f) {
+            return mesh.solid.facets[std::size_t(f)].name[0] == 'G';
+        });
+        if (is_angle(r.kind) && !is_girdle) readings.push_back(r);
+    }
+    readings.push_back(test::depth(truth, 0.01));
+    for (const double azimuth : {0.0, 45.0, 90.0, 135.0}) {
+        readings.push_back(test::width(truth, azimuth, 0.01));
+    }
+    FitOptions options;
+    options.meets = MeetTreatment::released;
+    const FitResult result = fit_stone(mesh, test::noisy(readings, 5), options);
+    EXPECT_EQ(result.status, FitStatus::undetermined) << result.message;
+    int girdle = 0;
+    for (const FittedFacet& f : result.facets) {
+        if (f.name[0] != 'G') continue;
+        ++girdle;
+        EXPECT_NEAR(degrees(f.inclination), 90, 1) << f.name;
+    }
+    EXPECT_EQ(girdle, 16);
 }
 
 // Angles agree best with a stone of no size, all of whose planes meet in one point: chi-square 0.
