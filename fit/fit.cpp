@@ -27,6 +27,7 @@
 #include "fit/set_aside.h"
 #include "fit/shape_findings.h"
 #include "fit/statistics.h"
+#include "fit/swung_facets.h"
 #include "fit/system.h"
 #include "fit/topology.h"
 #include "fit/turned_azimuths.h"
@@ -169,6 +170,12 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
         portfolio = fit_from_starts(system, options, progress);
     }
     Candidate& best = portfolio.best;
+    // A mesh drawn with care says to which side facets are turned.
+    if (!goes_on && best.sound && best.start != "mesh") {
+        if (auto better = better_with_facets_swung(system, best, options.iterations)) {
+            best = std::move(*better);
+        }
+    }
     const std::vector<double> weights =
         options.loss == Loss::none ? std::vector<double>()
                                    : reweight(system, best, options.loss, options.iterations);

@@ -151,7 +151,10 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
             candidate.agrees && candidate.cost_of_holding < k_cheap &&
             (system.has_estimated_groups() ||
              chi2_tail(chi2, std::max(1, counted - free + candidate.binding)) > k_agrees_well);
-        const bool again = good && std::any_of(ends.begin(), ends.end(), [&](double other) {
+        // Starts from who meets whom are alike: of a bad mesh all of the first may miss the same
+        // way.
+        const bool again = good && (candidate.agrees || starts.mesh_is_good()) &&
+                           std::any_of(ends.begin(), ends.end(), [&](double other) {
                                return std::abs(other - chi2) < k_same;
                            });
         if (good) ends.push_back(chi2);

@@ -334,8 +334,8 @@ std::optional<Turned> turned_better(Relaxation& relaxation, SaddleSolver& solver
         functionals.transpose() * solved.unknowns - with_turn * with_turn.transpose() / of_turn;
 
     const Best best = best_turn(calipers, corners, mesh, from, to, gain - k_least_gain);
-    // It stands there, or so near that it would have come there by itself.
-    if (std::abs(best.pace) < 2) return std::nullopt;
+    // Where it stands, too, jaws may be on corners between which no small step leads.
+    if (best.misfit.forces.size() == 0) return std::nullopt;
     step += solved.unknowns * best.misfit.forces -
             turned.unknowns * (with_turn.dot(best.misfit.forces) / of_turn);
     if (!(step.cwiseAbs().maxCoeff() < k_longest)) return std::nullopt;
