@@ -15,6 +15,11 @@ constexpr double k_nearly_upright = 0.1;
 constexpr int k_most_meanings = 8;
 // Several leanings that promise to be better are tried: what is promised is linear.
 constexpr std::size_t k_most_leanings = 4;
+// In half diameters, far above rounding and far below what corners are held below a facet: an edge
+// so short was drawn so (and read so well that it stays), or the readings want less than none.
+constexpr double k_no_length = 1e-9;
+// Of chi-square, by which an edge that was not drawn so may cost more when it is held: two sigmas.
+constexpr double k_cost_of_an_edge = 4;
 
 }  // namespace
 
@@ -57,7 +62,10 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         // What does not meet will not with more corners held.
         if (settled.worst_hard > k_all_but_met) break;
         const std::size_t before = result.held.size();
-        const std::vector<Held> above = relaxation.above(settled.shape);
+        std::vector<Held> above = relaxation.above(settled.shape);
+        // An edge that has come down to nothing would turn over if it could.
+        const bool may_be_drawn_so = round == 0 && above.empty();
+        if (may_be_drawn_so) above = relaxation.above(settled.shape, k_no_length);
         for (const Held& h : above) {
             // An edge that would turn over shows at both its ends: one of them is enough, most
             // often.
@@ -79,11 +87,15 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         result.is_no_stone =
             result.held.size() > 3 * relaxation.system().stone().solid.facets.size();
         if (result.is_no_stone) break;
-        const int earlier = settled.iterations;
-        settled = settle(relaxation, solver, settled.shape, result.held,
-                         {.iterations = left, .near_an_end = goes_on});
-        left -= settled.iterations;
-        settled.iterations += earlier;
+        Settled next = settle(relaxation, solver, settled.shape, result.held,
+                              {.iterations = left, .near_an_end = goes_on});
+        left -= next.iterations;
+        next.iterations += settled.iterations;
+        if (may_be_drawn_so && !(next.chi2 < settled.chi2 + k_cost_of_an_edge)) {
+            result.held.clear();
+            break;
+        }
+        settled = std::move(next);
     }
     result.cost_of_holding = result.held.empty() ? 0 : std::max(0.0, settled.chi2 - free_chi2);
     result.finished.shape = std::move(settled.shape);

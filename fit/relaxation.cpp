@@ -96,7 +96,7 @@ Relaxation::Relaxation(const System& system, const Freedoms& freedoms)
 void Relaxation::choose(const Shape& shape, bool meets_hold) {
     std::vector<Equation> before = std::move(equations_);
     equations_ = system_.reading_equations(shape, system_.mesh_outline(), true, meets_hold);
-    if (before.size() != equations_.size()) return;
+    if (std::exchange(begins_, false) || before.size() != equations_.size()) return;
     for (std::size_t i = 0; i < before.size(); ++i) {
         const Equation &was = before[i], &is = equations_[i];
         if (is.caliper == Vec3(0)) continue;
@@ -176,10 +176,10 @@ int Relaxation::binding(const Shape& shape, const std::vector<Held>& held) const
     return static_cast<int>(found.size());
 }
 
-std::vector<Held> Relaxation::above(const Shape& shape) const {
+std::vector<Held> Relaxation::above(const Shape& shape, double margin) const {
     std::vector<Held> result;
     for (const auto& [f, p] : hinges_) {
-        if (height(shape, f, p) > 0) result.push_back({f, p});
+        if (height(shape, f, p) + margin > 0) result.push_back({f, p});
     }
     return result;
 }

@@ -59,9 +59,11 @@ public:
     /// Where a jaw would change between two corners for ever, it rests on both: at the bottom of
     /// a kink the two are held level.
     void choose(const Shape& shape, bool meets_hold);
+    /// Of another way there: which corners the jaws touched on it says nothing of this one.
     void forget_ties() {
         ties_.clear();
         left_.clear();
+        begins_ = true;
     }
 
     /// Rows are of incidences, readings, corners that are held, and last of hinges that count: a
@@ -81,8 +83,8 @@ public:
                   double sharp) const;
     /// Incidences and other hard equations only: variance 0, no priors.
     Sheet hard_sheet(const Shape& shape, const std::vector<Held>& held) const;
-    /// Positive hinges.
-    std::vector<Held> above(const Shape& shape) const;
+    /// Positive hinges; with a margin those, too, that it would make positive.
+    std::vector<Held> above(const Shape& shape, double margin = 0) const;
     /// Each corner lies on the other's facet: of the edge between the facets, or one that they cut.
     bool are_ends_of_one_edge(const Held& one, const Held& other) const;
     /// How many of the held corners lie where they are held, not lower; an edge's two ends are one.
@@ -135,6 +137,7 @@ private:
     std::vector<double> incidence_images_, hinge_images_;
     std::vector<int> points_;          // all of them
     std::vector<Equation> equations_;  // of the readings, as chosen
+    bool begins_ = true;               // nothing chosen since ties were forgotten
     struct Tie {
         int one, other;
         Vec3 direction;
