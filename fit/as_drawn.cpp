@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "fit/mesh_roughness.h"
 #include "fit/refit.h"
 
 namespace culet {
@@ -12,6 +13,8 @@ namespace {
 
 // What the mesh counts beside readings, while it is asked.
 constexpr double k_mesh_sigma = 0.1;
+// A mesh of which nobody knows to that how its facets face is as well followed by its corners.
+constexpr double k_known_to = 0.02;
 // It only has to say where the search ends.
 constexpr int k_starts = 2;
 // Two ends of one stone differ by less in chi-square: a third of a sigma in one reading.
@@ -29,9 +32,11 @@ double open_turns(const System& system, const Shape& shape, const std::vector<Re
 
 std::vector<Reading> as_drawn(const System& system, const std::vector<Undetermined>& open) {
     std::vector<Reading> readings;
+    const std::optional<MeshRoughness> rough = MeshRoughness::of(system);
     for (const Undetermined& u : open) {
         const int f = find_facet(system.stone().solid, u.facet);
         if (f < 0) continue;
+        if (rough && rough->turn(f) > k_known_to) return {};
         const Vec3& n = system.mesh_shape().normals[std::size_t(f)];
         Reading r;
         r.of = {u.facet};

@@ -11,7 +11,8 @@
 namespace culet {
 
 /// The end of the fit from which the same readings leave the facets that they do not hold facing
-/// most nearly as in the mesh; `end` itself where no other is found whose chi-square is the same.
+/// most nearly as in the mesh, as far as it is planar enough to say; `end` itself where no other is
+/// found whose chi-square is the same.
 /// `open`: what nothing measured fixes there. Throws Interrupted when progress says so.
 Candidate end_as_drawn(const System& system, const Candidate& end,
                        const std::vector<Undetermined>& open, FitOptions options,

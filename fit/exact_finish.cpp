@@ -15,9 +15,9 @@ constexpr double k_nearly_upright = 0.1;
 constexpr int k_most_meanings = 8;
 // Several leanings that promise to be better are tried: what is promised is linear.
 constexpr std::size_t k_most_leanings = 4;
-// In half diameters, far above rounding and far below what corners are held below a facet: an edge
-// so short was drawn so (and read so well that it stays), or the readings want less than none.
-constexpr double k_no_length = 1e-9;
+// In half diameters, far above rounding and far below what corners are held below a facet; and far
+// above that.
+constexpr double k_no_length = 1e-9, k_drawn = 1e-5;
 // Of chi-square, by which an edge that was not drawn so may cost more when it is held: two sigmas.
 constexpr double k_cost_of_an_edge = 4;
 
@@ -63,9 +63,16 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         if (settled.worst_hard > k_all_but_met) break;
         const std::size_t before = result.held.size();
         std::vector<Held> above = relaxation.above(settled.shape);
-        // An edge that has come down to nothing would turn over if it could.
-        const bool may_be_drawn_so = round == 0 && above.empty();
-        if (may_be_drawn_so) above = relaxation.above(settled.shape, k_no_length);
+        // An edge that has come down to nothing would turn over if it could, unless drawn so.
+        const bool come_down = round == 0 && above.empty();
+        if (come_down) {
+            const std::vector<Held> drawn =
+                relaxation.above(relaxation.system().mesh_shape(), k_drawn);
+            above = relaxation.above(settled.shape, k_no_length);
+            std::erase_if(above, [&](const Held& h) {
+                return std::find(drawn.begin(), drawn.end(), h) != drawn.end();
+            });
+        }
         for (const Held& h : above) {
             // An edge that would turn over shows at both its ends: one of them is enough, most
             // often.
@@ -91,7 +98,7 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
                               {.iterations = left, .near_an_end = goes_on});
         left -= next.iterations;
         next.iterations += settled.iterations;
-        if (may_be_drawn_so && !(next.chi2 < settled.chi2 + k_cost_of_an_edge)) {
+        if (come_down && !(next.chi2 < settled.chi2 + k_cost_of_an_edge)) {
             result.held.clear();
             break;
         }

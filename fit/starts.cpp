@@ -10,6 +10,7 @@
 #include "fit/azimuth_turn.h"
 #include "fit/canonical.h"
 #include "fit/closing_sides.h"
+#include "fit/mesh_roughness.h"
 #include "stone/checks.h"
 
 namespace culet {
@@ -155,41 +156,23 @@ std::optional<Start> Starts::next() {
 void Starts::find_sides() {
     const Shape& mesh = system_.mesh_shape();
     sides_.assign(mesh.normals.size(), 0);
-    // Of k corners k - 3 show how far they lie off a plane.
-    double squares = 0, redundancy = 0;
-    for (std::size_t f = 0; f < mesh.normals.size(); ++f) {
-        const std::vector<int>& loop = system_.mesh_outline()->loops[f];
-        for (int corner : loop) {
-            const double off = glm::dot(mesh.normals[f], mesh.points[corner]) - mesh.offsets[f];
-            squares += off * off;
-        }
-        redundancy += double(loop.size()) - 3;
-    }
-    if (!(redundancy > 0)) return;
-    const double rough = std::sqrt(squares / redundancy);
+    const std::optional<MeshRoughness> rough = MeshRoughness::of(system_);
+    if (!rough) return;
     for (const Reading& r : system_.readings()) {
         if (r.kind != ReadingKind::inclination || r.datum.kind != Datum::Kind::up ||
             r.aggregate != Aggregate::single) {
             continue;
         }
         const int f = r.facets[0];
-        const std::vector<int>& loop = system_.mesh_outline()->loops[f];
-        Vec3 mean(0);
-        for (int corner : loop) mean += mesh.points[corner] / double(loop.size());
-        double spread = 0;
-        for (int corner : loop) {
-            const Vec3 off = mesh.points[corner] - mean;
-            spread += glm::dot(off, off);
-        }
-        const double turn = rough / std::sqrt(std::max(1e-12, spread / 2));
         const double z = std::clamp(mesh.normals[f].z, -1.0, 1.0);
         const double drawn = std::acos(z);
         const double as_up = std::abs(drawn - r.value),
                      as_down = std::abs(drawn - (std::numbers::pi - r.value));
-        if (std::abs(as_up - as_down) > 6 * turn) sides_[f] = as_up < as_down ? 1 : -1;
+        if (std::abs(as_up - as_down) > 6 * rough->turn(f)) sides_[f] = as_up < as_down ? 1 : -1;
     }
     // Not where facets follow each other: those that were not read have the sides of others.
-    if (system_.exact_motions().empty()) sides_ = closing_sides(system_, std::move(sides_), rough);
+    if (system_.exact_motions().empty())
+        sides_ = closing_sides(system_, std::move(sides_), rough->corner());
 }
 
 Shape looking_as(const System& system, Shape shape, const std::vector<int>& sides) {

@@ -10,8 +10,8 @@ namespace culet {
 /// Some reading is a length, a volume or a weight.
 bool says_size(const std::vector<Reading>& readings);
 
-/// The depth of the mesh, as a reading of a millionth. Without any length the angles agree best with a
-/// stone of no size at all, all of whose planes meet in one point.
+/// The depth of the mesh, as a reading of a millionth. Without any length the angles agree best
+/// with a stone of no size at all, all of whose planes meet in one point.
 Reading size_of_mesh(const Stone& stone);
 
 /// The result of a fit with the mesh's size as the last of its readings, without that reading: the
