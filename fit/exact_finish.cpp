@@ -1,6 +1,7 @@
 #include "fit/exact_finish.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fit/leaning.h"
 #include "fit/settle.h"
@@ -15,6 +16,8 @@ constexpr double k_nearly_upright = 0.1;
 constexpr int k_most_meanings = 8;
 // Several leanings that promise to be better are tried: what is promised is linear.
 constexpr std::size_t k_most_leanings = 4;
+// Of chi-square, between ends that are not one.
+constexpr double k_gain = 1e-3;
 // In half diameters, far above rounding and far below what corners are held below a facet; and far
 // above that.
 constexpr double k_no_length = 1e-9, k_drawn = 1e-5;
@@ -38,7 +41,9 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         Settled other =
             settle(relaxation, solver, another, {}, {.iterations = iterations, .goal = goal});
         other.iterations += settled.iterations;
-        if (!(other.chi2 < goal - 1e-3)) return false;
+        if (!(other.chi2 < goal - k_gain)) return false;
+        // Back where it was.
+        if (std::abs(other.chi2 - settled.chi2) < k_gain) return false;
         settled = std::move(other);
         return true;
     };
