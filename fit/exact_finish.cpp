@@ -1,7 +1,7 @@
 #include "fit/exact_finish.h"
 
 #include <algorithm>
-#include <cmath>
+#include <glm/geometric.hpp>
 
 #include "fit/leaning.h"
 #include "fit/settle.h"
@@ -16,13 +16,20 @@ constexpr double k_nearly_upright = 0.1;
 constexpr int k_most_meanings = 8;
 // Several leanings that promise to be better are tried: what is promised is linear.
 constexpr std::size_t k_most_leanings = 4;
-// Of chi-square, between ends that are not one.
-constexpr double k_gain = 1e-3;
+// Of chi-square, and of corners in half diameters: ends that differ by less are one.
+constexpr double k_gain = 1e-3, k_apart = 1e-5;
 // In half diameters, far above rounding and far below what corners are held below a facet; and far
 // above that.
 constexpr double k_no_length = 1e-9, k_drawn = 1e-5;
 // Of chi-square, by which an edge that was not drawn so may cost more when it is held: two sigmas.
 constexpr double k_cost_of_an_edge = 4;
+
+bool is_same_place(const Shape& one, const Shape& other) {
+    for (std::size_t p = 0; p < one.points.size(); ++p) {
+        if (glm::distance(one.points[p], other.points[p]) > k_apart) return false;
+    }
+    return true;
+}
 
 }  // namespace
 
@@ -42,8 +49,7 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
             settle(relaxation, solver, another, {}, {.iterations = iterations, .goal = goal});
         other.iterations += settled.iterations;
         if (!(other.chi2 < goal - k_gain)) return false;
-        // Back where it was.
-        if (std::abs(other.chi2 - settled.chi2) < k_gain) return false;
+        if (is_same_place(other.shape, settled.shape)) return false;
         settled = std::move(other);
         return true;
     };
@@ -96,9 +102,11 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         }
         if (result.held.size() == before) break;
         // Planes have three freedoms each.
-        result.is_no_stone =
-            result.held.size() > 3 * relaxation.system().stone().solid.facets.size();
-        if (result.is_no_stone) break;
+        if (result.held.size() > 3 * relaxation.system().stone().solid.facets.size()) {
+            if (come_down) result.held.clear();
+            result.is_no_stone = !come_down;
+            break;
+        }
         Settled next = settle(relaxation, solver, settled.shape, result.held,
                               {.iterations = left, .near_an_end = goes_on});
         left -= next.iterations;
