@@ -213,7 +213,8 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
                          .seen_from = &robust.finished});
     };
     Diagnosis diagnosis = diagnose_best();
-    if (!diagnosis.undetermined.empty()) {
+    // Not where the search was dear: then it is of no stone, or of a large one.
+    if (!diagnosis.undetermined.empty() && portfolio.work < k_dear) {
         const Progress part = [&](double) { return !progress || progress(0.95); };
         best = end_as_drawn(system, best, diagnosis.undetermined, options, part);
         diagnosis = diagnose_best();
