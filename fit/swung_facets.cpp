@@ -17,9 +17,9 @@ namespace {
 // d^2 / 16 sigma^2 between them, halfway. Facets that are known better by their edges are so from
 // both sides, or their ends are so far apart that other readings tell.
 constexpr double k_weak_deg = 1;
-constexpr std::size_t k_most_facets = 8;
-// Beyond the ridge of ends 8 sigmas apart, and of 20.
-constexpr double k_swings[] = {5, 12};
+constexpr std::size_t k_most_facets = 4;
+// Beyond the ridge of ends up to 10 sigmas apart.
+constexpr double k_swing = 5;
 constexpr double k_farthest_deg = 45;
 // Another end, not the same.
 constexpr double k_least_gain = 0.1;
@@ -89,11 +89,8 @@ std::optional<Candidate> better_with_facets_swung(const System& system, const Ca
     for (int round = 0; round < k_most_rounds; ++round) {
         const std::vector<Swing> swings = swings_at(system, best ? *best : end);
         const bool gained = std::any_of(swings.begin(), swings.end(), [&](const Swing& swing) {
-            for (const double sigmas : k_swings) {
-                if (sigmas * swing.sigma > radians(k_farthest_deg)) break;
-                if (goes_better(swing, sigmas) || goes_better(swing, -sigmas)) return true;
-            }
-            return false;
+            return k_swing * swing.sigma < radians(k_farthest_deg) &&
+                   (goes_better(swing, k_swing) || goes_better(swing, -k_swing));
         });
         if (!gained) break;
     }

@@ -10,7 +10,7 @@
 namespace culet {
 
 /// A sound end of less chi-square on the other side of the ridge between two such ends, if there is
-/// one. Facets whose azimuth is not known to a degree are swung by some sigmas to either side, all
+/// one. The facets whose azimuth is least known, if not to a degree, are swung to either side, all
 /// else following as the readings ask (the regression on that azimuth), and the readings decide
 /// where that ends. `end` has to be sound.
 std::optional<Candidate> better_with_facets_swung(const System& system, const Candidate& end,
