@@ -37,6 +37,13 @@ PixelMap map_of(const cv::Mat& values, const cv::Mat& mask) {
     return map;
 }
 
+// Values of a part of the frame, in the frame.
+PixelMap map_of(const cv::Mat& values, const cv::Rect& part, const cv::Mat& mask) {
+    cv::Mat whole = cv::Mat::zeros(mask.size(), CV_32F);
+    values.copyTo(whole(part));
+    return map_of(whole, mask);
+}
+
 Photo photo_of(const cv::Mat& colour) {
     Photo photo;
     photo.width = colour.cols;
@@ -80,7 +87,8 @@ Registration registration_of(const Frame& frame) {
     return r;
 }
 
-ReflexCount counted(const ReflexMatch& match) {
+// `corner`: of the part of the frame in which the reflexes were matched.
+ReflexCount counted(const ReflexMatch& match, const cv::Point& corner) {
     ReflexCount count{match.in_photo,
                       match.in_render,
                       match.matched,
@@ -90,7 +98,7 @@ ReflexCount counted(const ReflexMatch& match) {
                       {}};
     const auto add = [&](const std::vector<Reflex>& reflexes, bool of_photo) {
         for (const Reflex& reflex : reflexes) {
-            count.marks.push_back({{reflex.middle.x, reflex.middle.y},
+            count.marks.push_back({{reflex.middle.x + corner.x, reflex.middle.y + corner.y},
                                    std::sqrt(reflex.area / std::numbers::pi),
                                    of_photo,
                                    reflex.partner});
@@ -241,11 +249,13 @@ Comparison compare(const Photo& photo, const Photo& render, const CompareOptions
     result.saturated = laid.saturated;
     result.gain = laid.gain;
 
-    const WaveletBank wavelets = wavelet_bank(pictures.mask.size(), pictures.diameter);
-    const Measured measured = measure(pictures, wavelets);
+    const cv::Rect part = part_to_score(pictures);
+    const MatchedPictures close = part_of(pictures, part);
+    const WaveletBank wavelets = wavelet_bank(close.mask.size(), close.diameter);
+    const Measured measured = measure(close, wavelets);
     result.scores = measured.scores;
     if (measured.reflexes) {
-        result.reflexes = counted(*measured.reflexes);
+        result.reflexes = counted(*measured.reflexes, part.tl());
     }
     if (!photo.photometric) {
         result.geometry_only = true;
@@ -255,11 +265,12 @@ Comparison compare(const Photo& photo, const Photo& render, const CompareOptions
             "are given",
             photo.not_photometric.empty() ? "its values are not light" : photo.not_photometric));
     }
-    const ColourDistributions colours = colour_distributions(pictures);
+    const ColourDistributions colours = colour_distributions(close);
     result.photo_light = colours.photo_light;
     result.render_light = colours.render_light;
     if (progress && !progress(0.2)) throw Interrupted();
-    add_null(pictures, wavelets, laid.usable, frame.render_mask, options, progress, result);
+    add_null(close, wavelets, laid.usable(part).clone(), frame.render_mask(part).clone(), options,
+             progress, result);
     judge(result);
 
     const ShownPictures pair = shown(pictures);
@@ -268,9 +279,9 @@ Comparison compare(const Photo& photo, const Photo& render, const CompareOptions
     result.pictures.mask = map_of({}, pictures.mask);
     result.pictures.luminance_difference =
         map_of(pair.render_luma - pair.photo_luma, pictures.mask);
-    result.pictures.colour_difference = map_of(measured.colour_map, pictures.mask);
-    result.pictures.visible_difference = map_of(measured.flip_map, pictures.mask);
-    result.pictures.similarity = map_of(measured.ssim_map, pictures.mask);
+    result.pictures.colour_difference = map_of(measured.colour_map, part, pictures.mask);
+    result.pictures.visible_difference = map_of(measured.flip_map, part, pictures.mask);
+    result.pictures.similarity = map_of(measured.ssim_map, part, pictures.mask);
     return result;
 }
 

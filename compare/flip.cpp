@@ -46,7 +46,7 @@ struct Seen {
     cv::Mat luminance;  // Y before filtering
 };
 
-Seen seen(const cv::Mat& linear, double pixels_per_degree) {
+Seen seen(const cv::Mat& linear, const cv::Mat& asked, double pixels_per_degree) {
     cv::Mat opponent;
     cv::Mat clipped = cv::min(cv::max(linear, 0), cv::Scalar(1, 1, 1));
     const cv::Matx33f forward = k_opponent * k_xyz;
@@ -71,6 +71,7 @@ Seen seen(const cv::Mat& linear, double pixels_per_degree) {
     result.hunt.create(linear.size(), CV_32FC3);
     for (int y = 0; y < back.rows; ++y) {
         for (int x = 0; x < back.cols; ++x) {
+            if (asked.at<unsigned char>(y, x) == 0) continue;
             const cv::Vec3f c = back.at<cv::Vec3f>(y, x);
             const auto part = [&](int i) {
                 return std::clamp(static_cast<double>(c[i]), 0.0, 1.0);
@@ -153,7 +154,14 @@ cv::Mat feature(const cv::Mat& luminance, const cv::Mat& kernel, const cv::Mat& 
 }  // namespace
 
 cv::Mat flip_map(const cv::Mat& first, const cv::Mat& second, double pixels_per_degree) {
-    const Seen a = seen(first, pixels_per_degree), b = seen(second, pixels_per_degree);
+    return flip_map(first, second, cv::Mat(first.size(), CV_8U, cv::Scalar(255)),
+                    pixels_per_degree);
+}
+
+cv::Mat flip_map(const cv::Mat& first, const cv::Mat& second, const cv::Mat& asked,
+                 double pixels_per_degree) {
+    const Seen a = seen(first, asked, pixels_per_degree),
+               b = seen(second, asked, pixels_per_degree);
     const FeatureKernels kernels = feature_kernels(pixels_per_degree);
     cv::Mat edges, points;
     cv::absdiff(feature(a.luminance, kernels.edge, kernels.smooth),
@@ -162,9 +170,10 @@ cv::Mat flip_map(const cv::Mat& first, const cv::Mat& second, double pixels_per_
                 feature(b.luminance, kernels.point, kernels.smooth), points);
     const cv::Mat features = cv::max(edges, points);
     const double largest = largest_difference();
-    cv::Mat map(first.size(), CV_32F);
+    cv::Mat map = cv::Mat::zeros(first.size(), CV_32F);
     for (int y = 0; y < map.rows; ++y) {
         for (int x = 0; x < map.cols; ++x) {
+            if (asked.at<unsigned char>(y, x) == 0) continue;
             const double colour = colour_difference(
                 hyab(a.hunt.at<cv::Vec3f>(y, x), b.hunt.at<cv::Vec3f>(y, x)), largest);
             // Equation 8, then 9: where features differ, colours count more.
@@ -184,7 +193,7 @@ ScoreMap flip(const MatchedPictures& pictures) {
         return result;
     };
     ScoreMap result;
-    result.map = flip_map(alone(pictures.photo), alone(pictures.render));
+    result.map = flip_map(alone(pictures.photo), alone(pictures.render), pictures.mask);
     double sum = 0, count = 0;
     for (int y = 0; y < result.map.rows; ++y) {
         for (int x = 0; x < result.map.cols; ++x) {

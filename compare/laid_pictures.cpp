@@ -13,6 +13,12 @@ namespace {
 // A sample within 1 % of the clipping level counts as clipped: JPEGs round there.
 constexpr double k_clipped = 0.99;
 
+// Of the diameter. The longest wavelets are as long; blurs of light that reach as far see nothing
+// outside the mask.
+constexpr double k_around = 0.06;
+// The window of SSIM reaches five pixels.
+constexpr int k_least_around = 6;
+
 cv::Mat eroded(const cv::Mat& mask, double by_px) {
     cv::Mat distance;
     cv::distanceTransform(mask, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
@@ -26,6 +32,26 @@ cv::Mat brightest_channel(const cv::Mat& colour) {
 }
 
 }  // namespace
+
+cv::Rect part_to_score(const MatchedPictures& pictures) {
+    const cv::Rect box = cv::boundingRect(pictures.mask);
+    const int around =
+        std::max(k_least_around, static_cast<int>(std::ceil(k_around * pictures.diameter)));
+    // From even pixels to even ones, so that scores that halve the pictures pair the same ones.
+    const auto even = [](int at) { return std::max(0, at - at % 2); };
+    const cv::Point corner(even(box.x - around), even(box.y - around));
+    const cv::Point far(even(box.x + box.width + around + 1),
+                        even(box.y + box.height + around + 1));
+    return cv::Rect(corner, far) & cv::Rect({0, 0}, pictures.mask.size());
+}
+
+MatchedPictures part_of(const MatchedPictures& pictures, const cv::Rect& part) {
+    MatchedPictures result = pictures;
+    result.photo = pictures.photo(part).clone();
+    result.render = pictures.render(part).clone();
+    result.mask = pictures.mask(part).clone();
+    return result;
+}
 
 double white_level(const cv::Mat& colour, const cv::Mat& mask, double saturation) {
     if (saturation > 0) return saturation;

@@ -24,6 +24,12 @@ struct LaidPictures {
 /// saturation of 0: that picture does not clip. With too few pixels no gain is solved.
 LaidPictures lay_pictures(const Frame& frame, double photo_saturation, double render_saturation);
 
+/// Of the frame, what the scores need: the mask's box and as much around it as they look beyond.
+cv::Rect part_to_score(const MatchedPictures& pictures);
+
+/// A copy of a part of the pictures.
+MatchedPictures part_of(const MatchedPictures& pictures, const cv::Rect& part);
+
 /// The white level of a stone's picture: where its camera clips, else its 99.5 % quantile.
 double white_level(const cv::Mat& colour, const cv::Mat& mask, double saturation);
 

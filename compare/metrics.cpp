@@ -34,20 +34,6 @@ double mean_under(const cv::Mat& plane, const cv::Mat& mask) {
     return count > 0 ? sum / count : 0;
 }
 
-// Gaussian mean of what lies under the mask: nothing bleeds in from outside.
-cv::Mat blurred_inside(const cv::Mat& plane, const cv::Mat& mask, double sigma) {
-    cv::Mat weight, weighted;
-    mask.convertTo(weight, CV_32F, 1.0 / 255);
-    cv::multiply(plane, weight, weighted);
-    cv::GaussianBlur(weighted, weighted, {0, 0}, sigma, sigma, cv::BORDER_CONSTANT);
-    cv::GaussianBlur(weight, weight, {0, 0}, sigma, sigma, cv::BORDER_CONSTANT);
-    cv::Mat result = cv::Mat::zeros(plane.size(), CV_32F);
-    for_each_masked(mask, [&](int y, int x) {
-        result.at<float>(y, x) = weighted.at<float>(y, x) / std::max(1e-6f, weight.at<float>(y, x));
-    });
-    return result;
-}
-
 cv::Mat root_luminance(const cv::Mat& colour, double white) {
     cv::Mat result = luminance(colour);
     cv::min(result, white, result);
@@ -123,25 +109,56 @@ ShownPictures shown(const MatchedPictures& pictures) {
     return result;
 }
 
+std::vector<std::optional<double>> zncc(const MatchedPictures& pictures,
+                                        const std::vector<double>& blurs) {
+    // Both under the mask, and the mask itself: their blurs' ratio is the Gaussian mean of what
+    // lies under the mask, and nothing bleeds in from outside.
+    cv::Mat masked;
+    {
+        cv::Mat inside;
+        pictures.mask.convertTo(inside, CV_32F, 1.0 / 255);
+        const cv::Mat planes[] = {root_luminance(pictures.photo, pictures.white).mul(inside),
+                                  root_luminance(pictures.render, pictures.white).mul(inside),
+                                  inside};
+        cv::merge(planes, 3, masked);
+    }
+    std::vector<std::optional<double>> values;
+    for (const double blur : blurs) {
+        const double sigma = blur * pictures.diameter;
+        cv::Mat blurred;
+        cv::GaussianBlur(masked, blurred, {0, 0}, sigma, sigma, cv::BORDER_CONSTANT);
+        double p = 0, r = 0, count = 0;
+        for_each_masked(pictures.mask, [&](int y, int x) {
+            cv::Vec3f& v = blurred.at<cv::Vec3f>(y, x);
+            v[0] /= v[2];
+            v[1] /= v[2];
+            p += static_cast<double>(v[0]);
+            r += static_cast<double>(v[1]);
+            ++count;
+        });
+        const double p_mean = p / count, r_mean = r / count;
+        double pp = 0, rr = 0, pr = 0;
+        for_each_masked(pictures.mask, [&](int y, int x) {
+            const cv::Vec3f& v = blurred.at<cv::Vec3f>(y, x);
+            const double dp = static_cast<double>(v[0]) - p_mean,
+                         dr = static_cast<double>(v[1]) - r_mean;
+            pp += dp * dp;
+            rr += dr * dr;
+            pr += dp * dr;
+        });
+        // One brightness: contrast below what single precision and 8 bits can carry.
+        const double least = count * 1e-4 * 1e-4;
+        if (pp <= least || rr <= least) {
+            values.emplace_back();
+        } else {
+            values.emplace_back(std::clamp(pr / std::sqrt(pp * rr), -1.0, 1.0));
+        }
+    }
+    return values;
+}
+
 std::optional<double> zncc(const MatchedPictures& pictures, double blur) {
-    const double sigma = blur * pictures.diameter;
-    const cv::Mat p =
-        blurred_inside(root_luminance(pictures.photo, pictures.white), pictures.mask, sigma);
-    const cv::Mat r =
-        blurred_inside(root_luminance(pictures.render, pictures.white), pictures.mask, sigma);
-    const double p_mean = mean_under(p, pictures.mask), r_mean = mean_under(r, pictures.mask);
-    double pp = 0, rr = 0, pr = 0, count = 0;
-    for_each_masked(pictures.mask, [&](int y, int x) {
-        const double dp = p.at<float>(y, x) - p_mean, dr = r.at<float>(y, x) - r_mean;
-        pp += dp * dp;
-        rr += dr * dr;
-        pr += dp * dr;
-        ++count;
-    });
-    // One brightness: contrast below what single precision and 8 bits can carry.
-    const double least = count * 1e-4 * 1e-4;
-    if (pp <= least || rr <= least) return std::nullopt;
-    return std::clamp(pr / std::sqrt(pp * rr), -1.0, 1.0);
+    return zncc(pictures, std::vector{blur}).front();
 }
 
 ScoreMap ssim(const ShownPictures& pictures, const cv::Mat& mask) {

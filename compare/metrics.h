@@ -4,6 +4,7 @@
 #include <array>
 #include <opencv2/core/mat.hpp>
 #include <optional>
+#include <vector>
 
 namespace culet {
 
@@ -31,8 +32,10 @@ struct ShownPictures {
 ShownPictures shown(const MatchedPictures& pictures);
 
 /// Correlation coefficient of the square roots of luminance, each blurred by a Gaussian of
-/// `blur` diameters inside the mask: are the same places bright and dark? -1..1; blind to gain.
-/// Nothing when either is of one brightness.
+/// so many diameters inside the mask: are the same places bright and dark? -1..1; blind to gain.
+/// Nothing when either is of one brightness. One for each of `blurs`.
+std::vector<std::optional<double>> zncc(const MatchedPictures& pictures,
+                                        const std::vector<double>& blurs);
 std::optional<double> zncc(const MatchedPictures& pictures, double blur);
 
 /// Structural similarity (Wang, Bovik, Sheikh, Simoncelli 2004) of encoded luminance on the scale

@@ -56,9 +56,8 @@ Measured measure(const MatchedPictures& pictures, const WaveletBank& wavelets) {
     const std::string flat = "one of the pictures has one brightness everywhere";
     Measured result;
     List scores;
-    scores.add(zncc(pictures, 0.02), flat);
-    scores.add(zncc(pictures, 0.01), flat);
-    scores.add(zncc(pictures, 0.04), flat);
+    for (const auto& correlation : zncc(pictures, {0.02, 0.01, 0.04}))
+        scores.add(correlation, flat);
 
     result.reflexes = match_reflexes(pictures);
     const auto& reflexes = result.reflexes;

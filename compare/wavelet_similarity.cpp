@@ -28,42 +28,77 @@ cv::Mat centred(const cv::Mat& luma, const cv::Mat& mask) {
     return result;
 }
 
+constexpr double k_spread = std::numbers::pi / k_directions;  // sigma of the direction
+
+// Frequencies at which a wavelet weighs less than a hundredth are left out.
+const double k_reach = std::sqrt(2 * std::log(100.0));  // sigmas
+
+// The frequencies, in steps of one over the plane's size, between which the wavelet lies.
+cv::Rect band_of(cv::Size size, double wavelength, double angle) {
+    double low[2] = {1, 1}, high[2] = {-1, -1};
+    constexpr int k_places = 64;
+    for (int i = 0; i < k_places; ++i) {
+        const double at = 2 * std::numbers::pi * i / k_places;
+        const double frequency = std::pow(k_octave, k_reach * std::cos(at)) / wavelength;
+        const double direction = angle + k_spread * k_reach * std::sin(at);
+        const double uv[2] = {frequency * std::cos(direction), frequency * std::sin(direction)};
+        for (int k = 0; k < 2; ++k) {
+            low[k] = std::min(low[k], uv[k]);
+            high[k] = std::max(high[k], uv[k]);
+        }
+    }
+    const int sides[2] = {size.width, size.height};
+    int first[2], last[2];
+    for (int k = 0; k < 2; ++k) {
+        first[k] = std::max(-(sides[k] - 1) / 2, static_cast<int>(std::floor(low[k] * sides[k])));
+        last[k] = std::min(sides[k] / 2, static_cast<int>(std::ceil(high[k] * sides[k])));
+    }
+    return {first[0], first[1], last[0] - first[0] + 1, last[1] - first[1] + 1};
+}
+
 // One log-Gabor wavelet in the frequency plane: one-sided, so that its answer is complex.
-cv::Mat wavelet(cv::Size size, double wavelength, int direction) {
+WaveletBank::Wavelet wavelet(cv::Size size, double wavelength, int direction) {
     const double angle = std::numbers::pi * direction / k_directions;
-    const double spread = std::numbers::pi / k_directions;  // sigma of the direction
-    cv::Mat result(size, CV_32F);
-    for (int y = 0; y < size.height; ++y) {
-        const double v =
-            (y <= size.height / 2 ? y : y - size.height) / static_cast<double>(size.height);
-        for (int x = 0; x < size.width; ++x) {
-            const double u =
-                (x <= size.width / 2 ? x : x - size.width) / static_cast<double>(size.width);
+    WaveletBank::Wavelet made;
+    made.wavelength_px = wavelength;
+    made.band = band_of(size, wavelength, angle);
+    made.places = {std::min(size.width, cv::getOptimalDFTSize(made.band.width)),
+                   std::min(size.height, cv::getOptimalDFTSize(made.band.height))};
+    made.filter.create(made.band.size(), CV_32F);
+    for (int y = 0; y < made.band.height; ++y) {
+        const double v = (made.band.y + y) / static_cast<double>(size.height);
+        for (int x = 0; x < made.band.width; ++x) {
+            const double u = (made.band.x + x) / static_cast<double>(size.width);
             const double frequency = std::hypot(u, v);
             double weight = 0;
             if (frequency > 0) {
                 const double octaves = std::log(frequency * wavelength) / std::log(k_octave);
                 const double off =
-                    std::remainder(std::atan2(v, u) - angle, 2 * std::numbers::pi) / spread;
+                    std::remainder(std::atan2(v, u) - angle, 2 * std::numbers::pi) / k_spread;
                 weight = std::exp(-0.5 * (octaves * octaves + off * off));
             }
-            result.at<float>(y, x) = static_cast<float>(weight);
+            // The inverse transform is scaled by the plane's size, not by the band's.
+            made.filter.at<float>(y, x) = static_cast<float>(weight / size.area());
         }
     }
-    return result;
+    return made;
 }
 
-// Real and imaginary part of the wavelet's answer.
-std::array<cv::Mat, 2> answer(const cv::Mat& spectrum, const cv::Mat& filter) {
-    cv::Mat both[2], product;
-    cv::split(spectrum, both);
-    cv::multiply(both[0], filter, both[0]);
-    cv::multiply(both[1], filter, both[1]);
-    cv::merge(both, 2, product);
-    cv::Mat space;
-    cv::dft(product, space, cv::DFT_INVERSE | cv::DFT_SCALE);
-    cv::split(space, both);
-    return {both[0], both[1]};
+// The wavelet's answer, CV_32FC2: real and imaginary part.
+cv::Mat answer(const cv::Mat& spectrum, const WaveletBank::Wavelet& one) {
+    cv::Mat band = cv::Mat::zeros(one.places, CV_32FC2);
+    for (int y = 0; y < one.band.height; ++y) {
+        const int row = (one.band.y + y + spectrum.rows) % spectrum.rows;
+        const cv::Vec2f* from = spectrum.ptr<cv::Vec2f>(row);
+        const float* weight = one.filter.ptr<float>(y);
+        cv::Vec2f* to = band.ptr<cv::Vec2f>(y);
+        for (int x = 0; x < one.band.width; ++x) {
+            const int column = (one.band.x + x + spectrum.cols) % spectrum.cols;
+            to[x] = {from[column][0] * weight[x], from[column][1] * weight[x]};
+        }
+    }
+    cv::dft(band, band, cv::DFT_INVERSE);
+    return band;
 }
 
 cv::Mat spectrum_of(const cv::Mat& plane, cv::Size size) {
@@ -86,7 +121,7 @@ WaveletBank wavelet_bank(cv::Size picture_size, double diameter) {
         // Two pixels are the shortest wave there is; four keep clear of the grid.
         const double wavelength = std::max(4.0, part * diameter * bank.scale);
         for (int direction = 0; direction < k_directions; ++direction) {
-            bank.wavelets.push_back({wavelength, wavelet(bank.size, wavelength, direction)});
+            bank.wavelets.push_back(wavelet(bank.size, wavelength, direction));
         }
     }
     return bank;
@@ -101,32 +136,42 @@ double cw_ssim(const ShownPictures& pictures, const cv::Mat& mask, const Wavelet
     }
     const cv::Mat a = spectrum_of(centred(photo, inside), bank.size);
     const cv::Mat b = spectrum_of(centred(render, inside), bank.size);
-    double sum = 0, count = 0;
+    double sum = 0;
     for (const WaveletBank::Wavelet& one : bank.wavelets) {
-        const auto p = answer(a, one.filter), q = answer(b, one.filter);
-        const auto windowed = [&](const cv::Mat& plane) {
-            const double sigma = one.wavelength_px / 2;
-            cv::Mat mean;
-            cv::GaussianBlur(plane, mean, {0, 0}, sigma, sigma, cv::BORDER_REPLICATE);
-            return mean;
-        };
-        // |sum p q*|: the phase difference may be anything, but must be one over the window.
-        const cv::Mat real = windowed(p[0].mul(q[0]) + p[1].mul(q[1]));
-        const cv::Mat imaginary = windowed(p[1].mul(q[0]) - p[0].mul(q[1]));
-        const cv::Mat energy =
-            windowed(p[0].mul(p[0]) + p[1].mul(p[1]) + q[0].mul(q[0]) + q[1].mul(q[1]));
-        for (int y = 0; y < photo.rows; ++y) {
-            for (int x = 0; x < photo.cols; ++x) {
-                if (inside.at<unsigned char>(y, x) == 0) continue;
-                const double common = std::hypot(static_cast<double>(real.at<float>(y, x)),
-                                                 static_cast<double>(imaginary.at<float>(y, x)));
-                sum +=
-                    (2 * common + k_flat) / (static_cast<double>(energy.at<float>(y, x)) + k_flat);
+        const cv::Mat p = answer(a, one), q = answer(b, one);
+        // p q*, and the sum of both energies.
+        cv::Mat both(one.places, CV_32FC3);
+        for (int y = 0; y < both.rows; ++y) {
+            const cv::Vec2f *left = p.ptr<cv::Vec2f>(y), *right = q.ptr<cv::Vec2f>(y);
+            cv::Vec3f* to = both.ptr<cv::Vec3f>(y);
+            for (int x = 0; x < both.cols; ++x) {
+                const cv::Vec2f l = left[x], r = right[x];
+                to[x] = {l[0] * r[0] + l[1] * r[1], l[1] * r[0] - l[0] * r[1],
+                         l[0] * l[0] + l[1] * l[1] + r[0] * r[0] + r[1] * r[1]};
+            }
+        }
+        const double across = static_cast<double>(bank.size.width) / both.cols;
+        const double down = static_cast<double>(bank.size.height) / both.rows;
+        const double sigma = one.wavelength_px / 2;
+        cv::GaussianBlur(both, both, {0, 0}, sigma / across, sigma / down, cv::BORDER_REPLICATE);
+        double of_wavelet = 0, count = 0;
+        for (int y = 0; y < both.rows; ++y) {
+            const auto row = static_cast<int>(std::lround(y * down));
+            if (row >= inside.rows) break;
+            for (int x = 0; x < both.cols; ++x) {
+                const auto column = static_cast<int>(std::lround(x * across));
+                if (column >= inside.cols) break;
+                if (inside.at<unsigned char>(row, column) == 0) continue;
+                const cv::Vec3d v = both.at<cv::Vec3f>(y, x);
+                // |sum p q*|: the phase difference may be anything, but must be one over the
+                // window.
+                of_wavelet += (2 * std::sqrt(v[0] * v[0] + v[1] * v[1]) + k_flat) / (v[2] + k_flat);
                 ++count;
             }
         }
+        if (count > 0) sum += of_wavelet / count;
     }
-    return count > 0 ? sum / count : 0;
+    return sum / static_cast<double>(bank.wavelets.size());
 }
 
 }  // namespace culet

@@ -12,9 +12,13 @@ namespace culet {
 struct WaveletBank {
     double scale = 1;  ///< the pictures are reduced so that the stone is 256 pixels across at most
     cv::Size size;     ///< of the frequency plane
+    /// Its answer has few frequencies, and is taken at as few places: the band is moved to zero,
+    /// which changes all phases alike, and transformed by itself.
     struct Wavelet {
         double wavelength_px = 0;
-        cv::Mat filter;  ///< CV_32F
+        cv::Rect band;    ///< of frequencies, from the plane's zero; may be negative
+        cv::Mat filter;   ///< CV_32F, of the band
+        cv::Size places;  ///< at which the answer is taken, evenly over the plane's pictures
     };
     std::vector<Wavelet> wavelets;
 };

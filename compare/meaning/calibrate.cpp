@@ -291,9 +291,9 @@ std::vector<std::optional<double>> calibration_scores(const Photo& photo,
     if (!frame.render.empty()) {
         const LaidPictures laid = lay_pictures(frame, photo.saturation, model_picture.saturation);
         if (laid.enough()) {
-            const WaveletBank bank =
-                wavelet_bank(laid.pictures.mask.size(), laid.pictures.diameter);
-            for (const Score& score : measure(laid.pictures, bank).scores) {
+            const MatchedPictures part = part_of(laid.pictures, part_to_score(laid.pictures));
+            const WaveletBank bank = wavelet_bank(part.mask.size(), part.diameter);
+            for (const Score& score : measure(part, bank).scores) {
                 values.push_back(score.value);
             }
         }

@@ -21,14 +21,20 @@ constexpr double k_least_sigma = 0.06;
 // steepest place is off by 0.4 of the blur's sigma, to ten times by 1.3.
 constexpr double k_clipped_sigma = 0.6;
 
-cv::Vec3f bilinear(const cv::Mat& picture, double x, double y) {
+/// Adds the picture's colour at a place, between pixels by the four around it.
+void add_bilinear(const cv::Mat& picture, double x, double y, cv::Vec3f& sum) {
     const double column = std::clamp(x - 0.5, 0.0, picture.cols - 1.001);
     const double row = std::clamp(y - 0.5, 0.0, picture.rows - 1.001);
     const int c = static_cast<int>(column), r = static_cast<int>(row);
     const float u = static_cast<float>(column - c), v = static_cast<float>(row - r);
-    const cv::Vec3f* above = picture.ptr<cv::Vec3f>(r) + c;
-    const cv::Vec3f* below = picture.ptr<cv::Vec3f>(r + 1) + c;
-    return (1 - v) * ((1 - u) * above[0] + u * above[1]) + v * ((1 - u) * below[0] + u * below[1]);
+    const float left_above = (1 - v) * (1 - u), right_above = (1 - v) * u;
+    const float left_below = v * (1 - u), right_below = v * u;
+    const float* above = picture.ptr<float>(r) + 3 * c;
+    const float* below = picture.ptr<float>(r + 1) + 3 * c;
+    for (int k = 0; k < 3; ++k) {
+        sum[k] += left_above * above[k] + right_above * above[3 + k] + left_below * below[k] +
+                  right_below * below[3 + k];
+    }
 }
 
 float step_between(const cv::Vec3f& a, const cv::Vec3f& b) {
@@ -82,7 +88,7 @@ std::vector<FoundEdge> edges_across(const EdgePicture& picture, const WirePoint&
         for (const double s : {-k_along, 0.0, k_along}) {
             const double x = point.at.x + t * point.normal_x - s * point.normal_y;
             const double y = point.at.y + t * point.normal_y + s * point.normal_x;
-            sum += bilinear(plane, x, y);
+            add_bilinear(plane, x, y, sum);
         }
         return sum * (1.0f / 3);
     };

@@ -35,7 +35,11 @@ EdgeSupport edge_support(const EdgePicture& picture, const std::vector<WirePoint
     Share crown, outline;
     double outline_squares = 0;
     std::vector<Share> shifted(k_shifts);
-    double length = 0;
+    const double step = 2.0 * static_cast<double>(every);
+    const double independent = std::max(k_independent_px, k_independent_share * diameter_px);
+    // Elsewhere, points nearer than that to one another tell nothing more.
+    const int apart = std::max(1, static_cast<int>(independent / step));
+    int crown_point = 0;
     for (std::size_t i = 0; i < points.size(); i += every) {
         const WirePoint& point = points[i];
         if (point.outline) {
@@ -50,9 +54,9 @@ EdgeSupport edge_support(const EdgePicture& picture, const std::vector<WirePoint
             continue;
         }
         crown.points += 1;
-        length += 1;
         if (is_met(picture, point)) crown.met += 1;
-        for (int k = 0; k < k_shifts; ++k) {
+        ++crown_point;
+        for (int k = crown_point % apart; k < k_shifts; k += apart) {
             const double angle = 2 * std::numbers::pi * (k + 0.5) / k_shifts;
             const double shift = diameter_px * (0.025 + 0.045 * ((k * 7) % k_shifts) / k_shifts);
             WirePoint elsewhere = point;
@@ -67,15 +71,15 @@ EdgeSupport edge_support(const EdgePicture& picture, const std::vector<WirePoint
     support.outline_met = outline.share();
     if (outline.met > 0) support.outline_rms = std::sqrt(outline_squares / outline.met);
     if (crown.points == 0) return support;
-    double sum = 0, squares = 0;
+    double sum = 0, squares = 0, shifts = 0;
     for (const Share& share : shifted) {
+        if (share.points == 0) continue;
         sum += share.share();
         squares += share.share() * share.share();
+        ++shifts;
     }
-    support.chance = sum / k_shifts;
-    const double variance = std::max(0.0, squares / k_shifts - support.chance * support.chance);
-    const double step = 2.0 * static_cast<double>(every);
-    const double independent = std::max(k_independent_px, k_independent_share * diameter_px);
+    support.chance = sum / shifts;
+    const double variance = std::max(0.0, squares / shifts - support.chance * support.chance);
     support.witnesses = std::max(1.0, crown.points * std::min(1.0, step / independent));
     const double chance = std::clamp(support.chance, 0.02, 0.98);
     support.spread = std::sqrt(variance + chance * (1 - chance) / support.witnesses);

@@ -10,8 +10,7 @@
 #include <map>
 #include <numbers>
 
-#include "compare/pose/view_formulas.h"
-#include "stone/perpendicular.h"
+#include "compare/pose/changed_view.h"
 
 namespace culet {
 
@@ -20,114 +19,78 @@ namespace {
 // Residuals of more sigmas than this count by their logarithm only.
 constexpr double k_loss = 2;
 
-struct FacetFrame {
-    Vec3 normal, across, along;
-    double height = 0;  // of the facet's plane, normal . x
-    Vec3 middle;
+/// The view's change is worked out once for all residuals, whenever the solver moves on.
+class ViewAtChange : public ceres::EvaluationCallback {
+public:
+    ViewAtChange(const StoneView& view, const ViewChange& change) : view_(view), change_(change) {}
+    void PrepareForEvaluation(bool, bool) override { view_.set(change_); }
+    const ChangedView& view() const { return view_; }
+
+private:
+    ChangedView view_;
+    const ViewChange& change_;
 };
 
-FacetFrame frame_of(const WireSolid& wire, int facet) {
-    const auto f = static_cast<std::size_t>(facet);
-    FacetFrame frame;
-    const Plane& plane = wire.solid.facets[f].plane;
-    frame.normal = plane.normal;
-    frame.across = perpendicular_to(plane.normal);
-    frame.along = glm::cross(plane.normal, frame.across);
-    frame.height = plane.offset;
-    frame.middle = wire.facet_middles[f];
-    return frame;
+/// How far along its normal a point of the wireframe is from where its edge was met, in sigmas. The
+/// slopes by the view's change, and by the point on the stone.
+struct EdgeMisfit {
+    double value = 0;
+    std::array<double, k_view_unknowns> by_change;
+    Vec3 by_point;
+};
+
+EdgeMisfit misfit_of(const MetEdge& met, const SeenPoint& seen) {
+    const double across = met.point.normal_x / met.sigma, down = met.point.normal_y / met.sigma;
+    EdgeMisfit misfit;
+    misfit.value = (seen.at.x - met.point.at.x) * across + (seen.at.y - met.point.at.y) * down -
+                   met.offset / met.sigma;
+    for (std::size_t k = 0; k < misfit.by_change.size(); ++k)
+        misfit.by_change[k] = across * seen.x_by_change[k] + down * seen.y_by_change[k];
+    misfit.by_point = across * seen.x_by_point + down * seen.y_by_point;
+    return misfit;
 }
 
-/// A changed plane at the point `x`: its normal, and how far x lies below it.
-template <class Number>
-void change_plane(const FacetFrame& frame, const Vec3& x, const Number* change,
-                  std::array<Number, 3>& normal, Number& below) {
-    for (int k = 0; k < 3; ++k) {
-        normal[static_cast<std::size_t>(k)] =
-            frame.normal[k] + change[0] * frame.across[k] + change[1] * frame.along[k];
-    }
-    const Vec3 arm = x - frame.middle;
-    below = change[2] - change[0] * glm::dot(frame.across, arm) -
-            change[1] * glm::dot(frame.along, arm);
-}
-
-template <class Number>
-Number dot(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/// Where a point of an edge goes when its two facets change: to the nearest point of both planes.
-template <class Number>
-std::array<Number, 3> moved(const FacetFrame& left, const FacetFrame& right, const Vec3& x,
-                            const Number* left_change, const Number* right_change) {
-    std::array<Number, 3> n1, n2;
-    Number r1, r2;
-    change_plane(left, x, left_change, n1, r1);
-    change_plane(right, x, right_change, n2, r2);
-    const Number a = dot(n1, n1), b = dot(n1, n2), d = dot(n2, n2);
-    const Number determinant = a * d - b * b;
-    const Number s = (d * r1 - b * r2) / determinant, t = (a * r2 - b * r1) / determinant;
-    return {x.x + s * n1[0] + t * n2[0], x.y + s * n1[1] + t * n2[1], x.z + s * n1[2] + t * n2[2]};
-}
-
-template <class Number>
-std::array<Number, 2> seen(const StoneView& view, const Number* change,
-                           const std::array<Number, 3>& x) {
-    using std::exp;
-    const std::array<Number, 3> arm{x[0] - view.middle.x, x[1] - view.middle.y,
-                                    x[2] - view.middle.z};
-    std::array<Number, 3> there;
-    for (int row = 0; row < 3; ++row) {
-        there[static_cast<std::size_t>(row)] =
-            view.turn[0][row] * arm[0] + view.turn[1][row] * arm[1] + view.turn[2][row] * arm[2];
-    }
-    there = times(rotation_of(change[0], change[1], change[2]), there);
-    const Number scale = view.scale * exp(change[5]);
-    const Number nearness = view.nearness * exp(change[6]);
-    const Number sight_x = view.sight.x + change[7], sight_y = view.sight.y + change[8];
-    const Number beside_x = view.at.x + change[3] - sight_x;
-    const Number beside_y = view.at.y + change[4] - sight_y;
-    there = times(
-        least_rotation_to(Number(beside_x * nearness / scale), Number(beside_y * nearness / scale)),
-        there);
-    const Number depth = 1.0 + nearness * there[2];
-    return {sight_x + (beside_x + scale * there[0]) / depth,
-            sight_y + (beside_y + scale * there[1]) / depth};
-}
-
-struct EdgeResidual {
-    const StoneView& view;
-    FacetFrame left, right;
-    const MetEdge& met;
-
-    template <class Number>
-    bool operator()(const Number* change, const Number* left_change, const Number* right_change,
-                    Number* residual) const {
-        const std::array<Number, 3> x =
-            moved(left, right, met.point.on_stone, left_change, right_change);
-        const std::array<Number, 2> at = seen(view, change, x);
-        residual[0] = ((at[0] - met.point.at.x) * met.point.normal_x +
-                       (at[1] - met.point.at.y) * met.point.normal_y - met.offset) /
-                      met.sigma;
+class EdgeResidual : public ceres::SizedCostFunction<1, k_view_unknowns, 3, 3> {
+public:
+    EdgeResidual(const ChangedView& view, const FacetFrame& left, const FacetFrame& right,
+                 const MetEdge& met)
+        : view_(view), left_(left), right_(right), met_(met) {}
+    bool Evaluate(double const* const* blocks, double* residual, double** slopes) const override {
+        const MovedEdge moved =
+            moved_edge(left_, right_, met_.point.on_stone, blocks[1], blocks[2]);
+        const EdgeMisfit misfit = misfit_of(met_, view_(moved.at));
+        residual[0] = misfit.value;
+        if (slopes == nullptr) return true;
+        if (slopes[0] != nullptr)
+            std::copy(misfit.by_change.begin(), misfit.by_change.end(), slopes[0]);
+        for (std::size_t k = 0; k < moved.slopes.size(); ++k) {
+            double* block = slopes[k < 3 ? 1 : 2];
+            if (block != nullptr) block[k % 3] = glm::dot(misfit.by_point, moved.slopes[k]);
+        }
         return true;
     }
+
+private:
+    const ChangedView& view_;
+    FacetFrame left_, right_;
+    const MetEdge& met_;
 };
 
 /// The same with facets as in the model.
-struct ViewResidual {
-    const StoneView& view;
-    const MetEdge& met;
-
-    template <class Number>
-    bool operator()(const Number* change, Number* residual) const {
-        const Vec3& p = met.point.on_stone;
-        const std::array<Number, 2> at =
-            seen(view, change, std::array<Number, 3>{Number(p.x), Number(p.y), Number(p.z)});
-        residual[0] = ((at[0] - met.point.at.x) * met.point.normal_x +
-                       (at[1] - met.point.at.y) * met.point.normal_y - met.offset) /
-                      met.sigma;
+class ViewResidual : public ceres::SizedCostFunction<1, k_view_unknowns> {
+public:
+    ViewResidual(const ChangedView& view, const MetEdge& met) : view_(view), met_(met) {}
+    bool Evaluate(double const* const*, double* residual, double** slopes) const override {
+        const EdgeMisfit misfit = misfit_of(met_, view_(met_.point.on_stone));
+        residual[0] = misfit.value;
+        if (slopes != nullptr && slopes[0] != nullptr)
+            std::copy(misfit.by_change.begin(), misfit.by_change.end(), slopes[0]);
         return true;
     }
+
+private:
+    const ChangedView& view_;
+    const MetEdge& met_;
 };
 
 struct FacetPrior {
@@ -220,23 +183,23 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
     result.view = start;
     result.facets.assign(wire.solid.facets.size(), FacetChange{0, 0, 0});
     ViewChange change{};
-    ceres::Problem problem;
+    ViewAtChange view(start, change);
+    ceres::Problem::Options at_once;
+    at_once.evaluation_callback = &view;
+    ceres::Problem problem(at_once);
     problem.AddParameterBlock(change.data(), k_view_unknowns);
     std::map<int, int> used;  // facets, and how many edges are theirs
     for (const MetEdge& met : edges) {
         if (!settings.facets_free) {
-            problem.AddResidualBlock(
-                new ceres::AutoDiffCostFunction<ViewResidual, 1, k_view_unknowns>(
-                    new ViewResidual{result.view, met}),
-                new ceres::CauchyLoss(k_loss), change.data());
+            problem.AddResidualBlock(new ViewResidual(view.view(), met),
+                                     new ceres::CauchyLoss(k_loss), change.data());
             continue;
         }
         const Edge& edge = wire.edges[static_cast<std::size_t>(met.point.edge)];
         ++used[edge.left];
         ++used[edge.right];
-        auto* cost = new ceres::AutoDiffCostFunction<EdgeResidual, 1, k_view_unknowns, 3, 3>(
-            new EdgeResidual{result.view, frame_of(wire, edge.left), frame_of(wire, edge.right),
-                             met});
+        auto* cost = new EdgeResidual(view.view(), frame_of(wire, edge.left),
+                                      frame_of(wire, edge.right), met);
         problem.AddResidualBlock(cost, new ceres::CauchyLoss(k_loss), change.data(),
                                  result.facets[static_cast<std::size_t>(edge.left)].data(),
                                  result.facets[static_cast<std::size_t>(edge.right)].data());
@@ -265,8 +228,10 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
         nullptr, change.data());
 
     ceres::Solver::Options options;
+    // An edge has two of the facets only.
     options.linear_solver_type =
-        settings.facets_free ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
+        settings.facets_free ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
+    options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;
     options.max_num_iterations = settings.facets_free ? 12 : 20;
     options.function_tolerance = 1e-7;
     options.num_threads = 1;
@@ -305,10 +270,9 @@ double moved_by_facets(const WireSolid& wire, const StoneView& view, const WireP
     const Edge& edge = wire.edges[static_cast<std::size_t>(point.edge)];
     const auto left = static_cast<std::size_t>(edge.left),
                right = static_cast<std::size_t>(edge.right);
-    const std::array<double, 3> x =
-        moved(frame_of(wire, edge.left), frame_of(wire, edge.right), point.on_stone,
-              facets[left].data(), facets[right].data());
-    const PicturePoint at = seen_at(view, {x[0], x[1], x[2]});
+    const MovedEdge moved = moved_edge(frame_of(wire, edge.left), frame_of(wire, edge.right),
+                                       point.on_stone, facets[left].data(), facets[right].data());
+    const PicturePoint at = seen_at(view, moved.at);
     return (at.x - point.at.x) * point.normal_x + (at.y - point.at.y) * point.normal_y;
 }
 

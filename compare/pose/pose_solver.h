@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "compare/pose/wireframe.h"
+#include "compare/pose/moved_edge.h"
 
 namespace culet {
 
@@ -15,10 +15,6 @@ struct MetEdge {
     double offset = 0;  ///< along the point's normal, pixels
     double sigma = 1;   ///< of it
 };
-
-/// A facet's plane is n . x = d about its middle m: n + a u + b v with u, v unit and normal to n,
-/// lifted by c at m. {a, b, c}; a and b are small angles.
-using FacetChange = std::array<double, 3>;
 
 struct SolverSettings {
     bool facets_free = false;

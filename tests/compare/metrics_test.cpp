@@ -3,14 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/quality/qualityssim.hpp>
 
 #include "compare/flip.h"
+#include "compare/laid_pictures.h"
 #include "compare/pixels.h"
 #include "compare/reflexes.h"
 #include "compare/resampling.h"
+#include "compare/score_list.h"
 #include "compare/wavelet_similarity.h"
 
 namespace culet {
@@ -160,6 +163,113 @@ TEST(CwSsim, is_one_for_equal_pictures_and_forgives_a_small_shift) {
     EXPECT_NEAR(value(same), 1, 1e-5);
     EXPECT_GT(value(shifted), 0.95);
     EXPECT_LT(value(wrong), 0.75);
+}
+
+// CW-SSIM as it is written down: every wavelet's answer at every pixel.
+double cw_ssim_everywhere(const MatchedPictures& pictures) {
+    const ShownPictures pair = shown(pictures);
+    const auto spectrum_of = [&](const cv::Mat& luma) {
+        cv::Mat inside = cv::Mat::zeros(luma.size(), CV_32F), spectrum;
+        const cv::Mat centred = luma - cv::mean(luma, pictures.mask)[0];
+        centred.copyTo(inside, pictures.mask);
+        cv::dft(inside, spectrum, cv::DFT_COMPLEX_OUTPUT);
+        return spectrum;
+    };
+    const cv::Mat a = spectrum_of(pair.photo_luma), b = spectrum_of(pair.render_luma);
+    double sum = 0;
+    for (const double part : {0.03, 0.06}) {
+        const double wavelength = std::max(4.0, part * pictures.diameter);
+        for (int k = 0; k < 6; ++k) {
+            const auto answer = [&](const cv::Mat& spectrum) {
+                cv::Mat filtered = spectrum.clone(), space;
+                for (int y = 0; y < spectrum.rows; ++y) {
+                    for (int x = 0; x < spectrum.cols; ++x) {
+                        const auto cycles = [](int i, int n) {
+                            return static_cast<double>(i <= n / 2 ? i : i - n) / n;
+                        };
+                        const double u = cycles(x, spectrum.cols), v = cycles(y, spectrum.rows);
+                        const double octaves =
+                            std::log(std::max(1e-9, std::hypot(u, v)) * wavelength) /
+                            std::log(0.65);
+                        const double off = std::remainder(
+                            std::atan2(v, u) - k * std::numbers::pi / 6, 2 * std::numbers::pi);
+                        const double directions = off / (std::numbers::pi / 6);
+                        filtered.at<cv::Vec2f>(y, x) *= static_cast<float>(
+                            std::exp(-0.5 * (octaves * octaves + directions * directions)));
+                    }
+                }
+                cv::dft(filtered, space, cv::DFT_INVERSE | cv::DFT_SCALE);
+                return space;
+            };
+            const cv::Mat p = answer(a), q = answer(b);
+            cv::Mat product, left, right, parts[2], real, imaginary, energy;
+            cv::mulSpectrums(p, q, product, 0, true);
+            cv::mulSpectrums(p, p, left, 0, true);
+            cv::mulSpectrums(q, q, right, 0, true);
+            cv::split(product, parts);
+            const auto windowed = [&](const cv::Mat& plane) {
+                cv::Mat mean;
+                cv::GaussianBlur(plane, mean, {0, 0}, wavelength / 2, wavelength / 2,
+                                 cv::BORDER_REPLICATE);
+                return mean;
+            };
+            real = windowed(parts[0]);
+            imaginary = windowed(parts[1]);
+            cv::extractChannel(left + right, energy, 0);
+            energy = windowed(energy);
+            cv::Mat common;
+            cv::magnitude(real, imaginary, common);
+            const cv::Mat ratio = (2 * common + 1e-6) / (energy + 1e-6);
+            sum += cv::mean(ratio, pictures.mask)[0];
+        }
+    }
+    return sum / 12;
+}
+
+TEST(CwSsim, at_few_places_is_that_at_every_pixel) {
+    for (const int other : {8, 9, 11}) {
+        MatchedPictures pictures = pair_of(noise(160, 8, 3), noise(160, other, 3));
+        if (other == 11)
+            pictures.render = resampled(pictures.photo, {0.99, 0.02, 1, -0.02, 0.99, 2},
+                                        pictures.photo.size(), Kernel::cubic, Beyond::nearest);
+        pictures.mask.setTo(0);
+        cv::circle(pictures.mask, {80, 80}, 60, cv::Scalar(255), cv::FILLED);
+        pictures.diameter = 120;
+        const double value = cw_ssim(shown(pictures), pictures.mask,
+                                     wavelet_bank(pictures.mask.size(), pictures.diameter));
+        // What a hundredth of a wavelet's weight at the ends of its band may do.
+        EXPECT_NEAR(value, cw_ssim_everywhere(pictures), 0.005) << other;
+    }
+}
+
+// Expected: all scores look at the stone alone, so that a part of the frame that holds it is
+// enough. Wavelets run round the frame's ends, which a part brings nearer.
+TEST(ScoredPart, of_the_frame_gives_the_whole_frames_scores) {
+    MatchedPictures whole = pair_of(noise(200, 12, 2), noise(200, 13, 2));
+    whole.render = 0.5 * whole.photo + 0.5 * whole.render;
+    whole.mask.setTo(0);
+    cv::ellipse(whole.mask, {111, 87}, {60, 45}, 20, 0, 360, cv::Scalar(255), cv::FILLED);
+    whole.diameter = 104;
+    const cv::Rect box = part_to_score(whole);
+    EXPECT_EQ(box.x % 2, 0);
+    EXPECT_EQ(box.y % 2, 0);
+    EXPECT_LT(box.area(), 0.7 * whole.mask.cols * whole.mask.rows);
+    const MatchedPictures part = part_of(whole, box);
+    const Measured of_whole = measure(whole, wavelet_bank(whole.mask.size(), whole.diameter));
+    const Measured of_part = measure(part, wavelet_bank(part.mask.size(), part.diameter));
+    ASSERT_EQ(of_part.scores.size(), of_whole.scores.size());
+    for (std::size_t k = 0; k < of_part.scores.size(); ++k) {
+        const Score &a = of_whole.scores[k], &b = of_part.scores[k];
+        ASSERT_EQ(a.value.has_value(), b.value.has_value()) << a.key;
+        if (!a.value) continue;
+        EXPECT_NEAR(*a.value, *b.value, a.key == "cw_ssim" ? 0.005 : 1e-5) << a.key;
+    }
+}
+
+// A stone that fills the frame: nothing is asked for beyond it.
+TEST(ScoredPart, ends_where_the_frame_does) {
+    const MatchedPictures pictures = pair_of(noise(64, 1), noise(64, 2));
+    EXPECT_EQ(part_to_score(pictures), cv::Rect(0, 0, 64, 64));
 }
 
 cv::Mat spots(const std::vector<cv::Point>& middles, int radius = 3) {

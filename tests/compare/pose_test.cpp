@@ -12,7 +12,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "compare/pixels.h"
+#include "compare/pose/changed_view.h"
 #include "compare/pose/edge_search.h"
+#include "compare/pose/edge_support.h"
 #include "compare/pose/find_pose.h"
 #include "compare/pose/outline_shape.h"
 #include "compare/pose/pose_solver.h"
@@ -146,6 +148,84 @@ TEST(EdgeSearch, finds_nothing_in_a_plain_picture) {
     point.at = {20, 20};
     point.normal_y = 1;
     EXPECT_TRUE(edges_across(EdgePicture(picture, 1), point, 6).empty());
+}
+
+// Expected: the changed view's own projection, and its differences.
+TEST(ChangedView, sees_points_as_the_view_does_and_knows_how_they_move) {
+    const Solid solid = make_cut("oval");
+    const ViewChange change{0.02, -0.03, 0.05, 2, -3, 0.04, 0.1, 1.5, -0.5};
+    for (const Camera& camera : several_cameras(solid)) {
+        const StoneView view = stone_view(camera, centroid(solid));
+        ChangedView formulas(view);
+        formulas.set(change);
+        const Vec3 point = solid.vertices[5];
+        const SeenPoint seen = formulas(point);
+        const auto at = [&](const ViewChange& c, const Vec3& p) {
+            return seen_at(changed(view, c), p);
+        };
+        EXPECT_NEAR(seen.at.x, at(change, point).x, 1e-9);
+        EXPECT_NEAR(seen.at.y, at(change, point).y, 1e-9);
+        // Central differences are good to h squared and to rounding over h.
+        constexpr double h = 1e-5;
+        for (std::size_t k = 0; k < change.size(); ++k) {
+            ViewChange more = change, less = change;
+            more[k] += h;
+            less[k] -= h;
+            const PicturePoint a = at(more, point), b = at(less, point);
+            EXPECT_NEAR(seen.x_by_change[k], (a.x - b.x) / (2 * h), 1e-5) << k;
+            EXPECT_NEAR(seen.y_by_change[k], (a.y - b.y) / (2 * h), 1e-5) << k;
+        }
+        for (int k = 0; k < 3; ++k) {
+            Vec3 step(0);
+            step[k] = h;
+            const PicturePoint a = at(change, point + step), b = at(change, point - step);
+            EXPECT_NEAR(seen.x_by_point[k], (a.x - b.x) / (2 * h), 1e-5) << k;
+            EXPECT_NEAR(seen.y_by_point[k], (a.y - b.y) / (2 * h), 1e-5) << k;
+        }
+    }
+}
+
+// Expected: both changed planes hold the moved point; its slopes are its differences.
+TEST(MovedEdge, is_where_the_changed_facets_meet) {
+    const WireSolid wire(make_cut("step"));
+    const std::array<FacetChange, 2> changes{FacetChange{0.02, -0.03, 0.01},
+                                             FacetChange{-0.015, 0.04, -0.02}};
+    for (const Edge& edge : wire.edges) {
+        const FacetFrame left = frame_of(wire, edge.left), right = frame_of(wire, edge.right);
+        const Vec3& from = wire.solid.vertices[static_cast<std::size_t>(edge.from)];
+        const Vec3& to = wire.solid.vertices[static_cast<std::size_t>(edge.to)];
+        const Vec3 point = 0.3 * from + 0.7 * to;
+        const auto moved = [&](const std::array<FacetChange, 2>& c) {
+            return moved_edge(left, right, point, c[0].data(), c[1].data());
+        };
+        const MovedEdge found = moved(changes);
+        for (int side = 0; side < 2; ++side) {
+            const FacetFrame& frame = side == 0 ? left : right;
+            const FacetChange& c = changes[static_cast<std::size_t>(side)];
+            const Vec3 normal = frame.normal + c[0] * frame.across + c[1] * frame.along;
+            EXPECT_NEAR(glm::dot(normal, found.at - frame.middle), c[2], 1e-12);
+        }
+        for (std::size_t k = 0; k < 6; ++k) {
+            constexpr double h = 1e-6;
+            auto more = changes, less = changes;
+            more[k / 3][k % 3] += h;
+            less[k / 3][k % 3] -= h;
+            const Vec3 slope = (moved(more).at - moved(less).at) / (2 * h);
+            EXPECT_LT(glm::length(slope - found.slopes[k]), 1e-7 * (1 + glm::length(slope))) << k;
+        }
+    }
+}
+
+// A share of nothing is no share: most of the places elsewhere have no point of a single edge.
+TEST(EdgeSupport, of_one_point_is_a_number) {
+    const cv::Mat picture(60, 60, CV_32FC3, cv::Scalar(0.3, 0.3, 0.3));
+    WirePoint point;
+    point.at = {30, 30};
+    point.normal_x = 1;
+    const EdgeSupport support = edge_support(EdgePicture(picture, 1), {point}, 40);
+    EXPECT_EQ(support.met, 0);
+    EXPECT_EQ(support.chance, 0);
+    EXPECT_TRUE(std::isfinite(support.z));
 }
 
 // Expected: the view whose own projection gave the edges.
