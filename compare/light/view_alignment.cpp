@@ -11,6 +11,7 @@
 
 #include "compare/light/even_directions.h"
 #include "compare/light/view_refinement.h"
+#include "compare/pose/stone_view.h"
 #include "render/colour.h"
 #include "render/environment_layout.h"
 #include "stone/units.h"
@@ -33,17 +34,6 @@ std::vector<glm::dmat3> even_rotations(int count) {
                                                    r * std::cos(alpha), big * std::sin(beta))));
     }
     return result;
-}
-
-glm::dmat3 turn(const Vec3& rotation) {
-    const double angle = glm::length(rotation);
-    if (angle < 1e-15) return glm::dmat3(1.0);
-    return glm::mat3_cast(glm::angleAxis(angle, rotation / angle));
-}
-
-double angle_between(const glm::dmat3& a, const glm::dmat3& b) {
-    const glm::dmat3 d = glm::transpose(a) * b;
-    return std::acos(std::clamp((d[0][0] + d[1][1] + d[2][2] - 1) / 2, -1.0, 1.0));
 }
 
 // Log-luminance of a view in its camera's frame, low-passed, as a lat-long map of its own.
@@ -164,7 +154,7 @@ Candidate climbed(const SmoothPoints& points, const SmoothMap& map, Candidate at
         for (int k = 0; k < 6; ++k) {
             Vec3 axis(0);
             axis[k / 2] = k % 2 == 0 ? step : -step;
-            const glm::dmat3 tried = turn(axis) * at.rotation;
+            const glm::dmat3 tried = rotation_by(axis) * at.rotation;
             const double score = correlation(points, map, tried, least_weight);
             if (score > best.score) best = {tried, score};
         }
@@ -183,7 +173,7 @@ std::vector<Candidate> distinct(std::vector<Candidate> list, double apart, std::
     std::vector<Candidate> kept;
     for (const Candidate& c : list) {
         const bool near = std::any_of(kept.begin(), kept.end(), [&](const Candidate& k) {
-            return angle_between(k.rotation, c.rotation) < apart;
+            return angle_of(glm::transpose(k.rotation) * c.rotation) < apart;
         });
         if (!near) kept.push_back(c);
         if (kept.size() == most) break;
@@ -201,7 +191,7 @@ CoarseResult over_all_rotations(const ViewMap& first, const ViewMap& second) {
     const auto asked = [](const SmoothPoints& points, const SmoothMap& map) {
         double weight = 0;
         for (int k = 0; k < 2; ++k) {
-            const glm::dmat3 quarter = turn({0, k == 0 ? k_pi / 2 : -k_pi / 2, 0});
+            const glm::dmat3 quarter = rotation_by({0, k == 0 ? k_pi / 2 : -k_pi / 2, 0});
             double sum = 0;
             for (std::size_t i = 0; i < points.direction.size(); ++i) {
                 float v = 0, w = 0;
@@ -222,8 +212,9 @@ CoarseResult over_all_rotations(const ViewMap& first, const ViewMap& second) {
     });
     // The usual turns, which win where nothing speaks against them.
     for (const double degrees : {90.0, -90.0})
-        all.push_back({turn({0, radians(degrees), 0}),
-                       correlation(few, coarse, turn({0, radians(degrees), 0}), coarse_weight)});
+        all.push_back(
+            {rotation_by({0, radians(degrees), 0}),
+             correlation(few, coarse, rotation_by({0, radians(degrees), 0}), coarse_weight)});
     std::vector<Candidate> best = distinct(all, radians(12), 24);
     tbb::parallel_for(std::size_t{0}, best.size(), [&](std::size_t i) {
         best[i] = climbed(few, coarse, best[i], radians(5), radians(1), coarse_weight);
