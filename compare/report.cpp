@@ -26,7 +26,7 @@ std::string report_page(const Report& report) {
         parsed_object<Json>(report.stats_json, "the render's figures for the report");
 
     std::string page;
-    page += headline_section(report, scores, fit);
+    page += headline_section(report, fit);
     page += pictures_section(report);
     page += meaning_section(report);
     page += reflexes_section(report);

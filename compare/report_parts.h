@@ -14,8 +14,7 @@ std::string picture_uri(const Photo& picture, double white);
 /// The same of a map; clear where it has no value.
 std::string map_uri(const PixelMap& map, ColourMap colours, double low, double high);
 
-std::string headline_section(const Report& report, const nlohmann::json& scores,
-                             const nlohmann::json& fit);
+std::string headline_section(const Report& report, const nlohmann::json& fit);
 std::string pictures_section(const Report& report);
 std::string maps_section(const Report& report);
 std::string scores_section(const Report& report, const nlohmann::json& scores);
