@@ -8,6 +8,7 @@
 
 #include "compare/pixels.h"
 #include "render/colour_difference.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 
@@ -44,9 +45,7 @@ cv::Mat root_luminance(const cv::Mat& colour, double white) {
 
 // sigma of the residuals by their median: 1.4826 is 1 over the normal quantile of 3/4.
 double spread(std::vector<double> residuals) {
-    const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-    std::nth_element(residuals.begin(), middle, residuals.end());
-    return 1.4826 * *middle;
+    return 1.4826 * upper_median(std::move(residuals));
 }
 
 double gain_of_channel(const std::vector<double>& photo, const std::vector<double>& render) {

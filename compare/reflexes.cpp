@@ -9,6 +9,7 @@
 
 #include "compare/pixels.h"
 #include "render/colour_difference.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 
@@ -149,9 +150,7 @@ std::optional<ReflexMatch> match_reflexes(const MatchedPictures& pictures) {
         match.hue_agreement = static_cast<double>(match.same_hue) / match.coloured;
     }
     if (!distances.empty()) {
-        const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-        std::nth_element(distances.begin(), middle, distances.end());
-        match.displacement = *middle / pictures.diameter;
+        match.displacement = upper_median(std::move(distances)) / pictures.diameter;
     }
     return match;
 }

@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "compare/pixels.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 
@@ -73,20 +74,13 @@ struct Background {
 
 // A plane a + b x + c y through the border's pixels, refitted twice without what lies far off.
 cv::Vec3d border_plane(const std::vector<cv::Vec3d>& places, const std::vector<double>& values) {
-    std::vector<double> sorted = values;
-    std::nth_element(sorted.begin(),
-                     sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-    cv::Vec3d plane(sorted[sorted.size() / 2], 0, 0);
+    cv::Vec3d plane(upper_median(values), 0, 0);
     for (int round = 0; round < 3; ++round) {
         std::vector<double> off(values.size());
         for (std::size_t i = 0; i < values.size(); ++i) {
             off[i] = std::abs(values[i] - places[i].dot(plane));
         }
-        std::vector<double> ranked = off;
-        std::nth_element(ranked.begin(),
-                         ranked.begin() + static_cast<std::ptrdiff_t>(ranked.size() / 2),
-                         ranked.end());
-        const double limit = std::max(1.0 / 255, 3 * 1.4826 * ranked[ranked.size() / 2]);
+        const double limit = std::max(1.0 / 255, 3 * 1.4826 * upper_median(off));
         cv::Matx33d normal = cv::Matx33d::zeros();
         cv::Vec3d right(0, 0, 0);
         for (std::size_t i = 0; i < values.size(); ++i) {
@@ -135,9 +129,7 @@ Background background_of(const cv::Mat& shown) {
             if (!inside) at_border.push_back(static_cast<float>(most));
         }
     }
-    const auto middle = at_border.begin() + static_cast<std::ptrdiff_t>(at_border.size() / 2);
-    std::nth_element(at_border.begin(), middle, at_border.end());
-    background.noise = 1.4826f * *middle;
+    background.noise = 1.4826f * upper_median(std::move(at_border));
     return background;
 }
 
@@ -226,9 +218,7 @@ cv::Mat settled(const cv::Mat& mask, const Differing& found) {
         }
     }
     if (offsets.size() < 32) return mask;
-    const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
-    std::nth_element(offsets.begin(), middle, offsets.end());
-    return distance < *middle;
+    return distance < upper_median(std::move(offsets));
 }
 
 // The largest connected part, with every part of at least 1/200 of its area that lies within a

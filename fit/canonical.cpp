@@ -18,7 +18,7 @@
 #include <map>
 #include <numbers>
 
-#include "fit/upper_median.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 

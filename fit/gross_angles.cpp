@@ -7,8 +7,8 @@
 
 #include "fit/accusation.h"
 #include "fit/fitted_parts.h"
-#include "fit/upper_median.h"
 #include "stone/units.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 

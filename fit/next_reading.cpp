@@ -9,7 +9,7 @@
 #include <set>
 
 #include "fit/facet_functions.h"
-#include "fit/upper_median.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 

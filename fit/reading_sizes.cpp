@@ -11,10 +11,10 @@
 #include <numbers>
 #include <utility>
 
-#include "fit/upper_median.h"
 #include "stone/errors.h"
 #include "stone/half_edges.h"
 #include "stone/units.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 

@@ -12,10 +12,10 @@
 #include "fit/azimuth_turn.h"
 #include "fit/canonical.h"
 #include "fit/rounding.h"
-#include "fit/upper_median.h"
 #include "fit/upright_turn.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "compare/pixels.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 
@@ -152,9 +153,7 @@ std::optional<FoundBall> polished(const std::vector<EdgePoint>& points, BallCirc
             if (r < tolerance) sizes.push_back(r);
         }
         if (sizes.size() < 12) return std::nullopt;
-        std::nth_element(sizes.begin(), sizes.begin() + static_cast<long>(sizes.size() / 2),
-                         sizes.end());
-        const double spread = std::max(1.4826 * sizes[sizes.size() / 2], 0.1);
+        const double spread = std::max(1.4826 * upper_median(std::move(sizes)), 0.1);
         const double cut = std::min(4.685 * spread, tolerance);
         Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
         Eigen::Vector3d gradient = Eigen::Vector3d::Zero();

@@ -10,6 +10,7 @@
 
 #include "compare/light/even_directions.h"
 #include "compare/pose/stone_view.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 
@@ -21,11 +22,9 @@ constexpr double k_distance_sigma = 0.05;  // of 1 / distance about that of k_un
 
 using Square = Eigen::Matrix<double, k_view_parameters, k_view_parameters>;
 
+// Of nothing 0.
 double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    return values.empty() ? 0 : upper_median(std::move(values));
 }
 
 std::vector<int> patches_of(const std::vector<ViewWitness>& witnesses) {

@@ -7,6 +7,7 @@
 
 #include "compare/score_list.h"
 #include "page/html.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 
@@ -32,13 +33,6 @@ std::vector<std::optional<double>> values_of(const std::vector<Score>& scores,
         if (k < values.size()) values[k] = score.value;
     }
     return values;
-}
-
-double middle(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
 }
 
 std::optional<NullWorth> null_worth(World world, const Score& photo, const Calibration& calibration,
@@ -70,7 +64,7 @@ std::optional<NullWorth> null_worth(World world, const Score& photo, const Calib
         worth.p = (worth.as_good + 1.0) / (worth.draws + 1.0);
     }
     worth.least_deg = *std::min_element(errors.begin(), errors.end());
-    worth.median_deg = middle(errors);
+    worth.median_deg = upper_median(std::move(errors));
     return worth;
 }
 

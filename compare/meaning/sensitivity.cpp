@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "compare/meaning/level_curve.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 
@@ -179,10 +180,7 @@ std::optional<double> FacetErrorScale::averaged(
     }
     if (answers.empty()) return std::nullopt;
     // The weights depend on the answer: from the median on, a few rounds settle it.
-    std::vector<double> sorted = answers;
-    std::nth_element(sorted.begin(),
-                     sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2), sorted.end());
-    double answer = sorted[sorted.size() / 2];
+    double answer = upper_median(answers);
     for (int round = 0; round < 8; ++round) {
         double sum = 0, weights = 0;
         for (std::size_t i = 0; i < answers.size(); ++i) {

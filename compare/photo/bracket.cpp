@@ -14,6 +14,7 @@
 #include "compare/pixels.h"
 #include "render/colour.h"
 #include "stone/errors.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 
@@ -145,9 +146,7 @@ double measured_ratio(const BracketShot& a, const BracketShot& b) {
         }
     }
     if (ratios.size() < 100) return 1;
-    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-    std::nth_element(ratios.begin(), middle, ratios.end());
-    return *middle / (a.exposure / b.exposure);
+    return upper_median(std::move(ratios)) / (a.exposure / b.exposure);
 }
 
 void check_shots(const std::vector<BracketShot>& shots) {

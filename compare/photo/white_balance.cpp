@@ -14,6 +14,7 @@
 #include "render/colour.h"
 #include "render/colour_difference.h"
 #include "stone/errors.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 
@@ -52,12 +53,6 @@ bool over(const Photo& photo, std::size_t i) {
                                              photo.rgb[3 * i + 2]}) >= 0.98 * photo.saturation;
 }
 
-double median(std::vector<float> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
-
 }  // namespace
 
 GreyCard measure_grey(const Photo& photo, const PixelRectangle& card) {
@@ -91,7 +86,7 @@ GreyCard measure_grey(const Photo& photo, const PixelRectangle& card) {
                         100 * grey.over_exposed));
     }
     std::array<double, 3> middle{};
-    for (std::size_t c = 0; c < 3; ++c) middle[c] = median(std::move(values[c]));
+    for (std::size_t c = 0; c < 3; ++c) middle[c] = upper_median(std::move(values[c]));
     if (!(middle[0] > 0 && middle[1] > 0 && middle[2] > 0))
         throw InputError("the grey card is black: expose it brighter, or check the rectangle");
     for (std::size_t c = 0; c < 3; ++c) grey.gain[c] = middle[1] / middle[c];
@@ -138,7 +133,8 @@ std::optional<ChartBalance> find_colour_chart(const Photo& photo) {
             for (std::size_t c = 0; c < 3; ++c) values[c].push_back(photo.rgb[3 * i + c]);
         }
         if (values[0].size() < 9) return std::nullopt;
-        measured.push_back({median(values[0]), median(values[1]), median(values[2])});
+        measured.push_back(
+            {upper_median(values[0]), upper_median(values[1]), upper_median(values[2])});
     }
     ChartBalance result;
     // The middle greys: white may clip, black is mostly haze. Also the common exposure.

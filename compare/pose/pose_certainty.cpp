@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "stone/units.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 
@@ -20,10 +21,7 @@ constexpr double k_surely = 4.4;
 
 /// The median; of nothing 0.
 double middle_of(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    return values.empty() ? 0 : upper_median(std::move(values));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "compare/pose/changed_view.h"
+#include "stone/upper_median.h"
 
 namespace culet {
 
@@ -159,11 +160,9 @@ public:
         const double found = 1 - variance_left / (expected_ * expected_);
         if (found > 0.15) sizes_.push_back(std::abs(value) / std::sqrt(found));
     }
-    double sigma() {
+    double sigma() const {
         if (sizes_.size() < 5) return expected_;
-        const auto middle = sizes_.begin() + static_cast<std::ptrdiff_t>(sizes_.size() / 2);
-        std::nth_element(sizes_.begin(), middle, sizes_.end());
-        const double found = *middle / 0.6745;
+        const double found = upper_median(sizes_) / 0.6745;
         const double count = static_cast<double>(sizes_.size());
         return std::sqrt((count * found * found + k_belief * expected_ * expected_) /
                          (count + k_belief));

@@ -7,7 +7,8 @@
 namespace culet {
 
 /// Of an even count the upper one of the two in the middle. There must be some.
-inline double upper_median(std::vector<double> values) {
+template <class Number>
+Number upper_median(std::vector<Number> values) {
     const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
