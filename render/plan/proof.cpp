@@ -21,8 +21,9 @@ constexpr double k_hopeless = 0.97;
 // Noise that is more than this share of the difference hides what the picture is off by; finding it
 // out may cost so many times as much as usual, because drawing anew would not help.
 constexpr double k_noisy = 0.5, k_noisy_price = 4;
-// Of the noise's square, what the next grid takes away.
-constexpr double k_gone_by_rays = 0.6;
+// What the mean of N rays is off by falls about as N^-0.6; and of what a bound may be, what it
+// should be by that to be sought.
+constexpr double k_noise_power = 0.6, k_likely_room = 0.95;
 // What the truth's paths are cut at, as a share of the tolerance. Trees that branch gamble: the
 // quickest way to little noise is to follow few branches where few rays do.
 constexpr double k_cut_share = 0.01;
@@ -253,30 +254,57 @@ Proof Prover::look(const Picture& picture, std::size_t wanted) {
     return proof;
 }
 
+// The cheapest way to look that is likely to end it, were the picture as good as what was found
+// lets it be: more pixels narrow the standard error, more rays lessen the noise.
+std::optional<Prover::Look> Prover::next_look(const Proof& proof, double room) const {
+    const double error = std::max(0.0, proof.error() - proof.spread);
+    std::optional<Look> best;
+    const double rays_before = samples();
+    double rays = rays_before;
+    for (std::size_t levels = levels_.size();; ++levels) {
+        const double noise = proof.noise * std::pow(rays_before / rays, k_noise_power),
+                     difference = std::hypot(error, noise);
+        for (std::size_t pixels = static_cast<std::size_t>(proof.pixels);;) {
+            const double spread = proof.spread * (difference / proof.difference) *
+                                  std::sqrt(proof.pixels / static_cast<double>(pixels));
+            if (difference + k_standard_errors * spread <= k_likely_room * room) {
+                double drawn = 0;
+                for (std::size_t l = 0; l < levels; ++l) {
+                    const bool there = l < levels_.size();
+                    const double have = there ? static_cast<double>(levels_[l].rgb.size()) : 0;
+                    drawn += std::max(0.0, static_cast<double>(pixels) - have) *
+                             (there ? levels_[l].samples : grid(l));
+                }
+                // What is there already was not enough.
+                if (drawn > 0 || pixels != static_cast<std::size_t>(proof.pixels)) {
+                    if (!best || drawn < best->rays) best = Look{pixels, levels, drawn};
+                    break;
+                }
+            }
+            if (pixels >= chosen_.pixels.at.size()) break;
+            pixels = std::min(2 * pixels, chosen_.pixels.at.size());
+        }
+        if (levels == k_sides.size()) break;
+        rays += grid(levels);
+    }
+    return best;
+}
+
 Proof Prover::prove(const Picture& picture, double room, double most_ns) {
     choose(picture);
-    std::size_t wanted = k_first_pixels;
-    Proof proof = look(picture, wanted);
+    Proof proof = look(picture, k_first_pixels);
     for (int more = 1; more < k_looks && proof.bound > room; ++more) {
-        const double error = proof.error();
         // As long as the noise is what is seen, the picture cannot be blamed.
         const bool noisy = proof.noise > k_noisy * proof.difference;
-        if (!noisy && error - proof.spread > k_hopeless * room) break;
-        // Twice the pixels, or more rays: whatever lowers the bound by more.
-        const double by_pixels = (1 - std::sqrt(0.5)) * k_standard_errors * proof.spread,
-                     by_rays =
-                         proof.difference -
-                         std::sqrt(std::max(0.0, std::pow(proof.difference, 2) -
-                                                     k_gone_by_rays * proof.noise * proof.noise));
-        if (2 * pixel_ns() * static_cast<double>(wanted) > (noisy ? k_noisy_price : 1) * most_ns)
-            break;
-        if (by_rays > by_pixels && levels_.size() < k_sides.size()) {
-            take_more();
-        } else if (wanted < chosen_.pixels.at.size()) {
-            wanted *= 2;
-        } else {
-            break;
-        }
+        if (!noisy && proof.error() - proof.spread > k_hopeless * room) break;
+        const std::optional<Look> next = next_look(proof, room);
+        if (!next) break;
+        const double ray_ns = rays_drawn_ > 0 ? price_ns(work_) / rays_drawn_ : 0;
+        if (next->rays * ray_ns > (noisy ? k_noisy_price : 1) * most_ns) break;
+        // On the way there it may be found out to be hopeless.
+        const std::size_t wanted =
+            std::min(next->pixels, 4 * static_cast<std::size_t>(proof.pixels));
+        while (levels_.size() < next->levels) take_more();
         proof = look(picture, wanted);
     }
     return proof;

@@ -12,6 +12,7 @@
 // these would be too low in 1 picture of 150.
 
 #include <cstdint>
+#include <optional>
 
 #include "render/path.h"
 #include "render/picture.h"
@@ -75,6 +76,12 @@ private:
     void draw_up_to(std::size_t count);
     Rgb truth(std::size_t pixel) const;
     Proof look(const Picture& picture, std::size_t wanted);
+    // How many pixels and grids, and how many rays that draws.
+    struct Look {
+        std::size_t pixels = 0, levels = 0;
+        double rays = 0;
+    };
+    std::optional<Look> next_look(const Proof& proof, double room) const;
 
     Scene scene_;
     StonePixels some_;
