@@ -24,25 +24,45 @@ RenderResult drawn(const Scene& scene, const Progress& progress) {
                                           : render_with_reference(scene, progress);
 }
 
+// What was left out unseen, the picture has shown to be near enough.
+void bound_by_picture(RenderResult& result) {
+    for (PlanItem& line : result.stats.plan->items) {
+        const bool alone = line.name != name_of(Effects::coherence);
+        if (alone && (line.why == k_as_one || line.why == k_by_its_size))
+            line.bound = result.stats.error_bound;
+    }
+}
+
 RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
     require_renderable(scene);
     ProvenDrawing drawing(scene, progress);
     std::optional<Prover> prover;
     double seconds_before = 0;
+    const auto proven_at_a_glance = [&](Planner& planner) -> std::optional<RenderResult> {
+        const std::optional<ScenePlan> plan = planner.at_a_glance();
+        if (!plan) return std::nullopt;
+        ProvenPicture picture = drawing.draw(*plan, *planner.prover(), ProvenDrawing::Way::once);
+        if (!picture.proven) {
+            seconds_before += seconds_of(picture.result.stats) - plan->seconds_planning;
+            return std::nullopt;
+        }
+        bound_by_picture(picture.result);
+        picture.result.stats.seconds_setup += seconds_before;
+        return std::move(picture.result);
+    };
     if (tried_as_one_wave(scene)) {
         Planner planner(scene, progress, true);
+        if (std::optional<RenderResult> quick = proven_at_a_glance(planner)) return *quick;
         const ScenePlan plan = planner.run();
         prover = planner.take_prover();
         if (prover && plan.pilot_pixels > 0) {
             ProvenPicture one = drawing.draw(plan, *prover, ProvenDrawing::Way::as_one);
             if (one.proven) {
-                for (PlanItem& line : one.result.stats.plan->items) {
-                    const bool alone = line.name != name_of(Effects::coherence);
-                    if (line.why == k_as_one && alone) line.bound = one.result.stats.error_bound;
-                }
+                bound_by_picture(one.result);
+                one.result.stats.seconds_setup += seconds_before;
                 return std::move(one.result);
             }
-            seconds_before = seconds_of(one.result.stats);
+            seconds_before += seconds_of(one.result.stats);
         }
     }
     RenderResult result;
@@ -50,6 +70,9 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
     for (const Planner::Leave leave : {Planner::Leave::likely, Planner::Leave::surely}) {
         Planner planner(scene, progress, false, leave);
         planner.give_prover(std::move(prover));
+        if (leave == Planner::Leave::likely) {
+            if (std::optional<RenderResult> quick = proven_at_a_glance(planner)) return *quick;
+        }
         const ScenePlan plan = planner.run();
         prover = planner.take_prover();
         if (!prover || plan.pilot_pixels == 0) {

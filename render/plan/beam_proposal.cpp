@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "render/plan/planner.h"
 #include "render/plan/price.h"
@@ -16,11 +17,24 @@ namespace {
 // (a stone: median 0.3) the faces met over the root of the stone's pixels, beams of tolerance 0.1
 // by a fourth of that, and of others in proportion to the root of it.
 constexpr double k_preview_borders = 0.35, k_beam_borders = 0.25, k_coarse = 0.1;
+// Of a crystal's parted beams: 0.15 to 0.2 times the root of the tolerance in pictures of 1500
+// pixels of a round brilliant in a light with sharp edges, and less in larger ones.
+constexpr double k_parted_borders = 0.2, k_parted_pixels = 1500;
 constexpr std::array k_tolerances{0.1, 0.03, 0.01, 0.003, 0.001, 0.0003, 0.0001, 0.00003};
 // A preview's share of the price of the coarsest beams.
 constexpr double k_preview_price = 0.45;
-// Pictures say how wrong a guess was, but a single one is no law.
-constexpr double k_least_guess = 0.2, k_most_guess = 8;
+// Errors are guesses: one that is so many times as large is as good.
+constexpr double k_as_good = 1.25;
+// How far guesses are off, as logarithms: of the causes in their order; and what the causes
+// together explain no better, because pixels and causes do not add up so simply.
+constexpr std::array k_doubt{0.7, 0.7, 1.1, 0.7, 0.7};
+constexpr double k_doubt_of_error = 0.2;
+// A choice that is as likely near enough as not is taken, or one that is nearly as likely as any.
+constexpr double k_even_chance = 0.5, k_as_likely = 0.8;
+// Of the likeliest explanation, how likely one must be to count.
+constexpr double k_negligible = 0.02;
+// Factors that are weighed.
+constexpr std::array k_factors{0.18, 0.35, 0.6, 1.0, 1.6, 2.8, 5.0, 12.0};
 
 }  // namespace
 
@@ -31,9 +45,35 @@ void ProposedBeams::apply_to(RenderSettings& settings) const {
     if (wavelengths.count > 0) settings.wavelengths_nm = even_wavelengths(wavelengths.count);
 }
 
+bool ProposedBeams::no_finer_than(const ProposedBeams& other) const {
+    return cut.weight >= other.cut.weight && wavelengths.count <= other.wavelengths.count &&
+           (preview || (!other.preview && tolerance >= other.tolerance));
+}
+
 double BeamProposal::borders_of(bool preview, double tolerance) const {
+    if (parted && !preview)
+        return k_parted_borders * std::sqrt(tolerance * k_parted_pixels / std::max(pixels, 1.0));
     const double coarsest = k_preview_borders * events_per_ray / std::sqrt(std::max(pixels, 1.0));
-    return guess_ * coarsest * (preview ? 1 : k_beam_borders * std::sqrt(tolerance / k_coarse));
+    return coarsest * (preview ? 1 : k_beam_borders * std::sqrt(tolerance / k_coarse));
+}
+
+BeamProposal::Parts BeamProposal::parts_of(const ProposedBeams& beams, double left_out) {
+    Parts parts{};
+    parts[of_cut] = beams.cut.error;
+    parts[of_wavelengths] = beams.wavelengths.error;
+    parts[beams.preview ? of_previews : of_beams] = beams.borders;
+    parts[of_effects] = left_out;
+    for (double& part : parts) part *= part;
+    return parts;
+}
+
+double BeamProposal::error_of(const ProposedBeams& beams) const {
+    const Parts parts = parts_of(beams, effects);
+    return std::sqrt(std::inner_product(parts.begin(), parts.end(), squares_.begin(), 0.0));
+}
+
+double BeamProposal::likely_of_effects() const {
+    return std::sqrt(squares_[of_effects]) * effects;
 }
 
 double BeamProposal::price_of(const ProposedBeams& beams) const {
@@ -47,6 +87,7 @@ double BeamProposal::price_of(const ProposedBeams& beams) const {
     work.tolerance = beams.preview ? k_coarse : beams.tolerance;
     work.cut = beams.cut.weight;
     work.polarised = polarised;
+    work.parted = parted;
     return (beams.preview ? k_preview_price : 1) * price_ns(work);
 }
 
@@ -54,8 +95,7 @@ std::vector<ProposedBeams> BeamProposal::all() const {
     std::vector<ProposedBeams> found;
     const auto add = [&](ProposedBeams beams) {
         beams.borders = borders_of(beams.preview, beams.tolerance);
-        beams.error = std::hypot(guess_ * std::hypot(beams.cut.error, beams.wavelengths.error),
-                                 std::hypot(beams.borders, effects));
+        beams.error = error_of(beams);
         beams.price_ns = price_of(beams);
         found.push_back(beams);
     };
@@ -80,57 +120,141 @@ std::vector<ProposedBeams> BeamProposal::all() const {
     return found;
 }
 
-ProposedBeams BeamProposal::cheapest(double room, double over_ns, double most_ns) const {
-    ProposedBeams best, nearest;
-    for (const ProposedBeams& beams : all()) {
-        if (!(beams.price_ns > over_ns && beams.price_ns <= most_ns)) continue;
-        if (nearest.price_ns == 0 || beams.error < nearest.error) nearest = beams;
-        if (beams.error <= room && (best.price_ns == 0 || beams.price_ns < best.price_ns))
-            best = beams;
-    }
-    return best.price_ns > 0 ? best : nearest;
-}
-
-ProposedBeams BeamProposal::finer_in_all(const ProposedBeams& drawn) const {
-    const std::vector<ProposedBeams> choices = all();
-    double finest_cut = drawn.cut.weight, finest_borders = drawn.borders;
-    int most_wavelengths = drawn.wavelengths.count;
-    for (const ProposedBeams& beams : choices) {
-        finest_cut = std::min(finest_cut, beams.cut.weight);
-        finest_borders = std::min(finest_borders, beams.borders);
-        most_wavelengths = std::max(most_wavelengths, beams.wavelengths.count);
-    }
-    const double borders = borders_of(drawn.preview, drawn.tolerance);
+ProposedBeams BeamProposal::cheapest(double room, double most_ns) const {
+    std::vector<ProposedBeams> choices = all();
+    std::erase_if(choices, [&](const ProposedBeams& beams) {
+        return beams.price_ns > most_ns ||
+               std::any_of(seen_.begin(), seen_.end(),
+                           [&](const Seen& seen) { return beams.no_finer_than(seen.beams); });
+    });
+    if (choices.empty()) return {};
+    if (!beliefs_.empty()) return likeliest(std::move(choices), room);
+    const double least =
+        std::min_element(choices.begin(), choices.end(), [](const auto& a, const auto& b) {
+            return a.error < b.error;
+        })->error;
+    const double allowed = std::max(room, k_as_good * least);
     ProposedBeams best;
     for (const ProposedBeams& beams : choices) {
-        const bool finer =
-            (beams.cut.weight < drawn.cut.weight || beams.cut.weight == finest_cut) &&
-            (beams.borders < borders || beams.borders == finest_borders) &&
-            (beams.wavelengths.count > drawn.wavelengths.count ||
-             beams.wavelengths.count == most_wavelengths);
-        if (finer && beams.price_ns > drawn.price_ns &&
-            (best.price_ns == 0 || beams.price_ns < best.price_ns))
+        if (beams.error <= allowed && (best.price_ns == 0 || beams.price_ns < best.price_ns))
             best = beams;
     }
     return best;
 }
 
-ProposedBeams BeamProposal::as_fine_as(const ProposedBeams& drawn) const {
-    for (const ProposedBeams& beams : all()) {
-        if (beams.preview == drawn.preview && beams.tolerance == drawn.tolerance &&
-            beams.cut.weight == drawn.cut.weight &&
-            beams.wavelengths.count == drawn.wavelengths.count)
-            return beams;
+// What cannot be mended by any choice is not to be blamed: of that, only chances tell.
+ProposedBeams BeamProposal::likeliest(std::vector<ProposedBeams> choices, double room) const {
+    std::sort(choices.begin(), choices.end(),
+              [](const auto& a, const auto& b) { return a.price_ns < b.price_ns; });
+    std::vector<double> chances;
+    for (const ProposedBeams& beams : choices) {
+        const Parts parts = parts_of(beams, effects);
+        double chance = 0;
+        for (const Belief& belief : beliefs_) {
+            const double square =
+                std::inner_product(parts.begin(), parts.end(), belief.squares.begin(), 0.0);
+            if (square <= room * room) chance += belief.weight;
+        }
+        if (chance >= k_even_chance) return beams;
+        chances.push_back(chance);
     }
-    return {};
+    const double most = *std::max_element(chances.begin(), chances.end());
+    if (!(most > 0)) {
+        return *std::min_element(choices.begin(), choices.end(),
+                                 [](const auto& a, const auto& b) { return a.error < b.error; });
+    }
+    const auto first = std::find_if(chances.begin(), chances.end(),
+                                    [most](double chance) { return chance >= k_as_likely * most; });
+    return choices[static_cast<std::size_t>(first - chances.begin())];
 }
 
 void BeamProposal::learn(const ProposedBeams& drawn, double error) {
-    const double guessed =
-        std::hypot(guess_ * std::hypot(drawn.cut.error, drawn.wavelengths.error), drawn.borders);
-    if (!(guessed > 0)) return;
-    const double left = std::sqrt(std::max(0.0, error * error - effects * effects));
-    guess_ *= std::clamp(left / guessed, k_least_guess, k_most_guess);
+    seen_.push_back({drawn, effects, std::max(error, 1e-12)});
+    weigh_causes();
+}
+
+void BeamProposal::learn_from(const BeamProposal& other) {
+    const std::vector<ProposedBeams> choices = all();
+    for (const Seen& seen : other.seen_) {
+        const ProposedBeams& theirs = seen.beams;
+        const auto same =
+            std::find_if(choices.begin(), choices.end(), [&](const ProposedBeams& beams) {
+                return beams.preview == theirs.preview && beams.tolerance == theirs.tolerance &&
+                       beams.cut.weight == theirs.cut.weight &&
+                       beams.wavelengths.count == theirs.wavelengths.count;
+            });
+        if (same == choices.end()) continue;
+        seen_.push_back({*same, seen.effects, seen.error});
+    }
+    weigh_causes();
+}
+
+void BeamProposal::weigh_causes() {
+    std::vector<Parts> parts;
+    std::vector<double> logs;
+    for (const Seen& seen : seen_) {
+        parts.push_back(parts_of(seen.beams, seen.effects));
+        logs.push_back(2 * std::log(seen.error));
+    }
+    // Every combination of factors of those causes that any picture had, by how likely it is and
+    // how well it explains what was seen (Bayes).
+    std::vector<std::size_t> causes;
+    std::size_t combinations = 1;
+    for (std::size_t c = 0; c < k_causes; ++c) {
+        if (std::none_of(parts.begin(), parts.end(), [c](const Parts& of) { return of[c] > 0; }))
+            continue;
+        causes.push_back(c);
+        combinations *= k_factors.size();
+    }
+    const auto squares_at = [&](std::size_t number) {
+        Parts squares;
+        squares.fill(1);
+        for (const std::size_t cause : causes) {
+            const double factor = k_factors[number % k_factors.size()];
+            squares[cause] = factor * factor;
+            number /= k_factors.size();
+        }
+        return squares;
+    };
+    std::array<std::array<double, k_factors.size()>, k_causes> unlikely_by_itself{};
+    for (std::size_t c = 0; c < k_causes; ++c) {
+        for (std::size_t i = 0; i < k_factors.size(); ++i)
+            unlikely_by_itself[c][i] = std::pow(std::log(k_factors[i]) / k_doubt[c], 2) / 2;
+    }
+    std::vector<double> unlikely(combinations);
+    for (std::size_t number = 0; number < combinations; ++number) {
+        const Parts squares = squares_at(number);
+        double sum = 0;
+        std::size_t left = number;
+        for (const std::size_t cause : causes) {
+            sum += unlikely_by_itself[cause][left % k_factors.size()];
+            left /= k_factors.size();
+        }
+        for (std::size_t s = 0; s < parts.size(); ++s) {
+            const double expected =
+                std::inner_product(parts[s].begin(), parts[s].end(), squares.begin(), 0.0);
+            const double off = (logs[s] - std::log(expected)) / (2 * k_doubt_of_error);
+            sum += off * off / 2;
+        }
+        unlikely[number] = sum;
+    }
+    const double least = *std::min_element(unlikely.begin(), unlikely.end());
+    beliefs_.clear();
+    double all = 0;
+    for (std::size_t number = 0; number < combinations; ++number) {
+        const double weight = std::exp(least - unlikely[number]);
+        if (weight < k_negligible) continue;
+        Belief belief;
+        belief.squares = squares_at(number);
+        belief.weight = weight;
+        beliefs_.push_back(belief);
+        all += weight;
+    }
+    squares_.fill(0);
+    for (Belief& belief : beliefs_) {
+        belief.weight /= all;
+        for (std::size_t c = 0; c < k_causes; ++c) squares_[c] += belief.weight * belief.squares[c];
+    }
 }
 
 }  // namespace culet

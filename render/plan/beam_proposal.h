@@ -1,16 +1,21 @@
 #pragma once
-// The cheapest beams that are likely near enough, where light has one way through the stone.
+// The cheapest beams that are likely near enough.
 //
 // What they are off by has four causes: light that is cut, so few wavelengths, effects left out,
 // and borders and colours of regions. Causes of their own add up as squares do. The first three a
 // pilot has seen; of the last there is a model, measured on 15 scenes at three sizes, which is
-// right within a factor of three or so. A picture that was held against the truth says more.
+// right within a factor of three or so. Pictures that were held against the truth say more.
 
+#include <array>
 #include <vector>
 
 #include "render/scene.h"
 
 namespace culet {
+
+/// Of what is left of the tolerance, what beams may be off by; and where the two waves of a crystal
+/// go as one for a try.
+constexpr double k_share_of_beams = 0.65, k_share_as_one = 0.4;
 
 /// What a choice is likely off by (errors as in scene_plan.h), and its bound.
 struct CutChoice {
@@ -27,11 +32,13 @@ struct ProposedBeams {
     double tolerance = 0;  ///< of the borders (RenderSettings::tolerance)
     CutChoice cut;
     WavelengthChoice wavelengths;
-    double borders = 0;   ///< what they are likely off by
-    double error = 0;     ///< with all causes
+    double borders = 0;   ///< what they are off by, as the model has it
+    double error = 0;     ///< with all causes, as pictures have shown
     double price_ns = 0;  ///< price.h
 
     void apply_to(RenderSettings& settings) const;
+    /// As coarse as `other` in all, or coarser.
+    bool no_finer_than(const ProposedBeams& other) const;
 };
 
 class BeamProposal {
@@ -44,26 +51,48 @@ public:
     int bands = 1;           ///< trees, where the scene says the wavelengths
     bool dispersed = false;  ///< each wavelength has a tree
     bool polarised = true;
+    bool parted = false;  ///< a crystal's two waves, each its own way
     bool previews = true, borders_are_open = true;
 
-    /// The cheapest that is likely off by `room` at most, of those that cost more than `over_ns`
-    /// and at most `most_ns`; if none is, of these the one that is likely off least. A price of 0:
-    /// there is none.
-    ProposedBeams cheapest(double room, double over_ns = 0, double most_ns = 1e300) const;
-    /// The cheapest of those that are finer in all that can still be made finer: what is to blame
-    /// is not known.
-    ProposedBeams finer_in_all(const ProposedBeams& drawn) const;
-    /// The same choices, where they are among these; else a price of 0.
-    ProposedBeams as_fine_as(const ProposedBeams& drawn) const;
-    /// These were off by so much at least: what was guessed is put right.
+    /// The cheapest that is likely off by `room` at most, of those that cost at most `most_ns` and
+    /// are not as coarse as one that was not near enough; if none is, of these the cheapest that is
+    /// about as likely near enough as any. A price of 0: there is none.
+    ProposedBeams cheapest(double room, double most_ns = 1e300) const;
+
+    /// These were off by so much, which was too much. What each cause was guessed to bring is put
+    /// right by a factor: of log-normal factors and all such pictures its mean square (Bayes). So
+    /// all is suspected that may have brought it, what brought most the most, and what was made
+    /// finer in vain no longer.
     void learn(const ProposedBeams& drawn, double error);
+    /// What another proposal has learned of the same scene, where its choices are among these.
+    void learn_from(const BeamProposal& other);
+    /// What effects that are left out are likely off by, as pictures have shown.
+    double likely_of_effects() const;
 
 private:
+    enum Cause { of_cut, of_wavelengths, of_previews, of_beams, of_effects, k_causes };
+    struct Seen {
+        ProposedBeams beams;
+        double effects = 0, error = 0;
+    };
+    using Parts = std::array<double, k_causes>;  // squares
     std::vector<ProposedBeams> all() const;
     double borders_of(bool preview, double tolerance) const;
     double price_of(const ProposedBeams& beams) const;
+    static Parts parts_of(const ProposedBeams& beams, double left_out);
+    double error_of(const ProposedBeams& beams) const;
+    void weigh_causes();
 
-    double guess_ = 1;  // of all but effects, as pictures have shown
+    ProposedBeams likeliest(std::vector<ProposedBeams> choices, double room) const;
+
+    // Squares of the causes' factors, and how likely they are.
+    struct Belief {
+        Parts squares{};
+        double weight = 0;
+    };
+    std::vector<Seen> seen_;
+    std::vector<Belief> beliefs_;   // once something was seen
+    Parts squares_{1, 1, 1, 1, 1};  // their means
 };
 
 }  // namespace culet

@@ -20,8 +20,6 @@ constexpr int k_least_plain_pixels = 96;
 constexpr int k_proof_pixels = 64;
 // Of the picture's price that a plan may cost, and what it may cost in any case.
 constexpr double k_planning_share = 0.04, k_planning_ns = 1.5e6;
-// The weights that are tried for what may be let go.
-constexpr double k_coarsest_cut = 0.3, k_cut_step = 3;
 constexpr int k_more_cuts = 3;
 // Trees that branch: far below the noise of a pixel's few rays, and half as dear as following
 // paths of a tenth of these weights. Pictures that are held against each other should differ by
@@ -66,16 +64,27 @@ bool tried_as_one_wave(const Scene& scene) {
            !plan.stokes && scene.stone.convex;
 }
 
-ScenePlan Planner::run(bool everything) {
+void Planner::look() {
+    if (looked_) return;
+    looked_ = true;
     const auto start = std::chrono::steady_clock::now();
     say_what_is_known();
     plan_.tolerance = tolerance_;
     if (tolerance_ > 0) pixels_ = stone_pixels(scene_, k_least_plain_pixels + k_proof_pixels);
+    if (!pixels_.at.empty()) {
+        choose_pixels();
+        drop_what_changes_nothing();
+    }
+    seconds_looking_ =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+ScenePlan Planner::run(bool everything) {
+    look();
+    const auto start = std::chrono::steady_clock::now();
     if (pixels_.at.empty()) {
         settle_without_pilot();
     } else {
-        choose_pixels();
-        drop_what_changes_nothing();
         choose_cut();
         choose_effects();
         if (branches_ && scene_.stone.convex && !on(Effects::birefringence)) {
@@ -91,12 +100,7 @@ ScenePlan Planner::run(bool everything) {
         bound_depth();
         estimate_times();
     }
-    for (int e = 0; e < k_effect_count; ++e)
-        plan_.settings.effects[static_cast<std::size_t>(e)] =
-            plan_.items[static_cast<std::size_t>(e)].on;
-    plan_.reference.effects = plan_.settings.effects;
-    add_resolutions();
-    plan_.bound_of_wavelengths = wavelength_bound_;
+    finish();
     plan_.bound = spent_ + plan_.bound_of_depth;
     if (everything) measure_what_the_scene_forbids();
     for (const PlanItem& line : plan_.items) {
@@ -104,8 +108,17 @@ ScenePlan Planner::run(bool everything) {
         if (line.name != name_of(Effects::coherence)) plan_.bound_delta_e += line.bound_delta_e;
     }
     plan_.seconds_planning =
+        seconds_looking_ +
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return std::move(plan_);
+}
+
+void Planner::finish() {
+    for (int e = 0; e < k_effect_count; ++e)
+        plan_.settings.effects[static_cast<std::size_t>(e)] =
+            plan_.items[static_cast<std::size_t>(e)].on;
+    plan_.reference.effects = plan_.settings.effects;
+    add_resolutions();
 }
 
 Scene Planner::with_effects(bool dispersion, std::optional<Effects> without) const {
@@ -184,11 +197,10 @@ void Planner::choose_pixels() {
     StonePixels all = std::move(pixels_);
     const int least = branches_ ? k_least_pixels : k_least_plain_pixels;
     pixels_ = all.stretch(0, static_cast<std::size_t>(least));
-    const Scene scene = at_pilot_wavelengths(with_effects(false));
+    const Scene scene = at_glance_wavelengths(with_effects(false));
     const double mean_guess = std::max(tolerance_ * 0.1, 1e-4);
-    const PilotDrawing glance =
-        draw_pilot(scene, pixels_, limits(mean_guess), 1, k_node_counts[1], progress_);
-    const PathWork work = work_of(scene, glance, 1);
+    glance_ = draw_pilot(scene, pixels_, limits(mean_guess), 1, k_node_counts[1], progress_);
+    const PathWork work = glance_work_ = work_of(scene, glance_, 1);
     const bool spectral = on(Effects::dispersion) && user_.wavelengths_nm.empty();
     const double bands = spectral ? 4 : 1;
     BeamWork beams;
@@ -200,15 +212,18 @@ void Planner::choose_pixels() {
     const double by_paths = pixels_.in_picture * 16 * bands * price_ns(work);
     const double picture = std::min(by_paths, price_ns(beams));
     // Rays of one pilot pixel: of the cuts and effects, of the wavelengths.
-    const double rays = k_pilot_rays * (6 + (spectral ? 12 : 1));
-    const double affordable = std::max(k_planning_share * picture, k_planning_ns) /
-                              (rays * std::max(price_ns(work), 1.0));
+    const double spectra =
+        0.5 * (k_spectral_rays + k_other_spectral_rays) * finest_of_pilot(tolerance_);
+    const double rays = 6 * k_pilot_rays + (spectral ? spectra : k_pilot_rays);
+    const double pixel_ns = rays * std::max(price_ns(work), 1.0);
+    const double affordable = std::max(k_planning_share * picture, k_planning_ns) / pixel_ns;
     const int wanted =
         static_cast<int>(std::clamp(affordable, double(least), double(k_most_pixels)));
     if (wanted > least) {
         all = stone_pixels(scene_, wanted + k_proof_pixels);
         pixels_ = all.stretch(0, static_cast<std::size_t>(wanted));
     }
+    pilot_ns_ = pixel_ns * static_cast<double>(pixels_.at.size());
     // A stone of few pixels is proven at all of them.
     std::size_t first = pixels_.at.size();
     if (all.at.size() < first + k_proof_pixels) first = 0;
@@ -257,7 +272,7 @@ void Planner::bound_depth() {
 // The largest weight that may be let go.
 void Planner::choose_cut() {
     const Scene scene = at_pilot_wavelengths(with_effects(false));
-    double cut = std::min(k_coarsest_cut, 9 * tolerance_);
+    double cut = coarsest_cut();
     if (branches_) {
         // Nothing is cut: small paths gamble, and that makes noise and no bias.
         cut_ = 0;

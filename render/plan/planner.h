@@ -2,6 +2,7 @@
 // How a plan is made: what is known beforehand, then pilots of the scene with this or that left
 // out.
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <string>
@@ -27,9 +28,12 @@ constexpr double k_share_of_cheap = 0.05;
 constexpr int k_pilot_rays = 4, k_spectral_rays = 4, k_other_spectral_rays = 5, k_lens_rays = 16;
 constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* k_as_one = "the two waves go as one";
+constexpr const char* k_by_its_size = "it bends colours apart by little";
 constexpr const char* k_same_light = "the light is the same from everywhere: nothing changes";
 
 std::vector<double> even_wavelengths(int count);
+/// Wavelengths that a pilot holds fewer against.
+int finest_of_pilot(double tolerance);
 /// Turns that the rays of a pixel take with so many wavelengths: four at a time bring nearly as
 /// much as all of them, and each at least twice.
 int turns_for(int rays, int wavelengths);
@@ -54,13 +58,17 @@ public:
             Leave leave = Leave::likely);
     /// `everything`: what the scene switches off is measured too.
     ScenePlan run(bool everything = false);
+    /// Before `run`: beams that are likely near enough as far as one ray in each of a few pixels
+    /// and what such choices usually cost tell, where they are about as cheap as looking closer. No
+    /// effect was weighed, and no bound is known but the finished picture's.
+    std::optional<ScenePlan> at_a_glance();
 
     /// Holds pictures against the truth; none where there was no pilot. After `run`.
     std::optional<Prover> take_prover() { return std::move(prover_); }
-    /// Before `run`: of the same scene, whose drawings count.
+    /// The same, kept. After `at_a_glance`.
+    Prover* prover() { return prover_ ? &*prover_ : nullptr; }
+    /// Before all else: of the same scene, whose drawings count.
     void give_prover(std::optional<Prover> prover) { prover_ = std::move(prover); }
-    /// The next finer set of wavelengths.
-    static int next_wavelength_count(int count);
 
 private:
     PlanItem& item(Effects effect) { return plan_.items[static_cast<std::size_t>(effect)]; }
@@ -69,6 +77,8 @@ private:
     // The scene with the effects that are on, less one.
     Scene with_effects(bool dispersion, std::optional<Effects> without = {}) const;
     Scene at_pilot_wavelengths(Scene scene) const;
+    /// A whole spectrum, where one is called for: a single way through the stone carries it.
+    Scene at_glance_wavelengths(Scene scene) const;
     PilotDrawing draw(const Scene& scene, int samples) const;
     /// Twice, independently, at half the pixels: many wavelengths are dear.
     TwoDrawings draw_spectra(const Scene& scene) const;
@@ -76,14 +86,23 @@ private:
     /// `share` of the tolerance at most.
     bool may_go(double bound, double likely, double share) const;
     void leave_out(double bound, double likely);
+    /// The largest weight that is tried for what may be let go; the others fall by `k_cut_step`.
+    double coarsest_cut() const { return std::min(0.3, 9 * tolerance_); }
+    static constexpr double k_cut_step = 3;
     PathLimits limits(double cut) const;
     PathLimits limits_of_picture() const;
     // Of one eye ray.
     PathWork work_of(const Scene& scene, const PilotDrawing& drawing, int samples) const;
 
+    void look();
+    void finish();
     void say_what_is_known();
     void settle_without_pilot();
     void choose_pixels();
+    bool proposes_at_a_glance();
+    ScenePlan plan_of_glance();
+    std::vector<WavelengthChoice> usual_wavelengths() const;
+    BeamProposal usual_beams(const Scene& scene) const;
     void choose_cut();
     void choose_effects();
     void try_without(Effects effect, double share);
@@ -101,7 +120,6 @@ private:
     /// The reference's settings, and its price.
     double choose_reference(double room);
     double choose_beams();
-    double choose_beams_of_two_waves(double room);
     int choose_pupil(double room);
     void measure_noise();
     void bound_depth();
@@ -115,6 +133,11 @@ private:
     bool one_wave_;
     Leave leave_;
     ScenePlan plan_;
+    bool looked_ = false, at_a_glance_ = false;
+    double seconds_looking_ = 0;
+    PilotDrawing glance_;  // one ray a pixel, without dispersion
+    PathWork glance_work_;
+    double pilot_ns_ = 0;           // about what looking closer will cost
     StonePixels pixels_;            // of the pilots
     std::optional<Prover> prover_;  // of others
     bool branches_ = false;         // trees of light paths double

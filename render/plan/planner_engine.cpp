@@ -12,14 +12,8 @@ namespace culet {
 namespace {
 
 constexpr int k_most_side = 40;  // of the grid of rays in a pixel
-// Beams whose borders and cuts are those of a tolerance t were off by 0.15 to 0.2 t^0.5 in pictures
-// of 1500 pixels of a round brilliant in a light with sharp edges, and by less in larger ones: a
-// proposal, and the finished picture is held against the reference.
-constexpr double k_beam_error = 0.2, k_beam_error_pixels = 1500, k_least_beam_tolerance = 5e-4;
-// Of what is left of the tolerance, what beams may be off by.
-constexpr double k_share_of_beams = 0.65, k_share_of_noise = 0.8;
-// Where the two waves of a crystal go as one for a try, that is the most of it.
-constexpr double k_share_as_one = 0.4;
+// Of what is left of the tolerance, what the noise of few rays may be.
+constexpr double k_share_of_noise = 0.8;
 // Beams that are so many times as cheap as 16 rays are taken without a look at the reference.
 constexpr double k_far_cheaper = 2;
 // What the truth's few rays may be off by, as a share of what pictures may: enough for the proof to
@@ -30,12 +24,11 @@ constexpr double k_share_of_truth = 0.7;
 constexpr double k_rare_light = 50, k_rare_noise = 0.04, k_most_noise = 0.5;
 // CIEDE2000 of noise of the mean radiance: about, in pictures of many colours.
 constexpr double k_delta_e_of_noise = 40;
-// Of the beams' error, what one of its causes brings at least to be made less.
-constexpr double k_blame = 0.4;
-// Crystals' beams that were cut at 0.009 left 0.047 of the light, and others in proportion to the
-// cut to the power of 0.6; what is cut may be this share of the tolerance, and the proof will tell.
-constexpr double k_crystal_cut = 0.009, k_crystal_remainder = 0.047, k_crystal_power = 1 / 0.6,
-                 k_share_of_crystal_cut = 0.5;
+// Crystals' beams are cut, and not gambled on: at 0.009 that left 0.047 of the light, and others in
+// proportion to the cut to the power of 0.6.
+constexpr double k_crystal_cut = 0.009, k_crystal_remainder = 0.047, k_crystal_power = 0.6,
+                 k_crystal_step = 2;
+constexpr int k_crystal_cuts = 12;
 
 // With which the rays of a pixel take turns.
 int nodes_for(int rays) {
@@ -66,33 +59,6 @@ int Planner::samples_for(double room) const {
         if (noise_.at(side * side) <= room && !Prover::takes_grid(side)) return side * side;
     }
     return k_most_side * k_most_side;
-}
-
-FinerBeams finer_beams(const RenderSettings& settings, const BeamErrors& errors, double share,
-                       bool wavelengths_are_open) {
-    FinerBeams finer{settings, 1};
-    const double borders =
-        std::sqrt(std::max(0.0, errors.all * errors.all - errors.cut * errors.cut -
-                                    errors.wavelengths * errors.wavelengths));
-    const double blamed =
-        std::min(k_blame * errors.all, std::max({borders, errors.cut, errors.wavelengths}));
-    share = std::clamp(share, 0.25, 0.7);
-    if (borders >= blamed) {
-        finer.settings.tolerance = std::max(share * share * settings.tolerance, 1e-5);
-        finer.price /= share;
-    }
-    if (errors.cut >= blamed && settings.cut_weight) {
-        // What is cut falls more slowly than the weight at which it is.
-        finer.settings.cut_weight = std::pow(share, k_crystal_power) * *settings.cut_weight;
-        finer.price /= std::pow(share, 1.4);
-    }
-    const int count = static_cast<int>(settings.wavelengths_nm.size());
-    if (errors.wavelengths >= blamed && wavelengths_are_open && count >= 3) {
-        const int more = Planner::next_wavelength_count(count);
-        finer.settings.wavelengths_nm = even_wavelengths(more);
-        finer.price *= static_cast<double>(more) / count;
-    }
-    return finer;
 }
 
 RenderSettings with_rays(const RenderSettings& settings, int rays, bool wavelengths_are_open) {
@@ -133,32 +99,6 @@ double Planner::choose_reference(double room) {
     return pixels_.in_picture * reference.samples * bands_of_ray * price_ns(work_);
 }
 
-// To the settings, whatever the engine will be; the price.
-double Planner::choose_beams_of_two_waves(double room) {
-    RenderSettings& settings = plan_.settings;
-    const double allowed = k_share_of_beams * room / k_beam_error,
-                 size = std::max(pixels_.in_picture, 1.0) / k_beam_error_pixels;
-    settings.tolerance = std::clamp(allowed * allowed * size,
-                                    std::min(k_least_beam_tolerance, tolerance_), tolerance_);
-    Scene tried = with_effects(on(Effects::dispersion));
-    tried.settings.wavelengths_nm = settings.wavelengths_nm;
-    const Plan plan = make_plan(tried);
-    // Beams are cut, and not gambled on.
-    settings.cut_weight =
-        k_crystal_cut *
-        std::pow(k_share_of_crystal_cut * tolerance_ / k_crystal_remainder, k_crystal_power);
-    BeamWork beams;
-    beams.pixels = pixels_.in_picture;
-    beams.tolerance = *settings.cut_weight;
-    beams.bands = static_cast<double>(plan.bands.size());
-    beams.nodes = plan.bands.front().count;
-    beams.polarised = work_.polarised;
-    beams.events_per_ray = work_.events;
-    beams.parted = plan.splits && settings.crystal_beams != CrystalBeams::merged;
-    beams.views = choose_pupil(room);
-    return price_ns(beams);
-}
-
 // Points of the pupil that beams take; 1 without one.
 int Planner::choose_pupil(double room) {
     RenderSettings& settings = plan_.settings;
@@ -172,6 +112,15 @@ double Planner::choose_beams() {
     tried.settings.wavelengths_nm = plan_.settings.wavelengths_nm;
     BeamProposal proposal;
     proposal.cuts = cuts_;
+    if (branches_) {
+        double weight = 3 * k_crystal_cut;
+        for (int i = 0; i < k_crystal_cuts; ++i, weight /= k_crystal_step) {
+            const double off =
+                k_crystal_remainder * std::pow(weight / k_crystal_cut, k_crystal_power);
+            proposal.cuts.push_back({weight, off, off, 0});
+        }
+        proposal.parted = plan_.settings.crystal_beams != CrystalBeams::merged;
+    }
     proposal.sets = sets_;
     proposal.effects = left_out_;
     proposal.pixels = pixels_.in_picture;
@@ -180,7 +129,7 @@ double Planner::choose_beams() {
     proposal.bands = static_cast<int>(make_plan(tried).bands.size());
     proposal.dispersed = dispersed_;
     proposal.polarised = work_.polarised;
-    proposal.previews = user_.engine != "beams";
+    proposal.previews = user_.engine != "beams" && !branches_;
     proposal.borders_are_open = user_.engine != "preview";
     plan_.proposed =
         proposal.cheapest((one_wave_ ? k_share_as_one : k_share_of_beams) * tolerance_);
@@ -222,11 +171,7 @@ void Planner::choose_engine_and_samples() {
     if (on(Effects::aperture)) measure_noise();
     double by_paths = choose_reference(room), by_beams = 0;
     const RenderSettings of_neither = settings;
-    if (refused.empty()) {
-        by_beams = branches_
-                       ? choose_beams_of_two_waves(left_of(dispersed_ ? wavelength_bound_ : 0))
-                       : choose_beams();
-    }
+    if (refused.empty()) by_beams = choose_beams();
     const bool noise_matters = branches_ || on(Effects::aperture) || !refused.empty() ||
                                user_.engine == "reference" || k_far_cheaper * by_beams > by_paths;
     if (noise_matters) {
@@ -305,7 +250,7 @@ void Planner::estimate_times() {
 void Planner::add_resolutions() {
     const RenderSettings& settings = plan_.settings;
     const bool beams = drawn_by_beams(settings), preview = settings.engine == "preview",
-               piloted = !pixels_.at.empty();
+               piloted = !pixels_.at.empty() && !at_a_glance_;
     const auto add = [&](const char* name, bool is_on, std::string fidelity, std::string why,
                          double bound, double delta_e) {
         PlanItem line;
@@ -332,7 +277,7 @@ void Planner::add_resolutions() {
     if (user_.depth > 0) {
         depth = fmt::format("{} faces", user_.depth);
         why = "as the scene says";
-    } else if (branches_) {
+    } else if (branches_ && !beams) {
         depth = "no limit: small paths are left to chance";
         why = "trees of a crystal's waves have no end";
     } else {

@@ -15,10 +15,12 @@ constexpr double k_first_nm = 410, k_last_nm = 690;
 const std::vector<int> k_counts{3, 5, 8, 15, 29, 57}, k_coherent_counts{29, 57};
 // What the sets are held against: finer where less is allowed.
 constexpr std::size_t k_coarse_level = 3, k_fine_level = 4;
-constexpr double k_coarse_tolerance = 0.05;
+constexpr double k_coarse_tolerance = 0.02;
 // What lies beyond the finer of two sets, as a share of their difference.
 // Errors fall to less than a half from one set to the next: of a set two steps below, a sixth.
 constexpr double k_beyond = 0.5, k_beyond_two = 0.17;
+// Of the tolerance, what paths are cut at where a crystal's waves go as one in a pilot.
+constexpr double k_one_way_cut = 0.1;
 // Of three standard errors, what makes an error likely.
 constexpr double k_likely = 0.5;
 
@@ -62,7 +64,47 @@ std::vector<Rgb> colours_of(const PilotDrawing& drawing, const std::vector<doubl
     return rgb;
 }
 
+// Where dispersion is on, the error for so few wavelengths: their directions differ by what colours
+// leave apart over the number of steps. At three it was a fifth to a half of that in daylight and
+// up to 0.8 in a light box, whose lights are small (diamond, spinel, cubic zirconia, glasses, YAG).
+constexpr double k_colours_apart = 0.4, k_colours_power = 0.9;
+
 }  // namespace
+
+Scene Planner::at_glance_wavelengths(Scene scene) const {
+    if (user_.wavelengths_nm.empty() && !branches_ && chose_spectrum(scene, make_plan(scene))) {
+        scene.settings.wavelengths_nm = even_wavelengths(k_counts[k_fine_level]);
+        return scene;
+    }
+    return at_pilot_wavelengths(std::move(scene));
+}
+
+// What the light's and the stone's colours are off by at so few wavelengths, the glance shows; of
+// dispersion what it usually brings.
+std::vector<WavelengthChoice> Planner::usual_wavelengths() const {
+    const bool spectral = glance_.wavelengths_nm.size() > 3,
+               exact = coloured(scene_.lights) && !on(Effects::absorption);
+    const IndexSpans spans = index_spans(scene_);
+    const double apart = on(Effects::dispersion)
+                             ? k_colours_apart * exit_deviation(spans.dispersion, spans.mean)
+                             : 0;
+    std::vector<WavelengthChoice> sets;
+    for (std::size_t i = 0; i <= k_fine_level; ++i) {
+        const int count = k_counts[i];
+        // Lights in colours bring these exactly at any wavelengths from three on.
+        const double flat =
+            spectral && !exact
+                ? colour_error(colours_of(glance_, even_wavelengths(count)), glance_.rgb).radiance
+                : 0;
+        sets.push_back(
+            {count, std::hypot(flat, apart * std::pow(3.0 / count, k_colours_power)), 0, 0});
+    }
+    return sets;
+}
+
+int finest_of_pilot(double tolerance) {
+    return k_counts[tolerance >= k_coarse_tolerance ? k_coarse_level : k_fine_level];
+}
 
 std::vector<double> even_wavelengths(int count) {
     // Three in the middle of the eye's responses rather than at the ends of the spectrum.
@@ -79,9 +121,13 @@ int turns_for(int rays, int wavelengths) {
 
 TwoDrawings Planner::draw_spectra(const Scene& scene) const {
     const StonePixels half = pixels_.stretch(0, (pixels_.at.size() + 1) / 2);
+    PathLimits how = limits(cut_);
+    // A single way is cut and not gambled on.
+    if (branches_ && scene.stone.convex && !make_plan(scene).splits)
+        how.cut_weight = k_one_way_cut * tolerance_;
     // Squares lie on a grid, others do not: patterns of their own.
     const auto draw = [&](int rays) {
-        return draw_pilot(scene, half, limits(cut_), rays, k_node_counts[1], progress_);
+        return draw_pilot(scene, half, how, rays, k_node_counts[1], progress_);
     };
     return {draw(k_spectral_rays), draw(k_other_spectral_rays)};
 }
@@ -94,12 +140,20 @@ void Planner::choose_wavelengths() {
     const std::vector<int>& counts = on(Effects::coherence) ? k_coherent_counts : k_counts;
     const std::size_t level = std::min(
         tolerance_ >= k_coarse_tolerance ? k_coarse_level : k_fine_level, counts.size() - 1);
+    // How colours spread, one wave shows as well as two, whose trees are far dearer.
+    const auto as_one = [&](Scene scene) {
+        if (!on(Effects::birefringence) || on(Effects::coherence) || !scene.stone.convex)
+            return scene;
+        for (Effects effect : {Effects::birefringence, Effects::pleochroism})
+            scene.settings.effects[static_cast<std::size_t>(effect)] = false;
+        return scene;
+    };
     const auto finest = [&](Scene scene) {
         if (open) scene.settings.wavelengths_nm = even_wavelengths(counts[level]);
         return scene;
     };
-    Scene flat = with_effects(false);
-    const Scene whole = finest(with_effects(on(Effects::dispersion)));
+    Scene flat = as_one(with_effects(false));
+    const Scene whole = finest(as_one(with_effects(on(Effects::dispersion))));
     const Plan flat_plan = make_plan(flat);
     const bool flat_spectrum = open && chose_spectrum(flat, flat_plan);
     const std::size_t bands = make_plan(whole).bands.size();
@@ -136,7 +190,7 @@ void Planner::choose_wavelengths() {
         plan_.settings.wavelengths_nm = flat_plan.wavelengths_nm;
         return;
     }
-    const Scene all = finest(with_effects(false));
+    const Scene all = finest(as_one(with_effects(false)));
     settle_wavelengths(all, counts, level, draw_spectra(all));
 }
 
@@ -183,11 +237,6 @@ void Planner::take(const WavelengthChoice& set) {
     plan_.settings.wavelengths_nm = even_wavelengths(set.count);
     wavelength_bound_ = set.bound;
     wavelength_delta_e_ = set.bound_delta_e;
-}
-
-int Planner::next_wavelength_count(int count) {
-    const auto next = std::upper_bound(k_counts.begin(), k_counts.end(), count);
-    return next == k_counts.end() ? k_counts.back() : *next;
 }
 
 }  // namespace culet

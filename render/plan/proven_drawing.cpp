@@ -20,12 +20,15 @@ constexpr int k_most_drawings = 5, k_most_as_one = 2;
 // inverse of what is left of the error.
 constexpr double k_aim = 0.7, k_bound_aim = 0.9, k_least_aim = 0.3;
 // Beams are drawn anew at so many times the price at most: what a few pixels say may be chance.
-constexpr double k_steepest = 4;
+constexpr double k_steepest = 4, k_least_steep_ns = 2e7;
 constexpr int k_more_grids = 2;
 constexpr double k_suspect = 0.25;  // of the difference: noise that may be all of it
-// Finer beams that are off by this share still are to blame for something else: effects that were
-// left out, else all that the pilot saw.
+// What is off by this share still is no better than what was drawn before.
 constexpr double k_no_better = 0.8;
+// Of a difference that may be all noise, what the picture is taken to be off by.
+constexpr double k_hidden = 0.5;
+// Of the tolerance, what effects that were left out may likely be off by before they come back.
+constexpr double k_misjudged = 0.7;
 // The last drawing is the reference's, which is off by nothing but its few rays, unless it would
 // take so many times as long.
 constexpr double k_last_by_beams = 4;
@@ -85,30 +88,17 @@ std::optional<ProvenDrawing::Next> ProvenDrawing::finer_beams_than(ScenePlan& pl
     const double tolerance = scene_.settings.tolerance;
     const std::string note =
         fmt::format("beams came to within {:.2g} only: drawn with finer ones", proof.bound);
-    if (plan.beams) {
-        plan.beams->learn(plan.proposed, proof.error() - proof.spread);
-        // Where the bound is far above the error it stays so.
-        const double room =
-            tolerance * std::clamp(k_bound_aim * proof.error() / proof.bound, k_least_aim, k_aim);
-        const ProposedBeams finer =
-            tried.no_better ? plan.beams->finer_in_all(plan.proposed)
-                            : plan.beams->cheapest(room, tried.price, k_steepest * tried.price);
-        if (!(finer.price_ns > 0)) return std::nullopt;
-        plan.proposed = finer;
-        Next next{tried.settings, finer.price_ns, note};
-        finer.apply_to(next.settings);
-        return next;
-    }
-    if (tried.settings.engine != "beams") return std::nullopt;
-    const double off = proof.error() + 2 * proof.spread;
-    const FinerBeams finer = finer_beams(
-        tried.settings, {proof.error(), tried.stats.remainder, 0.5 * plan.bound_of_wavelengths},
-        k_aim * tolerance / off, scene_.settings.wavelengths_nm.empty());
-    // Half as many wavelengths are off by twice as much, or more.
-    const double count = static_cast<double>(tried.settings.wavelengths_nm.size()),
-                 more = static_cast<double>(finer.settings.wavelengths_nm.size());
-    if (more > 0) plan.bound_of_wavelengths *= count / more;
-    return Next{finer.settings, tried.price * finer.price, note};
+    if (!plan.beams) return std::nullopt;
+    // Where the bound is far above the error it stays so.
+    const double room =
+        tolerance * std::clamp(k_bound_aim * proof.error() / proof.bound, k_least_aim, k_aim);
+    const ProposedBeams finer =
+        plan.beams->cheapest(room, std::max(k_steepest * tried.price, k_least_steep_ns));
+    if (!(finer.price_ns > 0)) return std::nullopt;
+    plan.proposed = finer;
+    Next next{tried.settings, finer.price_ns, note};
+    finer.apply_to(next.settings);
+    return next;
 }
 
 std::optional<ProvenDrawing::Next> ProvenDrawing::next(ScenePlan& plan, const Tried& tried, Way way,
@@ -139,48 +129,51 @@ std::optional<ProvenDrawing::Next> ProvenDrawing::next(ScenePlan& plan, const Tr
 }
 
 ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
-    const int most = way == Way::any ? k_most_drawings : k_most_as_one;
+    const int most = way == Way::any ? k_most_drawings : way == Way::as_one ? k_most_as_one : 1;
     const double tolerance = scene_.settings.tolerance;
     RenderSettings settings = plan.settings;
     double price = plan.price_ns, seconds_before = 0, error_before = 0;
     std::optional<RenderResult> best;
     std::vector<std::string> notes;
     ProvenPicture done;
-    if (misjudged_ && plan.beams) {
-        // The same with all effects: that tells what is to blame.
-        const ProposedBeams same = plan.beams->as_fine_as(misjudged_->beams);
-        if (same.price_ns > 0) {
-            plan.proposed = same;
+    if (learned_ && plan.beams) {
+        plan.beams->learn_from(*learned_);
+        const ProposedBeams other = plan.beams->cheapest(
+            (way == Way::as_one ? k_share_as_one : k_share_of_beams) * tolerance);
+        if (other.price_ns > 0) {
+            plan.proposed = other;
             plan.proposed.apply_to(settings);
-            price = same.price_ns;
+            price = other.price_ns;
         }
-        error_before = misjudged_->error;
     }
     for (int drawing = 1;; ++drawing) {
         RenderResult result = draw_with(settings);
         RenderStats& stats = result.stats;
         const auto start = std::chrono::steady_clock::now();
-        const double share = way == Way::any ? k_proof_share : k_proof_share_as_one;
+        const double share = way == Way::as_one ? k_proof_share_as_one : k_proof_share;
         const double most_ns = std::max(k_least_proof_ns, share * price);
-        const auto no_better_than_before = [&](const Proof& found) {
-            return plan.beams && error_before > 0 && found.bound > tolerance &&
-                   found.error() > k_no_better * error_before;
-        };
         Proof proof = prover.prove(result.picture, tolerance, most_ns);
-        if (no_better_than_before(proof) && proof.noise > k_suspect * proof.difference) {
-            // First the truth is suspected, whose rays may be noisier than they look.
-            for (int more = 0; more < k_more_grids; ++more) prover.take_more();
+        for (int more = 0; more < k_more_grids; ++more) {
+            // No better than the one before: first the truth is suspected, whose rays may be
+            // noisier than they look.
+            if (proof.bound <= tolerance || !(proof.error() > k_no_better * error_before) ||
+                error_before == 0 || proof.noise < k_suspect * proof.difference)
+                break;
+            prover.take_more();
             proof = prover.prove(result.picture, tolerance, most_ns);
         }
-        const bool no_better = no_better_than_before(proof);
         done.proven = proof.bound <= tolerance;
-        done.misjudged = no_better && plan.beams->effects > 0;
+        if (plan.beams && drawn_by_beams(settings) && !done.proven) {
+            // Noise that is all that is seen hides what the picture is off by.
+            plan.beams->learn(plan.proposed, std::max(proof.error(), k_hidden * proof.difference));
+            done.misjudged = plan.beams->likely_of_effects() > k_misjudged * tolerance;
+            learned_ = plan.beams;
+        }
         std::optional<Next> other;
         const double error = proof.error();
         error_before = error;
         if (!done.proven && !done.misjudged && drawing < most)
-            other =
-                next(plan, {settings, price, stats, proof, no_better}, way, drawing + 1 == most);
+            other = next(plan, {settings, price, stats, proof}, way, drawing + 1 == most);
         add_plan(plan, stats);
         add_proof(proof, plan, stats);
         stats.seconds_check =
@@ -197,7 +190,6 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
         price = other->price;
         notes.push_back(other->note);
     }
-    if (done.misjudged) misjudged_ = {plan.proposed, error_before};
     done.result = std::move(*best);
     for (const std::string& note : notes) done.result.stats.notes.push_back(note);
     done.result.stats.plan = std::move(plan);

@@ -22,9 +22,10 @@ public:
     ProvenDrawing(const Scene& scene, const Progress& progress)
         : scene_(scene), drawn_(scene), progress_(progress) {}
 
-    /// `as_one`: a crystal's two waves go as one, and no finer drawing brings the second back.
-    enum class Way { any, as_one };
-    /// The nearest of at most four pictures. Throws Interrupted.
+    /// `once`: a single picture. `as_one`: a crystal's two waves go as one, and no finer drawing
+    /// brings the second back.
+    enum class Way { any, as_one, once };
+    /// The nearest of at most five pictures. Throws Interrupted.
     ProvenPicture draw(ScenePlan plan, Prover& prover, Way way);
 
 private:
@@ -39,7 +40,6 @@ private:
         double price;
         const RenderStats& stats;
         const Proof& proof;
-        bool no_better;  // than the one before
     };
     RenderResult draw_with(const RenderSettings& settings);
     std::optional<Next> next(ScenePlan& plan, const Tried& tried, Way way, bool last) const;
@@ -50,11 +50,7 @@ private:
     Scene drawn_;
     const Progress& progress_;
     std::optional<FrameRenderer> frames_;
-    struct Misjudged {
-        ProposedBeams beams;
-        double error = 0;
-    };
-    std::optional<Misjudged> misjudged_;  // not near enough, for what was left out
+    std::optional<BeamProposal> learned_;  // from pictures that were not near enough
 };
 
 void add_plan(const ScenePlan& plan, RenderStats& stats);

@@ -48,13 +48,12 @@ struct ScenePlan {
     /// Of all together, but for samples, beams, and what the scene settles itself: effects that it
     /// switches off, and whether the two waves of a crystal interfere.
     double bound = 0, bound_delta_e = 0;
-    double bound_of_sampling = 0;     ///< the reference's: of few rays in a pixel
-    double bound_of_wavelengths = 0;  ///< in `bound`: of so few of them
-    double bound_of_depth = 0;        ///< in `bound`: of the depth that the scene names
-    double seconds = 0;               ///< estimated processor time of the picture
-    double seconds_everything = 0;    ///< the same with everything on, by the reference
-    double seconds_planning = 0;      ///< that this plan took
-    RenderSettings reference;         ///< what the reference would need, where beams do not hold
+    double bound_of_sampling = 0;   ///< the reference's: of few rays in a pixel
+    double bound_of_depth = 0;      ///< in `bound`: of the depth that the scene names
+    double seconds = 0;             ///< estimated processor time of the picture
+    double seconds_everything = 0;  ///< the same with everything on, by the reference
+    double seconds_planning = 0;    ///< that this plan took
+    RenderSettings reference;       ///< what the reference would need, where beams do not hold
     double price_ns = 0, reference_ns = 0;  ///< of the picture, and by that (plan/price.h)
     std::optional<BeamProposal> beams;      ///< what else beams could do, where they are proposed
     ProposedBeams proposed;                 ///< of these
@@ -70,18 +69,6 @@ ScenePlan plan_scene(const Scene& scene, const Progress& progress = {});
 /// is measured too, and is part of the bound.
 ScenePlan plan_to_explain(const Scene& scene, const Progress& progress = {});
 
-/// What beams are off by, and about how much of it for what they cut and for their wavelengths; the
-/// rest is for where their borders are.
-struct BeamErrors {
-    double all = 0, cut = 0, wavelengths = 0;
-};
-/// Beams to be off by that share of it, and how many times as long they take.
-struct FinerBeams {
-    RenderSettings settings;
-    double price = 1;
-};
-FinerBeams finer_beams(const RenderSettings& settings, const BeamErrors& errors, double share,
-                       bool wavelengths_are_open);
 /// Of the reference, with so many rays a pixel.
 RenderSettings with_rays(const RenderSettings& settings, int rays, bool wavelengths_are_open);
 
