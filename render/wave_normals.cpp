@@ -215,6 +215,11 @@ private:
 
 constexpr int k_most_steps = 60;
 
+// Eigenvalues of the companion matrix are off by the m-th root of rounding where m roots are one:
+// a ten-thousandth of its scale at most, of four. Newton's method has no slope there, and may leave
+// for anywhere: what ends farther off is not that root.
+constexpr double k_reach = 1e-3;
+
 // Waves whose N are this share of the birefringence apart run beside an optic axis.
 constexpr double k_beside_axis = 1e-2;
 
@@ -332,7 +337,7 @@ private:
             if (starts[i].imag() == 0) {
                 const double q0 = starts[i].real(), w0 = q0 * q0 - equation_.Q2();
                 const auto root = equation_.polished<double>(w0, q0, 20);
-                const bool good = std::isfinite(root.q) && std::isfinite(root.w);
+                const bool good = std::abs(root.q - q0) <= k_reach * scale && std::isfinite(root.w);
                 const double q = good ? root.q : q0;
                 wave.w = good ? root.w : w0;
                 const bool slow = std::abs(wave.w - equation_.held(q, true)) <=
@@ -342,7 +347,7 @@ private:
             } else {
                 const Complex q0 = starts[i], w0 = q0 * q0 - equation_.Q2();
                 const auto root = equation_.polished<Complex>(w0, q0, 20);
-                const bool good = std::isfinite(std::abs(root.q)) &&
+                const bool good = std::abs(root.q - q0) <= k_reach * scale &&
                                   std::isfinite(std::abs(root.w)) && root.q.imag() != 0;
                 const Complex q = good ? root.q : q0, w = good ? root.w : w0;
                 evanescent(wave.mode, q, w);
