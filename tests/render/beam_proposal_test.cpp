@@ -125,6 +125,23 @@ TEST(BeamProposal, blames_effects_where_nothing_else_helps) {
 }
 
 // Another plan of the same scene takes over what pictures have shown.
+// A crystal all but without a difference of indices, its picture drawn finer than anything can tell:
+// no cause is expected of any error, and none found is blamed on one.
+TEST(BeamProposal, stays_finite_where_nothing_is_expected) {
+    BeamProposal proposal;
+    proposal.cuts.push_back({0.01, 0, 0, 0});
+    proposal.sets.push_back({1, 0, 0, 0});
+    proposal.pixels = 1000;
+    proposal.events_per_ray = 0;
+    const ProposedBeams drawn = proposal.cheapest(0.01);
+    for (const double error : {0.0, 1e-15, 0.02}) {
+        proposal.learn(drawn, error);
+        const ProposedBeams next = proposal.cheapest(0.01);
+        EXPECT_TRUE(std::isfinite(next.error)) << error;
+        EXPECT_TRUE(std::isfinite(next.price_ns)) << error;
+    }
+}
+
 TEST(BeamProposal, learns_from_another) {
     BeamProposal glance = random_proposal(9), plan = random_proposal(9);
     const ProposedBeams drawn = glance.cheapest(0.08);
