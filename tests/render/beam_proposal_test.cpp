@@ -125,8 +125,8 @@ TEST(BeamProposal, blames_effects_where_nothing_else_helps) {
 }
 
 // Another plan of the same scene takes over what pictures have shown.
-// A crystal all but without a difference of indices, its picture drawn finer than anything can tell:
-// no cause is expected of any error, and none found is blamed on one.
+// A crystal all but without a difference of indices, its picture drawn finer than anything can
+// tell: no cause is expected of any error, and none found is blamed on one.
 TEST(BeamProposal, stays_finite_where_nothing_is_expected) {
     BeamProposal proposal;
     proposal.cuts.push_back({0.01, 0, 0, 0});
