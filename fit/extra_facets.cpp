@@ -16,6 +16,8 @@ namespace {
 
 using Index = Eigen::Index;
 
+// Directions whose sum is shorter face away from each other: no direction lies between them.
+constexpr double k_opposite = 1e-6;
 // Rounds of looking for one more explanation.
 constexpr int k_most_rounds = 16;
 constexpr double k_checked = 1e-4;
@@ -306,11 +308,15 @@ Candidate candidate_at(const Shape& shape, std::vector<int> facets) {
     Candidate candidate;
     Vec3 sum(0);
     for (const int f : facets) sum += shape.normals[std::size_t(f)];
-    if (!(glm::length(sum) > 1e-6)) return candidate;
+    if (!(glm::length(sum) > k_opposite)) return candidate;
     const Vec3 mean = glm::normalize(sum);
     candidate.directions.push_back(mean);
     for (const int f : facets) {
-        candidate.directions.push_back(glm::normalize(mean + shape.normals[std::size_t(f)]));
+        // Of planes that are no stone's one may face the other way.
+        const Vec3 between = mean + shape.normals[std::size_t(f)];
+        if (glm::length(between) > k_opposite) {
+            candidate.directions.push_back(glm::normalize(between));
+        }
     }
     candidate.facets = std::move(facets);
     return candidate;
