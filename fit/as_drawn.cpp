@@ -17,8 +17,6 @@ constexpr double k_mesh_sigma = 0.1;
 constexpr double k_known_to = 0.02;
 // It only has to say where the search ends.
 constexpr int k_starts = 2;
-// Two ends of one stone differ by less in chi-square: a third of a sigma in one reading.
-constexpr double k_same = 0.1;
 
 double open_turns(const System& system, const Shape& shape, const std::vector<Reading>& drawn) {
     double sum = 0;
@@ -58,29 +56,28 @@ std::vector<Reading> as_drawn(const System& system, const std::vector<Undetermin
 
 }  // namespace
 
-Candidate end_as_drawn(const System& system, const Candidate& end,
-                       const std::vector<Undetermined>& open, FitOptions options,
-                       const Progress& progress) {
+std::optional<Candidate> end_as_drawn(const System& system, const Candidate& end,
+                                      const std::vector<Undetermined>& open, FitOptions options,
+                                      const Progress& progress) {
     const std::vector<Reading> drawn = as_drawn(system, open);
-    if (!end.sound || drawn.empty()) return end;
+    if (!end.sound || drawn.empty()) return std::nullopt;
     std::vector<Reading> readings = system.readings();
     readings.insert(readings.end(), drawn.begin(), drawn.end());
     options.starts = std::min(options.starts, k_starts);
     const System with_mesh(system.stone(), readings, options);
     const Portfolio portfolio = fit_from_starts(with_mesh, options, progress);
     const Candidate& asked = portfolio.best;
-    if (!asked.sound || !(asked.finished.worst_hard < k_hard_limit)) return end;
+    if (!asked.holds()) return std::nullopt;
     const double turned = open_turns(system, end.finished.shape, drawn);
     const auto is_better = [&](const Candidate& found) {
-        return found.sound && found.finished.worst_hard < k_hard_limit &&
-               found.finished.chi2 < end.finished.chi2 + k_same &&
+        return found.holds() && found.finished.chi2 < end.finished.chi2 + k_same_chi2 &&
                open_turns(system, found.finished.shape, drawn) < turned;
     };
     // Where the readings hold nothing of it, it is an end as it stands.
     const Shape& shape = asked.finished.shape;
     Candidate found = finish_from(system, shape, 0);
     if (!is_better(found)) found = finish_from(system, shape, options.iterations);
-    if (!is_better(found)) return end;
+    if (!is_better(found)) return std::nullopt;
     // As near to the least chi-square as that end is.
     found.finished.converged = end.finished.converged;
     found.finished.iterations += end.finished.iterations;

@@ -161,8 +161,7 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
     if (const auto shape = options.start ? shape_of(system, *options.start) : std::nullopt) {
         again = refit_from(system, *shape, options.iterations);
     }
-    const bool goes_on = again && again->sound && again->finished.converged &&
-                         again->finished.worst_hard < k_hard_limit;
+    const bool goes_on = again && again->is_an_end();
     Portfolio portfolio;
     if (goes_on) {
         portfolio.best = std::move(*again);
@@ -216,8 +215,10 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
     // Not where the search was dear: then it is of no stone, or of a large one.
     if (!diagnosis.undetermined.empty() && portfolio.work < k_dear) {
         const Progress part = [&](double) { return !progress || progress(0.95); };
-        best = end_as_drawn(system, best, diagnosis.undetermined, options, part);
-        diagnosis = diagnose_best();
+        if (auto other = end_as_drawn(system, best, diagnosis.undetermined, options, part)) {
+            best = std::move(*other);
+            diagnosis = diagnose_best();
+        }
     }
     const System::Pose pose = system.pose_of(finished.shape);
     result.iterations = finished.iterations;

@@ -13,9 +13,6 @@ namespace culet {
 
 namespace {
 
-// Two starts whose chi-squares differ by less have ended in the same stone: a third of a sigma in
-// one reading.
-constexpr double k_same = 0.1;
 // What holding edges at no length may cost in chi-square before another start is asked.
 constexpr double k_cheap = 1;
 // Starts in a row that gave nothing better; good: the best agrees, or the mesh was drawn with care.
@@ -141,8 +138,7 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
         candidate.finished.iterations += graded.steps;
         without_stone += candidate.is_no_stone;
         work += graded.work + candidate.finished.work;
-        const bool good = candidate.sound && candidate.finished.converged &&
-                          candidate.finished.worst_hard < k_hard_limit;
+        const bool good = candidate.is_an_end();
         candidate.agrees = good && agrees(system, candidate, free, counted, options.significance);
         const double chi2 = candidate.finished.chi2;
         // An optimum that agrees but poorly, or that lies where an edge has no length, may be a
@@ -155,12 +151,12 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
         // way.
         const bool again = good && (candidate.agrees || starts.mesh_is_good()) &&
                            std::any_of(ends.begin(), ends.end(), [&](double other) {
-                               return std::abs(other - chi2) < k_same;
+                               return std::abs(other - chi2) < k_same_chi2;
                            });
         if (good) ends.push_back(chi2);
         ++fruitless;
         // What the readings leave open is as the earlier start had it: the mesh before others.
-        if (result.starts++ == 0 || rank(candidate, k_same) < rank(result.best)) {
+        if (result.starts++ == 0 || rank(candidate, k_same_chi2) < rank(result.best)) {
             result.best = std::move(candidate);
             fruitless = 0;
         }
@@ -171,7 +167,7 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
                 (result.best.agrees || starts.mesh_is_good() ? k_patience_good : k_patience);
         if (without_stone == result.starts && without_stone >= k_patience_without_stone) break;
         // Ending twice where it ended before is no accident, if nothing better was seen.
-        if (accept || tired || (again && result.best.finished.chi2 > chi2 - k_same)) break;
+        if (accept || tired || (again && result.best.finished.chi2 > chi2 - k_same_chi2)) break;
     }
     return result;
 }

@@ -20,10 +20,16 @@ struct Candidate {
     std::vector<Held> held;    ///< corners that the readings want above a neighbour facet
     double cost_of_holding = 0;
     int binding = 0;  ///< how many of them bind: each like one more exact reading
+
+    /// A stone that could be cut, and whose hard equations hold.
+    bool holds() const { return sound && finished.worst_hard < k_hard_limit; }
+    bool is_an_end() const { return holds() && finished.converged; }
 };
 
 /// Chance of so large a chi-square, from which on the readings agree well.
 inline constexpr double k_agrees_well = 0.2;
+/// Ends whose chi-squares differ by less are of one stone: a third of a sigma in one reading.
+inline constexpr double k_same_chi2 = 0.1;
 
 struct Portfolio {
     Candidate best;

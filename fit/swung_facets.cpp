@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "fit/describe.h"
-#include "fit/facet_functions.h"
 #include "fit/inference.h"
 #include "fit/settle.h"
 #include "stone/units.h"
@@ -21,8 +20,6 @@ constexpr std::size_t k_most_facets = 4;
 // Beyond the ridge of ends up to 10 sigmas apart.
 constexpr double k_swing = 5;
 constexpr double k_farthest_deg = 45;
-// Another end, not the same.
-constexpr double k_least_gain = 0.1;
 constexpr int k_most_rounds = 4;
 
 struct Swing {
@@ -36,24 +33,31 @@ std::vector<Swing> swings_at(const System& system, const Candidate& end) {
     const Inference inference(system, shape, end.finished.outline, conditions_of(shape, end.held));
     std::vector<Swing> swings;
     if (!inference.usable()) return swings;
-    const Layout layout = layout_of(shape);
-    const Vec3 middle = middle_of(shape);
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(layout.facets, layout.size());
-    for (int f = 0; f < layout.facets; ++f) {
-        const Vec3& n = shape.normals[std::size_t(f)];
-        rows.row(f) = std::hypot(n.x, n.y) *
-                      Eigen::VectorXd(facet_functions(shape, f, layout, middle)[1]).transpose();
+    std::vector<Quantity> azimuths;
+    std::vector<double> across;  // of a change of azimuth, on the sphere
+    for (std::size_t f = 0; f < shape.normals.size(); ++f) {
+        const Vec3& n = shape.normals[f];
+        if (n.x == 0 && n.y == 0) continue;
+        azimuths.push_back(azimuth_error(static_cast<int>(f), -1, 0)(shape));
+        across.push_back(std::hypot(n.x, n.y));
     }
-    const Eigen::MatrixXd with_all = inference.times_covariance(rows);
-    for (int f = 0; f < layout.facets; ++f) {
-        const double sigma = std::sqrt(std::max(0.0, rows.row(f).dot(with_all.col(f))));
+    const std::vector<double> sigmas = inference.sigmas(azimuths);
+    std::vector<std::size_t> weakest;
+    const auto sigma = [&](std::size_t k) { return across[k] * sigmas[k]; };
+    for (std::size_t k = 0; k < sigmas.size(); ++k) {
         // Unread altogether is not between two ends.
-        if (!(sigma > radians(k_weak_deg)) || !(sigma < radians(k_farthest_deg))) continue;
-        swings.push_back({sigma, with_all.col(f) / sigma});
+        if (sigma(k) > radians(k_weak_deg) && sigma(k) < radians(k_farthest_deg)) {
+            weakest.push_back(k);
+        }
     }
-    std::stable_sort(swings.begin(), swings.end(),
-                     [](const Swing& a, const Swing& b) { return a.sigma > b.sigma; });
-    if (swings.size() > k_most_facets) swings.resize(k_most_facets);
+    std::stable_sort(weakest.begin(), weakest.end(),
+                     [&](std::size_t a, std::size_t b) { return sigma(a) > sigma(b); });
+    if (weakest.size() > k_most_facets) weakest.resize(k_most_facets);
+    for (const std::size_t k : weakest) {
+        const Eigen::MatrixXd with_all =
+            inference.times_covariance(inference.rows_of({azimuths[k]}));
+        swings.push_back({sigma(k), with_all.col(0) / sigmas[k]});
+    }
     return swings;
 }
 
@@ -71,15 +75,12 @@ std::optional<Candidate> better_with_facets_swung(const System& system, const Ca
         const Eigen::VectorXd step = by * swing.step;
         const Shape swung = freedoms.symmetrised(
             moved(from.finished.shape, {step.data(), static_cast<std::size_t>(step.size())}));
-        const double goal = from.finished.chi2 - k_least_gain;
+        const double goal = from.finished.chi2 - k_same_chi2;
         const Settled settled =
             settle(relaxation, solver, swung, from.held, {.iterations = iterations, .goal = goal});
         if (!(settled.chi2 < goal) || !(settled.worst_hard < k_hard_limit)) return false;
         Candidate there = finish_candidate(system, relaxation, settled.shape, iterations);
-        if (!there.sound || !there.finished.converged || !(there.finished.chi2 < goal) ||
-            !(there.finished.worst_hard < k_hard_limit)) {
-            return false;
-        }
+        if (!there.is_an_end() || !(there.finished.chi2 < goal)) return false;
         there.start = end.start;
         there.agrees = end.agrees;
         there.finished.iterations += from.finished.iterations;
