@@ -55,6 +55,16 @@ std::string png_bytes(const cv::Mat& pixels) {
     return {bytes.begin(), bytes.end()};
 }
 
+double between_pixels(const cv::Mat& plane, double x, double y) {
+    x = std::clamp(x, 0.0, plane.cols - 1.001);
+    y = std::clamp(y, 0.0, plane.rows - 1.001);
+    const int column = static_cast<int>(x), row = static_cast<int>(y);
+    const double u = x - column, v = y - row;
+    const float *above = plane.ptr<float>(row) + column,
+                *below = plane.ptr<float>(row + 1) + column;
+    return (1 - v) * ((1 - u) * above[0] + u * above[1]) + v * ((1 - u) * below[0] + u * below[1]);
+}
+
 double quantile(const cv::Mat& plane, const cv::Mat& mask, double share) {
     std::vector<float> values;
     for (int y = 0; y < plane.rows; ++y) {

@@ -21,6 +21,10 @@ cv::Mat encoded(const cv::Mat& linear);
 /// PNG file bytes; CV_8U with 1 channel, or 3 in the order R, G, B.
 std::string png_bytes(const cv::Mat& pixels);
 
+/// Of CV_32F, between the four pixels around a place (x to the right, y down); at the border where
+/// that lies outside.
+double between_pixels(const cv::Mat& plane, double x, double y);
+
 /// Value below which `share` (0..1) of the pixels under the mask lie; 0 for an empty mask.
 double quantile(const cv::Mat& plane, const cv::Mat& mask, double share);
 

@@ -176,15 +176,6 @@ Differing differing(const cv::Mat& shown_picture) {
     return result;
 }
 
-float bilinear(const cv::Mat& plane, double x, double y) {
-    const double column = std::clamp(x, 0.0, plane.cols - 1.001);
-    const double row = std::clamp(y, 0.0, plane.rows - 1.001);
-    const int c = static_cast<int>(column), r = static_cast<int>(row);
-    const float u = static_cast<float>(column - c), v = static_cast<float>(row - r);
-    return (1 - v) * ((1 - u) * plane.at<float>(r, c) + u * plane.at<float>(r, c + 1)) +
-           v * ((1 - u) * plane.at<float>(r + 1, c) + u * plane.at<float>(r + 1, c + 1));
-}
-
 // A low threshold finds the foot of the outline's slope, not its middle. Looks along the normals
 // for the steepest place, and moves the whole outline by the median of what it finds: one offset
 // for all, so that dark facets along the girdle cannot dent it.
@@ -202,7 +193,8 @@ cv::Mat settled(const cv::Mat& mask, const Differing& found) {
             if (!(length > 0.5)) continue;
             normal *= 1 / length;
             const auto at = [&](double step) {
-                return bilinear(found.difference, x + step * normal.x, y + step * normal.y);
+                return static_cast<float>(
+                    between_pixels(found.difference, x + step * normal.x, y + step * normal.y));
             };
             float steepest = 0;
             double where = 0;

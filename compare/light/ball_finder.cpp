@@ -27,13 +27,6 @@ struct EdgePoint {
     double share = 1;  // of the strongest edge along its ray
 };
 
-float bilinear(const cv::Mat& plane, double x, double y) {
-    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-    const auto u = static_cast<float>(x - x0), v = static_cast<float>(y - y0);
-    const float *a = plane.ptr<float>(y0) + x0, *b = plane.ptr<float>(y0 + 1) + x0;
-    return (1 - v) * ((1 - u) * a[0] + u * a[1]) + v * ((1 - u) * b[0] + u * b[1]);
-}
-
 // Luminance as an eye sees steps in it: cube root above the dark, 0..1 at the 99.5 % quantile.
 cv::Mat seen_luminance(const Photo& photo) {
     cv::Mat plane = luminance(colour_of(photo));
@@ -82,7 +75,7 @@ std::vector<EdgePoint> edges_along_rays(const cv::Mat& plane, const BallCircle& 
                 inside = false;
                 break;
             }
-            profile[i] = bilinear(plane, x, y);
+            profile[i] = between_pixels(plane, x, y);
         }
         if (!inside) continue;
         double most = 0;
@@ -225,7 +218,7 @@ std::vector<EdgePoint> half_way_points(const cv::Mat& linear, const BallCircle& 
             const double r = circle.radius + i * k_step;
             const double x = circle.x + r * c, y = circle.y + r * s;
             whole = x >= 1 && y >= 1 && x <= linear.cols - 3 && y <= linear.rows - 3;
-            if (whole) light[static_cast<std::size_t>(i + k_half)] = bilinear(linear, x, y);
+            if (whole) light[static_cast<std::size_t>(i + k_half)] = between_pixels(linear, x, y);
         }
         if (!whole) continue;
         // Both sides run on to the edge as straight lines: the rim's picture is pressed flat and
