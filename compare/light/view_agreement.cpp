@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "compare/light/even_directions.h"
+#include "compare/light/weighted_pairs.h"
+#include "compare/pixels.h"
 #include "render/colour.h"
 #include "render/environment_layout.h"
 
@@ -43,12 +45,7 @@ cv::Mat stops_of(const Photo& picture, double sigma_px) {
 }
 
 double stops_at(const cv::Mat& plane, const PixelPlace& place) {
-    const double x = std::clamp(place.x, 0.0, plane.cols - 1.001);
-    const double y = std::clamp(place.y, 0.0, plane.rows - 1.001);
-    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-    const double u = x - x0, v = y - y0;
-    const float *a = plane.ptr<float>(y0) + x0, *b = plane.ptr<float>(y0 + 1) + x0;
-    return (1 - v) * ((1 - u) * a[0] + u * a[1]) + v * ((1 - u) * b[0] + u * b[1]);
+    return between_pixels(plane, place.x, place.y);
 }
 
 double correlation_of(const ViewPair& pair, const ViewParameters& p) {
@@ -57,23 +54,17 @@ double correlation_of(const ViewPair& pair, const ViewParameters& p) {
     const Photo &one = *pair.first.picture, &two = *pair.second.picture;
     const cv::Mat first = stops_of(one, 1);
     const cv::Mat second = stops_of(two, 1);
-    double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
+    WeightedPairs pairs;
     for (const Vec3& d : even_directions(16000)) {
         const double qa = pair.first.quality(d), qb = pair.second.quality(back * d);
         if (qa < 1e-2 || qb < 1e-2) continue;
         const auto in_a = a.place_of(d), in_b = b.place_of(back * d);
         if (!in_a || !in_b) continue;
-        const double w = std::sqrt(qa * qb), u = stops_at(first, *in_a),
-                     v = stops_at(second, *in_b);
-        n += w;
-        sa += w * u;
-        sb += w * v;
-        saa += w * u * u;
-        sbb += w * v * v;
-        sab += w * u * v;
+        pairs.add(std::sqrt(qa * qb), stops_at(first, *in_a), stops_at(second, *in_b));
     }
-    const double va = n * saa - sa * sa, vb = n * sbb - sb * sb;
-    return va > 0 && vb > 0 ? (n * sab - sa * sb) / std::sqrt(va * vb) : 0;
+    if (!(pairs.weight > 0)) return 0;
+    const double va = pairs.first(), vb = pairs.second();
+    return va > 0 && vb > 0 ? pairs.both() / std::sqrt(va * vb) : 0;
 }
 
 double gain_of(const ViewPair& pair, const ViewParameters& p) {

@@ -11,6 +11,7 @@
 
 #include "compare/light/even_directions.h"
 #include "compare/light/view_refinement.h"
+#include "compare/light/weighted_pairs.h"
 #include "compare/pose/stone_view.h"
 #include "render/colour.h"
 #include "render/environment_layout.h"
@@ -121,22 +122,17 @@ SmoothPoints points_of(const SmoothMap& map, int count) {
 double correlation(const SmoothPoints& first, const SmoothMap& second,
                    const glm::dmat3& first_from_second, double least_weight) {
     const glm::dmat3 second_from_first = glm::transpose(first_from_second);
-    double n = 0, sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
+    WeightedPairs pairs;
     for (std::size_t i = 0; i < first.direction.size(); ++i) {
         float v = 0, w = 0;
         second.at(second_from_first * first.direction[i], v, w);
-        const double k = static_cast<double>(w) * first.weight[i], a = first.value[i], b = v;
-        n += k;
-        sa += k * a;
-        sb += k * b;
-        saa += k * a * a;
-        sbb += k * b * b;
-        sab += k * a * b;
+        pairs.add(static_cast<double>(w) * first.weight[i], first.value[i], v);
     }
+    const double n = pairs.weight;
     if (n <= 0) return -1;
-    const double va = saa - sa * sa / n, vb = sbb - sb * sb / n;
+    const double va = pairs.first(), vb = pairs.second();
     if (va <= 1e-9 * n || vb <= 1e-9 * n) return 0;
-    const double r = (sab - sa * sb / n) / std::sqrt(va * vb);
+    const double r = pairs.both() / std::sqrt(va * vb);
     return n < least_weight ? r * n / least_weight : r;
 }
 

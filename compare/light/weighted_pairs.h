@@ -1,0 +1,26 @@
+#pragma once
+// Weighted moments of pairs of numbers. Private to the room.
+
+namespace culet {
+
+struct WeightedPairs {
+    double weight = 0;
+
+    void add(double w, double a, double b) {
+        weight += w;
+        sum_a_ += w * a;
+        sum_b_ += w * b;
+        sum_aa_ += w * a * a;
+        sum_bb_ += w * b * b;
+        sum_ab_ += w * a * b;
+    }
+    /// Variances and covariance times the weight, which must not be 0.
+    double first() const { return sum_aa_ - sum_a_ * sum_a_ / weight; }
+    double second() const { return sum_bb_ - sum_b_ * sum_b_ / weight; }
+    double both() const { return sum_ab_ - sum_a_ * sum_b_ / weight; }
+
+private:
+    double sum_a_ = 0, sum_b_ = 0, sum_aa_ = 0, sum_bb_ = 0, sum_ab_ = 0;
+};
+
+}  // namespace culet
