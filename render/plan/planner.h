@@ -102,6 +102,7 @@ private:
     bool proposes_at_a_glance();
     ScenePlan plan_of_glance();
     std::vector<WavelengthChoice> usual_wavelengths() const;
+    BeamProposal beams_of(const Plan& plan, const PathWork& work) const;
     BeamProposal usual_beams(const Scene& scene) const;
     void choose_cut();
     void choose_effects();

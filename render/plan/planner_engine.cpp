@@ -107,10 +107,22 @@ int Planner::choose_pupil(double room) {
     return settings.samples;
 }
 
+// Without choices.
+BeamProposal Planner::beams_of(const Plan& plan, const PathWork& work) const {
+    BeamProposal proposal;
+    proposal.pixels = pixels_.in_picture;
+    proposal.events_per_ray = work.events;
+    proposal.bands = static_cast<int>(plan.bands.size());
+    proposal.polarised = work.polarised;
+    proposal.previews = user_.engine != "beams" && !branches_;
+    proposal.borders_are_open = user_.engine != "preview";
+    return proposal;
+}
+
 double Planner::choose_beams() {
     Scene tried = with_effects(on(Effects::dispersion));
     tried.settings.wavelengths_nm = plan_.settings.wavelengths_nm;
-    BeamProposal proposal;
+    BeamProposal proposal = beams_of(make_plan(tried), work_);
     proposal.cuts = cuts_;
     if (branches_) {
         double weight = 3 * k_crystal_cut;
@@ -123,14 +135,8 @@ double Planner::choose_beams() {
     }
     proposal.sets = sets_;
     proposal.effects = left_out_;
-    proposal.pixels = pixels_.in_picture;
-    proposal.events_per_ray = work_.events;
     proposal.views = choose_pupil(tolerance_);
-    proposal.bands = static_cast<int>(make_plan(tried).bands.size());
     proposal.dispersed = dispersed_;
-    proposal.polarised = work_.polarised;
-    proposal.previews = user_.engine != "beams" && !branches_;
-    proposal.borders_are_open = user_.engine != "preview";
     plan_.proposed =
         proposal.cheapest((one_wave_ ? k_share_as_one : k_share_of_beams) * tolerance_);
     plan_.beams = std::move(proposal);

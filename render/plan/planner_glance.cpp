@@ -25,7 +25,7 @@ constexpr double k_pilots = 2;
 // What choices usually cost in accuracy, where light has one way through the stone.
 BeamProposal Planner::usual_beams(const Scene& scene) const {
     const Plan plan = make_plan(scene);
-    BeamProposal proposal;
+    BeamProposal proposal = beams_of(plan, glance_work_);
     double weight = coarsest_cut();
     for (int i = 0; i < k_cuts; ++i, weight /= k_cut_step)
         proposal.cuts.push_back({weight, k_cut_error * weight, 0, 0});
@@ -33,12 +33,6 @@ BeamProposal Planner::usual_beams(const Scene& scene) const {
     proposal.sets = {WavelengthChoice{}};
     if (user_.wavelengths_nm.empty() && chose_spectrum(scene, plan))
         proposal.sets = usual_wavelengths();
-    proposal.pixels = pixels_.in_picture;
-    proposal.events_per_ray = glance_work_.events;
-    proposal.bands = static_cast<int>(plan.bands.size());
-    proposal.polarised = plan.polarised;
-    proposal.previews = user_.engine != "beams";
-    proposal.borders_are_open = user_.engine != "preview";
     return proposal;
 }
 

@@ -64,6 +64,10 @@ std::vector<Rgb> colours_of(const PilotDrawing& drawing, const std::vector<doubl
     return rgb;
 }
 
+std::size_t finest_level(double tolerance) {
+    return tolerance >= k_coarse_tolerance ? k_coarse_level : k_fine_level;
+}
+
 // Where dispersion is on, the error for so few wavelengths: their directions differ by what colours
 // leave apart over the number of steps. At three it was a fifth to a half of that in daylight and
 // up to 0.8 in a light box, whose lights are small (diamond, spinel, cubic zirconia, glasses, YAG).
@@ -103,7 +107,7 @@ std::vector<WavelengthChoice> Planner::usual_wavelengths() const {
 }
 
 int finest_of_pilot(double tolerance) {
-    return k_counts[tolerance >= k_coarse_tolerance ? k_coarse_level : k_fine_level];
+    return k_counts[finest_level(tolerance)];
 }
 
 std::vector<double> even_wavelengths(int count) {
@@ -138,8 +142,7 @@ void Planner::choose_wavelengths() {
     PlanItem& dispersion = item(Effects::dispersion);
     const bool open = user_.wavelengths_nm.empty();
     const std::vector<int>& counts = on(Effects::coherence) ? k_coherent_counts : k_counts;
-    const std::size_t level = std::min(
-        tolerance_ >= k_coarse_tolerance ? k_coarse_level : k_fine_level, counts.size() - 1);
+    const std::size_t level = std::min(finest_level(tolerance_), counts.size() - 1);
     // How colours spread, one wave shows as well as two, whose trees are far dearer.
     const auto as_one = [&](Scene scene) {
         if (!on(Effects::birefringence) || on(Effects::coherence) || !scene.stone.convex)
