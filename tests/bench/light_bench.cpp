@@ -8,7 +8,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <glm/matrix.hpp>
 #include <random>
 
 #include "compare/light/light_probe.h"
@@ -19,11 +18,6 @@
 namespace {
 
 using namespace culet;
-
-double angle_between(const glm::dmat3& a, const glm::dmat3& b) {
-    const glm::dmat3 d = glm::transpose(a) * b;
-    return std::acos(std::clamp((d[0][0] + d[1][1] + d[2][2] - 1) / 2, -1.0, 1.0));
-}
 
 double quantile(std::vector<double> values, double share) {
     if (values.empty()) return NAN;
@@ -101,7 +95,7 @@ int main(int argc, char** argv) {
         try {
             const LightProbe probe = light_probe(views, options);
             if (!probe.usable()) ++doubted;
-            const double off = angle_between(probe.views[1].world_from_camera, turned);
+            const double off = simulated::angle_apart(probe.views[1].world_from_camera, turned);
             const double sigma = probe.alignments.front().sigma;
             const simulated::Agreement agreement =
                 simulated::agreement_of(probe.light.map, panorama);

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/matrix.hpp>
 #include <vector>
 
+#include "compare/pose/stone_view.h"
+#include "render/colour.h"
 #include "render/environment_layout.h"
 #include "tests/compare/light/simulated_ball.h"
 
@@ -14,13 +17,14 @@ struct Agreement {
     double mean_stops = 0, worst_percent_stops = 0, energy_ratio = 0;
 };
 
+inline double angle_apart(const glm::dmat3& a, const glm::dmat3& b) {
+    return angle_of(glm::transpose(a) * b);
+}
+
 // Over solid angles, luminance against the panorama's mean over each texel.
 inline Agreement agreement_of(const EnvironmentMap& map, const Panorama& panorama, int parts = 3) {
     std::vector<std::pair<double, double>> errors;
     double sum = 0, total = 0, found = 0, truth = 0;
-    const auto y_of = [](const auto& rgb) {
-        return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-    };
     for (int y = 0; y < map.height; ++y) {
         const double omega = lat_long_solid_angle(y, map.width, map.height);
         for (int x = 0; x < map.width; ++x) {
@@ -31,8 +35,8 @@ inline Agreement agreement_of(const EnvironmentMap& map, const Panorama& panoram
                                                               map.width, map.height));
                 for (std::size_t c = 0; c < 3; ++c) mean[c] += light[c] / (parts * parts);
             }
-            const double a = y_of(&map.rgb[3 * (static_cast<std::size_t>(y) * map.width + x)]);
-            const double b = y_of(mean), stops = std::abs(std::log2((a + 1e-6) / (b + 1e-6)));
+            const double a = luminance(&map.rgb[3 * (static_cast<std::size_t>(y) * map.width + x)]);
+            const double b = luminance(mean), stops = std::abs(std::log2((a + 1e-6) / (b + 1e-6)));
             found += omega * a;
             truth += omega * b;
             sum += omega * stops;

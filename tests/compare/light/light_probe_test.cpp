@@ -51,11 +51,6 @@ BallShot shot_at(double azimuth, double elevation, double radius) {
     return shot;
 }
 
-double angle_between(const glm::dmat3& a, const glm::dmat3& b) {
-    const glm::dmat3 d = glm::transpose(a) * b;
-    return std::acos(std::clamp((d[0][0] + d[1][1] + d[2][2] - 1) / 2, -1.0, 1.0));
-}
-
 ProbeOptions chrome() {
     ProbeOptions options;
     options.reflectance = {0.6, 0.6, 0.6};
@@ -77,8 +72,9 @@ TEST(LightProbe, two_views_give_the_panorama_back) {
     options.width = 256;
     const LightProbe probe = light_probe(views, options);
     EXPECT_TRUE(probe.usable()) << probe.doubt;
-    EXPECT_LT(angle_between(probe.views[1].world_from_camera, simulated::camera_at(1.62, 0.05)),
-              radians(0.25));  // outlines to 0.15 of 160 pixels, twice that in angle, two views
+    EXPECT_LT(
+        simulated::angle_apart(probe.views[1].world_from_camera, simulated::camera_at(1.62, 0.05)),
+        radians(0.25));  // outlines to 0.15 of 160 pixels, twice that in angle, two views
     EXPECT_NEAR(probe.views[0].distance, 25, 2);
     const Agreement agreement = agreement_of(probe.light.map, panorama);
     RecordProperty("mean_stops", std::to_string(agreement.mean_stops));
@@ -141,8 +137,8 @@ TEST(LightProbe, any_turn_is_found) {
         options.distance = 25;
         const LightProbe probe = light_probe(views, options);
         EXPECT_TRUE(probe.usable()) << turn.azimuth << ": " << probe.doubt;
-        EXPECT_LT(angle_between(probe.views[1].world_from_camera,
-                                simulated::camera_at(turn.azimuth, turn.elevation)),
+        EXPECT_LT(simulated::angle_apart(probe.views[1].world_from_camera,
+                                         simulated::camera_at(turn.azimuth, turn.elevation)),
                   radians(0.5))  // the outline to a fifth of a pixel: 2 * 0.2 / 70 radians, twice
             << turn.azimuth;
     }
@@ -181,8 +177,8 @@ TEST(LightProbe, the_turn_is_as_sure_as_it_says) {
         options.turned = azimuth + 0.02;
         const LightProbe probe = light_probe(views, options);
         ASSERT_TRUE(probe.usable()) << probe.doubt;
-        const double off = angle_between(probe.views[1].world_from_camera,
-                                         simulated::camera_at(azimuth, elevation));
+        const double off = simulated::angle_apart(probe.views[1].world_from_camera,
+                                                  simulated::camera_at(azimuth, elevation));
         const double over = off / probe.alignments[0].sigma;
         squares += over * over;
         // 95 % of three normal errors are within 2.80 sigmas.
