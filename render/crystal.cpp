@@ -45,6 +45,8 @@ namespace {
 
 // N parallel to the axis: below this sine of their angle nothing is left of a x N.
 constexpr double k_parallel = 1e-15;
+// Below this one a x N has lost a digit, and the two waves' fields differ in which.
+constexpr double k_beside = 0.1;
 
 // a x N is noise: N runs along the axis a.
 bool along(const Vec3& aN, const Vec3& N) {
@@ -108,7 +110,7 @@ std::array<CrystalMode, 2> uniaxial_modes(const Crystal& crystal, const Vec3& K,
         const Vec3 D = glm::cross(N, across(a, N, n));
         complete_travelling(modes[1], D / eo + along_a * glm::dot(a, D) * a, N);
         const Vec3 aN = glm::cross(a, N);
-        if (modes[0].propagates && glm::dot(aN, aN) < 1e-4 * glm::dot(N, N)) {
+        if (modes[0].propagates && glm::dot(aN, aN) < k_beside * k_beside * glm::dot(N, N)) {
             const Vec3 H = real_part(modes[1].H);
             share_no_flux(modes[0], modes[1], H / eo + along_a * glm::dot(a, H) * a, n);
         }
