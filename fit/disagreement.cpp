@@ -17,6 +17,7 @@ namespace {
 // Beyond this many equations R and its updates would take minutes.
 constexpr Eigen::Index k_most_equations = 1500;
 constexpr double k_checked = 1e-6;
+constexpr double k_same_part = 1e-6;  // in sigmas
 
 // What remains of a least-squares fit as equations are left out one by one.
 struct Rest {
@@ -24,7 +25,20 @@ struct Rest {
     Eigen::MatrixXd matrix;
     double chi2 = 0, dof = 0;
 
-    void leave_out(Eigen::Index i) {
+    // The best checked first: what rounding leaves of others is then small beside the pivots
+    // before.
+    void leave_out(std::vector<Eigen::Index> equations) {
+        while (!equations.empty()) {
+            const auto next = std::max_element(
+                equations.begin(), equations.end(),
+                [this](Eigen::Index a, Eigen::Index b) { return matrix(a, a) < matrix(b, b); });
+            leave_out_one(*next);
+            equations.erase(next);
+        }
+    }
+
+private:
+    void leave_out_one(Eigen::Index i) {
         const double own = matrix(i, i);
         if (own > k_checked) {
             const Eigen::VectorXd column = matrix.col(i) / own;
@@ -62,7 +76,8 @@ std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::M
             const double r = rest.matrix(i, i);
             if (r > k_checked) part = std::max(part, std::abs(residuals(i)) / std::sqrt(r));
         }
-        order.emplace_back(part, reading);
+        // Readings that only one another check take the same part but for rounding.
+        order.emplace_back(std::round(part / k_same_part), reading);
     }
     std::sort(order.begin(), order.end());
     std::vector<int> left;
@@ -73,9 +88,12 @@ std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::M
         for (std::size_t at = 0; at < left.size();) {
             const std::size_t end = std::min(left.size(), at + chunk);
             Rest fewer = rest;
+            std::vector<Eigen::Index> out;
             for (std::size_t k = at; k < end; ++k) {
-                for (const Eigen::Index i : equations[left[k]]) fewer.leave_out(i);
+                const std::vector<Eigen::Index>& mine = equations[left[k]];
+                out.insert(out.end(), mine.begin(), mine.end());
             }
+            fewer.leave_out(std::move(out));
             if (fails(fewer)) {
                 rest = std::move(fewer);
                 left.erase(left.begin() + std::ptrdiff_t(at), left.begin() + std::ptrdiff_t(end));
