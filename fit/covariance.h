@@ -59,7 +59,10 @@ public:
 
 private:
     struct Sparse;
+    struct FreePart;
     void find_dense(const Linearised& linear);
+    bool find_well_held(const Linearised& linear, const FreePart& free);
+    bool find_loosely_held(const Linearised& linear, const FreePart& free);
     void find_sparse(const Linearised& linear);
 
     bool usable_ = false;
