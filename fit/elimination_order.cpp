@@ -38,21 +38,33 @@ std::vector<int> groups_of(const SparseRows& rows, int unknowns) {
     return group;
 }
 
-// Nodes in the order of elimination.
-std::vector<int> minimum_degree(int nodes, std::vector<std::pair<int, int>> pairs) {
-    // A node without a diagonal would be taken for one that is linked to all.
-    for (int n = 0; n < nodes; ++n) pairs.emplace_back(n, n);
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    Eigen::SparseMatrix<double> graph(nodes, nodes);
-    graph.resizeNonZeros(Eigen::Index(pairs.size()));
-    std::fill_n(graph.outerIndexPtr(), nodes + 1, 0);
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-        ++graph.outerIndexPtr()[pairs[k].first + 1];
-        graph.innerIndexPtr()[k] = pairs[k].second;
-        graph.valuePtr()[k] = 1;
+// Nodes in the order of elimination. `links`: both ways.
+std::vector<int> minimum_degree(int nodes, const std::vector<std::pair<int, int>>& links) {
+    // Each is linked to itself: a node without a diagonal would be taken for one linked to all.
+    std::vector<int> begin(std::size_t(nodes) + 1, 0);
+    for (const auto& [from, to] : links) ++begin[std::size_t(from) + 1];
+    for (int n = 0; n < nodes; ++n) begin[n + 1] += begin[n] + 1;
+    std::vector<int> next = begin, far_end(links.size() + std::size_t(nodes));
+    for (int n = 0; n < nodes; ++n) far_end[next[n]++] = n;
+    for (const auto& [from, to] : links) far_end[next[from]++] = to;
+    // Handed over in the order of nodes, links come to their other ends in order.
+    std::vector<int> sorted(far_end.size());
+    next = begin;
+    for (int from = 0; from < nodes; ++from) {
+        for (int k = begin[from]; k < begin[from + 1]; ++k) sorted[next[far_end[k]]++] = from;
     }
-    for (int n = 0; n < nodes; ++n) graph.outerIndexPtr()[n + 1] += graph.outerIndexPtr()[n];
+    Eigen::SparseMatrix<double> graph(nodes, nodes);
+    graph.resizeNonZeros(Eigen::Index(sorted.size()));
+    std::fill_n(graph.valuePtr(), graph.nonZeros(), 1.0);
+    int count = 0;
+    for (int n = 0; n < nodes; ++n) {
+        graph.outerIndexPtr()[n] = count;
+        for (int k = begin[n], last = -1; k < begin[n + 1]; ++k) {
+            if (sorted[k] != last) graph.innerIndexPtr()[count++] = last = sorted[k];
+        }
+    }
+    graph.outerIndexPtr()[nodes] = count;
+    graph.resizeNonZeros(count);
     Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
     Eigen::internal::minimum_degree_ordering(graph, order);
     return {order.indices().data(), order.indices().data() + nodes};
@@ -124,7 +136,7 @@ EliminationOrder elimination_order(const SparseRows& rows, int unknowns,
         order.cliques.close();
     }
     order.eliminated = static_cast<int>(equations.size());
-    for (const int node : minimum_degree(groups + order.eliminated, std::move(links))) {
+    for (const int node : minimum_degree(groups + order.eliminated, links)) {
         if (node >= groups) {
             order.blocks.index.push_back(unknowns + equations[node - groups]);
         } else {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "fit/fronts.h"
 
@@ -39,6 +41,42 @@ std::vector<int> postorder(const std::vector<int>& parent) {
         }
     }
     return order;
+}
+
+// The elimination tree of blocks (Liu 1990): which of those that one is linked to, or will be,
+// comes first after it. `block`: of each index; negative: of none. Of a clique, links from each
+// member to the next say as much as all.
+std::vector<int> elimination_tree(int count, const std::vector<int>& block,
+                                  const IndexLists& cliques) {
+    std::vector<std::pair<int, int>> links;  // later block, earlier one
+    std::vector<int> members, begin(std::size_t(count) + 1, 0);
+    for (int c = 0; c < cliques.count(); ++c) {
+        members.clear();
+        for (int k = cliques.begin[c]; k < cliques.begin[c + 1]; ++k) {
+            const int b = block[cliques.index[k]];
+            if (b >= 0 && (members.empty() || members.back() != b)) members.push_back(b);
+        }
+        std::sort(members.begin(), members.end());
+        for (std::size_t k = 1; k < members.size(); ++k) {
+            if (members[k] == members[k - 1]) continue;
+            links.emplace_back(members[k], members[k - 1]);
+            ++begin[std::size_t(members[k]) + 1];
+        }
+    }
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<int> earlier(links.size()), next(begin.begin(), begin.end() - 1);
+    for (const auto& [late, early] : links) earlier[next[late]++] = early;
+    std::vector<int> parent(std::size_t(count), -1), root(std::size_t(count), -1);
+    for (int b = 0; b < count; ++b) {
+        for (int k = begin[b]; k < begin[b + 1]; ++k) {
+            for (int at = earlier[k]; at != b;) {
+                const int above = std::exchange(root[at], b);
+                if (above < 0) parent[at] = b;
+                at = above < 0 ? b : above;
+            }
+        }
+    }
+    return parent;
 }
 
 }  // namespace
@@ -130,26 +168,21 @@ void Fronts::lay_out(int indices, const IndexLists& blocks, const IndexLists& cl
     place_.assign(std::size_t(indices), -1);
     index_ = blocks.index;
     size_ = static_cast<int>(index_.size());
-    const auto number = [&] {
-        for (int i = 0; i < size_; ++i) place_[index_[i]] = i;
-    };
-    number();
-    std::vector<int> pivots;
-    for (int b = 0; b < blocks.count(); ++b)
-        pivots.push_back(blocks.begin[b + 1] - blocks.begin[b]);
-    std::erase(pivots, 0);
-    gather(cliques, pivots);
-    std::vector<int> parent, sorted, sorted_pivots;
-    for (const Front& f : fronts_) parent.push_back(f.parent);
+    std::vector<int> block(std::size_t(indices), -1);
+    for (int b = 0; b < blocks.count(); ++b) {
+        for (int k = blocks.begin[b]; k < blocks.begin[b + 1]; ++k) block[blocks.index[k]] = b;
+    }
+    std::vector<int> sorted, pivots;
     sorted.reserve(index_.size());
-    for (const int s : postorder(parent)) {
-        const Front& f = fronts_[s];
-        sorted.insert(sorted.end(), index_.begin() + f.first, index_.begin() + f.first + f.pivots);
-        sorted_pivots.push_back(f.pivots);
+    for (const int b : postorder(elimination_tree(blocks.count(), block, cliques))) {
+        const int from = blocks.begin[b], to = blocks.begin[b + 1];
+        if (from == to) continue;
+        sorted.insert(sorted.end(), index_.begin() + from, index_.begin() + to);
+        pivots.push_back(to - from);
     }
     index_ = std::move(sorted);
-    number();
-    gather(cliques, sorted_pivots);
+    for (int i = 0; i < size_; ++i) place_[index_[i]] = i;
+    gather(cliques, pivots);
     merge();
 
     in_parent_.assign(boundary_.size(), 0);
