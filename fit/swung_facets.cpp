@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
-#include "fit/describe.h"
 #include "fit/inference.h"
 #include "fit/settle.h"
 #include "stone/units.h"
@@ -17,47 +17,56 @@ namespace {
 // both sides, or their ends are so far apart that other readings tell.
 constexpr double k_weak_deg = 1;
 constexpr std::size_t k_most_facets = 4;
-// Beyond the ridge of ends up to 10 sigmas apart.
+// Beyond the ridge of ends up to 10 sigmas apart; no farther than 45 degrees.
 constexpr double k_swing = 5;
-constexpr double k_farthest_deg = 45;
+constexpr double k_farthest_deg = 45 / k_swing;
+// Of variances: two digits of a sigma.
+constexpr double k_precision = 1e-3;
 constexpr int k_most_rounds = 4;
 
 struct Swing {
     double sigma = 0;      // of the facet's direction along its azimuth
-    Eigen::VectorXd step;  // of one sigma
+    Eigen::VectorXd step;  // of one sigma, of all that is free
 };
 
 // Of the facets whose azimuth is least known, the worst first.
-std::vector<Swing> swings_at(const System& system, const Candidate& end) {
-    const Shape& shape = end.finished.shape;
-    const Inference inference(system, shape, end.finished.outline, conditions_of(shape, end.held));
+std::vector<Swing> swings_at(Relaxation& relaxation, SaddleSolver& solver, const Shape& shape,
+                             const std::vector<Held>& held) {
+    Softness softness;
+    softness.with_priors = false;
+    relaxation.choose(shape, true);
+    const Sheet sheet = relaxation.sheet(shape, softness, held);
     std::vector<Swing> swings;
-    if (!inference.usable()) return swings;
-    std::vector<Quantity> azimuths;
-    std::vector<double> across;  // of a change of azimuth, on the sphere
+    if (!sheet.finite || !solver.factor(sheet.rows, relaxation.metric() / k_unheld_variance))
+        return swings;
+    const Freedoms& freedoms = relaxation.freedoms();
+    const Freedoms::Chart chart = freedoms.chart(shape);
+    Freedoms::Row row(chart, freedoms.size());
+    SparseRows rows;
     for (std::size_t f = 0; f < shape.normals.size(); ++f) {
         const Vec3& n = shape.normals[f];
-        if (n.x == 0 && n.y == 0) continue;
-        azimuths.push_back(azimuth_error(static_cast<int>(f), -1, 0)(shape));
-        across.push_back(std::hypot(n.x, n.y));
+        if ((n.x == 0 && n.y == 0) || !freedoms.is_first_facet(static_cast<int>(f))) continue;
+        const Vec3 across = glm::normalize(Vec3{-n.y, n.x, 0});
+        row.normal(static_cast<int>(f), across);
+        row.close(rows, 0, 1);
     }
-    const std::vector<double> sigmas = inference.sigmas(azimuths);
-    std::vector<std::size_t> weakest;
-    const auto sigma = [&](std::size_t k) { return across[k] * sigmas[k]; };
-    for (std::size_t k = 0; k < sigmas.size(); ++k) {
-        // Unread altogether is not between two ends.
-        if (sigma(k) > radians(k_weak_deg) && sigma(k) < radians(k_farthest_deg)) {
-            weakest.push_back(k);
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(freedoms.size(), rows.count());
+    for (int i = 0; i < rows.count(); ++i) {
+        for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
+            columns(rows.column[k], i) = rows.slope[k];
         }
     }
-    std::stable_sort(weakest.begin(), weakest.end(),
-                     [&](std::size_t a, std::size_t b) { return sigma(a) > sigma(b); });
-    if (weakest.size() > k_most_facets) weakest.resize(k_most_facets);
-    for (const std::size_t k : weakest) {
-        const Eigen::MatrixXd with_all =
-            inference.times_covariance(inference.rows_of({azimuths[k]}));
-        swings.push_back({sigma(k), with_all.col(0) / sigmas[k]});
+    const auto solved = solver.solve_all(columns, Eigen::MatrixXd(), k_precision);
+    if (!solved.good) return swings;
+    for (Eigen::Index i = 0; i < columns.cols(); ++i) {
+        const double sigma = std::sqrt(std::max(0.0, columns.col(i).dot(solved.unknowns.col(i))));
+        if (sigma > radians(k_weak_deg) && sigma < radians(k_farthest_deg)) {
+            swings.push_back({sigma, solved.unknowns.col(i) / sigma});
+        }
     }
+    std::stable_sort(swings.begin(), swings.end(),
+                     [](const Swing& a, const Swing& b) { return a.sigma > b.sigma; });
+    if (swings.size() > k_most_facets) swings.resize(k_most_facets);
     return swings;
 }
 
@@ -73,8 +82,8 @@ std::optional<Candidate> better_with_facets_swung(const System& system, const Ca
     const auto goes_better = [&](const Swing& swing, double by) {
         const Candidate& from = best ? *best : end;
         const Eigen::VectorXd step = by * swing.step;
-        const Shape swung = freedoms.symmetrised(
-            moved(from.finished.shape, {step.data(), static_cast<std::size_t>(step.size())}));
+        const Shape swung = freedoms.moved(from.finished.shape,
+                                           {step.data(), static_cast<std::size_t>(step.size())});
         const double goal = from.finished.chi2 - k_same_chi2;
         const Settled settled =
             settle(relaxation, solver, swung, from.held, {.iterations = iterations, .goal = goal});
@@ -88,10 +97,11 @@ std::optional<Candidate> better_with_facets_swung(const System& system, const Ca
         return true;
     };
     for (int round = 0; round < k_most_rounds; ++round) {
-        const std::vector<Swing> swings = swings_at(system, best ? *best : end);
+        const Candidate& from = best ? *best : end;
+        const std::vector<Swing> swings =
+            swings_at(relaxation, solver, from.finished.shape, from.held);
         const bool gained = std::any_of(swings.begin(), swings.end(), [&](const Swing& swing) {
-            return k_swing * swing.sigma < radians(k_farthest_deg) &&
-                   (goes_better(swing, k_swing) || goes_better(swing, -k_swing));
+            return goes_better(swing, k_swing) || goes_better(swing, -k_swing);
         });
         if (!gained) break;
     }
