@@ -5,9 +5,11 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "render/colour.h"
 #include "stone/errors.h"
+#include "stone/quantile.h"
 
 namespace culet {
 
@@ -74,10 +76,7 @@ double quantile(const cv::Mat& plane, const cv::Mat& mask, double share) {
             if (m[x] != 0) values.push_back(p[x]);
         }
     }
-    if (values.empty()) return 0;
-    const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), values.begin() + rank, values.end());
-    return values[static_cast<std::size_t>(rank)];
+    return values.empty() ? 0 : static_cast<double>(quantile(std::move(values), share));
 }
 
 }  // namespace culet

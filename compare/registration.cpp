@@ -7,8 +7,10 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "compare/resampling.h"
+#include "stone/quantile.h"
 
 namespace culet {
 
@@ -245,9 +247,7 @@ OutlineMatch match_outlines(const Silhouette& photo, const Silhouette& render,
                             match.render_from_photo.scale);
     }
     match.residual_px = found.rms / match.render_from_photo.scale;
-    const auto rank = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() * 95 / 100);
-    std::nth_element(distances.begin(), rank, distances.end());
-    match.worst_px = *rank;
+    match.worst_px = quantile(std::move(distances), 0.95);
     match.iou = overlap(photo.mask, render.mask, match.render_from_photo);
     match.usable =
         match.iou >= limits.least_iou && match.residual_px <= limits.most_residual * photo.diameter;

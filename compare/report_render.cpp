@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "compare/report_parts.h"
 #include "page/fit_page.h"
 #include "page/html.h"
 #include "page/json_fields.h"
 #include "page/parts.h"
+#include "stone/quantile.h"
 
 namespace culet {
 
@@ -28,11 +30,7 @@ double white_of(const Report& report) {
             if (v > 0) values.push_back(v);
         }
     }
-    if (values.empty()) return 1;
-    const auto rank = values.begin() +
-                      static_cast<std::ptrdiff_t>(0.995 * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), rank, values.end());
-    return static_cast<double>(*rank);
+    return values.empty() ? 1 : static_cast<double>(quantile(std::move(values), 0.995));
 }
 
 }  // namespace

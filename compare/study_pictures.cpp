@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "compare/report_parts.h"
 #include "compare/scene_study.h"
+#include "stone/quantile.h"
 
 namespace culet {
 
@@ -28,10 +30,8 @@ double round_scale(const PixelMap& map) {
         if (std::isfinite(value)) sizes.push_back(std::abs(value));
     }
     if (sizes.empty()) return 1;
-    const auto rank = sizes.begin() + static_cast<std::ptrdiff_t>(
-                                          k_shown_share * static_cast<double>(sizes.size() - 1));
-    std::nth_element(sizes.begin(), rank, sizes.end());
-    const double size = std::max(1e-6, static_cast<double>(*rank));
+    const double size =
+        std::max(1e-6, static_cast<double>(quantile(std::move(sizes), k_shown_share)));
     const double decade = std::pow(10, std::floor(std::log10(size)));
     return size <= decade ? decade : size <= 3 * decade ? 3 * decade : 10 * decade;
 }

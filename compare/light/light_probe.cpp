@@ -7,10 +7,12 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <numbers>
+#include <utility>
 
 #include "compare/light/view_places.h"
 #include "render/environment_layout.h"
 #include "stone/errors.h"
+#include "stone/quantile.h"
 #include "stone/units.h"
 
 namespace culet {
@@ -95,10 +97,7 @@ void judge(LightProbe& probe) {
     probe.covered = covered / omega_sum;
     if (!stops.empty()) {
         probe.mean_disagreement = sum / static_cast<double>(stops.size());
-        const auto worst =
-            stops.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(stops.size()));
-        std::nth_element(stops.begin(), worst, stops.end());
-        probe.worst_disagreement = *worst;
+        probe.worst_disagreement = quantile(std::move(stops), 0.99);
     }
     const double missing = 100 * (1 - probe.covered);
     if (probe.views.size() == 1 || probe.moved) {

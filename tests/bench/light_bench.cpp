@@ -12,6 +12,7 @@
 
 #include "compare/light/light_probe.h"
 #include "stone/errors.h"
+#include "stone/quantile.h"
 #include "stone/units.h"
 #include "tests/compare/light/light_agreement.h"
 
@@ -19,10 +20,8 @@ namespace {
 
 using namespace culet;
 
-double quantile(std::vector<double> values, double share) {
-    if (values.empty()) return NAN;
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+double part(const std::vector<double>& values, double share) {
+    return values.empty() ? NAN : quantile(values, share);
 }
 
 }  // namespace
@@ -134,15 +133,15 @@ int main(int argc, char** argv) {
     };
     fmt::print("radius {:g} px: {} rooms, {} refused, {} doubted\n", radius, seeds, refused,
                doubted);
-    fmt::print("  ball off {:.2f} px (median), {:.2f} (worst)\n", quantile(ball_off, 0.5),
-               quantile(ball_off, 1));
+    fmt::print("  ball off {:.2f} px (median), {:.2f} (worst)\n", part(ball_off, 0.5),
+               part(ball_off, 1));
     fmt::print("  turn off {:.3f} degrees (median), {:.3f} (worst); over its sigma {:.2f} (rms)\n",
-               quantile(turn_off, 0.5), quantile(turn_off, 1),
+               part(turn_off, 0.5), part(turn_off, 1),
                std::sqrt(squares / std::max<double>(1, static_cast<double>(pulls.size()))));
     // Of three normal errors of one sigma each: half within 1.54, 95 % within 2.80.
     fmt::print("  within the half's bound {:.2f}, within that of 95 %: {:.2f}\n",
                share(1.538 / std::sqrt(3.0)), share(2.795 / std::sqrt(3.0)));
     fmt::print("  light off {:.3f} stops (median of means), {:.2f} (worst 1 %), energy {:.4f}\n",
-               quantile(mean_stops, 0.5), quantile(worst_stops, 0.5), quantile(energy, 0.5));
+               part(mean_stops, 0.5), part(worst_stops, 0.5), part(energy, 0.5));
     return 0;
 }

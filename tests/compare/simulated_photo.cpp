@@ -6,11 +6,13 @@
 #include <numbers>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "compare/pose/stone_view.h"
 #include "render/colour.h"
 #include "stone/errors.h"
 #include "stone/perpendicular.h"
+#include "stone/quantile.h"
 #include "stone/units.h"
 
 namespace culet::synthetic {
@@ -56,11 +58,8 @@ Photo photographed(const Picture& picture, const CameraFaults& faults, std::mt19
         const float* rgb = light.ptr<float>() + 3 * p;
         bright.push_back(std::max({rgb[0], rgb[1], rgb[2]}));
     }
-    const auto rank =
-        bright.begin() +
-        static_cast<std::ptrdiff_t>(faults.exposure_share * static_cast<double>(bright.size() - 1));
-    std::nth_element(bright.begin(), rank, bright.end());
-    const double exposure = 1 / std::max(1e-9, static_cast<double>(*rank));
+    const double exposure =
+        1 / std::max(1e-9, static_cast<double>(quantile(std::move(bright), faults.exposure_share)));
     Photo photo;
     photo.width = picture.width;
     photo.height = picture.height;
