@@ -44,7 +44,7 @@ struct Chosen {
     std::vector<double> at;  // percent; empty: all
     bool verbose = false;
 
-    bool takes(const Class& c) const { return stone.empty() || stone == c.name(); }
+    bool takes(const std::string& name) const { return stone.empty() || stone == name; }
     std::vector<double> parts(const std::vector<double>& usual) const {
         if (at.empty()) return usual;
         std::vector<double> result;
@@ -61,7 +61,7 @@ void success_table(BenchTables& tables, const std::string& name, const std::stri
     for (double p : parts) columns.push_back(fmt::format("ms at {:g} %", 100 * p));
     tables.section(name, remark, columns);
     for (const Class& c : k_classes) {
-        if (!chosen.takes(c)) continue;
+        if (!chosen.takes(c.name())) continue;
         std::vector<int> good(parts.size(), 0);
         std::vector<std::vector<double>> times(parts.size());
         const unsigned end = chosen.first_seed + chosen.seeds;
@@ -140,35 +140,46 @@ void kick_table(BenchTables& tables, unsigned kicks, bool verbose) {
     }
 }
 
-void time_table(BenchTables& tables, unsigned seeds, bool large) {
+// Findings: the stone's own axis, which meets, edges and facets the readings deny, extra facets.
+FitOptions without_findings() {
+    FitOptions options;
+    options.findings = false;
+    return options;
+}
+
+void time_table(BenchTables& tables, const Chosen& chosen, bool large) {
     tables.section("times", "median CPU of all threads, with covariance; mesh: corner noise",
-                   {"facets", "readings", "mesh", "ms", "figure", "status"});
+                   {"facets", "readings", "mesh", "ms", "figure", "with findings", "status"});
     const auto line = [&](const std::string& name, auto make, double noise, unsigned count,
                           double figure, int edges = -1) {
-        std::vector<double> times;
+        if (!chosen.takes(name)) return;
+        std::vector<double> times, times_with_findings;
         std::size_t facets = 0, readings_count = 0;
         std::string status;
         for (unsigned seed = 1; seed <= count; ++seed) {
             const Truth truth = make(seed);
             const auto readings = read_by_instruments(truth, 1000 + seed, edges);
-            const Trial trial =
-                fit_mesh(noise > 0 ? noisy_mesh(truth.stone, noise, seed) : truth.stone, readings);
-            times.push_back(1e3 * trial.cpu);
+            const Stone mesh = noise > 0 ? noisy_mesh(truth.stone, noise, seed) : truth.stone;
+            times.push_back(1e3 * fit_mesh(mesh, readings, without_findings()).cpu);
+            const Trial trial = fit_mesh(mesh, readings);
+            times_with_findings.push_back(1e3 * trial.cpu);
             facets = truth.stone.solid.facets.size();
             readings_count = trial.result.readings.size();
             status = trial.refusal.empty() ? name_of(trial.result.status) : trial.refusal;
         }
         tables.line(name, {fmt::format("{}", facets), fmt::format("{}", readings_count),
                            fmt::format("{:g} %", 100 * noise), fmt::format("{:.1f}", median(times)),
-                           fmt::format("{:g}", figure), status});
+                           fmt::format("{:g}", figure),
+                           fmt::format("{:.1f}", median(times_with_findings)), status});
     };
     for (const Class& c : k_classes) {
         const auto make = [&](unsigned seed) { return make_truth(c.kind, c.symmetric, seed); };
-        line(c.name(), make, 0.01, seeds, c.symmetric ? 10 : 60);
-        line(c.name(), make, 0.2, seeds, c.symmetric ? 1000 : 1000);
+        line(c.name(), make, 0.01, chosen.seeds, c.symmetric ? 10 : 60);
+        line(c.name(), make, 0.2, chosen.seeds, 1000);
     }
     line(
-        "tiered", [](unsigned s) { return make_tiered(300, s); }, 0.003, std::min(seeds, 5u), 2000);
+        "tiered", [](unsigned s) { return make_tiered(300, s); }, 0.003, std::min(chosen.seeds, 5u),
+        2000);
     if (large) {
         line(
             "tiered", [](unsigned s) { return make_tiered(1000, s); }, 0.001, 1, 20000, 2000);
@@ -179,14 +190,16 @@ void time_table(BenchTables& tables, unsigned seeds, bool large) {
 }
 
 // From an earlier result, after one reading was read again (by another draw of its error).
-void refit_table(BenchTables& tables, unsigned seeds) {
-    tables.section("refit", "from the last result after one edited reading; figure: 10 ms",
-                   {"readings", "ms, least", "ms", "ms, most", "as fresh"});
+void refit_table(BenchTables& tables, const Chosen& chosen) {
+    tables.section("refit",
+                   "from the last result after one edited reading, with covariance; figure: 10 ms",
+                   {"readings", "ms, least", "ms", "ms, most", "with findings", "as fresh"});
     for (const Class& c : k_classes) {
-        std::vector<double> times;
+        if (!chosen.takes(c.name())) continue;
+        std::vector<double> times, times_with_findings;
         std::size_t count = 0;
         unsigned same = 0;
-        for (unsigned seed = 1; seed <= seeds; ++seed) {
+        for (unsigned seed = 1; seed <= chosen.seeds; ++seed) {
             const Truth truth = make_truth(c.kind, c.symmetric, seed);
             auto readings = read_by_instruments(truth, 1000 + seed);
             FitOptions options;
@@ -195,8 +208,10 @@ void refit_table(BenchTables& tables, unsigned seeds) {
             std::size_t edited = (7 * seed) % readings.size();
             while (!readings[edited].value) edited = (edited + 1) % readings.size();
             readings[edited].value = again[edited].value;
+            times_with_findings.push_back(1e3 * fit_mesh(truth.stone, readings, options).cpu);
+            options.findings = false;
             const Trial trial = fit_mesh(truth.stone, readings, options);
-            const Trial fresh = fit_mesh(truth.stone, readings);
+            const Trial fresh = fit_mesh(truth.stone, readings, without_findings());
             times.push_back(1e3 * trial.cpu);
             count = readings.size();
             same += trial.result.start == "earlier result" &&
@@ -206,7 +221,8 @@ void refit_table(BenchTables& tables, unsigned seeds) {
                                fmt::format("{:.1f}", *std::min_element(times.begin(), times.end())),
                                fmt::format("{:.1f}", median(times)),
                                fmt::format("{:.1f}", *std::max_element(times.begin(), times.end())),
-                               fmt::format("{}/{}", same, seeds)});
+                               fmt::format("{:.1f}", median(times_with_findings)),
+                               fmt::format("{}/{}", same, chosen.seeds)});
     }
 }
 
@@ -223,8 +239,7 @@ int main(int argc, char** argv) {
     bool large = false;
     app.add_option("--seeds", chosen.seeds, "stones of each kind")->check(CLI::Range(1, 100000));
     app.add_option("--first-seed", chosen.first_seed, "of noise and drawn");
-    app.add_option("--stone", chosen.stone,
-                   "noise and drawn: this one only, as the tables name it");
+    app.add_option("--stone", chosen.stone, "this one only, as the tables name it");
     app.add_option("--at", chosen.at, "noise and drawn: these errors only, in percent");
     app.add_option("--kicks", kicks, "in all")->check(CLI::Range(1, 1000000));
     app.add_option("--section", section, "run this part only: noise, drawn, kick, refit, times");
@@ -249,8 +264,8 @@ int main(int argc, char** argv) {
                           chosen.parts({0.05, 0.1, 0.2, 0.3}), chosen, wrongly_drawn);
         }
         if (wanted("kick")) kick_table(tables, kicks, chosen.verbose);
-        if (wanted("refit")) refit_table(tables, chosen.seeds);
-        if (wanted("times")) time_table(tables, chosen.seeds, large);
+        if (wanted("refit")) refit_table(tables, chosen);
+        if (wanted("times")) time_table(tables, chosen, large);
         if (!json.empty()) write_text(json, tables.json({{"schema", "1"}}));
         return 0;
     } catch (const CLI::ParseError& error) {
