@@ -4,8 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cfenv>
+#include <cmath>
 #include <glm/geometric.hpp>
 
+#include "fit/extra_facets.h"
+#include "fit/refit.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {
@@ -97,6 +101,26 @@ TEST(ExtraFacets, AWrongReadingIsNotTakenForOne) {
         EXPECT_FALSE(result.suspects.empty()) << id_kind;
         EXPECT_THAT(places(result), IsEmpty()) << id_kind;
     }
+}
+
+// Where the search ended in planes that are no stone's, the mean of three normals may face away
+// from one of them exactly: no direction lies between the two.
+TEST(ExtraFacets, NoneIsSoughtBetweenPlanesThatFaceAwayFromEachOther) {
+    const Solid mesh = brilliant();
+    const Stone stone = stone_of(mesh);
+    const System system(stone, readings_of(mesh, mesh, 1), {});
+    Finished finished = finish_from(system, system.mesh_shape(), 100).finished;
+    const Linearised linear = linearise(system, finished.shape, finished.outline, false);
+    const Diagnosis diagnosis = diagnose(system, finished.shape, finished.outline);
+    const std::vector<int>& facets = system.edges().facets_of_vertex.front();
+    ASSERT_GE(facets.size(), 3u);
+    std::vector<Vec3>& normals = finished.shape.normals;
+    const Vec3 same = normals[std::size_t(facets.front())];
+    for (const int f : facets) normals[std::size_t(f)] = f == facets.back() ? -same : same;
+    std::feclearexcept(FE_INVALID);
+    const auto found = suspect_extra_facets(system, finished, linear, diagnosis, 0.001);
+    EXPECT_EQ(std::fetestexcept(FE_INVALID), 0) << "a direction of no length";
+    for (const ExtraFacet& f : found) EXPECT_TRUE(std::isfinite(f.depth + f.sigma + f.chi2));
 }
 
 }  // namespace
