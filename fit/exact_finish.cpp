@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "fit/leaning.h"
 #include "fit/settle.h"
@@ -18,6 +19,8 @@ constexpr int k_most_meanings = 8;
 constexpr std::size_t k_most_leanings = 4;
 // Of chi-square, and of corners in half diameters: ends that differ by less are one.
 constexpr double k_gain = 1e-3, k_apart = 1e-5;
+// Of chi-square, by which an end may be worse from which a better one is looked for: two sigmas.
+constexpr double k_hardly_worse = 4;
 // In half diameters, far above rounding and far below what corners are held below a facet; and far
 // above that.
 constexpr double k_no_length = 1e-9, k_drawn = 1e-5;
@@ -42,26 +45,39 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         settle(relaxation, solver, start, {}, {.iterations = iterations, .near_an_end = goes_on});
     Softness softness;
     softness.with_priors = false;
-    // What the readings may as well mean: each meaning has an end of its own.
+    // What the readings may as well mean: each meaning has an end of its own. The best of those
+    // that are hardly worse is kept: another may be found from there.
+    std::optional<Settled> beside;
     const auto gains_from = [&](const Shape& another, double may_rise) {
         const double goal = settled.chi2 + may_rise;
         Settled other =
             settle(relaxation, solver, another, {}, {.iterations = iterations, .goal = goal});
         other.iterations += settled.iterations;
-        if (!(other.chi2 < goal - k_gain)) return false;
         if (is_same_place(other.shape, settled.shape)) return false;
+        if (!(other.chi2 < goal - k_gain)) {
+            if (other.converged && other.chi2 < settled.chi2 + k_hardly_worse &&
+                !(beside && beside->chi2 < other.chi2)) {
+                beside = std::move(other);
+            }
+            return false;
+        }
         settled = std::move(other);
         return true;
     };
+    const auto turns_better = [&](const Shape& from) {
+        const auto turned = turned_better(relaxation, solver, from, softness);
+        return turned && gains_from(turned->shape, turned->nearer);
+    };
     for (int round = 0; round < k_most_meanings && !(settled.chi2 < agreeable); ++round) {
+        beside.reset();
         const std::vector<Shape> leanings = better_leanings(
             relaxation, solver, settled.shape, softness, k_nearly_upright, k_most_leanings);
         if (std::any_of(leanings.begin(), leanings.end(),
                         [&](const Shape& other) { return gains_from(other, 0); })) {
             continue;
         }
-        const auto turned = turned_better(relaxation, solver, settled.shape, softness);
-        if (!turned || !gains_from(turned->shape, turned->nearer)) break;
+        if (turns_better(settled.shape)) continue;
+        if (!beside || !turns_better(Shape(beside->shape))) break;
     }
     const double free_chi2 = settled.chi2;
     // Penalties let corners stand a hair above their neighbours. Those are held just below from now
