@@ -23,7 +23,8 @@ struct BeamLimits {
     /// A beam whose map is off by more, in pixels, is halved (astigmatic refraction only).
     double map_error = 0.25;
     /// A beam whose weight x area in square pixels is less is not split either: its middle ray is
-    /// followed to the end and speaks for all of it.
+    /// followed to the end, and the facets that it meets are taken for those of all its rays. What
+    /// each pixel's own ray sees along them is another matter: a sun may fill some of them only.
     double alone = 0;
     /// Where there would be more, `cut_share` is raised until there are not.
     long long most_beams = 1 << 23;
@@ -35,7 +36,7 @@ struct BeamLimits {
 struct Beam {
     std::uint32_t corner = 0, facet = 0;      ///< the first of each in its BeamBranch
     std::uint16_t corners = 0, facets = 0;    ///< how many
-    bool alone = false;                       ///< its middle ray speaks for all of it
+    bool alone = false;                       ///< the last facets are those of its middle ray
     bool sure = true;                         ///< no border is off by more than 1/4 pixel
     std::int32_t first_row = 0, end_row = 0;  ///< of pixels that it touches
 };

@@ -85,7 +85,6 @@ void StripPainter::paint_flat(const CoveredPixels& covered, const Beam& beam,
     fragments.stride = k_shading_room;
     fragments.left = left_.data();
     fragments.absorbed = absorbed_.data();
-    fragments.soft = options_.shading == BeamShading::averaged;
     if (hides_) {
         fragments.unhidden = unhidden_.data();
         fragments.before = before_.data();
@@ -254,8 +253,7 @@ void StripPainter::paint_beam(const SortedBeams& beams, LeafNumber number,
     const Beam& beam = branch.leaves[number.leaf];
     const ScreenPoint* corners = branch.corners.data() + beam.corner;
     const std::uint16_t* facets = branch.facets.data() + beam.facet;
-    const bool flat = options_.shading == BeamShading::flat ||
-                      (options_.shading == BeamShading::averaged && beam.alone);
+    const bool flat = options_.shading == BeamShading::flat;
     ScreenPoint middle{0, 0};
     if (flat) {
         middle = middle_of(corners, beam.corners);
@@ -279,7 +277,9 @@ void StripPainter::paint_beam(const SortedBeams& beams, LeafNumber number,
     if (flat) {
         paint_flat(covered, beam, facets, eye, pass);
     } else {
-        paint_pixels(covered, beam, sure && !single ? 0 : covered.near_border, facets, eye, pass);
+        // The rays of a beam alone share its middle ray's facets to the end, as far as is known.
+        const bool looked_at = single || !(sure || beam.alone);
+        paint_pixels(covered, beam, looked_at ? covered.near_border : 0, facets, eye, pass);
     }
 }
 

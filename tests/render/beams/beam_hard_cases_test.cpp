@@ -296,6 +296,36 @@ TEST(HardCases, a_sun_smaller_than_a_pixel_keeps_its_light) {
     EXPECT_NEAR(seen / expected, 1, 0.05);
 }
 
+// A beam whose middle ray alone is followed past its first inner facet may fill many pixels, of
+// which a sun lights some. The faces of a slab are parallel: whichever way light goes on between
+// them, it leaves as if the first had mirrored it. So the sun's image is a disc of (f tan a)^2 pi
+// pixels, f the distance of the picture in pixels and a the sun's radius, and of a radiance of
+// R + (1 - R)^2 R (1 + R^2 + ..) = 2 R / (1 + R) of the sun's.
+TEST(HardCases, a_beam_followed_by_one_ray_shows_the_sun_where_it_is) {
+    Scene scene = plain_scene(slab(0.5));
+    const double n = 1.1, sun = 0.05;
+    scene.stone.material.index[0].n = n;
+    scene.camera.width = scene.camera.height = 14;
+    scene.camera.position = {0, 0, 8};
+    scene.camera.fov = 0.25;
+    scene.settings.tolerance = 0.05;
+    scene.settings.cut_weight = 1e-9;
+    scene.lights = {};
+    scene.lights.caps.push_back({{0, 0, 1}, 0, sun, {1e4, {}}});
+    const double f = 7 / std::tan(scene.camera.fov / 2), radius = f * std::tan(sun);
+    const double R = std::pow((n - 1) / (n + 1), 2);
+    const double expected = 1e4 * 2 * R / (1 + R) * std::numbers::pi * radius * radius;
+    scene.settings.samples = 16;
+    FrameRenderer frames(scene);
+    const RenderResult& beams = frames.draw(false);
+    double seen = 0;
+    for (std::size_t i = 0; i < beams.picture.pixels(); ++i) seen += luminance_at(beams.picture, i);
+    // A pixel's share is that of a straight edge, which for a disc is too much by a share of
+    // 1 / (12 r^2) of it: the mean square of a pixel's points from its middle is 1/12 a side.
+    EXPECT_NEAR(seen / expected, 1, 2 / (12 * radius * radius))
+        << "a disc of radius " << radius << " pixels, " << beams.stats.beams << " beams";
+}
+
 // The same of a near light that is small in the picture.
 TEST(HardCases, a_lamp_smaller_than_a_pixel_keeps_its_light) {
     Scene scene = plain_scene(slab(1));
