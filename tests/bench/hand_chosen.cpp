@@ -15,7 +15,7 @@ namespace culet {
 namespace {
 
 constexpr double k_cuts[] = {0.3, 0.1, 0.03, 0.01, 0.003, 0.001};
-constexpr int k_nodes[] = {1, 3, 8, 15};
+constexpr int k_nodes[] = {1, 3, 5, 8, 15};
 constexpr int k_sides[] = {1, 2, 3, 4, 6, 8, 12, 16, 24};
 // Settings that are far from the tolerance, or far dearer than another one within it, are followed
 // no further.

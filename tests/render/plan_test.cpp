@@ -383,6 +383,45 @@ TEST(Proof, counts_pixels_that_it_chooses_more_often_for_less) {
     EXPECT_GE(proof.bound, sum / count);
 }
 
+// What a spectrum that is 0 up to a wavelength and 1 beyond it shows, against wavelengths 1 nm
+// apart: mean over the wavelengths of such steps, and over R, G and B.
+double off_at_steps(const std::vector<double>& nm) {
+    std::vector<double> fine;
+    for (int i = 390; i <= 710; ++i) fine.push_back(i);
+    const WavelengthSet few(nm), all(fine);
+    const auto seen = [](const WavelengthSet& set, double step) {
+        std::vector<double> radiance;
+        for (double at : set.wavelengths_nm()) radiance.push_back(at > step ? 1 : 0);
+        return set.rgb_of(radiance.data());
+    };
+    double sum = 0;
+    int count = 0;
+    for (double step = 392.5; step < 710; step += 5, ++count) {
+        const Rgb a = seen(few, step), b = seen(all, step);
+        for (std::size_t c = 0; c < 3; ++c) sum += std::abs(a[c] - b[c]) / 3;
+    }
+    return sum / count;
+}
+
+// Dispersion moves the edges of lights and facets over a pixel: steps of its spectrum.
+TEST(Wavelengths, that_are_few_show_steps_of_a_spectrum_better_than_even_ones) {
+    EXPECT_LT(off_at_steps(even_wavelengths(3)), off_at_steps({410, 550, 690}));
+    EXPECT_LT(off_at_steps(even_wavelengths(5)), 0.75 * off_at_steps({410, 480, 550, 620, 690}));
+    double before = 1;
+    for (const int count : {3, 5, 8, 15, 29, 57}) {
+        const double here = off_at_steps(even_wavelengths(count));
+        EXPECT_LT(here, before) << count;
+        before = here;
+    }
+}
+
+// Pilots read few wavelengths off their own.
+TEST(Wavelengths, of_five_are_among_those_of_29) {
+    const std::vector<double> many = even_wavelengths(29);
+    for (const double nm : even_wavelengths(5))
+        EXPECT_NE(std::find(many.begin(), many.end(), nm), many.end()) << nm;
+}
+
 // In even light every wavelength brings the same, however few rays it has.
 TEST(Turns, bring_each_wavelength_its_share) {
     Scene scene = small_scene("diamond");
