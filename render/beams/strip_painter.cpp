@@ -116,10 +116,12 @@ bool StripPainter::retrace(int pixel, const ShadingPass& pass, std::size_t longe
                            int stride, float& left, float& absorbed, float& unhidden,
                            float* before) {
     const ScreenPoint at{pixel % canvas_.width + 0.5, pixel / canvas_.width + 0.5};
-    find_facets(stone_.body, *view_, at, pass.n, options_.depth,
-                longest > 0 ? 0.0 : options_.cut_weight, facets_);
+    // As many facets as its beam has, or all that matter.
+    const bool as_beam = longest > 0;
+    find_facets(stone_.body, *view_, at, pass.n,
+                as_beam ? static_cast<int>(longest) : options_.depth,
+                as_beam ? 0.0 : options_.cut_weight, facets_);
     if (facets_.empty()) return false;
-    if (longest > 0 && facets_.size() > longest) facets_.resize(longest);
     const ShadedEye eye =
         shaded_eye(*view_, at, stone_.net.plane(facets_[0]), stone_.shaded.middle);
     static const float k_here[k_shading_room] = {};
