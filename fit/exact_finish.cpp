@@ -15,6 +15,8 @@ namespace {
 // Facets that may lean either way at the end.
 constexpr double k_nearly_upright = 0.1;
 constexpr int k_most_meanings = 8;
+// Nor of stones of a thousand facets, whose ends take this many multiplications (some 15 s) each.
+constexpr double k_most_work = 1.5e10;
 // Several leanings that promise to be better are tried: what is promised is linear.
 constexpr std::size_t k_most_leanings = 4;
 // Of chi-square, and of corners in half diameters: ends that differ by less are one.
@@ -68,7 +70,9 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         const auto turned = turned_better(relaxation, solver, from, softness);
         return turned && gains_from(turned->shape, turned->nearer);
     };
-    for (int round = 0; round < k_most_meanings && !(settled.chi2 < agreeable); ++round) {
+    for (int round = 0;
+         round < k_most_meanings && !(settled.chi2 < agreeable) && solver.work() < k_most_work;
+         ++round) {
         beside.reset();
         const std::vector<Shape> leanings = better_leanings(
             relaxation, solver, settled.shape, softness, k_nearly_upright, k_most_leanings);
