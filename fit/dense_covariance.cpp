@@ -32,6 +32,17 @@ DenseRows product(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows,
     return result;
 }
 
+// The lower half of seen' seen + (weight along)' (weight along).
+Eigen::MatrixXd lower_normal(const Eigen::MatrixXd& seen, const Eigen::MatrixXd& along,
+                             double weight) {
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(seen.cols(), seen.cols());
+    if (seen.rows() > 0) normal.selfadjointView<Eigen::Lower>().rankUpdate(seen.transpose());
+    if (along.rows() > 0) {
+        normal.selfadjointView<Eigen::Lower>().rankUpdate(along.transpose(), weight * weight);
+    }
+    return normal;
+}
+
 // R^-1 of a QR of rows in the order of their size, with column pivoting: stable row by row whatever
 // the weights (Cox & Higham 1998). Columns: P R^-1, so that (B'B)^-1 = F F'.
 Eigen::MatrixXd inverse_factor(const Eigen::MatrixXd& seen) {
@@ -99,14 +110,7 @@ bool Covariance::find_well_held(const Linearised& linear, const FreePart& free) 
     if (!(largest < k_most_spread)) return false;
     const double gauge_weight = std::max(k_least_of_gauge, largest);
     const Eigen::Index size = free.basis.cols();
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size, size);
-    const auto count = [&normal](const Eigen::MatrixXd& rows, double weight) {
-        if (rows.rows() == 0) return;
-        normal.selfadjointView<Eigen::Lower>().rankUpdate(rows.transpose(), weight * weight);
-    };
-    count(free.seen, 1);
-    count(free.along, gauge_weight);
-    const Eigen::LLT<Eigen::MatrixXd> factor(normal);
+    const Eigen::LLT<Eigen::MatrixXd> factor(lower_normal(free.seen, free.along, gauge_weight));
     if (factor.info() != Eigen::Success) return false;
     const Eigen::MatrixXd upper = factor.matrixU().solve(Eigen::MatrixXd::Identity(size, size));
     held_ = free.basis * upper.triangularView<Eigen::Upper>();  // (S^-1) = U^-1 U^-T
@@ -149,12 +153,7 @@ bool Covariance::find_loosely_held(const Linearised& linear, const FreePart& fre
     for (Eigen::Index i = 0; i < norms.size(); ++i) {
         if (norms(i) > k_tight) clipped.row(i) *= k_tight / norms(i);
     }
-    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(size, size);
-    if (clipped.rows() > 0) normal.selfadjointView<Eigen::Lower>().rankUpdate(clipped.transpose());
-    if (along.rows() > 0) {
-        normal.selfadjointView<Eigen::Lower>().rankUpdate(along.transpose(),
-                                                          gauge_weight * gauge_weight);
-    }
+    Eigen::MatrixXd normal = lower_normal(clipped, along, gauge_weight);
     const auto unwhitened = [&](const Eigen::MatrixXd& columns) -> DenseRows {
         return free.basis * Eigen::MatrixXd(chol.matrixU().solve(columns));
     };

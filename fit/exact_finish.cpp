@@ -82,7 +82,7 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
             continue;
         }
         if (turns_better(settled.shape)) continue;
-        if (!beside || !turns_better(Shape(beside->shape))) break;
+        if (!beside || !turns_better(beside->shape)) break;
     }
     const double free_chi2 = settled.chi2;
     // Penalties let corners stand a hair above their neighbours. Those are held just below from now
