@@ -103,8 +103,8 @@ TEST(ExtraFacets, AWrongReadingIsNotTakenForOne) {
     }
 }
 
-// Where the search ended in planes that are no stone's, the mean of three normals may face away
-// from one of them exactly: no direction lies between the two.
+// Where the search ended in planes that are no stone's, the mean of the normals at a corner may
+// face away from one of them exactly: no direction lies between the two.
 TEST(ExtraFacets, NoneIsSoughtBetweenPlanesThatFaceAwayFromEachOther) {
     const Solid mesh = brilliant();
     const Stone stone = stone_of(mesh);
