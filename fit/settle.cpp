@@ -24,9 +24,9 @@ constexpr int k_hurry = 10;
 constexpr double k_far_off = 100;
 // Along kinks (edges of no length, corners about to rise) steps may creep for ever. Where so many
 // of them, half of them refused, together gain no more than this in chi-square, what is left is a
-// tenth of a sigma or less.
+// tenth of a sigma or less; so is it where some are refused and they gain no more than the second.
 constexpr std::size_t k_creeping = 6;
-constexpr double k_crumb = 0.01;
+constexpr double k_crumb = 0.01, k_dust = 0.001;
 // In how many rounds a step may find out which corners it has to stop.
 constexpr int k_most_rounds = 4;
 // Steps in a row that gain nothing, at the end: this part of chi-square.
@@ -34,6 +34,9 @@ constexpr int k_quiet = 2;
 constexpr double k_no_gain = 1e-8;
 // Of Newton's steps: the next would be gone in rounding.
 constexpr double k_short = 1e-7;
+// Part of chi-square: meanings that differ by less are one. Jaws that touch two corners at once
+// change their mind about places a ten-millionth of a sigma apart.
+constexpr double k_same_meaning = 1e-8;
 // Of chi-square: where a step gains less, the shape tells what the readings mean.
 constexpr double k_little = 0.05;
 
@@ -91,7 +94,8 @@ bool creeps_on(const std::vector<double>& merits) {
     const auto from = merits.end() - std::ptrdiff_t(k_creeping) - 1;
     std::size_t refused = 0;
     for (auto m = from; m + 1 != merits.end(); ++m) refused += *m == *(m + 1);
-    return *from - merits.back() < k_crumb && 2 * refused >= k_creeping;
+    const double gain = *from - merits.back();
+    return (gain < k_crumb && 2 * refused >= k_creeping) || (gain < k_dust && refused > 0);
 }
 
 }  // namespace
@@ -120,7 +124,9 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
         asked = true;
         relaxation.choose(shape, true);
         Sheet fresh = relaxation.sheet(shape, softness, held);
-        if (std::abs(fresh.merit - sheet.merit) < 1e-9 * (1 + sheet.merit)) return false;
+        if (std::abs(fresh.merit - sheet.merit) < k_same_meaning * (1 + sheet.merit)) {
+            return false;
+        }
         ++choices;
         merits.clear();
         sheet = std::move(fresh);
