@@ -109,6 +109,17 @@ Eigen::VectorXd Covariance::fitted_part(const Eigen::VectorXd& residuals) const 
     return rows_ * sparse_->with_all(sparse_->tight, FunctionRow(all.sparseView()));
 }
 
+double Covariance::fitted_square(const std::vector<std::pair<Eigen::Index, double>>& s) const {
+    if (!sparse_) {
+        Eigen::RowVectorXd along = Eigen::RowVectorXd::Zero(seen_.cols());
+        for (const auto& [i, value] : s) along += value * seen_.row(i);
+        return along.squaredNorm();
+    }
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(rows_.rows());
+    for (const auto& [i, value] : s) all(i) = value;
+    return all.dot(fitted_part(all));
+}
+
 double Covariance::leverage(Eigen::Index equation, Eigen::Index other) const {
     if (!sparse_) return seen_.row(equation).dot(seen_.row(other));
     const auto key = std::minmax(equation, other);

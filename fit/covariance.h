@@ -14,6 +14,7 @@
 #include <Eigen/SparseCore>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "fit/linear.h"
@@ -52,6 +53,8 @@ public:
     Eigen::VectorXd leverage_column(Eigen::Index equation) const;
     /// Hat matrix times residuals of the soft equations.
     Eigen::VectorXd fitted_part(const Eigen::VectorXd& residuals) const;
+    /// s'Hs with H the hat matrix and s zero but at some equations.
+    double fitted_square(const std::vector<std::pair<Eigen::Index, double>>& s) const;
     int open_freedoms() const { return open_freedoms_; }
     bool is_dense() const { return sparse_ == nullptr; }
     /// Open directions, of length one in the mesh's metric; dense only (else no columns).

@@ -69,8 +69,7 @@ std::vector<Candidate> candidates_of(const System& system, const Shape& shape) {
 struct Explanation {
     const Candidate* candidate = nullptr;
     double gain = 0, depth = 0, sigma = 0;
-    std::vector<std::pair<Index, double>> signature;
-    Eigen::VectorXd change;
+    Remains::Signature signature;
 };
 
 // The best depth of one plane, when it beats `least`.
@@ -108,21 +107,16 @@ void try_direction(const CutSignatures& signatures, const Remains& remains,
         if (!(-2 * slope - slope * slope / remains.squares() > std::max(least, best.gain))) {
             return 0.0;
         }
-        const Eigen::VectorXd change = remains.seen(signature);
-        double square = 0, along = 0;
-        for (const auto& [i, s] : signature) {
-            square += s * change(i);
-            along += remains.values()(i) * s;
-        }
-        const double gain = -2 * along - square;
+        const double square = remains.seen_square(signature);
+        const double gain = -2 * slope - square;
         if (gain > std::max(least, best.gain)) {
             // Signatures grow in proportion to the depth, nearly.
-            best = {&candidate,           gain,  depth, depth / std::sqrt(std::max(1e-300, square)),
-                    std::move(signature), change};
+            best = {&candidate, gain, depth, depth / std::sqrt(std::max(1e-300, square)),
+                    std::move(signature)};
         }
         // Whatever the depth, were the signature in proportion to it: hardly a part of what counts.
-        if (along * along < k_far_from * least * square) ++far_off;
-        return square > 0 ? -along / square : 0.0;  // by which to multiply the depth
+        if (slope * slope < k_far_from * least * square) ++far_off;
+        return square > 0 ? -slope / square : 0.0;  // by which to multiply the depth
     };
     for (int k = 1; k <= k_depths && far_off < 2 && !hopeless; ++k) {
         const double depth = deepest * std::pow(k_next_depth, k);
@@ -153,7 +147,10 @@ std::vector<ExtraFacet> suspect_extra_facets(const System& system, const Finishe
     const double z = two_sided_normal_quantile(2 * significance / std::max(1.0, planes));
     const double enough = z * z, enough_single = diagnosis.suspect_limit * diagnosis.suspect_limit;
     const double handicap = 2 * std::log(std::max(1.0, planes / (2 * std::max(1.0, equations))));
-    double taken = 0;
+    double taken = 0, most = 0;
+    const auto agrees = [&](double left) {
+        return chi2_tail(left, std::max(1.0, diagnosis.dof - taken)) >= significance;
+    };
     for (int round = 0; round < k_most_rounds; ++round) {
         Index single = -1;
         for (Index i = 0; i < remains.size(); ++i) {
@@ -170,6 +167,10 @@ std::vector<ExtraFacet> suspect_extra_facets(const System& system, const Finishe
         }
         if (best.candidate == nullptr && single < 0) break;
         const double gain_of_single = single < 0 ? 0 : remains.gain_of(single);
+        // What is left must agree: where many readings contradict each other anything looks better.
+        // Each explanation is the best there is, and the next ones bring no more.
+        most = std::max({most, best.gain, gain_of_single});
+        if (!agrees(remains.values().squaredNorm() - (k_most_rounds - round) * most)) return {};
         // As good as one wrong reading: both are said, and the reading is believed.
         const bool is_rival =
             best.candidate != nullptr && best.gain - handicap > gain_of_single - k_alternative;
@@ -204,12 +205,10 @@ std::vector<ExtraFacet> suspect_extra_facets(const System& system, const Finishe
         if (single >= 0 && (!is_rival || gain_of_single > best.gain - k_alternative)) {
             remains.set_aside(single);
         } else {
-            remains.add(best.change);
+            remains.add(remains.seen(best.signature));
         }
     }
-    // What is left must agree: where many readings contradict each other anything looks better.
-    const double left = remains.values().squaredNorm();
-    if (chi2_tail(left, std::max(1.0, diagnosis.dof - taken)) < significance) return {};
+    if (!agrees(remains.values().squaredNorm())) return {};
     std::stable_sort(found.begin(), found.end(),
                      [](const ExtraFacet& a, const ExtraFacet& b) { return a.chi2 > b.chi2; });
     return found;

@@ -40,7 +40,7 @@ double Remains::most_of(const std::vector<Index>& equations) const {
     return found->second;
 }
 
-Eigen::VectorXd Remains::seen(const std::vector<std::pair<Index, double>>& signature) const {
+Eigen::VectorXd Remains::seen(const Signature& signature) const {
     Eigen::VectorXd s = Eigen::VectorXd::Zero(count_);
     for (const auto& [i, value] : signature) s(i) = value;
     Eigen::VectorXd result = s - covariance_.fitted_part(s);
@@ -49,6 +49,18 @@ Eigen::VectorXd Remains::seen(const std::vector<std::pair<Index, double>>& signa
     Eigen::VectorXd at(Index(aside_.size()));
     for (std::size_t k = 0; k < aside_.size(); ++k) at(Index(k)) = result(aside_[k]);
     return result - aside_part_ * at;
+}
+
+double Remains::seen_square(const Signature& signature) const {
+    double square = -covariance_.fitted_square(signature);
+    for (const auto& [i, value] : signature) square += value * value;
+    if (columns_.cols() == 0) return square;
+    Eigen::RowVectorXd at = Eigen::RowVectorXd::Zero(columns_.cols()), taken = at;
+    for (const auto& [i, value] : signature) {
+        at += value * columns_.row(i);
+        taken += value * aside_part_.row(i);
+    }
+    return square - at.dot(taken);
 }
 
 void Remains::add(const Eigen::VectorXd& change) {

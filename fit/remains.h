@@ -28,8 +28,11 @@ public:
     /// down to them: the maximum of -2 r's - s'Rs. Planes of all directions and depths at a place
     /// mostly change the same ones.
     double most_of(const std::vector<Index>& equations) const;
-    /// R s, as far as R is left.
-    Eigen::VectorXd seen(const std::vector<std::pair<Index, double>>& signature) const;
+    /// What a plane changes, in sigmas, equation by equation: s.
+    using Signature = std::vector<std::pair<Index, double>>;
+    /// R s, as far as R is left, and s'Rs alone, which takes far less.
+    Eigen::VectorXd seen(const Signature& signature) const;
+    double seen_square(const Signature& signature) const;
     /// An explanation: R s.
     void add(const Eigen::VectorXd& change);
     /// An equation counts no more.
