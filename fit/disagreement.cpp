@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "fit/finish.h"
@@ -35,6 +36,10 @@ struct Rest {
             leave_out_one(*next);
             equations.erase(next);
         }
+    }
+    // Of these alone, as the fit without them has them: chi2 and dof are the fit's.
+    Rest part(const std::vector<Eigen::Index>& equations) const {
+        return {residuals(equations), matrix(equations, equations), chi2, dof};
     }
 
 private:
@@ -87,15 +92,18 @@ std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::M
         bool spared = false;
         for (std::size_t at = 0; at < left.size();) {
             const std::size_t end = std::min(left.size(), at + chunk);
-            Rest fewer = rest;
             std::vector<Eigen::Index> out;
             for (std::size_t k = at; k < end; ++k) {
                 const std::vector<Eigen::Index>& mine = equations[left[k]];
                 out.insert(out.end(), mine.begin(), mine.end());
             }
-            fewer.leave_out(std::move(out));
-            if (fails(fewer)) {
-                rest = std::move(fewer);
+            // What becomes of the others need not be known before.
+            Rest gone = rest.part(out);
+            std::vector<Eigen::Index> all_of_them(out.size());
+            std::iota(all_of_them.begin(), all_of_them.end(), 0);
+            gone.leave_out(std::move(all_of_them));
+            if (fails(gone)) {
+                rest.leave_out(std::move(out));
                 left.erase(left.begin() + std::ptrdiff_t(at), left.begin() + std::ptrdiff_t(end));
                 spared = true;
             } else {

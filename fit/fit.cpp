@@ -53,16 +53,18 @@ const char* name_of(FitStatus status) {
 namespace {
 
 // Whether a fit that finds no stone is tried again without its first suspect.
-enum class SetsAside { no, yes };
+// What a fit whose readings contradict each other tries: without angles that are far off the mesh,
+// and without its first suspect.
+enum class Tries { nothing, without_far_angles, all };
 FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const FitOptions& options,
-              const Progress& progress, SetsAside sets_aside);
+              const Progress& progress, Tries tries);
 
-// A gross error: beyond this the equations' bend matters. Not where no reading is a suspect: next
-// to corners that are held, readings that nothing checks have residuals that say nothing.
+// A gross error: beyond this the equations' bend matters. Of suspects only: next to corners that
+// are held, readings that nothing checks have residuals that say nothing.
 bool needs_robust_view(const Diagnosis& diagnosis) {
-    return !diagnosis.suspects.empty() &&
-           std::any_of(diagnosis.readings.begin(), diagnosis.readings.end(),
-                       [](const ReadingCheck& c) { return std::abs(c.normalized) > 8; });
+    return std::any_of(diagnosis.suspects.begin(), diagnosis.suspects.end(), [&](int reading) {
+        return std::abs(diagnosis.readings[std::size_t(reading)].normalized) > 8;
+    });
 }
 
 std::vector<Reading> without(const std::vector<Reading>& readings,
@@ -88,17 +90,30 @@ FitOptions with_few_starts(FitOptions options, const Portfolio& all) {
     return options;
 }
 
-// A fit that angles far off the mesh have spoilt, again without those that it then contradicts.
-std::optional<FitResult> fit_without_gross(const Stone& stone, const std::vector<Reading>& readings,
+// A fit that angles far off the mesh have spoilt, again without those that it then contradicts; or,
+// when it contradicts none of them, from where it ends. Nothing when that explains no more.
+std::optional<FitResult> fit_without_gross(const FitResult& spoilt, const Stone& stone,
+                                           const std::vector<Reading>& readings,
                                            std::vector<std::size_t> far, const FitOptions& options,
                                            const Progress& progress) {
+    const bool any_will_do = spoilt.status == FitStatus::not_converged;
     for (int round = 0; round < k_most_rounds && !far.empty(); ++round) {
-        FitResult result = fit(stone, without(readings, far), options, progress, SetsAside::no);
+        FitResult result = fit(stone, without(readings, far), options, progress, Tries::nothing);
         if (result.status == FitStatus::not_converged) return std::nullopt;
         const std::vector<std::size_t> wrong = contradicted_angles(result, readings, far);
+        if (wrong.empty()) {
+            FitOptions from_there = options;
+            from_there.start = result.solid;
+            result = fit(stone, readings, from_there, progress, Tries::nothing);
+            if (result.status == FitStatus::not_converged) return std::nullopt;
+            if (any_will_do || result.chi2 < spoilt.chi2) return result;
+            return std::nullopt;
+        }
         if (wrong.size() == far.size()) {
             put_back_gross(readings, far, result);
-            return result;
+            // What explains a contradiction takes most of chi-square with it.
+            if (any_will_do || result.chi2 < 0.5 * spoilt.chi2) return result;
+            return std::nullopt;
         }
         far = wrong;
     }
@@ -132,16 +147,16 @@ std::string other_size(const System& system) {
 }
 
 FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const FitOptions& options,
-              const Progress& progress, SetsAside sets_aside) {
+              const Progress& progress, Tries tries) {
     if (const auto left_out = meaningless_azimuths(readings); !left_out.empty()) {
-        FitResult result = fit(drawn, without(readings, left_out), options, progress, sets_aside);
+        FitResult result = fit(drawn, without(readings, left_out), options, progress, tries);
         put_left_out(readings, left_out, result);
         return result;
     }
     if (!says_size(readings)) {
         std::vector<Reading> with_size = readings;
         with_size.push_back(size_of_mesh(drawn));
-        FitResult result = fit(drawn, with_size, options, progress, sets_aside);
+        FitResult result = fit(drawn, with_size, options, progress, tries);
         take_back_size(with_size.back(), result);
         return result;
     }
@@ -240,11 +255,11 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
         result.symmetry = find_symmetry(stone, readings, from_here, progress);
     }
     judge(system, finished, diagnosis, result);
-    if (sets_aside == SetsAside::yes && stone.azimuth_from_mesh && !mirrored) {
+    if (tries == Tries::all && stone.azimuth_from_mesh && !mirrored) {
         auto better = fit_turning_azimuths_back(
             result, readings, system.mesh_turn(), [&](const std::vector<Reading>& back) {
                 return fit(drawn, back, with_few_starts(options, portfolio), progress,
-                           SetsAside::no);
+                           Tries::without_far_angles);
             });
         if (better) {
             better->options = result.options;
@@ -252,18 +267,16 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
             return *better;
         }
     }
-    if (const auto far = angles_far_from_mesh(system); may_be_bent(result, readings, far)) {
-        auto better =
-            fit_without_gross(drawn, readings, far, with_few_starts(options, portfolio), progress);
-        // What explains a contradiction takes most of chi-square with it.
-        if (better &&
-            (result.status == FitStatus::not_converged || better->chi2 < 0.5 * result.chi2)) {
-            result = std::move(*better);
-        }
+    if (const auto far = angles_far_from_mesh(system);
+        tries != Tries::nothing && may_be_bent(result, readings, far)) {
+        auto better = fit_without_gross(result, drawn, readings, far,
+                                        with_few_starts(options, portfolio), progress);
+        if (better) result = std::move(*better);
     }
-    if (sets_aside == SetsAside::yes) {
+    if (tries == Tries::all) {
         auto better = fit_setting_aside(result, readings, [&](const std::vector<Reading>& others) {
-            return fit(drawn, others, with_few_starts(options, portfolio), progress, SetsAside::no);
+            return fit(drawn, others, with_few_starts(options, portfolio), progress,
+                       Tries::without_far_angles);
         });
         if (better) result = std::move(*better);
     }
@@ -281,7 +294,7 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
 
 FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
                     const FitOptions& options, const Progress& progress) {
-    return fit(stone, readings, options, progress, SetsAside::yes);
+    return fit(stone, readings, options, progress, Tries::all);
 }
 
 }  // namespace culet

@@ -17,8 +17,8 @@ constexpr double k_precision = 1e-4;
 constexpr double k_least_gain = 0.01;
 // A step this long in one of the freedoms is no longer linear.
 constexpr double k_longest = 0.5;
-// Chains begin at each of so many facets; at more of them, where the first turn costs least.
-constexpr Eigen::Index k_most_begins = 64;
+// Chains begin at each facet; of more than so many at those whose first turn costs least.
+constexpr std::size_t k_most_begins = 128;
 
 // Which facets to turn so that 2 r't + t'B t is least, t being 1 for those that are turned and 0
 // for the others: one and two at a time as long as that gains, then by chains of turns (Kernighan &
@@ -61,17 +61,23 @@ public:
 
     /// Where the chains lead that begin at each facet, and ones and twos from there.
     std::vector<Turns> ends_of_chains() const {
+        std::vector<Eigen::Index> begins;
+        for (Eigen::Index i = 0; i < r_.size(); ++i) begins.push_back(i);
+        if (begins.size() > k_most_begins) {
+            std::stable_sort(begins.begin(), begins.end(), [this](Eigen::Index a, Eigen::Index b) {
+                return alone(a) < alone(b);
+            });
+            begins.resize(k_most_begins);
+        }
         std::vector<Turns> ends;
-        const Eigen::Index begins = r_.size() <= k_most_begins ? r_.size() : 0;
-        for (Eigen::Index begin = begins > 0 ? 0 : -1; begin < begins; ++begin) {
+        for (const Eigen::Index begin : begins) {
             Turns chain = *this, best = *this;
             std::vector<char> is_taken(turned_.size(), 0);
             Eigen::Index next = begin;
             for (std::size_t length = 0; length < turned_.size(); ++length) {
-                if (next < 0) next = chain.cheapest(is_taken);
+                if (length > 0) next = chain.cheapest(is_taken);
                 chain.turn(next);
                 is_taken[std::size_t(next)] = 1;
-                next = -1;
                 if (length == 0 || chain.change_ < best.change_) best = chain;
             }
             best.gain_by_ones_and_twos();
