@@ -48,6 +48,19 @@ std::vector<std::pair<int, int>> covered(const Scene& scene, const StoneBody& bo
     return found;
 }
 
+// Along the rows by the golden ratio: every stretch is spread over all of them.
+std::vector<std::pair<int, int>> spread_evenly(const std::vector<std::pair<int, int>>& rows) {
+    const std::size_t count = rows.size();
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < count; ++i)
+        order.emplace_back(std::fmod(0.6180339887498949 * static_cast<double>(i), 1.0), i);
+    // The inverse permutation of the ranks: the i-th is where a step of the golden ratio lands.
+    std::sort(order.begin(), order.end());
+    std::vector<std::pair<int, int>> spread(count);
+    for (std::size_t rank = 0; rank < count; ++rank) spread[order[rank].second] = rows[rank];
+    return spread;
+}
+
 }  // namespace
 
 StonePixels StonePixels::stretch(std::size_t first, std::size_t count) const {
@@ -93,17 +106,18 @@ StonePixels stone_pixels(const Scene& scene, int wanted) {
         step = std::max(1.0, around / k_most_looked_at);
         pixels = look(window, step);
     }
-    // Along the rows by the golden ratio: every stretch is spread over all of them.
-    const std::size_t count = pixels.at.size();
-    std::vector<std::pair<double, std::size_t>> order;
-    for (std::size_t i = 0; i < count; ++i)
-        order.emplace_back(std::fmod(0.6180339887498949 * static_cast<double>(i), 1.0), i);
-    // The inverse permutation of the ranks: the i-th is where a step of the golden ratio lands.
-    std::sort(order.begin(), order.end());
-    std::vector<std::pair<int, int>> spread(count);
-    for (std::size_t rank = 0; rank < count; ++rank) spread[order[rank].second] = pixels.at[rank];
-    pixels.at = std::move(spread);
-    if (static_cast<int>(count) > wanted) pixels.at.resize(static_cast<std::size_t>(wanted));
+    pixels.at = spread_evenly(pixels.at);
+    if (static_cast<int>(pixels.at.size()) > wanted)
+        pixels.at.resize(static_cast<std::size_t>(wanted));
+    return pixels;
+}
+
+StonePixels all_stone_pixels(const Scene& scene) {
+    const StoneBody body(scene.stone.solid, scene.stone.convex);
+    const Window whole{0, 0, double(scene.camera.width), double(scene.camera.height)};
+    StonePixels pixels;
+    pixels.at = spread_evenly(covered(scene, body, EyeRays(scene.camera), whole, 1));
+    pixels.in_picture = static_cast<double>(pixels.at.size());
     return pixels;
 }
 

@@ -22,6 +22,8 @@ struct StonePixels {
 };
 /// About `wanted`, fewer where there are not as many. Empty: the stone was not found.
 StonePixels stone_pixels(const Scene& scene, int wanted);
+/// Every one.
+StonePixels all_stone_pixels(const Scene& scene);
 
 struct PilotDrawing {
     std::vector<Rgb> rgb;  ///< of each pixel, behind the eye's optics

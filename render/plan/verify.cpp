@@ -13,11 +13,20 @@ namespace {
 
 constexpr int k_verified_samples = 64, k_least_nodes = 29;
 
+Scene one_window(const Scene& scene) {
+    Scene one = scene;
+    if (one.camera.optics.two_windows) one.camera.width /= 2;
+    return one;
+}
+
 }  // namespace
 
 Truth draw_truth(const Scene& scene, const ScenePlan& plan, int pixels, int samples) {
-    Scene whole = scene;
-    if (whole.camera.optics.two_windows) whole.camera.width /= 2;
+    return draw_truth(scene, plan, stone_pixels(one_window(scene), pixels), samples);
+}
+
+Truth draw_truth(const Scene& scene, const ScenePlan& plan, StonePixels pixels, int samples) {
+    Scene whole = one_window(scene);
     RenderSettings& settings = whole.settings;
     settings.effects_auto = true;
     settings.wavelength_turns = turns_for(samples, k_node_counts.back());
@@ -34,7 +43,7 @@ Truth draw_truth(const Scene& scene, const ScenePlan& plan, int pixels, int samp
                           : k_node_counts.back();
     Truth truth;
     truth.samples = samples;
-    truth.pixels = stone_pixels(whole, pixels);
+    truth.pixels = std::move(pixels);
     truth.drawing = draw_pilot(whole, truth.pixels, limits, samples, nodes);
     return truth;
 }

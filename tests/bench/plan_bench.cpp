@@ -7,9 +7,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "render/colour_error.h"
+#include "render/image_io.h"
 #include "render/plan/planner.h"
 #include "render/plan/verify.h"
 #include "stone/errors.h"
@@ -26,6 +28,7 @@ struct Options {
     int pixels = 64, checked = 60, first = 0, count = 60, every = 1;
     int truth_rays = 400;
     std::vector<double> tolerances{0.1, 0.03, 0.01, 0.003};
+    std::filesystem::path whole;  // folder of true pictures; empty: some pixels
     bool turns = false, prices = false, against_cheapest = false, list = false;
 };
 
@@ -77,6 +80,42 @@ Truth truth_of(const Scene& scene, const Options& options) {
     return draw_truth(scene, finest, options.checked, options.truth_rays);
 }
 
+// The same at every pixel, which takes minutes: kept in a file.
+Truth whole_truth_of(const Scene& scene, std::size_t number, const Options& options) {
+    const std::filesystem::path file =
+        options.whole / fmt::format("{}-{}-{}.exr", number, options.pixels, options.truth_rays);
+    const StonePixels pixels = all_stone_pixels(scene);
+    if (!std::filesystem::exists(file)) {
+        ScenePlan finest;
+        finest.settings.wavelengths_nm.assign(57, 0);
+        finest.settings.cut_weight = 1e-3;
+        const Truth drawn = draw_truth(scene, finest, pixels, options.truth_rays);
+        Picture picture;
+        picture.width = scene.camera.width;
+        picture.height = scene.camera.height;
+        picture.rgb.resize(3 * picture.pixels());
+        for (std::size_t i = 0; i < pixels.at.size(); ++i) {
+            const auto [x, y] = pixels.at[i];
+            const std::size_t first = static_cast<std::size_t>(3 * (y * picture.width + x));
+            for (std::size_t c = 0; c < 3; ++c)
+                picture.rgb[first + c] = static_cast<float>(drawn.drawing.rgb[i][c]);
+        }
+        write_picture(picture, file, {},
+                      {{"culet:few_rays", fmt::format("{}", drawn.drawing.few_rays)},
+                       {"culet:seconds", fmt::format("{}", drawn.drawing.seconds)}});
+    }
+    const Picture picture = read_picture(file).picture;
+    Truth truth;
+    truth.pixels = pixels;
+    truth.samples = options.truth_rays;
+    for (const auto& [x, y] : pixels.at) truth.drawing.rgb.push_back(picture.pixel(x, y));
+    for (const auto& [key, value] : picture.text) {
+        if (key == "culet:few_rays") truth.drawing.few_rays = std::stod(value);
+        if (key == "culet:seconds") truth.drawing.seconds = std::stod(value);
+    }
+    return truth;
+}
+
 // The automatic picture, with all that makes it, against the truth; and beside the cheapest of a
 // sweep.
 int run(const Options& options) {
@@ -93,7 +132,10 @@ int run(const Options& options) {
     for (int i = options.first; i < std::min(options.first + options.count, 60);
          i += options.every) {
         const PlanScene& item = scenes[static_cast<std::size_t>(i)];
-        const Truth truth = truth_of(item.scene, options);
+        const Truth truth =
+            options.whole.empty()
+                ? truth_of(item.scene, options)
+                : whole_truth_of(item.scene, static_cast<std::size_t>(i), options);
         const std::vector<HandChosen> by_hand = options.against_cheapest
                                                     ? hand_chosen(item.scene, truth, finest)
                                                     : std::vector<HandChosen>{};
@@ -163,6 +205,8 @@ int main(int argc, char** argv) {
     program.add_option("--pixels", options.pixels, "along a side");
     program.add_option("--checked", options.checked, "pixels of the truth");
     program.add_option("--truth-rays", options.truth_rays, "rays in each of them");
+    program.add_option("--whole", options.whole,
+                       "hold against every pixel: folder to keep true pictures in");
     program.add_option("--first", options.first, "scene to start with, from 0");
     program.add_option("--count", options.count, "scenes");
     program.add_option("--every", options.every, "of the scenes, every so many");
