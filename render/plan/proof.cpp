@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "render/colour_error.h"
+#include "render/plan/light_edge_scan.h"
 #include "render/plan/planner.h"
 
 namespace culet {
@@ -12,6 +13,10 @@ namespace culet {
 namespace {
 
 constexpr std::size_t k_first_pixels = 48, k_most_pixels = 768, k_noise_pixels = 48;
+// Lights that are so many times as bright as the picture are looked for where the picture lacks
+// them, and more pixels are looked at first: of those where a light may be seen, some see it.
+constexpr double k_bright = 8;
+constexpr std::size_t k_first_pixels_of_bright = 96;
 constexpr double k_standard_errors = 3;
 // Sides of the truth's grids, one after the other. Grids of different sides are off independently.
 constexpr std::array k_sides{4, 5, 7, 11, 15, 22, 32, 46};
@@ -33,6 +38,8 @@ constexpr double k_gambled_weight = 0.04, k_split_weight = 0.6, k_fine_gambled_w
 constexpr double k_fine_tolerance = 0.02;
 // Every pixel has this share of a mean chance at least: none counts more than two and a half times.
 constexpr double k_even_share = 0.4;
+// Of the rest, what goes to where a light's edge may be.
+constexpr double k_share_of_edges = 0.5;
 
 double apart(const Rgb& a, const Rgb& b) {
     double sum = 0;
@@ -131,14 +138,16 @@ double Prover::noise_of_16() {
     return (1 + 1.5 * spread) * drawing.few_rays / k_halves_over_noise;
 }
 
-// As often as the picture changes much beside a pixel.
+// More often where the picture changes beside a pixel. With the root of that change: pixels of
+// little contrast are off as well, because a picture may lack what is there.
 void Prover::choose(const Picture& picture) {
     if (!chosen_.pixels.at.empty()) return;
     chosen_.pixels.in_picture = some_.in_picture;
+    chosen_.first = k_first_pixels;
     const int width = picture.width / windows_, height = picture.height;
     std::vector<std::pair<int, int>> at;
     std::vector<double> contrast;
-    double sum = 0;
+    double sum = 0, radiance = 0;
     for (int y = 0; y < height && !picture.coverage.empty(); ++y) {
         for (int x = 0; x < width; ++x) {
             const std::size_t pixel =
@@ -153,8 +162,9 @@ void Prover::choose(const Picture& picture) {
             }
             if (!std::isfinite(most)) most = 0;
             at.emplace_back(x, y);
-            contrast.push_back(most);
-            sum += most;
+            contrast.push_back(std::sqrt(most));
+            sum += contrast.back();
+            radiance += std::isfinite(mean_of(here)) ? std::max(0.0, mean_of(here)) : 0;
         }
     }
     const double count = static_cast<double>(at.size());
@@ -165,11 +175,22 @@ void Prover::choose(const Picture& picture) {
         chosen_.all = !at.empty();
         return;
     }
+    std::vector<double> edges(at.size(), 0.0);
+    double sum_of_edges = 0;
+    if (radiance > 0 && brightest_light() * count > k_bright * radiance) {
+        const LightEdgeScan scan(scene_, *progress_);
+        for (std::size_t i = 0; i < at.size(); ++i)
+            sum_of_edges += edges[i] = scan.near(at[i].first, at[i].second);
+        chosen_.first = k_first_pixels_of_bright;
+    }
     // Chances, and their sums; then the golden ratio's multiples, evenly spread over these.
     std::vector<double> sums, chances;
     double total = 0;
-    for (double c : contrast) {
-        chances.push_back(k_even_share + (sum > 0 ? (1 - k_even_share) * c * count / sum : 0));
+    const double of_edges = sum_of_edges > 0 ? k_share_of_edges * (1 - k_even_share) : 0,
+                 of_contrast = 1 - k_even_share - of_edges;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        chances.push_back(k_even_share + (sum > 0 ? of_contrast * contrast[i] * count / sum : 0) +
+                          (sum_of_edges > 0 ? of_edges * edges[i] * count / sum_of_edges : 0));
         total += chances.back();
         sums.push_back(total);
     }
@@ -184,6 +205,11 @@ void Prover::choose(const Picture& picture) {
         chosen_.pixels.at.push_back(at[pixel]);
         chosen_.counts.push_back(total / count / chances[pixel]);
     }
+}
+
+double Prover::brightest_light() const {
+    const WavelengthSet colours(even_wavelengths(3));
+    return LightField(scene_.lights, colours).max_radiance();
 }
 
 void Prover::draw_up_to(std::size_t count) {
@@ -221,6 +247,7 @@ Proof Prover::look(const Picture& picture, std::size_t wanted) {
     proof.pixels = static_cast<int>(count);
     proof.samples = samples();
     std::vector<Rgb> seen, true_pixels;
+    std::vector<double> errors_of;
     double errors = 0, squares = 0, sizes = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const auto [x, y] = chosen_.pixels.at[i];
@@ -229,6 +256,7 @@ Proof Prover::look(const Picture& picture, std::size_t wanted) {
         double error = chosen_.counts[i] * apart(seen.back(), true_pixels.back());
         // A pixel of no number is as wrong as can be.
         if (!std::isfinite(error)) error = 1e100;
+        errors_of.push_back(error);
         errors += error;
         squares += error * error;
         sizes += chosen_.counts[i] * mean_of(true_pixels.back());
@@ -237,9 +265,14 @@ Proof Prover::look(const Picture& picture, std::size_t wanted) {
     const double pixels = static_cast<double>(count);
     proof.difference = errors / sizes;
     if (!chosen_.all && count > 1) {
-        proof.spread =
-            std::sqrt(std::max(0.0, squares - errors * errors / pixels) * pixels / (pixels - 1)) /
-            sizes;
+        const double mean = errors / pixels,
+                     deviation = std::sqrt(std::max(0.0, squares - errors * mean) / (pixels - 1));
+        proof.spread = deviation * std::sqrt(pixels) / sizes;
+        double cubes = 0;
+        for (double error : errors_of) cubes += std::pow((error - mean) / deviation, 3) / pixels;
+        constexpr double t = k_standard_errors;
+        if (deviation > 0)
+            proof.skewness = std::max(0.0, cubes) * (1 + 2 * t * t) / 6 * deviation / sizes;
     }
     double noise = 0, cut = 0;
     for (const Level& level : levels_) {
@@ -249,7 +282,7 @@ Proof Prover::look(const Picture& picture, std::size_t wanted) {
     }
     proof.noise = std::sqrt(noise);
     // What the truth itself has cut counts as light of the mean radiance.
-    proof.bound = proof.difference + k_standard_errors * proof.spread + cut;
+    proof.bound = proof.difference + k_standard_errors * proof.spread + proof.skewness + cut;
     proof.bound_delta_e = colour_error(seen, true_pixels).bound_delta_e();
     return proof;
 }
@@ -267,7 +300,9 @@ std::optional<Prover::Look> Prover::next_look(const Proof& proof, double room) c
         for (std::size_t pixels = static_cast<std::size_t>(proof.pixels);;) {
             const double spread = proof.spread * (difference / proof.difference) *
                                   std::sqrt(proof.pixels / static_cast<double>(pixels));
-            if (difference + k_standard_errors * spread <= k_likely_room * room) {
+            const double skewness = proof.skewness * (difference / proof.difference) *
+                                    (proof.pixels / static_cast<double>(pixels));
+            if (difference + k_standard_errors * spread + skewness <= k_likely_room * room) {
                 double drawn = 0;
                 for (std::size_t l = 0; l < levels; ++l) {
                     const bool there = l < levels_.size();
@@ -292,7 +327,7 @@ std::optional<Prover::Look> Prover::next_look(const Proof& proof, double room) c
 
 Proof Prover::prove(const Picture& picture, double room, double most_ns) {
     choose(picture);
-    Proof proof = look(picture, k_first_pixels);
+    Proof proof = look(picture, chosen_.first);
     for (int more = 1; more < k_looks && proof.bound > room; ++more) {
         // As long as the noise is what is seen, the picture cannot be blamed.
         const bool noisy = proof.noise > k_noisy * proof.difference;

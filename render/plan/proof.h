@@ -6,10 +6,13 @@
 // true pixel t is drawn with few rays, which are off by some e of mean 0, whatever p: then
 // |p - t - e| is no smaller in the mean than |p - t| (Jensen's inequality). So the mean over pixels
 // chosen by chance with three of its standard errors is a bound, and the more is allowed the fewer
-// pixels and rays it takes. Pixels beside which the picture changes much are chosen more often, and
-// count less (Hansen & Hurwitz 1943): that is where pictures are off. One picture is looked at
-// `k_looks` times at most, with a bound each: were the errors' means normally distributed, one of
-// these would be too low in 1 picture of 150.
+// pixels and rays it takes. Pixels beside which the picture changes, and those where a bright light
+// may be seen at another wavelength (light_edge_scan.h), are chosen more often, and count less
+// (Hansen & Hurwitz 1943): that is where pictures are off. Few pixels are off by much, so that the
+// mean of some is not distributed normally: what their skewness adds to the limit is in the bound
+// (Johnson 1978, JASA 73, eq. 2.4).
+//
+// One picture is looked at `k_looks` times at most, with a bound each.
 
 #include <cstdint>
 #include <optional>
@@ -25,6 +28,7 @@ struct Proof {
     int pixels = 0, samples = 0;
     double difference = 0;  ///< mean over them, with the noise of the truth's rays
     double spread = 0;      ///< its standard error
+    double skewness = 0;    ///< what few pixels that are off by much add to three of these
     double noise = 0;       ///< about what the truth's few rays are off by
     double bound = 0, bound_delta_e = 0;
 
@@ -69,9 +73,11 @@ private:
         StonePixels pixels;
         std::vector<double> counts;  // of each, 1 in the mean
         bool all = false;            // each pixel of the stone once
+        std::size_t first = 0;       // that are looked at first
     };
     int grid(std::size_t level) const;
     void choose(const Picture& picture);
+    double brightest_light() const;
     PilotDrawing draw(const StonePixels& pixels, int samples);
     void draw_up_to(std::size_t count);
     Rgb truth(std::size_t pixel) const;

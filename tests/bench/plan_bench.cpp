@@ -132,10 +132,9 @@ int run(const Options& options) {
     for (int i = options.first; i < std::min(options.first + options.count, 60);
          i += options.every) {
         const PlanScene& item = scenes[static_cast<std::size_t>(i)];
-        const Truth truth =
-            options.whole.empty()
-                ? truth_of(item.scene, options)
-                : whole_truth_of(item.scene, static_cast<std::size_t>(i), options);
+        const Truth truth = options.whole.empty()
+                                ? truth_of(item.scene, options)
+                                : whole_truth_of(item.scene, static_cast<std::size_t>(i), options);
         const std::vector<HandChosen> by_hand = options.against_cheapest
                                                     ? hand_chosen(item.scene, truth, finest)
                                                     : std::vector<HandChosen>{};

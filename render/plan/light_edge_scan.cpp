@@ -1,0 +1,226 @@
+#include "render/plan/light_edge_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <numeric>
+
+#include "render/beams/beam_picture.h"
+#include "render/plan/a_priori.h"
+#include "render/plan/planner.h"
+#include "render/render.h"
+#include "stone/solid.h"
+
+namespace culet {
+
+namespace {
+
+// By beams, whose regions all are seen: pixels along a cell. Else rays, one a cell.
+constexpr double k_cell = 3, k_preview_tolerance = 0.1;
+constexpr int k_pixels = 1000;
+// Those that may be off by most are looked at at so many wavelengths.
+constexpr std::size_t k_brightest = 96;
+constexpr int k_wavelengths = 29;
+const std::vector<double> k_few_nm{460, 560}, k_one_nm{550};
+// Paths below this weight are left to the proof's even choice.
+constexpr double k_cut_weight = 0.01;
+// Where light leaves at 60 degrees from a facet's normal, refraction has widened what rays leave
+// apart by the index and twice, the inverse of the angle's cosine.
+constexpr double k_widened = 2;
+// Cells of a map of directions: wider than any stone's colours leave apart.
+constexpr int k_map_width = 64, k_map_height = 32;
+
+CapLight rim(const Vec3& direction, double angle, double width, const LightColour& radiance) {
+    return {direction, std::max(0.0, angle - width), std::min(angle + width, std::numbers::pi),
+            radiance};
+}
+
+// The four sides, each as wide as is asked for.
+void add_rims(const PlaneLight& plane, double width, std::vector<PlaneLight>& rims) {
+    if (!plane.u || !plane.v) return;
+    const Vec3 u = *plane.u, v = *plane.v;
+    const double along_u = glm::length(u), along_v = glm::length(v);
+    if (!(along_u > 0) || !(along_v > 0)) return;
+    for (const double side : {-1.0, 1.0}) {
+        PlaneLight one = plane;
+        one.point = plane.point + side * u;
+        one.u = u * (width / along_u);
+        one.v = v * (1 + width / along_v);
+        rims.push_back(one);
+        one.point = plane.point + side * v;
+        one.u = u * (1 + width / along_u);
+        one.v = v * (width / along_v);
+        rims.push_back(one);
+    }
+}
+
+// The brightest texel about each direction.
+std::shared_ptr<const EnvironmentMap> brightest_of(const EnvironmentMap& map) {
+    auto found = std::make_shared<EnvironmentMap>();
+    found->width = std::min(map.width, k_map_width);
+    found->height = std::min(map.height, k_map_height);
+    found->rgb.assign(3 * static_cast<std::size_t>(found->width * found->height), 0.0f);
+    for (int y = 0; y < map.height; ++y) {
+        for (int x = 0; x < map.width; ++x) {
+            const std::size_t from = 3 * static_cast<std::size_t>(y * map.width + x);
+            const int row = y * found->height / map.height, column = x * found->width / map.width;
+            const std::size_t to = 3 * static_cast<std::size_t>(row * found->width + column);
+            for (std::size_t c = 0; c < 3; ++c)
+                found->rgb[to + c] = std::max(found->rgb[to + c], map.rgb[from + c]);
+        }
+    }
+    return found;
+}
+
+// One ray in each pixel: mean over the wavelengths.
+std::vector<double> mean_spectra(const Scene& scene, const StonePixels& pixels,
+                                 const Progress& progress) {
+    PathLimits limits;
+    limits.seed = scene.settings.seed;
+    limits.depth = scene.settings.depth > 0 ? scene.settings.depth : k_deepest;
+    limits.cut_weight = k_cut_weight;
+    limits.split_weight = 1;
+    limits.roulette = !scene.stone.convex;
+    const PilotDrawing drawing = draw_pilot(scene, pixels, limits, 1, k_node_counts[0], progress);
+    const std::size_t count = drawing.wavelengths_nm.size();
+    std::vector<double> seen(pixels.at.size(), 0.0);
+    for (std::size_t i = 0; i < drawing.spectra.size(); ++i)
+        seen[i / count] += drawing.spectra[i] / static_cast<double>(count);
+    return seen;
+}
+
+}  // namespace
+
+Lights light_rims(const Lights& lights, const Vec3& stone, double width) {
+    Lights rims;
+    for (const CapLight& cap : lights.caps) {
+        rims.caps.push_back(rim(cap.direction, cap.to, width, cap.radiance));
+        if (cap.from > 0) rims.caps.push_back(rim(cap.direction, cap.from, width, cap.radiance));
+    }
+    for (const HemisphereLight& half : lights.hemispheres)
+        rims.caps.push_back(rim(half.direction, std::numbers::pi / 2, width, half.radiance));
+    for (const PlaneLight& plane : lights.planes)
+        add_rims(plane, width * glm::length(plane.point - stone), rims.planes);
+    for (SphereLight sphere : lights.spheres) {
+        sphere.radius += width * glm::length(sphere.center - stone);
+        // Whose widened ball would swallow the stone is no small light.
+        if (sphere.radius < glm::length(sphere.center - stone)) rims.spheres.push_back(sphere);
+    }
+    for (LobeLight lobe : lights.lobes) {
+        // cos^e falls to a third within about 1 / sqrt(e / 2).
+        const double angle = std::sqrt(2 / std::max(lobe.exponent, 1.0));
+        lobe.exponent = 2 / ((angle + width) * (angle + width));
+        rims.lobes.push_back(lobe);
+    }
+    if (lights.environment) rims.environment = brightest_of(*lights.environment);
+    return rims;
+}
+
+LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress) {
+    Scene scene = whole;
+    RenderSettings& settings = scene.settings;
+    const bool disperses =
+        settings.effects_auto || settings.effects[static_cast<std::size_t>(Effects::dispersion)];
+    settings.effects_auto = false;
+    settings.effects.fill(false);
+    settings.effects[static_cast<std::size_t>(Effects::dispersion)] = disperses;
+    settings.wavelength_turns = 1;
+    settings.coherence = false;
+    settings.engine = "preview";
+    settings.tolerance = k_preview_tolerance;
+    settings.cut_weight = k_cut_weight;
+    scene.camera.aperture_radius = 0;
+    scene.camera.optics = {};
+    const Vec3 middle = centroid(scene.stone.solid);
+    const IndexSpans spans = index_spans(scene);
+    const double pixel = k_widened * spans.mean * pixel_on_stone(scene) /
+                         std::max(glm::length(scene.camera.position - middle), 1e-300),
+                 apart = disperses ? exit_deviation(spans.dispersion, spans.mean) / 2 : 0;
+    const auto light = [&](double width) {
+        scene.lights = light_rims(whole.lights, middle, width);
+    };
+
+    // A pixel of each cell: by beams the one in which most is seen, else any.
+    StonePixels at;
+    std::vector<double> seen;
+    settings.wavelengths_nm = disperses ? k_few_nm : k_one_nm;
+    if (refused_by_beams(scene, make_plan(scene)).empty()) {
+        step_ = k_cell;
+        light(apart + pixel);
+        FrameRenderer frames(scene);
+        frames.report_to(progress);
+        const Picture& picture = frames.draw(false).picture;
+        columns_ = static_cast<int>(picture.width / step_) + 1;
+        rows_ = static_cast<int>(picture.height / step_) + 1;
+        std::vector<std::pair<int, int>> best(static_cast<std::size_t>(columns_ * rows_));
+        std::vector<double> most(best.size(), 0.0);
+        for (int y = 0; y < picture.height; ++y) {
+            for (int x = 0; x < picture.width; ++x) {
+                const Rgb rgb = picture.pixel(x, y);
+                const double here = (std::abs(rgb[0]) + std::abs(rgb[1]) + std::abs(rgb[2])) / 3;
+                const std::size_t cell = cell_of(x, y);
+                if (!(here > most[cell])) continue;
+                most[cell] = here;
+                best[cell] = {x, y};
+            }
+        }
+        for (std::size_t cell = 0; cell < most.size(); ++cell) {
+            if (!(most[cell] > 0)) continue;
+            at.at.push_back(best[cell]);
+            seen.push_back(most[cell]);
+        }
+    } else {
+        at = stone_pixels(scene, k_pixels);
+        if (at.at.empty()) return;
+        step_ = std::max(1.0, std::sqrt(at.in_picture / static_cast<double>(at.at.size())));
+        columns_ = static_cast<int>(scene.camera.width / step_) + 1;
+        rows_ = static_cast<int>(scene.camera.height / step_) + 1;
+        light(apart + step_ * pixel);
+        seen = mean_spectra(scene, at, progress);
+    }
+    if (disperses) {
+        std::vector<std::size_t> brightest(seen.size());
+        std::iota(brightest.begin(), brightest.end(), std::size_t{0});
+        std::stable_sort(brightest.begin(), brightest.end(),
+                         [&](std::size_t a, std::size_t b) { return seen[a] > seen[b]; });
+        brightest.resize(std::min(brightest.size(), k_brightest));
+        StonePixels some;
+        for (const std::size_t i : brightest) some.at.push_back(at.at[i]);
+        settings.wavelengths_nm = even_wavelengths(k_wavelengths);
+        light(step_ * pixel);
+        const std::vector<double> found = mean_spectra(scene, some, progress);
+        // Of what may be there, those of which nothing more is known have as much as these.
+        double possible = 0, actual = 0;
+        for (std::size_t k = 0; k < brightest.size(); ++k) {
+            possible += seen[brightest[k]];
+            actual += found[k];
+        }
+        if (possible > 0) {
+            for (double& cell : seen) cell *= std::min(1.0, actual / possible);
+        }
+        for (std::size_t k = 0; k < brightest.size(); ++k) seen[brightest[k]] = found[k];
+    }
+    cells_.assign(static_cast<std::size_t>(columns_ * rows_), 0.0f);
+    for (std::size_t i = 0; i < at.at.size(); ++i) {
+        float& cell = cells_[cell_of(at.at[i].first, at.at[i].second)];
+        cell = std::max(cell, static_cast<float>(seen[i]));
+    }
+}
+
+std::size_t LightEdgeScan::cell_of(int x, int y) const {
+    return static_cast<std::size_t>(static_cast<int>(y / step_) * columns_ +
+                                    static_cast<int>(x / step_));
+}
+
+double LightEdgeScan::near(int x, int y) const {
+    const int column = static_cast<int>(x / step_), row = static_cast<int>(y / step_);
+    float most = 0;
+    for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r) {
+        for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c)
+            most = std::max(most, cells_[static_cast<std::size_t>(r * columns_ + c)]);
+    }
+    return most;
+}
+
+}  // namespace culet

@@ -1,0 +1,43 @@
+#pragma once
+// Where in the picture the edge of a bright light may be seen at some wavelength: what a proof of
+// few pixels must not miss.
+//
+// A small bright light is seen in few pixels, and at each wavelength in others: a picture of few
+// wavelengths may lack one of its images altogether, and nothing in it tells. So every light is
+// widened to a rim about its edges, as wide as the colours of one path leave apart, and seen by a
+// preview of two wavelengths, in which no region is too small to be met. Where it shows most, rims
+// as wide as a cell of few pixels at each of many wavelengths tell what is there.
+
+#include <vector>
+
+#include "render/plan/pilot_picture.h"
+#include "render/scene.h"
+
+namespace culet {
+
+/// The lights' rims: radiance of each light within `width` (radians, as seen from the stone) of its
+/// edge, on both sides; of a map, the brightest texel of cells some 6 degrees wide; of lobes, wider
+/// ones. What has no edge is left out.
+Lights light_rims(const Lights& lights, const Vec3& stone, double width);
+
+class LightEdgeScan {
+public:
+    LightEdgeScan() = default;
+    /// As light has one way through the stone, unpolarised and not absorbed. `progress` is told 0,
+    /// and may stop it: Interrupted.
+    LightEdgeScan(const Scene& scene, const Progress& progress);
+
+    /// The radiance that a light's edge may bring in a pixel's cell or beside it; 0: none was
+    /// found.
+    double near(int x, int y) const;
+    bool empty() const { return cells_.empty(); }
+
+private:
+    std::size_t cell_of(int x, int y) const;
+
+    double step_ = 1;  // pixels
+    int columns_ = 0, rows_ = 0;
+    std::vector<float> cells_;
+};
+
+}  // namespace culet
