@@ -19,9 +19,13 @@ namespace {
 // By beams, whose regions all are seen: pixels along a cell. Else rays, one a cell.
 constexpr double k_cell = 3, k_preview_tolerance = 0.1;
 constexpr int k_pixels = 1000;
-// Those that may be off by most are looked at at so many wavelengths.
-constexpr std::size_t k_brightest = 96;
-constexpr int k_wavelengths = 29;
+// Those that may be off by most are looked at at more wavelengths, with rims that fill the steps
+// between them.
+struct Closer {
+    std::size_t cells;
+    int wavelengths;
+};
+const std::vector<Closer> k_closer{{512, 8}, {96, 29}};
 const std::vector<double> k_few_nm{460, 560}, k_one_nm{550};
 // Paths below this weight are left to the proof's even choice.
 constexpr double k_cut_weight = 0.01;
@@ -179,16 +183,16 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress) {
         light(apart + step_ * pixel);
         seen = mean_spectra(scene, at, progress);
     }
-    if (disperses) {
+    for (const Closer& closer : disperses ? k_closer : std::vector<Closer>{}) {
         std::vector<std::size_t> brightest(seen.size());
         std::iota(brightest.begin(), brightest.end(), std::size_t{0});
         std::stable_sort(brightest.begin(), brightest.end(),
                          [&](std::size_t a, std::size_t b) { return seen[a] > seen[b]; });
-        brightest.resize(std::min(brightest.size(), k_brightest));
+        brightest.resize(std::min(brightest.size(), closer.cells));
         StonePixels some;
         for (const std::size_t i : brightest) some.at.push_back(at.at[i]);
-        settings.wavelengths_nm = even_wavelengths(k_wavelengths);
-        light(step_ * pixel);
+        settings.wavelengths_nm = even_wavelengths(closer.wavelengths);
+        light(2 * apart / closer.wavelengths + step_ * pixel);
         const std::vector<double> found = mean_spectra(scene, some, progress);
         // Of what may be there, those of which nothing more is known have as much as these.
         double possible = 0, actual = 0;

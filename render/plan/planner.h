@@ -121,6 +121,7 @@ private:
     /// The reference's settings, and its price.
     double choose_reference(double room);
     double choose_beams();
+    void bring_polarization_back(BeamProposal& proposal, double room);
     int choose_pupil(double room);
     void measure_noise();
     void bound_depth();

@@ -119,6 +119,38 @@ BeamProposal Planner::beams_of(const Plan& plan, const PathWork& work) const {
     return proposal;
 }
 
+// It costs beams little. What leaving it out is off by is everywhere, and adds up with what borders
+// are off by as it is; where the rest would have to be so much finer for it that the picture would
+// be dearer, it stays.
+void Planner::bring_polarization_back(BeamProposal& proposal, double room) {
+    PlanItem& line = item(Effects::polarization);
+    if (line.on || !user_.effects_auto || !(line.matters > 0) || branches_) return;
+    const double off_by = std::min(line.bound, line.matters);
+    BeamProposal with = proposal, without = proposal;
+    with.polarised = true;
+    with.effects = without.effects =
+        std::sqrt(std::max(0.0, left_out_ * left_out_ - off_by * off_by));
+    const ProposedBeams dearer = with.cheapest(room), cheaper = without.cheapest(room - off_by);
+    // What previews are off by is known within a factor of three only: no reason to bring it back.
+    if (dearer.preview || dearer.error > room || cheaper.price_ns == 0 ||
+        !(dearer.price_ns < cheaper.price_ns))
+        return;
+    line.on = true;
+    if (!refused_by_beams(scene_, make_plan(with_effects(on(Effects::dispersion)))).empty()) {
+        line.on = false;
+        return;
+    }
+    line.why = fmt::format(
+        "bound {:.2g} under tolerance {:g}, but leaving it out would save less than it costs "
+        "elsewhere",
+        line.bound, tolerance_);
+    spent_ -= line.bound;
+    left_out_ = with.effects;
+    line.bound = line.bound_delta_e = 0;
+    work_.polarised = true;
+    proposal = std::move(with);
+}
+
 double Planner::choose_beams() {
     Scene tried = with_effects(on(Effects::dispersion));
     tried.settings.wavelengths_nm = plan_.settings.wavelengths_nm;
@@ -137,8 +169,9 @@ double Planner::choose_beams() {
     proposal.effects = left_out_;
     proposal.views = choose_pupil(tolerance_);
     proposal.dispersed = dispersed_;
-    plan_.proposed =
-        proposal.cheapest((one_wave_ ? k_share_as_one : k_share_of_beams) * tolerance_);
+    const double room = (one_wave_ ? k_share_as_one : k_share_of_beams) * tolerance_;
+    bring_polarization_back(proposal, room);
+    plan_.proposed = proposal.cheapest(room);
     plan_.beams = std::move(proposal);
     return plan_.proposed.price_ns;
 }

@@ -12,12 +12,13 @@ namespace culet {
 
 namespace {
 
-constexpr std::size_t k_first_pixels = 48, k_most_pixels = 768, k_noise_pixels = 48;
+constexpr std::size_t k_first_pixels = 48, k_most_pixels = 3072, k_noise_pixels = 48;
 // Lights that are so many times as bright as the picture are looked for where the picture lacks
 // them, and more pixels are looked at first: of those where a light may be seen, some see it.
 constexpr double k_bright = 8;
 constexpr std::size_t k_first_pixels_of_bright = 96;
 constexpr double k_standard_errors = 3;
+constexpr std::size_t k_step = 4;  // times as many pixels at the next look, at most
 // Sides of the truth's grids, one after the other. Grids of different sides are off independently.
 constexpr std::array k_sides{4, 5, 7, 11, 15, 22, 32, 46};
 // Of a picture whose error, less a standard error, is this share of what it may be, no proof is
@@ -287,6 +288,18 @@ Proof Prover::look(const Picture& picture, std::size_t wanted) {
     return proof;
 }
 
+// Of so many pixels and grids, those that are not drawn yet.
+double Prover::rays_for(std::size_t pixels, std::size_t levels) const {
+    double rays = 0;
+    for (std::size_t l = 0; l < levels; ++l) {
+        const bool there = l < levels_.size();
+        const double have = there ? static_cast<double>(levels_[l].rgb.size()) : 0;
+        rays += std::max(0.0, static_cast<double>(pixels) - have) *
+                (there ? levels_[l].samples : grid(l));
+    }
+    return rays;
+}
+
 // The cheapest way to look that is likely to end it, were the picture as good as what was found
 // lets it be: more pixels narrow the standard error, more rays lessen the noise.
 std::optional<Prover::Look> Prover::next_look(const Proof& proof, double room) const {
@@ -303,13 +316,7 @@ std::optional<Prover::Look> Prover::next_look(const Proof& proof, double room) c
             const double skewness = proof.skewness * (difference / proof.difference) *
                                     (proof.pixels / static_cast<double>(pixels));
             if (difference + k_standard_errors * spread + skewness <= k_likely_room * room) {
-                double drawn = 0;
-                for (std::size_t l = 0; l < levels; ++l) {
-                    const bool there = l < levels_.size();
-                    const double have = there ? static_cast<double>(levels_[l].rgb.size()) : 0;
-                    drawn += std::max(0.0, static_cast<double>(pixels) - have) *
-                             (there ? levels_[l].samples : grid(l));
-                }
+                const double drawn = rays_for(pixels, levels);
                 // What is there already was not enough.
                 if (drawn > 0 || pixels != static_cast<std::size_t>(proof.pixels)) {
                     if (!best || drawn < best->rays) best = Look{pixels, levels, drawn};
@@ -327,18 +334,22 @@ std::optional<Prover::Look> Prover::next_look(const Proof& proof, double room) c
 
 Proof Prover::prove(const Picture& picture, double room, double most_ns) {
     choose(picture);
-    Proof proof = look(picture, chosen_.first);
+    // What was drawn to judge other pictures judges this one.
+    std::size_t known = chosen_.pixels.at.size();
+    for (const Level& level : levels_) known = std::min(known, level.rgb.size());
+    Proof proof = look(picture, std::max(chosen_.first, known));
     for (int more = 1; more < k_looks && proof.bound > room; ++more) {
         // As long as the noise is what is seen, the picture cannot be blamed.
         const bool noisy = proof.noise > k_noisy * proof.difference;
         if (!noisy && proof.error() - proof.spread > k_hopeless * room) break;
         const std::optional<Look> next = next_look(proof, room);
         if (!next) break;
-        const double ray_ns = rays_drawn_ > 0 ? price_ns(work_) / rays_drawn_ : 0;
-        if (next->rays * ray_ns > (noisy ? k_noisy_price : 1) * most_ns) break;
-        // On the way there it may be found out to be hopeless.
+        // On the way there it may be found out to be hopeless, or that a pixel that is off by much
+        // is rarer than it seemed: what counts is the price of the next step.
         const std::size_t wanted =
-            std::min(next->pixels, 4 * static_cast<std::size_t>(proof.pixels));
+            std::min(next->pixels, k_step * static_cast<std::size_t>(proof.pixels));
+        const double ray_ns = rays_drawn_ > 0 ? price_ns(work_) / rays_drawn_ : 0;
+        if (rays_for(wanted, next->levels) * ray_ns > (noisy ? k_noisy_price : 1) * most_ns) break;
         while (levels_.size() < next->levels) take_more();
         proof = look(picture, wanted);
     }

@@ -56,7 +56,7 @@ public:
     double pixel_ns() const;
 
     /// Looks at more and more pixels, or with more rays, until the bound fits into `room`, or the
-    /// picture is certainly too far off, or pixels worth `most_ns` were looked at.
+    /// picture is certainly too far off, or the next step would be worth more than `most_ns`.
     Proof prove(const Picture& picture, double room, double most_ns);
 
     /// A picture must not have this square of rays in its pixels: the truth has such a grid.
@@ -87,6 +87,7 @@ private:
         std::size_t pixels = 0, levels = 0;
         double rays = 0;
     };
+    double rays_for(std::size_t pixels, std::size_t levels) const;
     std::optional<Look> next_look(const Proof& proof, double room) const;
 
     Scene scene_;

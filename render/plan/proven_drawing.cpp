@@ -32,9 +32,9 @@ constexpr double k_misjudged = 0.7;
 // The last drawing is the reference's, which is off by nothing but its few rays, unless it would
 // take so many times as long.
 constexpr double k_last_by_beams = 4;
-// A proof may take this share of the picture's price before it is drawn anew, which takes longer.
-// Two waves take far longer than one.
-constexpr double k_proof_share = 1, k_proof_share_as_one = 15, k_least_proof_ns = 6e7;
+// The next step of a proof may take this share of the picture's price before it is drawn anew,
+// which takes longer. Two waves take far longer than one.
+constexpr double k_proof_share = 1.5, k_proof_share_as_one = 15, k_least_proof_ns = 3e7;
 
 void add_proof(const Proof& proof, const ScenePlan& plan, RenderStats& stats) {
     stats.error_bound = proof.bound + plan.bound_of_depth;

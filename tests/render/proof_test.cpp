@@ -139,6 +139,22 @@ TEST(LightEdgeScan, finds_where_the_sun_is_seen_at_other_wavelengths) {
     EXPECT_GT(there, 20 * mean) << "one of a thousand pixels in which it is";
 }
 
+// A diamond in a light box at a fine tolerance: beams take a tenth longer with polarisation, and
+// much longer where all else must be finer for what it would be off by. At a coarse one it goes.
+TEST(Plan, keeps_an_effect_that_it_would_cost_more_to_leave_out) {
+    Scene scene = plan_scene_of("diamond", "round-brilliant", "lightbox", 200).scene;
+    scene.settings.tolerance = 0.03;
+    const PlanItem kept = plan_scene(scene).item("polarization");
+    EXPECT_TRUE(kept.on) << kept.why;
+    EXPECT_NE(kept.why.find("would save less than it costs"), std::string::npos) << kept.why;
+    EXPECT_EQ(kept.bound, 0) << "nothing is left out";
+    EXPECT_GT(kept.matters, 0);
+    scene.settings.tolerance = 0.3;
+    const PlanItem gone = plan_scene(scene).item("polarization");
+    EXPECT_FALSE(gone.on) << gone.why;
+    EXPECT_GT(gone.bound, 0);
+}
+
 }  // namespace
 
 }  // namespace culet
