@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "render/beams/beam_picture.h"
 #include "render/plan/a_priori.h"
@@ -121,7 +122,7 @@ Lights light_rims(const Lights& lights, const Vec3& stone, double width) {
     return rims;
 }
 
-LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress) {
+LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress, FrameRenderer* frames) {
     Scene scene = whole;
     RenderSettings& settings = scene.settings;
     const bool disperses =
@@ -149,12 +150,19 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress) {
     StonePixels at;
     std::vector<double> seen;
     settings.wavelengths_nm = disperses ? k_few_nm : k_one_nm;
+    light(apart + pixel);
     if (refused_by_beams(scene, make_plan(scene)).empty()) {
         step_ = k_cell;
-        light(apart + pixel);
-        FrameRenderer frames(scene);
-        frames.report_to(progress);
-        const Picture& picture = frames.draw(false).picture;
+        std::optional<FrameRenderer> own;
+        if (frames == nullptr) {
+            frames = &own.emplace(scene);
+            frames->report_to(progress);
+        } else {
+            frames->look_from(scene.camera);
+            frames->draw_with(settings);
+            frames->light_with(scene.lights);
+        }
+        const Picture& picture = frames->draw(false).picture;
         columns_ = static_cast<int>(picture.width / step_) + 1;
         rows_ = static_cast<int>(picture.height / step_) + 1;
         std::vector<std::pair<int, int>> best(static_cast<std::size_t>(columns_ * rows_));
@@ -173,6 +181,10 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress) {
             if (!(most[cell] > 0)) continue;
             at.at.push_back(best[cell]);
             seen.push_back(most[cell]);
+        }
+        if (!own) {
+            frames->look_from(whole.camera);
+            frames->light_with(whole.lights);
         }
     } else {
         at = stone_pixels(scene, k_pixels);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "render/plan/pilot_picture.h"
+#include "render/render.h"
 #include "render/scene.h"
 
 namespace culet {
@@ -25,7 +26,9 @@ public:
     LightEdgeScan() = default;
     /// As light has one way through the stone, unpolarised and not absorbed. `progress` is told 0,
     /// and may stop it: Interrupted.
-    LightEdgeScan(const Scene& scene, const Progress& progress);
+    /// `frames`: of this stone, camera and lights, to save making ready what beams need of the
+    /// stone; its settings are left changed.
+    LightEdgeScan(const Scene& scene, const Progress& progress, FrameRenderer* frames = nullptr);
 
     /// The radiance that a light's edge may bring in a pixel's cell or beside it; 0: none was
     /// found.

@@ -141,7 +141,7 @@ double Prover::noise_of_16() {
 
 // More often where the picture changes beside a pixel. With the root of that change: pixels of
 // little contrast are off as well, because a picture may lack what is there.
-void Prover::choose(const Picture& picture) {
+void Prover::choose(const Picture& picture, FrameRenderer* frames) {
     if (!chosen_.pixels.at.empty()) return;
     chosen_.pixels.in_picture = some_.in_picture;
     chosen_.first = k_first_pixels;
@@ -179,7 +179,7 @@ void Prover::choose(const Picture& picture) {
     std::vector<double> edges(at.size(), 0.0);
     double sum_of_edges = 0;
     if (radiance > 0 && brightest_light() * count > k_bright * radiance) {
-        const LightEdgeScan scan(scene_, *progress_);
+        const LightEdgeScan scan(scene_, *progress_, frames);
         for (std::size_t i = 0; i < at.size(); ++i)
             sum_of_edges += edges[i] = scan.near(at[i].first, at[i].second);
         chosen_.first = k_first_pixels_of_bright;
@@ -332,8 +332,8 @@ std::optional<Prover::Look> Prover::next_look(const Proof& proof, double room) c
     return best;
 }
 
-Proof Prover::prove(const Picture& picture, double room, double most_ns) {
-    choose(picture);
+Proof Prover::prove(const Picture& picture, double room, double most_ns, FrameRenderer* frames) {
+    choose(picture, frames);
     // What was drawn to judge other pictures judges this one.
     std::size_t known = chosen_.pixels.at.size();
     for (const Level& level : levels_) known = std::min(known, level.rgb.size());

@@ -24,6 +24,8 @@
 
 namespace culet {
 
+class FrameRenderer;
+
 struct Proof {
     int pixels = 0, samples = 0;
     double difference = 0;  ///< mean over them, with the noise of the truth's rays
@@ -57,7 +59,9 @@ public:
 
     /// Looks at more and more pixels, or with more rays, until the bound fits into `room`, or the
     /// picture is certainly too far off, or the next step would be worth more than `most_ns`.
-    Proof prove(const Picture& picture, double room, double most_ns);
+    /// `frames`: that drew it, if any (light_edge_scan.h).
+    Proof prove(const Picture& picture, double room, double most_ns,
+                FrameRenderer* frames = nullptr);
 
     /// A picture must not have this square of rays in its pixels: the truth has such a grid.
     static bool takes_grid(int side);
@@ -76,7 +80,7 @@ private:
         std::size_t first = 0;       // that are looked at first
     };
     int grid(std::size_t level) const;
-    void choose(const Picture& picture);
+    void choose(const Picture& picture, FrameRenderer* frames);
     double brightest_light() const;
     PilotDrawing draw(const StonePixels& pixels, int samples);
     void draw_up_to(std::size_t count);

@@ -152,7 +152,8 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
         const auto start = std::chrono::steady_clock::now();
         const double share = way == Way::as_one ? k_proof_share_as_one : k_proof_share;
         const double most_ns = std::max(k_least_proof_ns, share * price);
-        Proof proof = prover.prove(result.picture, tolerance, most_ns);
+        FrameRenderer* frames = frames_ ? &*frames_ : nullptr;
+        Proof proof = prover.prove(result.picture, tolerance, most_ns, frames);
         for (int more = 0; more < k_more_grids; ++more) {
             // No better than the one before: first the truth is suspected, whose rays may be
             // noisier than they look.
@@ -160,7 +161,7 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
                 error_before == 0 || proof.noise < k_suspect * proof.difference)
                 break;
             prover.take_more();
-            proof = prover.prove(result.picture, tolerance, most_ns);
+            proof = prover.prove(result.picture, tolerance, most_ns, frames);
         }
         done.proven = proof.bound <= tolerance;
         if (plan.beams && drawn_by_beams(settings) && !done.proven) {
