@@ -269,11 +269,14 @@ Proof Prover::look(const Picture& picture, std::size_t wanted) {
         const double mean = errors / pixels,
                      deviation = std::sqrt(std::max(0.0, squares - errors * mean) / (pixels - 1));
         proof.spread = deviation * std::sqrt(pixels) / sizes;
-        double cubes = 0;
-        for (double error : errors_of) cubes += std::pow((error - mean) / deviation, 3) / pixels;
-        constexpr double t = k_standard_errors;
-        if (deviation > 0)
+        if (deviation > 0) {
+            double cubes = 0;
+            for (const double error : errors_of) {
+                cubes += std::pow((error - mean) / deviation, 3) / pixels;
+            }
+            constexpr double t = k_standard_errors;
             proof.skewness = std::max(0.0, cubes) * (1 + 2 * t * t) / 6 * deviation / sizes;
+        }
     }
     double noise = 0, cut = 0;
     for (const Level& level : levels_) {
