@@ -104,7 +104,9 @@ std::optional<FitResult> fit_without_gross(const FitResult& spoilt, const Stone&
         if (wrong.empty()) {
             FitOptions from_there = options;
             from_there.start = result.solid;
+            const std::string start = result.start;
             result = fit(stone, readings, from_there, progress, Tries::nothing);
+            result.start = start;
             if (result.status == FitStatus::not_converged) return std::nullopt;
             if (any_will_do || result.chi2 < spoilt.chi2) return result;
             return std::nullopt;
