@@ -56,8 +56,15 @@ HWY_INLINE void distant_light(const ShadedLights& lights, const Ray& ray, const 
         } else {
             // The smallest normal number stands for 0, whose logarithm is no number.
             const V some = hn::Max(cosine, number(1.2e-38f));
+            // About the axis the cosine is 1 but for rounding, which a sharp lobe takes to its
+            // power; the sine keeps its digits.
+            const V3 across = cross(V3{number(lobe.x), number(lobe.y), number(lobe.z)}, d);
+            const V sine2 = hn::Min(dot(across, across), number(0.5f));
+            const V logarithm = hn::IfThenElse(cosine > number(0.70710678f),
+                                               number(0.5f) * hn::Log1p(k_floats, hn::Neg(sine2)),
+                                               hn::Log(k_floats, some));
             power = hn::IfThenElseZero(cosine > number(0.0f),
-                                       decayed(number(lobe.exponent) * hn::Log(k_floats, some)));
+                                       decayed(number(lobe.exponent) * logarithm));
         }
         take(unhidden * power, lobe.radiance.data(), lobe.polarised);
     }
