@@ -37,9 +37,13 @@ struct Rest {
             equations.erase(next);
         }
     }
-    // Of these alone, as the fit without them has them: chi2 and dof are the fit's.
-    Rest part(const std::vector<Eigen::Index>& equations) const {
-        return {residuals(equations), matrix(equations, equations), chi2, dof};
+    // What is left without these: chi2 and dof alone, in which the others take no part.
+    Rest sums_without(const std::vector<Eigen::Index>& equations) const {
+        Rest part{residuals(equations), matrix(equations, equations), chi2, dof};
+        std::vector<Eigen::Index> all(equations.size());
+        std::iota(all.begin(), all.end(), 0);
+        part.leave_out(std::move(all));
+        return part;
     }
 
 private:
@@ -97,12 +101,7 @@ std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::M
                 const std::vector<Eigen::Index>& mine = equations[left[k]];
                 out.insert(out.end(), mine.begin(), mine.end());
             }
-            // What becomes of the others need not be known before.
-            Rest gone = rest.part(out);
-            std::vector<Eigen::Index> all_of_them(out.size());
-            std::iota(all_of_them.begin(), all_of_them.end(), 0);
-            gone.leave_out(std::move(all_of_them));
-            if (fails(gone)) {
+            if (fails(rest.sums_without(out))) {
                 rest.leave_out(std::move(out));
                 left.erase(left.begin() + std::ptrdiff_t(at), left.begin() + std::ptrdiff_t(end));
                 spared = true;

@@ -52,9 +52,8 @@ const char* name_of(FitStatus status) {
 
 namespace {
 
-// Whether a fit that finds no stone is tried again without its first suspect.
-// What a fit whose readings contradict each other tries: without angles that are far off the mesh,
-// and without its first suspect.
+// What a fit tries again when its readings contradict each other or leave no stone: without angles
+// that are far off the mesh; with azimuths turned back, and without its first suspect, too.
 enum class Tries { nothing, without_far_angles, all };
 FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const FitOptions& options,
               const Progress& progress, Tries tries);

@@ -10,7 +10,6 @@
 #include "render/beams/beam_picture.h"
 #include "render/plan/a_priori.h"
 #include "render/plan/planner.h"
-#include "render/render.h"
 #include "stone/solid.h"
 
 namespace culet {

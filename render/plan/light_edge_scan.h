@@ -23,7 +23,6 @@ Lights light_rims(const Lights& lights, const Vec3& stone, double width);
 
 class LightEdgeScan {
 public:
-    LightEdgeScan() = default;
     /// As light has one way through the stone, unpolarised and not absorbed. `progress` is told 0,
     /// and may stop it: Interrupted.
     /// `frames`: of this stone, camera and lights, to save making ready what beams need of the
@@ -33,7 +32,6 @@ public:
     /// The radiance that a light's edge may bring in a pixel's cell or beside it; 0: none was
     /// found.
     double near(int x, int y) const;
-    bool empty() const { return cells_.empty(); }
 
 private:
     std::size_t cell_of(int x, int y) const;

@@ -72,12 +72,17 @@ void turns(const Options& options) {
     }
 }
 
-// Everything on, at some pixels; the same for all tolerances.
-Truth truth_of(const Scene& scene, const Options& options) {
+// Everything on; the same for all tolerances.
+ScenePlan finest_plan() {
     ScenePlan finest;
     finest.settings.wavelengths_nm.assign(57, 0);
     finest.settings.cut_weight = 1e-3;
-    return draw_truth(scene, finest, options.checked, options.truth_rays);
+    return finest;
+}
+
+// At some pixels.
+Truth truth_of(const Scene& scene, const Options& options) {
+    return draw_truth(scene, finest_plan(), options.checked, options.truth_rays);
 }
 
 // The same at every pixel, which takes minutes: kept in a file.
@@ -86,10 +91,7 @@ Truth whole_truth_of(const Scene& scene, std::size_t number, const Options& opti
         options.whole / fmt::format("{}-{}-{}.exr", number, options.pixels, options.truth_rays);
     const StonePixels pixels = all_stone_pixels(scene);
     if (!std::filesystem::exists(file)) {
-        ScenePlan finest;
-        finest.settings.wavelengths_nm.assign(57, 0);
-        finest.settings.cut_weight = 1e-3;
-        const Truth drawn = draw_truth(scene, finest, pixels, options.truth_rays);
+        const Truth drawn = draw_truth(scene, finest_plan(), pixels, options.truth_rays);
         Picture picture;
         picture.width = scene.camera.width;
         picture.height = scene.camera.height;
