@@ -24,12 +24,15 @@ public:
         return {r * std::cos(azimuth), r * std::sin(azimuth), z};
     }
     std::array<Vec3, 3> frame() {
-        const Vec3 a = direction(), b = glm::normalize(glm::cross(a, direction()));
+        const Vec3 a = direction(), b = across(a, 1);
         return {a, b, glm::cross(a, b)};
     }
-    /// Normal to n, of the given length.
+    /// Normal to n, which is of length 1, and of the given length. Drawn again beside n, where
+    /// their product has few digits left: what is not square by 1e-14 moves a wave by as much.
     Vec3 across(const Vec3& n, double length) {
-        return length * glm::normalize(glm::cross(n, direction()));
+        Vec3 v = glm::cross(n, direction());
+        while (glm::length(v) < 0.1) v = glm::cross(n, direction());
+        return length * glm::normalize(v);
     }
 
 private:
