@@ -38,6 +38,21 @@ std::vector<int> groups_of(const SparseRows& rows, int unknowns) {
     return group;
 }
 
+// Whose unknowns share entries: each pair of groups once.
+std::vector<std::pair<int, int>> group_pairs(const std::vector<SymmetricEntry>& entries,
+                                             const std::vector<int>& group) {
+    std::vector<std::pair<int, int>> pairs;
+    for (const SymmetricEntry& e : entries) {
+        const std::pair<int, int> pair(group[e.row], group[e.column]);
+        if (pair.first != pair.second && (pairs.empty() || pairs.back() != pair)) {
+            pairs.push_back(pair);
+        }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+}
+
 // Nodes in the order of elimination. `links`: both ways.
 std::vector<int> minimum_degree(int nodes, const std::vector<std::pair<int, int>>& links) {
     // Each is linked to itself: a node without a diagonal would be taken for one linked to all.
@@ -81,7 +96,7 @@ bool is_sharp(const SparseRows& rows, int equation) {
 }
 
 EliminationOrder elimination_order(const SparseRows& rows, int unknowns,
-                                   const std::vector<std::pair<int, int>>& pairs, int folded) {
+                                   const std::vector<SymmetricEntry>& pairs, int folded) {
     EliminationOrder order;
     const std::vector<int> group = groups_of(rows, unknowns);
     const int groups = unknowns == 0 ? 0 : group.back() + 1;
@@ -122,17 +137,19 @@ EliminationOrder elimination_order(const SparseRows& rows, int unknowns,
         }
         const int node = groups + static_cast<int>(equations.size());
         equations.push_back(i);
-        for (const int g : touched) link(node, g);
-        for (int k = rows.begin[i]; k < rows.begin[i + 1]; ++k) {
-            order.cliques.index.push_back(rows.column[k]);
+        // Unknowns of a group go together, and share what each of them shares.
+        for (const int g : touched) {
+            link(node, g);
+            for (int c = first[g]; c < first[g + 1]; ++c) order.cliques.index.push_back(c);
             order.cliques.index.push_back(unknowns + i);
             order.cliques.close();
         }
     }
-    for (const auto& [a, b] : pairs) {
-        link(group[a], group[b]);
-        order.cliques.index.push_back(a);
-        order.cliques.index.push_back(b);
+    for (const auto& [a, b] : group_pairs(pairs, group)) {
+        link(a, b);
+        for (const int g : {a, b}) {
+            for (int c = first[g]; c < first[g + 1]; ++c) order.cliques.index.push_back(c);
+        }
         order.cliques.close();
     }
     order.eliminated = static_cast<int>(equations.size());

@@ -136,7 +136,8 @@ bool Fronts::factor() {
         double* panel = panels_.data() + front.panel;
         double* update = updates_.data() + top;
         const int tall = height(front), rows = front.rows;
-        std::fill_n(update, std::size_t(rows) * rows, 0.0);
+        for (int j = 0; j < rows; ++j)
+            std::fill_n(update + std::size_t(j) * rows + j, rows - j, 0.0);
         std::size_t base = top;
         for (int c = 0; c < front.children; ++c) {
             const Front& child = *waiting.back();
@@ -157,7 +158,10 @@ bool Fronts::factor() {
         for (int j = 0; j < front.pivots; ++j) {
             negative_ += panel[std::size_t(j) * tall + j] < 0;
         }
-        std::copy_n(update, std::size_t(rows) * rows, updates_.begin() + std::ptrdiff_t(base));
+        for (int j = 0; j < rows && base != top; ++j) {
+            const std::size_t from = std::size_t(j) * rows + j;
+            std::copy_n(update + from, rows - j, updates_.data() + base + from);
+        }
         top = base + std::size_t(rows) * rows;
         waiting.push_back(&front);
     }

@@ -32,44 +32,61 @@ bool are_sound(const Numbers& numbers) {
 
 void SaddleSolver::lay_out() {
     work_ += k_laid_out * (unknowns_ + equations_);
-    std::vector<std::pair<int, int>> pairs;
-    for (const SymmetricEntry& e : curvature_) {
-        if (e.row != e.column) pairs.emplace_back(e.row, e.column);
-    }
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     SparseRows rows = rows_;
     for (const std::vector<int>& columns : past_) {
         for (const int column : columns) rows.add(column, 0);
         rows.close(0, 1);
     }
-    EliminationOrder order = elimination_order(rows, unknowns_, pairs);
+    EliminationOrder order = elimination_order(rows, unknowns_, curvature_);
     is_folded_ = std::move(order.is_folded);
     is_folded_.resize(std::size_t(equations_));
     eliminated_ = order.eliminated;
     // Folded equations have no place of their own.
     fronts_.lay_out(unknowns_ + equations_, order.blocks, order.cliques);
+    std::vector<std::pair<int, int>> diagonal;
+    for (int i = 0; i < unknowns_; ++i) diagonal.emplace_back(i, i);
+    diagonal_ = fronts_.slots(diagonal);
+    place_rows(std::vector<char>(std::size_t(equations_), 0));
+    place_curvature();
 }
 
-// False when some entry has no place in the present layout.
-bool SaddleSolver::place_rows() {
+// Those that stay have the columns and the kind that they had in this layout. False when some entry
+// of another has no place in it.
+bool SaddleSolver::place_rows(const std::vector<char>& stays) {
     std::vector<std::pair<int, int>> entries;
-    for (int i = 0; i < unknowns_; ++i) entries.emplace_back(i, i);
+    std::vector<std::size_t> slots, first, open;  // `open`: of the entries
     for (int i = 0; i < equations_; ++i) {
-        const int own = unknowns_ + i;
+        const int from = rows_.begin[i], to = rows_.begin[i + 1], own = unknowns_ + i;
+        const std::size_t columns = std::size_t(to - from);
+        const std::size_t count = is_folded_[i] ? columns * (columns + 1) / 2 : columns + 1;
+        first.push_back(slots.size());
+        if (stays[i]) {
+            const auto before = slot_.begin() + std::ptrdiff_t(first_slot_[i]);
+            slots.insert(slots.end(), before, before + std::ptrdiff_t(count));
+            continue;
+        }
+        for (std::size_t k = 0; k < count; ++k) open.push_back(slots.size() + k);
+        slots.resize(slots.size() + count);
         if (!is_folded_[i]) entries.emplace_back(own, own);
-        for (int k = rows_.begin[i]; k < rows_.begin[i + 1]; ++k) {
+        for (int k = from; k < to; ++k) {
             if (!is_folded_[i]) {
                 entries.emplace_back(rows_.column[k], own);
                 continue;
             }
-            for (int l = rows_.begin[i]; l <= k; ++l) {
+            for (int l = from; l <= k; ++l) {
                 entries.emplace_back(rows_.column[k], rows_.column[l]);
             }
         }
     }
-    slot_ = fronts_.slots(entries);
-    return std::find(slot_.begin(), slot_.end(), Fronts::k_none) == slot_.end();
+    bool all = true;
+    const std::vector<std::size_t> found = fronts_.slots(entries);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        slots[open[k]] = found[k];
+        all = all && found[k] != Fronts::k_none;
+    }
+    slot_ = std::move(slots);
+    first_slot_ = std::move(first);
+    return all;
 }
 
 bool SaddleSolver::place_curvature() {
@@ -80,68 +97,60 @@ bool SaddleSolver::place_curvature() {
 }
 
 bool SaddleSolver::factor(const SparseRows& rows, const Eigen::VectorXd& stiffness,
-                          const std::vector<SymmetricEntry>& curvature, double least) {
+                          std::vector<SymmetricEntry> curvature, double least) {
     const auto columns_of = [](const SparseRows& of, int i) {
         return std::span(of.column).subspan(std::size_t(of.begin[i]),
                                             std::size_t(of.begin[i + 1] - of.begin[i]));
     };
-    std::vector<char> sharp;
-    for (int i = 0; i < rows.count(); ++i) sharp.push_back(is_sharp(rows, i));
-    int common = 0;
-    const int most =
-        laid_out_ && stiffness.size() == stiffness_.size() ? std::min(rows.count(), equations_) : 0;
-    while (common < most && sharp[common] == sharp_[common] &&
-           std::ranges::equal(columns_of(rows, common), columns_of(rows_, common))) {
-        ++common;
+    const bool goes_on = laid_out_ && stiffness.size() == stiffness_.size();
+    std::vector<char> sharp, stays;
+    for (int i = 0; i < rows.count(); ++i) {
+        sharp.push_back(is_sharp(rows, i));
+        stays.push_back(goes_on && i < equations_ && sharp[i] == sharp_[i] &&
+                        std::ranges::equal(columns_of(rows, i), columns_of(rows_, i)));
     }
-    const bool same = laid_out_ && stiffness.size() == stiffness_.size() && common == equations_ &&
-                      common == rows.count();
-    const bool same_curvature = same && curvature.size() == curvature_.size() &&
-                                std::equal(curvature.begin(), curvature.end(), curvature_.begin(),
-                                           [](const SymmetricEntry& a, const SymmetricEntry& b) {
-                                               return a.row == b.row && a.column == b.column;
-                                           });
-    // Soft rows that come and go at the end may well find room in the layout as it is: those that
-    // have been there before are given some.
-    bool fits = same;
-    if (!same && laid_out_ && stiffness.size() == stiffness_.size()) {
+    const bool same = goes_on && rows.count() == equations_ &&
+                      std::find(stays.begin(), stays.end(), 0) == stays.end();
+    const bool same_curvature =
+        goes_on && std::ranges::equal(curvature, curvature_, [](const auto& a, const auto& b) {
+            return a.row == b.row && a.column == b.column;
+        });
+    // Soft rows that come and go may well find room in the layout as it is: those that have been
+    // there before are given some.
+    bool fits = goes_on;
+    if (!goes_on) past_.clear();
+    if (goes_on && !same) {
         if (past_.size() > std::size_t(rows.count()) / 2) past_.clear();
-        fits = true;
-        for (int i = common; i < equations_; ++i) {
-            const auto columns = columns_of(rows_, i);
-            if (is_folded_[i]) past_.emplace(columns.begin(), columns.end());
-            fits = fits && is_folded_[i];
+        is_folded_.resize(std::max(is_folded_.size(), std::size_t(rows.count())), 1);
+        for (int i = 0; i < std::max(equations_, rows.count()); ++i) {
+            if (i < rows.count() && stays[i]) continue;
+            if (i < equations_) {
+                const auto columns = columns_of(rows_, i);
+                if (is_folded_[i]) past_.emplace(columns.begin(), columns.end());
+                fits = fits && is_folded_[i];
+            }
+            if (i < rows.count()) {
+                fits = fits && !sharp[i] && columns_of(rows, i).size() <= k_most_short;
+            }
         }
-        is_folded_.resize(std::size_t(rows.count()), 1);
-        for (int i = common; i < rows.count(); ++i) {
-            is_folded_[i] = 1;
-            fits = fits && !sharp[i] && columns_of(rows, i).size() <= k_most_short;
-        }
-    } else if (!same) {
-        past_.clear();
+        is_folded_.resize(std::size_t(rows.count()));
     }
     rows_ = rows;
     stiffness_ = stiffness;
-    curvature_ = curvature;
+    curvature_ = std::move(curvature);
     sharp_ = std::move(sharp);
     unknowns_ = static_cast<int>(stiffness.size());
     equations_ = rows.count();
     laid_out_ = true;
-    if (!same && !(fits && place_rows())) {
-        lay_out();
-        place_rows();
-    }
-    if (!same_curvature && !place_curvature()) {
-        lay_out();
-        place_rows();
-        place_curvature();
-    }
+    const bool has_room =
+        fits && (same || place_rows(stays)) && (same_curvature || place_curvature());
+    if (!has_room) lay_out();
 
     weight_.resize(std::size_t(equations_));
     for (int i = 0; i < equations_; ++i) weight_[i] = is_folded_[i] ? 1 / rows.variance[i] : 0;
     fronts_.clear();
     std::size_t source = 0;
-    for (int i = 0; i < unknowns_; ++i) fronts_.add(slot_[source++], stiffness(i));
+    for (int i = 0; i < unknowns_; ++i) fronts_.add(diagonal_[i], stiffness(i));
     for (int i = 0; i < equations_; ++i) {
         if (!is_folded_[i]) {
             fronts_.add(slot_[source++], -std::max(rows.variance[i], least));
@@ -157,8 +166,8 @@ bool SaddleSolver::factor(const SparseRows& rows, const Eigen::VectorXd& stiffne
             }
         }
     }
-    for (std::size_t k = 0; k < curvature.size(); ++k) {
-        fronts_.add(curved_[k], curvature[k].value);
+    for (std::size_t k = 0; k < curvature_.size(); ++k) {
+        fronts_.add(curved_[k], curvature_[k].value);
     }
     work_ += fronts_.work() + k_solved * (unknowns_ + equations_);
     return fronts_.factor() && fronts_.negative_pivots() == eliminated_;

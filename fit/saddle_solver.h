@@ -27,7 +27,7 @@ public:
     /// smaller it is, the nearer to each other exact equations may be before refinement fails, and
     /// the sooner equations that repeat each other cannot be factored.
     bool factor(const SparseRows& rows, const Eigen::VectorXd& stiffness,
-                const std::vector<SymmetricEntry>& curvature = {}, double least = k_least_variance);
+                std::vector<SymmetricEntry> curvature = {}, double least = k_least_variance);
     /// Far above rounding, far below the variance of anything that is read (lengths are in half
     /// diameters).
     static constexpr double k_least_variance = 1e-9;
@@ -57,7 +57,7 @@ private:
     using Sides = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
     void lay_out();
-    bool place_rows();
+    bool place_rows(const std::vector<char>& stays);
     bool place_curvature();
     template <int W>
     void times(const Sides& x, Sides& product) const;
@@ -73,7 +73,9 @@ private:
     Eigen::VectorXd stiffness_;
     std::vector<SymmetricEntry> curvature_;
     std::vector<char> sharp_, is_folded_;  // of the equations
-    std::vector<std::size_t> slot_;        // of what is added up, in its order
+    std::vector<std::size_t> diagonal_;    // slots of the unknowns' own entries
+    std::vector<std::size_t> slot_;        // of the equations' entries, in the order they are added
+    std::vector<std::size_t> first_slot_;  // of each equation in `slot_`
     std::vector<std::size_t> curved_;      // of curvature
     std::set<std::vector<int>> past_;      // columns of soft rows that were there before
     Fronts fronts_;
