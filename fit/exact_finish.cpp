@@ -51,13 +51,18 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
     // What the readings may as well mean: each meaning has an end of its own. The best of those
     // that are hardly worse is kept: another may be found from there.
     std::optional<Settled> beside;
-    const auto gains_from = [&](const Shape& another, double may_rise) {
-        const double goal = settled.chi2 + may_rise;
+    // `with_turn`: what the mesh says against how they stand counts, too.
+    const auto gains_from = [&](const Shape& another, bool with_turn) {
+        const auto off = [&](const Shape& shape) {
+            return with_turn ? turn_off_the_mesh(relaxation, shape) : 0;
+        };
+        const double off_now = off(settled.shape);
+        const double goal = settled.chi2 + off_now - off(another);
         Settled other =
             settle(relaxation, solver, another, {}, {.iterations = iterations, .goal = goal});
         other.iterations += settled.iterations;
         if (is_same_place(other.shape, settled.shape)) return false;
-        if (!(other.chi2 < goal - k_gain)) {
+        if (!(other.chi2 + off(other.shape) < settled.chi2 + off_now - k_gain)) {
             if (other.converged && other.chi2 < settled.chi2 + k_hardly_worse &&
                 !(beside && beside->chi2 < other.chi2)) {
                 beside = std::move(other);
@@ -69,7 +74,7 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
     };
     const auto turns_better = [&](const Shape& from) {
         const auto turned = turned_better(relaxation, solver, from, softness);
-        return turned && gains_from(turned->shape, turned->nearer);
+        return turned && gains_from(*turned, true);
     };
     for (int round = 0;
          round < k_most_meanings && !(settled.chi2 < agreeable) && solver.work() < k_most_work;
@@ -78,12 +83,13 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         const std::vector<Shape> leanings = better_leanings(
             relaxation, solver, settled.shape, softness, k_nearly_upright, k_most_leanings);
         if (std::any_of(leanings.begin(), leanings.end(),
-                        [&](const Shape& other) { return gains_from(other, 0); })) {
+                        [&](const Shape& other) { return gains_from(other, false); })) {
             continue;
         }
         if (turns_better(settled.shape)) continue;
         if (!beside || !turns_better(beside->shape)) break;
     }
+    bring_to_meet(relaxation, {}, settled);
     const double free_chi2 = settled.chi2;
     // Penalties let corners stand a hair above their neighbours. Those are held just below from now
     // on: an active set that only grows, since a corner that readings push out will be pushed
@@ -130,6 +136,7 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         }
         Settled next = settle(relaxation, solver, settled.shape, result.held,
                               {.iterations = left, .near_an_end = goes_on});
+        bring_to_meet(relaxation, result.held, next);
         left -= next.iterations;
         next.iterations += settled.iterations;
         if (come_down && !(next.chi2 < settled.chi2 + k_cost_of_an_edge)) {

@@ -89,6 +89,15 @@ Shape onto_constraints(const Relaxation& relaxation, Shape shape, const std::vec
     return shape;
 }
 
+void look_at_end(Relaxation& relaxation, const std::vector<Held>& held, Settled& settled) {
+    Softness softness;
+    softness.with_priors = false;
+    relaxation.forget_ties();
+    relaxation.choose(settled.shape, true);
+    settled.chi2 = relaxation.sheet(settled.shape, softness, held).chi2;
+    settled.worst_hard = relaxation.hard_sheet(settled.shape, {}).hard_worst;
+}
+
 bool creeps_on(const std::vector<double>& merits) {
     if (merits.size() <= k_creeping) return false;
     const auto from = merits.end() - std::ptrdiff_t(k_creeping) - 1;
@@ -255,19 +264,20 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
         const bool creeps = sheet.hard_sum < k_all_but_met && creeps_on(merits);
         if ((quiet >= k_quiet || creeps) && ends(true)) break;
     }
-    result.shape = onto_constraints(relaxation, std::move(shape), held);
-    if (!held.empty() && relaxation.hard_sheet(result.shape, {}).hard_worst > k_rounding) {
+    result.shape = std::move(shape);
+    look_at_end(relaxation, held, result);
+    return result;
+}
+
+void bring_to_meet(Relaxation& relaxation, const std::vector<Held>& held, Settled& settled) {
+    settled.shape = onto_constraints(relaxation, std::move(settled.shape), held);
+    if (!held.empty() && relaxation.hard_sheet(settled.shape, {}).hard_worst > k_rounding) {
         // Corners held next to an edge of no length bind so tightly that meets give way. The meets
         // alone, from here, move less than what corners are held below.
-        Shape met = onto_constraints(relaxation, result.shape, {});
-        if (relaxation.is_convex(met)) result.shape = std::move(met);
+        Shape met = onto_constraints(relaxation, settled.shape, {});
+        if (relaxation.is_convex(met)) settled.shape = std::move(met);
     }
-    relaxation.forget_ties();
-    relaxation.choose(result.shape, true);
-    const Sheet end = relaxation.sheet(result.shape, softness, held);
-    result.chi2 = end.chi2;
-    result.worst_hard = relaxation.hard_sheet(result.shape, {}).hard_worst;
-    return result;
+    look_at_end(relaxation, held, settled);
 }
 
 }  // namespace culet

@@ -28,8 +28,11 @@ struct SettleOptions {
     bool near_an_end = false;
 };
 
-/// `held`: corners that stay below a facet. `solver` keeps its layout from call to call.
+/// `held`: corners that stay below a facet. `solver` keeps its layout from call to call. What meets
+/// misses by less than any reading could tell.
 Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
                const std::vector<Held>& held, const SettleOptions& options);
+/// Onto the hard equations by smallest steps, until rounding is all that is left.
+void bring_to_meet(Relaxation& relaxation, const std::vector<Held>& held, Settled& settled);
 
 }  // namespace culet

@@ -87,7 +87,7 @@ std::optional<Candidate> better_with_facets_swung(const System& system, const Ca
         const double goal = from.finished.chi2 - k_same_chi2;
         const Settled settled =
             settle(relaxation, solver, swung, from.held, {.iterations = iterations, .goal = goal});
-        if (!(settled.chi2 < goal) || !(settled.worst_hard < k_hard_limit)) return false;
+        if (!(settled.chi2 < goal) || !(settled.worst_hard < k_all_but_met)) return false;
         Candidate there = finish_candidate(system, relaxation, settled.shape, iterations);
         if (!there.is_an_end() || !(there.finished.chi2 < goal)) return false;
         there.start = end.start;

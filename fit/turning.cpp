@@ -27,6 +27,9 @@ constexpr double k_least_gain = 1;
 // The calipers' variances in the model that does without them.
 constexpr double k_loose = 1e4;
 constexpr double k_damping = 1e-6, k_precision = 1e-11;
+// Of the corners' places, from which the turn is taken that the loose calipers leave: sigmas a
+// hundred times their own.
+constexpr double k_place_precision = 1e-7;
 // A step this long in one of the freedoms is no longer linear.
 constexpr double k_longest = 0.5;
 // More calipers than this say nothing new of the turn: so many of them are asked.
@@ -278,8 +281,12 @@ Best best_turn(const std::vector<Caliper>& calipers, const Corners& corners, con
 
 }  // namespace
 
-std::optional<Turned> turned_better(Relaxation& relaxation, SaddleSolver& solver,
-                                    const Shape& shape, const Softness& softness) {
+double turn_off_the_mesh(const Relaxation& relaxation, const Shape& shape) {
+    return standing_of_mesh(shape.points, relaxation.system().mesh_shape().points).misfit(0);
+}
+
+std::optional<Shape> turned_better(Relaxation& relaxation, SaddleSolver& solver, const Shape& shape,
+                                   const Softness& softness) {
     relaxation.choose(shape, softness.incidence == 0);
     std::vector<Caliper> calipers = relaxation.calipers_that_tell_the_turn();
     if (calipers.size() < 2) return std::nullopt;
@@ -327,7 +334,7 @@ std::optional<Turned> turned_better(Relaxation& relaxation, SaddleSolver& solver
               to = static_cast<int>(std::ceil((mesh.angle + range) / pace));
     const std::vector<int> touched = number_touched(calipers, corners, from, to);
     const Eigen::MatrixXd functionals = places_of(touched, chart, motions);
-    const auto solved = solver.solve_all(functionals, Eigen::MatrixXd(), k_precision);
+    const auto solved = solver.solve_all(functionals, Eigen::MatrixXd(), k_place_precision);
     if (!solved.good) return std::nullopt;
     const Eigen::VectorXd with_turn = functionals.transpose() * turned.unknowns;
     corners.covariance =
@@ -339,10 +346,10 @@ std::optional<Turned> turned_better(Relaxation& relaxation, SaddleSolver& solver
     step += solved.unknowns * best.misfit.forces -
             turned.unknowns * (with_turn.dot(best.misfit.forces) / of_turn);
     if (!(step.cwiseAbs().maxCoeff() < k_longest)) return std::nullopt;
-    Turned result{moved_by(step), mesh.misfit(0) - mesh.misfit(best.pace * pace)};
+    Shape result = moved_by(step);
     const glm::dmat3 by = turn_about_z(best.pace * pace);
-    for (Vec3& n : result.shape.normals) n = by * n;
-    for (Vec3& p : result.shape.points) p = by * p;
+    for (Vec3& n : result.normals) n = by * n;
+    for (Vec3& p : result.points) p = by * p;
     return result;
 }
 

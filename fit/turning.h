@@ -9,22 +9,21 @@
 
 namespace culet {
 
-struct Turned {
-    Shape shape;
-    double nearer = 0;  ///< what chi-square may rise by: it stands more as the mesh does
-};
+/// What the mesh says against how the shape stands about up, in chi-square: as sure as the corners
+/// of both are near to each other, and no more than 25, since the mesh may have been turned. Half a
+/// turn is nothing to a caliper, and nothing here.
+double turn_off_the_mesh(const Relaxation& relaxation, const Shape& shape);
 
 /// The shape turned about up to where the calipers and the mesh together say that it stands, if
 /// that is elsewhere; nothing where something else (an azimuth, a mirror) says it. The shape has to
-/// be at an end of the search. What the mesh says is as sure as its corners are near to the
-/// shape's, and nothing at all at a loss of 25: it may have been turned.
+/// be at an end of the search.
 ///
 /// At each turn chi-square is least over everything else that is varied: without the calipers let
 /// the readings leave their widths w with the covariance W; then chi-square is (w - read)'
 /// (W + S)^-1 (w - read) and a constant, exactly where equations are linear. Costs one
 /// factorisation and two solutions for each corner that a jaw may touch. `solver` may know the
 /// pattern of the equations from steps before.
-std::optional<Turned> turned_better(Relaxation& relaxation, SaddleSolver& solver,
-                                    const Shape& shape, const Softness& softness);
+std::optional<Shape> turned_better(Relaxation& relaxation, SaddleSolver& solver,
+                                   const Shape& shape, const Softness& softness);
 
 }  // namespace culet
