@@ -96,7 +96,7 @@ bool is_sharp(const SparseRows& rows, int equation) {
 }
 
 EliminationOrder elimination_order(const SparseRows& rows, int unknowns,
-                                   const std::vector<SymmetricEntry>& pairs, int folded) {
+                                   const std::vector<SymmetricEntry>& entries, int folded) {
     EliminationOrder order;
     const std::vector<int> group = groups_of(rows, unknowns);
     const int groups = unknowns == 0 ? 0 : group.back() + 1;
@@ -145,7 +145,7 @@ EliminationOrder elimination_order(const SparseRows& rows, int unknowns,
             order.cliques.close();
         }
     }
-    for (const auto& [a, b] : group_pairs(pairs, group)) {
+    for (const auto& [a, b] : group_pairs(entries, group)) {
         link(a, b);
         for (const int g : {a, b}) {
             for (int c = first[g]; c < first[g + 1]; ++c) order.cliques.index.push_back(c);

@@ -26,9 +26,9 @@ struct EliminationOrder {
 /// How sharp an equation is: the square of its largest slope over its variance.
 bool is_sharp(const SparseRows& rows, int equation);
 
-/// `pairs`: entries of P beside its diagonal, or on it. `folded`: how many equations,
-/// from the first, are folded whatever they are, and no others; negative: as they are.
+/// `entries`: of P, those beside its diagonal. `folded`: how many equations, from the first, are
+/// folded whatever they are, and no others; negative: as they are.
 EliminationOrder elimination_order(const SparseRows& rows, int unknowns,
-                                   const std::vector<SymmetricEntry>& pairs, int folded = -1);
+                                   const std::vector<SymmetricEntry>& entries, int folded = -1);
 
 }  // namespace culet

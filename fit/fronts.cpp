@@ -136,8 +136,11 @@ bool Fronts::factor() {
         double* panel = panels_.data() + front.panel;
         double* update = updates_.data() + top;
         const int tall = height(front), rows = front.rows;
-        for (int j = 0; j < rows; ++j)
-            std::fill_n(update + std::size_t(j) * rows + j, rows - j, 0.0);
+        // Of lower halves, and of what stands beside them where two columns are taken together.
+        for (int j = 0; j < rows; ++j) {
+            const int from = std::max(0, j - 1);
+            std::fill_n(update + std::size_t(j) * rows + from, rows - from, 0.0);
+        }
         std::size_t base = top;
         for (int c = 0; c < front.children; ++c) {
             const Front& child = *waiting.back();
