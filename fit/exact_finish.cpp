@@ -1,7 +1,6 @@
 #include "fit/exact_finish.h"
 
 #include <algorithm>
-#include <glm/geometric.hpp>
 #include <optional>
 
 #include "fit/leaning.h"
@@ -20,8 +19,8 @@ constexpr int k_most_meanings = 8;
 constexpr double k_most_work = 1.5e10;
 // Several leanings that promise to be better are tried: what is promised is linear.
 constexpr std::size_t k_most_leanings = 4;
-// Of chi-square, and of corners in half diameters: ends that differ by less are one.
-constexpr double k_gain = 1e-3, k_apart = 1e-5;
+// Of chi-square: ends that differ by less are one.
+constexpr double k_gain = 1e-3;
 // Of chi-square, by which an end may be worse from which a better one is looked for: two sigmas.
 constexpr double k_hardly_worse = 4;
 // In half diameters, far above rounding and far below what corners are held below a facet; and far
@@ -30,22 +29,17 @@ constexpr double k_no_length = 1e-9, k_drawn = 1e-5;
 // Of chi-square, by which an edge that was not drawn so may cost more when it is held: two sigmas.
 constexpr double k_cost_of_an_edge = 4;
 
-bool is_same_place(const Shape& one, const Shape& other) {
-    for (std::size_t p = 0; p < one.points.size(); ++p) {
-        if (glm::distance(one.points[p], other.points[p]) > k_apart) return false;
-    }
-    return true;
-}
-
 }  // namespace
 
-ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterations,
-                         double hopeless, double agreeable) {
+ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, const FinishOptions& options) {
+    const int iterations = options.iterations;
+    KnownEnds of_this_start;
+    KnownEnds* const ends = options.known ? options.known : &of_this_start;
     ExactFinish result;
     SaddleSolver solver;
-    const bool goes_on = agreeable > 0;
-    Settled settled =
-        settle(relaxation, solver, start, {}, {.iterations = iterations, .near_an_end = goes_on});
+    const bool goes_on = options.agreeable > 0;
+    Settled settled = settle(relaxation, solver, start, {},
+                             {.iterations = iterations, .near_an_end = goes_on, .known = ends});
     Softness softness;
     softness.with_priors = false;
     // What the readings may as well mean: each meaning has an end of its own. The best of those
@@ -58,8 +52,8 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         };
         const double off_now = off(settled.shape);
         const double goal = settled.chi2 + off_now - off(another);
-        Settled other =
-            settle(relaxation, solver, another, {}, {.iterations = iterations, .goal = goal});
+        Settled other = settle(relaxation, solver, another, {},
+                               {.iterations = iterations, .goal = goal, .known = ends});
         other.iterations += settled.iterations;
         if (is_same_place(other.shape, settled.shape)) return false;
         if (!(other.chi2 + off(other.shape) < settled.chi2 + off_now - k_gain)) {
@@ -76,8 +70,8 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
         const auto turned = turned_better(relaxation, solver, from, softness);
         return turned && gains_from(*turned, true);
     };
-    for (int round = 0;
-         round < k_most_meanings && !(settled.chi2 < agreeable) && solver.work() < k_most_work;
+    for (int round = 0; round < k_most_meanings && !(settled.chi2 < options.agreeable) &&
+                        solver.work() < k_most_work;
          ++round) {
         beside.reset();
         const std::vector<Shape> leanings = better_leanings(
@@ -96,7 +90,7 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterati
     // again.
     // A few steps a round, or it leads nowhere.
     int left = iterations;
-    for (int round = 0; round < 8 && left > 0 && settled.chi2 < hopeless; ++round) {
+    for (int round = 0; round < 8 && left > 0 && settled.chi2 < options.hopeless; ++round) {
         // What does not meet will not with more corners held.
         if (settled.worst_hard > k_all_but_met) break;
         const std::size_t before = result.held.size();

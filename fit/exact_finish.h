@@ -4,6 +4,7 @@
 // symmetry that hold to rounding.
 
 #include "fit/finish.h"
+#include "fit/known_ends.h"
 #include "fit/relaxation.h"
 
 namespace culet {
@@ -18,10 +19,17 @@ struct ExactFinish {
     bool is_no_stone = false;
 };
 
-/// Ends early, with corners above their neighbours, where chi-square is larger than `hopeless`.
-/// From the end of an earlier fit, `agreeable` is the chi-square below which readings that changed
-/// a little have not changed their meaning: no other turns and leanings are then looked for.
-ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, int iterations,
-                         double hopeless = 1e300, double agreeable = 0);
+struct FinishOptions {
+    int iterations = 100;
+    /// Ends early, with corners above their neighbours, where chi-square is larger.
+    double hopeless = 1e300;
+    /// From the end of an earlier fit, the chi-square below which readings that changed a little
+    /// have not changed their meaning: no other turns and leanings are then looked for.
+    double agreeable = 0;
+    /// Of earlier starts with this relaxation, if any.
+    KnownEnds* known = nullptr;
+};
+
+ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, const FinishOptions& options);
 
 }  // namespace culet

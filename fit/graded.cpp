@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "fit/leaning.h"
+#include "fit/promised_merit.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -13,6 +16,8 @@ namespace {
 constexpr int k_most_steps = 40;
 // Stages only have to lead to the next one.
 constexpr double k_enough = 1e-3, k_step_precision = 1e-8;
+// Without readings: once all facets and hinges together miss by less than their softness.
+constexpr double k_convex = 1;
 // Of a sum of squares in units of the stage's own softness, by a step of less than this part of it.
 constexpr double k_little = 0.01, k_part = 0.1;
 // In how many rounds a step may find out which corners it has to stop.
@@ -36,17 +41,18 @@ constexpr double k_traded = 0.2;
 // A good start takes fewer to find its place in the first stage.
 constexpr int k_first_steps = 15;
 
-Softness softness_of(const Stage& stage, bool with_readings) {
+Softness softness_of(const Stage& stage, bool with_readings, double mesh_sigma) {
     Softness s;
     s.incidence = stage.incidence;
     s.readings = stage.readings;
     s.hinge = stage.incidence / 5;
     s.with_readings = with_readings;
+    s.mesh_sigma = mesh_sigma;
     return s;
 }
 
 int solve_stage(Relaxation& relaxation, SaddleSolver& solver, Shape& shape,
-                const Softness& softness, bool keep_normals, int most_steps,
+                const Softness& softness, bool keep_normals, int most_steps, double stride,
                 const Progress& progress, double fraction) {
     const Freedoms& freedoms = relaxation.freedoms();
     Eigen::VectorXd metric = relaxation.metric();
@@ -59,19 +65,22 @@ int solve_stage(Relaxation& relaxation, SaddleSolver& solver, Shape& shape,
     // Coarser than the readings are: what is small to the stage is for a later one to do.
     const bool is_coarse = relaxation.expected_misfit(softness) < 0.5 * relaxation.counts().soft;
     double damping = 1e-3;
-    int steps = 0;
-    while (steps < most_steps) {
+    int steps = 0, refused = 0;
+    while (steps < most_steps && (softness.with_readings || sheet.merit - sheet.prior > k_convex)) {
         if (progress && !progress(fraction)) throw Interrupted();
         ++steps;
         bool better = false, enough = false;
+        double round_before = std::numeric_limits<double>::infinity();
         std::vector<int> pressed = sheet.above;
         for (int round = 0; round < k_most_rounds && !better; ++round) {
             if (!solver.factor(sheet.rows, sheet.prior_stiffness + kept + damping * metric)) break;
             const SaddleSolver::Solution s =
                 solver.solve(-sheet.prior_gradient, -sheet.rows.residuals(), k_step_precision);
-            if (!s.good || !(s.unknowns.cwiseAbs().maxCoeff() < 10)) break;
-            Shape next = freedoms.moved(
-                shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())});
+            const double length = s.unknowns.cwiseAbs().maxCoeff();
+            if (!s.good || !(length < 10)) break;
+            const Eigen::VectorXd step = s.unknowns * std::min(1.0, stride / length);
+            Shape next =
+                freedoms.moved(shape, {step.data(), static_cast<std::size_t>(step.size())});
             Sheet there = relaxation.sheet(next, softness);
             if (!there.finite) break;
             if (there.merit <= sheet.merit) {
@@ -80,21 +89,28 @@ int solve_stage(Relaxation& relaxation, SaddleSolver& solver, Shape& shape,
                     is_coarse && s.unknowns.cwiseAbs().maxCoeff() < k_part * softness.incidence
                         ? k_little
                         : 0;
-                enough = sheet.merit - there.merit <= k_enough * sheet.merit + little;
+                const double small = k_enough * sheet.merit + little;
+                // Little was gained, or little is left.
+                enough =
+                    sheet.merit - there.merit <= small ||
+                    (length <= stride && std::abs(there.merit - promised_merit(sheet, s)) <= small);
                 shape = std::move(next);
                 sheet = std::move(there);
-            } else if (there.above == pressed) {
+            } else if (there.above == pressed || !(there.merit < round_before)) {
                 break;
             } else {
+                round_before = there.merit;
                 pressed = std::move(there.above);
                 sheet = relaxation.sheet(shape, softness, {}, &pressed);
             }
         }
         if (better) {
             damping = std::max(1e-7, damping / 5);
+            refused = 0;
             if (enough) break;
         } else {
-            damping *= 8;
+            // The longer nothing helps, the larger the strides.
+            damping *= std::pow(8, ++refused);
             if (damping > 1e6) break;
             sheet = relaxation.sheet(shape, softness);
         }
@@ -106,6 +122,7 @@ struct StageRunner {
     Relaxation& relaxation;
     const Progress& progress;
     const std::vector<int>& sides;  ///< known ones stay
+    const Manner& manner;
     SaddleSolver solver{};
     int steps = 0;
 
@@ -114,8 +131,9 @@ struct StageRunner {
         int most_steps = k_most_steps;
     };
     void once(Shape& shape, const Stage& stage, Kind kind, double fraction) {
-        steps += solve_stage(relaxation, solver, shape, softness_of(stage, kind.with_readings),
-                             kind.keep, kind.most_steps, progress, fraction);
+        steps += solve_stage(relaxation, solver, shape,
+                             softness_of(stage, kind.with_readings, manner.mesh_sigma), kind.keep,
+                             kind.most_steps, manner.stride, progress, fraction);
     }
     void stage(Shape& shape, const Stage& stage, double fraction) {
         once(shape, stage, {.with_readings = true}, fraction);
@@ -124,8 +142,9 @@ struct StageRunner {
     void let_lean(Shape& shape, const Stage& stage, double fraction) {
         if (stage.incidence <= k_leaning_until) return;
         for (int round = 0; round < 3; ++round) {
-            const std::vector<Shape> others = better_leanings(
-                relaxation, solver, shape, softness_of(stage, true), k_may_lean, 1, sides);
+            const std::vector<Shape> others =
+                better_leanings(relaxation, solver, shape,
+                                softness_of(stage, true, manner.mesh_sigma), k_may_lean, 1, sides);
             if (others.empty()) break;
             shape = relaxation.freedoms().symmetrised(others.front());
             once(shape, stage, {.with_readings = true}, fraction);
@@ -135,13 +154,15 @@ struct StageRunner {
 
 }  // namespace
 
-Approach approach(Relaxation& relaxation, const Start& start, const Progress& progress) {
+Approach approach(Relaxation& relaxation, const Start& start, const Manner& manner,
+                  const Progress& progress) {
     Approach result;
     result.start = start.name;
+    result.manner = manner;
     result.sides = start.sides;
     result.shape = relaxation.freedoms().symmetrised(start.shape);
     relaxation.forget_ties();  // of another start
-    StageRunner run{relaxation, progress, start.sides};
+    StageRunner run{relaxation, progress, start.sides, manner};
     // First a convex stone with planar facets, whatever its size: lengths of edges that a rough
     // mesh has inside out would hold it there.
     const bool keep = start.keep_normals_at_first;
@@ -150,7 +171,7 @@ Approach approach(Relaxation& relaxation, const Start& start, const Progress& pr
         looking_as(relaxation.system(), std::move(result.shape), start.sides));
     if (keep) run.once(result.shape, {0.03, 0.02}, {.with_readings = true, .keep = true}, 0.1);
     const auto judge = [&] {
-        const Softness softness = softness_of(k_stages[result.stages], true);
+        const Softness softness = softness_of(k_stages[result.stages], true, manner.mesh_sigma);
         const Sheet sheet = relaxation.sheet(result.shape, softness);
         result.misfit = sheet.merit - sheet.prior;
         result.is_plausible =
@@ -174,7 +195,7 @@ Graded graded_fit(Relaxation& relaxation, const Approach& rough, const Progress&
     Graded result;
     result.shape = rough.shape;
     relaxation.forget_ties();
-    StageRunner run{relaxation, progress, rough.sides};
+    StageRunner run{relaxation, progress, rough.sides, rough.manner};
     for (std::size_t i = rough.stages; i < k_stages.size(); ++i) {
         run.stage(result.shape, k_stages[i], 0.2 + 0.1 * double(i));
     }

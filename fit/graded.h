@@ -12,9 +12,18 @@
 
 namespace culet {
 
+/// How the stages go. What leads nowhere in one manner may well lead home in another.
+struct Manner {
+    /// Half diameters, of any corner in one step. Half the stone's radius is 0.5: no linearisation
+    /// holds so far.
+    double stride = 0.2;
+    double mesh_sigma = 0.4;  ///< of `Softness`: how loosely the mesh holds the stone
+};
+
 /// After the first stages, which tell good starts from hopeless ones at a part of the cost.
 struct Approach {
     std::string start;  ///< its name
+    Manner manner;
     Shape shape;
     std::vector<int> sides;     ///< of the start
     std::size_t stages = 0;     ///< that it has gone through
@@ -24,7 +33,8 @@ struct Approach {
     double work = 0;  ///< multiplications of its factorisations, about
 };
 /// Throws Interrupted when progress says so.
-Approach approach(Relaxation& relaxation, const Start& start, const Progress& progress = {});
+Approach approach(Relaxation& relaxation, const Start& start, const Manner& manner = {},
+                  const Progress& progress = {});
 
 struct Graded {
     Shape shape;

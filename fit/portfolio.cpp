@@ -1,6 +1,7 @@
 #include "fit/portfolio.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <tuple>
@@ -26,6 +27,9 @@ constexpr int k_most_facets = 4500, k_least_starts = 4;
 // starts of 105 facets and noise of 20 % take up to 1e9, half a second.
 constexpr double k_most_work = 1.5e10, k_most_work_in_vain = 7e9;
 constexpr int k_least_starts_in_vain = 2;
+// Where no start leads anywhere: the mesh pulls less, then strides are longer. One in two hundred
+// step cuts drawn off by 20 % needs them.
+constexpr std::array<Manner, 2> k_other_manners{{{.mesh_sigma = 1.6}, {.stride = 0.5}}};
 
 // The chi-square test by counting: the least redundancy that there can be decides what is accepted
 // at once, and only in between is it counted out.
@@ -51,40 +55,67 @@ auto rank(const Candidate& c, double handicap = 0) {
                            c.finished.converged ? chi2 : k_part * chi2 + k_noise);
 }
 
-// The next start that may well lead home; when there is none, the best of those that have waited.
-// No more than `most` are tried for it.
-std::optional<Approach> best_approach(Relaxation& relaxation, Starts& starts,
-                                      std::vector<Approach>& waiting, int most, bool only_plausible,
-                                      double& work, const Progress& progress) {
-    while (static_cast<int>(waiting.size()) < most) {
-        const std::optional<Start> start = starts.next();
-        if (!start) break;
-        Approach next = approach(relaxation, *start, progress);
-        work += next.work;
-        if (next.is_plausible) return next;
-        waiting.push_back(std::move(next));
+// The starts as the first stages leave them.
+class Approaches {
+public:
+    Approaches(const System& system, Relaxation& relaxation)
+        : relaxation_(relaxation), starts_(system) {}
+
+    bool mesh_is_good() const { return starts_.mesh_is_good(); }
+    /// The next start that may well lead home; when there is none, the best of those that have
+    /// waited. No more than `most` are tried for it.
+    std::optional<Approach> next(int most, bool only_plausible, double& work,
+                                 const Progress& progress) {
+        while (static_cast<int>(waiting_.size()) < most) {
+            std::optional<Start> start = starts_.next();
+            if (!start) break;
+            Approach found = approach(relaxation_, *start, {}, progress);
+            work += found.work;
+            if (found.is_plausible) {
+                was_plausible_ = true;
+                return found;
+            }
+            waiting_.push_back(std::move(found));
+            in_vain_.push_back(std::move(*start));
+        }
+        if (waiting_.empty() || only_plausible) return std::nullopt;
+        // None at all: all that can be changed is how they go.
+        while (!was_plausible_ && again_ < k_other_manners.size() * in_vain_.size()) {
+            const Manner& manner = k_other_manners[again_ / in_vain_.size()];
+            const Start& start = in_vain_[again_++ % in_vain_.size()];
+            Approach found = approach(relaxation_, start, manner, progress);
+            work += found.work;
+            if (found.is_plausible) return found;
+        }
+        const auto best = std::min_element(
+            waiting_.begin(), waiting_.end(),
+            [](const Approach& a, const Approach& b) { return a.misfit < b.misfit; });
+        Approach found = std::move(*best);
+        waiting_.erase(best);
+        return found;
     }
-    if (waiting.empty() || only_plausible) return std::nullopt;
-    const auto best =
-        std::min_element(waiting.begin(), waiting.end(),
-                         [](const Approach& a, const Approach& b) { return a.misfit < b.misfit; });
-    Approach found = std::move(*best);
-    waiting.erase(best);
-    return found;
-}
+
+private:
+    Relaxation& relaxation_;
+    Starts starts_;
+    std::vector<Approach> waiting_;
+    std::vector<Start> in_vain_;  // those of the waiting ones, the first first
+    std::size_t again_ = 0;       // how many of those have been tried again, in each manner
+    bool was_plausible_ = false;
+};
 
 }  // namespace
 
 Candidate finish_candidate(const System& system, Relaxation& relaxation, const Shape& shape,
-                           int iterations, double hopeless, double agreeable) {
+                           const FinishOptions& options) {
     Candidate candidate;
     if (system.splits()) {
-        candidate.finished = finish(system, shape, iterations);
+        candidate.finished = finish(system, shape, options.iterations);
         const System::Enclosed enclosed = system.enclosed(candidate.finished.shape);
         candidate.sound = enclosed.closed && enclosed.missing.empty();
         return candidate;
     }
-    ExactFinish exact = exact_finish(relaxation, shape, iterations, hopeless, agreeable);
+    ExactFinish exact = exact_finish(relaxation, shape, options);
     candidate.finished = std::move(exact.finished);
     candidate.held = std::move(exact.held);
     candidate.cost_of_holding = exact.cost_of_holding;
@@ -106,11 +137,11 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
     const int free = std::max(0, freedoms.size() - hard - shifts);
 
     Portfolio result;
-    Starts starts(system);
+    Approaches approaches(system, relaxation);
+    KnownEnds known;
     std::vector<double> ends;
     int fruitless = 0, without_stone = 0;
     double& work = result.work;
-    std::vector<Approach> waiting;
     // Each costs a large stone as much as all of them a small one.
     const int facets = static_cast<int>(system.stone().solid.facets.size());
     const int most = std::min(options.starts, std::max(k_least_starts, k_most_facets / facets));
@@ -127,13 +158,15 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
         };
         // Beside a stone that agrees, only another that may agree as well is worth the time.
         const bool only_plausible = result.best.agrees;
-        const std::optional<Approach> rough = best_approach(
-            relaxation, starts, waiting, most - result.starts, only_plausible, work, part);
+        const std::optional<Approach> rough =
+            approaches.next(most - result.starts, only_plausible, work, part);
         if (!rough) break;
         const Graded graded = graded_fit(relaxation, *rough, part);
         Candidate candidate =
-            finish_candidate(system, relaxation, graded.shape, options.iterations,
-                             result.best.sound ? result.best.finished.chi2 : 1e300);
+            finish_candidate(system, relaxation, graded.shape,
+                             {.iterations = options.iterations,
+                              .hopeless = result.best.sound ? result.best.finished.chi2 : 1e300,
+                              .known = &known});
         candidate.start = rough->start;
         candidate.finished.iterations += graded.steps;
         without_stone += candidate.is_no_stone;
@@ -149,7 +182,7 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
              chi2_tail(chi2, std::max(1, counted - free + candidate.binding)) > k_agrees_well);
         // Starts from who meets whom are alike: of a bad mesh all of the first may miss the same
         // way.
-        const bool again = good && (candidate.agrees || starts.mesh_is_good()) &&
+        const bool again = good && (candidate.agrees || approaches.mesh_is_good()) &&
                            std::any_of(ends.begin(), ends.end(), [&](double other) {
                                return std::abs(other - chi2) < k_same_chi2;
                            });
@@ -164,7 +197,7 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
         const bool tired =
             result.best.sound && result.best.finished.converged &&
             fruitless >=
-                (result.best.agrees || starts.mesh_is_good() ? k_patience_good : k_patience);
+                (result.best.agrees || approaches.mesh_is_good() ? k_patience_good : k_patience);
         if (without_stone == result.starts && without_stone >= k_patience_without_stone) break;
         // Ending twice where it ended before is no accident, if nothing better was seen.
         if (accept || tired || (again && result.best.finished.chi2 > chi2 - k_same_chi2)) break;

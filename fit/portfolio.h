@@ -37,10 +37,9 @@ struct Portfolio {
     double work = 0;  ///< of all starts, about, in multiplications
 };
 
-/// The last stage from a shape that is nearly right; ends early where chi-square is larger than
-/// `hopeless`. `agreeable`: of exact_finish.h.
+/// The last stage from a shape that is nearly right.
 Candidate finish_candidate(const System& system, Relaxation& relaxation, const Shape& shape,
-                           int iterations, double hopeless = 1e300, double agreeable = 0);
+                           const FinishOptions& options);
 
 /// Accepts the first candidate that is sound and agrees, or two that end in the same sound stone
 /// (then the readings contradict each other, and no start will help); gives up after several

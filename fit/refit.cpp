@@ -32,8 +32,8 @@ Vec3 meet_of(const std::vector<Plane>& planes, const Vec3& guess) {
 Candidate finish_from(const System& system, const Shape& shape, int iterations) {
     const Freedoms freedoms = system.freedoms();
     Relaxation relaxation(system, freedoms);
-    Candidate candidate =
-        finish_candidate(system, relaxation, freedoms.symmetrised(shape), iterations);
+    Candidate candidate = finish_candidate(system, relaxation, freedoms.symmetrised(shape),
+                                           {.iterations = iterations});
     candidate.start = "last result";
     return candidate;
 }
@@ -47,7 +47,7 @@ Candidate refit_from(const System& system, const Shape& shape, int iterations) {
     const int least = counts.soft + counts.hard + k_shifts - freedoms.size();
     const double agreeable = chi2_quantile(k_agrees_well, std::max(1, least));
     Candidate candidate = finish_candidate(system, relaxation, freedoms.symmetrised(shape),
-                                           iterations, 1e300, agreeable);
+                                           {.iterations = iterations, .agreeable = agreeable});
     candidate.start = "earlier result";
     return candidate;
 }

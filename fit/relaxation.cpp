@@ -10,8 +10,6 @@ namespace culet {
 
 namespace {
 
-// A hand-made mesh is off by as much as 20 % of its width.
-constexpr double k_mesh_sigma = 0.4;
 // Corners that want to stand above a neighbour facet are held this far below it, in half diameters:
 // far above rounding, far below anything one could measure.
 constexpr double k_hold_below = 1e-7;
@@ -282,12 +280,13 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness, const std:
     sheet.prior_gradient = Eigen::VectorXd::Zero(size);
     if (softness.with_priors) {
         const Shape& mesh = system_.mesh_shape();
+        const double stiffness = 1 / (softness.mesh_sigma * softness.mesh_sigma);
         for (int p = 0; p < static_cast<int>(shape.points.size()); ++p) {
             const Freedoms::Slots& slots = chart.points[p];
-            const Vec3 off = (shape.points[p] - mesh.points[p]) / (k_mesh_sigma * k_mesh_sigma);
+            const Vec3 off = (shape.points[p] - mesh.points[p]) * stiffness;
             sheet.prior += glm::dot(off, shape.points[p] - mesh.points[p]);
             for (int k = 0; k < slots.count; ++k) {
-                sheet.prior_stiffness(slots.column + k) += 1 / (k_mesh_sigma * k_mesh_sigma);
+                sheet.prior_stiffness(slots.column + k) += stiffness;
                 sheet.prior_gradient(slots.column + k) +=
                     glm::dot(slots.along[std::size_t(k)], off);
             }
@@ -302,8 +301,8 @@ Relaxation::Missed Relaxation::missed(const Shape& shape, const Softness& softne
                                       const std::vector<Held>& holding, double sharp) const {
     Missed missed;
     const std::size_t readings = softness.with_readings ? equations_.size() : 0;
-    missed.residuals =
-        Eigen::VectorXd::Zero(Eigen::Index(incidences_.size() + readings + holding.size()));
+    missed.residuals = Eigen::VectorXd::Zero(
+        Eigen::Index(incidences_.size() + readings + holding.size() + ties_.size()));
     Eigen::Index row = 0;
     const auto put = [&](double residual, bool is_hard) {
         missed.residuals(row) = residual;
@@ -324,6 +323,10 @@ Relaxation::Missed Relaxation::missed(const Shape& shape, const Softness& softne
     }
     for (const Held& h : holding) {
         put(height(shape, h.facet, h.point) + k_hold_below, true);
+        ++row;
+    }
+    for (const Tie& tie : ties_) {
+        put(glm::dot(tie.direction, shape.points[tie.one] - shape.points[tie.other]), false);
         ++row;
     }
     return missed;

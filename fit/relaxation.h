@@ -19,7 +19,8 @@ struct Softness {
     double readings = 0;        ///< added to each reading's own uncertainty
     double hinge = 1e-4;        ///< by how much a corner may stand above a neighbour facet
     bool with_readings = true;  ///< false: only a convex stone of these meets, near the mesh
-    bool with_priors = true;    ///< the mesh's points, as far as a hand-made mesh may be off
+    bool with_priors = true;    ///< the mesh's points, as far as a hand-made mesh may be off:
+    double mesh_sigma = 0.4;    ///< up to 20 % of its width
 };
 
 /// A corner held below a facet that it wanted to pass.
@@ -73,8 +74,8 @@ public:
     /// stops corners before they rise above a facet has to know which will (semismooth Newton).
     Sheet sheet(const Shape& shape, const Softness& softness, const std::vector<Held>& held = {},
                 const std::vector<int>* pressed = nullptr);
-    /// By how much hard equations are missed, and readings of no more variance than `sharp`: in the
-    /// rows of a sheet that holds these corners, zero in others.
+    /// By how much hard equations are missed, corners that share a jaw, and readings of no more
+    /// variance than `sharp`: in the rows of a sheet that holds these corners, zero in others.
     struct Missed {
         Eigen::VectorXd residuals;
         double worst = 0;  ///< of the hard ones

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/known_ends.h"
+#include "fit/promised_merit.h"
+
 namespace culet {
 
 namespace {
@@ -36,7 +39,7 @@ constexpr double k_no_gain = 1e-8;
 constexpr double k_short = 1e-7;
 // Part of chi-square: meanings that differ by less are one. Jaws that touch two corners at once
 // change their mind about places a ten-millionth of a sigma apart.
-constexpr double k_same_meaning = 1e-8;
+constexpr double k_same_meaning = 1e-7;
 // Of chi-square: where a step gains less, the shape tells what the readings mean.
 constexpr double k_little = 0.05;
 
@@ -111,6 +114,11 @@ bool creeps_on(const std::vector<double>& merits) {
 
 Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
                const std::vector<Held>& held, const SettleOptions& options) {
+    if (const Settled* end = options.known ? options.known->end_from(start) : nullptr) {
+        Settled result = *end;
+        result.iterations = 0;
+        return result;
+    }
     const Freedoms& freedoms = relaxation.freedoms();
     Softness softness;
     softness.with_priors = false;
@@ -125,12 +133,20 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
     int quiet = 0, choices = 0, refused = 0;
     std::vector<double> merits;
     bool curved = false;
+    double length_before = 0;  // of the step before in this meaning, where there was one
     // The readings are asked again what they mean here. At a kink (a caliper's jaw that touches two
     // corners at once) they would change their mind for ever; `choose` ties the two.
     bool asked = false;
+    std::vector<Shape> ways{start};
+    const Settled* arrived = nullptr;
     const auto meaning_changes = [&] {
         if (choices > k_most_choices) return false;
         asked = true;
+        if (options.known) {
+            arrived = options.known->end_from(shape);
+            if (arrived) return false;
+            ways.push_back(shape);
+        }
         relaxation.choose(shape, true);
         Sheet fresh = relaxation.sheet(shape, softness, held);
         if (std::abs(fresh.merit - sheet.merit) < k_same_meaning * (1 + sheet.merit)) {
@@ -140,6 +156,7 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
         merits.clear();
         sheet = std::move(fresh);
         quiet = 0;
+        length_before = 0;
         asked = false;
         damping = std::max(damping, 1e-4);
         if (damping > 1) damping = 1e-2;
@@ -151,6 +168,7 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
         return true;
     };
     Eigen::VectorXd forces;
+    std::vector<SymmetricEntry> bends;
     double least = SaddleSolver::k_least_variance;
     bool may_be_close = true;
     if (options.near_an_end && solver.factor(sheet.rows, damping * metric)) {
@@ -166,10 +184,12 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
         // (semismooth Newton), as in the earlier stages.
         std::vector<int> pressed = sheet.above;
         for (int round = 0; round < k_most_rounds && !better; ++round) {
-            factored = curved && solver.factor(sheet.rows, damping * metric,
-                                               relaxation.curvature(shape, forces), least);
+            bends.clear();
+            if (curved) bends = relaxation.curvature(shape, forces);
+            factored = curved && solver.factor(sheet.rows, damping * metric, bends, least);
             if (!factored) {
                 curved = false;
+                bends.clear();
                 factored = solver.factor(sheet.rows, damping * metric, {}, least);
             }
             if (!factored && least == k_least_close) {
@@ -196,7 +216,9 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
             Eigen::VectorXd step = s.unknowns;
             length = step.cwiseAbs().maxCoeff();
             // Half a unit is half the stone's radius: no linearisation holds so far.
-            if (length > 0.2) step *= 0.2 / length;
+            const bool whole = length <= 0.2;
+            if (!whole) step *= 0.2 / length;
+            const double promised = promised_merit(sheet, s, bends);
             Shape next = freedoms.moved_with_turn(shape, steps(step));
 
             // Second-order correction: back onto the curved constraints, same factors.
@@ -234,8 +256,16 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
             }
             const double gain = before - after;
             quiet = gain < k_no_gain * (1 + before) || length < 1e-12 ? quiet + 1 : 0;
-            // The next step of Newton's would have the square of this length.
-            if (curved && length < k_short && quiet > 0) quiet = k_quiet;
+            // The next of Newton's steps would be shorter by the square of what this one is, and
+            // would gain less by the square of that.
+            const double shrinks =
+                curved && length_before > 0 ? std::min(1.0, length / length_before) : 1;
+            const double next_length = length * shrinks * shrinks,
+                         next_gain = std::abs(gain) * std::pow(shrinks, 4);
+            length_before = length;
+            if (curved && next_length < k_short && next_gain < k_no_gain * (1 + before)) {
+                quiet = k_quiet;
+            }
             shape = std::move(next);
             // The exact Hessian near the end: weak freedoms would creep.
             if (length < 1e-2) {
@@ -247,10 +277,14 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
             if (refused == 0) damping = std::max(k_least_damping, damping / 5);
             refused = 0;
             // Once in each meaning, when there is little left to gain from it.
-            if (!asked && gain < k_little && sheet.hard_sum < k_all_but_met) meaning_changes();
+            const bool as_promised = whole && std::abs(sheet.merit - promised) < k_little;
+            if (!asked && (next_gain < k_little || as_promised) && sheet.hard_sum < k_all_but_met)
+                meaning_changes();
         }
+        if (arrived) break;
         if (!better) {
             curved = false;
+            length_before = 0;
             // The longer nothing helps, the larger the strides.
             damping *= std::pow(10, std::clamp(++refused / 2, 1, 4));
             if (pressed != sheet.above) sheet = relaxation.sheet(shape, softness, held);
@@ -264,8 +298,15 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
         const bool creeps = sheet.hard_sum < k_all_but_met && creeps_on(merits);
         if ((quiet >= k_quiet || creeps) && ends(true)) break;
     }
+    if (arrived) {
+        const int iterations = result.iterations;
+        result = *arrived;
+        result.iterations = iterations;
+        return result;
+    }
     result.shape = std::move(shape);
     look_at_end(relaxation, held, result);
+    if (options.known && result.converged) options.known->add(ways, result);
     return result;
 }
 

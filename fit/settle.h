@@ -19,6 +19,8 @@ struct Settled {
     double chi2 = 0, worst_hard = 0;
 };
 
+class KnownEnds;
+
 struct SettleOptions {
     int iterations = 100;
     /// After a few steps it ends where chi-square is not near to it.
@@ -26,6 +28,8 @@ struct SettleOptions {
     /// The equations bend as they do where the steps will end, so that the first step may already
     /// be Newton's.
     bool near_an_end = false;
+    /// Where there are any, ends found before are taken from there, and new ones added.
+    KnownEnds* known = nullptr;
 };
 
 /// `held`: corners that stay below a facet. `solver` keeps its layout from call to call. What meets
