@@ -74,6 +74,7 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, const Finis
                         solver.work() < k_most_work;
          ++round) {
         beside.reset();
+        relaxation.forget_ties(settled.ties);
         const std::vector<Shape> leanings = better_leanings(
             relaxation, solver, settled.shape, softness, k_nearly_upright, k_most_leanings);
         if (std::any_of(leanings.begin(), leanings.end(),

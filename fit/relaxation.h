@@ -29,6 +29,12 @@ struct Held {
     bool operator==(const Held&) const = default;
 };
 
+/// Two corners that share a caliper's jaw, and are level along its direction.
+struct Tie {
+    int one = -1, other = -1;
+    Vec3 direction{0, 0, 0};
+};
+
 /// All equations at one shape.
 struct Sheet {
     SparseRows rows;  ///< incidences first, in the system's order
@@ -60,9 +66,11 @@ public:
     /// Where a jaw would change between two corners for ever, it rests on both: at the bottom of
     /// a kink the two are held level.
     void choose(const Shape& shape, bool meets_hold);
-    /// Of another way there: which corners the jaws touched on it says nothing of this one.
-    void forget_ties() {
-        ties_.clear();
+    const std::vector<Tie>& ties() const { return ties_; }
+    /// Of another way there: which corners the jaws touched on it says nothing of this one; or of
+    /// the end of a way, whose ties are these.
+    void forget_ties(std::vector<Tie> but = {}) {
+        ties_ = std::move(but);
         left_.clear();
         begins_ = true;
     }
@@ -139,10 +147,6 @@ private:
     std::vector<int> points_;          // all of them
     std::vector<Equation> equations_;  // of the readings, as chosen
     bool begins_ = true;               // nothing chosen since ties were forgotten
-    struct Tie {
-        int one, other;
-        Vec3 direction;
-    };
     std::vector<Tie> ties_;
     // Of each reading and jaw, the corners that it has left.
     std::map<std::pair<int, int>, std::vector<int>> left_;

@@ -305,6 +305,7 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
         return result;
     }
     result.shape = std::move(shape);
+    result.ties = relaxation.ties();
     look_at_end(relaxation, held, result);
     if (options.known && result.converged) options.known->add(ways, result);
     return result;

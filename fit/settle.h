@@ -17,6 +17,7 @@ struct Settled {
     bool converged = false;
     int iterations = 0;
     double chi2 = 0, worst_hard = 0;
+    std::vector<Tie> ties;  ///< of the meaning that it is the end of
 };
 
 class KnownEnds;

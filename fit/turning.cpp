@@ -287,6 +287,7 @@ double turn_off_the_mesh(const Relaxation& relaxation, const Shape& shape) {
 
 std::optional<Shape> turned_better(Relaxation& relaxation, SaddleSolver& solver, const Shape& shape,
                                    const Softness& softness) {
+    relaxation.forget_ties();
     relaxation.choose(shape, softness.incidence == 0);
     std::vector<Caliper> calipers = relaxation.calipers_that_tell_the_turn();
     if (calipers.size() < 2) return std::nullopt;
