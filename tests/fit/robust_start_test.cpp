@@ -62,12 +62,13 @@ TEST(RobustStart, OfTurnsThatOnlyCalipersFeelTheBestIsFound) {
 }
 
 // A girdle's facets stand within half a degree of upright, and which of them lean in and which out
-// is told by their neighbours: here five have to be turned over together, any fewer fits worse.
+// is told by their neighbours: here several have to be turned over together. One or two at a time
+// lead to a chi-square that is 3.7 larger.
 TEST(RobustStart, LeaningsThatGainTogetherOnlyAreFound) {
-    const Truth truth = make_truth(TruthKind::round, false, 34);
-    const auto readings = read_by_instruments(truth, 1034);
+    const Truth truth = make_truth(TruthKind::round, false, 81);
+    const auto readings = read_by_instruments(truth, 1081);
     const Trial reference = fit_mesh(truth.stone, readings);
-    const Trial trial = fit_mesh(noisy_mesh(truth.stone, 0.03, 77 * 34 + 5), readings);
+    const Trial trial = fit_mesh(noisy_mesh(truth.stone, 0.1, 77 * 81 + 5), readings);
     EXPECT_TRUE(is_valid(truth.stone, trial.result));
     EXPECT_LT(trial.result.chi2, reference.result.chi2 + 0.1);
 }
