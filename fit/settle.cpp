@@ -19,6 +19,10 @@ constexpr double k_least_damping = 1e-6;
 // readings sharper than rounding.
 constexpr double k_all_but_exact = 1e-15;
 constexpr double k_rounding = 1e-14;
+// Of what meets to rounding: each residual is a sum of four products of numbers up to one.
+constexpr double k_met = 1e-15;
+// Corrections of steps so short may be the last ones.
+constexpr double k_near = 1e-3;
 constexpr double k_nearly_met = 1e-10;
 constexpr int k_most_choices = 12;
 // A shape that leans another way is better within so many steps, or far off: twice chi-square and
@@ -72,7 +76,7 @@ Shape onto_constraints(const Relaxation& relaxation, Shape shape, const std::vec
     for (const double least : {SaddleSolver::k_least_variance, k_least_close}) {
         SaddleSolver solver;
         std::vector<Held> factored;
-        for (int i = 0; i < 10 && sheet.hard_worst > 1e-16; ++i) {
+        for (int i = 0; i < 10 && sheet.hard_worst > k_met; ++i) {
             // After two steps the same factors do: what they miss is of second order in steps of
             // rounding size. Not where other corners bind than before, which have rows then.
             if (i < 2 || sheet.holding != factored) {
@@ -226,7 +230,7 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
             for (int k = 0; k < 4; ++k) {
                 const Relaxation::Missed missed =
                     relaxation.missed(next, softness, sheet.holding, k_all_but_exact);
-                if (missed.worst < 1e-13) break;
+                if (missed.worst < (length < k_near ? k_met : 1e-13)) break;
                 if (!(missed.worst < 0.5 * off_before)) {
                     if (may_be_close) least = k_least_close;
                     break;
