@@ -27,7 +27,7 @@ constexpr int k_most_facets = 4500, k_least_starts = 4;
 // starts of 105 facets and noise of 20 % take up to 1e9, half a second.
 constexpr double k_most_work = 1.5e10, k_most_work_in_vain = 7e9;
 constexpr int k_least_starts_in_vain = 2;
-// Where no start leads anywhere: the mesh pulls less, then strides are longer. One in two hundred
+// Where no start leads to a stone: the mesh pulls less, then strides are longer. One in two hundred
 // step cuts drawn off by 20 % needs them.
 constexpr std::array<Manner, 2> k_other_manners{{{.mesh_sigma = 1.6}, {.stride = 0.5}}};
 
@@ -63,30 +63,27 @@ public:
 
     bool mesh_is_good() const { return starts_.mesh_is_good(); }
     /// The next start that may well lead home; when there is none, the best of those that have
-    /// waited. No more than `most` are tried for it.
-    std::optional<Approach> next(int most, bool only_plausible, double& work,
+    /// waited. No more than `most` are tried for it. `in_vain`: no stone was found so far.
+    std::optional<Approach> next(int most, bool only_plausible, bool in_vain, double& work,
                                  const Progress& progress) {
         while (static_cast<int>(waiting_.size()) < most) {
             std::optional<Start> start = starts_.next();
             if (!start) break;
             Approach found = approach(relaxation_, *start, {}, progress);
             work += found.work;
-            if (found.is_plausible) {
-                was_plausible_ = true;
-                return found;
-            }
+            tried_.push_back(std::move(*start));
+            if (found.is_plausible) return found;
             waiting_.push_back(std::move(found));
-            in_vain_.push_back(std::move(*start));
         }
-        if (waiting_.empty() || only_plausible) return std::nullopt;
-        // None at all: all that can be changed is how they go.
-        while (!was_plausible_ && again_ < k_other_manners.size() * in_vain_.size()) {
-            const Manner& manner = k_other_manners[again_ / in_vain_.size()];
-            const Start& start = in_vain_[again_++ % in_vain_.size()];
+        // Where none led to a stone, all that can be changed is how they go.
+        while (in_vain && again_ < k_other_manners.size() * tried_.size()) {
+            const Manner& manner = k_other_manners[again_ / tried_.size()];
+            const Start& start = tried_[again_++ % tried_.size()];
             Approach found = approach(relaxation_, start, manner, progress);
             work += found.work;
             if (found.is_plausible) return found;
         }
+        if (waiting_.empty() || only_plausible) return std::nullopt;
         const auto best = std::min_element(
             waiting_.begin(), waiting_.end(),
             [](const Approach& a, const Approach& b) { return a.misfit < b.misfit; });
@@ -99,9 +96,8 @@ private:
     Relaxation& relaxation_;
     Starts starts_;
     std::vector<Approach> waiting_;
-    std::vector<Start> in_vain_;  // those of the waiting ones, the first first
-    std::size_t again_ = 0;       // how many of those have been tried again, in each manner
-    bool was_plausible_ = false;
+    std::vector<Start> tried_;
+    std::size_t again_ = 0;  // how many of those have been tried again, in each manner
 };
 
 }  // namespace
@@ -159,7 +155,7 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
         // Beside a stone that agrees, only another that may agree as well is worth the time.
         const bool only_plausible = result.best.agrees;
         const std::optional<Approach> rough =
-            approaches.next(most - result.starts, only_plausible, work, part);
+            approaches.next(most - result.starts, only_plausible, !result.best.sound, work, part);
         if (!rough) break;
         const Graded graded = graded_fit(relaxation, *rough, part);
         Candidate candidate =
