@@ -17,7 +17,7 @@ struct Manner {
     /// Half diameters, of any corner in one step. Half the stone's radius is 0.5: no linearisation
     /// holds so far.
     double stride = 0.2;
-    double mesh_sigma = 0.4;  ///< of `Softness`: how loosely the mesh holds the stone
+    double mesh_sigma = Softness{}.mesh_sigma;  ///< how loosely the mesh holds the stone
 };
 
 /// After the first stages, which tell good starts from hopeless ones at a part of the cost.

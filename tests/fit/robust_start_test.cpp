@@ -44,6 +44,16 @@ TEST(RobustStart, FromWrongProportions) {
     expect_found(truth, wrongly_drawn(truth.stone, 0.2, 9), "wrongly drawn");
 }
 
+// Meshes from which no start led to a stone in the usual manner: the step cut came to ends with
+// chi-squares of a million after ten seconds.
+TEST(RobustStart, WhereNoStartLeadsToAStoneTheyGoInOtherManners) {
+    const Truth truth = make_truth(TruthKind::step, false, 186);
+    const auto readings = read_by_instruments(truth, 1186);
+    const Trial reference = fit_mesh(truth.stone, readings);
+    const Trial trial = fit_mesh(wrongly_drawn(truth.stone, 0.2, 186), readings);
+    EXPECT_TRUE(succeeds(truth.stone, trial, reference)) << trial.result.message;
+}
+
 // Where no azimuth was read, only the widths say how a nearly round stone stands about up, and
 // chi-square has an end at each turn by a corner of the girdle. These meshes lead to lesser ones.
 TEST(RobustStart, OfTurnsThatOnlyCalipersFeelTheBestIsFound) {

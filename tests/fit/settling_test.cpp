@@ -1,0 +1,94 @@
+// The last stage's economy: what a step promises, and ends that were found before.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fit/known_ends.h"
+#include "fit/measurement.h"
+#include "fit/promised_merit.h"
+#include "tests/bench/fit_trials.h"
+
+namespace culet {
+namespace {
+
+using namespace bench;
+
+class Settling : public ::testing::Test {
+protected:
+    static Truth step_cut() { return make_truth(TruthKind::step, false, 3); }
+    static System system_of(const Truth& truth) {
+        const Stone mesh = noisy_mesh(truth.stone, 0.01, 9);
+        return {mesh, bind_readings(read_by_instruments(truth, 17), mesh), {}};
+    }
+};
+
+// From the equations' residuals and slopes one by one, without the solver's forces.
+double left_by(const Sheet& sheet, const Eigen::VectorXd& step) {
+    double sum = sheet.prior + 2 * sheet.prior_gradient.dot(step) +
+                 step.cwiseAbs2().dot(sheet.prior_stiffness);
+    for (int i = 0; i < sheet.rows.count(); ++i) {
+        double left = sheet.rows.residual[std::size_t(i)];
+        for (int k = sheet.rows.begin[std::size_t(i)]; k < sheet.rows.begin[std::size_t(i) + 1];
+             ++k) {
+            left += sheet.rows.slope[std::size_t(k)] * step(sheet.rows.column[std::size_t(k)]);
+        }
+        sum += left * left / sheet.rows.variance[std::size_t(i)];
+    }
+    return sum;
+}
+
+TEST_F(Settling, AStepPromisesWhatItsEquationsLeave) {
+    const System system = system_of(step_cut());
+    const Freedoms freedoms = system.freedoms();
+    Relaxation relaxation(system, freedoms);
+    Softness softness;
+    softness.incidence = softness.readings = 0.01;
+    softness.hinge = 0.002;
+    Shape shape = system.mesh_shape();
+    SaddleSolver solver;
+    double kept = 1;
+    for (int i = 0; i < 8; ++i) {
+        const Sheet sheet = relaxation.sheet(shape, softness);
+        ASSERT_TRUE(solver.factor(sheet.rows, sheet.prior_stiffness + 1e-6 * relaxation.metric()));
+        const auto s = solver.solve(-sheet.prior_gradient, -sheet.rows.residuals());
+        ASSERT_TRUE(s.good);
+        const double promised = promised_merit(sheet, s);
+        EXPECT_NEAR(promised, left_by(sheet, s.unknowns), 1e-9 * (1 + sheet.merit));
+        shape =
+            freedoms.moved(shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())});
+        kept = std::abs(relaxation.sheet(shape, softness).merit - promised);
+    }
+    // Where steps have become short the equations are straight.
+    EXPECT_LT(kept, 1e-9);
+}
+
+TEST_F(Settling, AWayGoneBeforeIsNotGoneAgain) {
+    const System system = system_of(step_cut());
+    const Freedoms freedoms = system.freedoms();
+    Relaxation relaxation(system, freedoms);
+    const Shape start = system.mesh_shape();
+    KnownEnds known;
+    SaddleSolver solver;
+    const Settled first = settle(relaxation, solver, start, {}, {.known = &known});
+    ASSERT_TRUE(first.converged);
+    ASSERT_GT(first.iterations, 2);
+
+    const Settled same = settle(relaxation, solver, start, {}, {.known = &known});
+    EXPECT_EQ(same.iterations, 0);
+    EXPECT_EQ(same.chi2, first.chi2);
+    EXPECT_TRUE(is_same_place(same.shape, first.shape));
+
+    // Another start, whose steps join the way.
+    Shape beside = start;
+    for (std::size_t p = 0; p < beside.points.size(); ++p) {
+        beside.points[p].x += p % 2 == 0 ? 3e-5 : -3e-5;
+    }
+    EXPECT_EQ(known.end_from(beside), nullptr);
+    const Settled joined = settle(relaxation, solver, beside, {}, {.known = &known});
+    EXPECT_LT(joined.iterations, first.iterations);
+    EXPECT_EQ(joined.chi2, first.chi2);
+}
+
+}  // namespace
+}  // namespace culet
