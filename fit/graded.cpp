@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 
 #include "fit/leaning.h"
-#include "fit/promised_merit.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -65,12 +62,11 @@ int solve_stage(Relaxation& relaxation, SaddleSolver& solver, Shape& shape,
     // Coarser than the readings are: what is small to the stage is for a later one to do.
     const bool is_coarse = relaxation.expected_misfit(softness) < 0.5 * relaxation.counts().soft;
     double damping = 1e-3;
-    int steps = 0, refused = 0;
+    int steps = 0;
     while (steps < most_steps && (softness.with_readings || sheet.merit - sheet.prior > k_convex)) {
         if (progress && !progress(fraction)) throw Interrupted();
         ++steps;
         bool better = false, enough = false;
-        double round_before = std::numeric_limits<double>::infinity();
         std::vector<int> pressed = sheet.above;
         for (int round = 0; round < k_most_rounds && !better; ++round) {
             if (!solver.factor(sheet.rows, sheet.prior_stiffness + kept + damping * metric)) break;
@@ -89,28 +85,21 @@ int solve_stage(Relaxation& relaxation, SaddleSolver& solver, Shape& shape,
                     is_coarse && s.unknowns.cwiseAbs().maxCoeff() < k_part * softness.incidence
                         ? k_little
                         : 0;
-                const double small = k_enough * sheet.merit + little;
-                // Little was gained, or little is left.
-                enough =
-                    sheet.merit - there.merit <= small ||
-                    (length <= stride && std::abs(there.merit - promised_merit(sheet, s)) <= small);
+                enough = sheet.merit - there.merit <= k_enough * sheet.merit + little;
                 shape = std::move(next);
                 sheet = std::move(there);
-            } else if (there.above == pressed || !(there.merit < round_before)) {
+            } else if (there.above == pressed) {
                 break;
             } else {
-                round_before = there.merit;
                 pressed = std::move(there.above);
                 sheet = relaxation.sheet(shape, softness, {}, &pressed);
             }
         }
         if (better) {
             damping = std::max(1e-7, damping / 5);
-            refused = 0;
             if (enough) break;
         } else {
-            // The longer nothing helps, the larger the strides.
-            damping *= std::pow(8, ++refused);
+            damping *= 8;
             if (damping > 1e6) break;
             sheet = relaxation.sheet(shape, softness);
         }

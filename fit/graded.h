@@ -3,6 +3,7 @@
 // Incidences, exact readings and the readings themselves begin soft and are tightened stage by
 // stage, so that a bad start can still change its mind; hinges keep the stone convex on the way.
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,8 @@ namespace culet {
 
 /// How the stages go. What leads nowhere in one manner may well lead home in another.
 struct Manner {
-    /// Half diameters, of any corner in one step. Half the stone's radius is 0.5: no linearisation
-    /// holds so far.
-    double stride = 0.2;
+    /// Half diameters, of any corner in one step.
+    double stride = std::numeric_limits<double>::infinity();
     double mesh_sigma = Softness{}.mesh_sigma;  ///< how loosely the mesh holds the stone
 };
 
@@ -24,6 +24,7 @@ struct Manner {
 struct Approach {
     std::string start;  ///< its name
     Manner manner;
+    bool is_second_try = false;  ///< of a start that led to no stone in the usual manner
     Shape shape;
     std::vector<int> sides;     ///< of the start
     std::size_t stages = 0;     ///< that it has gone through

@@ -27,9 +27,10 @@ constexpr int k_most_facets = 4500, k_least_starts = 4;
 // starts of 105 facets and noise of 20 % take up to 1e9, half a second.
 constexpr double k_most_work = 1.5e10, k_most_work_in_vain = 7e9;
 constexpr int k_least_starts_in_vain = 2;
-// Where no start leads to a stone: the mesh pulls less, then strides are longer. One in two hundred
-// step cuts drawn off by 20 % needs them.
-constexpr std::array<Manner, 2> k_other_manners{{{.mesh_sigma = 1.6}, {.stride = 0.5}}};
+// Where no start leads to a stone: the mesh pulls less, then strides are shorter (half the stone's
+// radius is 0.5, and no linearisation holds so far). One in two hundred step cuts drawn off by 10
+// or 20 % needs them.
+constexpr std::array<Manner, 2> k_other_manners{{{.mesh_sigma = 1.6}, {.stride = 0.2}}};
 
 // The chi-square test by counting: the least redundancy that there can be decides what is accepted
 // at once, and only in between is it counted out.
@@ -47,11 +48,13 @@ bool agrees(const System& system, const Candidate& candidate, int free, int coun
 }
 
 // A stone whose last steps creep is still the better one where it agrees better by more than
-// chi-square's own noise: so at an edge that the readings want to have no length.
+// chi-square's own noise: so at an edge that the readings want to have no length. Where there is no
+// stone, what the usual manner led to tells best why.
 auto rank(const Candidate& c, double handicap = 0) {
     constexpr double k_part = 1.05, k_noise = 4;
     const double chi2 = c.finished.chi2 + handicap;
-    return std::make_tuple(!c.sound, !(c.finished.worst_hard < k_hard_limit),
+    return std::make_tuple(!c.sound, !c.sound && c.is_second_try,
+                           !(c.finished.worst_hard < k_hard_limit),
                            c.finished.converged ? chi2 : k_part * chi2 + k_noise);
 }
 
@@ -81,6 +84,7 @@ public:
             const Start& start = tried_[again_++ % tried_.size()];
             Approach found = approach(relaxation_, start, manner, progress);
             work += found.work;
+            found.is_second_try = true;
             if (found.is_plausible) return found;
         }
         if (waiting_.empty() || only_plausible) return std::nullopt;
@@ -164,6 +168,7 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
                               .hopeless = result.best.sound ? result.best.finished.chi2 : 1e300,
                               .known = &known});
         candidate.start = rough->start;
+        candidate.is_second_try = rough->is_second_try;
         candidate.finished.iterations += graded.steps;
         without_stone += candidate.is_no_stone;
         work += graded.work + candidate.finished.work;

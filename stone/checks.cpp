@@ -204,10 +204,16 @@ private:
                 fmt::format("facet {} rises {:.3g} above the plane of its neighbour {}", right.name,
                             highest, left.name));
         }
-        if (!told) {
+        for (const Facet& facet : solid_.facets) {
+            if (told) return;
+            const std::vector<Vec2> outline = flat_outline(solid_, facet, facet.plane.normal);
+            if (is_convex_outline(outline, forgiven)) continue;
+            told = true;
             add(FaultKind::not_convex,
-                "a facet's outline is not convex, or the surface winds "
-                "round its inside more than once");
+                fmt::format("the outline of facet {} is not convex", facet.name));
+        }
+        if (!told) {
+            add(FaultKind::not_convex, "the surface winds round its inside more than once");
         }
     }
 

@@ -80,7 +80,8 @@ TEST(RobustStart, LeaningsThatGainTogetherOnlyAreFound) {
     const Trial reference = fit_mesh(truth.stone, readings);
     const Trial trial = fit_mesh(noisy_mesh(truth.stone, 0.1, 77 * 81 + 5), readings);
     EXPECT_TRUE(is_valid(truth.stone, trial.result));
-    EXPECT_LT(trial.result.chi2, reference.result.chi2 + 0.1);
+    // Turns, and with them other corners for jaws, that gain less than 1 are not looked for.
+    EXPECT_LT(trial.result.chi2, reference.result.chi2 + 1);
 }
 
 // Ends that searches have missed: one facet swung to the other side of a ridge of chi-square (its
