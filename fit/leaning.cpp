@@ -132,28 +132,17 @@ std::vector<std::vector<char>> best_turns(Eigen::VectorXd r, const Eigen::Matrix
 
 }  // namespace
 
-std::vector<Shape> better_leanings(Relaxation& relaxation, SaddleSolver& solver, const Shape& shape,
-                                   const Softness& softness, double within, std::size_t most,
-                                   const std::vector<int>& sides) {
-    relaxation.choose(shape, softness.incidence == 0);
-    std::vector<Relaxation::Folded> folded = relaxation.folded(shape, within);
-    std::erase_if(folded, [&](const Relaxation::Folded& f) {
-        return !sides.empty() && sides[std::size_t(f.facet)] != 0;
-    });
-    if (folded.empty()) return {};
-    const Sheet sheet = relaxation.sheet(shape, softness);
-    if (!solver.factor(sheet.rows, sheet.prior_stiffness + k_damping * relaxation.metric()))
-        return {};
+std::vector<Eigen::VectorXd> better_meanings(const std::vector<Relaxation::Folded>& folded,
+                                             const SaddleSolver& solver,
+                                             const Eigen::VectorXd& pulls, std::size_t most) {
     const auto count = static_cast<Eigen::Index>(folded.size());
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(relaxation.freedoms().size());
     // A value that grows by its shift takes as much off the residual. Of what the turn of facet i
     // adds to chi-square, r(i) is half the part that is linear and big(i, i) the square one.
     Eigen::VectorXd r = Eigen::VectorXd::Zero(count);
-    Eigen::MatrixXd shifts = Eigen::MatrixXd::Zero(sheet.rows.count(), count);
+    Eigen::MatrixXd shifts = Eigen::MatrixXd::Zero(pulls.size(), count);
     for (Eigen::Index i = 0; i < count; ++i) {
         for (const auto& [row, shift] : folded[std::size_t(i)].turns) {
-            r(i) -= shift * sheet.rows.residual[std::size_t(row)] /
-                    sheet.rows.variance[std::size_t(row)];
+            r(i) -= shift * pulls(row);
             shifts(row, i) = shift;
         }
     }
@@ -166,12 +155,36 @@ std::vector<Shape> better_leanings(Relaxation& relaxation, SaddleSolver& solver,
             big.row(k) -= shift * solved.forces.row(row);
         }
     }
-    std::vector<Shape> others;
+    std::vector<Eigen::VectorXd> meanings;
     for (const std::vector<char>& turned : best_turns(std::move(r), big, most)) {
-        Eigen::VectorXd right = Eigen::VectorXd::Zero(sheet.rows.count());
+        meanings.push_back(Eigen::VectorXd::Zero(pulls.size()));
         for (Eigen::Index i = 0; i < count; ++i) {
-            if (turned[std::size_t(i)]) right += shifts.col(i);
+            if (turned[std::size_t(i)]) meanings.back() += shifts.col(i);
         }
+    }
+    return meanings;
+}
+
+std::vector<Shape> better_leanings(Relaxation& relaxation, SaddleSolver& solver, const Shape& shape,
+                                   const Softness& softness, double within, std::size_t most,
+                                   const std::vector<int>& sides) {
+    relaxation.choose(shape, softness.incidence == 0);
+    std::vector<Relaxation::Folded> folded = relaxation.folded(shape, within);
+    std::erase_if(folded, [&](const Relaxation::Folded& f) {
+        return !sides.empty() && sides[std::size_t(f.facet)] != 0;
+    });
+    if (folded.empty()) return {};
+    const Sheet sheet = relaxation.sheet(shape, softness);
+    if (!solver.factor(sheet.rows, sheet.prior_stiffness + k_damping * relaxation.metric()))
+        return {};
+    Eigen::VectorXd pulls = sheet.rows.residuals();
+    for (Eigen::Index i = 0; i < pulls.size(); ++i) {
+        const double variance = sheet.rows.variance[std::size_t(i)];
+        pulls(i) = variance > 0 ? pulls(i) / variance : 0;
+    }
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(relaxation.freedoms().size());
+    std::vector<Shape> others;
+    for (const Eigen::VectorXd& right : better_meanings(folded, solver, pulls, most)) {
         const auto s = solver.solve(none, right, k_precision);
         if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > k_longest) continue;
         others.push_back(relaxation.freedoms().moved(

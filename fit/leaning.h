@@ -21,4 +21,11 @@ std::vector<Shape> better_leanings(Relaxation& relaxation, SaddleSolver& solver,
                                    const Softness& softness, double within, std::size_t most,
                                    const std::vector<int>& sides = {});
 
+/// What is added to the values of a sheet's rows when some facets are taken the other way: the
+/// `most` best such sets of facets that gain, the best first. `pulls` are the rows' residuals over
+/// their variances at the optimum of the factored equations.
+std::vector<Eigen::VectorXd> better_meanings(const std::vector<Relaxation::Folded>& folded,
+                                             const SaddleSolver& solver,
+                                             const Eigen::VectorXd& pulls, std::size_t most);
+
 }  // namespace culet

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <vector>
 
+#include "fit/caliper_misfit.h"
+#include "fit/leaning.h"
 #include "fit/orbits.h"
 #include "stone/units.h"
 
@@ -34,21 +36,10 @@ constexpr double k_place_precision = 1e-7;
 constexpr double k_longest = 0.5;
 // More calipers than this say nothing new of the turn: so many of them are asked.
 constexpr std::size_t k_most_calipers = 48;
-// In how many rounds it is settled which corners the jaws touch.
-constexpr int k_most_rounds = 4;
-
-// What the readings but the calipers leave of the corners, at this turn of the stone.
-struct Corners {
-    std::vector<Vec3> places;
-    std::vector<Eigen::Index> column;  // of each corner in `covariance`, x then y; -1: not asked
-    Eigen::MatrixXd covariance;
-
-    double covariance_of(int one, const Vec3& u, int other, const Vec3& v) const {
-        const Eigen::Index r = column[std::size_t(one)], c = column[std::size_t(other)];
-        return u.x * (covariance(r, c) * v.x + covariance(r, c + 1) * v.y) +
-               u.y * (covariance(r + 1, c) * v.x + covariance(r + 1, c + 1) * v.y);
-    }
-};
+// Facets that may lean either way where the stone stands otherwise, and how many sets of them are
+// taken the other way.
+constexpr double k_nearly_upright = 0.1;
+constexpr std::size_t k_most_leanings = 4;
 
 using Caliper = Relaxation::Caliper;
 
@@ -80,115 +71,6 @@ Standing standing_of_mesh(const std::vector<Vec3>& points, const std::vector<Vec
     const double off = std::max(0.0, radii + mesh_radii - 2 * std::hypot(east, north));
     const double by_corners = std::sqrt(off / (2 * double(points.size())) / radii);
     return {std::atan2(north, east), std::hypot(by_corners, radians(k_laid_sigma_deg))};
-}
-
-struct Jaws {
-    int first = -1, second = -1;
-    Vec3 direction{0, 0, 0};  // as the stone sees it
-    bool operator==(const Jaws&) const = default;
-};
-
-// With corners at these places. Of those that were not asked none is touched, unless all may be.
-std::vector<Jaws> jaws_at(const std::vector<Caliper>& calipers, const Corners& corners,
-                          const std::vector<Vec3>& places, double angle, bool all_may_be) {
-    std::vector<Jaws> all;
-    const glm::dmat3 back = turn_about_z(-angle);
-    for (const Caliper& caliper : calipers) {
-        const Vec3 d = back * caliper.direction;
-        Jaws jaws{-1, -1, d};
-        double high = -1e300, low = 1e300;
-        for (const int c : *caliper.corners) {
-            if (!all_may_be && corners.column[std::size_t(c)] < 0) continue;
-            const double at = glm::dot(places[std::size_t(c)], d);
-            if (at > high) {
-                high = at;
-                jaws.first = c;
-            }
-            if (at < low) {
-                low = at;
-                jaws.second = c;
-            }
-        }
-        all.push_back(jaws);
-    }
-    return all;
-}
-
-struct Misfit {
-    double chi2 = 0;
-    Eigen::VectorXd forces;
-};
-
-// With jaws on these corners, at this turn and a little around it.
-Misfit misfit_of(const std::vector<Caliper>& calipers, const Corners& corners,
-                 const std::vector<Jaws>& jaws, double around) {
-    const auto count = static_cast<Eigen::Index>(calipers.size());
-    Eigen::VectorXd off(count), slope(count);
-    Eigen::MatrixXd covariance(count, count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-        const Jaws& a = jaws[std::size_t(i)];
-        const Caliper& caliper = calipers[std::size_t(i)];
-        const Vec3 between =
-            corners.places[std::size_t(a.first)] - corners.places[std::size_t(a.second)];
-        off(i) = glm::dot(a.direction, between) - caliper.value;
-        slope(i) = glm::dot(Vec3{a.direction.y, -a.direction.x, 0}, between);
-        for (Eigen::Index k = 0; k <= i; ++k) {
-            const Jaws& b = jaws[std::size_t(k)];
-            covariance(i, k) = covariance(k, i) =
-                corners.covariance_of(a.first, a.direction, b.first, b.direction) -
-                corners.covariance_of(a.first, a.direction, b.second, b.direction) -
-                corners.covariance_of(a.second, a.direction, b.first, b.direction) +
-                corners.covariance_of(a.second, a.direction, b.second, b.direction);
-        }
-        covariance(i, i) += caliper.sigma * caliper.sigma;
-    }
-    const Eigen::LDLT<Eigen::MatrixXd> factor(covariance);
-    Misfit result;
-    if (factor.info() != Eigen::Success || !factor.isPositive()) {
-        result.chi2 = std::numeric_limits<double>::infinity();
-        return result;
-    }
-    const double downhill = slope.dot(factor.solve(off)), bend = slope.dot(factor.solve(slope));
-    const double move = bend > 0 ? std::clamp(-downhill / bend, -around, around) : 0;
-    off += move * slope;
-    const Eigen::VectorXd pull = factor.solve(off);
-    result.chi2 = off.dot(pull);
-    result.forces = Eigen::VectorXd::Zero(corners.covariance.cols());
-    for (Eigen::Index i = 0; i < count; ++i) {
-        const Jaws& j = jaws[std::size_t(i)];
-        for (const int axis : {0, 1}) {
-            const double force = pull(i) * j.direction[axis];
-            result.forces(corners.column[std::size_t(j.first)] + axis) -= force;
-            result.forces(corners.column[std::size_t(j.second)] + axis) += force;
-        }
-    }
-    return result;
-}
-
-// At this turn, with the calipers' jaws where the stone that fits them best is widest: where that
-// changes for ever, the larger of the two.
-Misfit misfit_at(const std::vector<Caliper>& calipers, const Corners& corners, double angle,
-                 double around) {
-    std::vector<Jaws> jaws = jaws_at(calipers, corners, corners.places, angle, false);
-    Misfit before;
-    for (int round = 0; round < k_most_rounds; ++round) {
-        Misfit misfit = misfit_of(calipers, corners, jaws, around);
-        if (!std::isfinite(misfit.chi2)) return misfit;
-        std::vector<Vec3> places = corners.places;
-        const Eigen::VectorXd moved = corners.covariance * misfit.forces;
-        for (std::size_t p = 0; p < places.size(); ++p) {
-            if (corners.column[p] < 0) continue;
-            places[p].x += moved(corners.column[p]);
-            places[p].y += moved(corners.column[p] + 1);
-        }
-        std::vector<Jaws> next = jaws_at(calipers, corners, places, angle, false);
-        if (next == jaws || (round + 1 == k_most_rounds && misfit.chi2 > before.chi2)) {
-            return misfit;
-        }
-        before = std::move(misfit);
-        jaws = std::move(next);
-    }
-    return before;
 }
 
 std::vector<Caliper> evenly_chosen(const std::vector<Caliper>& calipers) {
@@ -228,23 +110,6 @@ Motions motions_of(const Shape& shape, const Freedoms::Chart& chart, const Eigen
     return motions;
 }
 
-// Corners that a jaw may touch at one of these turns get their columns in `corners`.
-std::vector<int> number_touched(const std::vector<Caliper>& calipers, Corners& corners, int from,
-                                int to) {
-    std::vector<int> touched;
-    for (int k = from; k <= to; ++k) {
-        for (const Jaws& j :
-             jaws_at(calipers, corners, corners.places, k * radians(k_pace_deg), true)) {
-            for (const int corner : {j.first, j.second}) {
-                if (corners.column[std::size_t(corner)] >= 0) continue;
-                corners.column[std::size_t(corner)] = 2 * Eigen::Index(touched.size());
-                touched.push_back(corner);
-            }
-        }
-    }
-    return touched;
-}
-
 // Their places, x then y, against the mean of all: nothing says where the stone as a whole lies.
 Eigen::MatrixXd places_of(const std::vector<int>& touched, const Freedoms::Chart& chart,
                           const Motions& motions) {
@@ -263,21 +128,87 @@ Eigen::MatrixXd places_of(const std::vector<int>& touched, const Freedoms::Chart
 // Of these turns the one where calipers and mesh together say less than `limit`, and least.
 struct Best {
     int pace = 0;
-    Misfit misfit;
+    CaliperMisfit misfit;
+    double sum = 0;
 };
 Best best_turn(const std::vector<Caliper>& calipers, const Corners& corners, const Standing& mesh,
                int from, int to, double limit) {
     const double pace = radians(k_pace_deg);
     Best best;
     for (int k = from; k <= to; ++k) {
-        Misfit misfit = misfit_at(calipers, corners, k * pace, pace);
+        CaliperMisfit misfit = misfit_at(calipers, corners, k * pace, pace);
         const double sum = misfit.chi2 + mesh.misfit(k * pace);
         if (!(sum < limit)) continue;
         limit = sum;
-        best = {k, std::move(misfit)};
+        best = {k, std::move(misfit), sum};
     }
     return best;
 }
+
+// The equations with the calipers loosened: nothing says how the stone stands, and everything else
+// stands still about up, or the model could turn by itself.
+class Loosened {
+public:
+    // Small moves of all the unknowns against the motion that `turn` measures.
+    Loosened(const SaddleSolver& solver, const SparseRows& rows, const Eigen::VectorXd& turn)
+        : solver_(solver), rows_(rows), turn_(turn) {
+        const auto turned = solver.solve(turn, Eigen::VectorXd::Zero(rows.count()), k_precision);
+        if (!turned.good) return;
+        turned_ = turned.unknowns;
+        of_turn_ = turn.dot(turned_);
+    }
+    bool is_usable() const { return of_turn_ > 0; }
+
+    // What the readings leave, and least of it.
+    struct Left {
+        Eigen::VectorXd step;
+        double merit = 0;
+        Eigen::VectorXd pulls;  // of the rows
+    };
+    // Where the rows' values are more by `shift`; none where no small step leads there.
+    std::optional<Left> left_by(const Eigen::VectorXd& shift) const {
+        const Eigen::VectorXd right = shift - rows_.residuals();
+        const auto moved = solver_.solve(Eigen::VectorXd::Zero(turn_.size()), right, k_precision);
+        if (!moved.good) return std::nullopt;
+        const double along = turn_.dot(moved.unknowns);
+        Left left{moved.unknowns - turned_ * (along / of_turn_),
+                  along * along / of_turn_ - right.dot(moved.forces), moved.forces};
+        if (!(left.step.cwiseAbs().maxCoeff() < k_longest)) return std::nullopt;
+        return left;
+    }
+    // As the readings are meant, and where some facets lean the other way.
+    std::vector<Left> ways_to_lean(const std::vector<Relaxation::Folded>& folded) const {
+        const std::optional<Left> as_meant = left_by(Eigen::VectorXd::Zero(rows_.count()));
+        if (!as_meant) return {};
+        std::vector<Left> all{*as_meant};
+        for (const Eigen::VectorXd& shift :
+             better_meanings(folded, solver_, as_meant->pulls, k_most_leanings)) {
+            if (std::optional<Left> left = left_by(shift)) all.push_back(std::move(*left));
+        }
+        return all;
+    }
+
+    // Of quantities (columns of `functionals`): the columns by which forces on them move the
+    // unknowns, and their covariance.
+    struct Spread {
+        Eigen::MatrixXd moves, covariance;
+    };
+    std::optional<Spread> spread_of(const Eigen::MatrixXd& functionals) const {
+        const auto solved = solver_.solve_all(functionals, Eigen::MatrixXd(), k_place_precision);
+        if (!solved.good) return std::nullopt;
+        const Eigen::VectorXd with_turn = functionals.transpose() * turned_;
+        Spread spread{solved.unknowns - turned_ * (with_turn / of_turn_).transpose(), {}};
+        spread.covariance = functionals.transpose() * spread.moves;
+        return spread;
+    }
+
+private:
+    const SaddleSolver& solver_;
+    const SparseRows& rows_;
+    const Eigen::VectorXd& turn_;
+    Eigen::VectorXd turned_;
+    double of_turn_ = 0;
+};
 
 }  // namespace
 
@@ -300,52 +231,53 @@ std::optional<Shape> turned_better(Relaxation& relaxation, SaddleSolver& solver,
     }
     if (calipers.size() > k_most_calipers) calipers = evenly_chosen(calipers);
 
-    // Everything else stands still about up, or the model could turn by itself.
     const Freedoms& freedoms = relaxation.freedoms();
     const Freedoms::Chart chart = freedoms.chart(shape);
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(freedoms.size());
-    const Motions motions = motions_of(shape, chart, none);
-    const Eigen::VectorXd& turn = motions.turn;
-    const auto turned = solver.solve(turn, Eigen::VectorXd::Zero(sheet.rows.count()), k_precision);
-    const auto moved = solver.solve(none, -sheet.rows.residuals(), k_precision);
-    if (!turned.good || !moved.good) return std::nullopt;
-    const double of_turn = turn.dot(turned.unknowns);
-    if (!(of_turn > 0)) return std::nullopt;
-    const double along_turn = turn.dot(moved.unknowns);
-    Eigen::VectorXd step = moved.unknowns - turned.unknowns * (along_turn / of_turn);
-    if (!(step.cwiseAbs().maxCoeff() < k_longest)) return std::nullopt;
-
-    const auto moved_by = [&](const Eigen::VectorXd& s) {
-        return freedoms.moved(shape, {s.data(), static_cast<std::size_t>(s.size())});
-    };
-    Corners corners;
-    corners.places = moved_by(step).points;
-    corners.column.assign(shape.points.size(), -1);
+    const Motions motions = motions_of(shape, chart, Eigen::VectorXd::Zero(freedoms.size()));
+    const Loosened loosened(solver, sheet.rows, motions.turn);
+    if (!loosened.is_usable()) return std::nullopt;
+    const std::vector<Loosened::Left> ways =
+        loosened.ways_to_lean(relaxation.folded(shape, k_nearly_upright));
+    double least = std::numeric_limits<double>::infinity();
+    for (const Loosened::Left& way : ways) least = std::min(least, way.merit);
     const Standing mesh = standing_of_mesh(shape.points, relaxation.system().mesh_shape().points);
-    // What the other readings leave at least; then at each turn the calipers.
-    const double others =
-        sheet.rows.residuals().dot(moved.forces) + along_turn * along_turn / of_turn;
-    const double gain = sheet.merit + mesh.misfit(0) - others;
-    if (!(gain > k_least_gain)) return std::nullopt;
+    const double now = sheet.merit + mesh.misfit(0);
+    if (!(now - least > k_least_gain)) return std::nullopt;
+
+    // At all turns that the mesh does not forbid.
+    const double gain = now - least;
     const double range = gain > k_mesh_is_wrong
                              ? radians(k_range_deg)
                              : std::min(mesh.sigma * std::sqrt(gain), radians(k_range_deg));
     const double pace = radians(k_pace_deg);
     const int from = static_cast<int>(std::floor((mesh.angle - range) / pace)),
               to = static_cast<int>(std::ceil((mesh.angle + range) / pace));
-    const std::vector<int> touched = number_touched(calipers, corners, from, to);
-    const Eigen::MatrixXd functionals = places_of(touched, chart, motions);
-    const auto solved = solver.solve_all(functionals, Eigen::MatrixXd(), k_place_precision);
-    if (!solved.good) return std::nullopt;
-    const Eigen::VectorXd with_turn = functionals.transpose() * turned.unknowns;
-    corners.covariance =
-        functionals.transpose() * solved.unknowns - with_turn * with_turn.transpose() / of_turn;
-
-    const Best best = best_turn(calipers, corners, mesh, from, to, gain - k_least_gain);
+    const auto moved_by = [&](const Eigen::VectorXd& s) {
+        return freedoms.moved(shape, {s.data(), static_cast<std::size_t>(s.size())});
+    };
+    Corners corners;
+    corners.column.assign(shape.points.size(), -1);
+    for (const Loosened::Left& way : ways) {
+        corners.places = moved_by(way.step).points;
+        for (int k = from; k <= to; ++k) number_touched(calipers, k * pace, corners);
+    }
+    const auto spread = loosened.spread_of(places_of(corners.touched, chart, motions));
+    if (!spread) return std::nullopt;
+    corners.covariance = spread->covariance;
+    Best best;
+    const Loosened::Left* chosen = nullptr;
+    double limit = now - k_least_gain;
+    for (const Loosened::Left& way : ways) {
+        corners.places = moved_by(way.step).points;
+        Best here = best_turn(calipers, corners, mesh, from, to, limit - way.merit);
+        if (here.misfit.forces.size() == 0) continue;
+        limit = way.merit + here.sum;
+        best = std::move(here);
+        chosen = &way;
+    }
+    if (!chosen) return std::nullopt;
     // Where it stands, too, jaws may be on corners between which no small step leads.
-    if (best.misfit.forces.size() == 0) return std::nullopt;
-    step += solved.unknowns * best.misfit.forces -
-            turned.unknowns * (with_turn.dot(best.misfit.forces) / of_turn);
+    const Eigen::VectorXd step = chosen->step + spread->moves * best.misfit.forces;
     if (!(step.cwiseAbs().maxCoeff() < k_longest)) return std::nullopt;
     Shape result = moved_by(step);
     const glm::dmat3 by = turn_about_z(best.pace * pace);

@@ -18,6 +18,10 @@ double turn_off_the_mesh(const Relaxation& relaxation, const Shape& shape);
 /// that is elsewhere; nothing where something else (an azimuth, a mirror) says it. The shape has to
 /// be at an end of the search.
 ///
+/// Facets that lean the other way may gain only where the stone stands otherwise, and the other way
+/// round: with the calipers loosened the best few sets of such facets are found (see leaning.h),
+/// and the stone is turned with each of them, too.
+///
 /// At each turn chi-square is least over everything else that is varied: without the calipers let
 /// the readings leave their widths w with the covariance W; then chi-square is (w - read)'
 /// (W + S)^-1 (w - read) and a constant, exactly where equations are linear. Costs one

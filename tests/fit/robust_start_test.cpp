@@ -84,6 +84,29 @@ TEST(RobustStart, LeaningsThatGainTogetherOnlyAreFound) {
     EXPECT_LT(trial.result.chi2, reference.result.chi2 + 1);
 }
 
+// Girdle facets that lean the other way and a turn of the stone between its calipers: either alone
+// makes chi-square larger, both together 4.7, 5.5 and 3.8 less. (Turns that gain less than 1 are
+// not looked for.)
+TEST(RobustStart, LeaningsThatGainOnlyWithATurnAreFound) {
+    struct Case {
+        TruthKind kind;
+        unsigned seed;
+        double noise;  // 0: drawn wrong by 20 %
+    };
+    for (const Case& c : {Case{TruthKind::round, 84, 0.03}, Case{TruthKind::round, 133, 0.2},
+                          Case{TruthKind::step, 20, 0}}) {
+        const Truth truth = make_truth(c.kind, false, c.seed);
+        const auto readings = read_by_instruments(truth, 1000 + c.seed);
+        const Trial reference = fit_mesh(truth.stone, readings);
+        const unsigned by = 77 * c.seed + 5;
+        const Trial trial = fit_mesh(c.noise > 0 ? noisy_mesh(truth.stone, c.noise, by)
+                                                 : wrongly_drawn(truth.stone, 0.2, by),
+                                     readings);
+        EXPECT_TRUE(is_valid(truth.stone, trial.result)) << c.seed;
+        EXPECT_LT(trial.result.chi2, reference.result.chi2 + 1) << c.seed;
+    }
+}
+
 // Ends that searches have missed: one facet swung to the other side of a ridge of chi-square (its
 // edges are as long there), jaws of calipers on other corners at the same turn, starts that are all
 // alike, and a start that was told what an earlier one had seen. The reference starts at the truth.
