@@ -9,6 +9,7 @@
 #include "fit/disagreement.h"
 #include "fit/facet_functions.h"
 #include "fit/finish.h"
+#include "fit/flush_jaws.h"
 #include "fit/linear.h"
 #include "fit/snooping.h"
 #include "fit/statistics.h"
@@ -179,7 +180,7 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     diagnosis.readings.resize(system.readings().size());
     diagnosis.facets.resize(shape.normals.size());
     const std::vector<Said> counted = all_said(linear);
-    const auto covariance = std::make_shared<const Covariance>(linear);
+    const auto covariance = std::make_shared<Covariance>(linear);
     if (!covariance->usable()) {
         residuals_only(system, linear, counted, diagnosis);
         return diagnosis;
@@ -255,6 +256,7 @@ Diagnosis diagnose(const System& system, const Shape& shape,
         diagnosis.disagreeing = disagreeing_exact_readings(system, shape, outline);
     }
 
+    allow_for_flush_jaws(system, shape, *outline, linear, *covariance);
     const Vec3 middle = middle_of(shape);
     const RowWriter writer(shape);
     // Azimuths are told in the result's frame, which turns to lie as the mesh does.

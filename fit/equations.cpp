@@ -161,6 +161,12 @@ bool System::may_be_merged(const std::vector<int>& group, const Repeats& repeats
     });
 }
 
+std::vector<Corner> System::corners_between_jaws(const Reading& reading,
+                                                 const Outline& outline) const {
+    if (reading.kind != ReadingKind::table_width) return outline.corners;
+    return corners_of(outline.loops[up_facet_].size() >= 3 ? outline : *mesh_outline_, up_facet_);
+}
+
 std::vector<Equation> System::reading_equations(const Shape& shape,
                                                 const std::shared_ptr<const Outline>& outline,
                                                 bool reduced, bool meets_hold) const {
@@ -336,13 +342,12 @@ std::vector<Equation> System::reading_equations(const Shape& shape,
                 } else if (reading.kind == ReadingKind::width) {
                     direction = inside_direction(reading.direction);
                 }
-                put_caliper(outline->corners, direction);
+                put_caliper(corners_between_jaws(reading, *outline), direction);
                 break;
             }
             case ReadingKind::table_width: {
                 const Vec3 direction{std::cos(reading.azimuth), std::sin(reading.azimuth), 0};
-                const std::vector<Corner> loop = loop_of(up_facet_);
-                put_caliper(loop, direction);
+                put_caliper(corners_between_jaws(reading, *outline), direction);
                 break;
             }
             case ReadingKind::volume:

@@ -72,6 +72,8 @@ public:
     const std::vector<Incidence>& incidences() const { return incidences_; }
     /// The mesh as it starts.
     const Shape& mesh_shape() const { return mesh_shape_; }
+    /// Those that the jaws of a width, a depth or a table's width may touch.
+    std::vector<Corner> corners_between_jaws(const Reading& reading, const Outline& outline) const;
     const std::shared_ptr<const Outline>& mesh_outline() const { return mesh_outline_; }
     const HalfEdges& edges() const { return edges_; }
     Layout layout() const { return layout_of(mesh_shape_); }

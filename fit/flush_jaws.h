@@ -1,0 +1,38 @@
+#pragma once
+// What calipers know whose jaws lie flush on a side of the stone, or nearly. Private to the room:
+// shows Eigen.
+//
+// A jaw rests on the corner that stands out farthest: of two that are level, turned one way it is
+// the one, turned the other way the other, and either way the stone is wider. About such a stone a
+// width is no linear function of the freedoms, and the covariance of the linear model, which knows
+// of one corner only, makes the side's azimuth less sure than it is. With a flat prior the readings
+// say exp(-chi2 / 2), chi2 being quadratic but for the corners t that stand farther out than the
+// one that is touched: (residual + max(0, t) / sigma)^2 instead of residual^2. Its second moments
+// about the fit follow by quadrature over those few t and residuals; given them, everything else
+// stays as linear as it was.
+
+#include <vector>
+
+#include "fit/covariance.h"
+#include "fit/system.h"
+
+namespace culet {
+
+/// A reading between two jaws, about the fit: rows of small errors, in units of its sigma.
+struct CaliperErrors {
+    double residual = 0;  ///< of the reading, with the corners that are touched
+    /// By how much other corners stand out farther than the one that is touched: below zero.
+    std::array<std::vector<double>, 2> levels;
+};
+
+/// Second moments of `y`, standard normal in the linear model but for its `mean`, about zero. Each
+/// caliper's errors are rows of `slopes` times y, one after another: the residual's, then those of
+/// the first jaw's levels, then of the second's.
+Eigen::MatrixXd moments_between_jaws(const std::vector<CaliperErrors>& calipers,
+                                     const Eigen::MatrixXd& slopes, const Eigen::VectorXd& mean);
+
+/// Lets the covariance of this model know of the corners that may as well be touched.
+void allow_for_flush_jaws(const System& system, const Shape& shape, const Outline& outline,
+                          const Linearised& linear, Covariance& covariance);
+
+}  // namespace culet
