@@ -38,8 +38,9 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, const Finis
     ExactFinish result;
     SaddleSolver solver;
     const bool goes_on = options.agreeable > 0;
-    Settled settled = settle(relaxation, solver, start, {},
-                             {.iterations = iterations, .near_an_end = goes_on, .known = ends});
+    Settled settled = settle(
+        relaxation, solver, start, {},
+        {.iterations = iterations, .near_an_end = goes_on, .jaws_rest = goes_on, .known = ends});
     Softness softness;
     softness.with_priors = false;
     // What the readings may as well mean: each meaning has an end of its own. The best of those

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "fit/facet_functions.h"
@@ -59,6 +60,8 @@ std::vector<Candidate> candidates(const System& system, const Shape& shape,
     std::vector<Candidate> all;
     const RowWriter writer(shape);
     const std::vector<Facet>& facets = system.stone().solid.facets;
+    const std::vector<Edge>& edges = system.edges().edges;
+    all.reserve(2 * (facets.size() + edges.size()) + shape.points.size() + 40);
     const auto put = [&](Kind kind, std::vector<std::string> of, const std::string& group,
                          const Formula& formula, double sigma, double unit) {
         Candidate c;
@@ -88,7 +91,6 @@ std::vector<Candidate> candidates(const System& system, const Shape& shape,
             turn, 1);
     }
     // Of a large stone some edges: each costs solutions of its own.
-    const std::vector<Edge>& edges = system.edges().edges;
     for (std::size_t at = 0; at < edges.size(); at += 1 + edges.size() / k_most_edges) {
         const Edge& e = edges[at];
         if (e.left < 0 || e.right < 0) continue;
@@ -212,14 +214,17 @@ std::vector<NextReading> next_readings(const System& system, const Shape& shape,
         c.variance = covariance.total_variance(c.function);
         c.promise = promise_of(c);
     }
-    std::stable_sort(all.begin(), all.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.promise > b.promise; });
+    std::vector<std::size_t> order(all.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return all[a].promise > all[b].promise; });
     // The most uncertain, but some of every kind and tier: their reach differs.
     std::vector<Candidate> tried;
+    tried.reserve(k_tried);
     std::map<std::string, int> of_group;
-    for (Candidate& c : all) {
+    for (const std::size_t i : order) {
         if (tried.size() >= k_tried) break;
-        if (++of_group[c.group] <= 2 && c.promise > 0) tried.push_back(std::move(c));
+        if (++of_group[all[i].group] <= 2 && all[i].promise > 0) tried.push_back(all[i]);
     }
     const Eigen::VectorXd drops = halves ? drops_of(*halves, tried, covariance)
                                          : drops_one_by_one(shape, middle, tried, covariance);
@@ -233,12 +238,15 @@ std::vector<NextReading> next_readings(const System& system, const Shape& shape,
                            covariance.open_variance(c.function) > 4 * c.sigma * c.sigma &&
                            covariance.open_variance(c.function) > 0.5 * c.variance;
     }
-    std::stable_sort(tried.begin(), tried.end(), [](const Candidate& a, const Candidate& b) {
-        return a.reading.reduces > b.reading.reduces;
+    order.resize(tried.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return tried[a].reading.reduces > tried[b].reading.reduces;
     });
     std::vector<NextReading> best;
     std::set<std::string> told;
-    for (const Candidate& c : tried) {
+    for (const std::size_t i : order) {
+        const Candidate& c = tried[i];
         if (best.size() == k_told || !(c.reading.reduces > 1e-6)) break;
         if (told.insert(c.group).second) best.push_back(c.reading);
     }

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "fit/azimuth_turn.h"
+#include "fit/laid_between_jaws.h"
 #include "fit/orbits.h"
 #include "fit/statistics.h"
 #include "fit/upright_turn.h"
@@ -46,8 +47,9 @@ Candidate refit_from(const System& system, const Shape& shape, int iterations) {
     constexpr int k_shifts = 3;
     const int least = counts.soft + counts.hard + k_shifts - freedoms.size();
     const double agreeable = chi2_quantile(k_agrees_well, std::max(1, least));
-    Candidate candidate = finish_candidate(system, relaxation, freedoms.symmetrised(shape),
-                                           {.iterations = iterations, .agreeable = agreeable});
+    Candidate candidate = finish_candidate(
+        system, relaxation, laid_between_jaws(relaxation, freedoms.symmetrised(shape)),
+        {.iterations = iterations, .agreeable = agreeable});
     candidate.start = "earlier result";
     return candidate;
 }

@@ -20,6 +20,11 @@ constexpr double k_hold_sigma = 1e-8;
 constexpr double k_at_level = 0.1 * k_hold_below;
 // Corners that share a caliper's jaw are level to this part of the half diameter.
 constexpr double k_tie_sigma = 1e-6;
+// Level at the end of an earlier fit, in half diameters: as exactly as a turn can be found.
+constexpr double k_level = 1e-7;
+// Of the force of a reading that is off by its sigma: with less a tie holds nothing, be it level
+// by symmetry or on a level facet.
+constexpr double k_no_force = 1e-3;
 
 // Lengths are rounded off over this many times the softness of the stage, or the kink still shows.
 constexpr double k_round = 3;
@@ -27,33 +32,43 @@ constexpr double k_round = 3;
 // One pair of facet and point of each orbit, and how many go with it.
 class OrbitPairs {
 public:
-    explicit OrbitPairs(const Freedoms& freedoms) : generators_(freedoms.orbits().generators) {}
+    OrbitPairs(const Freedoms& freedoms, std::size_t facets, std::size_t points)
+        : generators_(freedoms.orbits().generators), points_(points) {
+        if (!generators_.empty()) seen_.assign(facets * points, 0);
+    }
 
     /// 0: seen before; else the size of the pair's orbit.
     int take(int facet, int point) {
         if (generators_.empty()) return 1;
-        if (!seen_.emplace(std::make_pair(facet, point), true).second) return 0;
+        if (was_seen(facet, point)) return 0;
         std::vector<std::pair<int, int>> queue{{facet, point}};
         for (std::size_t q = 0; q < queue.size(); ++q) {
             for (const SymmetryMotion& g : generators_) {
                 const std::pair<int, int> to{g.exchange.facets[queue[q].first],
                                              g.exchange.vertices[queue[q].second]};
-                if (seen_.emplace(to, true).second) queue.push_back(to);
+                if (!was_seen(to.first, to.second)) queue.push_back(to);
             }
         }
         return static_cast<int>(queue.size());
     }
 
 private:
+    bool was_seen(int facet, int point) {
+        return std::exchange(seen_[std::size_t(facet) * points_ + std::size_t(point)], 1);
+    }
+
     const std::vector<SymmetryMotion>& generators_;
-    std::map<std::pair<int, int>, bool> seen_;
+    std::size_t points_;
+    std::vector<char> seen_;
 };
 
 }  // namespace
 
 Relaxation::Relaxation(const System& system, const Freedoms& freedoms)
     : system_(system), freedoms_(freedoms) {
-    OrbitPairs incident(freedoms), hinged(freedoms);
+    const std::vector<Facet>& facets = system.stone().solid.facets;
+    const std::size_t points = system.mesh_shape().points.size();
+    OrbitPairs incident(freedoms, facets.size(), points), hinged(freedoms, facets.size(), points);
     for (std::size_t i = 0; i < system.incidences().size(); ++i) {
         const Incidence& incidence = system.incidences()[i];
         if (const int images = incident.take(incidence.facet, incidence.point)) {
@@ -61,12 +76,10 @@ Relaxation::Relaxation(const System& system, const Freedoms& freedoms)
             incidence_images_.push_back(images);
         }
     }
-    points_.resize(system.mesh_shape().points.size());
+    points_.resize(points);
     std::iota(points_.begin(), points_.end(), 0);
     choose(system.mesh_shape(), false);
     if (!system.stone().convex) return;
-    const std::vector<Facet>& facets = system.stone().solid.facets;
-    const std::size_t points = system.mesh_shape().points.size();
     std::vector<int> mark(points, -1);
     for (std::size_t f = 0; f < facets.size(); ++f) {
         const int own = static_cast<int>(f);
@@ -104,13 +117,54 @@ void Relaxation::choose(const Shape& shape, bool meets_hold) {
             if (from < 0 || to < 0 || from == to) continue;
             std::vector<int>& left = left_[{static_cast<int>(i), jaw}];
             if (std::find(left.begin(), left.end(), to) != left.end()) {
-                ties_.push_back({from, to, is.caliper});
+                ties_.push_back({from, to, is.caliper, static_cast<int>(i), jaw});
                 left.clear();
             } else {
                 left.push_back(from);
             }
         }
     }
+}
+
+const std::vector<int>& Relaxation::corners_between_jaws(const Equation& caliper) const {
+    const Reading& reading = system_.readings()[std::size_t(caliper.reading)];
+    return reading.kind == ReadingKind::table_width
+               ? system_.mesh_outline()->loops[std::size_t(system_.up_facet())]
+               : points_;
+}
+
+void Relaxation::tie_level_corners(const Shape& shape) {
+    for (std::size_t i = 0; i < equations_.size(); ++i) {
+        const Equation& e = equations_[i];
+        if (e.caliper == Vec3(0) || e.exact) continue;
+        for (int jaw = 0; jaw < 2; ++jaw) {
+            const int touched = e.touched[std::size_t(jaw)].point;
+            for (const int c : corners_between_jaws(e)) {
+                const double below =
+                    glm::dot(e.caliper, shape.points[std::size_t(touched)] - shape.points[c]);
+                if (c == touched || !(std::abs(below) < k_level)) continue;
+                ties_.push_back({touched, c, e.caliper, static_cast<int>(i), jaw});
+            }
+        }
+    }
+}
+
+bool Relaxation::ties_hold(const Shape& shape) const {
+    std::map<std::pair<int, int>, double> shared;
+    for (const Tie& tie : ties_) {
+        const Equation& e = equations_[std::size_t(tie.equation)];
+        const double pull = (e.formula(shape).value - e.value) / (e.sigma * e.sigma);
+        const double force =
+            glm::dot(tie.direction, shape.points[tie.one] - shape.points[tie.other]) /
+            (k_tie_sigma * k_tie_sigma);
+        if (std::abs(force) * e.sigma < k_no_force) continue;
+        const int touched = e.touched[std::size_t(tie.jaw)].point;
+        const double share = (tie.jaw == 0) == (touched == tie.one) ? -force / pull : force / pull;
+        double& all = shared[{tie.equation, tie.jaw}];
+        all += share;
+        if (!(pull > 0) || !(share > 0) || !(all < 1)) return false;
+    }
+    return true;
 }
 
 int Relaxation::hinge_of(const Held& held) const {
@@ -185,6 +239,7 @@ std::vector<Held> Relaxation::above(const Shape& shape, double margin) const {
 Sheet Relaxation::sheet(const Shape& shape, const Softness& softness, const std::vector<Held>& held,
                         const std::vector<int>* pressed) {
     Sheet sheet;
+    sheet.rows.reserve(most_rows_, most_entries_);
     const Freedoms::Chart chart = freedoms_.chart(shape);
     const int size = freedoms_.size();
     Freedoms::Row row(chart, size);
@@ -276,6 +331,8 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness, const std:
         row.close(sheet.rows, residual, variance);
     }
     std::sort(sheet.above.begin(), sheet.above.end());
+    most_rows_ = std::max(most_rows_, sheet.rows.residual.size());
+    most_entries_ = std::max(most_entries_, sheet.rows.column.size());
     sheet.prior_stiffness = Eigen::VectorXd::Zero(size);
     sheet.prior_gradient = Eigen::VectorXd::Zero(size);
     if (softness.with_priors) {
@@ -402,11 +459,7 @@ std::vector<Relaxation::Caliper> Relaxation::calipers_that_tell_the_turn() const
         }
         if (is_level) {
             if (e.caliper.z != 0 || e.exact) return {};
-            const bool across_table = reading.kind == ReadingKind::table_width;
-            result.push_back({row, e.caliper, e.value, e.sigma,
-                              across_table
-                                  ? &system_.mesh_outline()->loops[std::size_t(system_.up_facet())]
-                                  : &points_});
+            result.push_back({row, e.caliper, e.value, e.sigma, &corners_between_jaws(e)});
         }
         ++row;
     }

@@ -33,6 +33,7 @@ struct Held {
 struct Tie {
     int one = -1, other = -1;
     Vec3 direction{0, 0, 0};
+    int equation = -1, jaw = 0;  ///< of the readings', as chosen
 };
 
 /// All equations at one shape.
@@ -67,6 +68,13 @@ public:
     /// a kink the two are held level.
     void choose(const Shape& shape, bool meets_hold);
     const std::vector<Tie>& ties() const { return ties_; }
+    /// At the end of an earlier fit jaws already rest on corners that are level: each shares its
+    /// jaw with the one that is touched.
+    void tie_level_corners(const Shape& shape);
+    /// Each tied corner carries a part of its jaw's force, and together no more than all of it:
+    /// else the jaw would rather rest on some of them only. At an end, where what ties miss by is
+    /// their force.
+    bool ties_hold(const Shape& shape) const;
     /// Of another way there: which corners the jaws touched on it says nothing of this one; or of
     /// the end of a way, whose ties are these.
     void forget_ties(std::vector<Tie> but = {}) {
@@ -136,6 +144,7 @@ public:
 
 private:
     double height(const Shape& shape, int facet, int point) const;
+    const std::vector<int>& corners_between_jaws(const Equation& caliper) const;
     int hinge_of(const Held& held) const;
     bool binds(const Shape& shape, const Held& held) const;
 
@@ -144,9 +153,10 @@ private:
     std::vector<int> incidences_;              // one of each orbit
     std::vector<std::pair<int, int>> hinges_;  // facet, point: likewise
     std::vector<double> incidence_images_, hinge_images_;
-    std::vector<int> points_;          // all of them
-    std::vector<Equation> equations_;  // of the readings, as chosen
-    bool begins_ = true;               // nothing chosen since ties were forgotten
+    std::vector<int> points_;                       // all of them
+    std::vector<Equation> equations_;               // of the readings, as chosen
+    std::size_t most_rows_ = 0, most_entries_ = 0;  // of the sheets so far
+    bool begins_ = true;                            // nothing chosen since ties were forgotten
     std::vector<Tie> ties_;
     // Of each reading and jaw, the corners that it has left.
     std::map<std::pair<int, int>, std::vector<int>> left_;

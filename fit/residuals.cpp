@@ -12,7 +12,7 @@ using By = Quantity::By;
 
 void Quantity::add(const Quantity& other, double factor) {
     value += factor * other.value;
-    for (const Slope& s : other.slopes) slopes.push_back({s.by, s.index, factor * s.slope});
+    for (const Slope& s : other.slopes) add(s.by, s.index, factor * s.slope);
 }
 
 Vec3 place_of(const Shape& shape, const Corner& corner) {

@@ -36,8 +36,12 @@ struct Quantity {
     double value = 0;
     std::vector<Slope> slopes;
 
-    void add(By by, int index, const Vec3& slope) { slopes.push_back({by, index, slope}); }
-    void add(By by, int index, double slope) { slopes.push_back({by, index, {slope, 0, 0}}); }
+    void add(By by, int index, const Vec3& slope) {
+        // Most have four or fewer, and each step of a fit makes hundreds.
+        if (slopes.empty()) slopes.reserve(4);
+        slopes.push_back({by, index, slope});
+    }
+    void add(By by, int index, double slope) { add(by, index, {slope, 0, 0}); }
     /// this += factor * other
     void add(const Quantity& other, double factor);
 };

@@ -55,6 +55,8 @@ void SaddleSolver::lay_out() {
 bool SaddleSolver::place_rows(const std::vector<char>& stays) {
     std::vector<std::pair<int, int>> entries;
     std::vector<std::size_t> slots, first, open;  // `open`: of the entries
+    slots.reserve(slot_.size());
+    first.reserve(std::size_t(equations_));
     for (int i = 0; i < equations_; ++i) {
         const int from = rows_.begin[i], to = rows_.begin[i + 1], own = unknowns_ + i;
         const std::size_t columns = std::size_t(to - from);

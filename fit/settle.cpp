@@ -130,6 +130,7 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
     Shape shape = start;
     relaxation.forget_ties();
     relaxation.choose(shape, true);
+    if (options.jaws_rest) relaxation.tie_level_corners(shape);
     Sheet sheet = relaxation.sheet(shape, softness, held);
     const Eigen::VectorXd metric = relaxation.metric();
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(freedoms.size());
@@ -307,6 +308,13 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
         result = *arrived;
         result.iterations = iterations;
         return result;
+    }
+    if (options.jaws_rest && !relaxation.ties_hold(shape)) {
+        SettleOptions again = options;
+        again.jaws_rest = false;
+        Settled freed = settle(relaxation, solver, shape, held, again);
+        freed.iterations += result.iterations;
+        return freed;
     }
     result.shape = std::move(shape);
     result.ties = relaxation.ties();

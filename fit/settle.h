@@ -29,6 +29,8 @@ struct SettleOptions {
     /// The equations bend as they do where the steps will end, so that the first step may already
     /// be Newton's.
     bool near_an_end = false;
+    /// Likewise jaws rest on corners that are level: as long as all of them carry a part.
+    bool jaws_rest = false;
     /// Where there are any, ends found before are taken from there, and new ones added.
     KnownEnds* known = nullptr;
 };

@@ -11,6 +11,12 @@ struct SparseRows {
     std::vector<int> begin{0}, column;
     std::vector<double> slope, residual, variance;
 
+    void reserve(std::size_t rows, std::size_t entries) {
+        begin.reserve(rows + 1);
+        for (std::vector<double>* v : {&residual, &variance}) v->reserve(rows);
+        column.reserve(entries);
+        slope.reserve(entries);
+    }
     int count() const { return static_cast<int>(residual.size()); }
     Eigen::Map<const Eigen::VectorXd> residuals() const {
         return {residual.data(), static_cast<Eigen::Index>(residual.size())};
