@@ -52,33 +52,6 @@ Covariance::Covariance(const Linearised& linear, Algorithm algorithm)
 
 Covariance::~Covariance() = default;
 
-void Covariance::take_moments(const std::vector<FunctionRow>& functions,
-                              const Eigen::MatrixXd& combinations, const Eigen::MatrixXd& moments) {
-    const Eigen::Index count = combinations.rows();
-    const Eigen::MatrixXd more =
-        moments - Eigen::MatrixXd::Identity(moments.rows(), moments.cols());
-    if (sparse_) {
-        DenseRows with(rows_.cols(), count);
-        for (Eigen::Index k = 0; k < count; ++k) {
-            with.col(k) = with_all(functions[std::size_t(k)], false);
-        }
-        apart_ = with * combinations;
-        more_ = more;
-        return;
-    }
-    // H (1 + Q (L - 1) Q') with Q the combinations in terms of H's columns, which are orthonormal,
-    // and L L' the moments.
-    DenseRows seen(count, held_.cols());
-    for (Eigen::Index k = 0; k < count; ++k) {
-        seen.row(k) = product(functions[std::size_t(k)], held_);
-    }
-    const DenseRows across = combinations.transpose() * seen;
-    Eigen::MatrixXd root = moments.llt().matrixL();
-    root.diagonal().array() -= 1;
-    const Eigen::MatrixXd with = held_ * across.transpose();
-    held_ += (with * root) * across;
-}
-
 std::optional<DenseRows> Covariance::halves(const std::vector<FunctionRow>& functions) const {
     if (!usable_ || sparse_) return std::nullopt;
     DenseRows all(Eigen::Index(functions.size()), held_.cols() + open_.cols());
@@ -88,28 +61,19 @@ std::optional<DenseRows> Covariance::halves(const std::vector<FunctionRow>& func
     return all;
 }
 
-double Covariance::more_of(const FunctionRow& function) const {
-    if (apart_.cols() == 0) return 0;
-    const Eigen::RowVectorXd along = product(function, apart_);
-    return along * more_ * along.transpose();
-}
-
 double Covariance::variance(const FunctionRow& function) const {
     if (!usable_) return std::numeric_limits<double>::quiet_NaN();
     if (!sparse_) return product(function, held_).squaredNorm();
     const double loose = sparse_->of(sparse_->tight, function);
-    if (!sparse_->has_open) return std::max(0.0, loose + more_of(function));
+    if (!sparse_->has_open) return loose;
     const double trusted = sparse_->of(sparse_->trusted, function);
-    const double held = trusted - std::max(0.0, loose - trusted) * sparse_->prior;
-    return std::max(0.0, held + more_of(function));
+    return std::max(0.0, trusted - std::max(0.0, loose - trusted) * sparse_->prior);
 }
 
 double Covariance::total_variance(const FunctionRow& function) const {
     if (!usable_) return std::numeric_limits<double>::quiet_NaN();
     if (!sparse_) return variance(function) + open_variance(function);
-    return std::max(0.0,
-                    sparse_->of(sparse_->has_open ? sparse_->trusted : sparse_->tight, function) +
-                        more_of(function));
+    return sparse_->of(sparse_->has_open ? sparse_->trusted : sparse_->tight, function);
 }
 
 double Covariance::open_variance(const FunctionRow& function) const {
@@ -129,10 +93,8 @@ Eigen::VectorXd Covariance::with_all(const FunctionRow& function, bool open) con
         if (open) all += open_ * product(function, open_).transpose();
         return all;
     }
-    Eigen::VectorXd all =
-        sparse_->with_all(open && sparse_->has_open ? sparse_->trusted : sparse_->tight, function);
-    if (apart_.cols() > 0) all += apart_ * (more_ * product(function, apart_).transpose());
-    return all;
+    return sparse_->with_all(open && sparse_->has_open ? sparse_->trusted : sparse_->tight,
+                             function);
 }
 
 Eigen::VectorXd Covariance::fitted_part(const Eigen::VectorXd& residuals) const {
@@ -176,7 +138,7 @@ double Covariance::leverage(Eigen::Index equation, Eigen::Index other) const {
 
 Eigen::VectorXd Covariance::leverage_column(Eigen::Index equation) const {
     if (!sparse_) return seen_ * seen_.row(equation).transpose();
-    return rows_ * sparse_->with_all(sparse_->tight, function_row(rows_, equation));
+    return rows_ * with_all(function_row(rows_, equation), false);
 }
 
 }  // namespace culet

@@ -32,12 +32,6 @@ public:
     explicit Covariance(const Linearised& linear, Algorithm algorithm = Algorithm::by_size);
     ~Covariance();
 
-    /// These combinations (columns) of functions are uncorrelated and have variance one, open
-    /// directions apart. From now on their second moments are those given, and all that goes with
-    /// them goes with them as before. Leverages stay those of the linear model.
-    void take_moments(const std::vector<FunctionRow>& functions,
-                      const Eigen::MatrixXd& combinations, const Eigen::MatrixXd& moments);
-
     /// False: the equations could not be factored; every number is then NaN.
     bool usable() const { return usable_; }
     /// Of a function, as far as readings hold it, and the part that comes from open directions.
@@ -74,17 +68,11 @@ private:
     bool find_loosely_held(const Linearised& linear, const FreePart& free);
     void find_sparse(const Linearised& linear);
 
-    double more_of(const FunctionRow& function) const;
-
     bool usable_ = false;
     Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;  // soft, without hinges
     // Dense. The covariance of what is held is held held'; seen: rows * held.
     DenseRows held_, open_, seen_;
     std::unique_ptr<Sparse> sparse_;
-    // Large stones: covariances of all unknowns with combinations whose moments are others, and by
-    // how much those are more.
-    DenseRows apart_;
-    Eigen::MatrixXd more_;
     Eigen::VectorXd leverages_;
     int open_freedoms_ = 0;
 };

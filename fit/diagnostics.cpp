@@ -180,7 +180,7 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     diagnosis.readings.resize(system.readings().size());
     diagnosis.facets.resize(shape.normals.size());
     const std::vector<Said> counted = all_said(linear);
-    const auto covariance = std::make_shared<Covariance>(linear);
+    const auto covariance = std::make_shared<const Covariance>(linear);
     if (!covariance->usable()) {
         residuals_only(system, linear, counted, diagnosis);
         return diagnosis;
@@ -256,7 +256,7 @@ Diagnosis diagnose(const System& system, const Shape& shape,
         diagnosis.disagreeing = disagreeing_exact_readings(system, shape, outline);
     }
 
-    allow_for_flush_jaws(system, shape, *outline, linear, *covariance);
+    const FlushJaws jaws(system, shape, *outline, linear, *covariance);
     const Vec3 middle = middle_of(shape);
     const RowWriter writer(shape);
     // Azimuths are told in the result's frame, which turns to lie as the mesh does.
@@ -266,15 +266,19 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     for (int f = 0; f < layout.facets; ++f) {
         const auto rows = facet_functions(shape, f, layout, middle);
         const auto total = [&](std::size_t k) {
-            return std::sqrt(covariance->total_variance(rows[k]));
+            return std::sqrt(
+                std::max(0.0, covariance->total_variance(rows[k]) + jaws.more_variance(rows[k])));
         };
         FacetSigma& sigma = diagnosis.facets[std::size_t(f)];
         sigma.inclination = total(0);
         sigma.offset = total(2);
         const double flat = std::hypot(shape.normals[f].x, shape.normals[f].y);
-        sigma.azimuth = flat > 1e-9 ? std::sqrt(std::max(0.0, total(1) * total(1) + turn_variance +
-                                                                  2 * rows[1].dot(with_turn)))
-                                    : std::numeric_limits<double>::quiet_NaN();
+        const FunctionRow turned = rows[1] + turn;
+        sigma.azimuth = flat > 1e-9
+                            ? std::sqrt(std::max(
+                                  0.0, covariance->total_variance(rows[1]) + turn_variance +
+                                           2 * rows[1].dot(with_turn) + jaws.more_variance(turned)))
+                            : std::numeric_limits<double>::quiet_NaN();
     }
     for (int f = 0; f < layout.facets; ++f) {
         if (outline->loops[f].size() < 3) continue;

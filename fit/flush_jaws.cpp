@@ -97,36 +97,76 @@ Eigen::MatrixXd moments_between_jaws(const std::vector<CaliperErrors>& calipers,
     return moments;
 }
 
-void allow_for_flush_jaws(const System& system, const Shape& shape, const Outline& outline,
-                          const Linearised& linear, Covariance& covariance) {
-    const RowWriter writer(shape);
-    std::vector<CaliperErrors> calipers;
-    std::vector<FunctionRow> rows;
-    std::vector<Eigen::Index> level;  // of `rows`
+namespace {
+
+// The readings between two jaws at the same place are one: squares of (residual + out / sigma) add
+// up to one such square and what does not change.
+struct Between {
+    const Equation* caliper = nullptr;
+    const Reading* reading = nullptr;
+    double weight = 0, pull = 0;  // sums of 1 / sigma^2, of residual / sigma
+    FunctionRow row;              // of pull
+
+    bool is_same(const Equation& e, const Reading& r) const {
+        return e.caliper == caliper->caliper &&
+               (r.kind == ReadingKind::table_width) == (reading->kind == ReadingKind::table_width);
+    }
+};
+
+std::vector<Between> all_between_jaws(const System& system, const Linearised& linear) {
+    std::vector<Between> all;
     for (std::size_t i = 0; i < linear.soft.size(); ++i) {
         const Equation& e = linear.soft[i];
         if (e.caliper == Vec3{0, 0, 0} || !e.is_counted()) continue;
         const Reading& reading = system.readings()[std::size_t(e.reading)];
-        std::vector<int> may_be_touched;
-        CaliperErrors errors{linear.soft_residuals(Eigen::Index(i)), {}};
+        auto same = std::find_if(all.begin(), all.end(),
+                                 [&](const Between& b) { return b.is_same(e, reading); });
+        if (same == all.end()) {
+            same = all.insert(all.end(), Between{&e, &reading, 0, 0, {}});
+            same->row.resize(linear.layout.size());
+        }
+        same->weight += 1 / (e.sigma * e.sigma);
+        same->pull += linear.soft_residuals(Eigen::Index(i)) / e.sigma;
+        same->row += FunctionRow(linear.soft_rows.row(Eigen::Index(i)).transpose()) / e.sigma;
+    }
+    return all;
+}
+
+}  // namespace
+
+FlushJaws::FlushJaws(const System& system, const Shape& shape, const Outline& outline,
+                     const Linearised& linear, const Covariance& covariance) {
+    // Planes that miss their meets have no corner there that a jaw could touch.
+    const bool all_meet = std::ranges::all_of(system.incidences(), [](const Incidence& incidence) {
+        return incidence.how == MeetTreatment::exact;
+    });
+    if (!all_meet) return;
+    const RowWriter writer(shape);
+    std::vector<CaliperErrors> calipers;
+    std::vector<FunctionRow> rows;
+    std::vector<Eigen::Index> level;  // of `rows`
+    for (const Between& between : all_between_jaws(system, linear)) {
+        const Equation& e = *between.caliper;
+        const double sigma = 1 / std::sqrt(between.weight);
+        CaliperErrors errors{between.pull * sigma, {}};
         const std::size_t first = rows.size();
-        rows.push_back(FunctionRow(linear.soft_rows.row(Eigen::Index(i)).transpose()));
+        rows.push_back(between.row * sigma);
         for (int jaw = 0; jaw < 2; ++jaw) {
             const Vec3 out = jaw == 0 ? e.caliper : -e.caliper;
             const Corner& touched = e.touched[std::size_t(jaw)];
             const double top = glm::dot(out, place_of(shape, touched));
-            for (const Corner& corner : system.corners_between_jaws(reading, outline)) {
+            for (const Corner& corner : system.corners_between_jaws(*between.reading, outline)) {
                 if (glm::dot(out, place_of(shape, corner)) < top - k_far_below) continue;
                 const Quantity q = extent(corner, touched, out)(shape);
                 FunctionRow row = writer.function(q);
-                const double sigma = std::sqrt(covariance.variance(row));
-                if (!(q.value > -k_farthest * sigma) ||
-                    !(q.value + k_farthest * sigma > k_least * e.sigma)) {
+                const double known = std::sqrt(covariance.variance(row));
+                if (!(q.value > -k_farthest * known) ||
+                    !(q.value + k_farthest * known > k_least * sigma)) {
                     continue;
                 }
-                if (q.value > -k_level * sigma) level.push_back(Eigen::Index(rows.size()));
-                errors.levels[std::size_t(jaw)].push_back(q.value / e.sigma);
-                rows.push_back(row / e.sigma);
+                if (q.value > -k_level * known) level.push_back(Eigen::Index(rows.size()));
+                errors.levels[std::size_t(jaw)].push_back(q.value / sigma);
+                rows.push_back(row / sigma);
             }
         }
         if (rows.size() == first + 1) {
@@ -163,8 +203,18 @@ void allow_for_flush_jaws(const System& system, const Shape& shape, const Outlin
             of_level(level, Eigen::all).completeOrthogonalDecomposition().solve(step(level));
         mean = lengths.cwiseInverse().asDiagonal() * axes.transpose() * (of_level * kept);
     }
-    covariance.take_moments(rows, axes * lengths.cwiseInverse().asDiagonal(),
-                            moments_between_jaws(calipers, axes * lengths.asDiagonal(), mean));
+    with_unknowns_ = moved * axes * lengths.cwiseInverse().asDiagonal();
+    more_ = moments_between_jaws(calipers, axes * lengths.asDiagonal(), mean);
+    more_.diagonal().array() -= 1;
+}
+
+double FlushJaws::more_variance(const FunctionRow& function) const {
+    if (more_.size() == 0) return 0;
+    Eigen::RowVectorXd along = Eigen::RowVectorXd::Zero(with_unknowns_.cols());
+    for (FunctionRow::InnerIterator it(function); it; ++it) {
+        along += it.value() * with_unknowns_.row(it.index());
+    }
+    return along * more_ * along.transpose();
 }
 
 }  // namespace culet

@@ -31,8 +31,19 @@ struct CaliperErrors {
 Eigen::MatrixXd moments_between_jaws(const std::vector<CaliperErrors>& calipers,
                                      const Eigen::MatrixXd& slopes, const Eigen::VectorXd& mean);
 
-/// Lets the covariance of this model know of the corners that may as well be touched.
-void allow_for_flush_jaws(const System& system, const Shape& shape, const Outline& outline,
-                          const Linearised& linear, Covariance& covariance);
+/// What the second moments of functions of the unknowns are beyond their covariance in the linear
+/// model. Nothing where not all meets are exact.
+class FlushJaws {
+public:
+    FlushJaws(const System& system, const Shape& shape, const Outline& outline,
+              const Linearised& linear, const Covariance& covariance);
+    /// Below zero, most often.
+    double more_variance(const FunctionRow& function) const;
+
+private:
+    // Covariances of all unknowns with combinations of variance one, whose second moments are by
+    // so much more.
+    Eigen::MatrixXd with_unknowns_, more_;
+};
 
 }  // namespace culet

@@ -142,50 +142,6 @@ TEST(Covariance, BothAlgorithmsAgree) {
     }
 }
 
-// C + C Z' P (M - 1) P' Z C, from the covariance before.
-TEST(Covariance, BothAlgorithmsTakeMoments) {
-    const Stone stone = stone_of(brilliant());
-    const Case full = cases().front();
-    const System system(stone, full.readings, {});
-    const Linearised linear = linearise(system, system.mesh_shape(), system.mesh_outline(), false);
-    const Covariance before(linear, Covariance::Algorithm::dense);
-    std::vector<FunctionRow> functions;
-    for (int f = 0; f < 3; ++f) {
-        functions.emplace_back(linear.layout.size());
-        functions.back().coeffRef(linear.layout.tilt(f + 3)) = 1;
-        functions.back().coeffRef(linear.layout.offset(2 * f)) = -2;
-    }
-    const DenseRows half = *before.halves(functions);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-        Eigen::MatrixXd(half * half.transpose()));
-    const Eigen::MatrixXd combinations =
-        eigen.eigenvectors() * eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();
-    const Eigen::Matrix3d moments =
-        (Eigen::Matrix3d() << 0.4, 0.1, 0, 0.1, 0.7, -0.2, 0, -0.2, 1.3).finished();
-    for (const auto algorithm : {Covariance::Algorithm::dense, Covariance::Algorithm::sparse}) {
-        Covariance after(linear, algorithm);
-        const Eigen::VectorXd leverages = after.leverages();
-        after.take_moments(functions, combinations, moments);
-        for (int f = 0; f < linear.layout.facets; ++f) {
-            FunctionRow row(linear.layout.size());
-            row.coeffRef(linear.layout.tilt(f)) = 1;
-            Eigen::Vector3d with;
-            for (int k = 0; k < 3; ++k) {
-                with(k) = row.dot(before.with_all(functions[std::size_t(k)], false));
-            }
-            const Eigen::Vector3d along = combinations.transpose() * with;
-            const double expected =
-                before.variance(row) + along.dot((moments - Eigen::Matrix3d::Identity()) * along);
-            const double sigma = std::sqrt(expected);
-            EXPECT_NEAR(std::sqrt(after.variance(row)), sigma, 0.01 * sigma + 1e-6) << f;
-            EXPECT_NEAR(std::sqrt(after.total_variance(row)), sigma, 0.01 * sigma + 1e-6) << f;
-            EXPECT_NEAR(row.dot(after.with_all(row, false)), expected, 0.02 * expected + 1e-12)
-                << f;
-        }
-        EXPECT_EQ(after.leverages(), leverages);
-    }
-}
-
 // Freedoms by Steinitz: edges + 6, less what is held by the frame and by independent readings.
 TEST(Covariance, CountsWhatIsOpen) {
     const Stone stone = stone_of(brilliant());
