@@ -24,6 +24,10 @@ constexpr double k_far_below = 0.1;
 // Level, in sigmas of what is known of the difference.
 constexpr double k_level = 1e-3;
 constexpr int k_points = 512, k_rounds = 2;
+// With more errors to draw at once, or where fewer points than so many for each of them carry the
+// weight, quadrature says nothing.
+constexpr std::size_t k_most = 100;
+constexpr double k_least_points = 4;
 // The second time over a variance as much larger than what the first found, lest it miss tails.
 constexpr double k_wider = 1.3;
 
@@ -84,6 +88,9 @@ Eigen::MatrixXd moments_between_jaws(const std::vector<CaliperErrors>& calipers,
         }
         weights = (0.5 * (weights.array() - weights.maxCoeff())).exp();
         weights /= weights.sum();
+        if (!(weights.squaredNorm() * k_least_points * double(count) < 1)) {
+            return Eigen::MatrixXd::Identity(count, count);
+        }
         // The difference from what the same points say of the spread that they were drawn from is
         // more exact than either.
         const Eigen::MatrixXd weighted = points * weights.asDiagonal() * points.transpose(),
@@ -175,7 +182,7 @@ FlushJaws::FlushJaws(const System& system, const Shape& shape, const Outline& ou
             calipers.push_back(std::move(errors));
         }
     }
-    if (calipers.empty()) return;
+    if (calipers.empty() || rows.size() > k_most) return;
     const auto count = static_cast<Eigen::Index>(rows.size());
     Eigen::MatrixXd moved(linear.layout.size(), count);
     for (Eigen::Index k = 0; k < count; ++k) {
@@ -206,6 +213,7 @@ FlushJaws::FlushJaws(const System& system, const Shape& shape, const Outline& ou
     with_unknowns_ = moved * axes * lengths.cwiseInverse().asDiagonal();
     more_ = moments_between_jaws(calipers, axes * lengths.asDiagonal(), mean);
     more_.diagonal().array() -= 1;
+    if (!more_.allFinite() || !with_unknowns_.allFinite()) more_.resize(0, 0);
 }
 
 double FlushJaws::more_variance(const FunctionRow& function) const {

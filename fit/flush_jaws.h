@@ -27,12 +27,14 @@ struct CaliperErrors {
 
 /// Second moments of `y`, standard normal in the linear model but for its `mean`, about zero. Each
 /// caliper's errors are rows of `slopes` times y, one after another: the residual's, then those of
-/// the first jaw's levels, then of the second's.
+/// the first jaw's levels, then of the second's. The linear model's own, 1, where it is so far off
+/// that quadrature fails.
 Eigen::MatrixXd moments_between_jaws(const std::vector<CaliperErrors>& calipers,
                                      const Eigen::MatrixXd& slopes, const Eigen::VectorXd& mean);
 
 /// What the second moments of functions of the unknowns are beyond their covariance in the linear
-/// model. Nothing where not all meets are exact.
+/// model. Nothing where not all meets are exact, or jaws may touch more corners than can be
+/// weighed at once: sigmas are then the linear model's, a little too large.
 class FlushJaws {
 public:
     FlushJaws(const System& system, const Shape& shape, const Outline& outline,

@@ -45,6 +45,21 @@ TEST(FlushJaws, CornersOutOfReachSayNothing) {
     EXPECT_TRUE(moments.isIdentity(k_mean_error)) << moments;
 }
 
+// One jaw on each of many corners that all pull the other way: hardly a point drawn from the linear
+// model lies where the readings say.
+TEST(FlushJaws, WhereQuadratureFailsTheLinearModelStands) {
+    constexpr int k_many = 40;
+    std::vector<CaliperErrors> calipers;
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2 * k_many, k_many);
+    for (int i = 0; i < k_many; ++i) {
+        CaliperErrors errors{3, {}};
+        errors.levels[0] = {0};
+        calipers.push_back(std::move(errors));
+        slopes(2 * i + 1, i) = 5;
+    }
+    EXPECT_TRUE(moments_between_jaws(calipers, slopes, Eigen::VectorXd::Zero(k_many)).isIdentity());
+}
+
 // Against sums over a fine grid of exp(-chi2 / 2), chi2 being written down as it is.
 TEST(FlushJaws, MomentsAreThoseOfTheKinkedChiSquare) {
     constexpr unsigned k_seeds = 40;
