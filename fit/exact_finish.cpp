@@ -11,14 +11,10 @@ namespace culet {
 
 namespace {
 
-// Facets that may lean either way at the end.
-constexpr double k_nearly_upright = 0.1;
 constexpr int k_most_meanings = 8;
 // No other meanings are looked for once that took so many multiplications (of a thousand facets,
 // one end of which takes some 15 s).
 constexpr double k_most_work = 1.5e10;
-// Several leanings that promise to be better are tried: what is promised is linear.
-constexpr std::size_t k_most_leanings = 4;
 // Of chi-square: ends that differ by less are one.
 constexpr double k_gain = 1e-3;
 // Of chi-square, by which an end may be worse from which a better one is looked for: two sigmas.

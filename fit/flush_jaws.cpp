@@ -67,6 +67,39 @@ double more_than_linear(const std::vector<CaliperErrors>& calipers, const double
     return sum;
 }
 
+// The readings between two jaws at the same place are one: squares of (residual + out / sigma) add
+// up to one such square and what does not change.
+struct Between {
+    const Equation* caliper = nullptr;
+    const Reading* reading = nullptr;
+    double weight = 0, pull = 0;  // sums of 1 / sigma^2, of residual / sigma
+    FunctionRow row;              // of pull
+
+    bool is_same(const Equation& e, const Reading& r) const {
+        return e.caliper == caliper->caliper &&
+               (r.kind == ReadingKind::table_width) == (reading->kind == ReadingKind::table_width);
+    }
+};
+
+std::vector<Between> all_between_jaws(const System& system, const Linearised& linear) {
+    std::vector<Between> all;
+    for (std::size_t i = 0; i < linear.soft.size(); ++i) {
+        const Equation& e = linear.soft[i];
+        if (e.caliper == Vec3{0, 0, 0} || !e.is_counted()) continue;
+        const Reading& reading = system.readings()[std::size_t(e.reading)];
+        auto same = std::find_if(all.begin(), all.end(),
+                                 [&](const Between& b) { return b.is_same(e, reading); });
+        if (same == all.end()) {
+            same = all.insert(all.end(), Between{&e, &reading, 0, 0, {}});
+            same->row.resize(linear.layout.size());
+        }
+        same->weight += 1 / (e.sigma * e.sigma);
+        same->pull += linear.soft_residuals(Eigen::Index(i)) / e.sigma;
+        same->row += FunctionRow(linear.soft_rows.row(Eigen::Index(i)).transpose()) / e.sigma;
+    }
+    return all;
+}
+
 }  // namespace
 
 Eigen::MatrixXd moments_between_jaws(const std::vector<CaliperErrors>& calipers,
@@ -104,50 +137,10 @@ Eigen::MatrixXd moments_between_jaws(const std::vector<CaliperErrors>& calipers,
     return moments;
 }
 
-namespace {
-
-// The readings between two jaws at the same place are one: squares of (residual + out / sigma) add
-// up to one such square and what does not change.
-struct Between {
-    const Equation* caliper = nullptr;
-    const Reading* reading = nullptr;
-    double weight = 0, pull = 0;  // sums of 1 / sigma^2, of residual / sigma
-    FunctionRow row;              // of pull
-
-    bool is_same(const Equation& e, const Reading& r) const {
-        return e.caliper == caliper->caliper &&
-               (r.kind == ReadingKind::table_width) == (reading->kind == ReadingKind::table_width);
-    }
-};
-
-std::vector<Between> all_between_jaws(const System& system, const Linearised& linear) {
-    std::vector<Between> all;
-    for (std::size_t i = 0; i < linear.soft.size(); ++i) {
-        const Equation& e = linear.soft[i];
-        if (e.caliper == Vec3{0, 0, 0} || !e.is_counted()) continue;
-        const Reading& reading = system.readings()[std::size_t(e.reading)];
-        auto same = std::find_if(all.begin(), all.end(),
-                                 [&](const Between& b) { return b.is_same(e, reading); });
-        if (same == all.end()) {
-            same = all.insert(all.end(), Between{&e, &reading, 0, 0, {}});
-            same->row.resize(linear.layout.size());
-        }
-        same->weight += 1 / (e.sigma * e.sigma);
-        same->pull += linear.soft_residuals(Eigen::Index(i)) / e.sigma;
-        same->row += FunctionRow(linear.soft_rows.row(Eigen::Index(i)).transpose()) / e.sigma;
-    }
-    return all;
-}
-
-}  // namespace
-
 FlushJaws::FlushJaws(const System& system, const Shape& shape, const Outline& outline,
                      const Linearised& linear, const Covariance& covariance) {
     // Planes that miss their meets have no corner there that a jaw could touch.
-    const bool all_meet = std::ranges::all_of(system.incidences(), [](const Incidence& incidence) {
-        return incidence.how == MeetTreatment::exact;
-    });
-    if (!all_meet) return;
+    if (system.splits()) return;
     const RowWriter writer(shape);
     std::vector<CaliperErrors> calipers;
     std::vector<FunctionRow> rows;
@@ -158,11 +151,12 @@ FlushJaws::FlushJaws(const System& system, const Shape& shape, const Outline& ou
         CaliperErrors errors{between.pull * sigma, {}};
         const std::size_t first = rows.size();
         rows.push_back(between.row * sigma);
+        const std::vector<Corner> corners = system.corners_between_jaws(*between.reading, outline);
         for (int jaw = 0; jaw < 2; ++jaw) {
             const Vec3 out = jaw == 0 ? e.caliper : -e.caliper;
             const Corner& touched = e.touched[std::size_t(jaw)];
             const double top = glm::dot(out, place_of(shape, touched));
-            for (const Corner& corner : system.corners_between_jaws(*between.reading, outline)) {
+            for (const Corner& corner : corners) {
                 if (glm::dot(out, place_of(shape, corner)) < top - k_far_below) continue;
                 const Quantity q = extent(corner, touched, out)(shape);
                 FunctionRow row = writer.function(q);

@@ -195,11 +195,7 @@ Shape Freedoms::moved_with_turn(const Shape& shape, std::span<const double> step
         rest[normal_column_[f]] -= angle * glm::dot(t, turn);
         rest[normal_column_[f] + 1] -= angle * glm::dot(u, turn);
     }
-    Shape next = moved(shape, rest);
-    const glm::dmat3 turn = turn_about_z(angle);
-    for (Vec3& n : next.normals) n = turn * n;
-    for (Vec3& p : next.points) p = turn * p;
-    return next;
+    return turned_about_z(moved(shape, rest), angle);
 }
 
 Shape Freedoms::symmetrised(const Shape& shape) const {

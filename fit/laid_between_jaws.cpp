@@ -29,8 +29,9 @@ struct Jaw {
     Vec3 out;
     std::vector<Vec3> corners;
 
-    double farthest(double turn) const {
-        const Vec3 along = turn_about_z(-turn) * out;
+    // `back`: from the jaws to the stone, which is turned between them.
+    double farthest(const glm::dmat3& back) const {
+        const Vec3 along = back * out;
         double most = -std::numeric_limits<double>::infinity();
         for (const Vec3& p : corners) most = std::max(most, glm::dot(along, p));
         return most;
@@ -45,8 +46,8 @@ struct Jaw {
                                        std::numbers::pi / 2,
                                    std::numbers::pi);
                 if (!(std::abs(turn) < range)) continue;
-                const Vec3 along = turn_about_z(-turn) * out;
-                if (glm::dot(along, corners[i]) > farthest(turn) - k_level) to.push_back(turn);
+                const glm::dmat3 back = turn_about_z(-turn);
+                if (glm::dot(back * out, corners[i]) > farthest(back) - k_level) to.push_back(turn);
             }
         }
     }
@@ -55,7 +56,7 @@ struct Jaw {
 Jaw jaw_at(const Vec3& out, const std::vector<int>& corners, const Shape& shape) {
     Jaw jaw{out, {}};
     for (const int p : corners) jaw.corners.push_back(shape.points[std::size_t(p)]);
-    const double least = jaw.farthest(0) - k_out_of_reach;
+    const double least = jaw.farthest(glm::dmat3(1.0)) - k_out_of_reach;
     std::erase_if(jaw.corners, [&](const Vec3& p) { return glm::dot(out, p) < least; });
     return jaw;
 }
@@ -71,9 +72,10 @@ Shape laid_between_jaws(const Relaxation& relaxation, const Shape& shape) {
             {jaw_at(c.direction, *c.corners, shape), jaw_at(-c.direction, *c.corners, shape)});
     }
     const auto misfit = [&](double turn) {
+        const glm::dmat3 back = turn_about_z(-turn);
         double sum = 0;
         for (std::size_t i = 0; i < calipers.size(); ++i) {
-            const double width = jaws[i][0].farthest(turn) + jaws[i][1].farthest(turn);
+            const double width = jaws[i][0].farthest(back) + jaws[i][1].farthest(back);
             sum += std::pow((width - calipers[i].value) / calipers[i].sigma, 2);
         }
         return sum;
@@ -95,12 +97,7 @@ Shape laid_between_jaws(const Relaxation& relaxation, const Shape& shape) {
         try_turn(boost::math::tools::brent_find_minima(misfit, turns[i - 1], turns[i],
                                                        std::numeric_limits<double>::digits / 2));
     }
-    const double angle = best.first;
-    const glm::dmat3 by = turn_about_z(angle);
-    Shape turned = shape;
-    for (Vec3& n : turned.normals) n = by * n;
-    for (Vec3& p : turned.points) p = by * p;
-    return turned;
+    return turned_about_z(shape, best.first);
 }
 
 }  // namespace culet

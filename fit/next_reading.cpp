@@ -157,6 +157,17 @@ std::vector<Candidate> candidates(const System& system, const Shape& shape,
     return all;
 }
 
+// Their places in the order of a value, the largest first. They are large, and stay where they are.
+template <typename Value>
+std::vector<std::size_t> by_falling(const std::vector<Candidate>& candidates, const Value& value) {
+    std::vector<std::size_t> order(candidates.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return value(candidates[a]) > value(candidates[b]);
+    });
+    return order;
+}
+
 // Sums of squared covariances of each candidate with all parts of the total.
 Eigen::VectorXd drops_of(const DenseRows& halves, const std::vector<Candidate>& tried,
                          const Covariance& covariance) {
@@ -214,15 +225,11 @@ std::vector<NextReading> next_readings(const System& system, const Shape& shape,
         c.variance = covariance.total_variance(c.function);
         c.promise = promise_of(c);
     }
-    std::vector<std::size_t> order(all.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return all[a].promise > all[b].promise; });
     // The most uncertain, but some of every kind and tier: their reach differs.
     std::vector<Candidate> tried;
     tried.reserve(k_tried);
     std::map<std::string, int> of_group;
-    for (const std::size_t i : order) {
+    for (const std::size_t i : by_falling(all, [](const Candidate& c) { return c.promise; })) {
         if (tried.size() >= k_tried) break;
         if (++of_group[all[i].group] <= 2 && all[i].promise > 0) tried.push_back(all[i]);
     }
@@ -238,14 +245,10 @@ std::vector<NextReading> next_readings(const System& system, const Shape& shape,
                            covariance.open_variance(c.function) > 4 * c.sigma * c.sigma &&
                            covariance.open_variance(c.function) > 0.5 * c.variance;
     }
-    order.resize(tried.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return tried[a].reading.reduces > tried[b].reading.reduces;
-    });
     std::vector<NextReading> best;
     std::set<std::string> told;
-    for (const std::size_t i : order) {
+    for (const std::size_t i :
+         by_falling(tried, [](const Candidate& c) { return c.reading.reduces; })) {
         const Candidate& c = tried[i];
         if (best.size() == k_told || !(c.reading.reduces > 1e-6)) break;
         if (told.insert(c.group).second) best.push_back(c.reading);

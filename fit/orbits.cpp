@@ -71,6 +71,13 @@ glm::dmat3 turn_about_z(double angle) {
     return {Vec3{c, s, 0}, Vec3{-s, c, 0}, Vec3{0, 0, 1}};
 }
 
+Shape turned_about_z(Shape shape, double angle) {
+    const glm::dmat3 turn = turn_about_z(angle);
+    for (Vec3& n : shape.normals) n = turn * n;
+    for (Vec3& p : shape.points) p = turn * p;
+    return shape;
+}
+
 glm::dmat3 mirroring_at(double azimuth) {
     const Vec3 m{std::cos(azimuth), std::sin(azimuth), 0};
     return glm::dmat3(1.0) - 2.0 * glm::outerProduct(m, m);

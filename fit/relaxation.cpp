@@ -29,6 +29,10 @@ constexpr double k_no_force = 1e-3;
 // Lengths are rounded off over this many times the softness of the stage, or the kink still shows.
 constexpr double k_round = 3;
 
+double off_level(const Shape& shape, const Tie& tie) {
+    return glm::dot(tie.direction, shape.points[tie.one] - shape.points[tie.other]);
+}
+
 // One pair of facet and point of each orbit, and how many go with it.
 class OrbitPairs {
 public:
@@ -154,9 +158,7 @@ bool Relaxation::ties_hold(const Shape& shape) const {
     for (const Tie& tie : ties_) {
         const Equation& e = equations_[std::size_t(tie.equation)];
         const double pull = (e.formula(shape).value - e.value) / (e.sigma * e.sigma);
-        const double force =
-            glm::dot(tie.direction, shape.points[tie.one] - shape.points[tie.other]) /
-            (k_tie_sigma * k_tie_sigma);
+        const double force = off_level(shape, tie) / (k_tie_sigma * k_tie_sigma);
         if (std::abs(force) * e.sigma < k_no_force) continue;
         const int touched = e.touched[std::size_t(tie.jaw)].point;
         const double share = (tie.jaw == 0) == (touched == tie.one) ? -force / pull : force / pull;
@@ -316,8 +318,7 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness, const std:
     for (const Tie& tie : ties_) {
         row.point(tie.one, tie.direction);
         row.point(tie.other, -tie.direction);
-        close(glm::dot(tie.direction, shape.points[tie.one] - shape.points[tie.other]),
-              k_tie_sigma * k_tie_sigma + soft2);
+        close(off_level(shape, tie), k_tie_sigma * k_tie_sigma + soft2);
     }
     for (int i = 0; i < static_cast<int>(hinges_.size()); ++i) {
         const auto& [f, p] = hinges_[std::size_t(i)];
@@ -383,7 +384,7 @@ Relaxation::Missed Relaxation::missed(const Shape& shape, const Softness& softne
         ++row;
     }
     for (const Tie& tie : ties_) {
-        put(glm::dot(tie.direction, shape.points[tie.one] - shape.points[tie.other]), false);
+        put(off_level(shape, tie), false);
         ++row;
     }
     return missed;

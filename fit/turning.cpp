@@ -36,10 +36,6 @@ constexpr double k_place_precision = 1e-7;
 constexpr double k_longest = 0.5;
 // More calipers than this say nothing new of the turn: so many of them are asked.
 constexpr std::size_t k_most_calipers = 48;
-// Facets that may lean either way where the stone stands otherwise, and how many sets of them are
-// taken the other way.
-constexpr double k_nearly_upright = 0.1;
-constexpr std::size_t k_most_leanings = 4;
 
 using Caliper = Relaxation::Caliper;
 
@@ -279,11 +275,7 @@ std::optional<Shape> turned_better(Relaxation& relaxation, SaddleSolver& solver,
     // Where it stands, too, jaws may be on corners between which no small step leads.
     const Eigen::VectorXd step = chosen->step + spread->moves * best.misfit.forces;
     if (!(step.cwiseAbs().maxCoeff() < k_longest)) return std::nullopt;
-    Shape result = moved_by(step);
-    const glm::dmat3 by = turn_about_z(best.pace * pace);
-    for (Vec3& n : result.normals) n = by * n;
-    for (Vec3& p : result.points) p = by * p;
-    return result;
+    return turned_about_z(moved_by(step), best.pace * pace);
 }
 
 }  // namespace culet

@@ -54,11 +54,7 @@ TEST(Refit, AResultIsLaidBetweenTheJawsAsItWasFitted) {
         const Shape told = *shape_of(system, f.result.solid);
         const Shape laid = laid_between_jaws(relaxation, told);
         for (const double by : {-1e-3, 2e-3}) {
-            Shape turned = told;
-            const glm::dmat3 turn = turn_about_z(by);
-            for (Vec3& n : turned.normals) n = turn * n;
-            for (Vec3& p : turned.points) p = turn * p;
-            const Shape again = laid_between_jaws(relaxation, turned);
+            const Shape again = laid_between_jaws(relaxation, turned_about_z(told, by));
             double worst = 0;
             for (std::size_t p = 0; p < laid.points.size(); ++p) {
                 // A minimum that is no kink is found to the root of rounding.

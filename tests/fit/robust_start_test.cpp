@@ -84,26 +84,34 @@ TEST(RobustStart, LeaningsThatGainTogetherOnlyAreFound) {
     EXPECT_LT(trial.result.chi2, reference.result.chi2 + 1);
 }
 
+// A stone of which searches have missed the better end, and the mesh from which they did.
+struct Lost {
+    TruthKind kind;
+    bool symmetric;
+    unsigned seed;
+    double noise;  // 0: drawn wrong by 20 %
+};
+
+void expect_no_worse_than_from_the_truth(const Lost& lost, double by_at_most) {
+    const Truth truth = make_truth(lost.kind, lost.symmetric, lost.seed);
+    const auto readings = read_by_instruments(truth, 1000 + lost.seed);
+    const Trial reference = fit_mesh(truth.stone, readings);
+    const unsigned mesh = 77 * lost.seed + 5;
+    const Trial trial = fit_mesh(lost.noise > 0 ? noisy_mesh(truth.stone, lost.noise, mesh)
+                                                : wrongly_drawn(truth.stone, 0.2, mesh),
+                                 readings);
+    EXPECT_TRUE(is_valid(truth.stone, trial.result)) << lost.seed;
+    EXPECT_LT(trial.result.chi2, reference.result.chi2 + by_at_most) << lost.seed;
+}
+
 // Girdle facets that lean the other way and a turn of the stone between its calipers: either alone
 // makes chi-square larger, both together 4.7, 5.5 and 3.8 less. (Turns that gain less than 1 are
 // not looked for.)
 TEST(RobustStart, LeaningsThatGainOnlyWithATurnAreFound) {
-    struct Case {
-        TruthKind kind;
-        unsigned seed;
-        double noise;  // 0: drawn wrong by 20 %
-    };
-    for (const Case& c : {Case{TruthKind::round, 84, 0.03}, Case{TruthKind::round, 133, 0.2},
-                          Case{TruthKind::step, 20, 0}}) {
-        const Truth truth = make_truth(c.kind, false, c.seed);
-        const auto readings = read_by_instruments(truth, 1000 + c.seed);
-        const Trial reference = fit_mesh(truth.stone, readings);
-        const unsigned by = 77 * c.seed + 5;
-        const Trial trial = fit_mesh(c.noise > 0 ? noisy_mesh(truth.stone, c.noise, by)
-                                                 : wrongly_drawn(truth.stone, 0.2, by),
-                                     readings);
-        EXPECT_TRUE(is_valid(truth.stone, trial.result)) << c.seed;
-        EXPECT_LT(trial.result.chi2, reference.result.chi2 + 1) << c.seed;
+    for (const Lost& c :
+         {Lost{TruthKind::round, false, 84, 0.03}, Lost{TruthKind::round, false, 133, 0.2},
+          Lost{TruthKind::step, false, 20, 0}}) {
+        expect_no_worse_than_from_the_truth(c, 1);
     }
 }
 
@@ -111,25 +119,11 @@ TEST(RobustStart, LeaningsThatGainOnlyWithATurnAreFound) {
 // edges are as long there), jaws of calipers on other corners at the same turn, starts that are all
 // alike, and a start that was told what an earlier one had seen. The reference starts at the truth.
 TEST(RobustStart, LesserEndsAreLeft) {
-    struct Case {
-        TruthKind kind;
-        bool symmetric;
-        unsigned seed;
-        double noise;  // 0: drawn wrong by 20 %
-    };
-    for (const Case& c :
-         {Case{TruthKind::trillion, false, 42, 0.05}, Case{TruthKind::trillion, false, 171, 0},
-          Case{TruthKind::step, false, 61, 0}, Case{TruthKind::step, true, 29, 0},
-          Case{TruthKind::pear, false, 109, 0}}) {
-        const Truth truth = make_truth(c.kind, c.symmetric, c.seed);
-        const auto readings = read_by_instruments(truth, 1000 + c.seed);
-        const Trial reference = fit_mesh(truth.stone, readings);
-        const unsigned by = 77 * c.seed + 5;
-        const Trial trial = fit_mesh(c.noise > 0 ? noisy_mesh(truth.stone, c.noise, by)
-                                                 : wrongly_drawn(truth.stone, 0.2, by),
-                                     readings);
-        EXPECT_TRUE(is_valid(truth.stone, trial.result)) << c.seed;
-        EXPECT_LT(trial.result.chi2, reference.result.chi2 + 0.1) << c.seed;
+    for (const Lost& c :
+         {Lost{TruthKind::trillion, false, 42, 0.05}, Lost{TruthKind::trillion, false, 171, 0},
+          Lost{TruthKind::step, false, 61, 0}, Lost{TruthKind::step, true, 29, 0},
+          Lost{TruthKind::pear, false, 109, 0}}) {
+        expect_no_worse_than_from_the_truth(c, 0.1);
     }
 }
 
