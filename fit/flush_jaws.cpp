@@ -23,12 +23,14 @@ constexpr double k_least = 0.1;
 constexpr double k_far_below = 0.1;
 // Level, in sigmas of what is known of the difference.
 constexpr double k_level = 1e-3;
-constexpr int k_points = 512, k_rounds = 2;
+constexpr int k_points = 512, k_most_rounds = 8;
 // With more errors to draw at once, or where fewer points than so many for each of them carry the
 // weight, quadrature says nothing.
 constexpr std::size_t k_most = 100;
 constexpr double k_least_points = 4;
-// The second time over a variance as much larger than what the first found, lest it miss tails.
+// Smaller parts of the weights' logarithms: every point counts the same.
+constexpr double k_least_part = 1e-6;
+// Each time over a variance as much larger than what the time before found, lest it miss tails.
 constexpr double k_wider = 1.3;
 
 // Equally likely points of a standard normal (Sobol 1967), one a column. In each dimension every
@@ -107,34 +109,42 @@ Eigen::MatrixXd moments_between_jaws(const std::vector<CaliperErrors>& calipers,
     const Eigen::Index count = slopes.cols();
     const Eigen::MatrixXd normal = normal_points(count);
     // Points are drawn where the linear model says, then where those of most weight lie (importance
-    // sampling; Oh & Berger 1992).
+    // sampling; Oh & Berger 1992). Where few carry all the weight, a part of its logarithm tells
+    // where to draw next, until all of it can (Neal 2001).
     Eigen::VectorXd middle = mean;
-    Eigen::MatrixXd spread = Eigen::MatrixXd::Identity(count, count), moments;
-    for (int round = 0; round < k_rounds; ++round) {
+    Eigen::MatrixXd spread = Eigen::MatrixXd::Identity(count, count);
+    for (int round = 0; round < k_most_rounds; ++round) {
         const Eigen::MatrixXd root = spread.llt().matrixL();
         const Eigen::MatrixXd points = (root * normal).colwise() + middle;
         const Eigen::MatrixXd errors = slopes * points;
-        Eigen::RowVectorXd weights =
+        Eigen::RowVectorXd logs =
             normal.colwise().squaredNorm() - (points.colwise() - mean).colwise().squaredNorm();
         for (Eigen::Index p = 0; p < points.cols(); ++p) {
-            weights(p) -= more_than_linear(calipers, errors.col(p).data());
+            logs(p) -= more_than_linear(calipers, errors.col(p).data());
         }
-        weights = (0.5 * (weights.array() - weights.maxCoeff())).exp();
-        weights /= weights.sum();
-        if (!(weights.squaredNorm() * k_least_points * double(count) < 1)) {
-            return Eigen::MatrixXd::Identity(count, count);
+        logs = 0.5 * (logs.array() - logs.maxCoeff());
+        Eigen::RowVectorXd weights;
+        double part = 1;
+        for (; part > k_least_part; part /= 2) {
+            weights = (part * logs).array().exp();
+            weights /= weights.sum();
+            if (weights.squaredNorm() * k_least_points * double(count) < 1) break;
         }
-        // The difference from what the same points say of the spread that they were drawn from is
-        // more exact than either.
-        const Eigen::MatrixXd weighted = points * weights.asDiagonal() * points.transpose(),
-                              drawn = points * points.transpose() / double(k_points);
-        moments = spread + middle * middle.transpose() + (weighted - drawn);
-        if (Eigen::LLT<Eigen::MatrixXd>(moments).info() != Eigen::Success) moments = weighted;
+        const Eigen::MatrixXd weighted = points * weights.asDiagonal() * points.transpose();
+        if (round > 0 && part == 1) {
+            // The difference from what the same points say of the spread that they were drawn from
+            // is more exact than either.
+            const Eigen::MatrixXd moments =
+                spread + middle * middle.transpose() +
+                (weighted - points * points.transpose() / double(k_points));
+            return Eigen::LLT<Eigen::MatrixXd>(moments).info() == Eigen::Success ? moments
+                                                                                 : weighted;
+        }
         middle = points * weights.transpose();
         spread = k_wider * (weighted - middle * middle.transpose());
         spread.diagonal().array() += k_least * k_least;
     }
-    return moments;
+    return Eigen::MatrixXd::Identity(count, count);
 }
 
 FlushJaws::FlushJaws(const System& system, const Shape& shape, const Outline& outline,

@@ -16,6 +16,8 @@ namespace culet::bench {
 
 namespace {
 
+constexpr unsigned k_first_stone = 7;
+
 struct Coverage {
     int count = 0, within_one = 0, within_two = 0;
     double squares = 0, limit_squares = 0, chi2 = 0, dof = 0;
@@ -52,37 +54,42 @@ struct Sample {
     bool symmetric;
 };
 
-void report_coverage(const Sample& which, int repetitions) {
-    const Truth truth = make_truth(which.kind, which.symmetric, 7);
-    const FitResult limit = fit(truth, read_perfectly(truth));
+void report_coverage(const Sample& which, int stones, int repetitions) {
     Coverage tilt, turn, proportion;
-    int alarms = 0, contradictory = 0, unsound = 0;
+    int alarms = 0, unsound = 0;
+    std::size_t readings = 0;
     std::vector<double> cpu;
-    for (int i = 0; i < repetitions; ++i) {
-        const std::vector<WrittenReading> written = read_by_instruments(truth, 1000u + unsigned(i));
-        const Clocks before = clocks();
-        const FitResult result = fit(truth, written);
-        cpu.push_back(clocks().cpu - before.cpu);
-        unsound += !result.closed || !result.convex;
-        alarms += !result.suspects.empty() || result.status == FitStatus::contradictory;
-        contradictory += result.status == FitStatus::contradictory;
-        tilt.chi2 += result.chi2;
-        tilt.dof += result.dof;
-        for (std::size_t f = 0; f < result.facets.size(); ++f) {
-            const FittedFacet &mine = result.facets[f], &best = limit.facets[f];
-            if (mine.name == truth.stone.up_facet) continue;
-            // A girdle facet's folded inclination has no sign at 90 degrees.
-            const Vec3& n = truth.stone.solid.facets[f].plane.normal;
-            if (std::abs(n.z) > std::sin(radians(1))) {
-                tilt.add(mine.inclination - inclination(n, {0, 0, 1}), mine.sigma_inclination,
-                         best.sigma_inclination);
+    unsigned seed = 1000;
+    for (int stone = 0; stone < stones; ++stone) {
+        const Truth truth =
+            make_truth(which.kind, which.symmetric, k_first_stone + unsigned(stone));
+        const FitResult limit = fit(truth, read_perfectly(truth));
+        readings = limit.readings.size();
+        for (int i = 0; i < repetitions; ++i) {
+            const std::vector<WrittenReading> written = read_by_instruments(truth, seed++);
+            const Clocks before = clocks();
+            const FitResult result = fit(truth, written);
+            cpu.push_back(clocks().cpu - before.cpu);
+            unsound += !result.closed || !result.convex;
+            alarms += !result.suspects.empty() || result.status == FitStatus::contradictory;
+            tilt.chi2 += result.chi2;
+            tilt.dof += result.dof;
+            for (std::size_t f = 0; f < result.facets.size(); ++f) {
+                const FittedFacet &mine = result.facets[f], &best = limit.facets[f];
+                if (mine.name == truth.stone.up_facet) continue;
+                // A girdle facet's folded inclination has no sign at 90 degrees.
+                const Vec3& n = truth.stone.solid.facets[f].plane.normal;
+                if (std::abs(n.z) > std::sin(radians(1))) {
+                    tilt.add(mine.inclination - inclination(n, {0, 0, 1}), mine.sigma_inclination,
+                             best.sigma_inclination);
+                }
+                turn.add(folded(mine.azimuth - azimuth(n)), mine.sigma_azimuth, best.sigma_azimuth);
             }
-            turn.add(folded(mine.azimuth - azimuth(n)), mine.sigma_azimuth, best.sigma_azimuth);
-        }
-        for (std::size_t p = 0; p < result.proportions.size(); ++p) {
-            if (p >= limit.proportions.size()) break;
-            proportion.add(result.proportions[p].value - limit.proportions[p].value,
-                           result.proportions[p].sigma, limit.proportions[p].sigma);
+            for (std::size_t p = 0; p < result.proportions.size(); ++p) {
+                if (p >= limit.proportions.size()) break;
+                proportion.add(result.proportions[p].value - limit.proportions[p].value,
+                               result.proportions[p].sigma, limit.proportions[p].sigma);
+            }
         }
     }
     std::nth_element(cpu.begin(), cpu.begin() + std::ptrdiff_t(cpu.size() / 2), cpu.end());
@@ -96,8 +103,8 @@ void report_coverage(const Sample& which, int repetitions) {
     fmt::print(
         "{:16} {} readings, chi2/dof {:.3f}, false alarms {:.1f} %, unsound {}, "
         "{:.1f} ms CPU\n",
-        which.name, limit.readings.size(), tilt.chi2 / tilt.dof, 100.0 * alarms / repetitions,
-        unsound, 1e3 * cpu[cpu.size() / 2]);
+        which.name, readings, tilt.chi2 / tilt.dof, 100.0 * alarms / double(cpu.size()), unsound,
+        1e3 * cpu[cpu.size() / 2]);
     std::fflush(stdout);
 }
 
@@ -106,7 +113,7 @@ struct Planted {
 };
 
 void report_detection(const Sample& which, int repetitions, double size) {
-    const Truth truth = make_truth(which.kind, which.symmetric, 7);
+    const Truth truth = make_truth(which.kind, which.symmetric, k_first_stone);
     const FitResult limit = fit(truth, read_perfectly(truth));
     std::mt19937_64 random(42);
     std::vector<WrittenReading> sample = read_by_instruments(truth, 1);
@@ -177,8 +184,9 @@ void report_detection(const Sample& which, int repetitions, double size) {
 int main(int argc, char** argv) {
     using namespace culet::bench;
     CLI::App app("Honesty of the fit's uncertainties, and what errors it finds");
-    int repetitions = 500, plants = 200;
+    int stones_of_each = 1, repetitions = 500, plants = 200;
     std::string only;
+    app.add_option("--stones", stones_of_each, "stones of each kind");
     app.add_option("--repetitions", repetitions, "noisy readings of each stone");
     app.add_option("--plants", plants, "planted errors of each stone");
     app.add_option("--only", only, "stones whose name contains this");
@@ -188,13 +196,13 @@ int main(int argc, char** argv) {
         {"step, 2-fold", TruthKind::step, true},   {"step, none", TruthKind::step, false},
         {"pear", TruthKind::pear, false},          {"trillion", TruthKind::trillion, true}};
     fmt::print(
-        "{} noisy repetitions. To reach: within 1 sigma 68 +- 3 %, 2 sigma 95 +- 2 %, error "
-        "over Cramer-Rao <= 1.05, false alarms <= 2 %\n",
-        repetitions);
+        "{} stones of each kind, {} noisy repetitions. To reach: within 1 sigma 68 +- 3 %, 2 sigma "
+        "95 +- 2 %, error over Cramer-Rao <= 1.05, false alarms <= 2 %\n",
+        stones_of_each, repetitions);
     fmt::print("{:16} {:12} {:>7} {:>7} {:>9}\n", "stone", "of", "1 sigma", "2 sigma", "/limit");
     for (const Sample& s : stones) {
         if (s.name.find(only) != std::string::npos && repetitions > 0) {
-            report_coverage(s, repetitions);
+            report_coverage(s, stones_of_each, repetitions);
         }
     }
     fmt::print(

@@ -45,19 +45,45 @@ TEST(FlushJaws, CornersOutOfReachSayNothing) {
     EXPECT_TRUE(moments.isIdentity(k_mean_error)) << moments;
 }
 
-// One jaw on each of many corners that all pull the other way: hardly a point drawn from the linear
-// model lies where the readings say.
-TEST(FlushJaws, WhereQuadratureFailsTheLinearModelStands) {
-    constexpr int k_many = 40;
+// One jaw on each of many corners beside another, all of them too narrow or too wide by `pull`
+// sigmas.
+constexpr double k_slope = 5;
+Eigen::MatrixXd moments_of_many(int many, double pull) {
     std::vector<CaliperErrors> calipers;
-    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2 * k_many, k_many);
-    for (int i = 0; i < k_many; ++i) {
-        CaliperErrors errors{3, {}};
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(2 * many, many);
+    for (int i = 0; i < many; ++i) {
+        CaliperErrors errors{pull, {}};
         errors.levels[0] = {0};
         calipers.push_back(std::move(errors));
-        slopes(2 * i + 1, i) = 5;
+        slopes(2 * i + 1, i) = k_slope;
     }
-    EXPECT_TRUE(moments_between_jaws(calipers, slopes, Eigen::VectorXd::Zero(k_many)).isIdentity());
+    return moments_between_jaws(calipers, slopes, Eigen::VectorXd::Zero(many));
+}
+
+// Each of six falls as exp(-(y^2 + (5 y - 3)^2) / 2) where y > 0: of points drawn from the linear
+// model one in a million lies where the readings say. Expected are sums over a fine grid. The error
+// of a second moment by n equally weighty points of a normal is sqrt(2 / n), of its root half that,
+// and four points a dimension are asked.
+TEST(FlushJaws, DrawnFarFromWhereTheReadingsSay) {
+    constexpr double k_pull = -3;
+    constexpr int k_many = 6;
+    double sum = 0, square = 0;
+    for (double y = -9; y < 9; y += 1e-3) {
+        const double out = std::max(0.0, k_slope * y);
+        const double weight = std::exp(-0.5 * (y * y + out * (2 * k_pull + out)));
+        sum += weight;
+        square += weight * y * y;
+    }
+    const double standard_error = std::sqrt(2.0 / (4 * k_many)) / 2;
+    const Eigen::MatrixXd moments = moments_of_many(k_many, k_pull);
+    for (const double moment : moments.diagonal()) {
+        EXPECT_NEAR(std::sqrt(moment / (square / sum)), 1, 2 * standard_error);
+    }
+}
+
+// Hardly a point of any draw.
+TEST(FlushJaws, WhereQuadratureFailsTheLinearModelStands) {
+    EXPECT_TRUE(moments_of_many(40, 3).isIdentity());
 }
 
 // Against sums over a fine grid of exp(-chi2 / 2), chi2 being written down as it is.
