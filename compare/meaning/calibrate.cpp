@@ -15,6 +15,7 @@
 #include "compare/meaning/chance.h"
 #include "compare/meaning/facet_error.h"
 #include "compare/meaning/hypotheses.h"
+#include "compare/meaning/photo_blur.h"
 #include "compare/score_list.h"
 #include "stone/errors.h"
 #include "stone/units.h"
@@ -282,21 +283,24 @@ const char* name_of(World world) {
     return "wrong";
 }
 
+std::vector<Score> scores_against(const Photo& photo, const std::vector<float>& mask,
+                                  const Photo& soft_picture, const Alignment& how) {
+    const Frame frame = align(photo, mask, soft_picture, how);
+    if (frame.render.empty()) return {};
+    const LaidPictures laid = lay_pictures(frame, photo.saturation, soft_picture.saturation);
+    if (!laid.enough()) return {};
+    const MatchedPictures part = part_of(laid.pictures, part_to_score(laid.pictures));
+    return measure(part, wavelet_bank(part.mask.size(), part.diameter)).scores;
+}
+
 std::vector<std::optional<double>> calibration_scores(const Photo& photo,
                                                       const Photo& model_picture,
                                                       const CalibrateOptions& options) {
     std::vector<std::optional<double>> values;
-    const Frame frame =
-        align(photo, {}, model_picture, {.largest = options.largest, .ignored = options.ignored});
-    if (!frame.render.empty()) {
-        const LaidPictures laid = lay_pictures(frame, photo.saturation, model_picture.saturation);
-        if (laid.enough()) {
-            const MatchedPictures part = part_of(laid.pictures, part_to_score(laid.pictures));
-            const WaveletBank bank = wavelet_bank(part.mask.size(), part.diameter);
-            for (const Score& score : measure(part, bank).scores) {
-                values.push_back(score.value);
-            }
-        }
+    for (const Score& score :
+         scores_against(photo, {}, softened(model_picture, options.camera.psf_px),
+                        {.largest = options.largest, .ignored = options.ignored})) {
+        values.push_back(score.value);
     }
     if (values.empty()) values.resize(score_kinds().size());
     return values;

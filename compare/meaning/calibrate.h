@@ -6,9 +6,11 @@
 #include <optional>
 #include <vector>
 
+#include "compare/frame.h"
 #include "compare/meaning/calibration.h"
 #include "compare/meaning/draft_renderer.h"
 #include "compare/meaning/simulated_camera.h"
+#include "compare/score.h"
 #include "render/scene.h"
 #include "stone/progress.h"
 
@@ -40,7 +42,14 @@ std::string calibration_hash(const Scene& model, const CalibrateOptions& options
 Calibration calibrate(const Scene& model, const Photo& model_picture, const DraftRenderer& renderer,
                       const CalibrateOptions& options, const Progress& progress = {});
 
-/// The scores of one photograph against the model's picture, as the calibration has them.
+/// A photograph laid on the picture and scored: one a key, without nulls. The picture must be as
+/// soft as the photograph (photo_blur.h): against a sharp one the blur alone outweighs facet errors
+/// under a tenth of a degree.
+std::vector<Score> scores_against(const Photo& photo, const std::vector<float>& mask,
+                                  const Photo& soft_picture, const Alignment& how);
+
+/// The scores of one photograph against the model's picture, as the calibration has them: the
+/// picture is softened by the camera's point spread first.
 std::vector<std::optional<double>> calibration_scores(const Photo& photo,
                                                       const Photo& model_picture,
                                                       const CalibrateOptions& options);

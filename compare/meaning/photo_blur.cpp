@@ -53,4 +53,11 @@ double photo_blur_px(const MatchedPictures& pictures) {
     return k_most;
 }
 
+Photo softened(const Photo& picture, double psf_px) {
+    Photo result = picture;
+    const cv::Mat soft = blurred(colour_of(picture), psf_px);
+    result.rgb.assign(soft.ptr<float>(), soft.ptr<float>() + 3 * soft.total());
+    return result;
+}
+
 }  // namespace culet

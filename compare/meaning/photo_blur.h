@@ -2,6 +2,7 @@
 // How blurred a photograph is beside its render.
 
 #include "compare/metrics.h"
+#include "compare/photo.h"
 
 namespace culet {
 
@@ -11,5 +12,9 @@ namespace culet {
 /// 4; 0 where the photo has more detail than the render. Good to some 0.3 pixels for a stone of 100
 /// pixels and more.
 double photo_blur_px(const MatchedPictures& pictures);
+
+/// The picture as a lens would show it whose point spread is a Gaussian of that standard deviation.
+/// The coverage stays as it is.
+Photo softened(const Photo& picture, double psf_px);
 
 }  // namespace culet

@@ -14,6 +14,7 @@
 #include "compare/meaning/draft_renderer.h"
 #include "compare/meaning/photo_blur.h"
 #include "compare/pixels.h"
+#include "compare/score_list.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
@@ -218,8 +219,14 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
     calibration.start = options.start;
     comparison.calibration =
         calibrated(result, renderer, calibration, options.cache, part_of(progress, 0.2, 1));
-    comparison.meaning =
-        meaning_of(comparison.scores, *comparison.calibration, comparison.geometry_only);
+    // As the draws are: against a render as soft as the photograph.
+    std::vector<Score> scores =
+        scores_against(*photo, how.mask, softened(result.render, calibration.camera.psf_px),
+                       {.largest = how.largest, .ignored = how.ignored});
+    if (comparison.geometry_only) {
+        keep_geometry_only(scores, "the photograph cannot serve for photometry");
+    }
+    comparison.meaning = meaning_of(scores, *comparison.calibration, comparison.geometry_only);
     comparison.verdict = comparison.meaning->verdict;
     comparison.reason = comparison.meaning->reason;
     return result;

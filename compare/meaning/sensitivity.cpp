@@ -106,21 +106,53 @@ FacetErrorScale::FacetErrorScale(const Calibration& calibration,
     }
     if (curves_.empty()) return;
 
-    std::vector<double> means, variances;
+    std::vector<double> means;
     for (const auto& [deg, draws] : by_level) {
         std::vector<double> answers;
         for (const CalibrationDraw* draw : draws) {
             if (const auto answer = averaged(draw->scores)) answers.push_back(*answer);
         }
-        const Moments m = moments(answers);
-        means.push_back(m.mean);
-        variances.push_back(m.sd * m.sd);
+        means.push_back(moments(answers).mean);
     }
     average_ = monotone(means);
+    const JointDraws draws = joint_draws(calibration);
+    joint_ = JointScores(draws);
+    fit_regression(draws);
+}
+
+void FacetErrorScale::fit_regression(const JointDraws& draws) {
+    // The ceiling has no logarithm.
+    std::vector<double> errors;
+    std::vector<std::vector<double>> scores;
+    std::vector<std::size_t> level_of;
+    for (std::size_t l = 0; l < levels_.size(); ++l) {
+        if (!(levels_deg_[l] > 0)) continue;
+        for (const auto& draw : draws.draws[l]) {
+            errors.push_back(levels_[l]);
+            scores.push_back(draw);
+            level_of.push_back(l);
+        }
+    }
+    regression_ = ErrorRegression(std::move(errors), std::move(scores));
+    std::vector<double> squares(levels_.size(), 0), counts(levels_.size(), 0);
+    for (std::size_t i = 0; i < regression_.left_out().size(); ++i) {
+        const double off = regression_.left_out()[i];
+        if (std::isnan(off)) continue;
+        squares[level_of[i]] += off * off;
+        ++counts[level_of[i]];
+    }
+    // Where a level has none, the next one's stands for it.
+    std::vector<double> variances(levels_.size(), 1);
+    for (std::size_t l = levels_.size(); l-- > 0;) {
+        if (counts[l] > 0)
+            variances[l] = squares[l] / counts[l];
+        else if (l + 1 < levels_.size())
+            variances[l] = variances[l + 1];
+    }
+    spread_.clear();
     for (const double v : smoothed(variances)) {
         spread_.push_back(std::sqrt(std::max(v, k_least_variance)));
     }
-    joint_ = JointScores(joint_draws(calibration));
 }
 
 JointDraws FacetErrorScale::joint_draws(const Calibration& calibration) const {
@@ -153,7 +185,11 @@ std::optional<FacetErrorScale::Explained> FacetErrorScale::explained(
     const auto average = averaged(scores);
     const auto joint = joint_.of(stretched(scores));
     if (!average || !joint) return std::nullopt;
-    if (joint->misfit <= 1) return Explained{joint->log_error, joint->misfit};
+    if (joint->misfit <= 1) {
+        const auto found = regression_.of(stretched(scores));
+        if (found)
+            return Explained{std::clamp(*found, levels_.front(), levels_.back()), joint->misfit};
+    }
     // `average_` rises with the levels.
     std::vector<double> negative = average_;
     for (double& v : negative) v = -v;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compare/meaning/calibration.h"
+#include "compare/meaning/error_regression.h"
 #include "compare/meaning/joint_scores.h"
 
 namespace culet {
@@ -33,7 +34,7 @@ struct SensitivityCurve {
 struct EquivalentError {
     std::optional<double> deg;
     double low_deg = 0,
-           high_deg = 0;  ///< 95 % of right stones are within, by the curve's own draws
+           high_deg = 0;  ///< 95 % of right stones are within, by draws left out one by one
     bool at_least = false, at_most = false;  ///< beyond the curve's ends
     /// For ranking: the logarithm of the error, larger by half the logarithm of what the scores'
     /// misfit is over the largest of right stones (as errors are scaled whose residuals are too
@@ -41,12 +42,11 @@ struct EquivalentError {
     std::optional<double> rank;
 };
 
-/// Equivalent facet errors by several scores together: the one that explains the scores best as
-/// they go together for right stones (joint_scores.h). Where none does, because the scores
-/// disagree as no right stone's do, each score's curve is made monotone and inverted in the
-/// logarithm of the error; the scores' answers are averaged with weights that are the inverse of
-/// the variance that each shows for right stones of about that error; and the average's own curve
-/// is inverted in turn, which takes its bias away.
+/// Equivalent facet errors by several scores together: by regression on all draws with facet errors
+/// (error_regression.h). Where the scores disagree as no right stone's do (joint_scores.h), each
+/// score's curve is made monotone and inverted in the logarithm of the error; the scores' answers
+/// are averaged with weights that are the inverse of the variance that each shows for right stones
+/// of about that error; and the average's own curve is inverted in turn, which takes its bias away.
 class FacetErrorScale {
 public:
     /// Of the calibration's draws with facet errors; `keys`: the scores that take part.
@@ -77,6 +77,7 @@ private:
     double weight(const Curve& curve, double log_deg) const;
     std::vector<double> stretched(const std::vector<std::optional<double>>& scores) const;
     JointDraws joint_draws(const Calibration& calibration) const;
+    void fit_regression(const JointDraws& draws);
     struct Explained {
         double log_deg = 0, misfit = 0;
     };
@@ -88,7 +89,8 @@ private:
     std::vector<Curve> curves_;
     std::vector<double> average_;  // the average's own monotone curve, a level each
     JointScores joint_;
-    std::vector<double> spread_;  // standard deviation of the average, a level each
+    ErrorRegression regression_;
+    std::vector<double> spread_;  // root mean square of what answers are off, a level each
 };
 
 }  // namespace culet

@@ -97,6 +97,26 @@ TEST(PhotoBlur, is_found_whether_or_not_the_cells_are_in_their_places) {
     }
 }
 
+// A Gaussian of 1.5 pixels spreads one lit pixel of 64 x 64 to a second moment of 1.5^2 a
+// direction; its tails are cut at some four deviations.
+TEST(Softened, spreads_light_by_the_point_spread_and_keeps_it_and_the_coverage) {
+    Photo point = grey(0);
+    for (std::size_t c = 0; c < 3; ++c) point.rgb[3 * (32 * 64 + 32) + c] = 1;
+    const Photo soft = softened(point, 1.5);
+    double light = 0, moment = 0;
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            const auto v = static_cast<double>(soft.rgb[3 * static_cast<std::size_t>(y * 64 + x)]);
+            light += v;
+            moment += v * (x - 32) * (x - 32);
+        }
+    }
+    EXPECT_NEAR(light, 1, 1e-4);
+    EXPECT_NEAR(moment, 2.25, 0.03);
+    EXPECT_EQ(soft.coverage, point.coverage);
+    EXPECT_EQ(softened(point, 0).rgb, point.rgb);
+}
+
 TEST(PhotoBlur, of_a_sharper_photo_or_of_a_few_pixels_is_none) {
     MatchedPictures pictures;
     pictures.photo = cv::Mat(64, 64, CV_32FC3, cv::Scalar(0.5, 0.5, 0.5));
