@@ -3,6 +3,7 @@
 // says which way a facet faces. In half diameters and radians. Private to the room.
 
 #include <optional>
+#include <vector>
 
 #include "fit/system.h"
 
@@ -18,9 +19,14 @@ public:
     double corner() const { return corner_; }
     /// Of a facet's normal, by its corners' errors and its size.
     double turn(int facet) const;
+    /// Of a facet's inclination alone, by its corners' errors and how far they reach up and down:
+    /// slender facets are told well along, badly across. Infinite where its corners are all in
+    /// line.
+    double tilt(int facet) const;
 
 private:
     MeshRoughness(const System& system, double corner) : system_(&system), corner_(corner) {}
+    std::vector<Vec3> from_middle(int facet) const;
     const System* system_;
     double corner_;
 };

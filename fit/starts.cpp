@@ -152,7 +152,7 @@ std::optional<Start> Starts::next() {
 }
 
 // What the mesh says of a facet counts when it tells the two meanings of the reading apart by six
-// times what its corners' errors turn its normal by.
+// times what its corners' errors tilt it by.
 void Starts::find_sides() {
     const Shape& mesh = system_.mesh_shape();
     sides_.assign(mesh.normals.size(), 0);
@@ -168,7 +168,7 @@ void Starts::find_sides() {
         const double drawn = std::acos(z);
         const double as_up = std::abs(drawn - r.value),
                      as_down = std::abs(drawn - (std::numbers::pi - r.value));
-        if (std::abs(as_up - as_down) > 6 * rough->turn(f)) sides_[f] = as_up < as_down ? 1 : -1;
+        if (std::abs(as_up - as_down) > 6 * rough->tilt(f)) sides_[f] = as_up < as_down ? 1 : -1;
     }
     // Not where facets follow each other: those that were not read have the sides of others.
     if (system_.exact_motions().empty())

@@ -10,8 +10,10 @@
 
 #include "fit/canonical.h"
 #include "fit/mending.h"
+#include "fit/starts.h"
 #include "stone/checks.h"
 #include "tests/bench/fit_trials.h"
+#include "tests/fit/test_stones.h"
 
 namespace culet {
 namespace {
@@ -124,6 +126,41 @@ TEST(RobustStart, LesserEndsAreLeft) {
           Lost{TruthKind::step, false, 61, 0}, Lost{TruthKind::step, true, 29, 0},
           Lost{TruthKind::pear, false, 109, 0}}) {
         expect_no_worse_than_from_the_truth(c, 0.1);
+    }
+}
+
+// The sides of a plate lean by ten degrees and are as high as a twentieth of its half width:
+// corners off by a third of that tilt them by more than they lean. How long they are says nothing
+// of it.
+TEST(RobustStart, SlenderFacetsDoNotSayWhichWayTheyLean) {
+    Stone plate;
+    plate.solid = test::enclosed({{"T", {{0, 0, 1}, 0.05}},
+                                  {"X+", {test::direction(80, 0), 1}},
+                                  {"Y+", {test::direction(80, 90, true), 1}},
+                                  {"X-", {test::direction(80, 180), 1}},
+                                  {"Y-", {test::direction(80, 270, true), 1}},
+                                  {"B", {{0, 0, -1}, 0.05}}});
+    plate.up_facet = "T";
+    const double noise = 0.033 / diameter(plate.solid);
+    std::vector<WrittenReading> written;
+    for (const char* side : {"X+", "Y+", "X-", "Y-"}) {
+        WrittenReading inclination;
+        inclination.kind = "inclination";
+        inclination.of = {side};
+        inclination.value = 80;
+        inclination.sigma = 0.1;
+        written.push_back(std::move(inclination));
+    }
+    for (unsigned seed = 1; seed <= 50; ++seed) {
+        const Stone mesh = noisy_mesh(plate, noise, seed);
+        const System system(mesh, bind_readings(written, mesh), {});
+        const std::optional<Start> start = Starts(system).next();
+        ASSERT_TRUE(start) << seed;
+        for (std::size_t f = 0; f < plate.solid.facets.size(); ++f) {
+            if (start->sides.empty() || start->sides[f] == 0) continue;
+            EXPECT_GT(start->sides[f] * plate.solid.facets[f].plane.normal.z, 0)
+                << plate.solid.facets[f].name << ", seed " << seed;
+        }
     }
 }
 
