@@ -88,20 +88,20 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, const Finis
     // again.
     // A few steps a round, or it leads nowhere.
     int left = iterations;
+    const std::vector<Held> drawn = relaxation.above(relaxation.system().mesh_shape(), k_drawn);
     for (int round = 0; round < 8 && left > 0 && settled.chi2 < options.hopeless; ++round) {
         // What does not meet will not with more corners held.
         if (settled.worst_hard > k_all_but_met) break;
         const std::size_t before = result.held.size();
         std::vector<Held> above = relaxation.above(settled.shape);
-        // An edge that has come down to nothing would turn over if it could, unless drawn so.
+        // An edge that has come down to nothing would turn over if it could, unless drawn so: in
+        // rounding, beside others that are held.
         const bool come_down = round == 0 && above.empty();
-        if (come_down) {
-            const std::vector<Held> drawn =
-                relaxation.above(relaxation.system().mesh_shape(), k_drawn);
-            above = relaxation.above(settled.shape, k_no_length);
-            std::erase_if(above, [&](const Held& h) {
-                return std::find(drawn.begin(), drawn.end(), h) != drawn.end();
-            });
+        for (const Held& h : relaxation.above(settled.shape, k_no_length)) {
+            const bool is_drawn = std::find(drawn.begin(), drawn.end(), h) != drawn.end();
+            if (!is_drawn && std::find(above.begin(), above.end(), h) == above.end()) {
+                above.push_back(h);
+            }
         }
         for (const Held& h : above) {
             // An edge that would turn over shows at both its ends: one of them is enough, most

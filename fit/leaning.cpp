@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -17,6 +18,10 @@ constexpr double k_precision = 1e-4;
 constexpr double k_least_gain = 0.01;
 // A step this long in one of the freedoms is no longer linear.
 constexpr double k_longest = 0.5;
+// Steps back onto hard equations, until they are missed by no more than the second; variance of
+// those that are exact.
+constexpr int k_most_corrections = 6;
+constexpr double k_met = 1e-10, k_all_but_exact = 1e-15;
 // Chains begin at each facet; of more than so many at those whose first turn costs least.
 constexpr std::size_t k_most_begins = 128;
 
@@ -155,6 +160,8 @@ std::vector<Eigen::VectorXd> better_meanings(const std::vector<Relaxation::Folde
             big.row(k) -= shift * solved.forces.row(row);
         }
     }
+    // As it is but for what solving leaves: else turns there and back would seem to gain.
+    big = (0.5 * (big + big.transpose())).eval();
     std::vector<Eigen::VectorXd> meanings;
     for (const std::vector<char>& turned : best_turns(std::move(r), big, most)) {
         meanings.push_back(Eigen::VectorXd::Zero(pulls.size()));
@@ -187,8 +194,24 @@ std::vector<Shape> better_leanings(Relaxation& relaxation, SaddleSolver& solver,
     for (const Eigen::VectorXd& right : better_meanings(folded, solver, pulls, most)) {
         const auto s = solver.solve(none, right, k_precision);
         if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > k_longest) continue;
-        others.push_back(relaxation.freedoms().moved(
-            shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())}));
+        Shape other = relaxation.freedoms().moved_with_turn(
+            shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())});
+        // What nothing holds moves far, and off what must hold exactly: back, by the same factors.
+        double off_before = std::numeric_limits<double>::infinity();
+        for (int k = 0; k < k_most_corrections; ++k) {
+            const Relaxation::Missed missed =
+                relaxation.missed(other, softness, sheet.holding, k_all_but_exact);
+            if (!(missed.worst > k_met) || !(missed.worst < 0.5 * off_before)) break;
+            off_before = missed.worst;
+            // Hinges, whose rows come last, push nothing.
+            Eigen::VectorXd right_hand = Eigen::VectorXd::Zero(sheet.rows.count());
+            right_hand.head(missed.residuals.size()) = -missed.residuals;
+            const auto back = solver.solve(none, right_hand, k_precision);
+            if (!back.good) break;
+            other = relaxation.freedoms().moved(
+                other, {back.unknowns.data(), static_cast<std::size_t>(back.unknowns.size())});
+        }
+        others.push_back(std::move(other));
     }
     return others;
 }
