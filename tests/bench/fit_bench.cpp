@@ -147,7 +147,7 @@ FitOptions without_findings() {
     return options;
 }
 
-void time_table(BenchTables& tables, const Chosen& chosen, bool large) {
+void time_table(BenchTables& tables, const Chosen& chosen, unsigned large) {
     tables.section("times", "median CPU of all threads, with covariance; mesh: corner noise",
                    {"facets", "readings", "mesh", "ms", "figure", "with findings", "status"});
     const auto line = [&](const std::string& name, auto make, double noise, unsigned count,
@@ -166,6 +166,10 @@ void time_table(BenchTables& tables, const Chosen& chosen, bool large) {
             facets = truth.stone.solid.facets.size();
             readings_count = trial.result.readings.size();
             status = trial.refusal.empty() ? name_of(trial.result.status) : trial.refusal;
+            if (chosen.verbose) {
+                std::cerr << fmt::format("{} {} seed {}: {:.1f} ms, {}, chi-square {:.1f}\n", name,
+                                         facets, seed, times.back(), status, trial.result.chi2);
+            }
         }
         tables.line(name, {fmt::format("{}", facets), fmt::format("{}", readings_count),
                            fmt::format("{:g} %", 100 * noise), fmt::format("{:.1f}", median(times)),
@@ -180,9 +184,9 @@ void time_table(BenchTables& tables, const Chosen& chosen, bool large) {
     line(
         "tiered", [](unsigned s) { return make_tiered(300, s); }, 0.003, std::min(chosen.seeds, 5u),
         2000);
-    if (large) {
+    if (large > 0) {
         line(
-            "tiered", [](unsigned s) { return make_tiered(1000, s); }, 0.001, 1, 20000, 2000);
+            "tiered", [](unsigned s) { return make_tiered(1000, s); }, 0.001, large, 20000, 2000);
     }
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -236,7 +240,7 @@ int main(int argc, char** argv) {
     Chosen chosen;
     unsigned kicks = 1000;
     std::string section, json;
-    bool large = false;
+    unsigned large = 0;
     app.add_option("--seeds", chosen.seeds, "stones of each kind")->check(CLI::Range(1, 100000));
     app.add_option("--first-seed", chosen.first_seed, "of noise and drawn");
     app.add_option("--stone", chosen.stone, "this one only, as the tables name it");
@@ -244,8 +248,9 @@ int main(int argc, char** argv) {
     app.add_option("--kicks", kicks, "in all")->check(CLI::Range(1, 1000000));
     app.add_option("--section", section, "run this part only: noise, drawn, kick, refit, times");
     app.add_option("--json", json, "also write the tables here");
-    app.add_flag("--verbose", chosen.verbose, "name each failure on stderr");
-    app.add_flag("--large", large, "also time a stone of 1000 facets");
+    app.add_flag("--verbose", chosen.verbose,
+                 "name each failure, and the time of each stone, on stderr");
+    app.add_flag("--large{1}", large, "also time a stone of 1000 facets, or several: --large=4");
     try {
         app.parse(argc, argv);
         BenchTables tables;
