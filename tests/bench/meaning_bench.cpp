@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -97,6 +98,7 @@ int main(int argc, char** argv) {
     std::uint64_t seed = 1;
     std::string only;
     bool list = false;
+    std::array<double, 2> blur_px{0.5, 1.0};
     app.add_option("--pixels", pixels);
     app.add_option("--each", each);
     app.add_option("--draws", draws);
@@ -104,6 +106,7 @@ int main(int argc, char** argv) {
     app.add_option("--threads", threads);
     app.add_option("--seed", seed);
     app.add_option("--only", only);
+    app.add_option("--blur", blur_px, "of the photographs, in pixels: from, to");
     app.add_flag("--list", list);
     CLI11_PARSE(app, argc, argv);
 
@@ -158,8 +161,8 @@ int main(int argc, char** argv) {
             Chance chance(seed_of(seed, 555, draw));
             CameraModel camera = options.camera;
             // Lenses from sharp to a little out of focus, and two and a half stops of light. The
-            // calibration has 0.7 pixels for all of them.
-            camera.psf_px = chance.uniform(0.5, 1.0);
+            // calibration has 0.7 pixels for all of them, where the program's has the photograph's.
+            camera.psf_px = chance.uniform(blur_px[0], blur_px[1]);
             camera.electrons *= std::exp(chance.uniform(-1, 1) * std::log(2.5));
             for (double& g : camera.gain) g *= chance.uniform(0.97, 1.03);
             const Photo stone =
