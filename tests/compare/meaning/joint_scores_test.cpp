@@ -6,23 +6,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
+
+#include "tests/compare/meaning/scores_of_a_law.h"
 
 namespace culet {
 namespace {
 
-constexpr double k_missing = std::numeric_limits<double>::quiet_NaN();
+using test::k_missing;
 
-// Scores fall by 1 as the logarithm grows by 1. The first three share one noise of 0.5; the fourth
-// has its own of 0.25.
 std::vector<double> scores_at(double log_error, std::mt19937_64& random) {
-    std::normal_distribution<double> normal;
-    const double shared = 0.5 * normal(random);
-    std::vector<double> scores;
-    for (int k = 0; k < 3; ++k) scores.push_back(-log_error + shared + 0.02 * normal(random));
-    scores.push_back(-log_error + 0.25 * normal(random));
-    return scores;
+    return test::scores_at(log_error, 3, random);
 }
 
 JointDraws drawn(int each, std::mt19937_64& random) {

@@ -1,0 +1,23 @@
+#pragma once
+// Scores made by a known law with known noise, for what reads facet errors from several of them.
+
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace culet::test {
+
+constexpr double k_missing = std::numeric_limits<double>::quiet_NaN();
+
+/// Scores fall by 1 as the logarithm grows by 1. The first ones share one noise of 0.5; the last
+/// has its own of 0.25.
+inline std::vector<double> scores_at(double log_error, int sharing, std::mt19937_64& random) {
+    std::normal_distribution<double> normal;
+    const double shared = 0.5 * normal(random);
+    std::vector<double> scores;
+    for (int k = 0; k < sharing; ++k) scores.push_back(-log_error + shared + 0.02 * normal(random));
+    scores.push_back(-log_error + 0.25 * normal(random));
+    return scores;
+}
+
+}  // namespace culet::test
