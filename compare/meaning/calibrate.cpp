@@ -77,6 +77,7 @@ public:
           const CalibrateOptions& options)
         : model_(model),
           model_picture_(model_picture),
+          soft_picture_(softened(model_picture, options.camera.psf_px)),
           renderer_(renderer),
           options_(options),
           middle_(centroid(model.stone.solid)) {}
@@ -92,6 +93,7 @@ private:
 
     const Scene& model_;
     const Photo& model_picture_;
+    Photo soft_picture_;  // as the camera's lens shows it
     const DraftRenderer& renderer_;
     const CalibrateOptions& options_;
     Vec3 middle_;
@@ -249,14 +251,14 @@ CalibrationDraw Draws::draw(const Job& job) const {
     }
     const auto seed = seed_of(job.seed, 11, static_cast<std::uint64_t>(1e4 * job.facet_error_deg));
     const Photo photo = photographed(stone, camera, seed);
-    result.scores = calibration_scores(photo, model_picture_, options_);
+    result.scores = calibration_scores(photo, soft_picture_, options_);
     const bool none = std::none_of(result.scores.begin(), result.scores.end(),
                                    [](const auto& s) { return s.has_value(); });
     if (none && camera.outline_from_background) {
         // Too dark at its border to be found there: told by the coverage instead.
         camera.outline_from_background = false;
         result.scores =
-            calibration_scores(photographed(stone, camera, seed), model_picture_, options_);
+            calibration_scores(photographed(stone, camera, seed), soft_picture_, options_);
     }
     return result;
 }
@@ -293,13 +295,11 @@ std::vector<Score> scores_against(const Photo& photo, const std::vector<float>& 
     return measure(part, wavelet_bank(part.mask.size(), part.diameter)).scores;
 }
 
-std::vector<std::optional<double>> calibration_scores(const Photo& photo,
-                                                      const Photo& model_picture,
+std::vector<std::optional<double>> calibration_scores(const Photo& photo, const Photo& soft_picture,
                                                       const CalibrateOptions& options) {
     std::vector<std::optional<double>> values;
-    for (const Score& score :
-         scores_against(photo, {}, softened(model_picture, options.camera.psf_px),
-                        {.largest = options.largest, .ignored = options.ignored})) {
+    for (const Score& score : scores_against(
+             photo, {}, soft_picture, {.largest = options.largest, .ignored = options.ignored})) {
         values.push_back(score.value);
     }
     if (values.empty()) values.resize(score_kinds().size());

@@ -48,10 +48,9 @@ Calibration calibrate(const Scene& model, const Photo& model_picture, const Draf
 std::vector<Score> scores_against(const Photo& photo, const std::vector<float>& mask,
                                   const Photo& soft_picture, const Alignment& how);
 
-/// The scores of one photograph against the model's picture, as the calibration has them: the
-/// picture is softened by the camera's point spread first.
-std::vector<std::optional<double>> calibration_scores(const Photo& photo,
-                                                      const Photo& model_picture,
+/// The scores of one photograph against the model's picture, softened by the camera's point spread,
+/// as the calibration has them.
+std::vector<std::optional<double>> calibration_scores(const Photo& photo, const Photo& soft_picture,
                                                       const CalibrateOptions& options);
 
 }  // namespace culet

@@ -79,7 +79,7 @@ double area_under(const std::vector<double>& right, const std::vector<double>& w
     return wins / (static_cast<double>(right.size()) * static_cast<double>(wrong.size()));
 }
 
-// As the program finds it.
+// As the program finds it, but not rounded to tenths.
 double blur_of(const Photo& photo, const Photo& picture, double largest) {
     const Frame frame = align(photo, {}, picture, {.largest = largest});
     if (frame.render.empty()) return 0;
@@ -172,9 +172,8 @@ int main(int argc, char** argv) {
                 for (double& g : camera.gain) g *= factor;
             }
             const Photo photo = photographed(stone, camera, seed_of(seed, 556, draw));
-            CalibrateOptions how = options;
-            how.camera.psf_px = blur_of(photo, picture, options.largest);
-            const auto values = calibration_scores(photo, picture, how);
+            const Photo soft = softened(picture, blur_of(photo, picture, options.largest));
+            const auto values = calibration_scores(photo, soft, options);
             std::vector<Score> scores;
             for (std::size_t k = 0; k < values.size(); ++k) {
                 Score score;
