@@ -88,7 +88,6 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, const Finis
     // again.
     // A few steps a round, or it leads nowhere.
     int left = iterations;
-    const std::vector<Held> drawn = relaxation.above(relaxation.system().mesh_shape(), k_drawn);
     for (int round = 0; round < 8 && left > 0 && settled.chi2 < options.hopeless; ++round) {
         // What does not meet will not with more corners held.
         if (settled.worst_hard > k_all_but_met) break;
@@ -97,10 +96,15 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, const Finis
         // An edge that has come down to nothing would turn over if it could, unless drawn so: in
         // rounding, beside others that are held.
         const bool come_down = round == 0 && above.empty();
-        for (const Held& h : relaxation.above(settled.shape, k_no_length)) {
-            const bool is_drawn = std::find(drawn.begin(), drawn.end(), h) != drawn.end();
-            if (!is_drawn && std::find(above.begin(), above.end(), h) == above.end()) {
-                above.push_back(h);
+        const std::vector<Held> nearly = relaxation.above(settled.shape, k_no_length);
+        if (nearly.size() > above.size()) {
+            const std::vector<Held> drawn =
+                relaxation.above(relaxation.system().mesh_shape(), k_drawn);
+            const auto holds = [](const std::vector<Held>& all, const Held& h) {
+                return std::find(all.begin(), all.end(), h) != all.end();
+            };
+            for (const Held& h : nearly) {
+                if (!holds(drawn, h) && !holds(above, h)) above.push_back(h);
             }
         }
         for (const Held& h : above) {

@@ -3,9 +3,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 #include <vector>
+
+#include "fit/onto_hard_equations.h"
 
 namespace culet {
 
@@ -18,10 +19,7 @@ constexpr double k_precision = 1e-4;
 constexpr double k_least_gain = 0.01;
 // A step this long in one of the freedoms is no longer linear.
 constexpr double k_longest = 0.5;
-// Steps back onto hard equations, until they are missed by no more than the second; variance of
-// those that are exact.
-constexpr int k_most_corrections = 6;
-constexpr double k_met = 1e-10, k_all_but_exact = 1e-15;
+constexpr Correction k_back{.most = 6, .met = 1e-10, .precision = k_precision};
 // Chains begin at each facet; of more than so many at those whose first turn costs least.
 constexpr std::size_t k_most_begins = 128;
 
@@ -196,22 +194,10 @@ std::vector<Shape> better_leanings(Relaxation& relaxation, SaddleSolver& solver,
         if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > k_longest) continue;
         Shape other = relaxation.freedoms().moved_with_turn(
             shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())});
-        // What nothing holds moves far, and off what must hold exactly: back, by the same factors.
-        double off_before = std::numeric_limits<double>::infinity();
-        for (int k = 0; k < k_most_corrections; ++k) {
-            const Relaxation::Missed missed =
-                relaxation.missed(other, softness, sheet.holding, k_all_but_exact);
-            if (!(missed.worst > k_met) || !(missed.worst < 0.5 * off_before)) break;
-            off_before = missed.worst;
-            // Hinges, whose rows come last, push nothing.
-            Eigen::VectorXd right_hand = Eigen::VectorXd::Zero(sheet.rows.count());
-            right_hand.head(missed.residuals.size()) = -missed.residuals;
-            const auto back = solver.solve(none, right_hand, k_precision);
-            if (!back.good) break;
-            other = relaxation.freedoms().moved(
-                other, {back.unknowns.data(), static_cast<std::size_t>(back.unknowns.size())});
-        }
-        others.push_back(std::move(other));
+        // What nothing holds moves far, and off what must hold exactly.
+        others.push_back(
+            onto_hard_equations(relaxation, solver, sheet, softness, std::move(other), k_back)
+                .shape);
     }
     return others;
 }

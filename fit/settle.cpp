@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fit/known_ends.h"
+#include "fit/onto_hard_equations.h"
 #include "fit/promised_merit.h"
 
 namespace culet {
@@ -15,12 +16,11 @@ namespace {
 constexpr double k_first_damping = 1e-2;
 constexpr double k_least_damping = 1e-6;
 
-// Variance of equations whose bend is mended within a step: exact ones, corners that are held, and
-// readings sharper than rounding.
-constexpr double k_all_but_exact = 1e-15;
 constexpr double k_rounding = 1e-14;
 // Of what meets to rounding: each residual is a sum of four products of numbers up to one.
 constexpr double k_met = 1e-15;
+// Corrections of longer steps end here.
+constexpr double k_far_from_met = 1e-13;
 // Corrections of steps so short may be the last ones.
 constexpr double k_near = 1e-3;
 constexpr double k_nearly_met = 1e-10;
@@ -224,26 +224,12 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
             const bool whole = length <= 0.2;
             if (!whole) step *= 0.2 / length;
             const double promised = promised_merit(sheet, s, bends);
-            Shape next = freedoms.moved_with_turn(shape, steps(step));
-
-            // Second-order correction: back onto the curved constraints, same factors.
-            double off_before = 1e300;
-            for (int k = 0; k < 4; ++k) {
-                const Relaxation::Missed missed =
-                    relaxation.missed(next, softness, sheet.holding, k_all_but_exact);
-                if (missed.worst < (length < k_near ? k_met : 1e-13)) break;
-                if (!(missed.worst < 0.5 * off_before)) {
-                    if (may_be_close) least = k_least_close;
-                    break;
-                }
-                off_before = missed.worst;
-                Eigen::VectorXd back = Eigen::VectorXd::Zero(sheet.rows.count());
-                const Eigen::Index common = std::min(back.size(), missed.residuals.size());
-                back.head(common) = -missed.residuals.head(common);
-                const auto correction = solver.solve(none, back, k_correction_precision);
-                if (!correction.good) break;
-                next = freedoms.moved(next, steps(correction.unknowns));
-            }
+            Corrected corrected = onto_hard_equations(
+                relaxation, solver, sheet, softness, freedoms.moved_with_turn(shape, steps(step)),
+                {.met = length < k_near ? k_met : k_far_from_met,
+                 .precision = k_correction_precision});
+            Shape next = std::move(corrected.shape);
+            if (corrected.stalls && may_be_close) least = k_least_close;
             Sheet there = relaxation.sheet(next, softness, held);
             if (!there.finite) break;
             // The hard equations first: their size is the size of what they leave undone.
