@@ -1,5 +1,5 @@
-#include "compare/meaning/level_curve.h"
 #include "compare/meaning/sensitivity.h"
+#include "compare/meaning/level_curve.h"
 
 #include <gtest/gtest.h>
 
