@@ -103,6 +103,7 @@ void list_cuts() {
 }
 
 int run_cut(const std::string& name, const CutOptions& options) {
+    if (!options.out.empty()) require_solid_name(options.out);
     require_writable(options.out);
     require_writable(options.json);
     const Solid solid = make_cut(name, options.values);

@@ -51,6 +51,7 @@ void draw(const FitCommand& command, const std::string& title, const FitResult& 
 }
 
 int run_fit(const FitCommand& command) {
+    require_solid_name(command.output);
     require_writable(command.output);
     require_writable(command.report);
     require_writable(command.drawing);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "fit/come_to_nothing.h"
 #include "fit/statistics.h"
 #include "stone/checks.h"
 
@@ -79,6 +80,22 @@ std::string shortest_edge(const System& system, const Shape& shape, LengthUnit u
         least * system.scale(), name_of(unit));
 }
 
+std::string in_the_way(const Solid& solid) {
+    const ComeToNothing come = come_to_nothing(solid);
+    std::string text;
+    if (!come.facets.empty()) {
+        text = fmt::format(
+            ": nothing is left of {}; read how large they are, leave them out of the mesh, or "
+            "allow the topology to change",
+            names(come.facets));
+    }
+    if (!come.edges.empty()) {
+        text += fmt::format("{} {} lie in one plane; draw each two as one facet",
+                            text.empty() ? ":" : ";", names(come.edges));
+    }
+    return text;
+}
+
 }  // namespace
 
 void judge(const System& system, const Finished& finished, const Diagnosis& diagnosis,
@@ -121,7 +138,8 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
         }
     }
     if (finished.worst_hard > k_hard_limit) {
-        return end(FitStatus::not_converged, "the facets and meets could not be brought together");
+        return end(FitStatus::not_converged,
+                   "the facets and meets could not be brought together" + in_the_way(result.solid));
     }
     // Under the hypothesis that an edge has a length at all, chi-square with one freedom for each.
     if (!result.vanishing_edges.empty() &&

@@ -79,16 +79,19 @@ SolidFile read_solid(const std::filesystem::path& file) {
     return read;
 }
 
-void write_solid(const Solid& solid, const std::filesystem::path& file) {
-    const std::string extension = extension_of(file);
-    if (extension == ".asc") {
-        write_gemcad_asc(solid, {}, file);
-    } else if (extension == ".obj" || extension == ".off" || extension == ".ply" ||
-               extension == ".stl") {
-        write_mesh(solid, file);
-    } else {
+void require_solid_name(const std::filesystem::path& file) {
+    if (extension_of(file) != ".asc" && !mesh_format(file)) {
         throw InputError(file,
                          "cannot be written: the name must end in .obj, .off, .ply, .stl or .asc");
+    }
+}
+
+void write_solid(const Solid& solid, const std::filesystem::path& file) {
+    require_solid_name(file);
+    if (mesh_format(file)) {
+        write_mesh(solid, file);
+    } else {
+        write_gemcad_asc(solid, {}, file);
     }
 }
 

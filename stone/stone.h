@@ -49,6 +49,10 @@ struct SolidFile {
 };
 SolidFile read_solid(const std::filesystem::path& file);
 
+/// Throws InputError when write_solid has no format for the name's ending: asked for before the
+/// work whose result is to be written.
+void require_solid_name(const std::filesystem::path& file);
+
 /// Writes by extension: .obj .off .ply .stl .asc
 void write_solid(const Solid& solid, const std::filesystem::path& file);
 

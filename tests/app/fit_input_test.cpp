@@ -218,5 +218,12 @@ TEST_F(FitInput, AnAzimuthHalfATurnOffIsNamedFirst) {
     EXPECT_THAT(run.err, HasSubstr("of P2SE"));
 }
 
+// Before the stone is read, let alone fitted.
+TEST_F(FitInput, AResultThatNoFormatIsMadeForIsRefusedFirst) {
+    const ProgramRun run = run_culet({"fit", file("no such stone.toml"), "-o", file("fitted.xyz")});
+    expect_refused(run);
+    EXPECT_THAT(run.err, HasSubstr("fitted.xyz: cannot be written: the name must end in .obj"));
+}
+
 }  // namespace
 }  // namespace culet

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "fit/come_to_nothing.h"
 #include "stone/checks.h"
 #include "tests/fit/test_stones.h"
 
@@ -213,6 +214,50 @@ TEST(Topology, ASoundStoneHasNothingToSay) {
     const FitResult result =
         fit_stone(stone_of(truth), noisy(plane_readings(truth, truth, 0.05, 0.005), 4));
     for (const ShapeFinding& f : result.shape_findings) ADD_FAILURE() << f.what;
+}
+
+/// A prism of seven sides, two of which stand four degrees apart.
+Solid prism() {
+    std::vector<NamedPlane> planes{{"T", {{0, 0, 1}, 0.5}}, {"B", {{0, 0, -1}, 0.5}}};
+    for (const double azimuth : {-2.0, 2.0, 60.0, 120.0, 180.0, 240.0, 300.0}) {
+        planes.push_back({fmt::format("S{}", planes.size() - 1), {direction(90, azimuth), 1}});
+    }
+    return enclosed(planes);
+}
+
+// Widths and azimuths say where the sides are, but for how wide each of them is: what turns two
+// neighbours so that they would be concave then takes one of them away.
+TEST(Topology, FacetsThatComeDownToNothingAreNamedWhereTheStoneCannotBeBroughtToMeet) {
+    const Solid mesh = prism();
+    std::vector<Reading> readings = all_angles(mesh, radians(0.1), "T");
+    for (Reading& r : readings) {
+        if (r.kind != ReadingKind::azimuth) continue;
+        if (r.facets[0] == find_facet(mesh, "S1")) r.value = radians(3);
+        if (r.facets[0] == find_facet(mesh, "S2")) r.value = radians(-3);
+    }
+    for (int k = 0; k < 6; ++k) readings.push_back(width(mesh, 30 * k, 0.01));
+    readings.push_back(depth(mesh, 0.01));
+    const FitResult result = fit_stone(stone_of(mesh), readings);
+    ASSERT_EQ(result.status, FitStatus::not_converged) << result.message;
+    EXPECT_THAT(result.message, ::testing::HasSubstr("nothing is left of"));
+    EXPECT_THAT(result.message, ::testing::AnyOf(::testing::HasSubstr("S1"),  //
+                                                 ::testing::HasSubstr("S2")));
+}
+
+TEST(Topology, FacetsWithoutWidthAndEdgesBetweenFacetsOfOnePlaneAreFoundByName) {
+    EXPECT_TRUE(come_to_nothing(prism()).facets.empty());
+    EXPECT_TRUE(come_to_nothing(prism()).edges.empty());
+    Solid flat = prism();
+    flat.facets[std::size_t(find_facet(flat, "S1"))].plane.normal =
+        direction(90, 2 - 0.0005);  // S2 stands at 2
+    const std::vector<std::string> edges = come_to_nothing(flat).edges;
+    ASSERT_EQ(edges.size(), 1u);
+    EXPECT_THAT(edges[0], ::testing::AnyOf("S1|S2", "S2|S1"));
+    // A cube whose top is pressed down to a hair above its bottom: its four sides are the hair.
+    Solid thin = cube();
+    for (Vec3& v : thin.vertices) v.z *= 1e-6;
+    EXPECT_THAT(come_to_nothing(thin).facets,
+                ::testing::UnorderedElementsAre("X+", "X-", "Y+", "Y-"));
 }
 
 }  // namespace
