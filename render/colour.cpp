@@ -94,49 +94,58 @@ std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_w
                                                     const std::vector<double>& nm) {
     const Eigen::MatrixXd shares = interpolation(nm);
     const Eigen::MatrixXd weight = rgb_weight * shares;
-    const Eigen::Index n = weight.cols(), all = 3 * n;
-    Eigen::MatrixXd roughness = Eigen::MatrixXd::Zero(all, all);
-    for (Eigen::Index a = 0; a + 1 < all; ++a) {
-        if ((a + 1) % n == 0) continue;
-        roughness(a, a) += 1;
-        roughness(a + 1, a + 1) += 1;
-        roughness(a, a + 1) -= 1;
-        roughness(a + 1, a) -= 1;
+    const Eigen::Index n = weight.cols();
+    // Unknown are red and blue, less the third that each would be of grey light; green is the rest.
+    constexpr double k_third = 1.0 / 3;
+    const auto primaries_of = [&](const Eigen::VectorXd& unknown) {
+        Eigen::MatrixXd values(n, 3);
+        values.col(0) = unknown.head(n);
+        values.col(1) = -unknown.head(n) - unknown.tail(n);
+        values.col(2) = unknown.tail(n);
+        return Eigen::MatrixXd(values.array() + k_third);
+    };
+    Eigen::MatrixXd differences = Eigen::MatrixXd::Zero(n, n);
+    for (Eigen::Index i = 0; i + 1 < n; ++i) {
+        differences(i, i) += 1;
+        differences(i + 1, i + 1) += 1;
+        differences(i, i + 1) -= 1;
+        differences(i + 1, i) -= 1;
     }
-    Eigen::MatrixXd sum_to_one = Eigen::MatrixXd::Zero(n, all);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        for (int p = 0; p < 3; ++p) sum_to_one(i, p * n + i) = 1;
-    }
-    // Red's and blue's integrals; green's follow from the sum.
-    Eigen::MatrixXd integrals = Eigen::MatrixXd::Zero(6, all);
-    Eigen::VectorXd wanted = Eigen::VectorXd::Zero(6);
-    for (int p : {0, 2}) {
-        for (int c = 0; c < 3; ++c) {
-            const int row = (p == 0 ? 0 : 3) + c;
-            integrals.row(row).segment(p * n, n) = weight.row(c);
-            wanted(row) = p == c ? 1 : 0;
-        }
-    }
+    // A sum of squares of each of the three.
+    const auto of_all_three = [&](const Eigen::MatrixXd& square) {
+        Eigen::MatrixXd normal(2 * n, 2 * n);
+        normal << 2 * square, square, square, 2 * square;
+        return normal;
+    };
+    const Eigen::MatrixXd roughness = of_all_three(differences);
+    // Of grey light each integral is 1, and a third for each.
+    const auto wanted = [&](int primary) {
+        return Eigen::Vector3d(Eigen::Vector3d::Unit(primary).array() - k_third);
+    };
 
-    std::vector<Eigen::Index> held;
-    Eigen::VectorXd best;
+    std::vector<std::pair<Eigen::Index, Eigen::Index>> held;  // node, primary
+    Eigen::MatrixXd best;
     while (true) {
-        const Eigen::Index rows = n + 6 + static_cast<Eigen::Index>(held.size());
-        Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows, all);
+        const Eigen::Index rows = 6 + static_cast<Eigen::Index>(held.size());
+        Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows, 2 * n);
         Eigen::VectorXd b = Eigen::VectorXd::Zero(rows);
-        A.topRows(n) = sum_to_one;
-        A.middleRows(n, 6) = integrals;
-        b.head(n).setOnes();
-        b.segment(n, 6) = wanted;
-        for (std::size_t h = 0; h < held.size(); ++h)
-            A(n + 6 + static_cast<Eigen::Index>(h), held[h]) = 1;
-        const Eigen::VectorXd values =
-            least_squares_under(roughness, Eigen::VectorXd::Zero(all), A, b);
-        if ((A * values - b).cwiseAbs().maxCoeff() > 1e-11) break;
+        A.block(0, 0, 3, n) = weight;
+        A.block(3, n, 3, n) = weight;
+        b << wanted(0), wanted(2), Eigen::VectorXd::Constant(rows - 6, -k_third);
+        for (std::size_t h = 0; h < held.size(); ++h) {
+            const auto [node, primary] = held[h];
+            const Eigen::Index row = 6 + static_cast<Eigen::Index>(h);
+            if (primary != 2) A(row, node) = primary == 0 ? 1 : -1;
+            if (primary != 0) A(row, n + node) = primary == 2 ? 1 : -1;
+        }
+        const Eigen::VectorXd unknown =
+            least_squares_under(roughness, Eigen::VectorXd::Zero(2 * n), A, b);
+        if ((A * unknown - b).cwiseAbs().maxCoeff() > 1e-11) break;
+        const Eigen::MatrixXd values = primaries_of(unknown);
         // With few nodes a hold can push another value further below 0: the mildest one is kept.
         if (best.size() == 0 || values.minCoeff() > best.minCoeff()) best = values;
-        Eigen::Index worst = 0;
-        if (values.minCoeff(&worst) >= -1e-12) break;
+        std::pair<Eigen::Index, Eigen::Index> worst;
+        if (values.minCoeff(&worst.first, &worst.second) >= -1e-12) break;
         if (std::find(held.begin(), held.end(), worst) != held.end()) break;
         held.push_back(worst);
     }
@@ -144,18 +153,17 @@ std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_w
         // The integrals weigh so much more than smoothness that it only settles what they leave
         // open.
         constexpr double k_smoothness = 1e-6;
-        Eigen::MatrixXd normal = k_smoothness * roughness;
-        Eigen::VectorXd pull = Eigen::VectorXd::Zero(all);
-        for (int p = 0; p < 3; ++p) {
-            normal.block(p * n, p * n, n, n) += weight.transpose() * weight;
-            pull.segment(p * n, n) = weight.row(p).transpose();
-        }
-        best = least_squares_under(normal, pull, sum_to_one, Eigen::VectorXd::Ones(n));
+        Eigen::VectorXd pull(2 * n);
+        pull << weight.transpose() * (wanted(0) - wanted(1)),
+            weight.transpose() * (wanted(2) - wanted(1));
+        best = primaries_of(least_squares_under(
+            k_smoothness * roughness + of_all_three(weight.transpose() * weight), pull,
+            Eigen::MatrixXd(0, 2 * n), Eigen::VectorXd(0)));
     }
     std::array<std::vector<double>, 3> primaries;
     for (int p = 0; p < 3; ++p) {
-        const Eigen::VectorXd at_nodes = shares * best.segment(p * n, n);
-        primaries[p].assign(at_nodes.data(), at_nodes.data() + at_nodes.size());
+        const Eigen::VectorXd at_nodes = shares * best.col(p);
+        primaries[std::size_t(p)].assign(at_nodes.data(), at_nodes.data() + at_nodes.size());
     }
     return primaries;
 }
