@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <optional>
 
 #include "stone/errors.h"
 
@@ -73,18 +74,38 @@ Eigen::MatrixXd interpolation(const std::vector<double>& nm) {
     return shares;
 }
 
-// Minimises s'N s / 2 - pull's under A s = b, by Lagrange multipliers in one system.
-Eigen::VectorXd least_squares_under(const Eigen::MatrixXd& normal, const Eigen::VectorXd& pull,
-                                    const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
-    const Eigen::Index all = normal.rows(), rows = A.rows();
-    Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(all + rows, all + rows);
-    kkt.topLeftCorner(all, all) = normal;
-    kkt.topRightCorner(all, rows) = A.transpose();
-    kkt.bottomLeftCorner(rows, all) = A;
-    Eigen::VectorXd right(all + rows);
-    right << pull, b;
-    return kkt.completeOrthogonalDecomposition().solve(right).head(all);
-}
+// The smallest x'N x / 2 under A x = b, by Lagrange multipliers, and what it becomes when values of
+// x are held one after another: one factorization serves them all.
+class LeastUnder {
+public:
+    LeastUnder(const Eigen::MatrixXd& normal, const Eigen::MatrixXd& A, const Eigen::VectorXd& b)
+        : A_(A), b_(b) {
+        const Eigen::Index all = normal.rows(), rows = A.rows();
+        Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(all + rows, all + rows);
+        kkt.topLeftCorner(all, all) = normal;
+        kkt.topRightCorner(all, rows) = A.transpose();
+        kkt.bottomLeftCorner(rows, all) = A;
+        const Eigen::MatrixXd inverse = kkt.completeOrthogonalDecomposition().pseudoInverse();
+        free_ = inverse.topRightCorner(all, rows) * b;
+        give_ = inverse.topLeftCorner(all, all);
+    }
+    /// With H x = h, too; nothing where that, or A x = b, cannot be.
+    std::optional<Eigen::VectorXd> with(const Eigen::MatrixXd& H, const Eigen::VectorXd& h) const {
+        Eigen::VectorXd x = free_;
+        if (H.rows() > 0) {
+            const Eigen::MatrixXd moved = give_ * H.transpose();
+            x += moved * (H * moved).completeOrthogonalDecomposition().solve(h - H * free_);
+        }
+        const double off = std::max((A_ * x - b_).cwiseAbs().maxCoeff(),
+                                    H.rows() > 0 ? (H * x - h).cwiseAbs().maxCoeff() : 0.0);
+        if (off > 1e-11) return std::nullopt;
+        return x;
+    }
+
+private:
+    Eigen::MatrixXd A_, give_;
+    Eigen::VectorXd b_, free_;
+};
 
 // The smoothest three spectra that add up to 1 and integrate to red, green and blue: least squares
 // of first differences under linear constraints, with values held at 0 where they would fall below
@@ -123,25 +144,25 @@ std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_w
         return Eigen::Vector3d(Eigen::Vector3d::Unit(primary).array() - k_third);
     };
 
+    Eigen::MatrixXd integrals = Eigen::MatrixXd::Zero(6, 2 * n);
+    integrals.block(0, 0, 3, n) = weight;
+    integrals.block(3, n, 3, n) = weight;
+    Eigen::VectorXd colours(6);
+    colours << wanted(0), wanted(2);
+    const LeastUnder smoothest(roughness, integrals, colours);
     std::vector<std::pair<Eigen::Index, Eigen::Index>> held;  // node, primary
     Eigen::MatrixXd best;
     while (true) {
-        const Eigen::Index rows = 6 + static_cast<Eigen::Index>(held.size());
-        Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows, 2 * n);
-        Eigen::VectorXd b = Eigen::VectorXd::Zero(rows);
-        A.block(0, 0, 3, n) = weight;
-        A.block(3, n, 3, n) = weight;
-        b << wanted(0), wanted(2), Eigen::VectorXd::Constant(rows - 6, -k_third);
-        for (std::size_t h = 0; h < held.size(); ++h) {
-            const auto [node, primary] = held[h];
-            const Eigen::Index row = 6 + static_cast<Eigen::Index>(h);
-            if (primary != 2) A(row, node) = primary == 0 ? 1 : -1;
-            if (primary != 0) A(row, n + node) = primary == 2 ? 1 : -1;
+        const Eigen::Index rows = static_cast<Eigen::Index>(held.size());
+        Eigen::MatrixXd H = Eigen::MatrixXd::Zero(rows, 2 * n);
+        for (Eigen::Index row = 0; row < rows; ++row) {
+            const auto [node, primary] = held[static_cast<std::size_t>(row)];
+            if (primary != 2) H(row, node) = primary == 0 ? 1 : -1;
+            if (primary != 0) H(row, n + node) = primary == 2 ? 1 : -1;
         }
-        const Eigen::VectorXd unknown =
-            least_squares_under(roughness, Eigen::VectorXd::Zero(2 * n), A, b);
-        if ((A * unknown - b).cwiseAbs().maxCoeff() > 1e-11) break;
-        const Eigen::MatrixXd values = primaries_of(unknown);
+        const auto unknown = smoothest.with(H, Eigen::VectorXd::Constant(rows, -k_third));
+        if (!unknown) break;
+        const Eigen::MatrixXd values = primaries_of(*unknown);
         // With few nodes a hold can push another value further below 0: the mildest one is kept.
         if (best.size() == 0 || values.minCoeff() > best.minCoeff()) best = values;
         std::pair<Eigen::Index, Eigen::Index> worst;
@@ -156,9 +177,9 @@ std::array<std::vector<double>, 3> smooth_primaries(const Eigen::MatrixXd& rgb_w
         Eigen::VectorXd pull(2 * n);
         pull << weight.transpose() * (wanted(0) - wanted(1)),
             weight.transpose() * (wanted(2) - wanted(1));
-        best = primaries_of(least_squares_under(
-            k_smoothness * roughness + of_all_three(weight.transpose() * weight), pull,
-            Eigen::MatrixXd(0, 2 * n), Eigen::VectorXd(0)));
+        const Eigen::MatrixXd normal =
+            k_smoothness * roughness + of_all_three(weight.transpose() * weight);
+        best = primaries_of(normal.completeOrthogonalDecomposition().solve(pull));
     }
     std::array<std::vector<double>, 3> primaries;
     for (int p = 0; p < 3; ++p) {
