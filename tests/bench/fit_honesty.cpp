@@ -31,6 +31,13 @@ struct Coverage {
         squares += error * error;
         limit_squares += limit * limit;
     }
+    void add(const Coverage& other) {
+        count += other.count;
+        within_one += other.within_one;
+        within_two += other.within_two;
+        squares += other.squares;
+        limit_squares += other.limit_squares;
+    }
     double part_one() const { return 100.0 * within_one / count; }
     double part_two() const { return 100.0 * within_two / count; }
     double over_limit() const { return std::sqrt(squares / limit_squares); }
@@ -99,6 +106,9 @@ void report_coverage(const Sample& which, int stones, int repetitions) {
     };
     line("inclination", tilt);
     line("azimuth", turn);
+    Coverage angles = tilt;
+    angles.add(turn);
+    line("both angles", angles);
     line("proportions", proportion);
     fmt::print(
         "{:16} {} readings, chi2/dof {:.3f}, false alarms {:.1f} %, unsound {}, "
