@@ -18,6 +18,8 @@ namespace {
 
 // By beams, whose regions all are seen: pixels along a cell. Else rays, one a cell.
 constexpr double k_cell = 3, k_preview_tolerance = 0.1;
+// Pixels across the stone that do: in larger pictures what is seen is larger, too.
+constexpr double k_across = 200;
 constexpr int k_pixels = 1000;
 // Those that may be off by most are looked at at more wavelengths, with rims that fill the steps
 // between them.
@@ -34,6 +36,23 @@ constexpr double k_cut_weight = 0.01;
 constexpr double k_widened = 2;
 // Cells of a map of directions: wider than any stone's colours leave apart.
 constexpr int k_map_width = 64, k_map_height = 32;
+
+// The same view in pixels that are so many times as large; the last ones may reach beyond it.
+Camera coarser(const Camera& camera, int times) {
+    Camera result = camera;
+    result.width = (camera.width + times - 1) / times;
+    result.height = (camera.height + times - 1) / times;
+    const auto middle = line_of_sight_in(camera);
+    result.principal_point = {middle[0] / times, middle[1] / times};
+    if (camera.orthographic_width) {
+        result.orthographic_width =
+            *camera.orthographic_width * result.width * times / camera.width;
+    } else {
+        result.fov =
+            2 * std::atan(std::tan(camera.fov / 2) * result.height * times / camera.height);
+    }
+    return result;
+}
 
 CapLight rim(const Vec3& direction, double angle, double width, const LightColour& radiance) {
     return {direction, std::max(0.0, angle - width), std::min(angle + width, std::numbers::pi),
@@ -138,9 +157,11 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress, Frame
     scene.camera.optics = {};
     const Vec3 middle = centroid(scene.stone.solid);
     const IndexSpans spans = index_spans(scene);
-    const double pixel = k_widened * spans.mean * pixel_on_stone(scene) /
-                         std::max(glm::length(scene.camera.position - middle), 1e-300),
-                 apart = disperses ? exit_deviation(spans.dispersion, spans.mean) / 2 : 0;
+    const double apart = disperses ? exit_deviation(spans.dispersion, spans.mean) / 2 : 0;
+    const auto pixel = [&] {
+        return k_widened * spans.mean * pixel_on_stone(scene) /
+               std::max(glm::length(scene.camera.position - middle), 1e-300);
+    };
     const auto light = [&](double width) {
         scene.lights = light_rims(whole.lights, middle, width);
     };
@@ -148,9 +169,16 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress, Frame
     // A pixel of each cell: by beams the one in which most is seen, else any.
     StonePixels at;
     std::vector<double> seen;
+    int times = 1;
     settings.wavelengths_nm = disperses ? k_few_nm : k_one_nm;
-    light(apart + pixel);
+    light(apart + pixel());
     if (refused_by_beams(scene, make_plan(scene)).empty()) {
+        const double across = diameter(scene.stone.solid) / pixel_on_stone(scene);
+        times = static_cast<int>(std::clamp(across / k_across, 1.0, 100.0));
+        if (times > 1) {
+            scene.camera = coarser(scene.camera, times);
+            light(apart + pixel());
+        }
         step_ = k_cell;
         std::optional<FrameRenderer> own;
         if (frames == nullptr) {
@@ -191,7 +219,7 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress, Frame
         step_ = std::max(1.0, std::sqrt(at.in_picture / static_cast<double>(at.at.size())));
         columns_ = static_cast<int>(scene.camera.width / step_) + 1;
         rows_ = static_cast<int>(scene.camera.height / step_) + 1;
-        light(apart + step_ * pixel);
+        light(apart + step_ * pixel());
         seen = mean_spectra(scene, at, progress);
     }
     for (const Closer& closer : disperses ? k_closer : std::vector<Closer>{}) {
@@ -203,7 +231,7 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress, Frame
         StonePixels some;
         for (const std::size_t i : brightest) some.at.push_back(at.at[i]);
         settings.wavelengths_nm = even_wavelengths(closer.wavelengths);
-        light(2 * apart / closer.wavelengths + step_ * pixel);
+        light(2 * apart / closer.wavelengths + step_ * pixel());
         const std::vector<double> found = mean_spectra(scene, some, progress);
         // Of what may be there, those of which nothing more is known have as much as these.
         double possible = 0, actual = 0;
@@ -216,11 +244,19 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress, Frame
         }
         for (std::size_t k = 0; k < brightest.size(); ++k) seen[brightest[k]] = found[k];
     }
+    // With what is in the cells beside it.
     cells_.assign(static_cast<std::size_t>(columns_ * rows_), 0.0f);
     for (std::size_t i = 0; i < at.at.size(); ++i) {
-        float& cell = cells_[cell_of(at.at[i].first, at.at[i].second)];
-        cell = std::max(cell, static_cast<float>(seen[i]));
+        const int column = static_cast<int>(at.at[i].first / step_),
+                  row = static_cast<int>(at.at[i].second / step_);
+        for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r) {
+            for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c) {
+                float& cell = cells_[static_cast<std::size_t>(r * columns_ + c)];
+                cell = std::max(cell, static_cast<float>(seen[i]));
+            }
+        }
     }
+    step_ *= times;
 }
 
 std::size_t LightEdgeScan::cell_of(int x, int y) const {
@@ -229,13 +265,7 @@ std::size_t LightEdgeScan::cell_of(int x, int y) const {
 }
 
 double LightEdgeScan::near(int x, int y) const {
-    const int column = static_cast<int>(x / step_), row = static_cast<int>(y / step_);
-    float most = 0;
-    for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r) {
-        for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c)
-            most = std::max(most, cells_[static_cast<std::size_t>(r * columns_ + c)]);
-    }
-    return most;
+    return cells_.empty() ? 0 : static_cast<double>(cells_[cell_of(x, y)]);
 }
 
 }  // namespace culet
