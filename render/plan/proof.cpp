@@ -44,8 +44,8 @@ constexpr double k_share_of_edges = 0.5;
 
 double apart(const Rgb& a, const Rgb& b) {
     double sum = 0;
-    for (std::size_t c = 0; c < 3; ++c) sum += std::abs(a[c] - b[c]) / 3;
-    return sum;
+    for (std::size_t c = 0; c < 3; ++c) sum += std::abs(a[c] - b[c]);
+    return sum / 3;
 }
 
 double mean_of(const Rgb& rgb) {
@@ -148,6 +148,8 @@ void Prover::choose(const Picture& picture, FrameRenderer* frames) {
     const int width = picture.width / windows_, height = picture.height;
     std::vector<std::pair<int, int>> at;
     std::vector<double> contrast;
+    at.reserve(picture.pixels());
+    contrast.reserve(picture.pixels());
     double sum = 0, radiance = 0;
     for (int y = 0; y < height && !picture.coverage.empty(); ++y) {
         for (int x = 0; x < width; ++x) {
@@ -186,6 +188,8 @@ void Prover::choose(const Picture& picture, FrameRenderer* frames) {
     }
     // Chances, and their sums; then the golden ratio's multiples, evenly spread over these.
     std::vector<double> sums, chances;
+    sums.reserve(at.size());
+    chances.reserve(at.size());
     double total = 0;
     const double of_edges = sum_of_edges > 0 ? k_share_of_edges * (1 - k_even_share) : 0,
                  of_contrast = 1 - k_even_share - of_edges;
