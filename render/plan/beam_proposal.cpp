@@ -75,10 +75,6 @@ double BeamProposal::error_of(const ProposedBeams& beams) const {
     return std::sqrt(std::inner_product(parts.begin(), parts.end(), squares_.begin(), 0.0));
 }
 
-double BeamProposal::likely_of_effects() const {
-    return std::sqrt(squares_[of_effects]) * effects;
-}
-
 double BeamProposal::price_of(const ProposedBeams& beams) const {
     const int count = beams.wavelengths.count;
     BeamWork work;

@@ -66,8 +66,6 @@ public:
     void learn(const ProposedBeams& drawn, double error);
     /// What another proposal has learned of the same scene, where its choices are among these.
     void learn_from(const BeamProposal& other);
-    /// What effects that are left out are likely off by, as pictures have shown.
-    double likely_of_effects() const;
 
 private:
     enum Cause { of_cut, of_wavelengths, of_previews, of_beams, of_effects, k_causes };

@@ -245,6 +245,35 @@ Rgb Prover::truth(std::size_t pixel) const {
     return sum;
 }
 
+double Prover::noise_of(const Level& level) const {
+    return level.halves / level.radiance / k_halves_over_noise;
+}
+
+double Prover::off_without_effects(const RenderSettings& settings, int pixels) const {
+    Scene without = scene_;
+    without.settings.effects_auto = false;
+    without.settings.effects = settings.effects;
+    const Plan of_truth = make_plan(scene_, nodes_), left = make_plan(without, nodes_);
+    bool leaves_out = false;
+    for (int e = 0; e < k_effect_count; ++e) {
+        leaves_out |= of_truth.on(static_cast<Effects>(e)) && !left.on(static_cast<Effects>(e));
+    }
+    const Level& level = levels_.front();
+    const std::size_t count = std::min(static_cast<std::size_t>(pixels), level.rgb.size());
+    if (!leaves_out || count == 0) return 0;
+    without.settings.wavelength_turns = turns_for(level.samples, nodes_);
+    const PilotDrawing drawing = draw_pilot(without, chosen_.pixels.stretch(0, count), limits_,
+                                            level.samples, nodes_, *progress_);
+    double errors = 0, sizes = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        errors += chosen_.counts[i] * apart(drawing.rgb[i], level.rgb[i]);
+        sizes += chosen_.counts[i] * mean_of(level.rgb[i]);
+    }
+    if (!(sizes > 0)) return 0;
+    // Fewer effects have other noise.
+    return std::sqrt(std::max(0.0, std::pow(errors / sizes, 2) - std::pow(noise_of(level), 2)));
+}
+
 Proof Prover::look(const Picture& picture, std::size_t wanted) {
     draw_up_to(wanted);
     const std::size_t count = std::min(wanted, chosen_.pixels.at.size());
@@ -285,7 +314,7 @@ Proof Prover::look(const Picture& picture, std::size_t wanted) {
     double noise = 0, cut = 0;
     for (const Level& level : levels_) {
         const double share = static_cast<double>(level.samples) / samples();
-        noise += std::pow(share * level.halves / level.radiance / k_halves_over_noise, 2);
+        noise += std::pow(share * noise_of(level), 2);
         cut += share * level.cut / static_cast<double>(level.rgb.size());
     }
     proof.noise = std::sqrt(noise);

@@ -63,6 +63,10 @@ public:
     Proof prove(const Picture& picture, double room, double most_ns,
                 FrameRenderer* frames = nullptr);
 
+    /// What leaving out the effects that these settings leave out is off by, at the first `pixels`
+    /// of the last proof: the truth's own rays without them. 0 where nothing is left out.
+    double off_without_effects(const RenderSettings& settings, int pixels) const;
+
     /// A picture must not have this square of rays in its pixels: the truth has such a grid.
     static bool takes_grid(int side);
 
@@ -85,6 +89,7 @@ private:
     PilotDrawing draw(const StonePixels& pixels, int samples);
     void draw_up_to(std::size_t count);
     Rgb truth(std::size_t pixel) const;
+    double noise_of(const Level& level) const;
     Proof look(const Picture& picture, std::size_t wanted);
     // How many pixels and grids, and how many rays that draws.
     struct Look {

@@ -27,7 +27,7 @@ constexpr double k_suspect = 0.25;  // of the difference: noise that may be all 
 constexpr double k_no_better = 0.8;
 // Of a difference that may be all noise, what the picture is taken to be off by.
 constexpr double k_hidden = 0.5;
-// Of the tolerance, what effects that were left out may likely be off by before they come back.
+// Of the tolerance, what effects that were left out may be off by before they come back.
 constexpr double k_misjudged = 0.7;
 // The last drawing is the reference's, which is off by nothing but its few rays, unless it would
 // take so many times as long.
@@ -164,10 +164,15 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
             proof = prover.prove(result.picture, tolerance, most_ns, frames);
         }
         done.proven = proof.bound <= tolerance;
+        // What was left out is known once its own rays have shown it at the pixels of the proof.
+        if (!done.proven && way == Way::any) {
+            const double off = prover.off_without_effects(settings, proof.pixels);
+            done.misjudged = off > k_misjudged * tolerance;
+            if (plan.beams) plan.beams->effects = off;
+        }
         if (plan.beams && drawn_by_beams(settings) && !done.proven) {
             // Noise that is all that is seen hides what the picture is off by.
             plan.beams->learn(plan.proposed, std::max(proof.error(), k_hidden * proof.difference));
-            done.misjudged = plan.beams->likely_of_effects() > k_misjudged * tolerance;
             learned_ = plan.beams;
         }
         std::optional<Next> other;

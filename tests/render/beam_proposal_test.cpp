@@ -109,22 +109,6 @@ TEST(BeamProposal, finds_out_what_is_to_blame) {
     EXPECT_LT(pictures, 2 * cases) << "in the mean";
 }
 
-// Cuts, wavelengths and borders were all made finer, and nothing became better: effects that were
-// left out are to blame.
-TEST(BeamProposal, blames_effects_where_nothing_else_helps) {
-    BeamProposal proposal = random_proposal(5);
-    proposal.effects = 0.03;
-    const double before = proposal.likely_of_effects();
-    EXPECT_EQ(before, 0.03);
-    ProposedBeams beams = proposal.cheapest(0.06);
-    for (int k = 0; k < 4; ++k) {
-        proposal.learn(beams, 0.1);
-        beams = proposal.cheapest(0.05);
-    }
-    EXPECT_GT(proposal.likely_of_effects(), 0.08);
-}
-
-// Another plan of the same scene takes over what pictures have shown.
 // A crystal all but without a difference of indices, its picture drawn finer than anything can
 // tell: no cause is expected of any error, and none found is blamed on one.
 TEST(BeamProposal, stays_finite_where_nothing_is_expected) {

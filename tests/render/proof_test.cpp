@@ -139,6 +139,32 @@ TEST(LightEdgeScan, finds_where_the_sun_is_seen_at_other_wavelengths) {
     EXPECT_GT(there, 20 * mean) << "one of a thousand pixels in which it is";
 }
 
+// The sun's colours leave an almandine side by side, over 150 pixels of 57 000 and a thousand times
+// as bright as the rest: more light than all else. A pilot of even pixels does not see them, and
+// without dispersion they are not there.
+TEST(Proof, says_what_was_left_out_where_the_pilot_missed_it) {
+    Scene scene = plan_scene_of("garnet_almandine", "round-brilliant", "daylight", 400).scene;
+    scene.settings.tolerance = 0.1;
+    scene.settings.effects_auto = true;
+    const RenderResult result = render(scene);
+    EXPECT_LE(result.stats.error_bound, 0.1);
+    ASSERT_TRUE(result.stats.plan);
+    EXPECT_TRUE(result.stats.plan->item("dispersion").on);
+    // Of so many pixels, each with everything on.
+    const Verification checked = verify(scene, result);
+    EXPECT_TRUE(checked.holds()) << checked.measured << " for " << checked.bound;
+    double sum = 0, most = 0;
+    std::size_t pixels = 0;
+    for (std::size_t p = 0; p < result.picture.pixels(); ++p) {
+        if (result.picture.coverage[p] < 0.5f) continue;
+        const double green = std::abs(static_cast<double>(result.picture.rgb[3 * p + 1]));
+        sum += green;
+        most = std::max(most, green);
+        ++pixels;
+    }
+    EXPECT_GT(most, 50 * sum / static_cast<double>(pixels));
+}
+
 // A diamond in a light box at a fine tolerance: beams take a tenth longer with polarisation, and
 // much longer where all else must be finer for what it would be off by. At a coarse one it goes.
 TEST(Plan, keeps_an_effect_that_it_would_cost_more_to_leave_out) {
