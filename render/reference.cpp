@@ -39,6 +39,8 @@ public:
         if (!progress_) return true;
         if (stopped()) return false;
         const std::lock_guard<std::mutex> lock(mutex_);
+        // Another thread may have been told to stop while this one waited to ask.
+        if (stopped()) return false;
         if (!progress_(static_cast<double>(done_++) / static_cast<double>(pixels_)))
             stop_.store(true, std::memory_order_relaxed);
         return !stopped();

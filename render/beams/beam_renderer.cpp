@@ -235,6 +235,8 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
     const auto goes_on = [&] {
         if (!progress || stop) return !stop;
         const std::lock_guard<std::mutex> lock(listening);
+        // Another thread may have been told to stop while this one waited to ask.
+        if (stop) return false;
         const double done = static_cast<double>(painted++) /
                             (static_cast<double>(views.size()) * static_cast<double>(strips));
         if (!progress(done)) stop = true;

@@ -147,7 +147,8 @@ PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const Pat
     const auto goes_on = [&] {
         if (!progress || stop) return !stop;
         const std::lock_guard<std::mutex> lock(listening);
-        if (!progress(0)) stop = true;
+        // Another thread may have been told to stop while this one waited to ask.
+        if (!stop && !progress(0)) stop = true;
         return !stop;
     };
     on_threads(scene.settings.threads, [&] {
