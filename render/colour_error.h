@@ -2,11 +2,22 @@
 // How far some pixels are from what they should be, and how sure that is.
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "render/colour.h"
 
 namespace culet {
+
+/// Mean absolute difference, and mean, of R, G and B.
+inline double apart(const Rgb& a, const Rgb& b) {
+    double sum = 0;
+    for (std::size_t c = 0; c < 3; ++c) sum += std::abs(a[c] - b[c]);
+    return sum / 3;
+}
+inline double mean_of(const Rgb& rgb) {
+    return (rgb[0] + rgb[1] + rgb[2]) / 3;
+}
 
 /// Over some pixels of a picture. `radiance`: mean of the mean absolute difference of R, G and B,
 /// relative to `mean`; `delta_e`: mean CIEDE2000 as on a screen whose white is five times `mean`

@@ -5,18 +5,13 @@
 #include <cmath>
 
 #include "render/colour_error.h"
-#include "render/plan/light_edge_scan.h"
 #include "render/plan/planner.h"
 
 namespace culet {
 
 namespace {
 
-constexpr std::size_t k_first_pixels = 48, k_most_pixels = 3072, k_noise_pixels = 48;
-// Lights that are so many times as bright as the picture are looked for where the picture lacks
-// them, and more pixels are looked at first: of those where a light may be seen, some see it.
-constexpr double k_bright = 8;
-constexpr std::size_t k_first_pixels_of_bright = 96;
+constexpr std::size_t k_noise_pixels = 48;
 constexpr double k_standard_errors = 3;
 constexpr std::size_t k_step = 4;  // times as many pixels at the next look, at most
 // Sides of the truth's grids, one after the other. Grids of different sides are off independently.
@@ -37,20 +32,6 @@ constexpr double k_gambled_weight = 0.04, k_split_weight = 0.6, k_fine_gambled_w
                  k_fine_split_weight = 0.3;
 // Below this tolerance the truth takes the finest wavelengths, and larger trees.
 constexpr double k_fine_tolerance = 0.02;
-// Every pixel has this share of a mean chance at least: none counts more than two and a half times.
-constexpr double k_even_share = 0.4;
-// Of the rest, what goes to where a light's edge may be.
-constexpr double k_share_of_edges = 0.5;
-
-double apart(const Rgb& a, const Rgb& b) {
-    double sum = 0;
-    for (std::size_t c = 0; c < 3; ++c) sum += std::abs(a[c] - b[c]);
-    return sum / 3;
-}
-
-double mean_of(const Rgb& rgb) {
-    return (rgb[0] + rgb[1] + rgb[2]) / 3;
-}
 
 }  // namespace
 
@@ -62,7 +43,6 @@ Prover::Prover(const Scene& scene, StonePixels some, double tolerance, const Pro
     : scene_(scene),
       some_(std::move(some)),
       nodes_(k_node_counts[tolerance < k_fine_tolerance ? 3 : 2]),
-      windows_(scene.camera.optics.two_windows ? 2 : 1),
       progress_(&progress) {
     const Plan plan = make_plan(scene_, nodes_);
     const bool branches = plan.splits || !scene_.stone.convex, fine = tolerance < k_fine_tolerance;
@@ -137,84 +117,6 @@ double Prover::noise_of_16() {
     const double count = static_cast<double>(drawing.halves_apart.size());
     const double spread = std::sqrt(std::max(0.0, squares * count - sum * sum) / count) / sum;
     return (1 + 1.5 * spread) * drawing.few_rays / k_halves_over_noise;
-}
-
-// More often where the picture changes beside a pixel. With the root of that change: pixels of
-// little contrast are off as well, because a picture may lack what is there.
-void Prover::choose(const Picture& picture, FrameRenderer* frames) {
-    if (!chosen_.pixels.at.empty()) return;
-    chosen_.pixels.in_picture = some_.in_picture;
-    chosen_.first = k_first_pixels;
-    const int width = picture.width / windows_, height = picture.height;
-    std::vector<std::pair<int, int>> at;
-    std::vector<double> contrast;
-    at.reserve(picture.pixels());
-    contrast.reserve(picture.pixels());
-    double sum = 0, radiance = 0;
-    for (int y = 0; y < height && !picture.coverage.empty(); ++y) {
-        for (int x = 0; x < width; ++x) {
-            const std::size_t pixel =
-                static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                static_cast<std::size_t>(x);
-            if (picture.coverage[pixel] < 0.5f) continue;
-            const Rgb here = picture.pixel(x, y);
-            double most = 0;
-            for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-                if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height) continue;
-                most = std::max(most, apart(here, picture.pixel(x + dx, y + dy)));
-            }
-            if (!std::isfinite(most)) most = 0;
-            at.emplace_back(x, y);
-            contrast.push_back(std::sqrt(most));
-            sum += contrast.back();
-            radiance += std::isfinite(mean_of(here)) ? std::max(0.0, mean_of(here)) : 0;
-        }
-    }
-    const double count = static_cast<double>(at.size());
-    if (at.size() <= k_first_pixels) {
-        // A stone of few pixels, or of none that the picture tells of.
-        chosen_.pixels.at = at.empty() ? some_.at : at;
-        chosen_.counts.assign(chosen_.pixels.at.size(), 1.0);
-        chosen_.all = !at.empty();
-        return;
-    }
-    std::vector<double> edges(at.size(), 0.0);
-    double sum_of_edges = 0;
-    if (radiance > 0 && brightest_light() * count > k_bright * radiance) {
-        const LightEdgeScan scan(scene_, *progress_, frames);
-        for (std::size_t i = 0; i < at.size(); ++i)
-            sum_of_edges += edges[i] = scan.near(at[i].first, at[i].second);
-        chosen_.first = k_first_pixels_of_bright;
-    }
-    // Chances, and their sums; then the golden ratio's multiples, evenly spread over these.
-    std::vector<double> sums, chances;
-    sums.reserve(at.size());
-    chances.reserve(at.size());
-    double total = 0;
-    const double of_edges = sum_of_edges > 0 ? k_share_of_edges * (1 - k_even_share) : 0,
-                 of_contrast = 1 - k_even_share - of_edges;
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        chances.push_back(k_even_share + (sum > 0 ? of_contrast * contrast[i] * count / sum : 0) +
-                          (sum_of_edges > 0 ? of_edges * edges[i] * count / sum_of_edges : 0));
-        total += chances.back();
-        sums.push_back(total);
-    }
-    const std::size_t most = std::min(k_most_pixels, at.size());
-    for (std::size_t i = 0; i < most; ++i) {
-        const double place =
-            total * std::fmod(0.6180339887498949 * (static_cast<double>(i) + 0.5), 1.0);
-        const std::size_t pixel =
-            std::min(static_cast<std::size_t>(std::upper_bound(sums.begin(), sums.end(), place) -
-                                              sums.begin()),
-                     at.size() - 1);
-        chosen_.pixels.at.push_back(at[pixel]);
-        chosen_.counts.push_back(total / count / chances[pixel]);
-    }
-}
-
-double Prover::brightest_light() const {
-    const WavelengthSet colours(even_wavelengths(3));
-    return LightField(scene_.lights, colours).max_radiance();
 }
 
 void Prover::draw_up_to(std::size_t count) {
@@ -369,7 +271,8 @@ std::optional<Prover::Look> Prover::next_look(const Proof& proof, double room) c
 }
 
 Proof Prover::prove(const Picture& picture, double room, double most_ns, FrameRenderer* frames) {
-    choose(picture, frames);
+    if (chosen_.pixels.at.empty())
+        chosen_ = choose_proof_pixels(scene_, picture, some_, *progress_, frames);
     // What was drawn to judge other pictures judges this one.
     std::size_t known = chosen_.pixels.at.size();
     for (const Level& level : levels_) known = std::min(known, level.rgb.size());

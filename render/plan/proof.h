@@ -21,10 +21,9 @@
 #include "render/picture.h"
 #include "render/plan/pilot_picture.h"
 #include "render/plan/price.h"
+#include "render/plan/proof_pixels.h"
 
 namespace culet {
-
-class FrameRenderer;
 
 struct Proof {
     int pixels = 0, samples = 0;
@@ -77,15 +76,7 @@ private:
         std::vector<Rgb> rgb;
         double halves = 0, radiance = 0, cut = 0;  // sums over the pixels, as they count
     };
-    struct Chosen {
-        StonePixels pixels;
-        std::vector<double> counts;  // of each, 1 in the mean
-        bool all = false;            // each pixel of the stone once
-        std::size_t first = 0;       // that are looked at first
-    };
     int grid(std::size_t level) const;
-    void choose(const Picture& picture, FrameRenderer* frames);
-    double brightest_light() const;
     PilotDrawing draw(const StonePixels& pixels, int samples);
     void draw_up_to(std::size_t count);
     Rgb truth(std::size_t pixel) const;
@@ -102,9 +93,9 @@ private:
     Scene scene_;
     StonePixels some_;
     PathLimits limits_;
-    int nodes_, windows_;
+    int nodes_;
     const Progress* progress_;
-    Chosen chosen_;
+    ProofPixels chosen_;
     std::vector<Level> levels_;
     PathWork work_;
     double rays_drawn_ = 0;  // pixels x samples

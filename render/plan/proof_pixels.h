@@ -1,0 +1,27 @@
+#pragma once
+// Of which pixels a picture is held against the truth.
+
+#include <vector>
+
+#include "render/picture.h"
+#include "render/plan/pilot_picture.h"
+
+namespace culet {
+
+class FrameRenderer;
+
+struct ProofPixels {
+    StonePixels pixels;          ///< in the order in which they are drawn
+    std::vector<double> counts;  ///< of each, 1 in the mean (Hansen & Hurwitz 1943)
+    bool all = false;            ///< each pixel of the stone once
+    std::size_t first = 0;       ///< that are looked at first
+};
+
+/// `scene`: one window, or two that see the same; `some`: pixels of the stone, taken where the
+/// picture tells of none. More often where the picture changes beside a pixel, and where a bright
+/// light may be seen at another wavelength. `frames`: that drew it, if any (light_edge_scan.h).
+/// Throws Interrupted.
+ProofPixels choose_proof_pixels(const Scene& scene, const Picture& picture, const StonePixels& some,
+                                const Progress& progress, FrameRenderer* frames);
+
+}  // namespace culet
