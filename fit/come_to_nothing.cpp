@@ -1,9 +1,5 @@
 #include "fit/come_to_nothing.h"
 
-#include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
-
 #include "stone/half_edges.h"
 #include "stone/units.h"
 
@@ -14,29 +10,13 @@ namespace {
 // Of the diameter, and of a degree: no caliper and no goniometer tells so little.
 constexpr double k_no_width = 1e-5, k_one_plane_deg = 1e-3;
 
-// Of a long facet its width, about.
-double width_of(const Solid& solid, const Facet& facet) {
-    double longest = 0;
-    for (const int a : facet.corners) {
-        for (const int b : facet.corners) {
-            longest = std::max(longest, glm::length(solid.vertices[std::size_t(a)] -
-                                                    solid.vertices[std::size_t(b)]));
-        }
-    }
-    return longest > 0 ? area(solid, facet) / longest : 0;
-}
-
-double angle_between(const Vec3& a, const Vec3& b) {
-    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
-}
-
 }  // namespace
 
 ComeToNothing come_to_nothing(const Solid& solid) {
     ComeToNothing result;
     const double least = k_no_width * diameter(solid);
     for (const Facet& facet : solid.facets) {
-        if (width_of(solid, facet) < least) result.facets.push_back(facet.name);
+        if (narrow_width(solid, facet) < least) result.facets.push_back(facet.name);
     }
     for (const Edge& edge : half_edges(solid).edges) {
         const Facet &left = solid.facets[std::size_t(edge.left)],

@@ -42,20 +42,11 @@ Estimate estimate_of(const FitResult& result, const Reading& r) {
     return {azimuth, facet.sigma_azimuth};
 }
 
-// The narrow width of each facet of the mesh: area over length.
+// The narrow width of each facet of the mesh.
 std::vector<double> facet_sizes(const System& system) {
     const Solid mesh = system.met_solid(system.mesh_shape());
     std::vector<double> sizes;
-    for (const Facet& facet : mesh.facets) {
-        double longest = 1e-12;
-        for (const int a : facet.corners) {
-            for (const int b : facet.corners) {
-                longest = std::max(longest, glm::length(mesh.vertices[std::size_t(a)] -
-                                                        mesh.vertices[std::size_t(b)]));
-            }
-        }
-        sizes.push_back(area(mesh, facet) / longest);
-    }
+    for (const Facet& facet : mesh.facets) sizes.push_back(narrow_width(mesh, facet));
     return sizes;
 }
 

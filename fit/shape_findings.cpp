@@ -230,7 +230,7 @@ void add_same_planes(const System& system, const Finished& finished, const Diagn
     for (const Edge& edge : system.edges().edges) {
         const Vec3 &a = finished.shape.normals[std::size_t(edge.left)],
                    &b = finished.shape.normals[std::size_t(edge.right)];
-        const double angle = std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+        const double angle = angle_between(a, b);
         const FacetSigma &s = diagnosis.facets[std::size_t(edge.left)],
                          &t = diagnosis.facets[std::size_t(edge.right)];
         const auto own = [](const FacetSigma& sigma, const Vec3& n) {

@@ -80,8 +80,7 @@ std::string where_it_may_lie(const std::string& name, const std::vector<WrittenR
                        side * std::cos(i) * frame.up;
         for (const Facet& facet : stone.solid.facets) {
             if (read.count(facet.name) > 0 || facet.name == stone.up_facet) continue;
-            const double off = std::atan2(glm::length(glm::cross(n, facet.plane.normal)),
-                                          glm::dot(n, facet.plane.normal));
+            const double off = angle_between(n, facet.plane.normal);
             if (off < least) {
                 least = off;
                 nearest = facet.name;

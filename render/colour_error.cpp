@@ -32,15 +32,15 @@ struct Moments {
 ColourError colour_error(const std::vector<Rgb>& seen, const std::vector<Rgb>& truth) {
     ColourError error;
     const double count = static_cast<double>(truth.size());
-    for (const Rgb& pixel : truth) error.mean += (pixel[0] + pixel[1] + pixel[2]) / (3 * count);
+    for (const Rgb& pixel : truth) error.mean += mean_of(pixel) / count;
     if (!(error.mean > 0)) return error;
     const double white = k_white_over_mean * error.mean;
     Moments radiance, delta_e;
     for (std::size_t i = 0; i < truth.size(); ++i) {
         const Rgb &a = seen[i], &b = truth[i];
-        const double apart = std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
-        radiance.add(apart / (3 * error.mean));
-        delta_e.add(apart > 0
+        const double difference = apart(a, b);
+        radiance.add(difference / error.mean);
+        delta_e.add(difference > 0
                         ? ciede2000(lab_from_linear_srgb(a[0] / white, a[1] / white, a[2] / white),
                                     lab_from_linear_srgb(b[0] / white, b[1] / white, b[2] / white))
                         : 0.0);

@@ -5,12 +5,11 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <mutex>
 
 #include "render/film.h"
+#include "render/listener.h"
 #include "render/pilot.h"
 #include "render/pixel_shader.h"
 #include "render/reference.h"
@@ -28,31 +27,6 @@ constexpr int k_samples = 16, k_pupil_samples = 64;
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
-
-// Tells how far the picture is, and hears a stop at every pixel: one may take seconds.
-class Reporter {
-public:
-    Reporter(const Progress& progress, long long pixels) : progress_(progress), pixels_(pixels) {}
-
-    /// Before each pixel; from any thread.
-    bool goes_on() {
-        if (!progress_) return true;
-        if (stopped()) return false;
-        const std::lock_guard<std::mutex> lock(mutex_);
-        // Another thread may have been told to stop while this one waited to ask.
-        if (stopped()) return false;
-        if (!progress_(static_cast<double>(done_++) / static_cast<double>(pixels_)))
-            stop_.store(true, std::memory_order_relaxed);
-        return !stopped();
-    }
-    bool stopped() const { return stop_.load(std::memory_order_relaxed); }
-
-private:
-    const Progress& progress_;
-    long long pixels_, done_ = 0;
-    std::mutex mutex_;
-    std::atomic<bool> stop_{false};
-};
 
 }  // namespace
 
@@ -83,7 +57,8 @@ RenderResult render_with_reference(const Scene& whole, const Progress& progress)
     const long long tiles_high = (camera.height + k_tile - 1) / k_tile;
     std::vector<PixelSums> sums(static_cast<std::size_t>(tiles_wide * tiles_high));
     tbb::enumerable_thread_specific<PixelMemory> memories;
-    Reporter reporter(progress, static_cast<long long>(camera.width) * camera.height);
+    // At every pixel: one may take seconds.
+    Listener listener(progress, static_cast<double>(camera.width) * camera.height);
     const auto shade_tile = [&](long long tile) {
         std::vector<double> stokes(static_cast<std::size_t>(colours.size() * shader.planes()));
         PixelMemory& memory = memories.local();
@@ -93,7 +68,7 @@ RenderResult render_with_reference(const Scene& whole, const Progress& progress)
         const int x1 = std::min(x0 + k_tile, camera.width);
         for (int y = y0; y < std::min(y0 + k_tile, camera.height); ++y) {
             for (int column = 0; column < x1 - x0; ++column) {
-                if (!reporter.goes_on()) return;
+                if (!listener.goes_on()) return;
                 // To and fro, so that each pixel is next to the one before.
                 const int x = (y - y0) % 2 == 0 ? x0 + column : x1 - 1 - column;
                 const std::uint64_t number =
@@ -108,7 +83,7 @@ RenderResult render_with_reference(const Scene& whole, const Progress& progress)
     on_threads(settings.threads, [&] {
         tbb::parallel_for(0LL, tiles_wide * tiles_high, shade_tile, tbb::simple_partitioner());
     });
-    if (reporter.stopped()) throw Interrupted();
+    if (listener.stopped()) throw Interrupted();
 
     // Sums in the order of the tiles: the same bytes whatever the threads did.
     RenderStats& stats = result.stats;

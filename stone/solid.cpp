@@ -103,6 +103,21 @@ double area(const Solid& solid, const Facet& facet) {
     return 0.5 * glm::length(twice);
 }
 
+double narrow_width(const Solid& solid, const Facet& facet) {
+    double longest = 0;
+    for (const int a : facet.corners) {
+        for (const int b : facet.corners) {
+            longest = std::max(longest, glm::length(solid.vertices[std::size_t(a)] -
+                                                    solid.vertices[std::size_t(b)]));
+        }
+    }
+    return longest > 0 ? area(solid, facet) / longest : 0;
+}
+
+double angle_between(const Vec3& a, const Vec3& b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
 Vec3 corner_mean(const Solid& solid, const Facet& facet) {
     Vec3 sum{0, 0, 0};
     for (int corner : facet.corners) sum += solid.vertices[corner];

@@ -53,6 +53,12 @@ double volume(const Solid& solid);
 Vec3 centroid(const Solid& solid);
 
 double area(const Solid& solid, const Facet& facet);
+/// Area over the longest diagonal: of a slender facet about its width; 0 where all corners are one.
+double narrow_width(const Solid& solid, const Facet& facet);
+
+/// Of two directions of any length, radians in [0, pi]; also of nearly parallel ones to the last
+/// digits.
+double angle_between(const Vec3& a, const Vec3& b);
 
 /// The mean of a facet's corners.
 Vec3 corner_mean(const Solid& solid, const Facet& facet);

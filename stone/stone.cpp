@@ -66,8 +66,7 @@ SolidFile read_solid(const std::filesystem::path& file) {
     if (extension == ".asc" || extension == ".gem") {
         ReadCut cut = extension == ".asc" ? read_gemcad_asc(file) : read_gemcad_gem(file);
         read = {std::move(cut.solid), std::move(cut.notes)};
-    } else if (extension == ".obj" || extension == ".off" || extension == ".ply" ||
-               extension == ".stl") {
+    } else if (mesh_format(file)) {
         ReadSolid mesh = read_mesh(file);
         read = {std::move(mesh.solid), std::move(mesh.notes)};
     } else {

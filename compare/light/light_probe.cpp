@@ -285,8 +285,7 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
         result.centre = placed.places[v].centre;
         const Vec3 a = placed.seen[0].world_from_camera * placed.seen[0].ball.towards_camera();
         const Vec3 b = placed.seen[v].world_from_camera * placed.seen[v].ball.towards_camera();
-        result.turned =
-            options.moved ? 0 : std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+        result.turned = options.moved ? 0 : angle_between(a, b);
     }
     // Balls elsewhere see other near light, and tell of the stone's place only through it.
     const std::vector<BallView> merged =

@@ -4,14 +4,13 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <mutex>
 #include <utility>
 
 #include "render/beams/shading_passes.h"
 #include "render/eye_optics.h"
+#include "render/listener.h"
 #include "render/threads.h"
 #include "stone/errors.h"
 
@@ -229,19 +228,7 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
     StripSums whole;
     double lost = 0;
     int trees = 0;
-    std::mutex listening;
-    std::atomic<bool> stop{false};
-    int painted = 0;
-    const auto goes_on = [&] {
-        if (!progress || stop) return !stop;
-        const std::lock_guard<std::mutex> lock(listening);
-        // Another thread may have been told to stop while this one waited to ask.
-        if (stop) return false;
-        const double done = static_cast<double>(painted++) /
-                            (static_cast<double>(views.size()) * static_cast<double>(strips));
-        if (!progress(done)) stop = true;
-        return !stop;
-    };
+    Listener listener(progress, static_cast<double>(views.size()) * static_cast<double>(strips));
     for (std::size_t v = 0; v < views.size(); ++v) {
         SortedBeams* beams = work.beams.data() + v * bands;
         std::vector<StripSums> sums(static_cast<std::size_t>(strips));
@@ -263,7 +250,7 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
             tbb::parallel_for(
                 0, strips,
                 [&](int strip) {
-                    if (!goes_on()) return;
+                    if (!listener.goes_on()) return;
                     if (v == 0) work.clear(strip);
                     sums[static_cast<std::size_t>(strip)] = work.painters.local().paint(
                         strip, views[v], beams, fronts, passes, options);
@@ -272,7 +259,7 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
                 tbb::simple_partitioner());
             report.seconds_shade += seconds_since(shading);
         });
-        if (stop) throw Interrupted();
+        if (listener.stopped()) throw Interrupted();
         for (const StripSums& sum : sums) whole += sum;
         const bool kept = settings.crystal == CrystalBeams::merged || !plan.splits;
         for (std::size_t b = 0; kept && b < bands; ++b) {

@@ -162,8 +162,13 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress, Frame
         return k_widened * spans.mean * pixel_on_stone(scene) /
                std::max(glm::length(scene.camera.position - middle), 1e-300);
     };
+    // A map's brightest texels are the same whatever the width.
+    Lights lights = whole.lights;
+    lights.environment.reset();
+    const auto map = whole.lights.environment ? brightest_of(*whole.lights.environment) : nullptr;
     const auto light = [&](double width) {
-        scene.lights = light_rims(whole.lights, middle, width);
+        scene.lights = light_rims(lights, middle, width);
+        scene.lights.environment = map;
     };
 
     // A pixel of each cell: by beams the one in which most is seen, else any.

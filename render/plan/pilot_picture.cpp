@@ -6,9 +6,9 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <mutex>
 
 #include "render/eye_optics.h"
+#include "render/listener.h"
 #include "render/pixel_shader.h"
 #include "render/stone_body.h"
 #include "render/threads.h"
@@ -142,22 +142,14 @@ PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const Pat
     const int wavelengths = colours.size();
     drawing.spectra.resize(pixels.at.size() * static_cast<std::size_t>(wavelengths));
     std::atomic<long long> nanoseconds{0};
-    std::mutex listening;
-    std::atomic<bool> stop{false};
-    const auto goes_on = [&] {
-        if (!progress || stop) return !stop;
-        const std::lock_guard<std::mutex> lock(listening);
-        // Another thread may have been told to stop while this one waited to ask.
-        if (!stop && !progress(0)) stop = true;
-        return !stop;
-    };
+    Listener listener(progress);
     on_threads(scene.settings.threads, [&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.at.size(), 8), [&](const auto&
                                                                                            range) {
             const auto start = Clock::now();
             PixelMemory memory;
             std::vector<double> stokes(static_cast<std::size_t>(wavelengths * shader.planes()));
-            for (std::size_t p = range.begin(); p < range.end() && goes_on(); ++p) {
+            for (std::size_t p = range.begin(); p < range.end() && listener.goes_on(); ++p) {
                 const auto [x, y] = pixels.at[p];
                 const std::uint64_t number =
                     static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(scene.camera.width) +
@@ -178,7 +170,7 @@ PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const Pat
                 std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
         });
     });
-    if (stop) throw Interrupted();
+    if (listener.stopped()) throw Interrupted();
     PixelSums whole;
     for (const PixelSums& sum : sums) {
         whole += sum;

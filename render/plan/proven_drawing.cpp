@@ -135,6 +135,7 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
     double price = plan.price_ns, seconds_before = 0, error_before = 0;
     std::optional<RenderResult> best;
     std::vector<std::string> notes;
+    int pixels_without = 0;  // at which the truth was drawn without what the plan left out
     ProvenPicture done;
     if (learned_ && plan.beams) {
         plan.beams->learn_from(*learned_);
@@ -165,7 +166,8 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
         }
         done.proven = proof.bound <= tolerance;
         // What was left out is known once its own rays have shown it at the pixels of the proof.
-        if (!done.proven && way == Way::any) {
+        if (!done.proven && way == Way::any && proof.pixels > pixels_without) {
+            pixels_without = proof.pixels;
             const double off = prover.off_without_effects(settings, proof.pixels);
             done.misjudged = off > k_misjudged * tolerance;
             if (plan.beams) plan.beams->effects = off;
