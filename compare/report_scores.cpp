@@ -41,6 +41,8 @@ constexpr ScoreWords k_words[] = {
     {"body_deltaE00", "Body colour, ΔE00", "between the mean colours: material and white balance",
      2},
     {"colour_emd", "Colours, EMD", "how far colours must be moved, wherever they are", 2},
+    {"facet_tilts_deg", "Facets' tilts, degrees",
+     "how much of the difference is what tilted facets change", 3},
     {"flip_mean", "FLIP, mean", "visible difference when the two are flicked between", 3},
 };
 

@@ -286,23 +286,31 @@ const char* name_of(World world) {
 }
 
 std::vector<Score> scores_against(const Photo& photo, const std::vector<float>& mask,
-                                  const Photo& soft_picture, const Alignment& how) {
+                                  const Photo& soft_picture, const Alignment& how,
+                                  const FacetTilts* tilts) {
     const Frame frame = align(photo, mask, soft_picture, how);
     if (frame.render.empty()) return {};
     const LaidPictures laid = lay_pictures(frame, photo.saturation, soft_picture.saturation);
     if (!laid.enough()) return {};
     const MatchedPictures part = part_of(laid.pictures, part_to_score(laid.pictures));
-    return measure(part, wavelet_bank(part.mask.size(), part.diameter)).scores;
+    std::vector<Score> scores = measure(part, wavelet_bank(part.mask.size(), part.diameter)).scores;
+    Score of_tilts;
+    of_tilts.key = k_facet_tilts;
+    of_tilts.higher_is_better = false;
+    if (tilts) of_tilts.value = tilts->facet_error_deg(frame, laid);
+    scores.push_back(std::move(of_tilts));
+    return scores;
 }
 
 std::vector<std::optional<double>> calibration_scores(const Photo& photo, const Photo& soft_picture,
                                                       const CalibrateOptions& options) {
     std::vector<std::optional<double>> values;
-    for (const Score& score : scores_against(
-             photo, {}, soft_picture, {.largest = options.largest, .ignored = options.ignored})) {
+    for (const Score& score :
+         scores_against(photo, {}, soft_picture,
+                        {.largest = options.largest, .ignored = options.ignored}, options.tilts)) {
         values.push_back(score.value);
     }
-    if (values.empty()) values.resize(score_kinds().size());
+    if (values.empty()) values.resize(score_kinds().size() + 1);
     return values;
 }
 
@@ -320,6 +328,8 @@ Calibration calibrate(const Scene& model, const Photo& model_picture, const Draf
         result.keys.push_back(kind.key);
         result.higher_is_better.push_back(kind.higher_is_better);
     }
+    result.keys.push_back(k_facet_tilts);
+    result.higher_is_better.push_back(false);
     Draws draws(model, model_picture, renderer, options);
     const std::vector<Job> jobs = draws.jobs(result.notes);
     result.planned = static_cast<int>(jobs.size());

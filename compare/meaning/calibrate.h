@@ -9,6 +9,7 @@
 #include "compare/frame.h"
 #include "compare/meaning/calibration.h"
 #include "compare/meaning/draft_renderer.h"
+#include "compare/meaning/facet_tilts.h"
 #include "compare/meaning/simulated_camera.h"
 #include "compare/score.h"
 #include "render/scene.h"
@@ -29,6 +30,8 @@ struct CalibrateOptions {
     /// In the frame of the model's picture; over a half is left out. Empty: nothing is.
     std::vector<float> ignored{};
     std::optional<Solid> start{};  ///< the mesh that the fit started from: the catalogue's cut
+    /// Of the same model, renderer and camera; null: its score is missing. Not owned.
+    const FacetTilts* tilts = nullptr;
 };
 
 /// Everything that the calibration of this scene depends on, as a hash: a key for a cache.
@@ -42,11 +45,13 @@ std::string calibration_hash(const Scene& model, const CalibrateOptions& options
 Calibration calibrate(const Scene& model, const Photo& model_picture, const DraftRenderer& renderer,
                       const CalibrateOptions& options, const Progress& progress = {});
 
-/// A photograph laid on the picture and scored: one a key, without nulls. The picture must be as
+/// A photograph laid on the picture and scored: one a key, without nulls; the
+/// last is that of `tilts`, a missing one without them. The picture must be as
 /// soft as the photograph (photo_blur.h): against a sharp one the blur alone outweighs facet errors
 /// under a tenth of a degree.
 std::vector<Score> scores_against(const Photo& photo, const std::vector<float>& mask,
-                                  const Photo& soft_picture, const Alignment& how);
+                                  const Photo& soft_picture, const Alignment& how,
+                                  const FacetTilts* tilts);
 
 /// The scores of one photograph against the model's picture, softened by the camera's point spread,
 /// as the calibration has them.

@@ -9,6 +9,7 @@ namespace culet {
 namespace {
 
 constexpr int k_few_rays = 4;
+constexpr double k_sketched_nm = 550, k_sketched_weight = 0.03;
 constexpr int k_checked_pixels = 200, k_checked_samples = 8;
 
 }  // namespace
@@ -52,6 +53,15 @@ Photo DraftRenderer::draw(const Scene& scene, const Progress& progress) const {
     FrameRenderer renderer(drawn);
     if (progress) renderer.report_to(progress);
     return photo_of(renderer.draw().picture);
+}
+
+std::optional<Photo> DraftRenderer::sketch(const Scene& scene) const {
+    if (settings_.engine != "beams" && settings_.engine != "preview") return std::nullopt;
+    Scene drawn = scene;
+    drawn.settings = settings_;
+    drawn.settings.wavelengths_nm = {k_sketched_nm};
+    drawn.settings.cut_weight = std::max(k_sketched_weight, settings_.cut_weight.value_or(0));
+    return photo_of(FrameRenderer(drawn).draw().picture);
 }
 
 Photo DraftRenderer::draw_exactly(const Scene& scene, int samples, const Progress& progress) const {

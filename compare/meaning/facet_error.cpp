@@ -78,6 +78,17 @@ glm::dmat3 mirror_across(const Vec3& normal) {
     return glm::dmat3(1) - 2.0 * glm::outerProduct(normal, normal);
 }
 
+// The facet's plane turned about an axis through the mean of its corners; `turn` says which axis,
+// as an angle in the plane.
+NamedPlane tilted(const Solid& solid, const Facet& facet, double turn, double angle) {
+    const Vec3& n = facet.plane.normal;
+    const Vec3 away = std::abs(n.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
+    const Vec3 u = glm::normalize(glm::cross(n, away)), v = glm::cross(n, u);
+    const Vec3 axis = std::cos(turn) * u + std::sin(turn) * v;
+    const Vec3 normal = rotation_about(axis, angle) * n;
+    return {facet.name, {normal, glm::dot(normal, corner_mean(solid, facet))}};
+}
+
 }  // namespace
 
 std::optional<Solid> with_facet_error(const Solid& solid, double sigma, std::uint64_t seed) {
@@ -87,13 +98,17 @@ std::optional<Solid> with_facet_error(const Solid& solid, double sigma, std::uin
     for (const Facet& facet : solid.facets) {
         const double angle = sigma * chance.normal();
         const double turn = 2 * std::numbers::pi * chance.uniform();
-        const Vec3& n = facet.plane.normal;
-        const Vec3 away = std::abs(n.z) < 0.9 ? Vec3(0, 0, 1) : Vec3(1, 0, 0);
-        const Vec3 u = glm::normalize(glm::cross(n, away)), v = glm::cross(n, u);
-        const Vec3 axis = std::cos(turn) * u + std::sin(turn) * v;
-        const Vec3 tilted = rotation_about(axis, angle) * n;
-        planes.push_back({facet.name, {tilted, glm::dot(tilted, corner_mean(solid, facet))}});
+        planes.push_back(tilted(solid, facet, turn, angle));
     }
+    return solid_of(planes);
+}
+
+std::optional<Solid> with_facet_tilted(const Solid& solid, std::size_t facet, int axis,
+                                       double angle) {
+    if (!is_convex(solid)) return std::nullopt;
+    std::vector<NamedPlane> planes;
+    for (const Facet& one : solid.facets) planes.push_back({one.name, one.plane});
+    planes[facet] = tilted(solid, solid.facets[facet], axis * std::numbers::pi / 2, angle);
     return solid_of(planes);
 }
 

@@ -15,6 +15,12 @@ namespace culet {
 /// The same seed gives the same tilts, in proportion to sigma.
 std::optional<Solid> with_facet_error(const Solid& solid, double sigma, std::uint64_t seed);
 
+/// The same of one facet alone: tilted by `angle` (radians) about the first (0) or second (1) of
+/// two axes in its plane that are square to each other. A facet error of standard deviation s gives
+/// each of the two angles the variance s^2 / 2.
+std::optional<Solid> with_facet_tilted(const Solid& solid, std::size_t facet, int axis,
+                                       double angle);
+
 /// The stone as a catalogue would have it: the most symmetrical of the solids near to it. Its
 /// symmetry is the largest n (2 to 16) for which turning about `up` by 1/n, and mirroring where
 /// that holds too, takes every facet near to another one (normals within 3 degrees, offsets within

@@ -9,7 +9,7 @@ namespace culet {
 namespace {
 
 // Of the calibration's own workings: a cached table of another version is not used.
-constexpr int k_version = 2;
+constexpr int k_version = 3;
 
 void add_colour(Fingerprint& print, const LightColour& colour) {
     std::visit(

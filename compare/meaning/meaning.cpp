@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compare/meaning/facet_tilts.h"
 #include "compare/score_list.h"
 #include "page/html.h"
 #include "stone/upper_median.h"
@@ -135,9 +136,9 @@ const char* const k_calibrated_rule =
 bool takes_part(const std::string& key, bool geometry_only) {
     // Colour-only scores see no geometry; the counts of reflexes are coarse beside their areas.
     const std::vector<std::string> geometry{"cw_ssim", "gmsd", "nmi", "reflex_area_f1"};
-    const std::vector<std::string> all{"zncc",          "zncc_1pct", "zncc_4pct", "reflex_area_f1",
-                                       "cw_ssim",       "ssim",      "nmi",       "psnr",
-                                       "deltaE00_mean", "flip_mean"};
+    const std::vector<std::string> all{"zncc",          "zncc_1pct", "zncc_4pct",  "reflex_area_f1",
+                                       "cw_ssim",       "ssim",      "nmi",        "psnr",
+                                       "deltaE00_mean", "flip_mean", k_facet_tilts};
     const auto& taken = geometry_only ? geometry : all;
     return std::find(taken.begin(), taken.end(), key) != taken.end();
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <system_error>
@@ -29,6 +30,7 @@ constexpr double k_margin = 0.18;       // of the diameter, around the stone
 constexpr double k_tolerance = 0.03;    // of the pictures that are compared
 // A pose is taken when it is sure to a degree, which costs the scores what 0.3 to 0.5 degrees of
 // facet error cost, and to half a percent of the diameter: reflexes are matched within 2 %.
+constexpr double k_most_for_tilts = 0.4;  // of the budget
 constexpr double k_pose_angle = 0.01745, k_pose_shift = 0.005;
 
 Progress part_of(const Progress& progress, double from, double to) {
@@ -124,18 +126,40 @@ std::optional<Calibration> cached(const std::filesystem::path& file, const std::
 }
 
 Calibration calibrated(const SceneComparison& compared, const DraftRenderer& renderer,
-                       const CalibrateOptions& how, const std::filesystem::path& cache,
-                       const Progress& progress) {
+                       CalibrateOptions& how, std::optional<FacetTilts>& tilts,
+                       const std::filesystem::path& cache, const Progress& progress) {
     const std::string hash = calibration_hash(compared.scene, how);
     const std::filesystem::path file =
         cache.empty() ? std::filesystem::path() : cache / ("calibration-" + hash + ".json");
     if (!file.empty()) {
-        if (auto found = cached(file, hash)) return std::move(*found);
+        if (auto found = cached(file, hash)) {
+            tilts.emplace(compared.scene, renderer, how.camera, how.threads);
+            return std::move(*found);
+        }
+    }
+    // A stone of hundreds of facets must leave time for draws.
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    const auto seconds = [&] {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    };
+    tilts.emplace(compared.scene, renderer, how.camera, how.threads, [&] {
+        if (progress && !progress(0)) throw Interrupted();
+        return !(how.budget_seconds > 0) || seconds() < k_most_for_tilts * how.budget_seconds;
+    });
+    how.tilts = &*tilts;
+    if (how.budget_seconds > 0) {
+        how.budget_seconds = std::max(how.budget_seconds - seconds(), 1e-3);
     }
     Calibration made = calibrate(compared.scene, compared.render, renderer, how, progress);
+    made.seconds = seconds();
+    if (tilts->ended_early()) {
+        made.notes.push_back(
+            "the budget left no time for what each facet's tilt changes: that score is missing");
+    }
     made.psf_px = how.camera.psf_px;
     made.stone_px = compared.comparison.registration.render_diameter_px;
-    if (!file.empty() && made.complete()) {
+    if (!file.empty() && made.complete() && !tilts->ended_early()) {
         std::error_code ignored;
         std::filesystem::create_directories(cache, ignored);
         write_text(file, calibration_json(made));
@@ -217,12 +241,13 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
     calibration.largest = options.largest;
     calibration.ignored = ignored_in_model(frame, result.render);
     calibration.start = options.start;
+    std::optional<FacetTilts> tilts;
     comparison.calibration =
-        calibrated(result, renderer, calibration, options.cache, part_of(progress, 0.2, 1));
+        calibrated(result, renderer, calibration, tilts, options.cache, part_of(progress, 0.2, 1));
     // As the draws are: against a render as soft as the photograph.
     std::vector<Score> scores =
         scores_against(*photo, how.mask, softened(result.render, calibration.camera.psf_px),
-                       {.largest = how.largest, .ignored = how.ignored});
+                       {.largest = how.largest, .ignored = how.ignored}, &*tilts);
     if (comparison.geometry_only) {
         keep_geometry_only(scores, "the photograph cannot serve for photometry");
     }

@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
     int pixels = 256, each = 6, draws = 8, exact = 0, threads = 0;
     std::uint64_t seed = 1;
     std::string only;
-    bool list = false;
+    bool list = false, right_only = false;
     std::array<double, 2> blur_px{0.5, 1.0};
     app.add_option("--pixels", pixels);
     app.add_option("--each", each);
@@ -108,6 +108,7 @@ int main(int argc, char** argv) {
     app.add_option("--only", only);
     app.add_option("--blur", blur_px, "of the photographs, in pixels: from, to");
     app.add_flag("--list", list);
+    app.add_flag("--right", right_only, "right stones only, and no nulls");
     CLI11_PARSE(app, argc, argv);
 
     const std::vector<Case> cases{{"brilliant",
@@ -133,7 +134,7 @@ int main(int argc, char** argv) {
                    renderer.settings().wavelengths_nm.size(), since(start));
         CalibrateOptions options;
         options.draws = draws;
-        options.null_draws = 3 * draws;
+        options.null_draws = right_only ? 0 : 3 * draws;
         options.budget_seconds = 0;
         options.seed = seed;
         options.threads = threads;
@@ -150,6 +151,10 @@ int main(int argc, char** argv) {
         }
         options.camera.gain.fill(1 / level);
         options.camera.ground = {0.01f, 0.01f, 0.012f};
+        start = std::chrono::steady_clock::now();
+        const FacetTilts tilts(model, renderer, options.camera, threads);
+        options.tilts = &tilts;
+        fmt::print("  facets' tilts: {:.1f} s\n", since(start));
         start = std::chrono::steady_clock::now();
         const Calibration calibration = calibrate(model, picture, renderer, options);
         fmt::print("  calibration: {} draws in {:.1f} s\n", calibration.draws.size(), since(start));
@@ -202,7 +207,7 @@ int main(int argc, char** argv) {
             }
         }
         const Vec3 middle = centroid(model.stone.solid);
-        for (int k = 0; k < 2 * each; ++k) {
+        for (int k = 0; k < (right_only ? 0 : 2 * each); ++k) {
             Chance chance(seed_of(seed, 777, draw));
             Scene light = model;
             light.lights = turned_lights(
@@ -236,16 +241,23 @@ int main(int argc, char** argv) {
             ratios[t.sigma].push_back(*t.meaning.equivalent.deg / t.sigma);
         }
         int within = 0, of = 0;
+        double squares = 0;
         for (auto& [sigma, r] : ratios) {
             std::sort(r.begin(), r.end());
             for (const double x : r) {
                 within += x >= 1 / 1.5 && x <= 1.5;
+                squares += std::log(x) * std::log(x);
                 ++of;
             }
             fmt::print("  {:5.2f} deg: ratio {:.2f} {:.2f} {:.2f}\n", sigma, r.front(),
                        r[r.size() / 2], r.back());
         }
-        fmt::print("  within 1.5: {} of {}\n", within, of);
+        fmt::print("  within 1.5: {} of {}; rms of the ratio's logarithm {:.3f}\n", within, of,
+                   std::sqrt(squares / std::max(1, of)));
+        if (right_only) {
+            all.insert(all.end(), trials.begin(), trials.end());
+            continue;
+        }
         std::map<std::string, std::map<std::string, int>> verdicts;
         for (const Trial& t : trials) {
             ++verdicts[t.right ? fmt::format("right {:.2f}", t.sigma) : t.kind]

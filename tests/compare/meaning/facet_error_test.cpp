@@ -42,6 +42,32 @@ TEST(FacetError, has_the_spread_that_was_asked_for) {
     EXPECT_NEAR(std::sqrt(squares / count) / sigma, 1, 0.08);
 }
 
+TEST(FacetError, of_one_facet_turns_it_about_its_middle_and_leaves_the_others) {
+    const Solid stone = make_cut("step");
+    const double angle = radians(0.2);
+    for (std::size_t f = 0; f < stone.facets.size(); f += 5) {
+        const Facet& facet = stone.facets[f];
+        Vec3 moved[2];
+        for (const int axis : {0, 1}) {
+            const auto wrong = with_facet_tilted(stone, f, axis, angle);
+            ASSERT_TRUE(wrong.has_value());
+            for (const Facet& other : stone.facets) {
+                const double by = tilt(*wrong, other);
+                if (by < 0) continue;
+                // The arc cosine of a rounded 1 is up to sqrt(2 * 2^-52).
+                EXPECT_NEAR(by, other.name == facet.name ? angle : 0, 1e-7) << other.name;
+            }
+            const int there = find_facet(*wrong, facet.name);
+            ASSERT_GE(there, 0);
+            const Plane& plane = wrong->facets[static_cast<std::size_t>(there)].plane;
+            EXPECT_NEAR(height_above(plane, corner_mean(stone, facet)), 0, 1e-12 * diameter(stone));
+            moved[axis] = plane.normal - facet.plane.normal;
+        }
+        // Each lies half an angle off the facet's plane: the product is angle^4 / 4 at most.
+        EXPECT_NEAR(glm::dot(moved[0], moved[1]), 0, std::pow(angle, 4) / 2);
+    }
+}
+
 TEST(FacetError, grows_in_proportion_for_one_seed_and_is_none_at_zero) {
     const Solid stone = make_cut("step");
     const auto none = with_facet_error(stone, 0, 5), small = with_facet_error(stone, 1e-4, 5),
