@@ -91,14 +91,20 @@ NamedPlane tilted(const Solid& solid, const Facet& facet, double turn, double an
 
 }  // namespace
 
-std::optional<Solid> with_facet_error(const Solid& solid, double sigma, std::uint64_t seed) {
+std::optional<Solid> with_facet_error(const Solid& solid, double rms, std::uint64_t seed) {
     if (!is_convex(solid)) return std::nullopt;
     Chance chance(seed);
+    std::vector<double> tilts, turns;
+    double squares = 0;
+    for (std::size_t k = 0; k < solid.facets.size(); ++k) {
+        tilts.push_back(chance.normal());
+        turns.push_back(2 * std::numbers::pi * chance.uniform());
+        squares += tilts.back() * tilts.back();
+    }
+    const double unit = std::sqrt(squares / static_cast<double>(tilts.size()));
     std::vector<NamedPlane> planes;
-    for (const Facet& facet : solid.facets) {
-        const double angle = sigma * chance.normal();
-        const double turn = 2 * std::numbers::pi * chance.uniform();
-        planes.push_back(tilted(solid, facet, turn, angle));
+    for (std::size_t k = 0; k < tilts.size(); ++k) {
+        planes.push_back(tilted(solid, solid.facets[k], turns[k], rms / unit * tilts[k]));
     }
     return solid_of(planes);
 }
