@@ -25,7 +25,7 @@ struct CompareArguments {
     std::string folder, json, mask, cache, start;
     std::vector<std::string> ignored;
     bool simulated = false, calibrate = false, keep_pose = false;
-    double budget = 60;
+    double budget = SceneCompareOptions{}.budget_seconds;
     int draws = 8;
 
     std::size_t photographs() const { return pictures.size() - 1; }
@@ -286,8 +286,9 @@ void add_command_compare(CLI::App& program, int& exit_code) {
     command->add_flag("--calibrate", arguments->calibrate,
                       "say what the scores mean for this stone, pose and light (scenes only)");
     command
-        ->add_option("--budget", arguments->budget,
-                     "seconds after which the calibration begins no further draw (0: no limit)")
+        ->add_option(
+            "--budget", arguments->budget,
+            "seconds for a photograph with its calibration, which is ended early (0: no limit)")
         ->check(CLI::Range(0.0, 1e6))
         ->capture_default_str();
     command

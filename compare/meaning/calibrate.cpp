@@ -74,28 +74,34 @@ bool absorbs(const Material& material) {
 class Draws {
 public:
     Draws(const Scene& model, const Photo& model_picture, const DraftRenderer& renderer,
-          const CalibrateOptions& options)
+          const CalibrateOptions& options, const std::vector<CameraModel>& cameras)
         : model_(model),
           model_picture_(model_picture),
-          soft_picture_(softened(model_picture, options.camera.psf_px)),
           renderer_(renderer),
           options_(options),
-          middle_(centroid(model.stone.solid)) {}
+          cameras_(cameras),
+          middle_(centroid(model.stone.solid)) {
+        for (const CameraModel& camera : cameras)
+            soft_pictures_.push_back(softened(model_picture, camera.psf_px));
+    }
 
     /// Of every world some early on, so that a budget that ends leaves a whole.
     std::vector<Job> jobs(std::vector<std::string>& notes);
-    CalibrationDraw draw(const Job& job) const;
+    /// One for each camera.
+    std::vector<CalibrationDraw> draw(const Job& job) const;
 
 private:
+    CalibrationDraw photograph(const Job& job, const Photo& stone, std::size_t camera) const;
     Scene world_of(const Job& job) const;
     glm::dmat3 wrong_light(Chance& chance) const;
     glm::dmat3 wrong_pose(Chance& chance) const;
 
     const Scene& model_;
     const Photo& model_picture_;
-    Photo soft_picture_;  // as the camera's lens shows it
+    std::vector<Photo> soft_pictures_;  // as each camera's lens shows it
     const DraftRenderer& renderer_;
     const CalibrateOptions& options_;
+    const std::vector<CameraModel>& cameras_;
     Vec3 middle_;
     int turns_alike_ = 1;
     std::optional<Solid> catalogue_;
@@ -240,26 +246,33 @@ Scene Draws::world_of(const Job& job) const {
     return scene;
 }
 
-CalibrationDraw Draws::draw(const Job& job) const {
+CalibrationDraw Draws::photograph(const Job& job, const Photo& stone, std::size_t which) const {
     CalibrationDraw result{job.world, job.name, job.facet_error_deg, {}};
-    const Photo stone = renderer_.draw(world_of(job));
-    CameraModel camera = options_.camera;
+    CameraModel camera = cameras_[which];
     if (job.world == World::light || job.world == World::both || job.world == World::pose) {
         // Under another light a photographer would meter again.
         const double exposure = exposure_like(stone, model_picture_);
         for (double& gain : camera.gain) gain *= exposure;
     }
+    const Photo& soft_picture = soft_pictures_[which];
     const auto seed = seed_of(job.seed, 11, static_cast<std::uint64_t>(1e4 * job.facet_error_deg));
     const Photo photo = photographed(stone, camera, seed);
-    result.scores = calibration_scores(photo, soft_picture_, options_);
+    result.scores = calibration_scores(photo, soft_picture, options_);
     const bool none = std::none_of(result.scores.begin(), result.scores.end(),
                                    [](const auto& s) { return s.has_value(); });
     if (none && camera.outline_from_background) {
         // Too dark at its border to be found there: told by the coverage instead.
         camera.outline_from_background = false;
         result.scores =
-            calibration_scores(photographed(stone, camera, seed), soft_picture_, options_);
+            calibration_scores(photographed(stone, camera, seed), soft_picture, options_);
     }
+    return result;
+}
+
+std::vector<CalibrationDraw> Draws::draw(const Job& job) const {
+    const Photo stone = renderer_.draw(world_of(job));
+    std::vector<CalibrationDraw> result;
+    for (std::size_t k = 0; k < cameras_.size(); ++k) result.push_back(photograph(job, stone, k));
     return result;
 }
 
@@ -314,50 +327,61 @@ std::vector<std::optional<double>> calibration_scores(const Photo& photo, const 
     return values;
 }
 
-Calibration calibrate(const Scene& model, const Photo& model_picture, const DraftRenderer& renderer,
-                      const CalibrateOptions& options, const Progress& progress) {
+std::vector<Calibration> calibrate(const Scene& model, const Photo& model_picture,
+                                   const DraftRenderer& renderer, const CalibrateOptions& options,
+                                   const std::vector<CameraModel>& cameras,
+                                   const Progress& progress) {
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
-    const auto seconds = [&] {
-        return std::chrono::duration<double>(Clock::now() - start).count();
-    };
-    Calibration result;
-    result.seed = options.seed;
-    result.hash = calibration_hash(model, options);
+    Calibration common;
+    common.seed = options.seed;
     for (const ScoreKind& kind : score_kinds()) {
-        result.keys.push_back(kind.key);
-        result.higher_is_better.push_back(kind.higher_is_better);
+        common.keys.push_back(kind.key);
+        common.higher_is_better.push_back(kind.higher_is_better);
     }
-    result.keys.push_back(k_facet_tilts);
-    result.higher_is_better.push_back(false);
-    Draws draws(model, model_picture, renderer, options);
-    const std::vector<Job> jobs = draws.jobs(result.notes);
-    result.planned = static_cast<int>(jobs.size());
-    result.draws.resize(jobs.size());
+    common.keys.push_back(k_facet_tilts);
+    common.higher_is_better.push_back(false);
+    Draws draws(model, model_picture, renderer, options, cameras);
+    const std::vector<Job> jobs = draws.jobs(common.notes);
+    common.planned = static_cast<int>(jobs.size());
+    std::vector<std::vector<CalibrationDraw>> made(jobs.size());
 
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
     const auto batch = static_cast<std::size_t>(std::max(2, 2 * arena.max_concurrency()));
     std::size_t done = 0;
+    Clock::duration longest{};  // of a batch
     while (done < jobs.size()) {
-        if (options.budget_seconds > 0 && seconds() > options.budget_seconds) break;
+        const auto begun = Clock::now();
+        if (begun > options.deadline - longest) break;
         const std::size_t end = std::min(jobs.size(), done + batch);
         arena.execute([&] {
-            tbb::parallel_for(done, end,
-                              [&](std::size_t i) { result.draws[i] = draws.draw(jobs[i]); });
+            tbb::parallel_for(done, end, [&](std::size_t i) { made[i] = draws.draw(jobs[i]); });
         });
         done = end;
+        longest = std::max(longest, Clock::now() - begun);
         if (progress && !progress(static_cast<double>(done) / static_cast<double>(jobs.size()))) {
             throw Interrupted();
         }
     }
-    result.draws.resize(done);
-    result.seconds = seconds();
-    if (!result.complete()) {
-        result.notes.push_back(
-            fmt::format("the budget of {:g} s ended the calibration after {} of {} draws",
-                        options.budget_seconds, done, jobs.size()));
+    common.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    if (done < jobs.size()) {
+        common.notes.push_back(fmt::format(
+            "the budget of time ended the calibration after {} of {} draws", done, jobs.size()));
+    }
+    std::vector<Calibration> result(cameras.size(), common);
+    for (std::size_t k = 0; k < cameras.size(); ++k) {
+        CalibrateOptions own = options;
+        own.camera = cameras[k];
+        result[k].hash = calibration_hash(model, own);
+        for (std::size_t i = 0; i < done; ++i) result[k].draws.push_back(std::move(made[i][k]));
     }
     return result;
+}
+
+Calibration calibrate(const Scene& model, const Photo& model_picture, const DraftRenderer& renderer,
+                      const CalibrateOptions& options, const Progress& progress) {
+    return std::move(
+        calibrate(model, model_picture, renderer, options, {options.camera}, progress).front());
 }
 
 }  // namespace culet

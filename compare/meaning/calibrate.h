@@ -1,6 +1,7 @@
 #pragma once
 // What the scores of a photograph would be if its stone, light or pose were this or that.
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -21,9 +22,9 @@ struct CalibrateOptions {
     CameraModel camera;   ///< of the photograph
     int draws = 8;        ///< at each facet error
     int null_draws = 24;  ///< of each null
-    /// Seconds of the clock after which no further draw is begun; 0: no limit. How many draws were
-    /// made is then a matter of the machine, but each of them is what it would have been.
-    double budget_seconds = 60;
+    /// Draws are begun while they will probably be done by then. How many were made is then a
+    /// matter of the machine, but each of them is what it would have been.
+    std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
     std::uint64_t seed = 1;
     int threads = 0;       ///< 0: all processors; the result does not depend on it
     double largest = 256;  ///< as in `Alignment`
@@ -44,6 +45,12 @@ std::string calibration_hash(const Scene& model, const CalibrateOptions& options
 /// a note says so. Throws Interrupted.
 Calibration calibrate(const Scene& model, const Photo& model_picture, const DraftRenderer& renderer,
                       const CalibrateOptions& options, const Progress& progress = {});
+
+/// One for each of several cameras, instead of `options.camera`; each world is drawn once for all.
+std::vector<Calibration> calibrate(const Scene& model, const Photo& model_picture,
+                                   const DraftRenderer& renderer, const CalibrateOptions& options,
+                                   const std::vector<CameraModel>& cameras,
+                                   const Progress& progress = {});
 
 /// A photograph laid on the picture and scored: one a key, without nulls; the
 /// last is that of `tilts`, a missing one without them. The picture must be as

@@ -34,6 +34,7 @@ std::string calibration_json(const Calibration& calibration) {
     json["seed"] = calibration.seed;
     json["stone_px"] = number(calibration.stone_px);
     json["psf_px"] = number(calibration.psf_px);
+    json["electrons"] = number(calibration.electrons);
     json["seconds"] = number(calibration.seconds);
     json["keys"] = calibration.keys;
     json["higher_is_better"] = calibration.higher_is_better;
@@ -61,6 +62,7 @@ std::optional<Calibration> calibration_from(const std::string& text) {
         result.seed = json.at("seed").get<std::uint64_t>();
         result.stone_px = json.at("stone_px").get<double>();
         result.psf_px = json.at("psf_px").get<double>();
+        result.electrons = json.at("electrons").get<double>();
         result.seconds = json.at("seconds").get<double>();
         result.keys = json.at("keys").get<std::vector<std::string>>();
         result.higher_is_better = json.at("higher_is_better").get<std::vector<bool>>();

@@ -8,16 +8,18 @@
 
 namespace culet {
 
-/// The convex solid with each facet's plane tilted by an angle of normal distribution with standard
-/// deviation `sigma` (radians), about an axis of random direction in the facet's plane through the
-/// mean of its corners, so that it stays in its place. Names are kept; a facet that is tilted out
-/// of the stone is gone. Nothing when the planes bound no solid any more, or `solid` is not convex.
-/// The same seed gives the same tilts, in proportion to sigma.
-std::optional<Solid> with_facet_error(const Solid& solid, double sigma, std::uint64_t seed);
+/// The convex solid with each facet's plane tilted about an axis of random direction in the facet's
+/// plane through the mean of its corners, so that it stays in its place. The angles are of normal
+/// distribution, their root mean square over the stone's facets is `rms` (radians): a stone's facet
+/// error is that of its own tilts. Those of 25 facets drawn with one standard deviation would
+/// differ by 14 % from stone to stone, and no picture could tell which it was drawn with.
+/// Names are kept; a facet that is tilted out of the stone is gone. Nothing when the planes bound
+/// no solid any more, or `solid` is not convex. The same seed gives the same tilts, in proportion.
+std::optional<Solid> with_facet_error(const Solid& solid, double rms, std::uint64_t seed);
 
 /// The same of one facet alone: tilted by `angle` (radians) about the first (0) or second (1) of
-/// two axes in its plane that are square to each other. A facet error of standard deviation s gives
-/// each of the two angles the variance s^2 / 2.
+/// two axes in its plane that are square to each other. A facet error of s gives each of the two
+/// angles the mean square s^2 / 2.
 std::optional<Solid> with_facet_tilted(const Solid& solid, std::size_t facet, int axis,
                                        double angle);
 

@@ -32,12 +32,6 @@ constexpr double k_step_deg = 0.15;
 // Of the root of light, beside what is not straight: 10000 electrons make 0.005 of noise in it.
 constexpr double k_least_noise = 0.01;
 
-cv::Mat blurred(const cv::Mat& plane, double sigma) {
-    cv::Mat result;
-    cv::GaussianBlur(plane, result, {0, 0}, sigma, sigma, cv::BORDER_REPLICATE);
-    return result;
-}
-
 // Root of luminance, each colour clipped at white.
 cv::Mat root_light(const cv::Mat& colour, double white) {
     cv::Mat root = luminance(cv::min(cv::max(colour / white, 0), 1));
@@ -53,6 +47,29 @@ cv::Mat exposed(const Photo& picture, const CameraModel& camera) {
 
 cv::Mat coverage_of(const Photo& photo) {
     return cv::Mat(photo.height, photo.width, CV_32F, const_cast<float*>(photo.coverage.data()));
+}
+
+cv::Mat inside_of(const Photo& sketch) {
+    return coverage_of(sketch) > 0.99f;
+}
+
+Scene small_of(const Scene& model) {
+    Scene small = model;
+    small.camera = cropped_to_stone(model.camera, model.stone.solid, k_diameter, k_margin);
+    return small;
+}
+
+double reduction_of(const Scene& model) {
+    return k_diameter / projected_diameter(model.stone.solid, model.camera);
+}
+
+// The model's picture through a lens, as fine as it is drawn.
+cv::Mat fine_picture(const DraftRenderer& renderer, const CameraModel& camera, double psf_px,
+                     double reduction) {
+    CameraModel lens = camera;
+    lens.psf_px = psf_px;
+    return softened(root_light(exposed(renderer.picture(), lens), 1),
+                    k_blur * k_diameter / reduction);
 }
 
 std::vector<double> samples_of(const cv::Mat& plane, const cv::Mat& mask) {
@@ -106,13 +123,10 @@ std::vector<cv::Mat> nuisances_of(const cv::Mat& fine, const cv::Mat& softer,
 
 }  // namespace
 
-FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const CameraModel& camera,
-                       int threads, const std::function<bool()>& keep_on) {
-    const Solid& solid = model.stone.solid;
-    if (!is_convex(solid)) return;
-    Scene small = model;
-    small.camera = cropped_to_stone(model.camera, solid, k_diameter, k_margin);
-    const double reduction = k_diameter / projected_diameter(solid, model.camera);
+std::optional<Photo> FacetTilts::lay_samples(const Scene& model, const Scene& small,
+                                             const DraftRenderer& renderer,
+                                             const CameraModel& camera) {
+    const double reduction = reduction_of(model);
     const auto from = line_of_sight_in(small.camera), to = line_of_sight_in(model.camera);
     model_from_sample_ = cv::Matx33d::eye();
     for (int i = 0; i < 2; ++i) {
@@ -120,22 +134,44 @@ FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const 
         model_from_sample_(i, i) = 1 / reduction;
         model_from_sample_(i, 2) = (0.5 - from[k]) / reduction + to[k] - 0.5;
     }
+    std::optional<Photo> first = renderer.sketch(small);
+    if (!first) return std::nullopt;
+    cv::Mat distance;
+    cv::distanceTransform(inside_of(*first), distance, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
+    mask_ = distance > k_inside * k_diameter;
+    if (cv::countNonZero(mask_) < LaidPictures::k_least_pixels) return std::nullopt;
+    // Of the picture itself, not of its sketch.
+    fine_ = fine_picture(renderer, camera, camera.psf_px, reduction);
+    picture_ = resampled(fine_, first_rows(model_from_sample_), mask_.size(), Kernel::cubic,
+                         Beyond::nearest);
+    return first;
+}
+
+FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const CameraModel& camera,
+                       TiltVariance kept) {
+    if (!is_convex(model.stone.solid)) return;
+    lay_samples(model, small_of(model), renderer, camera);
+    if (static_cast<std::size_t>(cv::countNonZero(mask_)) == kept.samples()) {
+        variance_ = std::move(kept);
+    }
+}
+
+FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const CameraModel& camera,
+                       int threads, const Progress& progress) {
+    const Solid& solid = model.stone.solid;
+    if (!is_convex(solid)) return;
+    const Scene small = small_of(model);
+    const auto first = lay_samples(model, small, renderer, camera);
+    if (!first) return;
+    const double reduction = reduction_of(model);
     CameraModel reduced = camera;
     reduced.psf_px *= reduction;
-    const double blur = k_blur * k_diameter;
-    const auto first = renderer.sketch(small);
-    if (!first) return;
-    const cv::Mat inside = coverage_of(*first) > 0.99f;
-    cv::Mat distance;
-    cv::distanceTransform(inside, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
-    mask_ = distance > k_inside * k_diameter;
-    if (cv::countNonZero(mask_) < LaidPictures::k_least_pixels) return;
-
     // What is outside is another's ground.
+    const cv::Mat inside = inside_of(*first);
     const auto seen = [&](const Photo& sketch) {
         cv::Mat root = root_light(exposed(sketch, reduced), 1);
         root.setTo(0, ~inside);
-        return blurred(root, blur);
+        return softened(root, k_blur * k_diameter);
     };
     const cv::Mat untilted = seen(*first);
     const std::size_t tilts = 2 * solid.facets.size();
@@ -157,7 +193,7 @@ FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const 
     tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
     const auto batch = static_cast<std::size_t>(4 * arena.max_concurrency());
     for (std::size_t done = 0; done < tilts; done += batch) {
-        if (keep_on && !keep_on()) {
+        if (progress && !progress(static_cast<double>(done) / static_cast<double>(tilts))) {
             ended_early_ = true;
             return;
         }
@@ -169,20 +205,11 @@ FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const 
         for (std::size_t i = 0; i < samples; ++i) parts.noise[i] += bend[i] * bend[i] / 2;
     }
     for (double& n : parts.noise) n = std::sqrt(n);
-    // Of the picture itself, not of its sketch.
-    const auto fine = [&](double psf_px) {
-        CameraModel lens = camera;
-        lens.psf_px = psf_px;
-        return blurred(root_light(exposed(renderer.picture(), lens), 1), blur / reduction);
-    };
-    const cv::Mat whole = fine(camera.psf_px);
-    picture_ = resampled(whole, first_rows(model_from_sample_), mask_.size(), Kernel::cubic,
-                         Beyond::nearest);
-    for (const cv::Mat& nuisance :
-         nuisances_of(whole, fine(k_softer * camera.psf_px), model_from_sample_, mask_.size())) {
+    const cv::Mat softer = fine_picture(renderer, camera, k_softer * camera.psf_px, reduction);
+    for (const cv::Mat& nuisance : nuisances_of(fine_, softer, model_from_sample_, mask_.size())) {
         parts.nuisances.push_back(samples_of(nuisance, mask_));
     }
-    variance_.emplace(parts);
+    variance_ = TiltVariance(parts);
 }
 
 std::optional<double> FacetTilts::facet_error_deg(const Frame& frame,
@@ -190,7 +217,7 @@ std::optional<double> FacetTilts::facet_error_deg(const Frame& frame,
     if (!usable() || !laid.enough()) return std::nullopt;
     const MatchedPictures& pictures = laid.pictures;
     const cv::Mat seen =
-        blurred(root_light(pictures.photo, pictures.white), k_blur * pictures.diameter);
+        softened(root_light(pictures.photo, pictures.white), k_blur * pictures.diameter);
     const double scale = frame.photo.scale;
     const cv::Matx33d close_up_from_photo(scale, 0, scale * (0.5 - frame.photo.corner.x) - 0.5, 0,
                                           scale, scale * (0.5 - frame.photo.corner.y) - 0.5, 0, 0,
@@ -203,7 +230,7 @@ std::optional<double> FacetTilts::facet_error_deg(const Frame& frame,
         picture_;
     difference.setTo(0, resampled_mask(pictures.mask, close_up_from_sample, mask_.size()) == 0);
     // Each of a facet's two tilts has half the facet error's variance.
-    const auto rms = variance_->rms(samples_of(difference, mask_));
+    const auto rms = variance_.rms(samples_of(difference, mask_));
     return rms ? std::optional(std::sqrt(2.0) * *rms) : std::nullopt;
 }
 

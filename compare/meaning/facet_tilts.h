@@ -2,7 +2,6 @@
 // The facets' tilts, read from the picture itself: how much of what a photograph is off by is what
 // tilted facets change.
 
-#include <functional>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 
@@ -11,6 +10,7 @@
 #include "compare/meaning/draft_renderer.h"
 #include "compare/meaning/simulated_camera.h"
 #include "compare/meaning/tilt_variance.h"
+#include "stone/progress.h"
 
 namespace culet {
 
@@ -27,15 +27,20 @@ namespace culet {
 class FacetTilts {
 public:
     /// `model`, `renderer` and its picture, `camera`: as for a calibration. Draws four sketches a
-    /// facet; `keep_on` is asked between some of them, and when it says no there is no score.
+    /// facet; where `progress` says no between some of them it ends early, without a score.
     FacetTilts(const Scene& model, const DraftRenderer& renderer, const CameraModel& camera,
-               int threads, const std::function<bool()>& keep_on = {});
+               int threads, const Progress& progress = {});
+    /// The same without its sketches, which `kept` stands for: the `variance()` of one of the same
+    /// model and camera.
+    FacetTilts(const Scene& model, const DraftRenderer& renderer, const CameraModel& camera,
+               TiltVariance kept);
 
-    /// False: the stone is not convex, is drawn by rays, shows nothing of its facets, or `keep_on`
-    /// said no.
-    bool usable() const { return variance_ && variance_->usable(); }
-    /// `keep_on` said no.
+    /// False: the stone is not convex, is drawn by rays, shows nothing of its facets, or it
+    /// ended early.
+    bool usable() const { return variance_.usable(); }
     bool ended_early() const { return ended_early_; }
+
+    const TiltVariance& variance() const { return variance_; }
 
     /// Degrees: the facet error (facet_error.h) by which the photograph differs from the model. It
     /// is about right from 0.05 to 0.5 degrees; larger ones are read too small, and what else there
@@ -44,10 +49,16 @@ public:
     std::optional<double> facet_error_deg(const Frame& frame, const LaidPictures& laid) const;
 
 private:
+    /// Where the samples lie, and the model's picture there; its first sketch, nothing when there
+    /// is nothing to be told.
+    std::optional<Photo> lay_samples(const Scene& model, const Scene& small,
+                                     const DraftRenderer& renderer, const CameraModel& camera);
+
     cv::Matx33d model_from_sample_;  // pixels' centres at whole numbers
     cv::Mat mask_;                   // CV_8U: the samples
-    cv::Mat picture_;                // CV_32F: the model's, as the camera would see it
-    std::optional<TiltVariance> variance_;
+    cv::Mat fine_;                   // CV_32F: the model's picture, as the camera would see it
+    cv::Mat picture_;                // the same at the samples' places
+    TiltVariance variance_;
     bool ended_early_ = false;
 };
 

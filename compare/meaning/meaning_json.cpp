@@ -51,6 +51,7 @@ Json meaning_json(const Meaning& meaning, const Calibration& calibration) {
                            {"seed", calibration.seed},
                            {"stone_px", number(calibration.stone_px)},
                            {"psf_px", number(calibration.psf_px)},
+                           {"electrons", number(calibration.electrons)},
                            {"from_cache", calibration.from_cache},
                            {"notes", calibration.notes}};
     return json;

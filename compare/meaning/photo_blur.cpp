@@ -13,19 +13,12 @@ namespace {
 
 constexpr double k_most = 4, k_step = 0.25;
 
-cv::Mat blurred(const cv::Mat& picture, double sigma) {
-    if (!(sigma > 0)) return picture;
-    cv::Mat result;
-    cv::GaussianBlur(picture, result, {0, 0}, sigma, sigma, cv::BORDER_REPLICATE);
-    return result;
-}
-
 // Mean square of the detail between one and two pixels. Roots make noise alike everywhere; two
 // pixels average what is left of it away.
 double detail(const cv::Mat& light, double white, const cv::Mat& mask) {
     cv::Mat root = cv::min(cv::max(light / white, 0), 1);
     cv::sqrt(root, root);
-    const cv::Mat band = blurred(root, 1) - blurred(root, 2);
+    const cv::Mat band = softened(root, 1) - softened(root, 2);
     return cv::mean(band.mul(band), mask)[0];
 }
 
@@ -42,7 +35,7 @@ double photo_blur_px(const MatchedPictures& pictures) {
     double before = detail(render, pictures.white, inside);
     if (!(wanted > 0) || !(before > wanted)) return 0;
     for (double sigma = k_step; sigma <= k_most; sigma += k_step) {
-        const double now = detail(blurred(render, sigma), pictures.white, inside);
+        const double now = detail(softened(render, sigma), pictures.white, inside);
         if (now <= wanted) {
             // Detail falls about exponentially between two steps.
             const double part = std::log(before / wanted) / std::log(before / std::max(now, 1e-30));
@@ -53,9 +46,16 @@ double photo_blur_px(const MatchedPictures& pictures) {
     return k_most;
 }
 
+cv::Mat softened(const cv::Mat& picture, double psf_px) {
+    if (!(psf_px > 0)) return picture;
+    cv::Mat result;
+    cv::GaussianBlur(picture, result, {0, 0}, psf_px, psf_px, cv::BORDER_REPLICATE);
+    return result;
+}
+
 Photo softened(const Photo& picture, double psf_px) {
     Photo result = picture;
-    const cv::Mat soft = blurred(colour_of(picture), psf_px);
+    const cv::Mat soft = softened(colour_of(picture), psf_px);
     result.rgb.assign(soft.ptr<float>(), soft.ptr<float>() + 3 * soft.total());
     return result;
 }

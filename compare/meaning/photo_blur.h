@@ -14,7 +14,8 @@ namespace culet {
 double photo_blur_px(const MatchedPictures& pictures);
 
 /// The picture as a lens would show it whose point spread is a Gaussian of that standard deviation.
-/// The coverage stays as it is.
+/// A photo's coverage stays as it is.
+cv::Mat softened(const cv::Mat& picture, double psf_px);
 Photo softened(const Photo& picture, double psf_px);
 
 }  // namespace culet

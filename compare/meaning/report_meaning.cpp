@@ -234,12 +234,12 @@ std::string meaning_section(const Report& report) {
     body += fmt::format(
         "<p class=\"note\">Each curve is what this stone, in this pose and light, would score "
         "against the model if every facet were tilted at random by that much: {} simulated "
-        "photographs, seed {}, blurred by {} pixels, noisy and in whole steps like a camera's, "
-        "registered anew. "
+        "photographs, seed {}, blurred by {} pixels, as noisy as one of {} electrons at white, in "
+        "whole steps like a camera's, registered anew. "
         "Dots with bars: mean and spread; line across and ring: the {}; strokes: other lights and "
         "poses. 0 is the ceiling, the model itself photographed. {}</p>\n",
         calibration.draws.size(), calibration.seed, decimals(calibration.psf_px, 1),
-        photo_word(report),
+        significant(calibration.electrons, 2), photo_word(report),
         calibration.from_cache ? "The draws were kept from an earlier comparison with this scene."
                                : fmt::format("They took {} s.", decimals(calibration.seconds, 0)));
     for (const std::string& note : calibration.notes) {

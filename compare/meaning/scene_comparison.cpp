@@ -6,31 +6,34 @@
 #include <chrono>
 #include <cmath>
 #include <opencv2/core.hpp>
-#include <system_error>
 
 #include "compare/frame.h"
 #include "compare/laid_pictures.h"
 #include "compare/meaning/calibrate.h"
+#include "compare/meaning/calibration_cache.h"
 #include "compare/meaning/cropped_camera.h"
 #include "compare/meaning/draft_renderer.h"
 #include "compare/meaning/photo_blur.h"
+#include "compare/meaning/photo_noise.h"
 #include "compare/pixels.h"
 #include "compare/score_list.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
-#include "stone/output_file.h"
 #include "stone/units.h"
 
 namespace culet {
 
 namespace {
 
-constexpr double k_least_psf_px = 0.3;  // a camera's pixels alone
-constexpr double k_margin = 0.18;       // of the diameter, around the stone
-constexpr double k_tolerance = 0.03;    // of the pictures that are compared
+using Clock = std::chrono::steady_clock;
+
+constexpr double k_margin = 0.18;     // of the diameter, around the stone
+constexpr double k_tolerance = 0.03;  // of the pictures that are compared
+// Of the time that is left: a stone of hundreds of facets must leave some for draws.
+constexpr double k_most_for_tilts = 0.4;
+constexpr double k_bar_for_tilts = 0.2;  // of the progress
 // A pose is taken when it is sure to a degree, which costs the scores what 0.3 to 0.5 degrees of
 // facet error cost, and to half a percent of the diameter: reflexes are matched within 2 %.
-constexpr double k_most_for_tilts = 0.4;  // of the budget
 constexpr double k_pose_angle = 0.01745, k_pose_shift = 0.005;
 
 Progress part_of(const Progress& progress, double from, double to) {
@@ -75,8 +78,7 @@ CameraModel camera_of(const Photo& photo, const Frame& frame, const Comparison& 
     const double white = comparison.pictures.white;
     for (std::size_t c = 0; c < 3; ++c) camera.gain[c] = comparison.gain[c] / white;
     const LaidPictures laid = lay_pictures(frame, photo.saturation, 0);
-    // A tenth of a pixel is more than can be told: steps of that keep caches useful.
-    camera.psf_px = std::max(k_least_psf_px, std::round(10 * photo_blur_px(laid.pictures)) / 10);
+    set_blur_and_noise(camera, laid.pictures);
     camera.outline_from_background = comparison.registration.photo_outline == "background";
     // The median of what surrounds the stone.
     const cv::Mat around = frame.photo.silhouette.mask == 0;
@@ -109,60 +111,31 @@ std::vector<float> ignored_in_model(const Frame& frame, const Photo& model) {
     return result;
 }
 
-// A broken or foreign file in the cache is no matter: the calibration is made anew.
-std::optional<Calibration> cached(const std::filesystem::path& file, const std::string& hash) {
-    std::error_code ignored;
-    if (!std::filesystem::exists(file, ignored)) return std::nullopt;
-    try {
-        auto calibration = calibration_from(read_text(file));
-        if (!calibration || calibration->hash != hash || !calibration->complete()) {
-            return std::nullopt;
-        }
-        calibration->from_cache = true;
-        return calibration;
-    } catch (const InputError&) {
-        return std::nullopt;
-    }
-}
-
 Calibration calibrated(const SceneComparison& compared, const DraftRenderer& renderer,
                        CalibrateOptions& how, std::optional<FacetTilts>& tilts,
-                       const std::filesystem::path& cache, const Progress& progress) {
-    const std::string hash = calibration_hash(compared.scene, how);
-    const std::filesystem::path file =
-        cache.empty() ? std::filesystem::path() : cache / ("calibration-" + hash + ".json");
-    if (!file.empty()) {
-        if (auto found = cached(file, hash)) {
-            tilts.emplace(compared.scene, renderer, how.camera, how.threads);
-            return std::move(*found);
-        }
+                       const CalibrationCache& cache, const Progress& progress) {
+    if (auto kept = cache.find(calibration_hash(compared.scene, how))) {
+        tilts.emplace(compared.scene, renderer, how.camera, std::move(kept->tilts));
+        return std::move(kept->calibration);
     }
-    // A stone of hundreds of facets must leave time for draws.
-    using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
-    const auto seconds = [&] {
-        return std::chrono::duration<double>(Clock::now() - start).count();
-    };
-    tilts.emplace(compared.scene, renderer, how.camera, how.threads, [&] {
-        if (progress && !progress(0)) throw Interrupted();
-        return !(how.budget_seconds > 0) || seconds() < k_most_for_tilts * how.budget_seconds;
+    const std::chrono::duration<double> left = how.deadline - start;
+    tilts.emplace(compared.scene, renderer, how.camera, how.threads, [&](double fraction) {
+        if (progress && !progress(k_bar_for_tilts * fraction)) throw Interrupted();
+        return Clock::now() - start < k_most_for_tilts * left;
     });
     how.tilts = &*tilts;
-    if (how.budget_seconds > 0) {
-        how.budget_seconds = std::max(how.budget_seconds - seconds(), 1e-3);
-    }
-    Calibration made = calibrate(compared.scene, compared.render, renderer, how, progress);
-    made.seconds = seconds();
+    Calibration made = calibrate(compared.scene, compared.render, renderer, how,
+                                 part_of(progress, k_bar_for_tilts, 1));
+    made.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    made.psf_px = how.camera.psf_px;
+    made.electrons = how.camera.electrons;
+    made.stone_px = compared.comparison.registration.render_diameter_px;
     if (tilts->ended_early()) {
         made.notes.push_back(
             "the budget left no time for what each facet's tilt changes: that score is missing");
-    }
-    made.psf_px = how.camera.psf_px;
-    made.stone_px = compared.comparison.registration.render_diameter_px;
-    if (!file.empty() && made.complete() && !tilts->ended_early()) {
-        std::error_code ignored;
-        std::filesystem::create_directories(cache, ignored);
-        write_text(file, calibration_json(made));
+    } else {
+        cache.keep(made, tilts->variance());
     }
     return made;
 }
@@ -171,6 +144,7 @@ Calibration calibrated(const SceneComparison& compared, const DraftRenderer& ren
 
 SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
                                    const SceneCompareOptions& options, const Progress& progress) {
+    const auto start = Clock::now();
     SceneComparison result;
     result.scene = scene;
     CompareOptions how = options.compare;
@@ -235,15 +209,18 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
     calibration.camera = camera_of(*photo, frame, comparison);
     calibration.draws = options.draws;
     calibration.null_draws = 3 * options.draws;
-    calibration.budget_seconds = options.budget_seconds;
+    if (options.budget_seconds > 0) {
+        calibration.deadline = start + std::chrono::duration_cast<Clock::duration>(
+                                           std::chrono::duration<double>(options.budget_seconds));
+    }
     calibration.seed = how.seed;
     calibration.threads = how.threads;
     calibration.largest = options.largest;
     calibration.ignored = ignored_in_model(frame, result.render);
     calibration.start = options.start;
     std::optional<FacetTilts> tilts;
-    comparison.calibration =
-        calibrated(result, renderer, calibration, tilts, options.cache, part_of(progress, 0.2, 1));
+    comparison.calibration = calibrated(result, renderer, calibration, tilts,
+                                        CalibrationCache(options.cache), part_of(progress, 0.2, 1));
     // As the draws are: against a render as soft as the photograph.
     std::vector<Score> scores =
         scores_against(*photo, how.mask, softened(result.render, calibration.camera.psf_px),

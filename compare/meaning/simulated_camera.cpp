@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "compare/meaning/chance.h"
+#include "compare/meaning/photo_blur.h"
 #include "compare/pixels.h"
 #include "compare/resampling.h"
 #include "render/colour.h"
@@ -17,14 +17,6 @@ namespace {
 
 cv::Mat coverage_of(const Photo& photo) {
     return cv::Mat(photo.height, photo.width, CV_32F, const_cast<float*>(photo.coverage.data()));
-}
-
-// Light through a filter of a few pixels.
-cv::Mat spread(const cv::Mat& picture, double sigma) {
-    if (!(sigma > 0)) return picture;
-    cv::Mat result;
-    cv::GaussianBlur(picture, result, {0, 0}, sigma, sigma, cv::BORDER_REPLICATE);
-    return result;
 }
 
 double ninety_ninth(const Photo& stone) {
@@ -60,7 +52,7 @@ Photo photographed(const Photo& stone, const CameraModel& camera, std::uint64_t 
     const double dx = chance.uniform(-0.5, 0.5), dy = chance.uniform(-0.5, 0.5);
     const double mx = exposed.cols / 2.0, my = exposed.rows / 2.0;
     const cv::Matx23d from(scale, 0, mx - scale * mx + dx, 0, scale, my - scale * my + dy);
-    const cv::Mat seen = spread(
+    const cv::Mat seen = softened(
         resampled(exposed, from, exposed.size(), Kernel::cubic, Beyond::nearest), camera.psf_px);
 
     Photo photo;

@@ -30,17 +30,26 @@ struct TiltModel {
 /// calibration to tell.
 class TiltVariance {
 public:
+    /// Not usable.
+    TiltVariance() = default;
     explicit TiltVariance(const TiltModel& model);
+    /// One that was kept: its `rows()` and `samples()`.
+    TiltVariance(std::vector<float> rows, std::size_t samples)
+        : samples_(samples), rows_(std::move(rows)) {}
 
     /// False: no cause changes any sample otherwise than a nuisance does.
     bool usable() const { return !rows_.empty(); }
+    std::size_t samples() const { return samples_; }
+    /// One of `samples()` values a direction: the estimate is the root of the sum of the squares of
+    /// their products with a difference.
+    const std::vector<float>& rows() const { return rows_; }
     /// `difference`: of a picture from the one without causes, a value a sample; nothing when not
     /// usable.
     std::optional<double> rms(const std::vector<double>& difference) const;
 
 private:
     std::size_t samples_ = 0;
-    std::vector<float> rows_;  // one a direction: the estimate is the root of squared products' sum
+    std::vector<float> rows_;
 };
 
 }  // namespace culet

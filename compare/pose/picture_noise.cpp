@@ -4,21 +4,28 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <vector>
 
 #include "compare/pixels.h"
 
 namespace culet {
 
-double noise_of(const cv::Mat& encoded_picture) {
+double noise_of(const cv::Mat& picture, const cv::Mat& mask) {
     // Blind to planes and to all second-order change; the weights' squares sum to 36.
     const cv::Mat kernel = (cv::Mat_<float>(3, 3) << 1, -2, 1, -2, 4, -2, 1, -2, 1);
     cv::Mat response;
-    cv::filter2D(encoded_picture, response, CV_32F, kernel);
+    cv::filter2D(picture, response, CV_32F, kernel);
     const cv::Mat size = cv::abs(response);
     const cv::Mat one_channel = size.reshape(1);
-    const cv::Mat everywhere(one_channel.size(), CV_8U, cv::Scalar(255));
+    cv::Mat channels;  // the mask, once for each
+    if (mask.empty()) {
+        channels = cv::Mat(one_channel.size(), CV_8U, cv::Scalar(255));
+    } else {
+        cv::merge(std::vector<cv::Mat>(3, mask), channels);
+        channels = channels.reshape(1);
+    }
     // The lower quartile of |normal| lies at 0.3186 sigma: edges spoil it least.
-    return quantile(one_channel, everywhere, 0.25) / (6 * 0.3186);
+    return quantile(one_channel, channels, 0.25) / (6 * 0.3186);
 }
 
 double least_edge(const cv::Mat& strength, const cv::Mat& stone) {

@@ -5,9 +5,9 @@
 
 namespace culet {
 
-/// Noise of one colour of an encoded picture (CV_32FC3), one sigma: Immerkaer (1996), by the median
-/// instead of the mean, so that edges do not count.
-double noise_of(const cv::Mat& encoded_picture);
+/// Noise of one colour of a picture (CV_32FC3) under a mask (empty: everywhere), one sigma:
+/// Immerkaer (1996), by the lower quartile instead of the mean, so that edges do not count.
+double noise_of(const cv::Mat& picture, const cv::Mat& mask = {});
 
 /// The least of a map of gradient strengths that counts as an edge: four times its own noise, which
 /// the weaker half of the pixels around and on the stone shows, and never less than a step of an

@@ -24,6 +24,7 @@
 #include "compare/meaning/hypotheses.h"
 #include "compare/meaning/meaning.h"
 #include "compare/meaning/photo_blur.h"
+#include "compare/meaning/photo_noise.h"
 #include "stone/cuts/cuts.h"
 #include "stone/units.h"
 
@@ -65,11 +66,53 @@ Scene scene_of(const Case& one, int pixels) {
 
 struct Trial {
     std::string kind;
-    double sigma = 0;
+    double sigma = 0;  // that its facets' tilts were drawn with, degrees
+    double own = 0;    // their root mean square
     bool right = false;
+    Photo photo;
+    CameraModel seen, camera;  // as found in the photograph; as it was
     Meaning meaning;
     std::map<std::string, double> scores;
+
+    void judge(const Calibration& calibration, const std::vector<std::optional<double>>& values) {
+        std::vector<Score> of_photo;
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            Score score;
+            score.key = calibration.keys[k];
+            score.value = values[k];
+            score.higher_is_better = calibration.higher_is_better[k];
+            score.is_correlation = score.key.starts_with("zncc");
+            if (score.value) scores[score.key] = *score.value * (score.higher_is_better ? 1 : -1);
+            of_photo.push_back(std::move(score));
+        }
+        meaning = meaning_of(of_photo, calibration);
+    }
 };
+
+auto alike_to(const CameraModel& camera) {
+    return [camera](const CameraModel& other) {
+        return camera.psf_px == other.psf_px && camera.electrons == other.electrons;
+    };
+}
+
+// How well blur and noise are seen.
+void print_cameras(const std::vector<Trial>& trials) {
+    double blur = 0, blur_squares = 0, noise = 0, noise_squares = 0, n = 0;
+    for (const Trial& t : trials) {
+        if (!t.right) continue;
+        const double off = t.seen.psf_px - t.camera.psf_px,
+                     ratio = std::log(t.seen.electrons / t.camera.electrons) / -2;
+        blur += off;
+        blur_squares += off * off;
+        noise += ratio;
+        noise_squares += ratio * ratio;
+        ++n;
+    }
+    fmt::print(
+        "  right stones' blur seen {:+.2f} pixels off, rms {:.2f}; logarithm of the noise {:+.2f}, "
+        "rms {:.2f}\n",
+        blur / n, std::sqrt(blur_squares / n), noise / n, std::sqrt(noise_squares / n));
+}
 
 double area_under(const std::vector<double>& right, const std::vector<double>& wrong) {
     double wins = 0;
@@ -79,15 +122,40 @@ double area_under(const std::vector<double>& right, const std::vector<double>& w
     return wins / (static_cast<double>(right.size()) * static_cast<double>(wrong.size()));
 }
 
-// As the program finds it, but not rounded to tenths.
-double blur_of(const Photo& photo, const Photo& picture, double largest) {
-    const Frame frame = align(photo, {}, picture, {.largest = largest});
-    if (frame.render.empty()) return 0;
-    return std::max(0.3, photo_blur_px(lay_pictures(frame, photo.saturation, 0).pictures));
+// Of `count` angles of normal distribution and standard deviation 1.
+double root_mean_square(std::size_t count, std::uint64_t seed) {
+    Chance chance(seed);
+    double squares = 0;
+    for (std::size_t k = 0; k < count; ++k) squares += std::pow(chance.normal(), 2);
+    return std::sqrt(squares / static_cast<double>(count));
 }
 
 double since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// The equivalent error of right stones over a true one.
+void print_ratios(const std::vector<Trial>& trials, const char* over, double Trial::*truth) {
+    std::map<double, std::vector<double>> ratios;
+    for (const Trial& t : trials) {
+        if (!t.right || t.sigma < 0.05 || !t.meaning.equivalent.deg) continue;
+        ratios[t.sigma].push_back(*t.meaning.equivalent.deg / (t.*truth));
+    }
+    int within = 0, of = 0;
+    double squares = 0;
+    fmt::print("  over {}:\n", over);
+    for (auto& [sigma, r] : ratios) {
+        std::sort(r.begin(), r.end());
+        for (const double x : r) {
+            within += x >= 1 / 1.5 && x <= 1.5;
+            squares += std::log(x) * std::log(x);
+            ++of;
+        }
+        fmt::print("    {:5.2f} deg: ratio {:.2f} {:.2f} {:.2f}\n", sigma, r.front(),
+                   r[r.size() / 2], r.back());
+    }
+    fmt::print("    within 1.5: {} of {}; rms of the ratio's logarithm {:.3f}\n", within, of,
+               std::sqrt(squares / std::max(1, of)));
 }
 
 }  // namespace
@@ -135,7 +203,6 @@ int main(int argc, char** argv) {
         CalibrateOptions options;
         options.draws = draws;
         options.null_draws = right_only ? 0 : 3 * draws;
-        options.budget_seconds = 0;
         options.seed = seed;
         options.threads = threads;
         options.largest = pixels;
@@ -155,18 +222,12 @@ int main(int argc, char** argv) {
         const FacetTilts tilts(model, renderer, options.camera, threads);
         options.tilts = &tilts;
         fmt::print("  facets' tilts: {:.1f} s\n", since(start));
-        start = std::chrono::steady_clock::now();
-        const Calibration calibration = calibrate(model, picture, renderer, options);
-        fmt::print("  calibration: {} draws in {:.1f} s\n", calibration.draws.size(), since(start));
-        for (const std::string& note : calibration.notes) fmt::print("  {}\n", note);
-
         std::vector<Trial> trials;
-        const auto photograph = [&](const std::string& kind, double sigma, const Scene& scene,
-                                    std::uint64_t draw) {
+        const auto photograph = [&](const std::string& kind, double sigma, double own,
+                                    const Scene& scene, std::uint64_t draw) {
             Chance chance(seed_of(seed, 555, draw));
             CameraModel camera = options.camera;
-            // Lenses from sharp to a little out of focus, and two and a half stops of light. The
-            // calibration has 0.7 pixels for all of them, where the program's has the photograph's.
+            // Lenses from sharp to a little out of focus, and two and a half stops of light.
             camera.psf_px = chance.uniform(blur_px[0], blur_px[1]);
             camera.electrons *= std::exp(chance.uniform(-1, 1) * std::log(2.5));
             for (double& g : camera.gain) g *= chance.uniform(0.97, 1.03);
@@ -177,33 +238,25 @@ int main(int argc, char** argv) {
                 for (double& g : camera.gain) g *= factor;
             }
             const Photo photo = photographed(stone, camera, seed_of(seed, 556, draw));
-            const Photo soft = softened(picture, blur_of(photo, picture, options.largest));
-            const auto values = calibration_scores(photo, soft, options);
-            std::vector<Score> scores;
-            for (std::size_t k = 0; k < values.size(); ++k) {
-                Score score;
-                score.key = calibration.keys[k];
-                score.value = values[k];
-                score.higher_is_better = calibration.higher_is_better[k];
-                score.is_correlation = score.key.starts_with("zncc");
-                scores.push_back(score);
+            CameraModel seen = options.camera;
+            const Frame frame = align(photo, {}, picture, {.largest = options.largest});
+            if (!frame.render.empty()) {
+                set_blur_and_noise(seen, lay_pictures(frame, photo.saturation, 0).pictures);
             }
-            Trial trial{kind, sigma, kind == "right", meaning_of(scores, calibration), {}};
-            for (const Score& s : scores) {
-                if (s.value) trial.scores[s.key] = *s.value * (s.higher_is_better ? 1 : -1);
-            }
-            trials.push_back(trial);
+            trials.push_back({kind, sigma, own, kind == "right", photo, seen, camera, {}, {}});
         };
         std::uint64_t draw = 1;
         for (const double sigma : {0.0, 0.05, 0.07, 0.1, 0.2, 0.35, 0.5, 0.7, 1.0}) {
             for (int k = 0; k < each; ++k, ++draw) {
                 Scene scene = model;
+                const double own = sigma * root_mean_square(model.stone.solid.facets.size(),
+                                                            seed_of(seed, 322, draw));
                 if (sigma > 0) {
-                    scene.stone.solid = with_facet_error(model.stone.solid, radians(sigma),
-                                                         seed_of(seed, 321, draw))
-                                            .value();
+                    scene.stone.solid =
+                        with_facet_error(model.stone.solid, radians(own), seed_of(seed, 321, draw))
+                            .value();
                 }
-                photograph("right", sigma, scene, draw);
+                photograph("right", sigma, own, scene, draw);
             }
         }
         const Vec3 middle = centroid(model.stone.solid);
@@ -213,7 +266,7 @@ int main(int argc, char** argv) {
             light.lights = turned_lights(
                 model.lights, rotation_about(chance.direction(), radians(chance.uniform(15, 180))),
                 middle);
-            photograph("light", 0, light, draw++);
+            photograph("light", 0, 0, light, draw++);
             Scene pose = model;
             const double period = 2 * M_PI / turns_alike(model.stone.solid, model.stone.up);
             const double towards = chance.uniform(0, 2 * M_PI);
@@ -223,37 +276,37 @@ int main(int argc, char** argv) {
                                             radians(chance.uniform(3, 20))) *
                                  rotation_about(model.stone.up, period * chance.uniform(0.1, 0.9)),
                              middle);
-            photograph("pose", 0, pose, draw++);
+            photograph("pose", 0, 0, pose, draw++);
             Scene catalogue = model;
             catalogue.stone.solid = ideal;
-            photograph("catalogue", 0, catalogue, draw++);
+            photograph("catalogue", 0, 0, catalogue, draw++);
             Scene other = model;
             std::map<std::string, double> proportions = one.other;
             other.stone.solid = with_facet_error(make_cut(one.cut, proportions), radians(0.6),
                                                  seed_of(seed, 888, draw))
                                     .value();
-            photograph("other", 0, other, draw++);
+            photograph("other", 0, 0, other, draw++);
         }
         std::vector<double> off;
-        std::map<double, std::vector<double>> ratios;
+        // As the program does: calibrated for each photograph's own blur and noise.
+        std::vector<CameraModel> cameras;
         for (const Trial& t : trials) {
-            if (!t.right || t.sigma < 0.05 || !t.meaning.equivalent.deg) continue;
-            ratios[t.sigma].push_back(*t.meaning.equivalent.deg / t.sigma);
+            if (std::none_of(cameras.begin(), cameras.end(), alike_to(t.seen)))
+                cameras.push_back(t.seen);
         }
-        int within = 0, of = 0;
-        double squares = 0;
-        for (auto& [sigma, r] : ratios) {
-            std::sort(r.begin(), r.end());
-            for (const double x : r) {
-                within += x >= 1 / 1.5 && x <= 1.5;
-                squares += std::log(x) * std::log(x);
-                ++of;
-            }
-            fmt::print("  {:5.2f} deg: ratio {:.2f} {:.2f} {:.2f}\n", sigma, r.front(),
-                       r[r.size() / 2], r.back());
+        print_cameras(trials);
+        start = std::chrono::steady_clock::now();
+        const auto calibrations = calibrate(model, picture, renderer, options, cameras);
+        fmt::print("  calibrations for {} cameras: {} draws in {:.1f} s\n", cameras.size(),
+                   calibrations.front().draws.size(), since(start));
+        for (const std::string& note : calibrations.front().notes) fmt::print("  {}\n", note);
+        for (Trial& t : trials) {
+            const auto own = std::find_if(cameras.begin(), cameras.end(), alike_to(t.seen));
+            t.judge(calibrations[static_cast<std::size_t>(own - cameras.begin())],
+                    calibration_scores(t.photo, softened(picture, t.seen.psf_px), options));
         }
-        fmt::print("  within 1.5: {} of {}; rms of the ratio's logarithm {:.3f}\n", within, of,
-                   std::sqrt(squares / std::max(1, of)));
+        print_ratios(trials, "their stone's own facet error", &Trial::own);
+        print_ratios(trials, "what its tilts were drawn with", &Trial::sigma);
         if (right_only) {
             all.insert(all.end(), trials.begin(), trials.end());
             continue;

@@ -111,7 +111,7 @@ TEST(FacetTilts, of_a_stone_that_is_not_convex_are_not_known) {
 TEST(FacetTilts, end_when_they_are_told_to) {
     const Scene scene = glass();
     const DraftRenderer renderer(scene, 0.03);
-    const FacetTilts tilts(scene, renderer, camera(), 0, [] { return false; });
+    const FacetTilts tilts(scene, renderer, camera(), 0, [](double) { return false; });
     EXPECT_FALSE(tilts.usable());
     EXPECT_TRUE(tilts.ended_early());
 }

@@ -113,6 +113,14 @@ TEST(SceneComparison, keeps_its_calibration_for_the_next_photograph) {
     const SceneComparison second = compare_with_scene(photo, scene, options);
     EXPECT_TRUE(second.comparison.calibration->from_cache);
     EXPECT_EQ(first.comparison.meaning->headline, second.comparison.meaning->headline);
+    // No score hangs on whether it was kept.
+    const auto meant = [](const SceneComparison& compared) {
+        const std::string json = scores_json(compared.comparison);
+        const std::size_t from = json.find("\"sensitivity\": ["),
+                          to = json.find("\"calibration\": {");
+        return json.substr(from, to - from);
+    };
+    EXPECT_TRUE(meant(first) == meant(second));
     // Another seed is another calibration.
     options.compare.seed = 2;
     EXPECT_FALSE(compare_with_scene(photo, scene, options).comparison.calibration->from_cache);
@@ -161,6 +169,29 @@ TEST(Calibrate, under_the_same_light_from_everywhere_has_no_wrong_light) {
         EXPECT_NE(draw.world, World::both);
     }
     EXPECT_FALSE(calibration.notes.empty());
+}
+
+TEST(Calibrate, for_several_cameras_is_that_for_each) {
+    Scene scene = small_scene();
+    scene.camera = cropped_to_stone(scene.camera, scene.stone.solid, 60, 0.2);
+    const DraftRenderer renderer(scene, 0.05);
+    CalibrateOptions options;
+    options.draws = 2;
+    options.null_draws = 2;
+    options.largest = 60;
+    CameraModel noisy;
+    noisy.electrons = 500;
+    CameraModel blurred;
+    blurred.psf_px = 1.5;
+    const auto both = calibrate(scene, renderer.picture(), renderer, options, {noisy, blurred});
+    ASSERT_EQ(both.size(), 2u);
+    for (const auto& [camera, calibration] : {std::pair(noisy, both[0]), {blurred, both[1]}}) {
+        options.camera = camera;
+        Calibration one = calibrate(scene, renderer.picture(), renderer, options);
+        one.seconds = calibration.seconds;
+        EXPECT_EQ(calibration_json(one), calibration_json(calibration));
+    }
+    EXPECT_NE(both[0].draws[0].scores, both[1].draws[0].scores);
 }
 
 TEST(Fingerprint, tells_scenes_apart_by_each_of_their_parts) {
