@@ -2,6 +2,7 @@
 // whether the turn between the cameras is as sure as it is said to be.
 //
 //   build/bench_light --seeds 20 --radius 110
+//   build/bench_light --seeds 1 --radius 400 --panorama studio.exr --width 256 -v
 
 #include <fmt/format.h>
 
@@ -29,6 +30,8 @@ double part(const std::vector<double>& values, double share) {
 int main(int argc, char** argv) {
     int seeds = 10, first = 1;
     double radius = 110, electrons = 20000, given_error = -1;
+    std::string file;
+    int width = 256;
     bool quick = false, know_turn = false, know_distance = false, all = false;
     CLI::App app("light from two photographs of a ball");
     app.add_option("--seeds", seeds);
@@ -37,6 +40,8 @@ int main(int argc, char** argv) {
     app.add_option("--electrons", electrons, "at the clipping level");
     app.add_option("--given", given_error,
                    "the ball is given, wrong by so many pixels (one sigma); else it is found");
+    app.add_option("--panorama", file, "of a real place, instead of random rooms");
+    app.add_option("--width", width, "of that panorama's and of the light's map");
     app.add_flag("--know-turn", know_turn,
                  "to some degrees: the search over all turns is left out");
     app.add_flag("--know-distance", know_distance);
@@ -44,6 +49,8 @@ int main(int argc, char** argv) {
     app.add_flag("-v", all);
     CLI11_PARSE(app, argc, argv);
 
+    EnvironmentMap map;
+    if (!file.empty()) map = simulated::coarse_panorama(file, width);
     std::vector<double> turn_off, pulls, mean_stops, worst_stops, energy, ball_off;
     int refused = 0, doubted = 0;
     for (int seed = first; seed < first + seeds; ++seed) {
@@ -52,7 +59,8 @@ int main(int argc, char** argv) {
             return std::uniform_real_distribution<double>(low, high)(random);
         };
         std::normal_distribution<double> normal;
-        const auto panorama = simulated::room(static_cast<unsigned>(seed));
+        const auto panorama = file.empty() ? simulated::room(static_cast<unsigned>(seed))
+                                           : simulated::panorama_of(map);
         std::vector<ProbeView> views;
         std::vector<simulated::Taken> taken;
         glm::dmat3 turned(1.0);
@@ -70,8 +78,11 @@ int main(int argc, char** argv) {
             shot.world_from_camera = simulated::camera_at(turn, v == 0 ? 0 : uniform(-0.1, 0.1));
             if (v == 1) turned = shot.world_from_camera;
             taken.push_back(simulated::take(shot, panorama));
-            simulated::expose(taken.back().photo, 4, electrons,
-                              static_cast<unsigned>(2 * seed + v));
+            // Of a real place's lamps and shadows one exposure shows too little: all of them
+            // merged.
+            if (file.empty())
+                simulated::expose(taken.back().photo, 4, electrons,
+                                  static_cast<unsigned>(2 * seed + v));
             ProbeView view;
             view.name = fmt::format("room {} view {}", seed, v);
             view.photo = taken.back().photo;
@@ -85,6 +96,7 @@ int main(int argc, char** argv) {
         }
         ProbeOptions options;
         options.reflectance = {0.6, 0.6, 0.6};
+        if (!file.empty()) options.width = width;
         if (know_turn) options.turned = turn + 0.02;
         if (know_distance) options.distance = 25;
         if (quick) {

@@ -4,6 +4,7 @@
 // a vector equation at the point that a ray meets.
 
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "compare/photo.h"
+#include "render/image_io.h"
 #include "render/scene.h"
 
 namespace culet::simulated {
@@ -54,6 +56,26 @@ inline Panorama room(unsigned seed) {
 
 inline Panorama panorama_of(const EnvironmentMap& map) {
     return [&map](const Vec3& d) { return map.at(d); };
+}
+
+/// A panorama's file as a map of that width, of which its own must be a multiple: a ball shows
+/// every texel only if they are not too many for its pixels.
+inline EnvironmentMap coarse_panorama(const std::filesystem::path& file, int width) {
+    const Picture whole = read_picture(file).picture;
+    EnvironmentMap map;
+    map.width = width;
+    map.height = width / 2;
+    const int factor = whole.width / map.width;
+    map.rgb.assign(3 * static_cast<std::size_t>(map.width) * map.height, 0.0f);
+    for (int y = 0; y < factor * map.height; ++y) {
+        for (int x = 0; x < factor * map.width; ++x) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                map.rgb[3 * (static_cast<std::size_t>(y / factor) * map.width + x / factor) + c] +=
+                    std::max(0.0f, whole.at(x, y)[c]) / static_cast<float>(factor * factor);
+            }
+        }
+    }
+    return map;
 }
 
 struct BallShot {
