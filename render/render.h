@@ -95,8 +95,9 @@ public:
     /// Other lights: the beams stay, and are only shaded anew, unless the lights' colours call for
     /// other wavelengths.
     void light_with(const Lights& lights);
-    /// Other settings: only the stone stays.
-    void draw_with(const RenderSettings& settings);
+    /// Another view, other lights and other settings: only the stone, which must be the same,
+    /// stays.
+    void show(const Scene& scene);
     /// Milliseconds of processor time that a frame may take; 0: no limit. Beams that bring little
     /// are then split no further, as much as the last frame's time asks for: the picture depends on
     /// the machine, and its `remainder` grows. Guy & Soler (2004) call it the frame-rate limit.
@@ -107,6 +108,8 @@ public:
     /// The picture stays valid until the next call. Without `check` no pixels are compared with the
     /// reference, and `error_bound` is NaN.
     const RenderResult& draw(bool check = false);
+    /// What was drawn last, with its memory.
+    RenderResult take();
 
 private:
     friend RenderResult render_with_beams(const Scene& scene, const Progress& progress);

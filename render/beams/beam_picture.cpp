@@ -306,9 +306,12 @@ void FrameRenderer::light_with(const Lights& lights) {
     state_->scene = std::move(changed);
 }
 
-void FrameRenderer::draw_with(const RenderSettings& settings) {
+void FrameRenderer::show(const Scene& scene) {
+    require_outside(state_->body, scene.camera);
     Scene changed = state_->scene;
-    changed.settings = settings;
+    changed.camera = scene.camera;
+    changed.lights = scene.lights;
+    changed.settings = scene.settings;
     state_->called = std::make_unique<Called>(changed);
     state_->scene = std::move(changed);
 }
@@ -325,6 +328,10 @@ void FrameRenderer::report_to(const Progress& progress) {
 const RenderResult& FrameRenderer::draw(bool check) {
     state_->draw(check);
     return state_->result;
+}
+
+RenderResult FrameRenderer::take() {
+    return std::move(state_->result);
 }
 
 std::string refused_by_beams(const Scene& scene, const Plan& plan) {

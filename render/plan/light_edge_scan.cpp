@@ -17,7 +17,8 @@ namespace culet {
 namespace {
 
 // By beams, whose regions all are seen: pixels along a cell. Else rays, one a cell.
-constexpr double k_cell = 3, k_preview_tolerance = 0.1;
+constexpr int k_cell = 3;
+constexpr double k_preview_tolerance = 0.1;
 // Pixels across the stone that do: in larger pictures what is seen is larger, too.
 constexpr double k_across = 200;
 constexpr int k_pixels = 1000;
@@ -175,6 +176,8 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress, Frame
     StonePixels at;
     std::vector<double> seen;
     int times = 1;
+    double step = k_cell;  // of a cell, in these pixels
+    int rows = 0;
     settings.wavelengths_nm = disperses ? k_few_nm : k_one_nm;
     light(apart + pixel());
     if (refused_by_beams(scene, make_plan(scene)).empty()) {
@@ -184,26 +187,24 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress, Frame
             scene.camera = coarser(scene.camera, times);
             light(apart + pixel());
         }
-        step_ = k_cell;
         std::optional<FrameRenderer> own;
         if (frames == nullptr) {
             frames = &own.emplace(scene);
             frames->report_to(progress);
         } else {
-            frames->look_from(scene.camera);
-            frames->draw_with(settings);
-            frames->light_with(scene.lights);
+            frames->show(scene);
         }
         const Picture& picture = frames->draw(false).picture;
-        columns_ = static_cast<int>(picture.width / step_) + 1;
-        rows_ = static_cast<int>(picture.height / step_) + 1;
-        std::vector<std::pair<int, int>> best(static_cast<std::size_t>(columns_ * rows_));
-        std::vector<double> most(best.size(), 0.0);
+        columns_ = picture.width / k_cell + 1;
+        rows = picture.height / k_cell + 1;
+        std::vector<std::pair<int, int>> best(static_cast<std::size_t>(columns_ * rows));
+        std::vector<float> most(best.size(), 0.0f);
         for (int y = 0; y < picture.height; ++y) {
             for (int x = 0; x < picture.width; ++x) {
-                const Rgb rgb = picture.pixel(x, y);
-                const double here = (std::abs(rgb[0]) + std::abs(rgb[1]) + std::abs(rgb[2])) / 3;
-                const std::size_t cell = cell_of(x, y);
+                const float* rgb = picture.at(x, y);
+                const float here = (std::abs(rgb[0]) + std::abs(rgb[1]) + std::abs(rgb[2])) / 3;
+                const std::size_t cell =
+                    static_cast<std::size_t>(y / k_cell * columns_ + x / k_cell);
                 if (!(here > most[cell])) continue;
                 most[cell] = here;
                 best[cell] = {x, y};
@@ -212,19 +213,15 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress, Frame
         for (std::size_t cell = 0; cell < most.size(); ++cell) {
             if (!(most[cell] > 0)) continue;
             at.at.push_back(best[cell]);
-            seen.push_back(most[cell]);
-        }
-        if (!own) {
-            frames->look_from(whole.camera);
-            frames->light_with(whole.lights);
+            seen.push_back(static_cast<double>(most[cell]));
         }
     } else {
         at = stone_pixels(scene, k_pixels);
         if (at.at.empty()) return;
-        step_ = std::max(1.0, std::sqrt(at.in_picture / static_cast<double>(at.at.size())));
-        columns_ = static_cast<int>(scene.camera.width / step_) + 1;
-        rows_ = static_cast<int>(scene.camera.height / step_) + 1;
-        light(apart + step_ * pixel());
+        step = std::max(1.0, std::sqrt(at.in_picture / static_cast<double>(at.at.size())));
+        columns_ = static_cast<int>(scene.camera.width / step) + 1;
+        rows = static_cast<int>(scene.camera.height / step) + 1;
+        light(apart + step * pixel());
         seen = mean_spectra(scene, at, progress);
     }
     for (const Closer& closer : disperses ? k_closer : std::vector<Closer>{}) {
@@ -236,7 +233,7 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress, Frame
         StonePixels some;
         for (const std::size_t i : brightest) some.at.push_back(at.at[i]);
         settings.wavelengths_nm = even_wavelengths(closer.wavelengths);
-        light(2 * apart / closer.wavelengths + step_ * pixel());
+        light(2 * apart / closer.wavelengths + step * pixel());
         const std::vector<double> found = mean_spectra(scene, some, progress);
         // Of what may be there, those of which nothing more is known have as much as these.
         double possible = 0, actual = 0;
@@ -250,27 +247,28 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress, Frame
         for (std::size_t k = 0; k < brightest.size(); ++k) seen[brightest[k]] = found[k];
     }
     // With what is in the cells beside it.
-    cells_.assign(static_cast<std::size_t>(columns_ * rows_), 0.0f);
+    cells_.assign(static_cast<std::size_t>(columns_ * rows), 0.0f);
     for (std::size_t i = 0; i < at.at.size(); ++i) {
-        const int column = static_cast<int>(at.at[i].first / step_),
-                  row = static_cast<int>(at.at[i].second / step_);
-        for (int r = std::max(0, row - 1); r <= std::min(rows_ - 1, row + 1); ++r) {
+        const int column = static_cast<int>(at.at[i].first / step),
+                  row = static_cast<int>(at.at[i].second / step);
+        for (int r = std::max(0, row - 1); r <= std::min(rows - 1, row + 1); ++r) {
             for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c) {
                 float& cell = cells_[static_cast<std::size_t>(r * columns_ + c)];
                 cell = std::max(cell, static_cast<float>(seen[i]));
             }
         }
     }
-    step_ *= times;
-}
-
-std::size_t LightEdgeScan::cell_of(int x, int y) const {
-    return static_cast<std::size_t>(static_cast<int>(y / step_) * columns_ +
-                                    static_cast<int>(x / step_));
+    for (int x = 0; x < whole.camera.width; ++x)
+        column_of_.push_back(static_cast<std::size_t>(x / (step * times)));
+    for (int y = 0; y < whole.camera.height; ++y)
+        row_of_.push_back(static_cast<std::size_t>(y / (step * times)));
 }
 
 double LightEdgeScan::near(int x, int y) const {
-    return cells_.empty() ? 0 : static_cast<double>(cells_[cell_of(x, y)]);
+    if (cells_.empty()) return 0;
+    const std::size_t row = row_of_[static_cast<std::size_t>(y)];
+    return static_cast<double>(
+        cells_[row * static_cast<std::size_t>(columns_) + column_of_[static_cast<std::size_t>(x)]]);
 }
 
 }  // namespace culet

@@ -25,8 +25,8 @@ class LightEdgeScan {
 public:
     /// As light has one way through the stone, unpolarised and not absorbed. `progress` is told 0,
     /// and may stop it: Interrupted.
-    /// `frames`: of this stone, camera and lights, to save making ready what beams need of the
-    /// stone; its settings are left changed.
+    /// `frames`: of this stone, to save making ready what beams need of it; shows other lights in
+    /// larger pixels then.
     LightEdgeScan(const Scene& scene, const Progress& progress, FrameRenderer* frames = nullptr);
 
     /// The radiance that a light's edge may bring in a pixel's cell or beside it; 0: none was
@@ -34,11 +34,9 @@ public:
     double near(int x, int y) const;
 
 private:
-    std::size_t cell_of(int x, int y) const;
-
-    double step_ = 1;  // pixels
-    int columns_ = 0, rows_ = 0;
-    std::vector<float> cells_;
+    int columns_ = 0;
+    std::vector<float> cells_;                     // row by row
+    std::vector<std::size_t> column_of_, row_of_;  // of pixels
 };
 
 }  // namespace culet

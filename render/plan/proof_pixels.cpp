@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/colour_error.h"
+#include "render/plan/contrast.h"
 #include "render/plan/light_edge_scan.h"
 #include "render/plan/planner.h"
 
@@ -35,71 +35,52 @@ ProofPixels choose_proof_pixels(const Scene& scene, const Picture& picture, cons
     ProofPixels chosen;
     chosen.pixels.in_picture = some.in_picture;
     chosen.first = k_first_pixels;
-    const int windows = scene.camera.optics.two_windows ? 2 : 1;
-    const int width = picture.width / windows, height = picture.height;
-    std::vector<std::pair<int, int>> at;
-    std::vector<double> contrast;
-    at.reserve(picture.pixels());
-    contrast.reserve(picture.pixels());
-    double sum = 0, radiance = 0;
-    for (int y = 0; y < height && !picture.coverage.empty(); ++y) {
-        for (int x = 0; x < width; ++x) {
-            const std::size_t pixel =
-                static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                static_cast<std::size_t>(x);
-            if (picture.coverage[pixel] < 0.5f) continue;
-            const Rgb here = picture.pixel(x, y);
-            double most = 0;
-            for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-                if (x + dx < 0 || x + dx >= width || y + dy < 0 || y + dy >= height) continue;
-                most = std::max(most, apart(here, picture.pixel(x + dx, y + dy)));
-            }
-            if (!std::isfinite(most)) most = 0;
-            at.emplace_back(x, y);
-            contrast.push_back(std::sqrt(most));
-            sum += contrast.back();
-            radiance += std::isfinite(mean_of(here)) ? std::max(0.0, mean_of(here)) : 0;
-        }
-    }
-    const double count = static_cast<double>(at.size());
-    if (at.size() <= k_first_pixels) {
+    const Contrast contrast =
+        contrast_of(picture, scene.camera.optics.two_windows ? 2 : 1, some.in_picture);
+    const std::vector<Contrast::Pixel>& pixels = contrast.pixels;
+    const std::size_t size = pixels.size();
+    const double count = static_cast<double>(size);
+    if (size <= k_first_pixels) {
         // A stone of few pixels, or of none that the picture tells of.
-        chosen.pixels.at = at.empty() ? some.at : at;
+        for (const Contrast::Pixel& pixel : pixels) chosen.pixels.at.emplace_back(pixel.x, pixel.y);
+        chosen.all = size > 0;
+        if (!chosen.all) chosen.pixels.at = some.at;
         chosen.counts.assign(chosen.pixels.at.size(), 1.0);
-        chosen.all = !at.empty();
         return chosen;
     }
-    std::vector<double> edges(at.size(), 0.0);
+    std::vector<double> edges;
     double sum_of_edges = 0;
-    if (radiance > 0 && brightest_light(scene) * count > k_bright * radiance) {
+    if (contrast.radiance > 0 && brightest_light(scene) * count > k_bright * contrast.radiance) {
         const LightEdgeScan scan(scene, progress, frames);
-        for (std::size_t i = 0; i < at.size(); ++i)
-            sum_of_edges += edges[i] = scan.near(at[i].first, at[i].second);
+        edges.reserve(size);
+        for (const Contrast::Pixel& pixel : pixels) {
+            edges.push_back(scan.near(pixel.x, pixel.y));
+            sum_of_edges += edges.back();
+        }
         chosen.first = k_first_pixels_of_bright;
     }
-    // Chances, and their sums; then the golden ratio's multiples, evenly spread over these.
-    std::vector<double> sums, chances;
-    sums.reserve(at.size());
-    chances.reserve(at.size());
-    double total = 0;
+    // Chances, 1 in the mean, and their sums; then the golden ratio's multiples, evenly spread over
+    // these.
     const double of_edges = sum_of_edges > 0 ? k_share_of_edges * (1 - k_even_share) : 0,
-                 of_contrast = 1 - k_even_share - of_edges;
-    for (std::size_t i = 0; i < at.size(); ++i) {
-        chances.push_back(k_even_share + (sum > 0 ? of_contrast * contrast[i] * count / sum : 0) +
-                          (sum_of_edges > 0 ? of_edges * edges[i] * count / sum_of_edges : 0));
-        total += chances.back();
-        sums.push_back(total);
-    }
-    const std::size_t most = std::min(k_most_pixels, at.size());
-    for (std::size_t i = 0; i < most; ++i) {
+                 of_contrast = 1 - k_even_share - of_edges,
+                 by_edge = sum_of_edges > 0 ? of_edges * count / sum_of_edges : 0,
+                 by_root = contrast.sum > 0 ? of_contrast * count / contrast.sum : 0;
+    const auto chance = [&](std::size_t i) {
+        return k_even_share + by_root * pixels[i].root + (by_edge > 0 ? by_edge * edges[i] : 0);
+    };
+    std::vector<double> sums;
+    sums.reserve(size);
+    double total = 0;
+    for (std::size_t i = 0; i < size; ++i) sums.push_back(total += chance(i));
+    for (std::size_t i = 0; i < std::min(k_most_pixels, size); ++i) {
         const double place =
             total * std::fmod(0.6180339887498949 * (static_cast<double>(i) + 0.5), 1.0);
-        const std::size_t pixel =
+        const std::size_t at =
             std::min(static_cast<std::size_t>(std::upper_bound(sums.begin(), sums.end(), place) -
                                               sums.begin()),
-                     at.size() - 1);
-        chosen.pixels.at.push_back(at[pixel]);
-        chosen.counts.push_back(total / count / chances[pixel]);
+                     size - 1);
+        chosen.pixels.at.emplace_back(pixels[at].x, pixels[at].y);
+        chosen.counts.push_back(total / count / chance(at));
     }
     return chosen;
 }

@@ -62,12 +62,13 @@ RenderResult ProvenDrawing::draw_with(const RenderSettings& settings) {
     drawn_.settings = settings;
     if (!drawn_by_beams(settings)) return render_with_reference(drawn_, progress_);
     if (frames_) {
-        frames_->draw_with(settings);
+        frames_->show(drawn_);
     } else {
         frames_.emplace(drawn_);
         frames_->report_to(progress_);
     }
-    return frames_->draw(false);
+    frames_->draw(false);
+    return frames_->take();
 }
 
 ProvenDrawing::Next ProvenDrawing::more_rays(const ScenePlan& plan, const Tried& tried,

@@ -7,9 +7,14 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <map>
 #include <numbers>
+#include <random>
 
+#include "render/colour_error.h"
 #include "render/light_presets.h"
+#include "render/plan/contrast.h"
 #include "render/plan/light_edge_scan.h"
 #include "render/plan/planner.h"
 #include "render/plan/verify.h"
@@ -21,6 +26,70 @@ namespace culet {
 namespace {
 
 const Vec3 k_middle{0, 0, 0};
+
+// Random pictures of two windows, with holes and numbers that are none.
+Picture random_picture(unsigned seed, int width, int height) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> number(0, 1);
+    Picture picture;
+    picture.width = width;
+    picture.height = height;
+    for (std::size_t i = 0; i < 3 * picture.pixels(); ++i) picture.rgb.push_back(number(random));
+    for (std::size_t i = 0; i < picture.pixels(); ++i) picture.coverage.push_back(number(random));
+    picture.rgb[static_cast<std::size_t>(3 * (width + 1))] =
+        std::numeric_limits<float>::quiet_NaN();
+    picture.rgb[static_cast<std::size_t>(3 * (2 * width + 3))] =
+        std::numeric_limits<float>::infinity();
+    return picture;
+}
+
+// Of every pixel, by its definition.
+TEST(Contrast, of_a_small_stone_is_that_of_each_pixel) {
+    for (unsigned seed = 0; seed < 4; ++seed) {
+        SCOPED_TRACE(testing::Message() << "seed " << seed);
+        const Picture picture = random_picture(seed, 20, 7);
+        const Contrast contrast = contrast_of(picture, 2, 70);
+        std::size_t filled = 0;
+        for (int y = 0; y < 7; ++y) {
+            for (int x = 0; x < 10; ++x) {
+                if (picture.coverage[static_cast<std::size_t>(20 * y + x)] < 0.5f) continue;
+                ASSERT_LT(filled, contrast.pixels.size());
+                const Contrast::Pixel& pixel = contrast.pixels[filled++];
+                EXPECT_EQ(std::pair(pixel.x, pixel.y), std::pair(x, y));
+                ASSERT_TRUE(std::isfinite(pixel.root));
+                double most = 0;
+                for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
+                    if (x + dx < 0 || x + dx > 9 || y + dy < 0 || y + dy > 6) continue;
+                    const double off = apart(picture.pixel(x, y), picture.pixel(x + dx, y + dy));
+                    if (off > most) most = off;
+                }
+                EXPECT_EQ(pixel.root, std::isfinite(most) ? std::sqrt(most) : 0);
+            }
+        }
+        EXPECT_EQ(filled, contrast.pixels.size());
+        EXPECT_TRUE(std::isfinite(contrast.sum) && std::isfinite(contrast.radiance));
+    }
+    EXPECT_TRUE(contrast_of(Picture{}, 1, 0).pixels.empty());
+}
+
+// One pixel in each square of four by four, none in rows or columns: each place of the square has
+// as many as any other, within five of the standard deviations that random places would have.
+TEST(Contrast, of_a_large_stone_is_that_of_pixels_spread_evenly) {
+    constexpr int k_side = 1000;
+    Picture picture;
+    picture.width = picture.height = k_side;
+    picture.rgb.assign(3 * picture.pixels(), 0.5f);
+    picture.coverage.assign(picture.pixels(), 1.0f);
+    const Contrast contrast = contrast_of(picture, 1, 16.5 * 65536);
+    const double squares = k_side / 4.0 * k_side / 4.0, each = squares / 16;
+    EXPECT_EQ(static_cast<double>(contrast.pixels.size()), squares);
+    std::map<std::pair<int, int>, int> places;
+    for (const Contrast::Pixel& pixel : contrast.pixels) ++places[{pixel.x % 4, pixel.y % 4}];
+    EXPECT_EQ(places.size(), 16u);
+    for (const auto& [place, count] : places) EXPECT_NEAR(count, each, 5 * std::sqrt(each));
+    EXPECT_EQ(contrast.sum, 0);
+    EXPECT_DOUBLE_EQ(contrast.radiance, squares / 2);
+}
 
 TEST(LightRims, of_a_cap_lie_on_both_sides_of_its_edges) {
     Lights lights;

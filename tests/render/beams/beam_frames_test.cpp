@@ -83,6 +83,27 @@ TEST(Frames, with_lights_that_call_for_other_wavelengths_are_those_of_a_fresh_re
     EXPECT_EQ(frames.draw().picture.rgb, FrameRenderer(changed).draw().picture.rgb);
 }
 
+TEST(Frames, of_all_changed_at_once_and_taken_away_are_those_of_a_fresh_renderer) {
+    const Scene scene = brilliant_scene();
+    FrameRenderer frames(scene);
+    frames.draw();
+    const Picture first = frames.take().picture;
+    Scene changed = scene;
+    look(changed, {0.3, -0.4, 1}, 7);
+    changed.camera.width = 130;
+    changed.settings.engine = "preview";
+    changed.lights = {};
+    changed.lights.lobes.push_back({{0, 0, 1}, 3, {"A", {}}});
+    frames.show(changed);
+    EXPECT_EQ(frames.draw().picture.rgb, FrameRenderer(changed).draw().picture.rgb);
+    // A smaller picture, which is left where it is, and back to the first's size.
+    frames.show(scene);
+    frames.draw();
+    const RenderResult again = frames.take();
+    EXPECT_EQ(again.picture.rgb, first.rgb);
+    EXPECT_EQ(again.picture.coverage, first.coverage);
+}
+
 TEST(Frames, from_another_view_and_back_are_the_first) {
     Scene scene = brilliant_scene();
     scene.settings.samples = 16;
