@@ -32,12 +32,33 @@ constexpr double k_as_good = 1.25;
 // together explain no better, because pixels and causes do not add up so simply.
 constexpr std::array k_doubt{0.7, 0.7, 1.1, 0.7, 0.7};
 constexpr double k_doubt_of_error = 0.2;
+// Of a cause that pixels have shown by itself: they are few, and their rays others than the
+// picture's.
+constexpr double k_doubt_of_known = 0.3;
 // A choice that is as likely near enough as not is taken, or one that is nearly as likely as any.
 constexpr double k_even_chance = 0.5, k_as_likely = 0.8;
 // Of the likeliest explanation, how likely one must be to count.
 constexpr double k_negligible = 0.02;
 // Factors that are weighed.
 constexpr std::array k_factors{0.18, 0.35, 0.6, 1.0, 1.6, 2.8, 5.0, 12.0};
+
+// `order`: of a choice, beside the known one: above 0 where it is coarser. Where more was found
+// than guessed, those that are coarser than any known one are off by more in proportion, too.
+template <class Choice, class Order>
+void put_right(std::vector<Choice>& choices, double error, bool coarsest_known,
+               const Order& order) {
+    double factor = 1;
+    for (const Choice& choice : choices) {
+        if (order(choice) == 0 && choice.error > 0) factor = error / choice.error;
+    }
+    for (Choice& choice : choices) {
+        if (order(choice) > 0)
+            choice.error =
+                std::max(error, (coarsest_known ? std::max(factor, 1.0) : 1) * choice.error);
+        if (order(choice) == 0) choice.error = error;
+        if (order(choice) < 0) choice.error = std::min(error, factor * choice.error);
+    }
+}
 
 }  // namespace
 
@@ -169,10 +190,39 @@ ProposedBeams BeamProposal::likeliest(std::vector<ProposedBeams> choices, double
 
 void BeamProposal::learn(const ProposedBeams& drawn, double error) {
     seen_.push_back({drawn, effects, std::max(error, k_least_error)});
+    put_right_what_was_seen();
     weigh_causes();
 }
 
+void BeamProposal::know_cut(double weight, double error) {
+    known_cuts_[weight] = error;
+    put_right(cuts, error, known_cuts_.rbegin()->first == weight, [weight](const CutChoice& cut) {
+        return cut.weight > weight ? 1 : cut.weight < weight ? -1 : 0;
+    });
+}
+
+void BeamProposal::know_wavelengths(int count, double error) {
+    known_wavelengths_[count] = error;
+    put_right(sets, error, known_wavelengths_.begin()->first == count,
+              [count](const WavelengthChoice& set) { return count - set.count; });
+}
+
+void BeamProposal::put_right_what_was_seen() {
+    for (Seen& seen : seen_) {
+        for (const CutChoice& cut : cuts) {
+            if (cut.weight == seen.beams.cut.weight) seen.beams.cut = cut;
+        }
+        for (const WavelengthChoice& set : sets) {
+            if (set.count == seen.beams.wavelengths.count) seen.beams.wavelengths = set;
+        }
+    }
+}
+
 void BeamProposal::learn_from(const BeamProposal& other) {
+    // From the coarsest on, as they were found out.
+    for (auto known = other.known_cuts_.rbegin(); known != other.known_cuts_.rend(); ++known)
+        know_cut(known->first, known->second);
+    for (const auto& [count, error] : other.known_wavelengths_) know_wavelengths(count, error);
     const std::vector<ProposedBeams> choices = all();
     for (const Seen& seen : other.seen_) {
         const ProposedBeams& theirs = seen.beams;
@@ -217,8 +267,11 @@ void BeamProposal::weigh_causes() {
     };
     std::array<std::array<double, k_factors.size()>, k_causes> unlikely_by_itself{};
     for (std::size_t c = 0; c < k_causes; ++c) {
+        const bool known = (c == of_cut && !known_cuts_.empty()) ||
+                           (c == of_wavelengths && !known_wavelengths_.empty());
+        const double doubt = known ? k_doubt_of_known : k_doubt[c];
         for (std::size_t i = 0; i < k_factors.size(); ++i)
-            unlikely_by_itself[c][i] = std::pow(std::log(k_factors[i]) / k_doubt[c], 2) / 2;
+            unlikely_by_itself[c][i] = std::pow(std::log(k_factors[i]) / doubt, 2) / 2;
     }
     std::vector<double> unlikely(combinations);
     for (std::size_t number = 0; number < combinations; ++number) {

@@ -7,6 +7,7 @@
 // right within a factor of three or so. Pictures that were held against the truth say more.
 
 #include <array>
+#include <map>
 #include <vector>
 
 #include "render/scene.h"
@@ -64,6 +65,14 @@ public:
     /// all is suspected that may have brought it, what brought most the most, and what was made
     /// finer in vain no longer.
     void learn(const ProposedBeams& drawn, double error);
+    /// What a choice is off by, as pixels show that were chosen for where pictures are off
+    /// (proof_pilot.h): no guess any more. Others are off in proportion to what was guessed,
+    /// coarser ones by as much at least, finer ones by as much at most. To be told from the
+    /// coarsest on.
+    void know_cut(double weight, double error);
+    void know_wavelengths(int count, double error);
+    bool knows_cut(double weight) const { return known_cuts_.contains(weight); }
+    bool knows_wavelengths(int count) const { return known_wavelengths_.contains(count); }
     /// What another proposal has learned of the same scene, where its choices are among these.
     void learn_from(const BeamProposal& other);
 
@@ -80,6 +89,8 @@ private:
     static Parts parts_of(const ProposedBeams& beams, double left_out);
     double error_of(const ProposedBeams& beams) const;
     void weigh_causes();
+    // Pictures that were seen, by what is known since.
+    void put_right_what_was_seen();
 
     ProposedBeams likeliest(std::vector<ProposedBeams> choices, double room) const;
 
@@ -89,6 +100,8 @@ private:
         double weight = 0;
     };
     std::vector<Seen> seen_;
+    std::map<double, double> known_cuts_;
+    std::map<int, double> known_wavelengths_;
     std::vector<Belief> beliefs_;   // once something was seen
     Parts squares_{1, 1, 1, 1, 1};  // their means
 };

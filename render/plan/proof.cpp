@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "render/colour_error.h"
 #include "render/plan/planner.h"
@@ -17,11 +18,12 @@ constexpr std::size_t k_step = 4;  // times as many pixels at the next look, at 
 // Sides of the truth's grids, one after the other. Grids of different sides are off independently.
 constexpr std::array k_sides{4, 5, 7, 11, 15, 22, 32, 46};
 // Of a picture whose error, less a standard error, is this share of what it may be, no proof is
-// sought any further.
-constexpr double k_hopeless = 0.97;
+// sought any further; less two, where that costs no more than this share of what it may. Few pixels
+// that are off by much are often met too often.
+constexpr double k_hopeless = 0.97, k_doubtful_share = 0.25;
 // Noise that is more than this share of the difference hides what the picture is off by; finding it
-// out may cost so many times as much as usual, because drawing anew would not help.
-constexpr double k_noisy = 0.5, k_noisy_price = 4;
+// out may cost so many times as much as usual, because no other picture could be proven, either.
+constexpr double k_noisy = 0.5, k_noisy_price = 12;
 // What the mean of N rays is off by falls about as N^-0.6; and of what a bound may be, what it
 // should be by that to be sought.
 constexpr double k_noise_power = 0.6, k_likely_room = 0.95;
@@ -91,6 +93,13 @@ void Prover::take_more() {
     levels_.push_back(more);
 }
 
+double Prover::more_ns() const {
+    if (levels_.size() == k_sides.size() || !(rays_drawn_ > 0))
+        return std::numeric_limits<double>::infinity();
+    return static_cast<double>(levels_.front().rgb.size()) * grid(levels_.size()) *
+           price_ns(work_) / rays_drawn_;
+}
+
 double Prover::pixel_ns() const {
     return rays_drawn_ > 0 ? price_ns(work_) * samples() / rays_drawn_ : 0;
 }
@@ -151,29 +160,25 @@ double Prover::noise_of(const Level& level) const {
     return level.halves / level.radiance / k_halves_over_noise;
 }
 
-double Prover::off_without_effects(const RenderSettings& settings, int pixels) const {
-    Scene without = scene_;
-    without.settings.effects_auto = false;
-    without.settings.effects = settings.effects;
-    const Plan of_truth = make_plan(scene_, nodes_), left = make_plan(without, nodes_);
-    bool leaves_out = false;
-    for (int e = 0; e < k_effect_count; ++e) {
-        leaves_out |= of_truth.on(static_cast<Effects>(e)) && !left.on(static_cast<Effects>(e));
-    }
+ProofSample Prover::sample(std::size_t pixels) const {
     const Level& level = levels_.front();
-    const std::size_t count = std::min(static_cast<std::size_t>(pixels), level.rgb.size());
-    if (!leaves_out || count == 0) return 0;
-    without.settings.wavelength_turns = turns_for(level.samples, nodes_);
-    const PilotDrawing drawing = draw_pilot(without, chosen_.pixels.stretch(0, count), limits_,
-                                            level.samples, nodes_, *progress_);
-    double errors = 0, sizes = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        errors += chosen_.counts[i] * apart(drawing.rgb[i], level.rgb[i]);
-        sizes += chosen_.counts[i] * mean_of(level.rgb[i]);
-    }
-    if (!(sizes > 0)) return 0;
-    // Fewer effects have other noise.
-    return std::sqrt(std::max(0.0, std::pow(errors / sizes, 2) - std::pow(noise_of(level), 2)));
+    const std::size_t count = std::min(pixels, level.rgb.size());
+    ProofSample sample;
+    sample.pixels = chosen_.pixels.stretch(0, count);
+    sample.counts.assign(chosen_.counts.begin(), chosen_.counts.begin() + static_cast<long>(count));
+    sample.truth.assign(level.rgb.begin(), level.rgb.begin() + static_cast<long>(count));
+    sample.limits = limits_;
+    sample.rays = level.samples;
+    sample.nodes = nodes_;
+    sample.noise = noise_of(level);
+    return sample;
+}
+
+std::size_t Prover::pixels_for(double ns) const {
+    if (limits_.roulette || !(rays_drawn_ > 0)) return 0;
+    const double pixels = ns * rays_drawn_ / (levels_.front().samples * price_ns(work_));
+    return static_cast<std::size_t>(
+        std::min(pixels, static_cast<double>(levels_.front().rgb.size())));
 }
 
 Proof Prover::look(const Picture& picture, std::size_t wanted) {
@@ -238,10 +243,12 @@ double Prover::rays_for(std::size_t pixels, std::size_t levels) const {
     return rays;
 }
 
-// The cheapest way to look that is likely to end it, were the picture as good as what was found
-// lets it be: more pixels narrow the standard error, more rays lessen the noise.
-std::optional<Prover::Look> Prover::next_look(const Proof& proof, double room) const {
-    const double error = std::max(0.0, proof.error() - proof.spread);
+// The cheapest way to look that is likely to end it, were the picture better than what was found by
+// so many of its standard errors: more pixels narrow the standard error, more rays lessen the
+// noise.
+std::optional<Prover::Look> Prover::next_look(const Proof& proof, double room,
+                                              double standard_errors) const {
+    const double error = std::max(0.0, proof.error() - standard_errors * proof.spread);
     std::optional<Look> best;
     const double rays_before = samples();
     double rays = rays_before;
@@ -280,15 +287,17 @@ Proof Prover::prove(const Picture& picture, double room, double most_ns, FrameRe
     for (int more = 1; more < k_looks && proof.bound > room; ++more) {
         // As long as the noise is what is seen, the picture cannot be blamed.
         const bool noisy = proof.noise > k_noisy * proof.difference;
-        if (!noisy && proof.error() - proof.spread > k_hopeless * room) break;
-        const std::optional<Look> next = next_look(proof, room);
+        const bool doubtful = !noisy && proof.error() - proof.spread > k_hopeless * room;
+        if (doubtful && proof.error() - 2 * proof.spread > k_hopeless * room) break;
+        const std::optional<Look> next = next_look(proof, room, doubtful ? 2 : 1);
         if (!next) break;
         // On the way there it may be found out to be hopeless, or that a pixel that is off by much
         // is rarer than it seemed: what counts is the price of the next step.
         const std::size_t wanted =
             std::min(next->pixels, k_step * static_cast<std::size_t>(proof.pixels));
         const double ray_ns = rays_drawn_ > 0 ? price_ns(work_) / rays_drawn_ : 0;
-        if (rays_for(wanted, next->levels) * ray_ns > (noisy ? k_noisy_price : 1) * most_ns) break;
+        const double share = noisy ? k_noisy_price : doubtful ? k_doubtful_share : 1;
+        if (rays_for(wanted, next->levels) * ray_ns > share * most_ns) break;
         while (levels_.size() < next->levels) take_more();
         proof = look(picture, wanted);
     }

@@ -37,6 +37,16 @@ struct Proof {
     double error() const;
 };
 
+/// Pixels of a proof, as the truth's fewest rays show them.
+struct ProofSample {
+    StonePixels pixels;
+    std::vector<double> counts;  ///< of each, 1 in the mean
+    std::vector<Rgb> truth;
+    PathLimits limits;
+    int rays = 0, nodes = 0;  ///< a pixel; wavelengths
+    double noise = 0;         ///< about what these rays are off by
+};
+
 class Prover {
 public:
     static constexpr int k_looks = 5;
@@ -53,6 +63,8 @@ public:
     /// With about twice as many; what was drawn counts.
     void take_more();
     int samples() const;
+    /// Price of taking more (price.h), at the pixels that were drawn.
+    double more_ns() const;
     /// Price of a pixel with these (price.h), as what was drawn shows it.
     double pixel_ns() const;
 
@@ -62,9 +74,12 @@ public:
     Proof prove(const Picture& picture, double room, double most_ns,
                 FrameRenderer* frames = nullptr);
 
-    /// What leaving out the effects that these settings leave out is off by, at the first `pixels`
-    /// of the last proof: the truth's own rays without them. 0 where nothing is left out.
-    double off_without_effects(const RenderSettings& settings, int pixels) const;
+    /// The truth at the first `pixels` of the last proof, and how it was drawn.
+    ProofSample sample(std::size_t pixels) const;
+    /// How many of these are drawn for so much (price.h), by no chance: 0 where paths are gambled
+    /// on, whose trees are dear and whose noise is that of the cuts.
+    std::size_t pixels_for(double ns) const;
+    const Scene& scene() const { return scene_; }
 
     /// A picture must not have this square of rays in its pixels: the truth has such a grid.
     static bool takes_grid(int side);
@@ -88,7 +103,7 @@ private:
         double rays = 0;
     };
     double rays_for(std::size_t pixels, std::size_t levels) const;
-    std::optional<Look> next_look(const Proof& proof, double room) const;
+    std::optional<Look> next_look(const Proof& proof, double room, double standard_errors) const;
 
     Scene scene_;
     StonePixels some_;

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "render/beams/beam_picture.h"
+#include "render/plan/planner.h"
+#include "render/plan/proof_pilot.h"
 #include "render/reference.h"
 
 namespace culet {
@@ -22,11 +24,19 @@ constexpr double k_aim = 0.7, k_bound_aim = 0.9, k_least_aim = 0.3;
 // Beams are drawn anew at so many times the price at most: what a few pixels say may be chance.
 constexpr double k_steepest = 4, k_least_steep_ns = 2e7;
 constexpr int k_more_grids = 2;
-constexpr double k_suspect = 0.25;  // of the difference: noise that may be all of it
+// Of the difference: noise that may be all of it. And of the picture's price: what it may cost to
+// find out where it seems to be less.
+constexpr double k_suspect = 0.25, k_share_of_suspicion = 0.25;
 // What is off by this share still is no better than what was drawn before.
 constexpr double k_no_better = 0.8;
 // Of a difference that may be all noise, what the picture is taken to be off by.
 constexpr double k_hidden = 0.5;
+// Of the picture's price, what it may cost to find out what it is off by most, about so many
+// drawings of pixels, which are neither too few to tell nor more than that takes.
+constexpr double k_share_of_causes = 0.4;
+constexpr int k_drawings_of_causes = 4;
+constexpr std::size_t k_least_of_causes = 48, k_most_of_causes = 192;
+constexpr double k_seen_in_noise = 0.5;
 // Of the tolerance, what effects that were left out may be off by before they come back.
 constexpr double k_misjudged = 0.7;
 // The last drawing is the reference's, which is off by nothing but its few rays, unless it would
@@ -69,6 +79,44 @@ RenderResult ProvenDrawing::draw_with(const RenderSettings& settings) {
     }
     frames_->draw(false);
     return frames_->take();
+}
+
+// What the picture's cut and its wavelengths are off by, and finer ones until these are off by
+// little.
+void ProvenDrawing::find_causes(BeamProposal& beams, const Prover& prover,
+                                const RenderSettings& settings, double price) const {
+    const std::size_t pixels = std::min(
+        prover.pixels_for(k_share_of_causes * price / k_drawings_of_causes), k_most_of_causes);
+    if (pixels < k_least_of_causes) return;
+    const double tolerance = scene_.settings.tolerance;
+    ProofPilot pilot(prover.scene(), settings, prover.sample(pixels), progress_);
+    std::vector<double> weights;
+    for (const CutChoice& cut : beams.cuts) weights.push_back(cut.weight);
+    for (const double weight : weights) {
+        if (weight > settings.cut_weight.value_or(0) || beams.knows_cut(weight)) continue;
+        if (weight <= pilot.least_cut()) break;
+        const double error = pilot.at_cut(weight);
+        beams.know_cut(weight, error);
+        if (error <= k_share_of_cut * tolerance) break;
+    }
+    std::vector<int> counts;
+    for (const WavelengthChoice& set : beams.sets) counts.push_back(set.count);
+    std::sort(counts.begin(), counts.end());
+    for (const int count : counts) {
+        if (count < static_cast<int>(settings.wavelengths_nm.size()) ||
+            beams.knows_wavelengths(count))
+            continue;
+        if (count >= pilot.wavelengths()) {
+            // The same as the truth's, or finer.
+            beams.know_wavelengths(count, 0);
+            break;
+        }
+        const double error = pilot.at_wavelengths(even_wavelengths(count));
+        // What is less than the truth's noise is not seen.
+        if (error < k_seen_in_noise * pilot.noise()) break;
+        beams.know_wavelengths(count, error);
+        if (error <= k_share_of_wavelengths * tolerance) break;
+    }
 }
 
 ProvenDrawing::Next ProvenDrawing::more_rays(const ScenePlan& plan, const Tried& tried,
@@ -160,7 +208,10 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
             // No better than the one before: first the truth is suspected, whose rays may be
             // noisier than they look.
             if (proof.bound <= tolerance || !(proof.error() > k_no_better * error_before) ||
-                error_before == 0 || proof.noise < k_suspect * proof.difference)
+                error_before == 0)
+                break;
+            if (proof.noise < k_suspect * proof.difference &&
+                prover.more_ns() > k_share_of_suspicion * price)
                 break;
             prover.take_more();
             proof = prover.prove(result.picture, tolerance, most_ns, frames);
@@ -169,11 +220,14 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
         // What was left out is known once its own rays have shown it at the pixels of the proof.
         if (!done.proven && way == Way::any && proof.pixels > pixels_without) {
             pixels_without = proof.pixels;
-            const double off = prover.off_without_effects(settings, proof.pixels);
+            const std::size_t all = static_cast<std::size_t>(proof.pixels);
+            const double off = ProofPilot(prover.scene(), settings, prover.sample(all), progress_)
+                                   .without_effects();
             done.misjudged = off > k_misjudged * tolerance;
             if (plan.beams) plan.beams->effects = off;
         }
         if (plan.beams && drawn_by_beams(settings) && !done.proven) {
+            find_causes(*plan.beams, prover, settings, price);
             // Noise that is all that is seen hides what the picture is off by.
             plan.beams->learn(plan.proposed, std::max(proof.error(), k_hidden * proof.difference));
             learned_ = plan.beams;

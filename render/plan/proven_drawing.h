@@ -42,6 +42,8 @@ private:
         const Proof& proof;
     };
     RenderResult draw_with(const RenderSettings& settings);
+    void find_causes(BeamProposal& beams, const Prover& prover, const RenderSettings& settings,
+                     double price) const;
     std::optional<Next> next(ScenePlan& plan, const Tried& tried, Way way, bool last) const;
     std::optional<Next> finer_beams_than(ScenePlan& plan, const Tried& tried) const;
     Next more_rays(const ScenePlan& plan, const Tried& tried, double room) const;

@@ -109,6 +109,90 @@ TEST(BeamProposal, finds_out_what_is_to_blame) {
     EXPECT_LT(pictures, 2 * cases) << "in the mean";
 }
 
+// What pixels have shown is taken as it is; others are off in the proportion that was guessed, but
+// coarser ones by no less than was guessed.
+TEST(BeamProposal, knows_what_pixels_have_shown) {
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        SCOPED_TRACE(seed);
+        const BeamProposal guessed = random_proposal(seed);
+        BeamProposal proposal = guessed;
+        const std::size_t which = 1 + seed % 4;
+        const double factor = seed % 2 == 0 ? 7 : 0.2;
+        const double off_by_cut = factor * guessed.cuts[which].error,
+                     off_by_colours = factor * guessed.sets[which].error;
+        proposal.know_cut(guessed.cuts[which].weight, off_by_cut);
+        proposal.know_wavelengths(guessed.sets[which].count, off_by_colours);
+        EXPECT_TRUE(proposal.knows_cut(guessed.cuts[which].weight));
+        EXPECT_FALSE(proposal.knows_cut(guessed.cuts[0].weight));
+        EXPECT_EQ(proposal.cuts[which].error, off_by_cut);
+        EXPECT_EQ(proposal.sets[which].error, off_by_colours);
+        const auto of_others = [&](std::size_t i, double guess) {
+            return (i < which ? std::max(factor, 1.0) : factor) * guess;
+        };
+        for (std::size_t i = 0; i < proposal.cuts.size(); ++i)
+            EXPECT_NEAR(proposal.cuts[i].error, of_others(i, guessed.cuts[i].error), 1e-15);
+        for (std::size_t i = 0; i < proposal.sets.size(); ++i)
+            EXPECT_NEAR(proposal.sets[i].error, of_others(i, guessed.sets[i].error), 1e-15);
+        // A finer one that is found to be off by as much: what is between is not less, and coarser
+        // ones stay as they are known.
+        const BeamProposal before = proposal;
+        proposal.know_cut(guessed.cuts[which + 2].weight, off_by_cut);
+        EXPECT_EQ(proposal.cuts[which + 2].error, off_by_cut);
+        for (std::size_t i = 0; i <= which; ++i)
+            EXPECT_EQ(proposal.cuts[i].error, before.cuts[i].error);
+        EXPECT_EQ(proposal.cuts[which + 1].error,
+                  std::max(off_by_cut, before.cuts[which + 1].error));
+        for (std::size_t i = which + 3; i < proposal.cuts.size(); ++i)
+            EXPECT_LE(proposal.cuts[i].error, off_by_cut);
+    }
+}
+
+// As in `finds_out_what_is_to_blame`, but pixels have shown what the first picture's cut and
+// wavelengths brought: where one of them was to blame, the next picture is near enough.
+TEST(BeamProposal, needs_no_second_guess_of_what_is_known) {
+    int cases = 0;
+    for (unsigned seed = 0; seed < 60; ++seed) {
+        for (const bool cut_is_to_blame : {true, false}) {
+            SCOPED_TRACE(testing::Message() << seed << " " << cut_is_to_blame);
+            BeamProposal proposal = random_proposal(seed);
+            const double room = 0.05, by_cut = cut_is_to_blame ? 4 : 1,
+                         by_colours = cut_is_to_blame ? 1 : 4;
+            const auto truth = [&](double cut, double colours, double borders) {
+                return std::sqrt(std::pow(by_cut * cut, 2) + std::pow(by_colours * colours, 2) +
+                                 std::pow(borders, 2) + std::pow(proposal.effects, 2));
+            };
+            const BeamProposal guessed = proposal;
+            const auto error_of = [&](const ProposedBeams& beams) {
+                double cut = 0, colours = 0;
+                for (const CutChoice& choice : guessed.cuts)
+                    if (choice.weight == beams.cut.weight) cut = choice.error;
+                for (const WavelengthChoice& choice : guessed.sets)
+                    if (choice.count == beams.wavelengths.count) colours = choice.error;
+                return truth(cut, colours, beams.borders);
+            };
+            const ProposedBeams first = proposal.cheapest(room);
+            if (error_of(first) <= 1.1 * room ||
+                truth(guessed.cuts.back().error, guessed.sets.back().error, 0) > 0.5 * room)
+                continue;
+            ++cases;
+            BeamProposal of_glance = proposal;
+            for (BeamProposal* one : {&proposal, &of_glance}) {
+                one->know_cut(first.cut.weight, by_cut * first.cut.error);
+                one->know_wavelengths(first.wavelengths.count,
+                                      by_colours * first.wavelengths.error);
+                one->learn(first, error_of(first));
+            }
+            const ProposedBeams second = proposal.cheapest(room);
+            EXPECT_LE(error_of(second), 1.25 * room);
+            // And so for a proposal of the same scene that is told.
+            BeamProposal told = guessed;
+            told.learn_from(of_glance);
+            EXPECT_EQ(told.cheapest(room).price_ns, second.price_ns);
+        }
+    }
+    EXPECT_GT(cases, 20);
+}
+
 // A crystal all but without a difference of indices, its picture drawn finer than anything can
 // tell: no cause is expected of any error, and none found is blamed on one.
 TEST(BeamProposal, stays_finite_where_nothing_is_expected) {

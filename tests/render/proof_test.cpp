@@ -17,6 +17,7 @@
 #include "render/plan/contrast.h"
 #include "render/plan/light_edge_scan.h"
 #include "render/plan/planner.h"
+#include "render/plan/proof_pilot.h"
 #include "render/plan/verify.h"
 #include "render/render.h"
 #include "tests/bench/plan_scenes.h"
@@ -232,6 +233,79 @@ TEST(Proof, says_what_was_left_out_where_the_pilot_missed_it) {
         ++pixels;
     }
     EXPECT_GT(most, 50 * sum / static_cast<double>(pixels));
+}
+
+// A pilot at the proof's pixels against all pixels of the stone, drawn with the same choice by the
+// very rays: means of few pixels are off by three of their standard errors at most, which the
+// spread of so many proofs' pixels tells.
+TEST(ProofPilot, finds_what_single_choices_are_off_by) {
+    const Progress quiet;
+    Scene scene = plan_scene_of("diamond", "princess", "lamp", 100).scene;
+    scene.settings.tolerance = 0.1;
+    scene.settings.effects_auto = true;
+    const StonePixels all = all_stone_pixels(scene);
+    Prover prover(scene, all, scene.settings.tolerance, quiet);
+    RenderSettings drawn = scene.settings;
+    drawn.effects_auto = false;
+    drawn.effects.fill(true);
+    drawn.effects[static_cast<std::size_t>(Effects::polarization)] = false;
+    drawn.engine = "preview";
+    Scene preview = scene;
+    preview.settings = drawn;
+    preview.settings.wavelengths_nm = even_wavelengths(3);
+    const Picture picture = FrameRenderer(preview).draw().picture;
+    // A bound that is asked to be a little smaller each time takes more pixels.
+    double bound = 1e9;
+    while (prover.sample(100000).truth.size() < 192)
+        bound = prover.prove(picture, 0.95 * bound, 1e10).bound;
+    const ProofSample some = prover.sample(100000);
+    ASSERT_GE(some.truth.size(), 192u);
+    EXPECT_EQ(prover.sample(50).truth.size(), 50u);
+    ProofPilot pilot(prover.scene(), drawn, some, quiet);
+
+    // The same of every pixel, each once.
+    ProofSample whole = some;
+    whole.pixels = all;
+    whole.counts.assign(all.at.size(), 1.0);
+    Scene turns = prover.scene();
+    turns.settings.wavelength_turns = turns_for(some.rays, some.nodes);
+    whole.truth = draw_pilot(turns, all, some.limits, some.rays, some.nodes).rgb;
+    whole.noise = some.noise;
+    ProofPilot truth(prover.scene(), drawn, whole, quiet);
+    const double spread = 3 / std::sqrt(static_cast<double>(some.truth.size()));
+    const auto near = [spread](double found, double expected, double noise) {
+        // Glints make single pixels differ by about twice their mean.
+        EXPECT_NEAR(found, expected, 2 * spread * std::hypot(expected, noise));
+    };
+    near(pilot.at_cut(0.1), truth.at_cut(0.1), 0);
+    near(pilot.at_cut(0.01), truth.at_cut(0.01), 0);
+    near(pilot.at_wavelengths(even_wavelengths(3)), truth.at_wavelengths(even_wavelengths(3)),
+         some.noise);
+    near(pilot.without_effects(), truth.without_effects(), some.noise);
+    EXPECT_GT(truth.at_cut(0.1), 2 * truth.at_cut(0.01));
+    // By the truth's own cut and wavelengths the rays are the truth's.
+    EXPECT_EQ(pilot.at_cut(pilot.least_cut()), 0);
+    EXPECT_EQ(pilot.at_wavelengths(even_wavelengths(pilot.wavelengths())), 0);
+    drawn.effects.fill(true);
+    drawn.effects[static_cast<std::size_t>(Effects::coherence)] = false;
+    EXPECT_EQ(ProofPilot(prover.scene(), drawn, some, quiet).without_effects(), 0)
+        << "nothing is left out";
+}
+
+// A crystal's paths are left to chance: no cut is to blame, and no pilot is drawn for it.
+TEST(ProofPilot, is_not_for_trees_that_gamble) {
+    const Progress quiet;
+    Scene scene = plan_scene_of("peridot", "step", "smooth", 40).scene;
+    scene.settings.tolerance = 0.1;
+    scene.settings.effects_auto = true;
+    Prover prover(scene, all_stone_pixels(scene), 0.1, quiet);
+    EXPECT_EQ(prover.pixels_for(1e12), 0u) << "nothing is drawn yet";
+    Picture dark;
+    dark.width = dark.height = 40;
+    dark.rgb.assign(3 * dark.pixels(), 0.0f);
+    prover.prove(dark, 0.1, 1e9);
+    EXPECT_GT(prover.sample(1000).truth.size(), 0u);
+    EXPECT_EQ(prover.pixels_for(1e12), 0u);
 }
 
 // A diamond in a light box at a fine tolerance: beams take a tenth longer with polarisation, and
