@@ -66,9 +66,9 @@ public:
     /// finer in vain no longer.
     void learn(const ProposedBeams& drawn, double error);
     /// What a choice is off by, as pixels show that were chosen for where pictures are off
-    /// (proof_pilot.h): no guess any more. Others are off in proportion to what was guessed,
-    /// coarser ones by as much at least, finer ones by as much at most. To be told from the
-    /// coarsest on.
+    /// (proof_pilot.h): no guess any more. Finer ones are off in proportion to what was guessed, by
+    /// as much at most; coarser ones by as much at least, and in proportion where it is more than
+    /// was guessed. To be told from the coarsest on.
     void know_cut(double weight, double error);
     void know_wavelengths(int count, double error);
     bool knows_cut(double weight) const { return known_cuts_.contains(weight); }

@@ -76,8 +76,8 @@ public:
 
     /// The truth at the first `pixels` of the last proof, and how it was drawn.
     ProofSample sample(std::size_t pixels) const;
-    /// How many of these are drawn for so much (price.h), by no chance: 0 where paths are gambled
-    /// on, whose trees are dear and whose noise is that of the cuts.
+    /// How many of these can be drawn once more for so much (price.h). 0 where small paths are left
+    /// to chance: their trees are dear, and no cut is to blame for what they are off by.
     std::size_t pixels_for(double ns) const;
     const Scene& scene() const { return scene_; }
 

@@ -9,8 +9,8 @@ namespace culet {
 
 class ProofPilot {
 public:
-    /// `scene`: with everything on; `drawn`: the settings of a picture; both must outlive it.
-    /// Nothing is drawn yet.
+    /// `scene`: with everything on; `drawn`: the settings of a picture. Scene and progress must
+    /// outlive it. Nothing is drawn yet.
     ProofPilot(const Scene& scene, const RenderSettings& drawn, ProofSample sample,
                const Progress& progress);
 

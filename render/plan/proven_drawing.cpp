@@ -36,9 +36,11 @@ constexpr double k_hidden = 0.5;
 constexpr double k_share_of_causes = 0.4;
 constexpr int k_drawings_of_causes = 4;
 constexpr std::size_t k_least_of_causes = 48, k_most_of_causes = 192;
+// Of the truth's noise, what an error must be to be seen in it.
 constexpr double k_seen_in_noise = 0.5;
-// Of the tolerance, what effects that were left out may be off by before they come back.
-constexpr double k_misjudged = 0.7;
+// Of the tolerance, what effects that were left out may be off by before they come back; and of
+// what a picture is off by that is not near enough.
+constexpr double k_misjudged = 0.7, k_main_cause = 0.7;
 // The last drawing is the reference's, which is off by nothing but its few rays, unless it would
 // take so many times as long.
 constexpr double k_last_by_beams = 4;
@@ -103,7 +105,7 @@ void ProvenDrawing::find_causes(BeamProposal& beams, const Prover& prover,
     for (const WavelengthChoice& set : beams.sets) counts.push_back(set.count);
     std::sort(counts.begin(), counts.end());
     for (const int count : counts) {
-        if (count < static_cast<int>(settings.wavelengths_nm.size()) ||
+        if (count == 0 || count < static_cast<int>(settings.wavelengths_nm.size()) ||
             beams.knows_wavelengths(count))
             continue;
         if (count >= pilot.wavelengths()) {
@@ -185,6 +187,7 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
     std::optional<RenderResult> best;
     std::vector<std::string> notes;
     int pixels_without = 0;  // at which the truth was drawn without what the plan left out
+    double off_without = 0;
     ProvenPicture done;
     if (learned_ && plan.beams) {
         plan.beams->learn_from(*learned_);
@@ -217,19 +220,22 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
             proof = prover.prove(result.picture, tolerance, most_ns, frames);
         }
         done.proven = proof.bound <= tolerance;
+        // Noise that is all that is seen hides what the picture is off by.
+        const double seen = std::max(proof.error(), k_hidden * proof.difference);
         // What was left out is known once its own rays have shown it at the pixels of the proof.
-        if (!done.proven && way == Way::any && proof.pixels > pixels_without) {
-            pixels_without = proof.pixels;
-            const std::size_t all = static_cast<std::size_t>(proof.pixels);
-            const double off = ProofPilot(prover.scene(), settings, prover.sample(all), progress_)
-                                   .without_effects();
-            done.misjudged = off > k_misjudged * tolerance;
-            if (plan.beams) plan.beams->effects = off;
+        if (!done.proven && way == Way::any) {
+            if (proof.pixels > pixels_without) {
+                pixels_without = proof.pixels;
+                ProofPilot pilot(prover.scene(), settings,
+                                 prover.sample(static_cast<std::size_t>(proof.pixels)), progress_);
+                off_without = pilot.without_effects();
+                if (plan.beams) plan.beams->effects = off_without;
+            }
+            done.misjudged = off_without > std::min(k_misjudged * tolerance, k_main_cause * seen);
         }
         if (plan.beams && drawn_by_beams(settings) && !done.proven) {
             find_causes(*plan.beams, prover, settings, price);
-            // Noise that is all that is seen hides what the picture is off by.
-            plan.beams->learn(plan.proposed, std::max(proof.error(), k_hidden * proof.difference));
+            plan.beams->learn(plan.proposed, seen);
             learned_ = plan.beams;
         }
         std::optional<Next> other;
