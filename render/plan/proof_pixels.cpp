@@ -16,6 +16,8 @@ constexpr std::size_t k_first_pixels = 48, k_most_pixels = 3072;
 // them, and more pixels are looked at first: of those where a light may be seen, some see it.
 constexpr double k_bright = 8;
 constexpr std::size_t k_first_pixels_of_bright = 96;
+// Below this tolerance more in proportion: so much rarer are pixels that matter.
+constexpr double k_fine_tolerance = 0.03, k_most_times_as_many = 10;
 // Every pixel has this share of a mean chance at least: none counts more than two and a half times.
 constexpr double k_even_share = 0.4;
 // Of the rest, what goes to where a light's edge may be.
@@ -57,7 +59,9 @@ ProofPixels choose_proof_pixels(const Scene& scene, const Picture& picture, cons
             edges.push_back(scan.near(pixel.x, pixel.y));
             sum_of_edges += edges.back();
         }
-        chosen.first = k_first_pixels_of_bright;
+        const double times =
+            std::clamp(k_fine_tolerance / scene.settings.tolerance, 1.0, k_most_times_as_many);
+        chosen.first = static_cast<std::size_t>(times * k_first_pixels_of_bright);
     }
     // Chances, 1 in the mean, and their sums; then the golden ratio's multiples, evenly spread over
     // these.
