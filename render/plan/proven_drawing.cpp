@@ -24,9 +24,9 @@ constexpr double k_aim = 0.7, k_bound_aim = 0.9, k_least_aim = 0.3;
 // Beams are drawn anew at so many times the price at most: what a few pixels say may be chance.
 constexpr double k_steepest = 4, k_least_steep_ns = 2e7;
 constexpr int k_more_grids = 2;
-// Of the difference: noise that may be all of it. And of the picture's price: what it may cost to
-// find out where it seems to be less.
-constexpr double k_suspect = 0.25, k_share_of_suspicion = 0.25;
+// Of the difference: noise that may be all of it; less of it where finding out costs no more than
+// this share of the picture's price.
+constexpr double k_suspect = 0.25, k_suspect_cheaply = 0.1, k_share_of_suspicion = 0.25;
 // What is off by this share still is no better than what was drawn before.
 constexpr double k_no_better = 0.8;
 // Of a difference that may be all noise, what the picture is taken to be off by.
@@ -213,9 +213,8 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
             if (proof.bound <= tolerance || !(proof.error() > k_no_better * error_before) ||
                 error_before == 0)
                 break;
-            if (proof.noise < k_suspect * proof.difference &&
-                prover.more_ns() > k_share_of_suspicion * price)
-                break;
+            const double cheap = prover.more_ns() <= k_share_of_suspicion * price;
+            if (proof.noise < (cheap ? k_suspect_cheaply : k_suspect) * proof.difference) break;
             prover.take_more();
             proof = prover.prove(result.picture, tolerance, most_ns, frames);
         }
