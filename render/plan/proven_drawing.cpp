@@ -213,7 +213,7 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
             if (proof.bound <= tolerance || !(proof.error() > k_no_better * error_before) ||
                 error_before == 0)
                 break;
-            const double cheap = prover.more_ns() <= k_share_of_suspicion * price;
+            const bool cheap = prover.more_ns() <= k_share_of_suspicion * price;
             if (proof.noise < (cheap ? k_suspect_cheaply : k_suspect) * proof.difference) break;
             prover.take_more();
             proof = prover.prove(result.picture, tolerance, most_ns, frames);
