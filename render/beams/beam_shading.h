@@ -78,6 +78,8 @@ ShadedEye shaded_eye(const ScreenView& view, const ScreenPoint& at, const Vec3& 
 struct Fragments {
     const float *x = nullptr, *y = nullptr;  ///< pixels from the eye ray of reference
     int count = 0;
+    /// The part of each pixel whose light is wanted, as CoveredPixels has it; null: all of it.
+    const float *xx = nullptr, *yx = nullptr, *yy = nullptr;
     /// Radiance of node i in radiance[i * stride + fragment]: overwritten.
     float* radiance = nullptr;
     int stride = 0;

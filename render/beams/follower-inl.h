@@ -34,7 +34,11 @@ public:
             sum_[i] = number(0.0f);
             tau_[i] = number(1.0f);
         }
-        enter(dx, dy);
+        PixelPart part{number(1.0f), number(0.0f), number(1.0f)};
+        if (kSoft && out_.xx != nullptr)
+            part = {hn::LoadU(k_floats, out_.xx + first), hn::LoadU(k_floats, out_.yx + first),
+                    hn::LoadU(k_floats, out_.yy + first)};
+        enter(dx, dy, part);
         const bool located =
             kMany ? true
                   : out_.follows != nullptr || !lights_.spheres.empty() || !lights_.planes.empty();
@@ -193,7 +197,7 @@ private:
     }
 
     // The eye ray through a pixel, to the first face and through it.
-    HWY_INLINE void enter(const V& dx, const V& dy) {
+    HWY_INLINE void enter(const V& dx, const V& dy, const PixelPart& part) {
         const ShadedStone::Face& face = stone_.faces[facets_[0]];
         const V3 N{number(face.x), number(face.y), number(face.z)};
         const V3 vx = vector(eye_.direction_x), vy = vector(eye_.direction_y);
@@ -223,8 +227,10 @@ private:
                 inside = over_n * plus(turned, dq1 - dq2, N);
                 outside = plus(turned, dq1 + dq1, N);
             };
-            change(gx, vx, ray_.point_x, ray_.direction_x, mirrored.direction_x);
-            change(gy, vy, ray_.point_y, ray_.direction_y, mirrored.direction_y);
+            change(part.along(gx, gy), part.along(vx, vy), ray_.point_x, ray_.direction_x,
+                   mirrored.direction_x);
+            change(part.across(gy), part.across(vy), ray_.point_y, ray_.direction_y,
+                   mirrored.direction_y);
             mirrored.point_x = ray_.point_x;
             mirrored.point_y = ray_.point_y;
         }
@@ -237,10 +243,14 @@ private:
             const V distance = (number(eye_.distance) + later) * length;
             Ray from_eye{plus(ray_.point, hn::Neg(distance), along), along, gx, gy, vx, vy};
             if constexpr (kSoft) {
-                from_eye.point_x = vector(eye_.origin_x);
-                from_eye.point_y = vector(eye_.origin_y);
-                from_eye.direction_x = over * plus(vx, hn::Neg(dot(along, vx)), along);
-                from_eye.direction_y = over * plus(vy, hn::Neg(dot(along, vy)), along);
+                const auto turned = [&](const V3& change) HWY_ATTR {
+                    return over * plus(change, hn::Neg(dot(along, change)), along);
+                };
+                const V3 origin_x = vector(eye_.origin_x), origin_y = vector(eye_.origin_y);
+                from_eye.point_x = part.along(origin_x, origin_y);
+                from_eye.point_y = part.across(origin_y);
+                from_eye.direction_x = turned(part.along(vx, vy));
+                from_eye.direction_y = turned(part.across(vy));
             }
             V one[k_band_nodes];
             for (int i = 0; i < nodes; ++i) one[i] = number(1.0f);

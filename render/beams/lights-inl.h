@@ -15,24 +15,24 @@ HWY_INLINE V disc_share(const ShadedLights::Disc& disc, const V3& axis, const Ra
     const V cosine = dot(axis, d);
     if constexpr (!kSoft) return hn::IfThenElseZero(cosine > number(disc.cosine), number(1.0f));
     if (disc.cosine < -1) return number(1.0f);
-    // A small one fills no more than its solid angle; where a pixel sees so much that its share is
-    // no parallelogram (next to total reflection), that tells nothing.
-    const V pixel = length_of(cross(ray.direction_x, ray.direction_y));
-    const V most =
-        hn::IfThenElse(narrow(ray.direction_x, ray.direction_y, number(1.0f)),
-                       number(disc.solid_angle) / hn::Max(pixel, number(1e-30f)), number(1.0f));
     const Gradient wide{dot(axis, ray.direction_x), dot(axis, ray.direction_y)};
     const V share = share_above(cosine - number(disc.cosine), wide);
-    const M small = most < number(1.0f);
-    if (hn::AllFalse(k_floats, small)) return share;
-    // About a small one the cosine is no measure of distance. The angle to its rim, as 2 tan of its
-    // half, is: 2 (cos a - cos b) / (sin a + sin b).
+    if (disc.cosine < 0.70710678f) return share;
+    // About a small one the cosine is no measure of distance, and single precision knows little of
+    // it. The angle to its rim, as 2 tan of its half, is: 2 (sin b - sin a) / (cos a + cos b).
+    // Where a pixel sees so much that its share is no parallelogram (next to total reflection),
+    // that tells nothing.
+    const M near_axis =
+        hn::And(cosine > number(0.5f), narrow(ray.direction_x, ray.direction_y, number(1.0f)));
+    if (hn::AllFalse(k_floats, near_axis)) return share;
     const V3 beside = plus(d, hn::Neg(cosine), axis);
     const V sine = length_of(beside), over = number(1.0f) / hn::Max(sine, number(1e-15f));
-    const V inside = number(2.0f) * (cosine - number(disc.cosine)) /
-                     hn::Max(sine + number(disc.sine), number(1e-15f));
+    const V inside = number(2.0f) * (number(disc.sine) - sine) / (cosine + number(disc.cosine));
     const Gradient near{dot(beside, ray.direction_x) * over, dot(beside, ray.direction_y) * over};
-    return hn::IfThenElse(small, hn::Min(share_above(inside, near), most), share);
+    // It fills no more than its solid angle.
+    const V pixel = length_of(cross(ray.direction_x, ray.direction_y));
+    const V most = number(disc.solid_angle) / hn::Max(pixel, number(1e-30f));
+    return hn::IfThenElse(near_axis, hn::Min(share_above(inside, near), most), share);
 }
 
 // Light that comes along a ray: calls take(factor, radiance of each node, polarisation).

@@ -28,7 +28,7 @@ struct SpanRows {
 };
 
 // Numbers of one edge, or of the region, in each of some rows.
-constexpr std::size_t k_row_numbers = 5;
+constexpr std::size_t k_row_numbers = 6;
 
 }  // namespace culet
 #endif
@@ -40,9 +40,63 @@ namespace HWY_NAMESPACE {
 // What rounding leaves of no area at all, and of a whole pixel.
 constexpr float k_nothing = 1e-6f, k_whole = 1 - 4e-6f;
 
+// Moments of a part of a pixel about the pixel's middle: of what lies to the right of some edges,
+// less what lies to the right of others.
+struct Moments {
+    V area, x, y, xx, xy, yy;
+
+    // An edge from its left end, at height y, to `rise` above it, over the signed height h: the
+    // shares `before` and `until` of it lie left of the pixel and left of its right side, and x is
+    // that of the middle of what is between. Closed forms of the integrals over y (Green 1828).
+    HWY_INLINE void add(const V& h, const V& y0, const V& rise, const V& before, const V& until,
+                        const V& middle, const V& reach) {
+        const V third = number(1.0f / 3), half = number(0.5f), quarter = number(0.25f);
+        // Beside the part left of the pixel all of its rows count.
+        const V slab = h * before, ys = hn::MulAdd(half * rise, before, y0),
+                up = half * rise * before;
+        const V in = h * (until - before), yi = hn::MulAdd(half * rise, before + until, y0),
+                k = half * rise * (until - before);
+        const V beside = half - middle, square = middle * middle, reach2 = reach * reach;
+        const V width = half * (quarter - hn::MulAdd(third, reach2, square)),
+                tilt = third * reach * k;
+        area = area + hn::MulAdd(in, beside, slab);
+        x = hn::MulAdd(in, width, x);
+        y = y + hn::MulAdd(in, hn::MulSub(yi, beside, tilt), slab * ys);
+        xx = xx +
+             third * hn::MulAdd(in, number(0.125f) - middle * (square + reach2), quarter * slab);
+        xy = hn::MulAdd(in, hn::NegMulAdd(middle, tilt, yi * width), xy);
+        yy = yy + hn::MulAdd(in,
+                             hn::NegMulAdd(number(2.0f) * yi, tilt,
+                                           hn::MulAdd(third * k, k, yi * yi) * beside),
+                             slab * hn::MulAdd(third * up, up, ys * ys));
+    }
+};
+
+// What CoveredPixels says of a part, all of the pixel where it is not `cut`.
+struct Part {
+    V x, y, xx, yx, yy;
+
+    HWY_INLINE Part(const Moments& m, const M& cut) {
+        const V zero = number(0.0f), one = number(1.0f), half = number(0.5f), twelve = number(12);
+        // Of next to nothing rounding leaves anything; it stays within the pixel.
+        const V over = one / hn::Max(m.area, number(1e-12f));
+        x = hn::IfThenElseZero(cut, hn::Clamp(m.x * over, hn::Neg(half), half));
+        y = hn::IfThenElseZero(cut, hn::Clamp(m.y * over, hn::Neg(half), half));
+        const V wide = clamped_to_unit(twelve * hn::NegMulAdd(x, x, m.xx * over)),
+                high = clamped_to_unit(twelve * hn::NegMulAdd(y, y, m.yy * over));
+        const V along = hn::Sqrt(wide), most = hn::Sqrt(high);
+        const V turned =
+            hn::Clamp(twelve * hn::NegMulAdd(x, y, m.xy * over) / hn::Max(along, number(1e-12f)),
+                      hn::Neg(most), most);
+        xx = hn::IfThenElse(cut, along, one);
+        yx = hn::IfThenElseZero(cut, turned);
+        yy = hn::IfThenElse(cut, hn::Sqrt(hn::Max(hn::NegMulAdd(turned, turned, high), zero)), one);
+    }
+};
+
 // `numbers` has room for `edge_count` + 1 blocks of k_row_numbers * lanes.
 void FindAreas(const PixelCoverage::Edge* edges, std::size_t edge_count, const RegionBox& box,
-               float* numbers, CoveredPixels& found) {
+               bool parts, float* numbers, CoveredPixels& found) {
     using Edge = PixelCoverage::Edge;
     const std::size_t lanes = hn::Lanes(k_floats), block = k_row_numbers * lanes;
     const V zero = number(0.0f), one = number(1.0f);
@@ -75,6 +129,11 @@ void FindAreas(const PixelCoverage::Edge* edges, std::size_t edge_count, const R
             hn::StoreU(one / (high - low), k_floats, of_edge + lanes);
             hn::StoreU(number(0.5f) * (high - low), k_floats, of_edge + 2 * lanes);
             hn::StoreU(number(edge.sign) * over, k_floats, of_edge + 3 * lanes);
+            // From the row's middle.
+            const V half_row = top + number(0.5f);
+            const M falls = xb < xa;
+            hn::StoreU(hn::IfThenElse(falls, yb, ya) - half_row, k_floats, of_edge + 4 * lanes);
+            hn::StoreU(hn::IfThenElse(falls, hn::Neg(over), over), k_floats, of_edge + 5 * lanes);
             left = hn::Min(left, hn::IfThenElse(active, low, left));
             right = hn::Max(right, hn::IfThenElseZero(active, high));
             if (edge.sign > 0) {
@@ -104,7 +163,22 @@ void FindAreas(const PixelCoverage::Edge* edges, std::size_t edge_count, const R
             for (float x = first; x < last; x += step, at += static_cast<int>(lanes)) {
                 const V pixel = hn::Iota(k_floats, x);
                 V share = all;
-                if (!(x >= full_first && x + step <= full_last)) {
+                const bool full = x >= full_first && x + step <= full_last;
+                Moments moments{zero, zero, zero, zero, zero, zero};
+                if (parts && !(full && of_row[4 * lanes] > k_whole)) {
+                    for (std::size_t e = 0; e < edge_count; ++e) {
+                        const float* of_edge = numbers + e * block + row;
+                        const V in = pixel - number(of_edge[0]), width = number(of_edge[lanes]),
+                                half = number(of_edge[2 * lanes]);
+                        const V before = clamped_to_unit(in * width),
+                                until = clamped_to_unit((in + one) * width);
+                        moments.add(number(of_edge[3 * lanes]), number(of_edge[4 * lanes]),
+                                    number(of_edge[5 * lanes]), before, until,
+                                    hn::MulSub(half, before + until, in + number(0.5f)),
+                                    half * (until - before));
+                    }
+                    share = hn::Max(moments.area, zero);
+                } else if (!full) {
                     share = zero;
                     for (std::size_t e = 0; e < edge_count; ++e) {
                         const float* of_edge = numbers + e * block + row;
@@ -122,8 +196,17 @@ void FindAreas(const PixelCoverage::Edge* edges, std::size_t edge_count, const R
                 }
                 share = hn::IfThenElse(share > number(k_whole), one, share);
                 hn::StoreU(share, k_floats, shares + at);
-                hn::StoreU(pixel + number(box.x), k_floats, xs + at);
-                hn::StoreU(y, k_floats, ys + at);
+                V middle_x = pixel + number(box.x), middle_y = y;
+                if (parts) {
+                    const Part part(moments, share < one);
+                    middle_x = middle_x + part.x;
+                    middle_y = middle_y + part.y;
+                    hn::StoreU(part.xx, k_floats, found.xx.data() + at);
+                    hn::StoreU(part.yx, k_floats, found.yx.data() + at);
+                    hn::StoreU(part.yy, k_floats, found.yy.data() + at);
+                }
+                hn::StoreU(middle_x, k_floats, xs + at);
+                hn::StoreU(middle_y, k_floats, ys + at);
             }
             const int columns = static_cast<int>(last - first);
             int count = columns, skipped = 0;
@@ -232,11 +315,14 @@ void PixelCoverage::reserve(std::size_t pixels) {
     found_.x.resize(pixels);
     found_.y.resize(pixels);
     found_.share.resize(pixels);
+    found_.xx.resize(pixels);
+    found_.yx.resize(pixels);
+    found_.yy.resize(pixels);
 }
 
 const CoveredPixels& PixelCoverage::areas(const ScreenPoint* corners, std::size_t count,
-                                          const ScreenPoint& reference, int row_begin,
-                                          int row_end) {
+                                          const ScreenPoint& reference, int row_begin, int row_end,
+                                          bool parts) {
     found_.count = 0;
     found_.runs.clear();
     double x_low = corners[0].x, x_high = x_low, y_low = corners[0].y, y_high = y_low;
@@ -275,7 +361,7 @@ const CoveredPixels& PixelCoverage::areas(const ScreenPoint* corners, std::size_
     (edges_.data(), edges_.size(),
      {y0 * width_ + x0, width_, x1 - x0, y1 - y0, static_cast<float>(x0 + 0.5 - reference.x),
       static_cast<float>(y0 + 0.5 - reference.y)},
-     crossings_.data(), found_);
+     parts, crossings_.data(), found_);
     return found_;
 }
 

@@ -15,6 +15,10 @@ struct CoveredPixels {
     PixelRuns runs;
     std::vector<float> x, y;   ///< of the pixel's middle, from the point of reference
     std::vector<float> share;  ///< of the pixel's area
+    /// Where wanted, the part of each pixel that the region fills: x and y are of the part's middle
+    /// then, and (u, v) -> (xx u, yx u + yy v) makes a square of side 1 as wide as the part, in
+    /// that its second moments are the part's.
+    std::vector<float> xx, yx, yy;
     int count = 0;
     int near_border = 0;  ///< so many values, the first ones, are of middles near the border
 };
@@ -28,7 +32,8 @@ public:
     /// [row_begin, row_end): every edge adds what lies to the right of it, row by row. Pixels of
     /// which it fills nothing are left out; a share is 1 where only rounding is missing.
     const CoveredPixels& areas(const ScreenPoint* corners, std::size_t count,
-                               const ScreenPoint& reference, int row_begin, int row_end);
+                               const ScreenPoint& reference, int row_begin, int row_end,
+                               bool parts = false);
     /// Pixels whose middle is in the region, each with share 1. A middle on an edge belongs to the
     /// region on its right, or below. Near the border: within `margin` pixels.
     const CoveredPixels& middles(const ScreenPoint* corners, std::size_t count,

@@ -29,6 +29,11 @@ Fragments rest_of(const Fragments& all, int first, int count) {
     rest.count = count - first;
     rest.x += first;
     rest.y += first;
+    if (rest.xx != nullptr) {
+        rest.xx += first;
+        rest.yx += first;
+        rest.yy += first;
+    }
     rest.radiance += first;
     rest.left += first;
     rest.absorbed += first;
@@ -154,11 +159,18 @@ bool StripPainter::retrace(int pixel, const ShadingPass& pass, std::size_t longe
 }
 
 // With room for what shading finds; radiance is all that is wanted yet.
-Fragments StripPainter::fragments_of(const CoveredPixels& covered, int nodes) {
+Fragments StripPainter::fragments_of(const CoveredPixels& covered, const ShadingPass& pass) {
+    const int nodes = pass.lights.nodes;
     reserve(covered.count, nodes);
     Fragments fragments;
     fragments.x = covered.x.data();
     fragments.y = covered.y.data();
+    fragments.soft = options_.shading != BeamShading::single;
+    if (fragments.soft && pass.lights.any_edge) {
+        fragments.xx = covered.xx.data();
+        fragments.yx = covered.yx.data();
+        fragments.yy = covered.yy.data();
+    }
     fragments.count = covered.count;
     fragments.radiance = radiance_.data();
     fragments.stride = static_cast<int>(left_.size());
@@ -195,14 +207,13 @@ void StripPainter::paint_pixels(const CoveredPixels& covered, const Beam& beam, 
                                 const std::uint16_t* facets, const ShadedEye& eye,
                                 const ShadingPass& pass) {
     const int nodes = pass.lights.nodes;
-    Fragments fragments = fragments_of(covered, nodes);
+    Fragments fragments = fragments_of(covered, pass);
     fragments.left = left_.data();
     fragments.absorbed = absorbed_.data();
     if (hides_) {
         fragments.unhidden = unhidden_.data();
         fragments.before = before_.data();
     }
-    fragments.soft = options_.shading == BeamShading::averaged;
     const ShadingJob job{&stone_.shaded, &pass.optics, &pass.lights};
     const int verified = std::min(to_verify, covered.count);
     if (verified > 0) {
@@ -274,7 +285,8 @@ void StripPainter::paint_beam(const SortedBeams& beams, LeafNumber number,
     const CoveredPixels& covered =
         single ? coverage_.middles(corners, beam.corners, middle, row_begin_, row_end_,
                                    sure ? k_margin : std::numeric_limits<double>::infinity())
-               : coverage_.areas(corners, beam.corners, middle, row_begin_, row_end_);
+               : coverage_.areas(corners, beam.corners, middle, row_begin_, row_end_,
+                                 !flat && pass.lights.any_edge);
     if (covered.count == 0) return;
     if (flat) {
         paint_flat(covered, beam, facets, eye, pass);

@@ -90,7 +90,7 @@ private:
     void paint_beam(const SortedBeams& beams, LeafNumber number, const ShadingPass& pass);
     void paint_flat(const CoveredPixels& covered, const Beam& beam, const std::uint16_t* facets,
                     const ShadedEye& eye, const ShadingPass& pass);
-    Fragments fragments_of(const CoveredPixels& covered, int nodes);
+    Fragments fragments_of(const CoveredPixels& covered, const ShadingPass& pass);
     void add_light(const CoveredPixels& covered, const float* shares, const ShadingPass& pass,
                    bool before);
     void add_cover(const CoveredPixels& covered, const float* shares, const float* unhidden);

@@ -30,7 +30,8 @@ void StripPainter::paint_leaving(const LeavingBeam& beam, const ScreenPoint* cor
     const CoveredPixels& covered =
         options_.shading == BeamShading::single
             ? coverage_.middles(corners, count, beam.reference, row_begin_, row_end_)
-            : coverage_.areas(corners, count, beam.reference, row_begin_, row_end_);
+            : coverage_.areas(corners, count, beam.reference, row_begin_, row_end_,
+                              pass.lights.any_edge);
     if (covered.count == 0) return;
     const int nodes = pass.lights.nodes;
     const auto store = [](const std::array<Vec3, 3>& from, float to[3][3], const Vec3& about) {
@@ -54,8 +55,7 @@ void StripPainter::paint_leaving(const LeavingBeam& beam, const ScreenPoint* cor
         for (std::size_t i = 0; i < 3; ++i)
             leaving.transmitted.push_back(static_cast<float>(beam.transmitted[i][node]));
     }
-    Fragments fragments = fragments_of(covered, nodes);
-    fragments.soft = options_.shading != BeamShading::single;
+    const Fragments fragments = fragments_of(covered, pass);
     shade_leaving(pass.lights, leaving, fragments);
     sums_.fragments += covered.count;
     sums_.deepest = std::max(sums_.deepest, beam.facets);

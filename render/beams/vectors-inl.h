@@ -62,6 +62,16 @@ struct Ray {
     V3 point, direction, point_x, point_y, direction_x, direction_y;
 };
 
+// The part of a pixel that Fragments name: how far its sides take what changes by `right` and
+// `down` from pixel to pixel.
+struct PixelPart {
+    V xx, yx, yy;
+    HWY_INLINE V3 along(const V3& right, const V3& down) const {
+        return plus(xx * right, yx, down);
+    }
+    HWY_INLINE V3 across(const V3& down) const { return yy * down; }
+};
+
 // Share of a pixel where a value that is linear in it is above 0.
 HWY_INLINE V share_above(const V& value, const Gradient& g) {
     const V a = hn::Abs(g.x), b = hn::Abs(g.y);

@@ -40,12 +40,42 @@ Polygon clipped(const Polygon& p, double a, double b, double c) {
     }
     return kept;
 }
-double area_in_pixel(const Polygon& p, int x, int y) {
+Polygon within_pixel(const Polygon& p, int x, int y) {
     Polygon kept = clipped(p, 1, 0, -x);
     if (!kept.empty()) kept = clipped(kept, -1, 0, x + 1);
     if (!kept.empty()) kept = clipped(kept, 0, 1, -y);
     if (!kept.empty()) kept = clipped(kept, 0, -1, y + 1);
+    return kept;
+}
+double area_in_pixel(const Polygon& p, int x, int y) {
+    const Polygon kept = within_pixel(p, x, y);
     return kept.size() < 3 ? 0 : area_of(kept);
+}
+
+// Mean place and covariances, of a polygon's triangles about its first corner.
+struct Spread {
+    double area = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+};
+Spread spread_of(const Polygon& p) {
+    Spread s;
+    for (std::size_t i = 2; i < p.size(); ++i) {
+        const double ax = p[i - 1].x - p[0].x, ay = p[i - 1].y - p[0].y, bx = p[i].x - p[0].x,
+                     by = p[i].y - p[0].y, w = 0.5 * (ax * by - bx * ay);
+        s.area += w;
+        s.x += w * (ax + bx) / 3;
+        s.y += w * (ay + by) / 3;
+        s.xx += w * (ax * ax + ax * bx + bx * bx) / 6;
+        s.yy += w * (ay * ay + ay * by + by * by) / 6;
+        s.xy += w * (2 * ax * ay + ax * by + bx * ay + 2 * bx * by) / 12;
+    }
+    s.x /= s.area;
+    s.y /= s.area;
+    s.xx = s.xx / s.area - s.x * s.x;
+    s.xy = s.xy / s.area - s.x * s.y;
+    s.yy = s.yy / s.area - s.y * s.y;
+    s.x += p[0].x;
+    s.y += p[0].y;
+    return s;
 }
 
 // Positively oriented (from x to y): corners of an ellipse, turned.
@@ -120,6 +150,73 @@ protected:
             << polygon[0].x << ", " << polygon[0].y << ")";
     }
 };
+
+// Moments of a part are off by as much as its area, which divides them.
+void expect_parts(const Polygon& polygon, const CoveredPixels& found, int width, double most) {
+    int looked_at = 0;
+    for (const PixelRun& run : found.runs) {
+        for (int i = 0; i < run.count; ++i) {
+            const auto at = static_cast<std::size_t>(run.first + i);
+            const int x = (run.pixel + i) % width, y = run.pixel / width;
+            const Polygon kept = within_pixel(polygon, x, y);
+            const double area = kept.size() < 3 ? 0 : area_of(kept), off = 2 * most / area;
+            if (!(area > 0) || off > 0.05) continue;
+            ++looked_at;
+            ASSERT_NEAR(static_cast<double>(found.share[at]), area, most);
+            const Spread exact = spread_of(kept);
+            const double xx = static_cast<double>(found.xx[at]),
+                         yx = static_cast<double>(found.yx[at]),
+                         yy = static_cast<double>(found.yy[at]);
+            ASSERT_NEAR(static_cast<double>(found.x[at]), exact.x, off) << area;
+            ASSERT_NEAR(static_cast<double>(found.y[at]), exact.y, off) << area;
+            // The square's are 1/12 and 0; a mean's square is off by twice the mean.
+            ASSERT_NEAR(xx * xx / 12, exact.xx, 2 * off) << area;
+            ASSERT_NEAR(xx * yx / 12, exact.xy, 2 * off) << area;
+            ASSERT_NEAR((yx * yx + yy * yy) / 12, exact.yy, 2 * off) << area;
+            if (found.share[at] == 1) {
+                ASSERT_EQ(xx, 1);
+                ASSERT_EQ(yx, 0);
+                ASSERT_EQ(yy, 1);
+            }
+        }
+    }
+    ASSERT_GT(looked_at, 0);
+}
+
+TEST_P(Coverage, has_the_middles_and_widths_of_its_parts) {
+    std::mt19937_64 random(20268);
+    std::uniform_real_distribution<double> x(12, k_width - 12), y(12, k_height - 12), r(0.2, 11);
+    for (int i = 0; i < 600; ++i) {
+        SCOPED_TRACE("seed 20268, polygon " + std::to_string(i));
+        const Polygon polygon = random_polygon(random, x(random), y(random), r(random), r(random));
+        if (area_of(polygon) < 0.1) continue;
+        expect_parts(polygon,
+                     coverage_.areas(polygon.data(), polygon.size(), {0, 0}, 0, k_height, true),
+                     k_width, tolerance(22) + 4e-6);
+    }
+}
+
+TEST_P(Coverage, of_parts_without_width_stays_in_the_pixel) {
+    // A diagonal and an upright sliver, of which single precision knows little or nothing.
+    for (const double width : {1e-3, 1e-5, 1e-7, 1e-9}) {
+        for (const Polygon& sliver : {Polygon{{3.1, 4.2}, {7.1 + width, 8.2}, {7.1, 8.2}},
+                                      Polygon{{3.5, 4.2}, {3.5 + width, 4.2}, {3.5, 9.7}}}) {
+            SCOPED_TRACE(width);
+            const CoveredPixels& found =
+                coverage_.areas(sliver.data(), sliver.size(), {0, 0}, 0, k_height, true);
+            for (const PixelRun& run : found.runs) {
+                for (int i = 0; i < run.count; ++i) {
+                    const auto at = static_cast<std::size_t>(run.first + i);
+                    EXPECT_NEAR(found.x[at], (run.pixel + i) % k_width + 0.5, 0.5);
+                    EXPECT_NEAR(found.y[at], run.pixel / k_width + 0.5, 0.5);
+                    EXPECT_TRUE(found.xx[at] >= 0 && found.xx[at] <= 1) << found.xx[at];
+                    EXPECT_LE(std::abs(found.yx[at]), 1) << found.yx[at];
+                    EXPECT_TRUE(found.yy[at] >= 0 && found.yy[at] <= 1) << found.yy[at];
+                }
+            }
+        }
+    }
+}
 
 TEST_P(Coverage, of_random_polygons_is_what_clipping_says) {
     std::mt19937_64 random(20261);
