@@ -79,8 +79,8 @@ void add_rims(const PlaneLight& plane, double width, std::vector<PlaneLight>& ri
     }
 }
 
-// The brightest texel about each direction.
-std::shared_ptr<const EnvironmentMap> brightest_of(const EnvironmentMap& map) {
+// The brightest texel about each direction, where it has this radiance.
+std::shared_ptr<const EnvironmentMap> brightest_of(const EnvironmentMap& map, double least) {
     auto found = std::make_shared<EnvironmentMap>();
     found->width = std::min(map.width, k_map_width);
     found->height = std::min(map.height, k_map_height);
@@ -94,6 +94,10 @@ std::shared_ptr<const EnvironmentMap> brightest_of(const EnvironmentMap& map) {
                 found->rgb[to + c] = std::max(found->rgb[to + c], map.rgb[from + c]);
         }
     }
+    for (auto texel = found->rgb.begin(); texel != found->rgb.end(); texel += 3) {
+        if (static_cast<double>(*std::max_element(texel, texel + 3)) < least)
+            std::fill_n(texel, 3, 0.0f);
+    }
     return found;
 }
 
@@ -103,7 +107,7 @@ std::vector<double> mean_spectra(const Scene& scene, const StonePixels& pixels,
     PathLimits limits;
     limits.seed = scene.settings.seed;
     limits.depth = scene.settings.depth > 0 ? scene.settings.depth : k_deepest;
-    limits.cut_weight = k_cut_weight;
+    limits.cut_weight = scene.settings.cut_weight.value_or(k_cut_weight);
     limits.split_weight = 1;
     limits.roulette = !scene.stone.convex;
     const PilotDrawing drawing = draw_pilot(scene, pixels, limits, 1, k_node_counts[0], progress);
@@ -114,9 +118,27 @@ std::vector<double> mean_spectra(const Scene& scene, const StonePixels& pixels,
     return seen;
 }
 
+// A map is left as it is.
+Lights bright_lights(const Lights& lights, double least) {
+    const WavelengthSet colours(even_wavelengths(k_node_counts[0]));
+    const auto dim = [&](const auto& light) {
+        const std::vector<double> radiance = radiance_of(light.radiance, colours);
+        return *std::max_element(radiance.begin(), radiance.end()) < least;
+    };
+    Lights bright = lights;
+    bright.constant = 0;
+    std::erase_if(bright.spheres, dim);
+    std::erase_if(bright.lobes, dim);
+    std::erase_if(bright.hemispheres, dim);
+    std::erase_if(bright.caps, dim);
+    std::erase_if(bright.planes, dim);
+    return bright;
+}
+
 }  // namespace
 
-Lights light_rims(const Lights& lights, const Vec3& stone, double width) {
+Lights light_rims(const Lights& all, const Vec3& stone, double width, double least) {
+    const Lights lights = bright_lights(all, least);
     Lights rims;
     for (const CapLight& cap : lights.caps) {
         rims.caps.push_back(rim(cap.direction, cap.to, width, cap.radiance));
@@ -137,11 +159,12 @@ Lights light_rims(const Lights& lights, const Vec3& stone, double width) {
         lobe.exponent = 2 / ((angle + width) * (angle + width));
         rims.lobes.push_back(lobe);
     }
-    if (lights.environment) rims.environment = brightest_of(*lights.environment);
+    if (lights.environment) rims.environment = brightest_of(*lights.environment, least);
     return rims;
 }
 
-LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress, FrameRenderer* frames) {
+LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const Progress& progress,
+                             FrameRenderer* frames) {
     Scene scene = whole;
     RenderSettings& settings = scene.settings;
     const bool disperses =
@@ -151,9 +174,11 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress, Frame
     settings.effects[static_cast<std::size_t>(Effects::dispersion)] = disperses;
     settings.wavelength_turns = 1;
     settings.coherence = false;
-    settings.engine = "preview";
+    // Of a sun much is seen on paths of little weight; and a preview's regions lie beside those
+    // that show it.
+    settings.engine = bright.sun() ? "beams" : "preview";
     settings.tolerance = k_preview_tolerance;
-    settings.cut_weight = k_cut_weight;
+    settings.cut_weight = bright.sun() ? bright.least / bright.most : k_cut_weight;
     scene.camera.aperture_radius = 0;
     scene.camera.optics = {};
     const Vec3 middle = centroid(scene.stone.solid);
@@ -165,10 +190,10 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress, Frame
     };
     // A map's brightest texels are the same whatever the width.
     Lights lights = whole.lights;
+    const auto map = lights.environment ? brightest_of(*lights.environment, bright.least) : nullptr;
     lights.environment.reset();
-    const auto map = whole.lights.environment ? brightest_of(*whole.lights.environment) : nullptr;
     const auto light = [&](double width) {
-        scene.lights = light_rims(lights, middle, width);
+        scene.lights = light_rims(lights, middle, width, bright.least);
         scene.lights.environment = map;
     };
 
@@ -225,26 +250,26 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Progress& progress, Frame
         seen = mean_spectra(scene, at, progress);
     }
     for (const Closer& closer : disperses ? k_closer : std::vector<Closer>{}) {
-        std::vector<std::size_t> brightest(seen.size());
-        std::iota(brightest.begin(), brightest.end(), std::size_t{0});
-        std::stable_sort(brightest.begin(), brightest.end(),
+        std::vector<std::size_t> order(seen.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(),
                          [&](std::size_t a, std::size_t b) { return seen[a] > seen[b]; });
-        brightest.resize(std::min(brightest.size(), closer.cells));
+        order.resize(std::min(order.size(), closer.cells));
         StonePixels some;
-        for (const std::size_t i : brightest) some.at.push_back(at.at[i]);
+        for (const std::size_t i : order) some.at.push_back(at.at[i]);
         settings.wavelengths_nm = even_wavelengths(closer.wavelengths);
         light(2 * apart / closer.wavelengths + step * pixel());
         const std::vector<double> found = mean_spectra(scene, some, progress);
         // Of what may be there, those of which nothing more is known have as much as these.
         double possible = 0, actual = 0;
-        for (std::size_t k = 0; k < brightest.size(); ++k) {
-            possible += seen[brightest[k]];
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            possible += seen[order[k]];
             actual += found[k];
         }
         if (possible > 0) {
             for (double& cell : seen) cell *= std::min(1.0, actual / possible);
         }
-        for (std::size_t k = 0; k < brightest.size(); ++k) seen[brightest[k]] = found[k];
+        for (std::size_t k = 0; k < order.size(); ++k) seen[order[k]] = found[k];
     }
     // With what is in the cells beside it.
     cells_.assign(static_cast<std::size_t>(columns_ * rows), 0.0f);

@@ -16,18 +16,29 @@
 
 namespace culet {
 
-/// The lights' rims: radiance of each light within `width` (radians, as seen from the stone) of its
-/// edge, on both sides; of a map, the brightest texel of cells some 6 degrees wide; of lobes, wider
-/// ones. What has no edge is left out.
-Lights light_rims(const Lights& lights, const Vec3& stone, double width);
+/// Radiance of lights that a picture may lack.
+struct Brightness {
+    double least = 0;  ///< from which on they count
+    double most = 0;   ///< the brightest light's
+    /// A path of a hundredth of the weight is enough to show it.
+    bool sun() const { return most > 100 * least; }
+};
+
+/// The rims of those lights that have the radiance `least` at some wavelength: radiance of each
+/// within `width` (radians, as seen from the stone) of its edge, on both sides; of a map, the
+/// brightest texel of cells some 6 degrees wide; of lobes, wider ones. What has no edge is left
+/// out.
+Lights light_rims(const Lights& lights, const Vec3& stone, double width, double least);
 
 class LightEdgeScan {
 public:
-    /// As light has one way through the stone, unpolarised and not absorbed. `progress` is told 0,
-    /// and may stop it: Interrupted.
+    /// Of lights that have the radiance `least` at some wavelength: of others every pixel may see
+    /// an edge. As light has one way through the stone, unpolarised and not absorbed. `progress` is
+    /// told 0, and may stop it: Interrupted.
     /// `frames`: of this stone, to save making ready what beams need of it; shows other lights in
     /// larger pixels then.
-    LightEdgeScan(const Scene& scene, const Progress& progress, FrameRenderer* frames = nullptr);
+    LightEdgeScan(const Scene& scene, const Brightness& bright, const Progress& progress,
+                  FrameRenderer* frames = nullptr);
 
     /// The radiance that a light's edge may bring in a pixel's cell or beside it; 0: none was
     /// found.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "render/colour_error.h"
 #include "render/plan/a_priori.h"
@@ -93,12 +94,13 @@ std::vector<WavelengthChoice> Planner::usual_wavelengths() const {
                              ? k_colours_apart * exit_deviation(spans.dispersion, spans.mean)
                              : 0;
     std::vector<WavelengthChoice> sets;
-    for (std::size_t i = 0; i <= k_fine_level; ++i) {
-        const int count = k_counts[i];
+    for (std::size_t i = 0; i < k_counts.size(); ++i) {
+        const int count = k_counts[i], of_glance = k_counts[std::min(i, k_fine_level)];
         // Lights in colours bring these exactly at any wavelengths from three on.
         const double flat =
             spectral && !exact
-                ? colour_error(colours_of(glance_, even_wavelengths(count)), glance_.rgb).radiance
+                ? colour_error(colours_of(glance_, even_wavelengths(of_glance)), glance_.rgb)
+                      .radiance
                 : 0;
         sets.push_back(
             {count, std::hypot(flat, apart * std::pow(3.0 / count, k_colours_power)), 0, 0});
@@ -223,7 +225,8 @@ void Planner::settle_wavelengths(Scene pilot, const std::vector<int>& counts, st
         const ColourError here = error_of(i);
         if (i + 1 == level) {
             // What lies beyond the finest is less than to it.
-            if (level + 1 < counts.size()) offer(level + 1, here, k_beyond_two);
+            for (std::size_t finer = counts.size(); --finer > level;)
+                offer(finer, here, std::pow(k_beyond_two, static_cast<double>(finer - level)));
             offer(level, here, k_beyond);
         }
         offer(i, here, 1 + (i + 1 == level ? k_beyond : k_beyond_two));

@@ -277,9 +277,15 @@ std::optional<Prover::Look> Prover::next_look(const Proof& proof, double room,
     return best;
 }
 
+void Prover::choose(const Picture& picture, FrameRenderer* frames) {
+    chosen_ = choose_proof_pixels(scene_, picture, some_, *progress_, frames);
+    // A small light has an image at each wavelength. Where these part, few wavelengths bring too
+    // much or too little of it, and a truth of the picture's own would not tell.
+    if (chosen_.sun) nodes_ = k_node_counts.back();
+}
+
 Proof Prover::prove(const Picture& picture, double room, double most_ns, FrameRenderer* frames) {
-    if (chosen_.pixels.at.empty())
-        chosen_ = choose_proof_pixels(scene_, picture, some_, *progress_, frames);
+    if (chosen_.pixels.at.empty()) choose(picture, frames);
     // What was drawn to judge other pictures judges this one.
     std::size_t known = chosen_.pixels.at.size();
     for (const Level& level : levels_) known = std::min(known, level.rgb.size());

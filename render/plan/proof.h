@@ -92,6 +92,7 @@ private:
         double halves = 0, radiance = 0, cut = 0;  // sums over the pixels, as they count
     };
     int grid(std::size_t level) const;
+    void choose(const Picture& picture, FrameRenderer* frames);
     PilotDrawing draw(const StonePixels& pixels, int samples);
     void draw_up_to(std::size_t count);
     Rgb truth(std::size_t pixel) const;

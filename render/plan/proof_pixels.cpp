@@ -52,8 +52,10 @@ ProofPixels choose_proof_pixels(const Scene& scene, const Picture& picture, cons
     }
     std::vector<double> edges;
     double sum_of_edges = 0;
-    if (contrast.radiance > 0 && brightest_light(scene) * count > k_bright * contrast.radiance) {
-        const LightEdgeScan scan(scene, progress, frames);
+    const Brightness bright{k_bright * contrast.radiance / count, brightest_light(scene)};
+    if (contrast.radiance > 0 && bright.most > bright.least) {
+        chosen.sun = bright.sun();
+        const LightEdgeScan scan(scene, bright, progress, frames);
         edges.reserve(size);
         for (const Contrast::Pixel& pixel : pixels) {
             edges.push_back(scan.near(pixel.x, pixel.y));

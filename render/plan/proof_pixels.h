@@ -15,6 +15,7 @@ struct ProofPixels {
     std::vector<double> counts;  ///< of each, 1 in the mean (Hansen & Hurwitz 1943)
     bool all = false;            ///< each pixel of the stone once
     std::size_t first = 0;       ///< that are looked at first
+    bool sun = false;            ///< a light is some thousand times as bright as the picture
 };
 
 /// `scene`: one window, or two that see the same; `some`: pixels of the stone, taken where the
