@@ -44,10 +44,11 @@ Contrast contrast_of(const Picture& picture, int windows, double filled) {
             if (x + 1 < width) most = std::max(most, apart(here, picture.pixel(x + 1, y)));
             if (y > 0) most = std::max(most, apart(here, picture.pixel(x, y - 1)));
             if (y + 1 < height) most = std::max(most, apart(here, picture.pixel(x, y + 1)));
-            const double root = std::isfinite(most) ? std::sqrt(most) : 0, mean = mean_of(here);
-            found.pixels.push_back({x, y, root});
+            const double root = std::isfinite(most) ? std::sqrt(most) : 0, mean = mean_of(here),
+                         radiance = std::isfinite(mean) ? std::max(0.0, mean) : 0;
+            found.pixels.push_back({x, y, root, radiance});
             found.sum += root;
-            found.radiance += std::isfinite(mean) ? std::max(0.0, mean) : 0;
+            found.radiance += radiance;
         }
     }
     return found;

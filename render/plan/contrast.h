@@ -11,6 +11,7 @@ struct Contrast {
     struct Pixel {
         int x = 0, y = 0;
         double root = 0;  ///< of the largest difference to the four about it
+        double radiance = 0;
     };
     std::vector<Pixel> pixels;  ///< that the stone fills by half at least
     double sum = 0;             ///< of the roots

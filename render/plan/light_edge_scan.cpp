@@ -18,7 +18,7 @@ namespace {
 
 // By beams, whose regions all are seen: pixels along a cell. Else rays, one a cell.
 constexpr int k_cell = 3;
-constexpr double k_preview_tolerance = 0.1;
+constexpr double k_tolerance = 0.1;
 // Pixels across the stone that do: in larger pictures what is seen is larger, too.
 constexpr double k_across = 200;
 constexpr int k_pixels = 1000;
@@ -30,8 +30,9 @@ struct Closer {
 };
 const std::vector<Closer> k_closer{{512, 8}, {96, 29}};
 const std::vector<double> k_few_nm{460, 560}, k_one_nm{550};
-// Paths below this weight are left to the proof's even choice.
-constexpr double k_cut_weight = 0.01;
+// Paths below this weight are left to the proof's even choice; where there is a sun, those that
+// show less than is bright of it, but not such as would take too long to find.
+constexpr double k_cut_weight = 0.01, k_least_cut_weight = 1e-4;
 // Where light leaves at 60 degrees from a facet's normal, refraction has widened what rays leave
 // apart by the index and twice, the inverse of the angle's cosine.
 constexpr double k_widened = 2;
@@ -174,11 +175,11 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
     settings.effects[static_cast<std::size_t>(Effects::dispersion)] = disperses;
     settings.wavelength_turns = 1;
     settings.coherence = false;
-    // Of a sun much is seen on paths of little weight; and a preview's regions lie beside those
-    // that show it.
+    // A preview's regions lie beside those that show a sun.
     settings.engine = bright.sun() ? "beams" : "preview";
-    settings.tolerance = k_preview_tolerance;
-    settings.cut_weight = bright.sun() ? bright.least / bright.most : k_cut_weight;
+    settings.tolerance = k_tolerance;
+    settings.cut_weight =
+        bright.sun() ? std::max(bright.least / bright.most, k_least_cut_weight) : k_cut_weight;
     scene.camera.aperture_radius = 0;
     scene.camera.optics = {};
     const Vec3 middle = centroid(scene.stone.solid);
@@ -208,6 +209,9 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
     if (refused_by_beams(scene, make_plan(scene)).empty()) {
         const double across = diameter(scene.stone.solid) / pixel_on_stone(scene);
         times = static_cast<int>(std::clamp(across / k_across, 1.0, 100.0));
+        // Beams that fill little of a pixel are not split: of smaller pictures, as little of the
+        // stone.
+        settings.tolerance = k_tolerance * std::pow(std::min(1.0, across / k_across), 2);
         if (times > 1) {
             scene.camera = coarser(scene.camera, times);
             light(apart + pixel());

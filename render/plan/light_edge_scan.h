@@ -3,10 +3,10 @@
 // few pixels must not miss.
 //
 // A small bright light is seen in few pixels, and at each wavelength in others: a picture of few
-// wavelengths may lack one of its images altogether, and nothing in it tells. So every light is
-// widened to a rim about its edges, as wide as the colours of one path leave apart, and seen by a
-// preview of two wavelengths, in which no region is too small to be met. Where it shows most, rims
-// as wide as a cell of few pixels at each of many wavelengths tell what is there.
+// wavelengths may lack one of its images altogether, and nothing in it tells. So every bright light
+// is widened to a rim about its edges, as wide as the colours of one path leave apart, and seen by
+// beams at two wavelengths, in which no region is too small to be met. Where it shows most, rims as
+// wide as a cell of few pixels at each of many wavelengths tell what is there.
 
 #include <vector>
 
@@ -32,9 +32,8 @@ Lights light_rims(const Lights& lights, const Vec3& stone, double width, double 
 
 class LightEdgeScan {
 public:
-    /// Of lights that have the radiance `least` at some wavelength: of others every pixel may see
-    /// an edge. As light has one way through the stone, unpolarised and not absorbed. `progress` is
-    /// told 0, and may stop it: Interrupted.
+    /// Of bright lights alone: of others every pixel may see an edge. As light has one way through
+    /// the stone, unpolarised and not absorbed. `progress` is told 0, and may stop it: Interrupted.
     /// `frames`: of this stone, to save making ready what beams need of it; shows other lights in
     /// larger pixels then.
     LightEdgeScan(const Scene& scene, const Brightness& bright, const Progress& progress,

@@ -32,6 +32,10 @@ constexpr double k_noise_power = 0.6, k_likely_room = 0.95;
 constexpr double k_cut_share = 0.01;
 constexpr double k_gambled_weight = 0.04, k_split_weight = 0.6, k_fine_gambled_weight = 0.01,
                  k_fine_split_weight = 0.3;
+// Pixels stand out that have this share of the tolerance of the picture's light; so many do at
+// most.
+constexpr double k_outstanding = 1.0 / 24;
+constexpr std::size_t k_most_outstanding = 96;
 // Below this tolerance the truth takes the finest wavelengths, and larger trees.
 constexpr double k_fine_tolerance = 0.02;
 
@@ -144,12 +148,30 @@ void Prover::draw_up_to(std::size_t count) {
         level.cut += lost * static_cast<double>(more.at.size());
         level.rgb.insert(level.rgb.end(), drawing.rgb.begin(), drawing.rgb.end());
     }
+    for (Level& level : levels_) {
+        const std::size_t first = level.outstanding.size();
+        const StonePixels more = outstanding_.stretch(first, outstanding_.at.size() - first);
+        if (more.at.empty()) continue;
+        const PilotDrawing drawing = draw(more, level.samples);
+        level.outstanding.insert(level.outstanding.end(), drawing.rgb.begin(), drawing.rgb.end());
+    }
 }
 
-Rgb Prover::truth(std::size_t pixel) const {
+void Prover::find_outstanding(const Picture& picture) {
+    of_picture_.clear();
+    if (!chosen_.bright || chosen_.all) return;
+    for (const auto& at : outstanding_pixels(picture, 1, k_outstanding * scene_.settings.tolerance,
+                                             k_most_outstanding)) {
+        const auto before = std::find(outstanding_.at.begin(), outstanding_.at.end(), at);
+        of_picture_[at] = static_cast<std::size_t>(before - outstanding_.at.begin());
+        if (before == outstanding_.at.end()) outstanding_.at.push_back(at);
+    }
+}
+
+Rgb Prover::truth(std::vector<Rgb> Level::*of, std::size_t pixel) const {
     Rgb sum{};
     for (const Level& level : levels_) {
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += level.samples * level.rgb[pixel][c];
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += level.samples * (level.*of)[pixel][c];
     }
     const double all = samples();
     for (double& v : sum) v /= all;
@@ -190,21 +212,33 @@ Proof Prover::look(const Picture& picture, std::size_t wanted) {
     std::vector<Rgb> seen, true_pixels;
     std::vector<double> errors_of;
     double errors = 0, squares = 0, sizes = 0;
+    // A pixel of no number is as wrong as can be.
+    const auto error_of = [](const Rgb& a, const Rgb& b) {
+        const double error = apart(a, b);
+        return std::isfinite(error) ? error : 1e100;
+    };
     for (std::size_t i = 0; i < count; ++i) {
         const auto [x, y] = chosen_.pixels.at[i];
         seen.push_back(picture.pixel(x, y));
-        true_pixels.push_back(truth(i));
-        double error = chosen_.counts[i] * apart(seen.back(), true_pixels.back());
-        // A pixel of no number is as wrong as can be.
-        if (!std::isfinite(error)) error = 1e100;
+        true_pixels.push_back(truth(&Level::rgb, i));
+        const double counts = of_picture_.contains({x, y}) ? 0 : chosen_.counts[i];
+        const double error = counts * error_of(seen.back(), true_pixels.back());
         errors_of.push_back(error);
         errors += error;
         squares += error * error;
-        sizes += chosen_.counts[i] * mean_of(true_pixels.back());
+        sizes += counts * mean_of(true_pixels.back());
+    }
+    const double pixels = static_cast<double>(count);
+    // Each of these is one of all.
+    double surely = 0;
+    for (const auto& [at, i] : of_picture_) {
+        const Rgb there = truth(&Level::outstanding, i);
+        const double counts = pixels / chosen_.pixels.in_picture;
+        surely += counts * error_of(picture.pixel(at.first, at.second), there);
+        sizes += counts * mean_of(there);
     }
     if (!(sizes > 0)) return proof;
-    const double pixels = static_cast<double>(count);
-    proof.difference = errors / sizes;
+    proof.difference = (errors + surely) / sizes;
     if (!chosen_.all && count > 1) {
         const double mean = errors / pixels,
                      deviation = std::sqrt(std::max(0.0, squares - errors * mean) / (pixels - 1));
@@ -289,6 +323,7 @@ Proof Prover::prove(const Picture& picture, double room, double most_ns, FrameRe
     // What was drawn to judge other pictures judges this one.
     std::size_t known = chosen_.pixels.at.size();
     for (const Level& level : levels_) known = std::min(known, level.rgb.size());
+    find_outstanding(picture);
     Proof proof = look(picture, std::max(chosen_.first, known));
     for (int more = 1; more < k_looks && proof.bound > room; ++more) {
         // As long as the noise is what is seen, the picture cannot be blamed.

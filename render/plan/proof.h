@@ -10,11 +10,14 @@
 // may be seen at another wavelength (light_edge_scan.h), are chosen more often, and count less
 // (Hansen & Hurwitz 1943): that is where pictures are off. Few pixels are off by much, so that the
 // mean of some is not distributed normally: what their skewness adds to the limit is in the bound
-// (Johnson 1978, JASA 73, eq. 2.4).
+// (Johnson 1978, JASA 73, eq. 2.4). Where lights are bright, pixels that have more of the picture's
+// light than a small share are all looked at, and the chosen ones tell of the others: what a
+// picture shows where it is not there is not left to chance.
 //
 // One picture is looked at `k_looks` times at most, with a bound each.
 
 #include <cstdint>
+#include <map>
 #include <optional>
 
 #include "render/path.h"
@@ -85,17 +88,18 @@ public:
     static bool takes_grid(int side);
 
 private:
-    // Rays of one grid in each of the first pixels.
+    // Rays of one grid in each of the first pixels, and in those that stand out of some picture.
     struct Level {
         int samples = 0;
-        std::vector<Rgb> rgb;
-        double halves = 0, radiance = 0, cut = 0;  // sums over the pixels, as they count
+        std::vector<Rgb> rgb, outstanding;
+        double halves = 0, radiance = 0, cut = 0;  // sums over the first, as they count
     };
     int grid(std::size_t level) const;
     void choose(const Picture& picture, FrameRenderer* frames);
     PilotDrawing draw(const StonePixels& pixels, int samples);
     void draw_up_to(std::size_t count);
-    Rgb truth(std::size_t pixel) const;
+    Rgb truth(std::vector<Rgb> Level::*of, std::size_t pixel) const;
+    void find_outstanding(const Picture& picture);
     double noise_of(const Level& level) const;
     Proof look(const Picture& picture, std::size_t wanted);
     // How many pixels and grids, and how many rays that draws.
@@ -112,6 +116,8 @@ private:
     int nodes_;
     const Progress* progress_;
     ProofPixels chosen_;
+    StonePixels outstanding_;                                // of all pictures so far
+    std::map<std::pair<int, int>, std::size_t> of_picture_;  // the picture's, and which of those
     std::vector<Level> levels_;
     PathWork work_;
     double rays_drawn_ = 0;  // pixels x samples

@@ -20,6 +20,10 @@ constexpr std::size_t k_first_pixels_of_bright = 96;
 constexpr double k_fine_tolerance = 0.03, k_most_times_as_many = 10;
 // Every pixel has this share of a mean chance at least: none counts more than two and a half times.
 constexpr double k_even_share = 0.4;
+// Pixels stand out that have so many times the mean.
+constexpr double k_times_the_mean = 30;
+// That the stone fills by so much at least.
+constexpr float k_filled = 0.5f;
 // Of the rest, what goes to where a light's edge may be.
 constexpr double k_share_of_edges = 0.5;
 
@@ -52,8 +56,13 @@ ProofPixels choose_proof_pixels(const Scene& scene, const Picture& picture, cons
     }
     std::vector<double> edges;
     double sum_of_edges = 0;
-    const Brightness bright{k_bright * contrast.radiance / count, brightest_light(scene)};
-    if (contrast.radiance > 0 && bright.most > bright.least) {
+    // Without what few pixels have more than that.
+    const double much = k_bright * contrast.radiance / count;
+    double radiance = 0;
+    for (const Contrast::Pixel& pixel : pixels) radiance += std::min(pixel.radiance, much);
+    const Brightness bright{k_bright * radiance / count, brightest_light(scene)};
+    if (radiance > 0 && bright.most > bright.least) {
+        chosen.bright = true;
         chosen.sun = bright.sun();
         const LightEdgeScan scan(scene, bright, progress, frames);
         edges.reserve(size);
@@ -89,6 +98,53 @@ ProofPixels choose_proof_pixels(const Scene& scene, const Picture& picture, cons
         chosen.counts.push_back(total / count / chance(at));
     }
     return chosen;
+}
+
+std::vector<std::pair<int, int>> outstanding_pixels(const Picture& picture, int windows,
+                                                    double share, std::size_t most) {
+    struct Bright {
+        std::size_t pixel = 0;
+        double light = 0;
+    };
+    std::vector<Bright> found;
+    const int width = picture.width / windows;
+    const auto light_of = [&](std::size_t pixel) {
+        const float* rgb = picture.rgb.data() + 3 * pixel;
+        const double light = static_cast<double>(std::abs(rgb[0] + rgb[1] + rgb[2]));
+        return std::isfinite(light) ? light : 0;
+    };
+    double sum = 0, count = 0;
+    const auto each = [&](const auto& take) {
+        for (int y = 0; y < picture.height; ++y) {
+            const std::size_t row =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width);
+            for (std::size_t pixel = row; pixel < row + static_cast<std::size_t>(width); ++pixel) {
+                if (!picture.coverage.empty() && picture.coverage[pixel] >= k_filled)
+                    take(pixel, light_of(pixel));
+            }
+        }
+    };
+    each([&](std::size_t, double light) {
+        sum += light;
+        ++count;
+    });
+    const double least = std::max(share, k_times_the_mean / count) * sum;
+    each([&](std::size_t pixel, double light) {
+        if (light > least) found.push_back({pixel, light});
+    });
+    if (found.size() > most) {
+        std::stable_sort(found.begin(), found.end(),
+                         [](const Bright& a, const Bright& b) { return a.light > b.light; });
+        found.resize(most);
+        std::sort(found.begin(), found.end(),
+                  [](const Bright& a, const Bright& b) { return a.pixel < b.pixel; });
+    }
+    std::vector<std::pair<int, int>> at;
+    for (const Bright& bright : found) {
+        at.emplace_back(static_cast<int>(bright.pixel % static_cast<std::size_t>(picture.width)),
+                        static_cast<int>(bright.pixel / static_cast<std::size_t>(picture.width)));
+    }
+    return at;
 }
 
 }  // namespace culet

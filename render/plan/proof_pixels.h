@@ -1,6 +1,7 @@
 #pragma once
 // Of which pixels a picture is held against the truth.
 
+#include <utility>
 #include <vector>
 
 #include "render/picture.h"
@@ -15,7 +16,8 @@ struct ProofPixels {
     std::vector<double> counts;  ///< of each, 1 in the mean (Hansen & Hurwitz 1943)
     bool all = false;            ///< each pixel of the stone once
     std::size_t first = 0;       ///< that are looked at first
-    bool sun = false;            ///< a light is some thousand times as bright as the picture
+    bool bright = false;         ///< a light is many times as bright as the picture
+    bool sun = false;            ///< some thousand times
 };
 
 /// `scene`: one window, or two that see the same; `some`: pixels of the stone, taken where the
@@ -24,5 +26,11 @@ struct ProofPixels {
 /// Throws Interrupted.
 ProofPixels choose_proof_pixels(const Scene& scene, const Picture& picture, const StonePixels& some,
                                 const Progress& progress, FrameRenderer* frames);
+
+/// Those that the stone fills by half at least and that have more than this share of the picture's
+/// light each, and many times as much as the mean; the brightest `most`, in the order of rows. Of
+/// windows side by side, the first.
+std::vector<std::pair<int, int>> outstanding_pixels(const Picture& picture, int windows,
+                                                    double share, std::size_t most);
 
 }  // namespace culet

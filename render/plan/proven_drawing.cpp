@@ -45,8 +45,9 @@ constexpr double k_misjudged = 0.7, k_main_cause = 0.7;
 // take so many times as long.
 constexpr double k_last_by_beams = 4;
 // The next step of a proof may take this share of the picture's price before it is drawn anew,
-// which takes longer. Two waves take far longer than one.
-constexpr double k_proof_share = 1.5, k_proof_share_as_one = 15, k_least_proof_ns = 3e7;
+// which takes longer. Two waves take far longer than one. After the last there is no other way.
+constexpr double k_proof_share = 1.5, k_proof_share_as_one = 15, k_last_proof_share = 6,
+                 k_least_proof_ns = 3e7;
 
 void add_proof(const Proof& proof, const ScenePlan& plan, RenderStats& stats) {
     stats.error_bound = proof.bound + plan.bound_of_depth;
@@ -203,7 +204,9 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
         RenderResult result = draw_with(settings);
         RenderStats& stats = result.stats;
         const auto start = std::chrono::steady_clock::now();
-        const double share = way == Way::as_one ? k_proof_share_as_one : k_proof_share;
+        const double share = way == Way::as_one ? k_proof_share_as_one
+                             : drawing < most   ? k_proof_share
+                                                : k_last_proof_share;
         const double most_ns = std::max(k_least_proof_ns, share * price);
         FrameRenderer* frames = frames_ ? &*frames_ : nullptr;
         Proof proof = prover.prove(result.picture, tolerance, most_ns, frames);

@@ -18,6 +18,7 @@
 #include "render/plan/light_edge_scan.h"
 #include "render/plan/planner.h"
 #include "render/plan/proof_pilot.h"
+#include "render/plan/proof_pixels.h"
 #include "render/plan/verify.h"
 #include "render/render.h"
 #include "tests/bench/plan_scenes.h"
@@ -90,6 +91,64 @@ TEST(Contrast, of_a_large_stone_is_that_of_pixels_spread_evenly) {
     for (const auto& [place, count] : places) EXPECT_NEAR(count, each, 5 * std::sqrt(each));
     EXPECT_EQ(contrast.sum, 0);
     EXPECT_DOUBLE_EQ(contrast.radiance, squares / 2);
+}
+
+Picture grey_picture(int width, int height) {
+    Picture picture;
+    picture.width = width;
+    picture.height = height;
+    picture.rgb.assign(3 * picture.pixels(), 0.5f);
+    picture.coverage.assign(picture.pixels(), 1.0f);
+    return picture;
+}
+void light_up(Picture& picture, int x, int y, float light) {
+    for (int c = 0; c < 3; ++c)
+        picture.rgb[3 * static_cast<std::size_t>(y * picture.width + x) +
+                    static_cast<std::size_t>(c)] = light;
+}
+
+using Pixels = std::vector<std::pair<int, int>>;
+
+TEST(OutstandingPixels, have_more_than_a_share_of_the_light_and_than_30_means) {
+    Picture picture = grey_picture(100, 100);
+    EXPECT_TRUE(outstanding_pixels(picture, 1, 1e-6, 10).empty()) << "all are alike";
+    // Of 5000 and what they add themselves.
+    light_up(picture, 7, 30, 30);
+    light_up(picture, 60, 2, 100);
+    light_up(picture, 61, 2, 10);
+    light_up(picture, 62, 2, std::numeric_limits<float>::quiet_NaN());
+    EXPECT_EQ(outstanding_pixels(picture, 1, 1e-3, 10), (Pixels{{60, 2}, {7, 30}}));
+    EXPECT_EQ(outstanding_pixels(picture, 1, 1e-2, 10), (Pixels{{60, 2}}));
+    EXPECT_EQ(outstanding_pixels(picture, 1, 1e-3, 1), (Pixels{{60, 2}})) << "the brightest";
+    EXPECT_EQ(outstanding_pixels(picture, 2, 1e-3, 10), (Pixels{{7, 30}})) << "of two windows";
+    picture.coverage[60 + 2 * 100] = 0.4f;
+    EXPECT_EQ(outstanding_pixels(picture, 1, 1e-3, 10), (Pixels{{7, 30}})) << "beside the stone";
+}
+
+// A sun where none is, in a picture that comes after the one by which the proof's pixels were
+// chosen: one pixel of 2000 that brings half of all light.
+TEST(Proof, looks_at_a_false_sun_in_a_later_picture) {
+    Scene scene = plan_scene_of("spinel", "princess", "daylight", 64).scene;
+    scene.settings.tolerance = 0.1;
+    Picture picture = render(scene).picture;
+    scene.settings.effects_auto = true;
+    const StonePixels all = all_stone_pixels(scene);
+    const Progress none;
+    Prover prover(scene, all, 0.1, none);
+    const Proof right = prover.prove(picture, 0.1, 1e12);
+    EXPECT_LE(right.bound, 0.1);
+    double light = 0;
+    for (const auto& [x, y] : all.at) light += mean_of(picture.pixel(x, y));
+    for (const auto& [x, y] : {std::pair{30, 25}, {40, 33}, {24, 38}, {33, 30}}) {
+        Picture wrong = picture;
+        light_up(wrong, x, y, static_cast<float>(light / 2));
+        const double error = 0.5 - mean_of(picture.pixel(x, y)) / light;
+        const Proof found = prover.prove(wrong, 0.1, 1e12);
+        // What it says of the others is right to within its own spread.
+        EXPECT_NEAR(found.difference, error + right.difference,
+                    3 * (right.spread + found.spread) + 0.1 * error)
+            << x << ", " << y;
+    }
 }
 
 TEST(LightRims, of_a_cap_lie_on_both_sides_of_its_edges) {
