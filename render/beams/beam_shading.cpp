@@ -139,15 +139,11 @@ void leaving(const ShadedLights& lights, const ShadedLeaving& beam, const Fragme
                 vector(beam.point[1]),     vector(beam.point[2]),
                 vector(beam.direction[1]), vector(beam.direction[2])};
         if constexpr (kSoft) {
-            if (fragments.xx != nullptr) {
-                const PixelPart part{hn::LoadU(k_floats, fragments.xx + first),
-                                     hn::LoadU(k_floats, fragments.yx + first),
-                                     hn::LoadU(k_floats, fragments.yy + first)};
-                ray.point_x = part.along(ray.point_x, ray.point_y);
-                ray.point_y = part.across(ray.point_y);
-                ray.direction_x = part.along(ray.direction_x, ray.direction_y);
-                ray.direction_y = part.across(ray.direction_y);
-            }
+            const PixelPart part = part_of(fragments, first);
+            ray.point_x = part.along(ray.point_x, ray.point_y);
+            ray.point_y = part.across(ray.point_y);
+            ray.direction_x = part.along(ray.direction_x, ray.direction_y);
+            ray.direction_y = part.across(ray.direction_y);
             ray.direction_x =
                 over * plus(ray.direction_x, hn::Neg(dot(direction, ray.direction_x)), direction);
             ray.direction_y =

@@ -13,6 +13,13 @@ HWY_INLINE V3 eye_right(const ShadedEye& eye, const V3& direction) {
                 forward + direction);
 }
 
+// The parts of pixels whose light is wanted.
+HWY_INLINE PixelPart part_of(const Fragments& fragments, int first) {
+    if (fragments.xx == nullptr) return {number(1.0f), number(0.0f), number(1.0f)};
+    return {hn::LoadU(k_floats, fragments.xx + first), hn::LoadU(k_floats, fragments.yx + first),
+            hn::LoadU(k_floats, fragments.yy + first)};
+}
+
 // kGeneral: polarised lights, what the eye responds to, merged crystals.
 template <bool kPolarised, bool kSoft, bool kMany, bool kGeneral>
 class Follower {
@@ -34,11 +41,7 @@ public:
             sum_[i] = number(0.0f);
             tau_[i] = number(1.0f);
         }
-        PixelPart part{number(1.0f), number(0.0f), number(1.0f)};
-        if (kSoft && out_.xx != nullptr)
-            part = {hn::LoadU(k_floats, out_.xx + first), hn::LoadU(k_floats, out_.yx + first),
-                    hn::LoadU(k_floats, out_.yy + first)};
-        enter(dx, dy, part);
+        enter(dx, dy, part_of(out_, first));
         const bool located =
             kMany ? true
                   : out_.follows != nullptr || !lights_.spheres.empty() || !lights_.planes.empty();

@@ -62,8 +62,8 @@ struct Ray {
     V3 point, direction, point_x, point_y, direction_x, direction_y;
 };
 
-// The part of a pixel that Fragments name: how far its sides take what changes by `right` and
-// `down` from pixel to pixel.
+// A parallelogram in a pixel, as CoveredPixels has it: how far its sides take what changes by
+// `right` and `down` from pixel to pixel.
 struct PixelPart {
     V xx, yx, yy;
     HWY_INLINE V3 along(const V3& right, const V3& down) const {
