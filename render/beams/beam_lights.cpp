@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <optional>
 
 namespace culet {
@@ -22,10 +21,7 @@ std::vector<float> spectrum(const LightColour& colour, const WavelengthSet& colo
 // Cosines beyond 1 or -1 stand for nothing and for all directions.
 ShadedLights::Disc disc(double cosine) {
     const double sine = std::sqrt(std::max(0.0, (1 - cosine) * (1 + cosine)));
-    // 1 - cosine of a small angle, from its sine.
-    const double less = cosine > 0 ? sine * sine / (1 + cosine) : 1 - cosine;
-    return {static_cast<float>(cosine), static_cast<float>(sine),
-            static_cast<float>(2 * std::numbers::pi * less)};
+    return {static_cast<float>(cosine), static_cast<float>(sine)};
 }
 
 ShadedLights::Polarised polarised_as(const std::optional<LinearPolarisation>& light) {

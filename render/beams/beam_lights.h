@@ -35,7 +35,7 @@ struct ShadedLights {
     };
     /// A disc in the sky.
     struct Disc {
-        float cosine, sine, solid_angle;  ///< of the angle from its middle to its rim
+        float cosine, sine;  ///< of the angle from its middle to its rim
     };
     struct Cap {  ///< what is within the outer and not within the inner; or half of all directions
         float x, y, z;

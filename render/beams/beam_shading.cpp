@@ -20,8 +20,6 @@ HWY_BEFORE_NAMESPACE();
 namespace culet {
 namespace HWY_NAMESPACE {
 
-constexpr int k_most_lanes = 64;
-
 template <bool kPolarised, bool kSoft, bool kMany, bool kGeneral>
 void follow_all(const ShadingJob& job, const ShadedEye& eye, const std::uint16_t* facets,
                 int facet_count, const Fragments& fragments) {
@@ -135,9 +133,14 @@ void leaving(const ShadedLights& lights, const ShadedLeaving& beam, const Fragme
         const V3 along = vector_at(beam.direction);
         const V over = one / hn::Sqrt(dot(along, along));
         const V3 direction = over * along;
-        Ray ray{vector_at(beam.point),     direction,
-                vector(beam.point[1]),     vector(beam.point[2]),
-                vector(beam.direction[1]), vector(beam.direction[2])};
+        Ray ray{vector_at(beam.point),
+                direction,
+                vector(beam.point[1]),
+                vector(beam.point[2]),
+                vector(beam.direction[1]),
+                vector(beam.direction[2]),
+                fragments.xx != nullptr ? &fragments : nullptr,
+                first};
         if constexpr (kSoft) {
             const PixelPart part = part_of(fragments, first);
             ray.point_x = part.along(ray.point_x, ray.point_y);

@@ -80,6 +80,11 @@ struct Fragments {
     int count = 0;
     /// The part of each pixel whose light is wanted, as CoveredPixels has it; null: all of it.
     const float *xx = nullptr, *yx = nullptr, *yy = nullptr;
+    /// With these, the region that the parts are of, and the eye ray of reference in the picture;
+    /// null: not known.
+    const ScreenPoint* corners = nullptr;
+    std::size_t corner_count = 0;
+    ScreenPoint reference{0, 0};
     /// Radiance of node i in radiance[i * stride + fragment]: overwritten.
     float* radiance = nullptr;
     int stride = 0;

@@ -41,6 +41,8 @@ public:
             sum_[i] = number(0.0f);
             tau_[i] = number(1.0f);
         }
+        parts_ = out_.xx != nullptr ? &out_ : nullptr;
+        first_ = first;
         enter(dx, dy, part_of(out_, first));
         const bool located =
             kMany ? true
@@ -219,7 +221,8 @@ private:
         ray_.direction = over_n * plus(along, bend, N);
         follows_ = hn::And(towards < number(0.0f), on_facet(face));
 
-        Ray mirrored{ray_.point, plus(along, q1 + q1, N), ray_.point, ray_.point, N, N};
+        Ray mirrored{ray_.point, plus(along, q1 + q1, N), ray_.point, ray_.point, N, N, parts_,
+                     first_};
         if constexpr (kSoft) {
             const auto change = [&](const V3& g, const V3& dv, V3& point, V3& inside,
                                     V3& outside) HWY_ATTR {
@@ -244,7 +247,8 @@ private:
         for (int i = 0; i < nodes; ++i) before_[i] = number(0.0f);
         if (out_.unhidden != nullptr) {
             const V distance = (number(eye_.distance) + later) * length;
-            Ray from_eye{plus(ray_.point, hn::Neg(distance), along), along, gx, gy, vx, vy};
+            Ray from_eye{
+                plus(ray_.point, hn::Neg(distance), along), along, gx, gy, vx, vy, parts_, first_};
             if constexpr (kSoft) {
                 const auto turned = [&](const V3& change) HWY_ATTR {
                     return over * plus(change, hn::Neg(dot(along, change)), along);
@@ -345,7 +349,8 @@ private:
             re = hn::IfThenElse(out, r_s * r_p, one);
             Ray leaving{ray_.point,       plus(number(n) * ray_.direction, q2 - q1, a),
                         ray_.point_x,     ray_.point_y,
-                        ray_.direction_x, ray_.direction_y};
+                        ray_.direction_x, ray_.direction_y,
+                        parts_,           first_};
             if constexpr (kSoft) {
                 const V slope = q1 / hn::Max(q2, number(1e-6f));
                 const auto change = [&](const V3& inside) HWY_ATTR {
@@ -409,6 +414,8 @@ private:
     const std::uint16_t* facets_;
     int facet_count_;
     const Fragments& out_;
+    const Fragments* parts_ = nullptr;
+    int first_ = 0;
     Ray ray_;
     Carried carried_;
     V cosine_before_, uncovered_;

@@ -4,9 +4,45 @@
 
 #include <hwy/contrib/math/math-inl.h>
 
+#include "render/beams/disc_in_part.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace culet {
 namespace HWY_NAMESPACE {
+
+// Share of parts of pixels within a circle in the plane across `normal` (share_in_disc), where
+// `some` are near enough to see it: by their corners, as far as these are known.
+HWY_INLINE V share_in_circle_by_parts(const Ray& ray, const M& some, const V3& offset,
+                                      const V3& right, const V3& down, const V3& normal,
+                                      const V& radius) {
+    const V share = share_in_disc(offset, right, down, normal, radius);
+    if (ray.parts == nullptr) return share;
+    HWY_ALIGN float marks[k_most_lanes], shares[k_most_lanes], radii[k_most_lanes];
+    HWY_ALIGN float numbers[4][3][k_most_lanes];
+    hn::Store(hn::IfThenElseZero(some, number(1.0f)), k_floats, marks);
+    hn::Store(share, k_floats, shares);
+    hn::Store(radius, k_floats, radii);
+    const V3* vectors[] = {&offset, &right, &down, &normal};
+    for (int i = 0; i < 4; ++i) {
+        hn::Store(vectors[i]->x, k_floats, numbers[i][0]);
+        hn::Store(vectors[i]->y, k_floats, numbers[i][1]);
+        hn::Store(vectors[i]->z, k_floats, numbers[i][2]);
+    }
+    const size_t lanes = hn::Lanes(k_floats);
+    for (size_t lane = 0; lane < lanes; ++lane) {
+        if (!(marks[lane] > 0)) continue;
+        const auto at = [&](int i) {
+            return Vec3{static_cast<double>(numbers[i][0][lane]),
+                        static_cast<double>(numbers[i][1][lane]),
+                        static_cast<double>(numbers[i][2][lane])};
+        };
+        const double exact =
+            culet::share_in_disc(*ray.parts, ray.first + static_cast<int>(lane),
+                                 {at(0), at(1), at(2), at(3), static_cast<double>(radii[lane])});
+        if (exact >= 0) shares[lane] = static_cast<float>(exact);
+    }
+    return hn::Load(k_floats, shares);
+}
 
 // How much of a pixel sees a distant disc about `axis`.
 template <bool kSoft>
@@ -25,14 +61,25 @@ HWY_INLINE V disc_share(const ShadedLights::Disc& disc, const V3& axis, const Ra
     const M near_axis =
         hn::And(cosine > number(0.5f), narrow(ray.direction_x, ray.direction_y, number(1.0f)));
     if (hn::AllFalse(k_floats, near_axis)) return share;
+    const V3& right = ray.direction_x;
+    const V3& down = ray.direction_y;
     const V3 beside = plus(d, hn::Neg(cosine), axis);
     const V sine = length_of(beside), over = number(1.0f) / hn::Max(sine, number(1e-15f));
     const V inside = number(2.0f) * (number(disc.sine) - sine) / (cosine + number(disc.cosine));
-    const Gradient near{dot(beside, ray.direction_x) * over, dot(beside, ray.direction_y) * over};
-    // It fills no more than its solid angle.
-    const V pixel = length_of(cross(ray.direction_x, ray.direction_y));
-    const V most = number(disc.solid_angle) / hn::Max(pixel, number(1e-30f));
-    return hn::IfThenElse(near_axis, hn::Min(share_above(inside, near), most), share);
+    const Gradient near{dot(beside, right) * over, dot(beside, down) * over};
+    V found = hn::IfThenElse(near_axis, share_above(inside, near), share);
+    // Of one whose rim is curved where a pixel sees it.
+    const V radius = number(2 * disc.sine / (1 + disc.cosine));
+    const M small = hn::And(near_axis, exceeds(right, down, radius));
+    if (hn::AllFalse(k_floats, small)) return found;
+    found = hn::IfThenZeroElse(small, found);
+    const V3 offset =
+        number(2.0f) / (cosine + number(1.0f)) * plus(cosine * d, number(-1.0f), axis);
+    const V reach = length_of(right) + length_of(down) + radius;
+    const M met = hn::And(small, dot(offset, offset) < reach * reach);
+    if (hn::AllFalse(k_floats, met)) return found;
+    return hn::IfThenElse(met, share_in_circle_by_parts(ray, met, offset, right, down, d, radius),
+                          found);
 }
 
 // Light that comes along a ray: calls take(factor, radiance of each node, polarisation).
@@ -143,9 +190,24 @@ HWY_INLINE V sphere_share(const ShadedLights::Sphere& sphere, const Ray& ray, V&
         const V3 to_right = plus(ray.point_x, along, ray.direction_x),
                  down = plus(ray.point_y, along, ray.direction_y);
         const Gradient g{dot(beside, to_right) * over, dot(beside, down) * over};
-        const V pixel = hn::Abs(dot(ray.direction, cross(to_right, down)));
-        const V most = number(3.14159265f) * radius * radius / hn::Max(pixel, number(1e-30f));
-        return hn::IfThenElseZero(distance > number(0.0f), hn::Min(share_above(inside, g), most));
+        V share = share_above(inside, g);
+        const M small = exceeds(to_right, down, radius);
+        if (!hn::AllFalse(k_floats, small)) {
+            const auto level = [&](const V3& v) HWY_ATTR {
+                return plus(v, hn::Neg(dot(ray.direction, v)), ray.direction);
+            };
+            const V reach = length_of(to_right) + length_of(down) + radius;
+            const M met = hn::And(small, miss < reach);
+            share = hn::IfThenZeroElse(small, share);
+            if (!hn::AllFalse(k_floats, met)) {
+                share = hn::IfThenElse(
+                    met,
+                    share_in_circle_by_parts(ray, met, hn::Neg(number(1.0f)) * beside,
+                                             level(to_right), level(down), ray.direction, radius),
+                    share);
+            }
+        }
+        return hn::IfThenElseZero(distance > number(0.0f), share);
     }
 }
 

@@ -325,6 +325,9 @@ const CoveredPixels& PixelCoverage::areas(const ScreenPoint* corners, std::size_
                                           bool parts) {
     found_.count = 0;
     found_.runs.clear();
+    found_.corners = corners;
+    found_.corner_count = count;
+    found_.reference = reference;
     double x_low = corners[0].x, x_high = x_low, y_low = corners[0].y, y_high = y_low;
     for (std::size_t i = 1; i < count; ++i) {
         x_low = std::min(x_low, corners[i].x);

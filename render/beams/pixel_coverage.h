@@ -19,6 +19,9 @@ struct CoveredPixels {
     /// then, and (u, v) -> (xx u, yx u + yy v) makes a square of side 1 as wide as the part, in
     /// that its second moments are the part's.
     std::vector<float> xx, yx, yy;
+    const ScreenPoint* corners = nullptr;  ///< the region's, as long as its owner keeps them
+    std::size_t corner_count = 0;
+    ScreenPoint reference{0, 0};
     int count = 0;
     int near_border = 0;  ///< so many values, the first ones, are of middles near the border
 };

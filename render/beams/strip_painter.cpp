@@ -170,6 +170,9 @@ Fragments StripPainter::fragments_of(const CoveredPixels& covered, const Shading
         fragments.xx = covered.xx.data();
         fragments.yx = covered.yx.data();
         fragments.yy = covered.yy.data();
+        fragments.corners = covered.corners;
+        fragments.corner_count = covered.corner_count;
+        fragments.reference = covered.reference;
     }
     fragments.count = covered.count;
     fragments.radiance = radiance_.data();

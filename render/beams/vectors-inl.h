@@ -5,6 +5,10 @@
 #include <hwy/contrib/math/math-inl.h>
 #include <hwy/highway.h>
 
+namespace culet {
+struct Fragments;
+}
+
 HWY_BEFORE_NAMESPACE();
 namespace culet {
 namespace HWY_NAMESPACE {
@@ -14,6 +18,7 @@ using Floats = hn::ScalableTag<float>;
 using V = hn::Vec<Floats>;
 using M = hn::Mask<Floats>;
 constexpr Floats k_floats;
+constexpr int k_most_lanes = 64;
 
 HWY_INLINE V number(float v) {
     return hn::Set(k_floats, v);
@@ -60,6 +65,8 @@ struct Gradient {
 // A ray, and how it changes from pixel to pixel.
 struct Ray {
     V3 point, direction, point_x, point_y, direction_x, direction_y;
+    const Fragments* parts = nullptr;  // whose rays these are, from the first on
+    int first = 0;
 };
 
 // A parallelogram in a pixel, as CoveredPixels has it: how far its sides take what changes by
@@ -98,6 +105,58 @@ HWY_INLINE V share_where(const V& value, const Gradient& g) {
 // True where two changes from pixel to pixel are small against a distance.
 HWY_INLINE M narrow(const V3& right, const V3& down, const V& distance) {
     return number(16.0f) * (dot(right, right) + dot(down, down)) < distance * distance;
+}
+
+// True where a change from pixel to pixel is no small part of a circle's radius.
+HWY_INLINE M exceeds(const V3& right, const V3& down, const V& radius) {
+    return number(16.0f) * hn::Max(dot(right, right), dot(down, down)) > radius * radius;
+}
+
+// Share of a part of a pixel that is within a circle in the plane across `normal`: the part's
+// middle is at `offset` from the circle's. Across the part's shorter side the circle's chords are
+// averaged, whose middles and ends change from one side of it to the other.
+HWY_INLINE V share_in_disc(const V3& offset, const V3& right, const V3& down, const V3& normal,
+                           const V& radius) {
+    const V zero = number(0.0f), one = number(1.0f), half = number(0.5f);
+    const M upright = dot(down, down) > dot(right, right);
+    const auto choose = [&](const V3& a, const V3& b) HWY_ATTR {
+        return V3{hn::IfThenElse(upright, a.x, b.x), hn::IfThenElse(upright, a.y, b.y),
+                  hn::IfThenElse(upright, a.z, b.z)};
+    };
+    const V3 along = choose(down, right);
+    V3 across = choose(right, down);
+    const V length2 = hn::Max(dot(along, along), number(1e-30f));
+    V area = dot(normal, cross(along, across));
+    // A part without width is as good as one of little.
+    constexpr float k_thin = 1e-4f;
+    const M thin = hn::Abs(area) < number(k_thin) * length2;
+    const V3 sideways = cross(normal, along);
+    across = plus(across, hn::IfThenElseZero(thin, hn::CopySign(number(k_thin), area)), sideways);
+    area = dot(normal, cross(along, across));
+    area = hn::CopySign(hn::Max(hn::Abs(area), number(1e-34f)), area);
+    // The circle's middle, in sides of the part.
+    const V over = hn::Neg(one) / area;
+    const V u = over * dot(normal, cross(offset, across)),
+            v = over * dot(normal, cross(along, offset));
+    const V high = radius * hn::Sqrt(length2) / hn::Abs(area);
+    const V first = hn::Max(hn::Neg(half), v - high), last = hn::Min(half, v + high);
+    const V filled = hn::Max(last - first, zero), rows = filled / high;
+    const V from = hn::Clamp((first - v) / high, hn::Neg(one), one),
+            to = hn::Clamp((last - v) / high, hn::Neg(one), one);
+    const V middle = half * (from + to);
+    // Mean of sqrt(1 - t^2), of half a chord of a circle of radius 1.
+    const auto root = [&](const V& t)
+                          HWY_ATTR { return hn::Sqrt(hn::Max(hn::NegMulAdd(t, t, one), zero)); };
+    const auto integral = [&](const V& t) HWY_ATTR {
+        return half * hn::MulAdd(t, root(t), hn::Asin(k_floats, t));
+    };
+    const V mean = hn::IfThenElse(rows > number(0.01f),
+                                  (integral(to) - integral(from)) / hn::Max(rows, number(0.01f)),
+                                  root(middle));
+    const V reach = radius / hn::Sqrt(length2) * mean;
+    const V chord = u - dot(along, across) / length2 * (middle * high);
+    const V inside = hn::Min(chord + reach, half) - hn::Max(chord - reach, hn::Neg(half));
+    return filled * hn::Max(inside, zero);
 }
 
 // Cosine and sine of twice an angle from a vector along and across.

@@ -186,7 +186,9 @@ protected:
 
 // The same operations in another width; fused multiply-adds round once instead of twice. What
 // leaves near the critical angle turns by the root of a rounding unit, 3e-4, and of an edged light
-// a pixel may see a tenth of a radian there: 3e-3 of the light, for few pixels.
+// a pixel may see a tenth of a radian there: 3e-3 of the light, for few pixels. The middle of a
+// part of a pixel is off by rounding of its moments over its area, 2e-5 pixels in regions 50 wide,
+// and a map changes by several times its mean over a pixel of what leaves steeply: 1e-4.
 TEST_F(Targets, of_every_instruction_set_draw_the_same_picture) {
     std::vector<NamedChange> lights = edged_lights();
     const std::size_t edged = lights.size();
@@ -197,7 +199,7 @@ TEST_F(Targets, of_every_instruction_set_draw_the_same_picture) {
                       }});
     for (std::size_t number = 0; number < lights.size(); ++number) {
         const NamedChange& light = lights[number];
-        const double tolerance = number < edged ? 3e-3 : 2e-5;
+        const double tolerance = number < edged ? 3e-3 : number == edged ? 2e-5 : 1e-4;
         for (const int samples : {1, 16}) {
             SCOPED_TRACE(light.name);
             Scene scene = brilliant_scene();
