@@ -160,8 +160,9 @@ void Prover::draw_up_to(std::size_t count) {
 void Prover::find_outstanding(const Picture& picture) {
     of_picture_.clear();
     if (!chosen_.bright || chosen_.all) return;
-    for (const auto& at : outstanding_pixels(picture, 1, k_outstanding * scene_.settings.tolerance,
-                                             k_most_outstanding)) {
+    for (const auto& at :
+         outstanding_pixels(picture, scene_.camera.optics.two_windows ? 2 : 1,
+                            k_outstanding * scene_.settings.tolerance, k_most_outstanding)) {
         const auto before = std::find(outstanding_.at.begin(), outstanding_.at.end(), at);
         of_picture_[at] = static_cast<std::size_t>(before - outstanding_.at.begin());
         if (before == outstanding_.at.end()) outstanding_.at.push_back(at);
