@@ -11,6 +11,7 @@
 #include "app/terminal.h"
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
+#include "stone/mesh_io.h"
 #include "stone/output_file.h"
 #include "stone/stone.h"
 #include "stone/toml_file.h"
@@ -116,7 +117,11 @@ int run_cut(const std::string& name, const CutOptions& options) {
     }
     if (options.out.empty() && options.json.empty())
         throw InputError("name the mesh to write: -o MESH");
-    if (!options.out.empty()) write_solid(solid, options.out);
+    if (mesh_format(options.out)) {
+        write_design(solid, name, options.out);
+    } else if (!options.out.empty()) {
+        write_solid(solid, options.out);
+    }
     if (!options.json.empty()) write_text(options.json, proportions);
     say(fmt::format("{}: {} facets, {} vertices, total depth {:.4g} mm, volume {:.4g} mm3", name,
                     solid.facets.size(), solid.vertices.size(), width_along(solid, {0, 0, 1}),

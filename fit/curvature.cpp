@@ -116,6 +116,7 @@ std::vector<SymmetricEntry> Relaxation::curvature(const Shape& shape,
     for (std::size_t i = 0; i < equations_.size(); ++i) {
         const Equation& e = equations_[i];
         const double force = forces(Eigen::Index(incidences_.size() + i));
+        if (e.reading < 0) continue;  // of the prior
         const Reading& reading = system_.readings()[std::size_t(e.reading)];
         if (reading.aggregate != Aggregate::single) continue;
         if (reading.kind == ReadingKind::inclination && reading.datum.kind == Datum::Kind::up) {

@@ -16,6 +16,8 @@ class Covariance;
 /// Standard uncertainties of one facet's freedoms and area, radians and half diameters.
 struct FacetSigma {
     double inclination = 0, azimuth = 0, offset = 0, area = 0;
+    /// Of the first three: what part the readings have in them (FittedFacet).
+    std::array<double, 3> read{1, 1, 1};
 };
 
 struct ReadingCheck {

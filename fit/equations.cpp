@@ -426,6 +426,8 @@ std::vector<Equation> System::reading_equations(const Shape& shape,
             }
         }
     }
+    std::vector<Equation> expected = expected_equations();
+    std::move(expected.begin(), expected.end(), std::back_inserter(all));
     return all;
 }
 

@@ -30,6 +30,23 @@ struct Tier {
     double rms_own_axis = 0;                 ///< of the differences from the mean
 };
 
+/// Facets of a tier that stand out from it together.
+struct OddFacets {
+    std::vector<std::string> facets;
+    double off = 0, sigma = 0;  ///< steeper than the others by this much; flatter: negative
+    double p = 1;  ///< chance of so much if all are alike, all choices of facets counted
+};
+
+/// What was read of the inclinations of a tier as a cutter names it (named_tiers.h).
+struct NamedTierFinding {
+    std::string name, words;
+    int facets = 0, read = 0;  ///< of how many, and how many of them by a reading of their own
+    double common = 0, sigma = 0;  ///< inclination of those that do not stand out
+    double spread = 0;             ///< largest less least of those read
+    std::vector<OddFacets> odd;    ///< the surest first
+    std::vector<std::string> what;  ///< one sentence each, for people
+};
+
 /// One meet of more than three facets.
 struct MeetFinding {
     std::vector<std::string> facets;

@@ -12,9 +12,11 @@
 #include "fit/as_drawn.h"
 #include "fit/assess.h"
 #include "fit/describe.h"
+#include "fit/covariance.h"
 #include "fit/diagnostics.h"
 #include "fit/find_symmetry.h"
 #include "fit/finish.h"
+#include "fit/first_check.h"
 #include "fit/fitted_parts.h"
 #include "fit/gross_angles.h"
 #include "fit/judge.h"
@@ -23,12 +25,14 @@
 #include "fit/mending.h"
 #include "fit/portfolio.h"
 #include "fit/refit.h"
+#include "fit/relaxation.h"
 #include "fit/robust.h"
 #include "fit/set_aside.h"
 #include "fit/shape_findings.h"
 #include "fit/statistics.h"
 #include "fit/swung_facets.h"
 #include "fit/system.h"
+#include "fit/tier_findings.h"
 #include "fit/topology.h"
 #include "fit/turned_azimuths.h"
 #include "fit/unread_size.h"
@@ -147,6 +151,27 @@ std::string other_size(const System& system) {
         factor > 1 ? "small" : "large", guess.empty() ? "" : ", as if drawn in another unit");
 }
 
+// Nothing of the stone is left to the mesh, as far as one can tell before the fit.
+bool readings_hold_all(const Stone& stone, const std::vector<Reading>& readings,
+                       FitOptions options) {
+    if (options.prior.source == Prior::Source::none) return true;
+    options.prior.source = Prior::Source::none;
+    const System system(stone, readings, options);
+    // Symmetry within a sigma makes more equations than it tells anything.
+    const auto values = std::count_if(readings.begin(), readings.end(), [](const Reading& r) {
+        return !is_relation(r.kind) && !r.exact;
+    });
+    const Freedoms freedoms = system.freedoms();
+    const Relaxation::Counts counts = Relaxation(system, freedoms).counts();
+    constexpr int k_shifts = 3;
+    if (values >= freedoms.size() - counts.hard - k_shifts) return true;
+    constexpr std::size_t k_large = 150;  // facets; there one would wait for it
+    if (stone.solid.facets.size() > k_large) return false;
+    const Covariance covariance(
+        linearise(system, system.mesh_shape(), system.mesh_outline(), false));
+    return covariance.usable() && covariance.open_freedoms() == 0;
+}
+
 FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const FitOptions& options,
               const Progress& progress, Tries tries) {
     if (const auto left_out = meaningless_azimuths(readings); !left_out.empty()) {
@@ -167,9 +192,13 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
     };
     const std::optional<Stone> mirrored = mirrored_to_azimuths(drawn, readings);
     const Stone& stone = mirrored ? *mirrored : drawn;
-    System system(stone, readings, options);
+    FitOptions used = options;
+    if (!options.prior.always && readings_hold_all(stone, readings, options)) {
+        used.prior.source = Prior::Source::none;
+    }
+    System system(stone, readings, used);
     FitResult result;
-    result.options = options;
+    result.options = used;
     if (options.allow_topology) result.options.findings = true;
     result.unit = stone.unit;
 
@@ -245,7 +274,7 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
     result.suspect_limit = diagnosis.suspect_limit;
     result.undetermined = diagnosis.undetermined;
     result.undetermined_freedoms = diagnosis.undetermined_freedoms;
-    fill_in(system, finished.shape, diagnosis, pose, weights, result);
+    fill_in(system, readings, finished.shape, diagnosis, pose, weights, result);
     assess(system, finished, diagnosis, result);
     describe_findings(system, finished, best.held, diagnosis, pose, result);
     if (options.find_symmetry &&
@@ -256,6 +285,13 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
         result.symmetry = find_symmetry(stone, readings, from_here, progress);
     }
     judge(system, finished, diagnosis, result);
+    // By counting, the readings held it all; here they do not.
+    if (options.prior.source != Prior::Source::none && !system.has_prior() &&
+        (result.status == FitStatus::undetermined || result.status == FitStatus::not_converged)) {
+        FitOptions with_prior = options;
+        with_prior.prior.always = true;
+        return fit(drawn, readings, with_prior, progress, tries);
+    }
     if (tries == Tries::all && stone.azimuth_from_mesh && !mirrored) {
         auto better = fit_turning_azimuths_back(
             result, readings, system.mesh_turn(), [&](const std::vector<Reading>& back) {
@@ -295,7 +331,15 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
 
 FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
                     const FitOptions& options, const Progress& progress) {
-    return fit(stone, readings, options, progress, Tries::all);
+    const bool is_design = options.prior.source == Prior::Source::catalogue;
+    const std::vector<Doubt> doubts = first_check(stone, readings, is_design);
+    std::vector<std::size_t> doubted;
+    for (const Doubt& d : doubts) doubted.push_back(d.reading);
+    std::sort(doubted.begin(), doubted.end());
+    FitResult result = fit(stone, without(readings, doubted), options, progress, Tries::all);
+    if (!doubts.empty()) put_back_doubted(readings, doubts, result);
+    result.named_tiers = tier_findings(stone, readings, result.suspects, is_design);
+    return result;
 }
 
 }  // namespace culet

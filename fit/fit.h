@@ -16,6 +16,7 @@
 #include "fit/measurement.h"
 #include "stone/progress.h"
 #include "stone/stone.h"
+#include "stone/units.h"
 
 namespace culet {
 
@@ -29,6 +30,19 @@ const char* name_of(MeetTreatment treatment);
 /// How readings that are far off count: as least squares has it, or less (see robust.h).
 enum class Loss { none, huber, cauchy };
 const char* name_of(Loss loss);
+
+/// What is supposed of the facets before any reading: they lie near those of the start, within
+/// these standard uncertainties, and the facets of a tier are alike (prior.h). It fills what the
+/// readings leave open.
+struct Prior {
+    /// What the start is: the design that the stone was cut by, or a drawing of the stone itself.
+    enum class Source { none, catalogue, mesh } source = Source::none;
+    /// False: only where the readings leave parts of the stone open.
+    bool always = false;
+    double inclination_sigma = radians(1), azimuth_sigma = radians(1);
+    double offset_sigma = 0.01;  ///< of a plane's distance from the middle, as part of the width
+};
+const char* name_of(Prior::Source source);
 
 struct FitOptions {
     /// Of meets of more than three facets that no `meet` reading speaks of.
@@ -44,6 +58,7 @@ struct FitOptions {
     /// by Bonferroni) the test of each.
     double significance = 0.001;
     Loss loss = Loss::none;
+    Prior prior;
     /// An earlier result of the same mesh and nearly the same readings: the fit goes on from there
     /// and looks for no other start, unless it cannot get there.
     std::optional<Solid> start;
@@ -57,7 +72,10 @@ struct FitOptions {
 };
 
 /// The [fit] table of a stone file: `meets` = "exact" | "soft" | "released", `meet_sigma`,
-/// `iterations`, `starts`, `significance`, `loss` = "none" | "huber" | "cauchy". Throws InputError.
+/// `iterations`, `starts`, `significance`, `loss` = "none" | "huber" | "cauchy", `prior` =
+/// "catalogue" | "mesh" | "none". Where no prior is named it is the catalogue's for a mesh that
+/// `culet cut` wrote and for GemCad designs, else the mesh's, and counts only where readings leave
+/// the stone open. Throws InputError.
 FitOptions read_fit_options(const std::filesystem::path& stone_file,
                             const std::vector<std::string>& overrides = {});
 
@@ -76,6 +94,9 @@ struct FittedFacet {
     double inclination_own_axis = 0;      ///< NaN when the stone has no axis of its own
     double sigma_inclination = 0, sigma_azimuth = 0;  ///< radians; azimuth: NaN for level facets
     double sigma_offset = 0;  ///< of the plane's distance from the middle of the stone
+    /// What part the readings have in these, the rest being the prior's: 1 - the variance over that
+    /// of the prior alone. 1 without a prior.
+    double read_inclination = 1, read_azimuth = 1, read_offset = 1;
     double area = 0;          ///< of the facet in the result; 0: not there
     double sigma_area = 0;
 };
@@ -109,6 +130,12 @@ struct MeetReport {
     double miss_rms = 0, miss_max = 0;  ///< distance of planes from their meets
 };
 
+/// The prior as it was used, in radians and the stone's unit.
+struct PriorReport {
+    Prior::Source source = Prior::Source::none;  ///< none: not used
+    double tier_angle = 0, facet_angle = 0, tier_offset = 0, facet_offset = 0;  ///< estimated
+};
+
 struct FitResult {
     FitStatus status = FitStatus::not_converged;
     std::string message;  ///< why, in one line
@@ -119,6 +146,8 @@ struct FitResult {
     std::vector<Undetermined> undetermined;
     std::vector<std::string> suspects;  ///< ids, the worst first
     std::vector<Proposal> proposals;    ///< for the suspects
+    /// Readings left out because they are far off what their like say, a line each (first_check.h).
+    std::vector<std::string> doubts;
     /// The smallest set of readings that cannot hold together, where there is a contradiction.
     std::vector<std::string> disagreeing;
     std::vector<std::string> undetermined_words;  ///< what nothing fixes, one sentence each
@@ -133,8 +162,10 @@ struct FitResult {
     /// What was done to the mesh before it could be fitted: turned round, scaled, ...
     std::vector<std::string> notes;
     MeetReport meets;
+    PriorReport prior;
     OwnAxis own_axis;
     std::vector<Tier> tiers;
+    std::vector<NamedTierFinding> named_tiers;
     std::vector<MeetFinding> meet_findings;
     std::vector<ShapeFinding> shape_findings;
     std::vector<ExtraFacet> extra_facets;

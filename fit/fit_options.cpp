@@ -1,8 +1,11 @@
 // The [fit] table of a stone file.
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "fit/fit.h"
+#include "stone/mesh_io.h"
 #include "stone/toml_file.h"
 
 namespace culet {
@@ -19,13 +22,68 @@ const char* name_of(Loss loss) {
     return "none";
 }
 
+const char* name_of(Prior::Source source) {
+    switch (source) {
+        case Prior::Source::none:
+            return "none";
+        case Prior::Source::catalogue:
+            return "catalogue";
+        case Prior::Source::mesh:
+            return "mesh";
+    }
+    return "none";
+}
+
+namespace {
+
+Prior::Source source_of(const TomlTable& file) {
+    const auto stone = file.table("stone");
+    const auto mesh = stone ? stone->path("mesh") : std::nullopt;
+    return mesh && design_of(*mesh) ? Prior::Source::catalogue : Prior::Source::mesh;
+}
+
+Prior read_prior(const TomlTable& table, Prior prior) {
+    if (const auto named = table.text("prior")) {
+        prior.always = true;
+        if (*named == "catalogue") {
+            prior.source = Prior::Source::catalogue;
+        } else if (*named == "mesh") {
+            prior.source = Prior::Source::mesh;
+        } else if (*named == "none") {
+            prior.source = Prior::Source::none;
+        } else {
+            table.fail("prior", "`prior` of [fit] must be \"catalogue\", \"mesh\" or \"none\"");
+        }
+    }
+    const auto positive = [&](const char* key, double most) {
+        const auto value = table.number(key);
+        if (value && !(*value > 0 && *value <= most)) {
+            table.fail(key, fmt::format("`{}` of [fit] must be more than 0 and at most {:g}", key,
+                                        most));
+        }
+        return value;
+    };
+    if (const auto degrees = positive("prior_inclination", 45)) {
+        prior.inclination_sigma = radians(*degrees);
+    }
+    if (const auto degrees = positive("prior_azimuth", 45)) prior.azimuth_sigma = radians(*degrees);
+    if (const auto percent = positive("prior_offset", 50)) prior.offset_sigma = *percent / 100;
+    return prior;
+}
+
+}  // namespace
+
 FitOptions read_fit_options(const std::filesystem::path& stone_file,
                             const std::vector<std::string>& overrides) {
     FitOptions options;
-    const auto table = read_toml(stone_file, overrides).table("fit");
+    const TomlTable file = read_toml(stone_file, overrides);
+    options.prior.source = source_of(file);
+    const auto table = file.table("fit");
     if (!table) return options;
     table->refuse_unknown({"meets", "meet_sigma", "iterations", "starts", "significance", "loss",
-                           "find_symmetry", "allow_topology"});
+                           "find_symmetry", "allow_topology", "prior", "prior_inclination",
+                           "prior_azimuth", "prior_offset"});
+    options.prior = read_prior(*table, options.prior);
     if (const auto meets = table->text("meets")) {
         if (*meets == "exact") {
             options.meets = MeetTreatment::exact;

@@ -71,6 +71,9 @@ void fill_in_facets(const System& system, const Shape& shape, const Diagnosis& d
         facet.sigma_inclination = sigma.inclination;
         facet.sigma_azimuth = sigma.azimuth;
         facet.sigma_offset = sigma.offset * system.scale();
+        facet.read_inclination = sigma.read[0];
+        facet.read_azimuth = sigma.read[1];
+        facet.read_offset = sigma.read[2];
         const int there = find_facet(result.solid, facet.name);
         if (there >= 0) facet.area = area(result.solid, result.solid.facets[there]);
         facet.sigma_area = sigma.area * system.scale() * system.scale();
@@ -78,12 +81,14 @@ void fill_in_facets(const System& system, const Shape& shape, const Diagnosis& d
     }
 }
 
-void fill_in_readings(const System& system, const Diagnosis& diagnosis,
-                      const std::vector<double>& weights, FitResult& result) {
+void fill_in_readings(const System& system, const std::vector<Reading>& as_read,
+                      const Diagnosis& diagnosis, const std::vector<double>& weights,
+                      FitResult& result) {
     for (std::size_t r = 0; r < system.readings().size(); ++r) {
         const Reading& reading = system.readings()[r];
         const ReadingCheck& c = diagnosis.readings[r];
         FittedReading fitted = as_taken(reading);
+        if (system.has_prior()) fitted.sigma = as_read[r].sigma;
         if (is_relation(reading.kind) && reading.sigma == 0 && !reading.exact) {
             fitted.sigma = reading.released ? 0 : system.group_sigmas()[0] * system.scale();
         }
@@ -115,16 +120,22 @@ FittedReading as_taken(const Reading& reading) {
     return fitted;
 }
 
-void fill_in(const System& system, const Shape& shape, const Diagnosis& diagnosis,
-             const System::Pose& pose, const std::vector<double>& weights, FitResult& result) {
+void fill_in(const System& system, const std::vector<Reading>& as_read, const Shape& shape,
+             const Diagnosis& diagnosis, const System::Pose& pose,
+             const std::vector<double>& weights, FitResult& result) {
     result.missing_facets = make_solid(system, shape, pose, result);
     result.planarity_max = planarity(result.solid);
     result.closed = is_closed(result.solid);
     result.convex = is_convex(result.solid);
     result.azimuth_zero = system.azimuth_zero(pose);
     describe_meets(system, shape, result);
+    if (system.has_prior()) {
+        const PriorSigmas& s = system.prior_sigmas();
+        result.prior = {result.options.prior.source, s[0], s[1], s[2] * system.scale(),
+                        s[3] * system.scale()};
+    }
     fill_in_facets(system, shape, diagnosis, pose, result);
-    fill_in_readings(system, diagnosis, weights, result);
+    fill_in_readings(system, as_read, diagnosis, weights, result);
 }
 
 }  // namespace culet

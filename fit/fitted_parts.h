@@ -11,9 +11,11 @@
 namespace culet {
 
 /// The solid that is written (corners from the fit, or what the planes enclose), its faults, every
-/// facet and every reading. `weights` of the readings under a robust loss, or none.
-void fill_in(const System& system, const Shape& shape, const Diagnosis& diagnosis,
-             const System::Pose& pose, const std::vector<double>& weights, FitResult& result);
+/// facet and every reading (`as_read`: with the sigmas that were given). `weights` of the readings
+/// under a robust loss, or none.
+void fill_in(const System& system, const std::vector<Reading>& as_read, const Shape& shape,
+             const Diagnosis& diagnosis, const System::Pose& pose,
+             const std::vector<double>& weights, FitResult& result);
 
 /// A reading as it was taken; what the fit makes of it is still open.
 FittedReading as_taken(const Reading& reading);

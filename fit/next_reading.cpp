@@ -62,8 +62,15 @@ std::vector<Candidate> candidates(const System& system, const Shape& shape,
     const std::vector<Facet>& facets = system.stone().solid.facets;
     const std::vector<Edge>& edges = system.edges().edges;
     all.reserve(2 * (facets.size() + edges.size()) + shape.points.size() + 40);
+    std::set<Kind> has_tool{Kind::inclination, Kind::azimuth,     Kind::width, Kind::depth,
+                            Kind::table_width, Kind::weight, Kind::volume};
+    for (const Reading& r : system.readings()) has_tool.insert(r.kind);
+    // Whoever has read most of the stone may have a microscope with a scale; at the bench nobody
+    // has.
+    if (!system.has_prior()) has_tool.insert(Kind::edge);
     const auto put = [&](Kind kind, std::vector<std::string> of, const std::string& group,
                          const Formula& formula, double sigma, double unit) {
+        if (has_tool.count(kind) == 0) return;
         Candidate c;
         c.reading.kind = kind;
         c.reading.of = std::move(of);

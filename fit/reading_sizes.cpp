@@ -90,6 +90,24 @@ bool mesh_is_in_another_unit(const std::vector<Reading>& readings, const Stone& 
     return std::max(middle, 1 / middle) > 2.5 && ratios.back() < 8 * ratios.front();
 }
 
+// Most overall lengths agree with each other and with the mesh's proportions: one that does not is a
+// slip of its own, which the first check names (first_check.h), and no matter of units.
+bool most_lengths_agree(const std::vector<Reading>& readings, const Stone& stone) {
+    std::vector<double> logs;
+    for (const Reading& r : readings) {
+        const double mine = r.kind == ReadingKind::depth   ? width_along(stone.solid, stone.up)
+                            : r.kind == ReadingKind::width ? diameter(stone.solid)
+                                                           : 0;
+        if (mine > 0 && r.value > 0) logs.push_back(std::log(r.value / mine));
+    }
+    if (logs.size() < 3) return false;
+    const double middle = upper_median(logs);
+    const auto near = std::count_if(logs.begin(), logs.end(), [&](double l) {
+        return std::abs(l - middle) < std::log(2.0);
+    });
+    return std::abs(middle) < std::log(2.5) && 2 * near > std::ptrdiff_t(logs.size());
+}
+
 // Logarithms of how much larger readings are than the mesh, in their order, and whose they are.
 struct Asked {
     std::vector<double> logs;
@@ -171,12 +189,14 @@ void refuse_impossible_volume(const Reading& reading, const Stone& stone, double
 }  // namespace
 
 void refuse_other_units(const std::vector<Reading>& readings, const Stone& stone) {
-    if (!mesh_is_in_another_unit(readings, stone)) {
+    const bool agree = most_lengths_agree(readings, stone);
+    if (!agree && !mesh_is_in_another_unit(readings, stone)) {
         for (const Reading& reading : readings) refuse_other_unit(reading, stone);
     }
     const Asked overall = asked_by_overall_lengths(readings, stone),
                 edges = asked_by_edges(readings, stone);
     refuse_lengths_of_two_units(overall, edges, stone);
+    if (agree) return;
     const Asked& lengths = overall.logs.empty() ? edges : overall;
     const double larger = lengths.logs.empty() ? 0 : lengths.middle();
     for (const Reading& r : readings) {

@@ -450,7 +450,11 @@ std::vector<Relaxation::Folded> Relaxation::folded(const Shape& shape, double wi
 std::vector<Relaxation::Caliper> Relaxation::calipers_that_tell_the_turn() const {
     std::vector<Caliper> result;
     // Mirrors and rotations of the stone have a place of their own, which would turn with it.
-    if (!freedoms_.orbits().empty() || !system_.mesh_shape().extras.empty()) return result;
+    // The facets' prior tells the turn by itself.
+    if (!freedoms_.orbits().empty() || !system_.mesh_shape().extras.empty() ||
+        system_.has_prior()) {
+        return result;
+    }
     int row = static_cast<int>(incidences_.size());
     for (const Equation& e : equations_) {
         const Reading& reading = system_.readings()[std::size_t(e.reading)];

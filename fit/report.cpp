@@ -19,6 +19,39 @@ bool in_degrees(ReadingKind kind) {
            kind == ReadingKind::mirror;
 }
 
+Json prior_json(const PriorReport& prior) {
+    Json json{{"source", name_of(prior.source)}};
+    if (prior.source == Prior::Source::none) return json;
+    json["tier_angle"] = degrees(prior.tier_angle);
+    json["facet_angle"] = degrees(prior.facet_angle);
+    json["tier_offset"] = prior.tier_offset;
+    json["facet_offset"] = prior.facet_offset;
+    return json;
+}
+
+Json tier_angles(const FitResult& result) {
+    Json tiers = Json::array();
+    for (const NamedTierFinding& tier : result.named_tiers) {
+        Json odd = Json::array();
+        for (const OddFacets& o : tier.odd) {
+            odd.push_back({{"facets", o.facets},
+                           {"off", degrees(o.off)},
+                           {"sigma", degrees(o.sigma)},
+                           {"p", json_number(o.p)}});
+        }
+        tiers.push_back({{"tier", tier.name},
+                         {"words", tier.words},
+                         {"facets", tier.facets},
+                         {"read", tier.read},
+                         {"common", degrees(tier.common)},
+                         {"sigma", degrees(tier.sigma)},
+                         {"spread", degrees(tier.spread)},
+                         {"odd", odd},
+                         {"what", tier.what}});
+    }
+    return tiers;
+}
+
 }  // namespace
 
 const char* name_of(MeetTreatment treatment) {
@@ -51,6 +84,10 @@ std::string fit_report(const FitResult& result) {
                           {"sigma_inclination", json_number(degrees(f.sigma_inclination))},
                           {"sigma_azimuth", json_number(degrees(f.sigma_azimuth))},
                           {"sigma_offset", json_number(f.sigma_offset)},
+                          {"from_readings",
+                           {{"inclination", json_number(f.read_inclination)},
+                            {"azimuth", json_number(f.read_azimuth)},
+                            {"offset", json_number(f.read_offset)}}},
                           {"area", f.area},
                           {"sigma_area", json_number(f.sigma_area)}});
     }
@@ -84,6 +121,7 @@ std::string fit_report(const FitResult& result) {
     }
     report["undetermined"] = undetermined;
     report["undetermined_freedoms"] = result.undetermined_freedoms;
+    report["doubts"] = result.doubts;
     report["suspects"] = result.suspects;
     report["suspect_limit"] = result.suspect_limit;
     report["missing_facets"] = result.missing_facets;
@@ -100,6 +138,8 @@ std::string fit_report(const FitResult& result) {
                        {"sigma_ends", result.meets.ends},
                        {"miss_rms", result.meets.miss_rms},
                        {"miss_max", result.meets.miss_max}};
+    report["prior"] = prior_json(result.prior);
+    report["tier_angles"] = tier_angles(result);
     add_findings(result, report);
     report["planarity_max"] = result.planarity_max;
     report["closed"] = result.closed;

@@ -53,6 +53,11 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
     bring_upright();
     list_incidences(options);
     add_extras();
+    if (options.prior.source != Prior::Source::none) {
+        prior_ = make_prior(options.prior, solid_, up_facet_, half_width(), mesh_shape_);
+        estimate_angle_sigmas(solid_, readings_, prior_);
+        share_rows(readings_);
+    }
     find_exchanges();
     pair_facets();
     list_exact_motions();
@@ -390,6 +395,16 @@ void System::pair_facets() {
 
 bool System::is_girdle(int facet) const {
     return std::abs(solid_.facets[facet].plane.normal.z) < std::sin(radians(k_girdle_tilt));
+}
+
+double System::half_width() const {
+    constexpr int k_directions = 36;  // 5 degrees apart
+    double widest = 0;
+    for (int k = 0; k < k_directions; ++k) {
+        const double a = std::numbers::pi * k / k_directions;
+        widest = std::max(widest, width_along(solid_, Vec3{std::cos(a), std::sin(a), 0}));
+    }
+    return 0.5 * widest;
 }
 
 double System::unit_of(const Reading& reading) const {

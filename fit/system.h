@@ -9,6 +9,7 @@
 #include "fit/fit.h"
 #include "fit/freedoms.h"
 #include "fit/measurement.h"
+#include "fit/prior.h"
 #include "fit/repeats.h"
 #include "fit/residuals.h"
 #include "stone/half_edges.h"
@@ -22,7 +23,8 @@ struct Equation {
         relation,   ///< of symmetry, parallel and coplanar readings
         incidence,  ///< a plane passes through a meet
         released,   ///< likewise, held only so far that the meet has a place at all
-        prior,      ///< the mesh says so
+        prior,      ///< the mesh says so, as far as a rough drawing may be off
+        expected,   ///< the prior of the facets (prior.h)
         hinge       ///< counts only when positive: a corner above a facet
     };
     Role role = Role::reading;
@@ -87,6 +89,8 @@ public:
     const std::array<double, 2>& group_sigmas() const { return group_sigmas_; }
     void set_group_sigma(int group, double sigma) { group_sigmas_[std::size_t(group)] = sigma; }
     bool has_estimated_groups() const;
+    bool has_prior() const { return !prior_.empty(); }
+    const PriorSigmas& prior_sigmas() const { return prior_.sigmas; }
     /// Of a reading from now on, in its unit (robust weights).
     void set_reading_sigma(int reading, double sigma) {
         readings_[std::size_t(reading)].sigma = sigma;
@@ -166,6 +170,8 @@ private:
     double scale_of_readings(const Vec3& up) const;
     void list_incidences(const FitOptions& options);
     void add_extras();
+    /// What the facets' prior says (prior.h).
+    std::vector<Equation> expected_equations() const;
     void pair_facets();
     /// At this shape, what they say is but one thing: facets lean one way, azimuths are less than
     /// half a turn off.
@@ -175,6 +181,7 @@ private:
     std::vector<int> mirror_partners(const Reading& reading) const;
     void find_exchanges();
     void list_exact_motions();
+    double half_width() const;
 
     const Stone& stone_;
     std::vector<Reading> readings_;
@@ -189,6 +196,7 @@ private:
     std::vector<std::optional<Automorphism>> exchanges_;   // of symmetry readings of all facets
     std::vector<SymmetryMotion> exact_motions_;
     std::vector<bool> fixed_extras_;
+    PriorModel prior_;
     int up_facet_ = -1;
     bool splits_ = false;
     std::array<double, 2> group_sigmas_{};

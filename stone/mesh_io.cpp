@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
 
 #include "stone/errors.h"
 #include "stone/mesh_formats.h"
@@ -11,9 +12,20 @@
 
 namespace culet {
 
-std::optional<MeshFormat> mesh_format(const std::filesystem::path& file) {
+namespace {
+
+constexpr std::string_view k_design = "culet design ";
+
+std::string small_extension(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
+}  // namespace
+
+std::optional<MeshFormat> mesh_format(const std::filesystem::path& file) {
+    const std::string extension = small_extension(file);
     if (extension == ".obj") return MeshFormat::obj;
     if (extension == ".off") return MeshFormat::off;
     if (extension == ".ply") return MeshFormat::ply;
@@ -57,6 +69,34 @@ std::string mesh_text(const Solid& solid, MeshFormat format) {
             return stl_text(solid);
     }
     throw InternalError("unknown mesh format");
+}
+
+void write_design(const Solid& solid, const std::string& design,
+                  const std::filesystem::path& file) {
+    const auto format = mesh_format(file);
+    if (!format || *format == MeshFormat::stl) return write_mesh(solid, file);
+    std::string text = mesh_text(solid, *format);
+    // Comments of the other formats come after the lines that say what format it is.
+    const std::size_t lines = *format == MeshFormat::obj ? 0 : *format == MeshFormat::off ? 1 : 2;
+    std::size_t at = 0;
+    for (std::size_t i = 0; i < lines; ++i) at = text.find('\n', at) + 1;
+    const char* sign = *format == MeshFormat::ply ? "comment " : "# ";
+    text.insert(at, std::string(sign).append(k_design).append(design).append("\n"));
+    write_text(file, text);
+}
+
+std::optional<std::string> design_of(const std::filesystem::path& file) {
+    const std::string extension = small_extension(file);
+    if (extension == ".asc" || extension == ".gem") return "GemCad";
+    std::ifstream stream(file);
+    constexpr int k_first_lines = 5;
+    std::string line;
+    for (int i = 0; i < k_first_lines && std::getline(stream, line); ++i) {
+        const std::size_t at = line.find(k_design);
+        if (at == std::string::npos || line.empty() || (line[0] != '#' && line[0] != 'c')) continue;
+        return line.substr(at + k_design.size());
+    }
+    return std::nullopt;
 }
 
 void write_mesh(const Solid& solid, const std::filesystem::path& file) {

@@ -47,6 +47,14 @@ ReadSolid parse_mesh(std::string_view bytes, MeshFormat format,
 /// at all.
 void write_mesh(const Solid& solid, const std::filesystem::path& file);
 
+/// The same for the mesh of a design, which a comment names: `culet design NAME`. In STL there is
+/// no place for it.
+void write_design(const Solid& solid, const std::string& design, const std::filesystem::path& file);
+
+/// The design whose mesh a file holds: as `write_design` named it, `GemCad` for .asc and .gem;
+/// nothing for a drawing, a fitted stone, or a file that cannot be read.
+std::optional<std::string> design_of(const std::filesystem::path& file);
+
 /// What `write_mesh` writes.
 std::string mesh_text(const Solid& solid, MeshFormat format);
 
