@@ -37,7 +37,8 @@ std::string short_decimal(double value, int places, Good good) {
 struct Tier {
     CutSetting setting;  // as it reads back from the text
     std::string angle, distance;
-    std::vector<std::string> settings;  // index, and the name after it
+    std::vector<std::string> indices, names;  // of each facet
+    bool named_once = false;                  // at its first facet, as GemCad does
 };
 
 double read_back(const std::string& text) {
@@ -58,7 +59,10 @@ public:
         add_facets();
         for (const Tier& tier : tiers_) {
             std::string line = fmt::format("a {} {}", tier.angle, tier.distance);
-            for (const std::string& setting : tier.settings) {
+            for (std::size_t i = 0; i < tier.indices.size(); ++i) {
+                std::string setting = tier.indices[i];
+                const bool named = !tier.names[i].empty() && (i == 0 || !tier.named_once);
+                if (named) setting += " n " + tier.names[i];
                 // A line that begins with a number goes on with the tier.
                 if (line.size() + setting.size() > 100) {
                     out += line + "\n";
@@ -114,8 +118,38 @@ private:
                 return setting.index > 0 &&
                        difference(plane_of(setting, sheet_), plane, size) <= 2 * k_reads_back;
             });
-            if (!names[f].empty()) word += " n " + names[f];
-            tier->settings.push_back(std::move(word));
+            tier->indices.push_back(std::move(word));
+            tier->names.push_back(names[f]);
+        }
+        name_tiers_once();
+    }
+
+    // A tier A, A.1, A.2, ... is named once, at its first facet, wherever all names read back so.
+    void name_tiers_once() {
+        for (Tier& tier : tiers_) {
+            tier.named_once = tier.names.size() > 1 && !tier.names[0].empty();
+            for (std::size_t i = 1; i < tier.names.size() && tier.named_once; ++i) {
+                tier.named_once = tier.names[i] == fmt::format("{}.{}", tier.names[0], i);
+            }
+        }
+        for (bool again = true; again;) {
+            again = false;
+            std::vector<std::string> own, of_tier;
+            for (const Tier& tier : tiers_) {
+                for (std::size_t i = 0; i < tier.names.size(); ++i) {
+                    own.push_back(tier.named_once && i > 0 ? std::string() : tier.names[i]);
+                    of_tier.push_back(tier.named_once ? tier.names[0] : std::string());
+                }
+            }
+            const std::vector<std::string> read = told_apart(std::move(own), of_tier);
+            std::size_t at = 0;
+            for (Tier& tier : tiers_) {
+                for (const std::string& name : tier.names) {
+                    if (read[at++] == name || !tier.named_once) continue;
+                    tier.named_once = false;
+                    again = true;
+                }
+            }
         }
     }
 
