@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include "app/describe.h"
+#include "app/readings_form.h"
 #include "app/solid_input.h"
+#include "stone/caliper.h"
 #include "stone/proportions.h"
 #include "stone/stone.h"
 #include "stone/units.h"
@@ -58,6 +60,18 @@ void describe_proportions(const Solid& solid, Description& about) {
     line += fmt::format(", P/W {:.4f}, C/W {:.4f}, H/W {:.4f}", p.pavilion / p.width,
                         p.crown / p.width, p.height / p.width);
     about.lines.push_back(line);
+    const CaliperWidths widths = caliper_widths(solid);
+    object["caliper"] = {{"min", widths.least},
+                         {"max", widths.largest},
+                         {"mean", widths.mean},
+                         {"min_azimuth", degrees(widths.least_azimuth)},
+                         {"max_azimuth", degrees(widths.largest_azimuth)},
+                         {"corners", widths.corners}};
+    about.lines.push_back(fmt::format(
+        "caliper {:.4g} (azimuth {:.4g}) to {:.4g} (azimuth {:.4g}), mean {:.4g}{}", widths.least,
+        degrees(widths.least_azimuth), widths.largest, degrees(widths.largest_azimuth), widths.mean,
+        widths.round() ? fmt::format("; the outline has {} corners", widths.corners)
+                       : std::string()));
 }
 
 void describe_sheet(const CutSheet& sheet, Description& about) {
@@ -120,7 +134,8 @@ void describe_solid(const Solid& solid, bool must_be_convex, bool facet_table, D
 }
 
 Description describe_solid_file(const DescribeOptions& options) {
-    const SolidInput input = load_solid(options.file, options.cut);
+    SolidInput input = load_solid(options.file, options.cut);
+    if (options.width_mm > 0) scale_to_width(input.solid, options.width_mm);
     Description about;
     about.notes = input.notes;
     about.object["format"] = input.format;

@@ -16,11 +16,9 @@ std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, c
                                    std::vector<std::string>* notes) {
     const std::size_t skipped = skipped_readings(written);
     if (skipped > 0 && skipped == written.size()) {
-        throw InputError(
-            written[0].file,
-            fmt::format("none of its {} rows has a value yet: write what was read into "
-                        "the column `value`; rows that stay empty are skipped",
-                        skipped));
+        throw InputError(written[0].file,
+                         "no row has a value yet: write what was read into the column `value`; "
+                         "rows that stay empty are skipped");
     }
     Binder binder(stone, written);
     std::set<std::string> given;
