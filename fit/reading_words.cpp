@@ -91,8 +91,8 @@ std::optional<std::string> near_kind_word(std::string_view written) {
         if (word.size() >= 3 && name.starts_with(word)) return name;
     }
     const auto near = nearest_name(word, known);
-    // Half of a short word's letters say nothing.
-    if (near && edit_distance(word, *near) > std::max<std::size_t>(1, word.size() / 3)) {
+    // More than a third of its letters is another word.
+    if (near && edit_distance(word, *near) > std::max<std::size_t>(1, (word.size() + 1) / 3)) {
         return std::nullopt;
     }
     return near;

@@ -16,12 +16,13 @@ namespace culet {
 
 namespace {
 
-// A facet so wide seats in a goniometer; one half as wide still does, barely.
-constexpr double k_large_mm = 1, k_small_mm = 0.5;
+// The root of a facet's area: so large it seats in a goniometer; so small it still does, barely.
+constexpr double k_large_mm = 1, k_small_mm = 0.6;
 // Mains that face each other within this stand across one width.
 constexpr double k_across_deg = 3;
-// A stone that is drawn along its axes is measured along them.
-constexpr double k_along_axes_deg = 5;
+// A stone that is drawn along x and y is measured along them, though it may be as much narrower
+// across a corner.
+constexpr double k_along_axes = 1.03;
 
 std::string quoted(const std::string& field) {
     const bool plain = field.find_first_of(",;\t\"\r\n") == std::string::npos;
@@ -48,13 +49,14 @@ public:
           table_(table_facet(stone.solid, stone.up)) {}
 
     ReadingsForm form() {
-        const std::vector<int> crown = main_facets(solid_, stone_.up, true),
-                               pavilion = main_facets(solid_, stone_.up, false);
+        const std::vector<FacetTier> tiers = tiers_of(solid_, stone_.up);
+        const std::vector<int> crown = whole_tiers(main_facets(solid_, stone_.up, true), tiers),
+                               pavilion = whole_tiers(main_facets(solid_, stone_.up, false), tiers);
         add_mains(crown);
         add_mains(pavilion);
         std::vector<int> mains = crown;
         mains.insert(mains.end(), pavilion.begin(), pavilion.end());
-        for (const FacetTier& tier : tiers_of(solid_, stone_.up)) add_tier(tier, mains);
+        for (const FacetTier& tier : tiers) add_tier(tier, mains);
         add_lengths(crown);
         ReadingsForm form;
         form.csv = instructions() + "kind,of,value,sigma,note\n" + rows_;
@@ -81,15 +83,29 @@ private:
     }
 
     double sigma_of(int facet) const {
-        const double wide = millimetres(narrow_width(solid_, solid_.facets[facet]));
-        if (wide >= k_large_mm) return sigmas_.large_facet_deg;
-        return wide >= k_small_mm ? sigmas_.small_facet_deg : sigmas_.tiny_facet_deg;
+        const double size = millimetres(std::sqrt(area(solid_, solid_.facets[facet])));
+        if (size >= k_large_mm) return sigmas_.large_facet_deg;
+        return size >= k_small_mm ? sigmas_.small_facet_deg : sigmas_.tiny_facet_deg;
     }
 
     void add_facet(int facet) {
         const std::string& name = solid_.facets[facet].name;
         if (!can_be_read(name)) return;
         row("inclination", name, sigma_of(facet), fmt::format("expected {:.2f}", tilt_deg(facet)));
+    }
+
+    // Of a pear only some facets of a tier may reach the table: the others are read as they are.
+    static std::vector<int> whole_tiers(const std::vector<int>& mains,
+                                        const std::vector<FacetTier>& tiers) {
+        std::vector<int> all;
+        for (const FacetTier& tier : tiers) {
+            const bool any = std::any_of(tier.facets.begin(), tier.facets.end(), [&](int f) {
+                return std::find(mains.begin(), mains.end(), f) != mains.end();
+            });
+            if (any) all.insert(all.end(), tier.facets.begin(), tier.facets.end());
+        }
+        std::sort(all.begin(), all.end());
+        return all;
     }
 
     void add_mains(const std::vector<int>& mains) {
@@ -105,7 +121,8 @@ private:
         }
         if (facets.empty()) return;
         if (facets.size() == 1) return add_facet(facets[0]);
-        double sigma = 0, least = 90, most = 0;
+        // One value for several facets is off by what they differ, too.
+        double sigma = sigmas_.small_facet_deg, least = 90, most = 0;
         std::string names;
         for (const int f : facets) {
             sigma = std::max(sigma, sigma_of(f));
@@ -117,11 +134,11 @@ private:
                                          ? fmt::format("expected {:.2f}", degrees(tier.inclination))
                                          : fmt::format("expected {:.2f} to {:.2f}", least, most);
         if (facets.size() == tier.facets.size() && !tier.pattern.empty()) {
-            row("inclination", tier.pattern, sigma,
-                fmt::format("{}; one value for all {}", expected, facets.size()));
+            row("inclination", tier.pattern, std::max(sigma, sigmas_.tier_deg),
+                fmt::format("{} (one value for all {})", expected, facets.size()));
         } else {
             row("inclination", "mean(" + names + ")", sigma,
-                fmt::format("{}; mean of these {}", expected, facets.size()));
+                fmt::format("{} (mean of these {})", expected, facets.size()));
         }
     }
 
@@ -152,11 +169,14 @@ private:
         if (widths.round() && !crown.empty()) {
             first = 180;
             for (const int f : crown) first = std::min(first, half_turn(azimuth_deg(f)));
-        } else if (std::abs(std::remainder(first, 90)) < k_along_axes_deg) {
-            first = half_turn(90 * std::round(first / 90));
+        } else if (std::min(width_along(solid_, frame_.x), width_along(solid_, frame_.y)) <
+                   k_along_axes * widths.least) {
+            first = 0;
         }
         std::vector<double> all;
-        for (int i = 0; i < 4; ++i) all.push_back(half_turn(first + 45 * i));
+        for (int i = 0; i < 4; ++i) {
+            all.push_back(std::round(100 * half_turn(first + 45 * i)) / 100);
+        }
         std::sort(all.begin(), all.end());
         return all;
     }
@@ -178,8 +198,7 @@ private:
         std::vector<int> all(solid_.vertices.size());
         for (std::size_t v = 0; v < all.size(); ++v) all[v] = static_cast<int>(v);
         const std::vector<double> azimuths = directions(caliper_widths(solid_, stone_.up), crown);
-        // A direction is written as it is measured.
-        const auto of = [](double azimuth) { return fmt::format("{:.4g}", azimuth); };
+        const auto of = [](double azimuth) { return fmt::format("{:g}", azimuth); };
         for (const double azimuth : azimuths) {
             const std::string one = facet_towards(azimuth, crown),
                               other = facet_towards(azimuth + 180, crown);
@@ -187,14 +206,14 @@ private:
                 fmt::format("expected {:.4g} {}{}", extent(all, azimuth), unit,
                             one.empty() || other.empty()
                                 ? std::string()
-                                : fmt::format("; jaws at {} and {}", one, other)));
+                                : fmt::format(" (jaws at {} and {})", one, other)));
         }
         row("depth", "", sigmas_.caliper_mm * mm,
-            fmt::format("expected {:.4g} {}; table to culet", width_along(solid_, stone_.up),
+            fmt::format("expected {:.4g} {} (table to culet)", width_along(solid_, stone_.up),
                         unit));
         for (std::size_t i = 0; i < azimuths.size() && table_ >= 0; i += 2) {
             row("table_width", of(azimuths[i]), sigmas_.table_mm * mm,
-                fmt::format("expected {:.4g} {}; from end to end of the table",
+                fmt::format("expected {:.4g} {} (from end to end of the table)",
                             extent(solid_.facets[table_].corners, azimuths[i]), unit));
         }
         const auto density = stone_.material.density_g_cm3;
@@ -202,7 +221,7 @@ private:
         row("weight", "", sigmas_.scale_ct,
             has_material_ && density
                 ? fmt::format("expected {:.4g} ct as {}", carat(mm3, *density), stone_.material.id)
-                : "in carat; the stone file must name the material or the density");
+                : "in carat (the stone file must name the material or the density)");
     }
 
     std::string instructions() const {
@@ -211,10 +230,10 @@ private:
             "# Write what you read into the column value, and leave empty what you did not read: "
             "empty rows are skipped.\n";
         text += fmt::format(
-            "# inclination: degrees between the facet and the table (0) as {} girdle (90), crown "
-            "and pavilion alike. Lengths are in {}, weight in carat; 6.52 mm, 33.8 deg or 1.05 ct "
-            "may be written too.\n",
-            table_ >= 0 ? "up to the" : "from the horizontal up to the", unit);
+            "# inclination: degrees from {} (0) to the girdle (90), the same way on crown and "
+            "pavilion. Lengths are in {}, weight in carat; a unit may stand beside the number "
+            "(6.52 mm, 33.8 deg, 1.05 ct).\n",
+            table_ >= 0 ? "the table" : "the horizontal", unit);
         text +=
             "# width and table_width: the number beside them is the direction from jaw to jaw, in "
             "degrees counter-clockwise seen from above; 0 is the mesh's x.\n";

@@ -38,7 +38,7 @@ struct Tier {
     CutSetting setting;  // as it reads back from the text
     std::string angle, distance;
     std::vector<std::string> indices, names;  // of each facet
-    bool named_once = false;                  // at its first facet, as GemCad does
+    int named_at = -1;  // the one facet whose name is the tier's; -1: each has its own
 };
 
 double read_back(const std::string& text) {
@@ -61,7 +61,8 @@ public:
             std::string line = fmt::format("a {} {}", tier.angle, tier.distance);
             for (std::size_t i = 0; i < tier.indices.size(); ++i) {
                 std::string setting = tier.indices[i];
-                const bool named = !tier.names[i].empty() && (i == 0 || !tier.named_once);
+                const bool named =
+                    !tier.names[i].empty() && (tier.named_at < 0 || tier.named_at == int(i));
                 if (named) setting += " n " + tier.names[i];
                 // A line that begins with a number goes on with the tier.
                 if (line.size() + setting.size() > 100) {
@@ -124,33 +125,45 @@ private:
         name_tiers_once();
     }
 
-    // A tier A, A.1, A.2, ... is named once, at its first facet, wherever all names read back so.
+    // A tier A, A.1, A.2, ... is named once, as GemCad does, wherever all names read back so.
     void name_tiers_once() {
-        for (Tier& tier : tiers_) {
-            tier.named_once = tier.names.size() > 1 && !tier.names[0].empty();
-            for (std::size_t i = 1; i < tier.names.size() && tier.named_once; ++i) {
-                tier.named_once = tier.names[i] == fmt::format("{}.{}", tier.names[0], i);
-            }
-        }
+        for (Tier& tier : tiers_) tier.named_at = named_at(tier.names);
         for (bool again = true; again;) {
             again = false;
             std::vector<std::string> own, of_tier;
             for (const Tier& tier : tiers_) {
+                const bool once = tier.named_at >= 0;
                 for (std::size_t i = 0; i < tier.names.size(); ++i) {
-                    own.push_back(tier.named_once && i > 0 ? std::string() : tier.names[i]);
-                    of_tier.push_back(tier.named_once ? tier.names[0] : std::string());
+                    const bool inherits = once && tier.named_at != int(i);
+                    own.push_back(inherits ? std::string() : tier.names[i]);
+                    of_tier.push_back(once ? tier.names[std::size_t(tier.named_at)]
+                                           : std::string());
                 }
             }
             const std::vector<std::string> read = told_apart(std::move(own), of_tier);
             std::size_t at = 0;
             for (Tier& tier : tiers_) {
                 for (const std::string& name : tier.names) {
-                    if (read[at++] == name || !tier.named_once) continue;
-                    tier.named_once = false;
+                    if (read[at++] == name || tier.named_at < 0) continue;
+                    tier.named_at = -1;
                     again = true;
                 }
             }
         }
+    }
+
+    // Which facet has the name that the others repeat: .1, .2, ... in their order; -1: none.
+    static int named_at(const std::vector<std::string>& names) {
+        if (names.size() < 2) return -1;
+        const auto base = std::min_element(
+            names.begin(), names.end(),
+            [](const std::string& a, const std::string& b) { return a.size() < b.size(); });
+        int count = 0;
+        for (auto name = names.begin(); name != names.end(); ++name) {
+            if (name == base) continue;
+            if (base->empty() || *name != fmt::format("{}.{}", *base, ++count)) return -1;
+        }
+        return static_cast<int>(base - names.begin());
     }
 
     Tier new_tier(const Plane& plane, const CutSetting& wanted, double size) const {

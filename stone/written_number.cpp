@@ -67,7 +67,9 @@ std::optional<std::string> with_decimal_point(std::string text, bool comma_separ
            std::isdigit(static_cast<unsigned char>(text[comma + 1 + digits])) != 0) {
         ++digits;
     }
-    if (digits == 0 || (comma_separates && digits == 3)) return std::nullopt;
+    // 0,015 is no thousand.
+    const bool thousand = digits == 3 && digits_of.find_first_of("123456789") < comma;
+    if (digits == 0 || (comma_separates && thousand)) return std::nullopt;
     text[comma] = '.';
     return text;
 }

@@ -81,7 +81,7 @@ TEST_F(Form, OfABrilliantHasARowForEveryMain) {
     EXPECT_EQ(rows["weight"], 1);
     for (const char* pattern : {"S*", "U*", "G*", "L*"}) EXPECT_TRUE(reads(written, pattern));
     EXPECT_THAT(form.csv, HasSubstr("inclination,C1,,0.1,expected 34.50"));
-    EXPECT_THAT(form.csv, HasSubstr("expected 6.5 mm; jaws at C1 and C5"));
+    EXPECT_THAT(form.csv, HasSubstr("expected 6.5 mm (jaws at C1 and C5)"));
     EXPECT_TRUE(form.csv.starts_with("# "));
 }
 
@@ -120,12 +120,12 @@ TEST_F(Form, FilledInAsExpectedIsExplainedByTheMesh) {
 // `{A}` stands for the tier's name.
 const std::string k_lines =
     "a -90 1.0 3{G} 9 15 21 27 33 39 45 51 57 63 69 75 81 87 93\n"
-    "a -43 0.6966 3{1} 9 15 21 27 33 39 45 51 57 63 69 75 81 87 93\n"
-    "a -41 0.6840 12{2} 24 36 48 60 72 84 96\n"
-    "a 32 0.5469 3{A} 9 15 21 27 33 39 45 51 57 63 69 75 81 87 93\n"
-    "a 28 0.4963 12{B} 24 36 48 60 72 84 96\n"
-    "a 13 0.3751 6{C} 18 30 42 54 66 78 90\n"
-    "a 0 0.2663 96{T}\n";
+    "a -43 0.69662544 3{1} 9 15 21 27 33 39 45 51 57 63 69 75 81 87 93\n"
+    "a -41 0.68400618 12{2} 24 36 48 60 72 84 96\n"
+    "a 32 0.54688022 3{A} 9 15 21 27 33 39 45 51 57 63 69 75 81 87 93\n"
+    "a 28 0.49632800 12{B} 24 36 48 60 72 84 96\n"
+    "a 13 0.37513062 6{C} 18 30 42 54 66 78 90\n"
+    "a 0 0.26634654 96{T}\n";
 
 Solid design(bool named) {
     const std::string text =

@@ -68,6 +68,9 @@ TEST(GemCadTiers, GoThereAndBack) {
     write_solid(parse_gemcad_asc(k_head + k_crown + k_rest).solid, folder / "a.asc");
     const std::string text = read_text(folder / "a.asc");
     EXPECT_NE(text.find(" 96 n A 24 48 72\n"), std::string::npos) << text;
+    write_solid(parse_gemcad_asc(k_head + "a 40 0.9 96 24 48 n A 72\n" + k_rest).solid,
+                folder / "b.asc");
+    EXPECT_NE(read_text(folder / "b.asc").find(" 96 24 48 n A 72\n"), std::string::npos);
     EXPECT_TRUE(read_solid(folder / "a.asc").facets_are_whole);
 }
 
