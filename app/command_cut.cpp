@@ -128,9 +128,12 @@ int run_cut(const std::string& name, const CutOptions& options) {
                     solid.facets.size(), solid.vertices.size(), width_along(solid, {0, 0, 1}),
                     volume(solid)),
         options.common.quiet || options.json == "-");
+    if (options.form.readings.empty()) return exit_good;
     Stone stone;
     stone.name = name;
-    stone.solid = solid;
+    // STL keeps no names: the form is of the mesh as it will be read.
+    stone.solid = read_solid(options.out).solid;
+    stone.convex = cut_kind(name).convex;
     for (const std::string& line : write_form(options.form, stone, false, options.out)) {
         say(line, options.common.quiet);
     }

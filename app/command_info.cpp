@@ -40,6 +40,7 @@ std::vector<std::string> form_of(const InfoOptions& options) {
     if (is_solid_file(file)) {
         Stone stone;
         stone.name = file.stem().string();
+        stone.convex = !options.describe.may_be_concave;
         stone.solid = load_solid(file, options.describe.cut).solid;
         if (options.describe.width_mm > 0) scale_to_width(stone.solid, options.describe.width_mm);
         return write_form(options.form, std::move(stone), false, file);

@@ -71,6 +71,7 @@ private:
     std::vector<Reading> of_table(const Reading& base) const;
     std::vector<Reading> of_mains(const Reading& base, bool crown) const;
     int facet_in_other_case(const std::string& name) const;
+    std::vector<int> facets_in_other_case(const std::string& pattern) const;
     void note(const std::string& what) const;
     void note_tiers(const std::string& pattern, const std::vector<int>& facets) const;
     void note_first_of_tier(const std::string& name) const;

@@ -71,7 +71,7 @@ Binder::NamedFacets Binder::facets(const std::string& name) const {
 void Binder::add_facets(const std::string& name, NamedFacets& to) const {
     if (name.empty()) fail("an empty facet name");
     if (facet_of_name_.count(name) > 0 || name.find('*') == std::string::npos) {
-        note_first_of_tier(name);
+        if (to.aggregate == Aggregate::single) note_first_of_tier(name);
         to.facets.push_back(facet(name));
         return;
     }
@@ -80,10 +80,11 @@ void Binder::add_facets(const std::string& name, NamedFacets& to) const {
     for (std::size_t i = 0; i < stone_.solid.facets.size(); ++i) {
         if (name_matches(name, stone_.solid.facets[i].name)) found.push_back(static_cast<int>(i));
     }
+    if (found.empty()) found = facets_in_other_case(name);
     if (found.empty()) {
         fail(fmt::format("no facet matches '{}' (near: {})", name, near_names(stone_.solid, name)));
     }
-    note_tiers(name, found);
+    if (to.aggregate == Aggregate::single) note_tiers(name, found);
     to.facets.insert(to.facets.end(), found.begin(), found.end());
 }
 

@@ -61,6 +61,17 @@ int Binder::facet_in_other_case(const std::string& name) const {
     return found;
 }
 
+std::vector<int> Binder::facets_in_other_case(const std::string& pattern) const {
+    std::vector<int> found;
+    for (std::size_t i = 0; i < stone_.solid.facets.size(); ++i) {
+        if (name_matches(lower(pattern), lower(stone_.solid.facets[i].name))) {
+            found.push_back(static_cast<int>(i));
+        }
+    }
+    if (!found.empty()) other_case_.emplace(pattern, facet_name(found.front()) + ", ...");
+    return found;
+}
+
 // `1*` matches the tiers 1, 11 and 12 of a design, which are cut to different angles.
 void Binder::note_tiers(const std::string& pattern, const std::vector<int>& facets) const {
     if (kind_word(written_->kind)->kind != ReadingKind::inclination) return;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "stone/cut_planes.h"
+#include "stone/text_scan.h"
 
 namespace culet {
 
@@ -121,7 +122,7 @@ WrittenNumber written_number(std::string_view written, bool comma_separates) {
     // A spreadsheet's sign for degrees may come in Windows' own code.
     const std::string text = without_blanks(utf8_from_windows1252(written));
     const auto fail = [&](const std::string& expected) {
-        number.problem = fmt::format("is '{}'; expected {}", text, expected);
+        number.problem = fmt::format("is '{}'; expected {}", shown(text), expected);
         return number;
     };
     std::string rest = text;

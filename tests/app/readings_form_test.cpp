@@ -96,6 +96,24 @@ TEST_F(BenchForm, OfADesignInMillimetres) {
     EXPECT_TRUE(nlohmann::json::parse(read_text(file("fit.json"))).at("suspects").empty());
 }
 
+// STL keeps no names and a heart is not convex: what the form says still fits the mesh.
+TEST_F(BenchForm, FitsTheMeshAsItIsRead) {
+    for (const auto& [cut, mesh] : {std::pair("step", "step.stl"), std::pair("heart", "heart.obj"),
+                                    std::pair("oval", "oval.asc")}) {
+        const ProgramRun made =
+            run_culet({"cut", cut, "-o", file(mesh), "--readings", file("form.csv"), "--stone",
+                       file("stone.toml"), "--material", "diamond"});
+        ASSERT_EQ(made.exit_code, 0) << made.err;
+        fill_in(file("form.csv"), "[a-z_]+,(?:\"[^\"]*\"|[^,]*),");
+        const ProgramRun fit = run_culet(
+            {"fit", file("stone.toml"), "-o", file("fitted.obj"), "--report", file("fit.json")});
+        EXPECT_LE(fit.exit_code, 1) << fit.err;
+        const auto report = nlohmann::json::parse(read_text(file("fit.json")));
+        EXPECT_TRUE(report.at("suspects").empty()) << cut;
+        EXPECT_GT(report.at("readings").size(), 20u) << cut;
+    }
+}
+
 TEST_F(BenchForm, WhatCannotBeDoneIsOneLine) {
     const auto error_of = [&](const std::vector<std::string>& arguments) {
         const ProgramRun run = run_culet(arguments);

@@ -233,6 +233,8 @@ TEST_F(Words, CapitalsAreForgivenWhereNothingElseIsMeant) {
     const auto readings = rows("inclination,c1,34,0.1\ninclination,c2,34,0.1\n");
     EXPECT_EQ(facet_of(readings[0]).name, "C1");
     EXPECT_THAT(notes_, Contains(AllOf(HasSubstr("c1 for C1"), HasSubstr("c2 for C2"))));
+    EXPECT_EQ(rows("inclination,c*,34,0.1\n").size(), 8u);
+    EXPECT_THAT(notes_, Contains(HasSubstr("c* for C1, ...")));
     rename("S1", "a");
     rename("S2", "A");
     EXPECT_EQ(facet_of(rows("inclination,a,20,0.1\n")[0]).name, "a");
