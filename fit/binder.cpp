@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -15,6 +16,8 @@ namespace {
 
 // A hand-made mesh's inclinations are hardly further off.
 constexpr double k_slip_tolerance_deg = 12;
+// Beyond upright by more than this is no scatter of an instrument.
+constexpr double k_over_upright_deg = 2;
 
 }  // namespace
 
@@ -135,6 +138,13 @@ void Binder::set_value(Reading& reading) const {
         fail("sigma is missing (one standard uncertainty), or give exact = true");
     }
     if (w.exact && w.released) fail("cannot be exact and released");
+    // A girdle facet that leans the other way by as little as the instrument may be off.
+    if (reading.kind == ReadingKind::inclination && reading.value > 90 &&
+        reading.value <= 90 + std::min(3 * reading.sigma, k_over_upright_deg)) {
+        note(fmt::format("{:g} degrees count as {:g}: an upright facet, to within its sigma",
+                         reading.value, 180 - reading.value));
+        reading.value = 180 - reading.value;
+    }
     // A tooth is no angle yet.
     if (kind_word(w.kind)->trade != KindWord::Trade::index) refuse_value(reading);
     if (measure_of(reading.kind) == WrittenUnit::Of::angle) {

@@ -128,6 +128,14 @@ TEST_F(Words, UnitsAreReadWhereTheyAgree) {
     EXPECT_NEAR(rows("width,0,6.02mm,0.015mm\n")[0].value, 0.602, 1e-15);
 }
 
+// Upright to within the instrument: 90.2 from the one side is 89.8 from the other.
+TEST_F(Words, GirdleFacetsMayReadALittleOverNinety) {
+    EXPECT_NEAR(rows("inclination,G1,90.2,0.3\n")[0].value, radians(89.8), 1e-14);
+    EXPECT_THAT(notes_, Contains(HasSubstr("90.2 degrees count as 89.8")));
+    EXPECT_THAT(complaint("inclination,G1,90.2,0.01\n"), HasSubstr("outside 0..90"));
+    EXPECT_THAT(complaint("inclination,G1,95,10\n"), HasSubstr("outside 0..90"));
+}
+
 TEST_F(Words, OtherUnitsAreRefusedWithWhatToWrite) {
     EXPECT_THAT(complaint("inclination,C1,6.52mm,0.1\n"),
                 AllOf(HasSubstr("r.csv:2"), HasSubstr("a length"), HasSubstr("34.5 deg")));
