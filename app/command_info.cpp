@@ -68,6 +68,10 @@ int info(InfoOptions options) {
         }
         options.describe.width_mm = length_mm(options.width, "--width");
     }
+    if (options.describe.gear != 0) options.describe.cutting_list = true;
+    if (options.describe.cutting_list && !is_solid_file(options.describe.file)) {
+        throw InputError(options.describe.file, "--cutting-list is of a mesh or a cut design");
+    }
     const Description about = describe_file(options.describe);
     Json object{{"schema", 1}, {"file", options.describe.file.string()}};
     object.update(about.object);
@@ -172,6 +176,13 @@ void add_command_info(CLI::App& program, int& exit_code) {
         ->add_option("--width", options->width,
                      "tell of a mesh or cut design at this width (W), in mm")
         ->type_name("6.5mm");
+    command->add_flag("--cutting-list", options->describe.cutting_list,
+                      "of a mesh or cut design: angle and index settings, tier by tier");
+    command
+        ->add_option("--gear", options->describe.gear,
+                     "teeth of the index wheel of the cutting list (the design's own, or 96)")
+        ->check(CLI::Range(1.0, 1e6))
+        ->type_name("TEETH");
     add_form_options(*command, options->form);
     command
         ->add_option("--material", options->form.material,

@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "app/describe.h"
 #include "app/readings_form.h"
 #include "app/solid_input.h"
 #include "stone/caliper.h"
+#include "stone/cutting_list.h"
 #include "stone/proportions.h"
 #include "stone/stone.h"
 #include "stone/units.h"
@@ -74,6 +77,50 @@ void describe_proportions(const Solid& solid, Description& about) {
                        : std::string()));
 }
 
+const char* word_for(StonePart part) {
+    switch (part) {
+        case StonePart::table:
+            return "table";
+        case StonePart::crown:
+            return "crown";
+        case StonePart::girdle:
+            return "girdle";
+        case StonePart::pavilion:
+            return "pavilion";
+        case StonePart::culet:
+            break;
+    }
+    return "culet";
+}
+
+void describe_cutting(const Solid& solid, const CutSheet& sheet, Description& about) {
+    Json list = Json::array();
+    about.lines.push_back(
+        fmt::format("{:<8} {:<9} {:>16}  index of {:g}", "tier", "part", "angle", sheet.gear));
+    for (const CuttingStep& step : cutting_list(solid, sheet)) {
+        list.push_back({{"tier", step.tier},
+                        {"part", word_for(step.part)},
+                        {"angle", step.angle_deg},
+                        {"angle_min", step.least_angle_deg},
+                        {"angle_max", step.most_angle_deg},
+                        {"indices", step.indices}});
+        const bool alike = step.most_angle_deg - step.least_angle_deg < 0.005;
+        std::string indices;
+        for (const double index : step.indices) {
+            // To a hundredth of a tooth, 0.04 degrees on a wheel of 96.
+            indices +=
+                fmt::format("{}{:g}", indices.empty() ? "" : " ", std::round(100 * index) / 100);
+        }
+        about.lines.push_back(fmt::format(
+            "{:<8} {:<9} {:>16}  {}", step.tier, word_for(step.part),
+            alike ? fmt::format("{:.2f}", step.angle_deg)
+                  : fmt::format("{:.2f} to {:.2f}", step.least_angle_deg, step.most_angle_deg),
+            step.part == StonePart::table || step.part == StonePart::culet ? "any" : indices));
+    }
+    about.object["gear"] = sheet.gear;
+    about.object["cutting_list"] = std::move(list);
+}
+
 void describe_sheet(const CutSheet& sheet, Description& about) {
     Json& object = about.object;
     object["gear"] = sheet.gear;
@@ -142,6 +189,11 @@ Description describe_solid_file(const DescribeOptions& options) {
     about.lines.push_back(fmt::format("{}: {}", options.file.string(), input.format));
     if (input.sheet) describe_sheet(*input.sheet, about);
     describe_solid(input.solid, !options.may_be_concave, options.facet_table, about);
+    if (options.cutting_list) {
+        CutSheet sheet = input.sheet.value_or(CutSheet{});
+        if (options.gear != 0) sheet.gear = options.gear;
+        describe_cutting(input.solid, sheet, about);
+    }
     for (const std::string& place : input.unused_planes) {
         about.faults.push_back({FaultKind::missing_facet, place + " bounds nothing"});
     }

@@ -114,6 +114,16 @@ TEST_F(BenchForm, FitsTheMeshAsItIsRead) {
     }
 }
 
+// The design's own settings: mains 23 of its oval stand at indices 48 and 96.
+TEST_F(BenchForm, CuttingListOfADesign) {
+    const ProgramRun run = run_culet({"info", k_design, "--cutting-list"});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, ::testing::ContainsRegex("23 +pavilion +33.24 +48 96\n"));
+    const ProgramRun other = run_culet({"info", k_design, "--gear", "64", "--json", "-"});
+    const auto list = nlohmann::json::parse(other.out).at("cutting_list");
+    EXPECT_EQ(list.size(), 21u);  // lines of the file that begin with `a`
+}
+
 TEST_F(BenchForm, WhatCannotBeDoneIsOneLine) {
     const auto error_of = [&](const std::vector<std::string>& arguments) {
         const ProgramRun run = run_culet(arguments);

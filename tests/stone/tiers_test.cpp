@@ -9,6 +9,7 @@
 
 #include "stone/caliper.h"
 #include "stone/cuts/cuts.h"
+#include "stone/cutting_list.h"
 #include "stone/gemcad_io.h"
 #include "stone/output_file.h"
 #include "stone/stone.h"
@@ -150,6 +151,26 @@ TEST(Caliper, OfALongStoneTurned) {
     EXPECT_NEAR(w.least_azimuth, 120 * std::numbers::pi / 180, 1e-12);
     EXPECT_FALSE(w.round());
     EXPECT_EQ(caliper_widths({}).largest, 0);
+}
+
+// Read back what the design was made of: angles and teeth, on another wheel too.
+TEST(CuttingList, IsTheDesigns) {
+    const ReadCut cut = parse_gemcad_asc(k_head + k_crown + k_rest);
+    const auto list = cutting_list(cut.solid, cut.sheet);
+    ASSERT_EQ(list.size(), 4u);
+    const char* const tiers[] = {"1", "G", "A", "T"};
+    const double angles[] = {41, 90, 40, 0};
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(list[i].tier, tiers[i]);
+        EXPECT_NEAR(list[i].angle_deg, angles[i], 1e-12);
+        EXPECT_NEAR(list[i].most_angle_deg, angles[i], 1e-12);
+    }
+    ASSERT_EQ(list[0].indices.size(), 4u);
+    for (std::size_t i = 0; i < 4; ++i)
+        EXPECT_NEAR(list[0].indices[i], 24.0 * double(i + 1), 1e-12);
+    CutSheet sheet;
+    sheet.gear = 64;
+    EXPECT_NEAR(cutting_list(cut.solid, sheet)[2].indices[1], 32, 1e-12);
 }
 
 TEST(WrittenNumbers, AreReadAsPeopleWriteThem) {
