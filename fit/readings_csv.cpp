@@ -188,8 +188,7 @@ public:
           width_(header.fields.size()),
           separator_(separator) {}
 
-    WrittenReading reading(CsvRow row) const {
-        while (row.fields.size() > width_ && row.fields.back().empty()) row.fields.pop_back();
+    WrittenReading reading(const CsvRow& row) const {
         if (row.fields.size() > width_) {
             throw InputError(
                 file_, row.line,
