@@ -43,7 +43,14 @@ std::vector<std::string> form_of(const InfoOptions& options) {
         stone.convex = !options.describe.may_be_concave;
         stone.solid = load_solid(file, options.describe.cut).solid;
         if (options.describe.width_mm > 0) scale_to_width(stone.solid, options.describe.width_mm);
-        return write_form(options.form, std::move(stone), false, file);
+        std::vector<std::string> lines = write_form(options.form, std::move(stone), false, file);
+        if (options.describe.width_mm > 0 && !options.form.stone.empty()) {
+            lines.push_back(fmt::format(
+                "{} names the mesh as it is: the fit scales it to the lengths that were read "
+                "(culet convert --width writes a scaled one)",
+                options.form.stone.string()));
+        }
+        return lines;
     }
     const bool is_stone =
         extension_of(file) == "toml" &&

@@ -101,7 +101,7 @@ void Binder::refuse_kind() const {
     throw InputError(
         written_->file, written_->line,
         fmt::format("unknown kind of reading '{}'{}; known are {}", written_->kind,
-                    near ? fmt::format(", did you mean {}?", *near) : std::string(), known));
+                    near ? fmt::format(" (did you mean {}?)", *near) : std::string(), known));
 }
 
 void Binder::set_value(Reading& reading) const {

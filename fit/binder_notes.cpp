@@ -22,7 +22,7 @@ std::string lower(std::string text) {
 }
 
 std::string place_of(const WrittenReading& written) {
-    return fmt::format("{}:{}", written.file.filename().string(), written.line);
+    return fmt::format("line {} of {}", written.line, written.file.filename().string());
 }
 
 }  // namespace

@@ -261,8 +261,9 @@ TEST_F(Words, TiersOfADesignAreMeantByTheirNames) {
     EXPECT_THAT(notes_, IsEmpty());
     EXPECT_EQ(rows("inclination,11.*,44,0.1\n").size(), 4u);
     EXPECT_EQ(rows("inclination,1*,41,0.1\n").size(), 8u);
-    EXPECT_THAT(notes_, Contains(AllOf(HasSubstr("r.csv:2"), HasSubstr("several tiers (1, 11)"),
-                                       HasSubstr("1.* is the tier 1 alone"))));
+    EXPECT_THAT(notes_,
+                Contains(AllOf(HasSubstr("line 2 of r.csv"), HasSubstr("several tiers (1, 11)"),
+                               HasSubstr("1.* is the tier 1 alone"))));
     EXPECT_EQ(rows("inclination,11,44,0.1\n").size(), 1u);
     EXPECT_THAT(notes_, Contains(HasSubstr("11 is one facet of the tier 11, which has 4")));
     rows("inclination,11,44,0.1\ninclination,11.1,44,0.1\n");
