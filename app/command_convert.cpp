@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/options.h"
+#include "app/readings_form.h"
 #include "app/solid_input.h"
 #include "app/terminal.h"
 #include "render/povray.h"
@@ -20,6 +21,7 @@ struct ConvertOptions {
     CommonOptions common;
     std::filesystem::path in, out;
     CutReading cut;
+    std::string width;  // empty: as it is
 };
 
 // A scene, for POV-Ray.
@@ -38,7 +40,10 @@ int convert_scene(const ConvertOptions& options) {
 }
 
 int convert(const ConvertOptions& options) {
-    if (extension_of(options.out) == "pov") return convert_scene(options);
+    if (extension_of(options.out) == "pov") {
+        if (!options.width.empty()) throw InputError("--width scales a stone, not a scene");
+        return convert_scene(options);
+    }
     if (!options.common.set.empty()) {
         throw InputError("--set changes keys of a scene: the output must end in .pov");
     }
@@ -47,7 +52,10 @@ int convert(const ConvertOptions& options) {
                          "cannot be written: the name must end in .obj, .off, .ply, .stl or .asc, "
                          "or .pov for a scene");
     }
-    const SolidInput input = load_solid(options.in, options.cut);
+    SolidInput input = load_solid(options.in, options.cut);
+    if (!options.width.empty()) {
+        scale_to_width(input.solid, length_mm(options.width, "--width"));
+    }
     // A mesh may be bent or dented and still be worth converting: it is written as it is.
     const std::vector<Fault> faults =
         find_faults(input.solid, {.planarity = k_largest_miss, .must_be_convex = false});
@@ -93,6 +101,10 @@ void add_command_convert(CLI::App& program, int& exit_code) {
         ->check(CLI::Range(0.0, 0.1))
         ->type_name("FRACTION")
         ->capture_default_str();
+    command
+        ->add_option("--width", options->width,
+                     "scale the stone to this width (W of culet info): the output is in mm")
+        ->type_name("6.5mm");
     add_common(*command, options->common, true);
     command->footer(
         "Names, planes and all digits are kept as far as the format can hold them. A mesh with "
@@ -100,6 +112,7 @@ void add_command_convert(CLI::App& program, int& exit_code) {
         "named on stderr and in the .pov.\n"
         "Examples:\n"
         "  culet convert design.asc design.obj\n"
+        "  culet convert --width 6.5mm design.asc stone.obj\n"
         "  culet convert scan.stl scan.ply\n"
         "  culet convert scene.toml scene.pov --set render.depth=9");
     command->callback([options, &exit_code] { exit_code = convert(*options); });

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/options.h"
+#include "app/readings_form.h"
 #include "app/terminal.h"
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
@@ -22,7 +23,8 @@ namespace {
 
 struct CutOptions {
     CommonOptions common;
-    std::string out, json, material;
+    std::string out, json;
+    FormOptions form;
     std::map<std::string, double> values;
 };
 
@@ -73,8 +75,8 @@ std::string proportions_json(const std::string& name, const Solid& solid,
                                    {"vertices", solid.vertices.size()},
                                    {"edges", edge_count(solid)},
                                    {"volume_mm3", volume(solid)}};
-    if (!options.material.empty()) {
-        const Material material = catalogue_material(options.material);
+    if (!options.form.material.empty()) {
+        const Material material = catalogue_material(options.form.material);
         json["material"] = material.id;
         if (material.density_g_cm3)
             json["weight_ct"] = carat(volume(solid), *material.density_g_cm3);
@@ -107,6 +109,10 @@ int run_cut(const std::string& name, const CutOptions& options) {
     if (!options.out.empty()) require_solid_name(options.out);
     require_writable(options.out);
     require_writable(options.json);
+    require_form(options.form);
+    if (!options.form.readings.empty() && options.out.empty()) {
+        throw InputError("--readings is a form for a mesh: name that too, -o MESH");
+    }
     const Solid solid = make_cut(name, options.values);
     std::string proportions;
     if (!options.json.empty()) {
@@ -127,6 +133,15 @@ int run_cut(const std::string& name, const CutOptions& options) {
                     solid.facets.size(), solid.vertices.size(), width_along(solid, {0, 0, 1}),
                     volume(solid)),
         options.common.quiet || options.json == "-");
+    if (options.form.readings.empty()) return exit_good;
+    Stone stone;
+    stone.name = name;
+    // STL keeps no names: the form is of the mesh as it will be read.
+    stone.solid = read_solid(options.out).solid;
+    stone.convex = cut_kind(name).convex;
+    for (const std::string& line : write_form(options.form, stone, false, options.out)) {
+        say(line, options.common.quiet);
+    }
     return exit_good;
 }
 
@@ -147,7 +162,8 @@ void add_command_cut(CLI::App& program, int& exit_code) {
         "Examples:\n"
         "  culet cut round-brilliant --table 57 --crown-angle 34.5 -o brilliant.obj\n"
         "  culet cut emerald --ratio 1.5 -o emerald.asc --json proportions.json --material "
-        "emerald");
+        "emerald\n"
+        "  culet cut oval --width 6.5mm -o oval.obj --readings form.csv --stone stone.toml");
     for (const CutKind& kind : cut_kinds()) {
         auto options = std::make_shared<CutOptions>();
         CLI::App* cut = command->add_subcommand(kind.name, kind.summary);
@@ -156,12 +172,17 @@ void add_command_cut(CLI::App& program, int& exit_code) {
             ->type_name("MESH");
         cut->add_option("--json", options->json, "the resulting proportions (- is stdout)")
             ->type_name("FILE");
-        cut->add_option("--material", options->material, "for the weight in the proportions")
+        cut->add_option("--material", options->form.material,
+                        "for the weight in the proportions and the form, and the stone file")
             ->type_name("NAME");
+        add_form_options(*cut, options->form);
         for (const CutParameter& p : kind.parameters) {
-            cut->add_option_function<double>(
+            // 6.5, 6.5mm, 57%: with the unit or without.
+            cut->add_option_function<std::string>(
                    "--" + p.name,
-                   [options, key = p.name](double value) { options->values[key] = value; },
+                   [options, key = p.name, unit = p.unit](const std::string& text) {
+                       options->values[key] = number_in_unit(text, unit, "--" + key);
+                   },
                    fmt::format("{}, {} to {} {}, default {}", p.what, p.least, p.most, p.unit,
                                p.value))
                 ->type_name(p.unit.empty() ? "X" : p.unit);

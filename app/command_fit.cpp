@@ -61,7 +61,8 @@ int run_fit(const FitCommand& command) {
     const auto written = read_readings(command.stone, command.common.set);
     const Mended mesh = mended(file.stone, written);
     file.stone = mesh.stone;
-    const auto readings = bind_readings(written, file.stone);
+    std::vector<std::string> notes = mesh.notes;
+    const auto readings = bind_readings(written, file.stone, &notes);
     FitOptions options = read_fit_options(command.stone, command.common.set);
     if (command.iterations > 0) options.iterations = command.iterations;
     if (command.starts > 0) options.starts = command.starts;
@@ -77,7 +78,7 @@ int run_fit(const FitCommand& command) {
             throw InputError(file.mesh_file, error.what());
         }
     }();
-    result.notes.insert(result.notes.begin(), mesh.notes.begin(), mesh.notes.end());
+    result.notes.insert(result.notes.begin(), notes.begin(), notes.end());
     write_solid(result.solid, command.output);
     const std::string report = fit_report(result);
     if (!command.report.empty()) write_text(command.report, report);

@@ -4,9 +4,12 @@
 
 #include "app/describe.h"
 #include "app/options.h"
+#include "app/readings_form.h"
 #include "app/solid_input.h"
+#include "app/terminal.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "stone/stone_io.h"
 #include "stone/toml_file.h"
 
 namespace culet {
@@ -19,6 +22,8 @@ struct InfoOptions {
     CommonOptions common;
     DescribeOptions describe;
     std::filesystem::path json;
+    FormOptions form;
+    std::string width;
 };
 
 // One line, whatever a name or a heading of the file holds.
@@ -29,9 +34,51 @@ std::string printable(std::string text) {
     return text;
 }
 
+// The form for the stone of a file: a mesh, a cut design or a stone file.
+std::vector<std::string> form_of(const InfoOptions& options) {
+    const std::filesystem::path& file = options.describe.file;
+    if (is_solid_file(file)) {
+        Stone stone;
+        stone.name = file.stem().string();
+        stone.convex = !options.describe.may_be_concave;
+        stone.solid = load_solid(file, options.describe.cut).solid;
+        if (options.describe.width_mm > 0) scale_to_width(stone.solid, options.describe.width_mm);
+        std::vector<std::string> lines = write_form(options.form, std::move(stone), false, file);
+        if (options.describe.width_mm > 0 && !options.form.stone.empty()) {
+            lines.push_back(fmt::format(
+                "{} names the mesh as it is: the fit scales it to the lengths that were read "
+                "(culet convert --width writes a scaled one)",
+                options.form.stone.string()));
+        }
+        return lines;
+    }
+    const bool is_stone =
+        extension_of(file) == "toml" &&
+        read_toml(file, options.common.set).kind("stone") == TomlTable::Kind::table;
+    if (!is_stone) {
+        throw InputError(file, "--readings is for a stone: a mesh, a cut design or a stone file");
+    }
+    if (!options.form.stone.empty())
+        throw InputError(file, "--stone: this is a stone file already");
+    StoneFile read = read_stone(file, options.common.set);
+    if (read.density_g_cm3) read.stone.material.density_g_cm3 = read.density_g_cm3;
+    return write_form(options.form, read.stone, read.has_material, read.mesh_file);
+}
+
 int info(InfoOptions options) {
     options.describe.facet_table = options.common.verbose;
     options.describe.overrides = options.common.set;
+    require_form(options.form);
+    if (!options.width.empty()) {
+        if (!is_solid_file(options.describe.file)) {
+            throw InputError(options.describe.file, "--width scales a mesh or a cut design");
+        }
+        options.describe.width_mm = length_mm(options.width, "--width");
+    }
+    if (options.describe.gear != 0) options.describe.cutting_list = true;
+    if (options.describe.cutting_list && !is_solid_file(options.describe.file)) {
+        throw InputError(options.describe.file, "--cutting-list is of a mesh or a cut design");
+    }
     const Description about = describe_file(options.describe);
     Json object{{"schema", 1}, {"file", options.describe.file.string()}};
     object.update(about.object);
@@ -40,11 +87,14 @@ int info(InfoOptions options) {
     for (const Fault& fault : about.faults) {
         object["faults"].push_back({{"kind", name_of(fault.kind)}, {"what", fault.what}});
     }
+    const std::vector<std::string> form =
+        options.form.readings.empty() ? std::vector<std::string>() : form_of(options);
     if (!options.json.empty()) {
         // Names in a file need not be UTF-8; JSON must be.
         write_text(options.json, object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     }
-    if (options.json != "-") {
+    for (const std::string& line : form) say(line, options.common.quiet);
+    if (options.json != "-" && options.form.readings != "-") {
         for (const std::string& line : about.lines) fmt::print("{}\n", printable(line));
         for (const std::string& note : about.notes) fmt::print("note: {}\n", printable(note));
         for (const Fault& fault : about.faults) {
@@ -129,6 +179,22 @@ void add_command_info(CLI::App& program, int& exit_code) {
         ->check(CLI::Range(0.0, 0.1))
         ->type_name("FRACTION")
         ->capture_default_str();
+    command
+        ->add_option("--width", options->width,
+                     "tell of a mesh or cut design at this width (W), in mm")
+        ->type_name("6.5mm");
+    command->add_flag("--cutting-list", options->describe.cutting_list,
+                      "of a mesh or cut design: angle and index settings, tier by tier");
+    command
+        ->add_option("--gear", options->describe.gear,
+                     "teeth of the index wheel of the cutting list (the design's own, or 96)")
+        ->check(CLI::Range(1.0, 1e6))
+        ->type_name("TEETH");
+    add_form_options(*command, options->form);
+    command
+        ->add_option("--material", options->form.material,
+                     "for the weight in the form, and the stone file")
+        ->type_name("NAME");
     command->add_flag("--may-be-concave", options->describe.may_be_concave,
                       "a dented stone is no fault");
     add_common(*command, options->common, true);
@@ -136,7 +202,8 @@ void add_command_info(CLI::App& program, int& exit_code) {
         "-v lists every facet. Exit code 1 when there are faults.\n"
         "Examples:\n"
         "  culet info design.asc\n"
-        "  culet info hand.obj -v --json hand.json");
+        "  culet info hand.obj -v --json hand.json\n"
+        "  culet info design.asc --width 6.5mm --material sapphire --readings form.csv");
     command->callback([options, materials, &exit_code] {
         if (*materials) return list_materials();
         if (options->describe.file.empty()) throw InputError("name a file, or use --materials");

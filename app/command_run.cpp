@@ -71,8 +71,10 @@ int run_job(const RunOptions& options) {
     require_material(file, job.stone);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
     const auto written = read_readings(job.stone);
-    file.stone = mended(file.stone, written).stone;
-    const auto readings = bind_readings(written, file.stone);
+    const Mended mesh = mended(file.stone, written);
+    file.stone = mesh.stone;
+    std::vector<std::string> notes = mesh.notes;
+    const auto readings = bind_readings(written, file.stone, &notes);
     const FitOptions fit_options = read_fit_options(job.stone);
     Scene scene = read_scene(job.scene, {}, &file.stone);
     scene.settings.threads = options.common.threads;
@@ -96,8 +98,8 @@ int run_job(const RunOptions& options) {
     if (problem) throw InputError(folder, fmt::format("cannot be made: {}", problem.message()));
     require_writable(folder / "report.html");
 
-    const FitResult fit =
-        fit_stone(file.stone, readings, fit_options, progress_line("fitting", quiet));
+    FitResult fit = fit_stone(file.stone, readings, fit_options, progress_line("fitting", quiet));
+    fit.notes.insert(fit.notes.begin(), notes.begin(), notes.end());
     say(fmt::format("fit: {}: {}", name_of(fit.status), fit.message), quiet);
 
     scene.stone.solid = fit.solid;

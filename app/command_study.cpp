@@ -55,8 +55,9 @@ int run_study(const StudyCommand& command) {
     const auto written = read_readings(command.input, command.common.set);
     const Mended mesh = mended(file.stone, written);
     file.stone = mesh.stone;
-    for (const std::string& note : mesh.notes) say(note, command.common.quiet);
-    const auto readings = bind_readings(written, file.stone);
+    std::vector<std::string> notes = mesh.notes;
+    const auto readings = bind_readings(written, file.stone, &notes);
+    for (const std::string& note : notes) say(note, command.common.quiet);
     if (readings.empty()) {
         throw InputError(command.input, "has no readings: there is nothing to study");
     }

@@ -25,6 +25,9 @@ struct DescribeOptions {
     CutReading cut;
     bool may_be_concave = false;
     bool facet_table = false;
+    bool cutting_list = false;
+    double gear = 0;      ///< of the cutting list; 0: the design's own, or 96
+    double width_mm = 0;  ///< of a mesh or a cut design: scaled to this; 0: as it is
 };
 
 /// By extension; TOML files by their tables. Throws InputError for a kind that it does not know.

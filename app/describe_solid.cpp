@@ -1,7 +1,12 @@
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "app/describe.h"
+#include "app/readings_form.h"
 #include "app/solid_input.h"
+#include "stone/caliper.h"
+#include "stone/cutting_list.h"
 #include "stone/proportions.h"
 #include "stone/stone.h"
 #include "stone/units.h"
@@ -58,6 +63,62 @@ void describe_proportions(const Solid& solid, Description& about) {
     line += fmt::format(", P/W {:.4f}, C/W {:.4f}, H/W {:.4f}", p.pavilion / p.width,
                         p.crown / p.width, p.height / p.width);
     about.lines.push_back(line);
+    const CaliperWidths widths = caliper_widths(solid);
+    object["caliper"] = {{"min", widths.least},
+                         {"max", widths.largest},
+                         {"mean", widths.mean},
+                         {"min_azimuth", degrees(widths.least_azimuth)},
+                         {"max_azimuth", degrees(widths.largest_azimuth)},
+                         {"corners", widths.corners}};
+    about.lines.push_back(fmt::format(
+        "caliper {:.4g} (azimuth {:.4g}) to {:.4g} (azimuth {:.4g}), mean {:.4g}{}", widths.least,
+        degrees(widths.least_azimuth), widths.largest, degrees(widths.largest_azimuth), widths.mean,
+        widths.round() ? fmt::format("; the outline has {} corners", widths.corners)
+                       : std::string()));
+}
+
+const char* word_for(StonePart part) {
+    switch (part) {
+        case StonePart::table:
+            return "table";
+        case StonePart::crown:
+            return "crown";
+        case StonePart::girdle:
+            return "girdle";
+        case StonePart::pavilion:
+            return "pavilion";
+        case StonePart::culet:
+            break;
+    }
+    return "culet";
+}
+
+void describe_cutting(const Solid& solid, const CutSheet& sheet, Description& about) {
+    Json list = Json::array();
+    about.lines.push_back(
+        fmt::format("{:<8} {:<9} {:>16}  index of {:g}", "tier", "part", "angle", sheet.gear));
+    for (const CuttingStep& step : cutting_list(solid, sheet)) {
+        list.push_back({{"tier", step.tier},
+                        {"part", word_for(step.part)},
+                        {"angle", step.angle_deg},
+                        {"angle_min", step.least_angle_deg},
+                        {"angle_max", step.most_angle_deg},
+                        {"indices", step.indices}});
+        const bool alike = step.most_angle_deg - step.least_angle_deg < 0.005;
+        std::string indices;
+        for (const double index : step.indices) {
+            // To a hundredth of a tooth, 0.04 degrees on a wheel of 96.
+            indices +=
+                fmt::format("{}{:g}", indices.empty() ? "" : " ", std::round(100 * index) / 100);
+        }
+        about.lines.push_back(fmt::format(
+            "{:<8} {:<9} {:>16}  {}", step.tier, word_for(step.part),
+            alike ? fmt::format("{:.2f}", step.angle_deg)
+                  : fmt::format("{:.2f} to {:.2f}", step.least_angle_deg, step.most_angle_deg),
+            step.part == StonePart::table || step.part == StonePart::culet ? "any" : indices));
+    }
+    about.object["gear"] = sheet.gear;
+    about.object["cutting_list"] = std::move(list);
 }
 
 void describe_sheet(const CutSheet& sheet, Description& about) {
@@ -120,13 +181,19 @@ void describe_solid(const Solid& solid, bool must_be_convex, bool facet_table, D
 }
 
 Description describe_solid_file(const DescribeOptions& options) {
-    const SolidInput input = load_solid(options.file, options.cut);
+    SolidInput input = load_solid(options.file, options.cut);
+    if (options.width_mm > 0) scale_to_width(input.solid, options.width_mm);
     Description about;
     about.notes = input.notes;
     about.object["format"] = input.format;
     about.lines.push_back(fmt::format("{}: {}", options.file.string(), input.format));
     if (input.sheet) describe_sheet(*input.sheet, about);
     describe_solid(input.solid, !options.may_be_concave, options.facet_table, about);
+    if (options.cutting_list) {
+        CutSheet sheet = input.sheet.value_or(CutSheet{});
+        if (options.gear != 0) sheet.gear = options.gear;
+        describe_cutting(input.solid, sheet, about);
+    }
     for (const std::string& place : input.unused_planes) {
         about.faults.push_back({FaultKind::missing_facet, place + " bounds nothing"});
     }

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
 #include "fit/slips.h"
 #include "stone/errors.h"
+#include "stone/tiers.h"
 
 namespace culet {
 
@@ -14,6 +16,8 @@ namespace {
 
 // A hand-made mesh's inclinations are hardly further off.
 constexpr double k_slip_tolerance_deg = 12;
+// Beyond upright by more than this is no scatter of an instrument.
+constexpr double k_over_upright_deg = 2;
 
 }  // namespace
 
@@ -32,23 +36,30 @@ Binder::Binder(const Stone& stone, const std::vector<WrittenReading>& all)
     for (std::size_t i = 0; i < stone.solid.facets.size(); ++i) {
         facet_of_name_.emplace(stone.solid.facets[i].name, static_cast<int>(i));
     }
+    tier_of_ = tier_names_of(stone.solid);
 }
 
 std::vector<Reading> Binder::bind(const WrittenReading& written, const std::string& id) {
     written_ = &written;
-    const auto kind = reading_kind(written.kind);
-    if (!kind) refuse_kind();
+    const auto word = kind_word(written.kind);
+    if (!word) refuse_kind();
+    const ReadingKind kind = word->kind;
+    if (written.skipped) return {};
     Reading base;
     base.id = id;
-    base.kind = *kind;
+    base.kind = kind;
     base.exact = written.exact;
     base.released = written.released;
     base.note = written.note;
     base.file = written.file;
     base.line = written.line;
     set_value(base);
-    base.datum = datum(*kind);
-    switch (*kind) {
+    if (word->trade == KindWord::Trade::index) from_index(base);
+    base.datum = datum(kind);
+    if (word->trade != KindWord::Trade::none && written.of.empty()) {
+        return of_trade(base, word->trade);
+    }
+    switch (kind) {
         case ReadingKind::inclination:
         case ReadingKind::azimuth:
             return of_one_facet(base);
@@ -86,9 +97,11 @@ void Binder::refuse_kind() const {
     for (int i = 0; i <= static_cast<int>(ReadingKind::mirror); ++i) {
         known += std::string(i == 0 ? "" : ", ") + name_of(static_cast<ReadingKind>(i));
     }
+    const auto near = near_kind_word(written_->kind);
     throw InputError(
         written_->file, written_->line,
-        fmt::format("unknown kind of reading '{}'; known are {}", written_->kind, known));
+        fmt::format("unknown kind of reading '{}'{}; known are {}", written_->kind,
+                    near ? fmt::format(" (did you mean {}?)", *near) : std::string(), known));
 }
 
 void Binder::set_value(Reading& reading) const {
@@ -99,8 +112,8 @@ void Binder::set_value(Reading& reading) const {
     } else if (!w.value) {
         fail("value is missing");
     } else {
-        reading.value = *w.value;
-        if (!std::isfinite(reading.value)) fail("value is not a finite number");
+        if (!std::isfinite(*w.value)) fail("value is not a finite number");
+        reading.value = counted(*w.value, w.value_unit, "value", reading.kind);
     }
     if (w.rounding) {
         if (!(*w.rounding > 0) || !std::isfinite(*w.rounding)) {
@@ -110,7 +123,7 @@ void Binder::set_value(Reading& reading) const {
                             *w.rounding));
         }
         if (is_relation(reading.kind)) fail("takes no rounding: it has no value");
-        reading.rounding = *w.rounding;
+        reading.rounding = counted(*w.rounding, w.rounding_unit, "rounding", reading.kind);
     }
     if (w.sigma) {
         if (!std::isfinite(*w.sigma)) fail("sigma is not a finite number");
@@ -120,11 +133,29 @@ void Binder::set_value(Reading& reading) const {
                             "give exact = true",
                             *w.sigma));
         }
-        reading.sigma = *w.sigma;
+        reading.sigma = counted(*w.sigma, w.sigma_unit, "sigma", reading.kind);
     } else if (!w.exact && !w.released && reading.kind != ReadingKind::meet && !w.rounding) {
         fail("sigma is missing (one standard uncertainty), or give exact = true");
     }
     if (w.exact && w.released) fail("cannot be exact and released");
+    // A girdle facet that leans the other way by as little as the instrument may be off.
+    if (reading.kind == ReadingKind::inclination && reading.value > 90 &&
+        reading.value <= 90 + std::min(3 * reading.sigma, k_over_upright_deg)) {
+        note(fmt::format("{:g} degrees count as {:g}: an upright facet, to within its sigma",
+                         reading.value, 180 - reading.value));
+        reading.value = 180 - reading.value;
+    }
+    // A tooth is no angle yet.
+    if (kind_word(w.kind)->trade != KindWord::Trade::index) refuse_value(reading);
+    if (measure_of(reading.kind) == WrittenUnit::Of::angle) {
+        reading.value = radians(reading.value);
+        reading.sigma = radians(reading.sigma);
+        reading.rounding = radians(reading.rounding);
+    }
+}
+
+// Degrees still.
+void Binder::refuse_value(const Reading& reading) const {
     const double v = reading.value;
     switch (reading.kind) {
         case ReadingKind::inclination:
@@ -159,14 +190,6 @@ void Binder::set_value(Reading& reading) const {
             break;
         default:
             break;
-    }
-    const bool angular = is_angle(reading.kind) || reading.kind == ReadingKind::parallel ||
-                         reading.kind == ReadingKind::rotation ||
-                         reading.kind == ReadingKind::mirror;
-    if (angular) {
-        reading.value = radians(reading.value);
-        reading.sigma = radians(reading.sigma);
-        reading.rounding = radians(reading.rounding);
     }
 }
 

@@ -141,9 +141,11 @@ Reading Binder::along_direction(const Reading& base) const {
         reading.direction = direction / length;
         reading.has_direction = true;
     } else {
-        fail(base.kind == ReadingKind::width
-                 ? "expected an azimuth in degrees (45) or a vector (1 0 0) in `of`"
-                 : "expected an azimuth in degrees in `of`");
+        fail(
+            base.kind == ReadingKind::width
+                ? "expected an azimuth in degrees (45) or a vector (1 0 0) in `of`; the width of a "
+                  "round stone in no particular direction is a `diameter`"
+                : "expected an azimuth in degrees in `of`");
     }
     if (base.kind == ReadingKind::table_width && stone_.up_facet.empty()) {
         fail("needs to know the table: set `up` of [stone] to its facet name");

@@ -8,6 +8,7 @@
 #include "fit/binder.h"
 #include "fit/unknown_facet.h"
 #include "stone/errors.h"
+#include "stone/tiers.h"
 #include "stone/toml_file.h"
 
 namespace culet {
@@ -28,32 +29,12 @@ std::string near_names(const Solid& solid, const std::string& name) {
     return text;
 }
 
-// `*` stands for any run of characters.
-bool matches(std::string_view pattern, std::string_view name) {
-    std::size_t p = 0, n = 0, star = std::string_view::npos, resume = 0;
-    while (n < name.size()) {
-        if (p < pattern.size() && pattern[p] == '*') {
-            star = p++;
-            resume = n;
-        } else if (p < pattern.size() && pattern[p] == name[n]) {
-            ++p;
-            ++n;
-        } else if (star != std::string_view::npos) {
-            p = star + 1;
-            n = ++resume;
-        } else {
-            return false;
-        }
-    }
-    while (p < pattern.size() && pattern[p] == '*') ++p;
-    return p == pattern.size();
-}
-
 }  // namespace
 
 int Binder::facet(const std::string& name) const {
     const auto found = facet_of_name_.find(name);
     if (found == facet_of_name_.end()) {
+        if (const int other = facet_in_other_case(name); other >= 0) return other;
         fail(fmt::format("the mesh has no facet '{}' (near: {}){}", name,
                          near_names(stone_.solid, name), where_it_may_lie(name, all_, stone_)));
     }
@@ -90,19 +71,21 @@ Binder::NamedFacets Binder::facets(const std::string& name) const {
 void Binder::add_facets(const std::string& name, NamedFacets& to) const {
     if (name.empty()) fail("an empty facet name");
     if (facet_of_name_.count(name) > 0 || name.find('*') == std::string::npos) {
+        if (to.aggregate == Aggregate::single) note_first_of_tier(name);
         to.facets.push_back(facet(name));
         return;
     }
     to.is_pattern = true;
-    std::size_t found = 0;
+    std::vector<int> found;
     for (std::size_t i = 0; i < stone_.solid.facets.size(); ++i) {
-        if (!matches(name, stone_.solid.facets[i].name)) continue;
-        to.facets.push_back(static_cast<int>(i));
-        ++found;
+        if (name_matches(name, stone_.solid.facets[i].name)) found.push_back(static_cast<int>(i));
     }
-    if (found == 0) {
+    if (found.empty()) found = facets_in_other_case(name);
+    if (found.empty()) {
         fail(fmt::format("no facet matches '{}' (near: {})", name, near_names(stone_.solid, name)));
     }
+    if (to.aggregate == Aggregate::single) note_tiers(name, found);
+    to.facets.insert(to.facets.end(), found.begin(), found.end());
 }
 
 Place Binder::place(const std::string& name) const {

@@ -12,7 +12,14 @@
 
 namespace culet {
 
-std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, const Stone& stone) {
+std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, const Stone& stone,
+                                   std::vector<std::string>* notes) {
+    const std::size_t skipped = skipped_readings(written);
+    if (skipped > 0 && skipped == written.size()) {
+        throw InputError(written[0].file,
+                         "no row has a value yet: write what was read into the column `value`; "
+                         "rows that stay empty are skipped");
+    }
     Binder binder(stone, written);
     std::set<std::string> given;
     for (const WrittenReading& w : written) given.insert(w.id);
@@ -37,6 +44,13 @@ std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, c
     }
     refuse_level_azimuths(readings, stone);
     refuse_other_units(readings, stone);
+    if (notes != nullptr) {
+        for (std::string& note : binder.notes()) notes->push_back(std::move(note));
+        if (skipped > 0) {
+            notes->push_back(
+                fmt::format("{} row{} without a value skipped", skipped, skipped == 1 ? "" : "s"));
+        }
+    }
     return readings;
 }
 

@@ -81,6 +81,24 @@ public:
         return q;
     }
 
+    // The two corners of the hull that lie furthest apart.
+    Quantity widest() const {
+        int from = hull_[0], to = hull_[1];
+        double most = 0;
+        for (std::size_t i = 0; i < hull_.size(); ++i) {
+            for (std::size_t j = i + 1; j < hull_.size(); ++j) {
+                const double apart = glm::length(
+                    flat(places_[std::size_t(hull_[j])] - places_[std::size_t(hull_[i])]));
+                // Of equal ones, to rounding, the first.
+                if (apart <= most * (1 + 1e-12)) continue;
+                most = apart;
+                from = hull_[i];
+                to = hull_[j];
+            }
+        }
+        return plan_distance(from, to);
+    }
+
     // The hull edge whose opposite jaw stands nearest.
     struct Jaws {
         int from = -1, to = -1, opposite = -1;
@@ -333,6 +351,9 @@ std::vector<CutQuantity> cut_quantities(const System& system, const Shape& shape
     if (round) put("diameter", unit, diameter, system.scale());
     put("width", unit, width, system.scale());
     put("length", unit, length, system.scale());
+    put("caliper min", unit, width, system.scale());
+    put("caliper max", unit, cut.widest(), system.scale());
+    put("caliper mean", unit, diameter, system.scale());
     put("length/width", "", ratio(length, width), 1);
     const Quantity top = cut.top(), bottom = cut.height_of(cut.extreme(-1));
     Quantity depth = top;

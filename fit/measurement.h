@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "stone/stone.h"
+#include "stone/written_number.h"
 
 namespace culet {
 
@@ -39,7 +40,8 @@ bool is_relation(ReadingKind kind);
 /// Its value is an angle: degrees in files, radians when bound.
 bool is_angle(ReadingKind kind);
 
-/// One reading as it stands in a file.
+/// One reading as it stands in a file. Numbers count in their own unit where one is written, else
+/// in that of their kind.
 struct WrittenReading {
     std::string id;  ///< empty: none given
     std::string kind;
@@ -49,7 +51,12 @@ struct WrittenReading {
     std::string datum, note;
     std::filesystem::path file;
     long line = 0;
+    WrittenUnit value_unit, sigma_unit, rounding_unit;
+    bool skipped = false;  ///< a row of a form without its value: takes no part
 };
+
+/// How many of them were skipped.
+std::size_t skipped_readings(const std::vector<WrittenReading>& written);
 
 /// The [[reading]] tables of a stone file, then the rows of its `readings` file. Throws InputError
 /// with file and line for what is not a reading at all.
@@ -58,7 +65,9 @@ std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_fil
 
 /// The rows of a readings.csv: header `kind,of,value,sigma` and any of `exact`, `released`,
 /// `datum`, `id`, `note`, `rounding`, in any order. Fields may be quoted; `#` starts a comment
-/// line.
+/// line. What parts fields is told by the header line: `;`, a tab or `,`. Numbers may have a
+/// decimal comma (between commas only in quotes) and a unit. A row whose kind needs a value and has
+/// none is `skipped`.
 std::vector<WrittenReading> read_readings_csv(const std::filesystem::path& file);
 
 /// Several facets may share one reading through mean(), min() and max().
@@ -105,7 +114,10 @@ struct Reading {
 /// Finds every name on the solid and gives every reading its id. A pattern over single facets makes
 /// one reading a facet, with `.NAME` after the id. Throws InputError, with file and line, for names
 /// that are not there (naming near ones), a wrong number of names, values and uncertainties that
-/// cannot be, repeated ids, and lengths that look like another unit.
-std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, const Stone& stone);
+/// cannot be, repeated ids, and lengths that look like another unit; and when all rows of a form
+/// are empty. A trade's word may make several readings (docs/stone-files.md). `notes`, when given,
+/// gets a line for everything that was taken for what it does not quite say.
+std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, const Stone& stone,
+                                   std::vector<std::string>* notes = nullptr);
 
 }  // namespace culet

@@ -243,7 +243,7 @@ Mended mended(const Stone& stone, const std::vector<WrittenReading>& readings) {
                                                *count == 1 ? " was" : "s were"));
         }
     }
-    if (is_closed(solid)) {
+    if (is_closed(solid) && !stone.facets_are_whole) {
         Solid whole = solid;
         const std::vector<std::string> joined = join_pieces(whole, read);
         if (!joined.empty() && whole.facets.size() >= 4 && is_closed(whole)) {

@@ -20,7 +20,8 @@ struct Mended {
 /// never two of one facet, until there are as many as a closed surface of these facets has (Euler).
 /// Pieces NAME, NAME.1, NAME.2, ... become one facet when they hang together, face the same way
 /// within 15 degrees (40 for a polygon cut into triangles whose name is read, more for pieces too
-/// narrow to tell) and have one outline, unless a reading names one of them but the first. Facets
+/// narrow to tell) and have one outline, unless a reading names one of them but the first, or the
+/// stone says that its facets are whole. Facets
 /// that run the other way round than their neighbours are turned. What cannot be mended stays.
 Mended mended(const Stone& stone, const std::vector<WrittenReading>& readings = {});
 

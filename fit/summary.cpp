@@ -185,6 +185,23 @@ std::string own_axis(const FitResult& result) {
         degrees(axis.tilt), degrees(sigma), degrees(axis.azimuth));
 }
 
+std::string calipers(const FitResult& result) {
+    const auto value = [&](const char* name) {
+        const auto found = std::find_if(result.proportions.begin(), result.proportions.end(),
+                                        [&](const FittedProportion& p) { return p.name == name; });
+        return found == result.proportions.end() ? 0.0 : found->value;
+    };
+    const double least = value("caliper min"), most = value("caliper max");
+    if (!(least > 0)) return {};
+    return fmt::format(
+        "In plan this stone is {:.4g} {} wide at the least and {:.4g} at the most, {:.4g} on "
+        "average{}.",
+        least, name_of(result.unit), most, value("caliper mean"),
+        value("diameter") > 0 && most > 1.005 * least
+            ? " (its girdle is drawn with flats: calipers read the largest from corner to corner)"
+            : "");
+}
+
 std::string next_reading(const FitResult& result) {
     if (result.help.empty()) return {};
     const NextReading& best = result.help.front();
@@ -233,6 +250,7 @@ std::vector<std::string> fit_summary(const FitResult& result) {
         if (sentences.front().find(note) == std::string::npos) add(sentence_of(note));
     }
     for (const std::string& change : result.changes) add(sentence_of("changed: " + change));
+    if (stands) add(calipers(result));
     if (stands) add(least_sure(result));
     add(doubtful(result));
     add(disagreeing(result));

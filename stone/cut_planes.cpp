@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 #include <numbers>
+#include <set>
 
 #include "stone/errors.h"
 #include "stone/face_soup.h"
@@ -73,6 +75,20 @@ CutSetting setting_of(const Plane& plane, const CutSheet& sheet) {
     return setting;
 }
 
+std::vector<std::string> tier_names(const std::vector<CutPlane>& planes) {
+    std::map<int, std::set<std::string>> names;
+    for (const CutPlane& p : planes) {
+        if (!p.name.empty()) names[p.tier].insert(p.name);
+    }
+    std::vector<std::string> of_plane;
+    for (const CutPlane& p : planes) {
+        const auto found = names.find(p.tier);
+        const bool one = p.tier >= 0 && found != names.end() && found->second.size() == 1;
+        of_plane.push_back(one ? *found->second.begin() : std::string());
+    }
+    return of_plane;
+}
+
 void build_solid(ReadCut& cut, const std::vector<CutPlane>& planes, const CutReading& how,
                  const std::filesystem::path& file) {
     if (planes.empty()) throw InputError(file, "holds no facets");
@@ -126,11 +142,14 @@ void build_solid(ReadCut& cut, const std::vector<CutPlane>& planes, const CutRea
     }
 
     // The facets still carry the numbers of their planes.
-    std::vector<std::string> names;
+    const std::vector<std::string> tiers = tier_names(planes);
+    std::vector<std::string> names, of_tier;
     for (const Facet& facet : cut.solid.facets) {
-        names.push_back(origin[std::stoul(facet.name)]->name);
+        const CutPlane* const plane = origin[std::stoul(facet.name)];
+        names.push_back(plane->name);
+        of_tier.push_back(tiers[static_cast<std::size_t>(plane - planes.data())]);
     }
-    names = told_apart(std::move(names));
+    names = told_apart(std::move(names), of_tier);
     for (std::size_t i = 0; i < names.size(); ++i) cut.solid.facets[i].name = std::move(names[i]);
 
     if (cut.contracted_edges > 0) {

@@ -29,7 +29,12 @@ CutSetting setting_of(const Plane& plane, const CutSheet& sheet);
 struct CutPlane {
     Plane plane;
     std::string name, place;
+    int tier = -1;  ///< facets of one line of the design
 };
+
+/// Of each plane the name of its tier: the one name that its facets are given, however many of them
+/// are given it. Empty where a tier has none, or several: those are its facets' own.
+std::vector<std::string> tier_names(const std::vector<CutPlane>& planes);
 
 /// Fills in solid, notes and lists of planes. Throws InputError.
 void build_solid(ReadCut& cut, const std::vector<CutPlane>& planes, const CutReading& how,

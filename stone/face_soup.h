@@ -71,7 +71,9 @@ std::string plane_comments(const Solid& solid, std::string_view sign);
 std::string writable_name(std::string_view name);
 
 /// `names` with later repetitions told apart by .1, .2 ...; empty ones become f0, f1 ... in order,
-/// passing over names that are taken.
-std::vector<std::string> told_apart(std::vector<std::string> names);
+/// passing over names that are taken. A facet without a name of its own that belongs to a tier with
+/// one (`of_tier`, for each facet; empty: none) is a further repetition of that: A, A.1, A.2, ...
+std::vector<std::string> told_apart(std::vector<std::string> names,
+                                    const std::vector<std::string>& of_tier = {});
 
 }  // namespace culet

@@ -9,25 +9,44 @@
 
 namespace culet {
 
-std::vector<std::string> told_apart(std::vector<std::string> names) {
+std::vector<std::string> told_apart(std::vector<std::string> names,
+                                    const std::vector<std::string>& of_tier) {
     const std::set<std::string> given(names.begin(), names.end());
     std::set<std::string> taken;
     std::map<std::string, int> repetitions;
+    const auto next_of = [&](const std::string& name) {
+        int& count = repetitions[name];
+        std::string next;
+        do {
+            next = fmt::format("{}.{}", name, ++count);
+        } while (given.contains(next) || taken.contains(next));
+        return next;
+    };
+    const auto inherits = [&](std::size_t i) {
+        return names[i].empty() && i < of_tier.size() && !of_tier[i].empty();
+    };
+    // Names that the file gives come first: they stay what they are whatever a tier is called.
+    std::vector<std::size_t> heirs;
     int unnamed = 0;
-    for (std::string& name : names) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (inherits(i)) {
+            heirs.push_back(i);
+            continue;
+        }
+        std::string& name = names[i];
         if (name.empty()) {
             do {
                 name = fmt::format("f{}", unnamed++);
             } while (given.contains(name));
         } else if (taken.contains(name)) {
-            int& count = repetitions[name];
-            std::string next;
-            do {
-                next = fmt::format("{}.{}", name, ++count);
-            } while (given.contains(next) || taken.contains(next));
-            name = next;
+            name = next_of(name);
         }
         taken.insert(name);
+    }
+    for (const std::size_t i : heirs) {
+        const std::string& tier = of_tier[i];
+        names[i] = given.contains(tier) || taken.contains(tier) ? next_of(tier) : tier;
+        taken.insert(names[i]);
     }
     return names;
 }

@@ -271,6 +271,7 @@ ReadSolid solid_from_faces(FaceSoup soup) {
         result.solid.facets.push_back(std::move(facet));
     }
     result.notes = std::move(soup.notes);
+    result.planes_stated = stated == StatedPlanes::all;
     return result;
 }
 

@@ -151,7 +151,8 @@ private:
         tier_of_last_ = tier_number_;
         planes.push_back({plane_of(tier_, cut.sheet), "",
                           fmt::format("tier {} ({}{} degrees), index {}", tier_number_,
-                                      tier_.pavilion ? "-" : "", tier_.angle_deg, index)});
+                                      tier_.pavilion ? "-" : "", tier_.angle_deg, index),
+                          tier_number_});
     }
 
     LineReader lines_;

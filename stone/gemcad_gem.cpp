@@ -74,6 +74,7 @@ private:
         plane.plane = {Vec3(x, y, z) / length, 1 / length};
         plane.name = utf8_from_windows1252(label.substr(0, label.find('\t')));
         plane.place = fmt::format("facet {} (tier {})", planes.size(), tier);
+        plane.tier = tier;
         planes.push_back(std::move(plane));
         // The corners that follow are the meets of the planes, which are found afresh.
         while (integer() == 1) take(3 * 8);

@@ -38,7 +38,11 @@ struct CutReading {
 };
 
 /// Reads a design: the convex solid of its planes, near-miss meets contracted. Names are those
-/// after `n`; facets without one are f0, f1, ... in file order, and a repeated name gets .1, .2.
+/// after `n`. The one name of a tier is the name of all its facets, wherever in the tier it stands
+/// (GemCad names a tier once, at its first facet); where a tier's facets are given several names,
+/// each is that facet's alone. A repeated name gets .1, .2 (so a tier A is A, A.1, A.2, ...; a
+/// facet that the file names comes before those that have their name from the tier); facets without
+/// a name are f0, f1, ... in file order.
 /// Throws InputError when the planes leave the stone open or nothing inside.
 ReadCut read_gemcad_asc(const std::filesystem::path& file, const CutReading& how = {});
 ReadCut read_gemcad_gem(const std::filesystem::path& file, const CutReading& how = {});
@@ -50,10 +54,10 @@ ReadCut parse_gemcad_gem(std::string_view bytes, const CutReading& how = {},
                          const std::filesystem::path& file = "design.gem");
 
 /// Writes angle, distance and index of every facet so that its plane reads back to 1e-12. Facets of
-/// one angle and distance share a line. Blanks in names become `_`. The format measures distances
-/// from a point inside the stone: if the origin is not inside, the stone is moved to put its
-/// centroid there. Returns notes on what was changed. Throws InputError when the solid is not
-/// convex, for the format cannot hold it.
+/// one angle and distance share a line, with one name where they are A, A.1, A.2, ... Blanks in
+/// names become `_`. The format measures distances from a point inside the stone: if the origin is
+/// not inside, the stone is moved to put its centroid there. Returns notes on what was changed.
+/// Throws InputError when the solid is not convex, for the format cannot hold it.
 std::vector<std::string> write_gemcad_asc(const Solid& solid, const CutSheet& sheet,
                                           const std::filesystem::path& file);
 

@@ -37,7 +37,8 @@ std::string short_decimal(double value, int places, Good good) {
 struct Tier {
     CutSetting setting;  // as it reads back from the text
     std::string angle, distance;
-    std::vector<std::string> settings;  // index, and the name after it
+    std::vector<std::string> indices, names;  // of each facet
+    int named_at = -1;  // the one facet whose name is the tier's; -1: each has its own
 };
 
 double read_back(const std::string& text) {
@@ -58,7 +59,11 @@ public:
         add_facets();
         for (const Tier& tier : tiers_) {
             std::string line = fmt::format("a {} {}", tier.angle, tier.distance);
-            for (const std::string& setting : tier.settings) {
+            for (std::size_t i = 0; i < tier.indices.size(); ++i) {
+                std::string setting = tier.indices[i];
+                const bool named =
+                    !tier.names[i].empty() && (tier.named_at < 0 || tier.named_at == int(i));
+                if (named) setting += " n " + tier.names[i];
                 // A line that begins with a number goes on with the tier.
                 if (line.size() + setting.size() > 100) {
                     out += line + "\n";
@@ -114,9 +119,51 @@ private:
                 return setting.index > 0 &&
                        difference(plane_of(setting, sheet_), plane, size) <= 2 * k_reads_back;
             });
-            if (!names[f].empty()) word += " n " + names[f];
-            tier->settings.push_back(std::move(word));
+            tier->indices.push_back(std::move(word));
+            tier->names.push_back(names[f]);
         }
+        name_tiers_once();
+    }
+
+    // A tier A, A.1, A.2, ... is named once, as GemCad does, wherever all names read back so.
+    void name_tiers_once() {
+        for (Tier& tier : tiers_) tier.named_at = named_at(tier.names);
+        for (bool again = true; again;) {
+            again = false;
+            std::vector<std::string> own, of_tier;
+            for (const Tier& tier : tiers_) {
+                const bool once = tier.named_at >= 0;
+                for (std::size_t i = 0; i < tier.names.size(); ++i) {
+                    const bool inherits = once && tier.named_at != int(i);
+                    own.push_back(inherits ? std::string() : tier.names[i]);
+                    of_tier.push_back(once ? tier.names[std::size_t(tier.named_at)]
+                                           : std::string());
+                }
+            }
+            const std::vector<std::string> read = told_apart(std::move(own), of_tier);
+            std::size_t at = 0;
+            for (Tier& tier : tiers_) {
+                for (const std::string& name : tier.names) {
+                    if (read[at++] == name || tier.named_at < 0) continue;
+                    tier.named_at = -1;
+                    again = true;
+                }
+            }
+        }
+    }
+
+    // Which facet has the name that the others repeat: .1, .2, ... in their order; -1: none.
+    static int named_at(const std::vector<std::string>& names) {
+        if (names.size() < 2) return -1;
+        const auto base = std::min_element(
+            names.begin(), names.end(),
+            [](const std::string& a, const std::string& b) { return a.size() < b.size(); });
+        int count = 0;
+        for (auto name = names.begin(); name != names.end(); ++name) {
+            if (name == base) continue;
+            if (base->empty() || *name != fmt::format("{}.{}", *base, ++count)) return -1;
+        }
+        return static_cast<int>(base - names.begin());
     }
 
     Tier new_tier(const Plane& plane, const CutSetting& wanted, double size) const {

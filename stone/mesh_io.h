@@ -19,6 +19,7 @@ std::optional<MeshFormat> mesh_format(const std::filesystem::path& file);
 struct ReadSolid {
     Solid solid;
     std::vector<std::string> notes;  ///< repairs made on reading, one line each: welded, merged
+    bool planes_stated = false;      ///< by the comments of `write_mesh`
 };
 
 /// Reads a mesh; the format is told by the extension, text or binary by the content.

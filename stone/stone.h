@@ -32,6 +32,9 @@ struct Stone {
     bool azimuth_from_mesh =
         false;  ///< azimuths count from the mesh's +x (else their zero is free)
     bool convex = true;
+    /// Facets NAME, NAME.1, ... are facets of a tier (a cut design, or a mesh that culet wrote);
+    /// else they may be pieces of one facet that a hand drew.
+    bool facets_are_whole = false;
 };
 
 /// Inclination of a facet, radians, 0 (table or culet) .. pi/2 (girdle), from an up direction.
@@ -46,6 +49,7 @@ double azimuth(const Vec3& normal);
 struct SolidFile {
     Solid solid;
     std::vector<std::string> notes;
+    bool facets_are_whole = false;  ///< see Stone
 };
 SolidFile read_solid(const std::filesystem::path& file);
 

@@ -1,0 +1,46 @@
+#pragma once
+// The tiers of a stone as a cutter speaks of them: table, mains, halves, stars, girdle.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "stone/solid.h"
+
+namespace culet {
+
+/// Level within 7 degrees and the largest such facet that looks up: table; such facets that look
+/// down: culet. Upright within 10 degrees: girdle.
+enum class StonePart { table, crown, girdle, pavilion, culet };
+
+StonePart part_of(const Solid& solid, int facet, int table, const Vec3& up);
+
+/// The table, or -1.
+int table_facet(const Solid& solid, const Vec3& up);
+
+/// Facets that reach from the girdle to the table (crown), or to the lowest corner or the culet
+/// (pavilion); where none does, those of the tier with the largest area. In the solid's order.
+std::vector<int> main_facets(const Solid& solid, const Vec3& up, bool crown);
+
+/// Facets that belong together: of one part, of one name (see `tier_name`), and, where the design
+/// sets several angles under one name, of one angle.
+struct FacetTier {
+    StonePart part = StonePart::crown;
+    std::string name;  ///< see `tier_name`; empty: the facets have none
+    std::vector<int> facets;
+    double inclination = 0;  ///< mean, radians, 0 level .. pi/2 upright
+    std::string pattern;     ///< that matches these facets and no others (`C*`, `A.*`); or empty
+};
+
+/// In the order of their first facets.
+std::vector<FacetTier> tiers_of(const Solid& solid, const Vec3& up);
+
+/// What each facet's name has in common with those of its tier: `C` of C1; `A` of A.1, and of A
+/// where there is an A.1; `C1` of C1NE; nothing of f12, which says only that the facet has no name.
+std::vector<std::string> tier_names_of(const Solid& solid);
+
+/// `*` stands for any run of characters. `A.*` means the tier A of a cut design: A itself too,
+/// besides A.1, A.2, ...
+bool name_matches(std::string_view pattern, std::string_view name);
+
+}  // namespace culet

@@ -1,0 +1,30 @@
+#pragma once
+// Numbers as people write them: with a decimal comma, with a unit.
+
+#include <string>
+#include <string_view>
+
+namespace culet {
+
+/// A unit that stands beside a number.
+struct WrittenUnit {
+    enum class Of { none, length, angle, weight, volume, percent, teeth } of = Of::none;
+    double factor = 1;  ///< to mm, degrees, carat or mm3; of a tooth, how many its wheel has
+    std::string word;   ///< as written
+};
+
+/// `text` as a number with an optional unit: 34.5; 33,8; 6.52mm; 33.8 deg; 33 degrees
+/// and 48 minutes by their signs; 12 of 96 or 12/96, a tooth of an index wheel.
+/// `problem` says what is wrong, for people; empty: nothing is.
+struct WrittenNumber {
+    double value = 0;
+    WrittenUnit unit;
+    std::string problem;
+};
+/// `comma_separates`: the file's fields are parted by commas, so that 1,234 may be a thousand.
+WrittenNumber written_number(std::string_view text, bool comma_separates);
+
+/// Without blanks at both ends, hard ones (U+00A0, U+202F) too.
+std::string without_blanks(std::string_view text);
+
+}  // namespace culet
