@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "fit/azimuth_turn.h"
 #include "fit/first_check_parts.h"
@@ -17,7 +18,7 @@ namespace {
 // measured at several azimuths; and against the scale of the widths the depth, the table and the
 // volume, whose proportions are off by a few per cent each.
 constexpr double k_widths = 0.007, k_tables = 0.01, k_depth = 0.03, k_table = 0.04;
-constexpr double k_volume = 0.06;
+constexpr double k_volume = 0.06, k_others = 0.04;
 // So many times more beside a mesh that was drawn by hand.
 constexpr double k_drawn = 4;
 
@@ -82,6 +83,52 @@ Expected from_ratios(const Length& own, const std::vector<double>& ratios, doubl
     return {value, value * scatter * std::sqrt(1 + 1.5708 / double(ratios.size())), by};
 }
 
+// What a volume or weight would be by the mesh and by how much larger the stone is.
+double expected_volume(const Stone& stone, ReadingKind kind, double log_larger) {
+    const double mm3 =
+        volume(stone.solid) * std::pow(mm_per(stone.unit), 3) * std::exp(log_larger);
+    return kind == ReadingKind::weight ? carat(mm3, stone.material.density_g_cm3.value_or(0)) : mm3;
+}
+
+bool is_volume(const Reading& r) {
+    return (r.kind == ReadingKind::weight || r.kind == ReadingKind::volume) && !r.exact;
+}
+
+// Log of read over drawn, of the first that was read.
+std::optional<double> volume_ratio(const Stone& stone, const std::vector<Reading>& readings) {
+    for (const Reading& r : readings) {
+        const double drawn = is_volume(r) ? expected_volume(stone, r.kind, 0) : 0;
+        if (drawn > 0 && r.value > 0) return std::log(r.value / drawn);
+    }
+    return std::nullopt;
+}
+
+void check_volumes(const Stone& stone, const std::vector<Reading>& readings,
+                   const std::vector<Length>& lengths, double sigma, std::vector<Doubt>& doubts) {
+    // Lengths that are themselves in doubt say nothing of the weight.
+    std::vector<Length> believed;
+    for (const Length& l : lengths) {
+        const bool doubted = std::any_of(doubts.begin(), doubts.end(), [&](const Doubt& d) {
+            return d.reading == l.row.readings[0];
+        });
+        if (!doubted) believed.push_back(l);
+    }
+    const std::vector<double> widths = ratios_of(believed, ReadingKind::width),
+                              depths = ratios_of(believed, ReadingKind::depth);
+    if (widths.empty()) return;
+    const double larger = 2 * median(widths) + median(depths.empty() ? widths : depths);
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        const Reading& r = readings[i];
+        const double value = is_volume(r) ? expected_volume(stone, r.kind, larger) : 0;
+        if (!(value > 0)) continue;
+        doubt_if_far(readings, {{i}, r.value, r.sigma},
+                     {value, sigma * value,
+                      fmt::format("a stone of these widths and this depth {} ({:.4g})",
+                                  r.kind == ReadingKind::weight ? "weighs" : "has", value)},
+                     doubts);
+    }
+}
+
 }  // namespace
 
 void check_lengths(const Stone& stone, const std::vector<Reading>& readings, bool is_design,
@@ -89,6 +136,7 @@ void check_lengths(const Stone& stone, const std::vector<Reading>& readings, boo
     const double rough = is_design ? 1 : k_drawn;
     const std::vector<Length> lengths = lengths_of(stone, readings);
     const std::vector<double> widths = ratios_of(lengths, ReadingKind::width);
+    const std::optional<double> weighed = volume_ratio(stone, readings);
     constexpr std::size_t k_enough = 2;  // others: of one other one cannot say which is wrong
     for (const Length& own : lengths) {
         const std::vector<double> sisters = ratios_of(lengths, own.kind, &own);
@@ -105,7 +153,24 @@ void check_lengths(const Stone& stone, const std::vector<Reading>& readings, boo
                           fmt::format("the widths and the mesh say ({:.4g})", e.value)},
                          doubts);
         };
-        if (own.kind == ReadingKind::width && sisters.size() >= k_enough) {
+        const auto beside_all = [&] {
+            std::vector<double> others;
+            for (const Length& l : lengths) {
+                if (&l != &own) others.push_back(l.ratio);
+            }
+            // The volume grows with the cube.
+            if (weighed) others.push_back(*weighed / 3);
+            if (others.size() <= k_enough) return;
+            const Expected e = from_ratios(own, others, rough * k_others, "");
+            doubt_if_far(readings, own.row,
+                         {e.value, e.sigma,
+                          fmt::format("the other lengths and the mesh say ({:.4g})", e.value)},
+                         doubts);
+        };
+        if (widths.size() <= k_enough) {
+            // One of two that differ may be either.
+            beside_all();
+        } else if (own.kind == ReadingKind::width && sisters.size() >= k_enough) {
             among(rough * k_widths, "widths");
         } else if (own.kind == ReadingKind::table_width && sisters.size() >= k_enough) {
             among(rough * k_tables, "table widths");
@@ -115,31 +180,7 @@ void check_lengths(const Stone& stone, const std::vector<Reading>& readings, boo
             beside_widths(rough * k_depth);
         }
     }
-    if (widths.empty()) return;
-    // A depth that is itself in doubt says nothing of the weight.
-    std::vector<Length> believed;
-    for (const Length& l : lengths) {
-        const bool doubted = std::any_of(doubts.begin(), doubts.end(), [&](const Doubt& d) {
-            return d.reading == l.row.readings[0];
-        });
-        if (!doubted) believed.push_back(l);
-    }
-    const std::vector<double> depths = ratios_of(believed, ReadingKind::depth);
-    const double larger = 2 * median(widths) + median(depths.empty() ? widths : depths);
-    for (std::size_t i = 0; i < readings.size(); ++i) {
-        const Reading& r = readings[i];
-        const bool weighed = r.kind == ReadingKind::weight;
-        if ((!weighed && r.kind != ReadingKind::volume) || r.exact) continue;
-        const double mm3 =
-            volume(stone.solid) * std::pow(mm_per(stone.unit), 3) * std::exp(larger);
-        const double value = weighed ? carat(mm3, stone.material.density_g_cm3.value_or(0)) : mm3;
-        if (!(value > 0)) continue;
-        doubt_if_far(readings, {{i}, r.value, r.sigma},
-                     {value, rough * k_volume * value,
-                      fmt::format("a stone of these widths and this depth {} ({:.4g})",
-                                  weighed ? "weighs" : "has", value)},
-                     doubts);
-    }
+    check_volumes(stone, readings, lengths, rough * k_volume, doubts);
 }
 
 }  // namespace culet

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
 #include <set>
@@ -43,6 +44,21 @@ PriorSigmas stated_sigmas(const Prior& prior, double half_width) {
     return {prior.inclination_sigma, facets * prior.inclination_sigma, offset, facets * offset};
 }
 
+// How far a plane turns where its corners are each off by a little: the root of the sum of squares
+// of their distances from the middle, across the longer way less.
+double facet_reach(const Shape& shape, const Facet& facet) {
+    Vec3 mean(0);
+    for (const int c : facet.corners) {
+        mean += shape.points[std::size_t(c)] / double(facet.corners.size());
+    }
+    double squares = 0;
+    for (const int c : facet.corners) {
+        const Vec3 r = shape.points[std::size_t(c)] - mean;
+        squares += glm::dot(r, r);
+    }
+    return std::sqrt(0.5 * squares);
+}
+
 double polar(const Vec3& n) {
     return std::atan2(std::hypot(n.x, n.y), n.z);
 }
@@ -61,17 +77,24 @@ void level_tiers(const std::vector<NamedTier>& tiers, double sigma, std::vector<
 
 }  // namespace
 
-void share_rows(std::vector<Reading>& readings) {
+void count_beside_prior(const Shape& shape, const Solid& solid, double meet_miss,
+                        const std::function<double(const Reading&)>& unit_of,
+                        std::vector<Reading>& readings) {
     std::map<std::pair<std::string, long>, int> count;
     const auto row_of = [](const Reading& r) { return std::pair(r.file.string(), r.line); };
-    const auto is_shared = [](const Reading& r) {
-        return r.line > 0 && !r.exact && !is_relation(r.kind) && r.kind != ReadingKind::meet;
-    };
+    const auto counts = [](const Reading& r) { return !r.exact && !is_relation(r.kind); };
     for (const Reading& r : readings) {
-        if (is_shared(r)) ++count[row_of(r)];
+        if (r.line > 0 && counts(r)) ++count[row_of(r)];
     }
     for (Reading& r : readings) {
-        if (is_shared(r)) r.sigma *= std::sqrt(double(count[row_of(r)]));
+        if (!counts(r)) continue;
+        if (r.line > 0) r.sigma *= std::sqrt(double(count[row_of(r)]));
+        if (r.kind == ReadingKind::volume || r.kind == ReadingKind::weight) continue;
+        double miss = meet_miss;
+        if (is_angle(r.kind)) {
+            miss = meet_miss / facet_reach(shape, solid.facets[std::size_t(r.facets[0])]);
+        }
+        r.sigma = std::hypot(r.sigma, miss * unit_of(r));
     }
 }
 

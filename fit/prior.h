@@ -8,7 +8,7 @@
 // stated ones.
 
 #include <array>
-#include <optional>
+#include <functional>
 #include <vector>
 
 #include "fit/fit.h"
@@ -46,10 +46,17 @@ struct PriorModel {
 PriorModel make_prior(const Prior& prior, const Solid& solid, int up_facet, double half_width,
                       Shape& shape);
 
-/// A row of a file that gives one value to several facets (`S*`) tells what they have in common, not
-/// that they are alike: beside a prior each of its n readings gets sqrt(n) times the sigma, so that
-/// together they know their mean as well as the row does.
-void share_rows(std::vector<Reading>& readings);
+/// Readings as they count beside a prior. A row of a file that gives one value to several facets
+/// (`S*`) tells what they have in common, not that they are alike: each of its n readings gets
+/// sqrt(n) times the sigma, so that together they know their mean as well as the row does. And
+/// where the fit's meets are exact the true stone's are not: a reading of a facet's direction is
+/// off by what a real meet misses over the facet's size, `meet_miss` in half diameters.
+void count_beside_prior(const Shape& shape, const Solid& solid, double meet_miss,
+                        const std::function<double(const Reading&)>& unit_of,
+                        std::vector<Reading>& readings);
+
+/// By how much facets of a well cut stone miss a common corner, as part of its width.
+inline constexpr double k_meet_miss = 0.001;
 
 /// What the inclinations that were read, each of one facet or one row, say of the angles' sigmas.
 void estimate_angle_sigmas(const Solid& solid, const std::vector<Reading>& readings,

@@ -305,7 +305,14 @@ Evening cutters_evening(const std::string& cut, const Population& population, Sl
     const auto tiers = main_tiers(cut);
     const auto& tier = tiers[one_of(random, tiers.size())];
     const std::size_t first = one_of(random, tier.size());
-    evening.steep = {tier[first], tier[(first + 1 + one_of(random, tier.size() - 1)) % tier.size()]};
+    evening.steep = {tier[first]};
+    if (is_step(cut)) {
+        // Two of a step's four sides would leave nothing to be steeper than.
+        const auto& other = tiers[(std::size_t(&tier - tiers.data()) + 1) % tiers.size()];
+        evening.steep.push_back(other[first]);
+    } else {
+        evening.steep.push_back(tier[(first + 1 + one_of(random, tier.size() - 1)) % tier.size()]);
+    }
     while (!cut_stone(evening.design.solid, population, evening.steep, random, evening.truth)) {
     }
     std::vector<Row> rows = read_rows(cut, evening, random);
