@@ -117,7 +117,7 @@ bool Covariance::find_well_held(const Linearised& linear, const FreePart& free) 
     seen_ = product(rows_, held_);
     // No direction's variance is larger than all together.
     const double variances = held_.rowwise().squaredNorm().dot(linear.metric);
-    if (!(variances < 1 / k_determined)) {
+    if (!linear.has_prior && !(variances < 1 / k_determined)) {
         Eigen::MatrixXd room = Eigen::MatrixXd::Identity(size, size) / k_determined;
         room.selfadjointView<Eigen::Lower>().rankUpdate(
             Eigen::MatrixXd(held_.transpose() * linear.metric.cwiseSqrt().asDiagonal()), -1);
@@ -159,7 +159,7 @@ bool Covariance::find_loosely_held(const Linearised& linear, const FreePart& fre
     };
     Eigen::MatrixXd held_basis = Eigen::MatrixXd::Identity(size, size);
     const Eigen::MatrixXd shifted = normal - k_determined * Eigen::MatrixXd::Identity(size, size);
-    if (Eigen::LLT<Eigen::MatrixXd>(shifted).info() != Eigen::Success) {
+    if (!linear.has_prior && Eigen::LLT<Eigen::MatrixXd>(shifted).info() != Eigen::Success) {
         normal = Eigen::MatrixXd(normal.selfadjointView<Eigen::Lower>());
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal);
         Eigen::Index count = 0;

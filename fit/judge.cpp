@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <set>
 
+#include "fit/bench_words.h"
 #include "fit/come_to_nothing.h"
 #include "fit/statistics.h"
 #include "stone/checks.h"
@@ -24,12 +26,6 @@ std::string names(const std::vector<std::string>& list) {
         text += (i == 0 ? "" : ", ") + list[i];
     }
     return text;
-}
-
-std::string words(const NextReading& reading) {
-    std::string of;
-    for (const std::string& name : reading.of) of += (of.empty() ? "" : "/") + name;
-    return name_of(reading.kind) + (of.empty() ? "" : " of " + of);
 }
 
 // Who is to blame, as far as one can tell.
@@ -181,15 +177,17 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
         const std::string edge = shortest_edge(system, finished.shape, result.unit);
         return end(FitStatus::not_converged,
                    edge.empty()
-                       ? fmt::format("no end after {} steps; raise the limit, or look at the "
-                                     "suspects",
+                       ? fmt::format("the fit does not settle ({} steps): some part of the stone is "
+                                     "hardly held by the readings; look at the suspects, read more, "
+                                     "or give [fit] a prior",
                                      finished.iterations)
-                       : fmt::format("no end after {} steps: {}", finished.iterations, edge));
+                       : fmt::format("the fit does not settle ({} steps): {}", finished.iterations,
+                                     edge));
     }
     if (result.dof > 0 && result.chi2_p < result.options.significance) {
         return end(FitStatus::contradictory,
-                   fmt::format("the readings do not agree within their uncertainties: chi2 {:.1f} "
-                               "for {:.1f} degrees of freedom (limit {:.1f} at the {:g} level){}",
+                   fmt::format("the readings do not agree within their uncertainties (chi-square "
+                               "{:.1f}, {:.1f} expected, at most {:.1f} at the {:g} level){}",
                                result.chi2, result.dof, result.chi2_limit,
                                result.options.significance, contradiction(result)));
     }
@@ -201,21 +199,20 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
         return end(FitStatus::contradictory, result.extra_facets.front().what);
     }
     if (result.undetermined_freedoms > 0) {
-        std::vector<std::string> facets;
-        for (const Undetermined& u : result.undetermined) {
-            if (facets.empty() || facets.back() != u.facet) facets.push_back(u.facet);
-        }
-        return end(FitStatus::undetermined,
-                   fmt::format("{} of the stone {} left to the mesh, for want of readings{}",
-                               result.undetermined_freedoms == 1
-                                   ? std::string("one freedom")
-                                   : fmt::format("{} freedoms", result.undetermined_freedoms),
-                               result.undetermined_freedoms == 1 ? "is" : "are",
-                               facets.empty() ? "" : " (facets " + names(facets) + ")") +
-                       (result.help.empty() ? "" : "; most would help: " + words(result.help[0])));
+        std::set<std::string> facets;
+        for (const Undetermined& u : result.undetermined) facets.insert(u.facet);
+        return end(
+            FitStatus::undetermined,
+            fmt::format("too little was read to fix the whole stone: {} of its {} facets {} as in "
+                        "the mesh{}; {}",
+                        facets.size(), result.facets.size(), facets.size() == 1 ? "is" : "are",
+                        facets.empty() ? "" : " (" + names({facets.begin(), facets.end()}) + ")",
+                        result.help.empty() ? "a prior would fill it in ([fit] prior = \"mesh\")"
+                                            : "next, " + bench_words(result.help[0])));
     }
     end(FitStatus::converged,
-        fmt::format("chi2 {:.1f} for {:.1f} degrees of freedom", result.chi2, result.dof));
+        fmt::format("the readings agree (chi-square {:.1f}, {:.0f} expected)", result.chi2,
+                    result.dof));
 }
 
 }  // namespace culet

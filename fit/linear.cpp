@@ -137,6 +137,7 @@ Linearised linearise(const System& system, const Shape& shape,
                      const std::vector<Equation>& held) {
     Linearised linear;
     linear.layout = layout_of(shape);
+    linear.has_prior = system.has_prior();
     const RowWriter writer(shape);
     Triplets soft, hard;
     std::vector<double> soft_residuals, hard_residuals;

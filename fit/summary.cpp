@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "fit/bench_words.h"
 #include "stone/units.h"
 
 namespace culet {
@@ -41,6 +42,16 @@ bool is_open(const FitResult& result, const std::string& facet) {
                        [&](const Undetermined& u) { return u.facet == facet; });
 }
 
+// A doubted row may hold several readings, all of them suspects.
+std::size_t doubted_more(const FitResult& result) {
+    const auto left_out =
+        std::count_if(result.readings.begin(), result.readings.end(), [](const FittedReading& r) {
+            return r.suspect && !r.left_out.empty();
+        });
+    return std::size_t(std::max<std::ptrdiff_t>(
+        0, left_out - std::ptrdiff_t(result.doubts.size())));
+}
+
 std::string verdict(const FitResult& result) {
     switch (result.status) {
         case FitStatus::converged:
@@ -49,6 +60,14 @@ std::string verdict(const FitResult& result) {
                 "and up to {:.1f} no surprise.",
                 result.chi2, result.dof, result.chi2_limit);
         case FitStatus::contradictory:
+            if (!result.doubts.empty()) {
+                const bool agrees = result.dof <= 0 || result.chi2 <= result.chi2_limit;
+                return fmt::format(
+                    "{} left out; {}.", result.doubts.size() == 1 ? "It is" : "They are",
+                    agrees && result.suspects.size() <= result.doubts.size() + doubted_more(result)
+                        ? "the other readings agree with this stone"
+                        : "even so the others do not agree");
+            }
             if (result.dof > 0 && result.chi2 > result.chi2_limit) {
                 return fmt::format(
                     "The readings contradict each other: chi-square {:.1f}, where {:.1f} is "
@@ -120,9 +139,17 @@ std::string words_of(const FittedReading& r, const Proposal* proposal) {
     return text + fmt::format(", off by {:.1f} sigma)", std::abs(r.normalized));
 }
 
+bool was_doubted(const FitResult& result, const std::string& id) {
+    return !result.doubts.empty() &&
+           std::any_of(result.readings.begin(), result.readings.end(), [&](const FittedReading& r) {
+               return r.id == id && r.suspect && !r.left_out.empty();
+           });
+}
+
 std::string doubtful(const FitResult& result) {
     std::vector<std::string> words;
     for (const std::string& id : result.suspects) {
+        if (was_doubted(result, id)) continue;  // said before
         const auto found = std::find_if(result.readings.begin(), result.readings.end(),
                                         [&](const FittedReading& r) { return r.id == id; });
         words.push_back(
@@ -132,6 +159,8 @@ std::string doubtful(const FitResult& result) {
 }
 
 std::string unchecked(const FitResult& result) {
+    // Beside a prior few are: each is held against its tier instead.
+    if (result.prior.source != Prior::Source::none) return {};
     std::vector<std::string> ids;
     for (const FittedReading& r : result.readings) {
         if (!r.exact && !is_relation(r.kind) && r.left_out.empty() && r.redundancy < 0.01) {
@@ -207,13 +236,26 @@ std::string next_reading(const FitResult& result) {
     const NextReading& best = result.help.front();
     // A tenth of the variance is five per cent of the uncertainty: less is not worth the work.
     if (!best.closes && best.reduces < 0.1) return {};
-    std::string of;
-    for (const std::string& name : best.of) of += (of.empty() ? " of " : "/") + name;
-    return fmt::format("The reading that would help most: {}{} ({}).", name_of(best.kind), of,
+    return fmt::format("What would help most: {} ({}).", bench_words(best),
                        best.closes ? "it would settle something that is open"
                                    : fmt::format("it would take {:.0f} % off the variance of all "
                                                  "facets",
                                                  100 * best.reduces));
+}
+
+// Which facets rest on readings, and what is supposed of the others.
+std::string supposed(const FitResult& result) {
+    const PriorReport& prior = result.prior;
+    if (prior.source == Prior::Source::none) return {};
+    int read = 0;
+    for (const FittedFacet& f : result.facets) read += f.read_inclination > 0.5;
+    return fmt::format(
+        "The inclinations of {} of {} facets rest on the readings; the rest is supposed to be near "
+        "{}: tiers within {:.2g} degrees, the facets of a tier alike within {:.2g}.",
+        read, result.facets.size(),
+        prior.source == Prior::Source::catalogue ? "the design that the mesh was made by"
+                                                 : "the mesh as it was drawn",
+        degrees(prior.tier_angle), degrees(prior.facet_angle));
 }
 
 std::vector<std::string> bad_meets(const FitResult& result) {
@@ -240,18 +282,28 @@ std::vector<std::string> denied_shape(const FitResult& result) {
 }  // namespace
 
 std::vector<std::string> fit_summary(const FitResult& result) {
-    std::vector<std::string> sentences{verdict(result)};
+    std::vector<std::string> sentences;
+    // As they are: they begin with a file's name.
+    for (const std::string& doubt : result.doubts) sentences.push_back(doubt + ".");
+    const std::size_t verdict_at = sentences.size();
+    sentences.push_back(verdict(result));
     const auto add = [&](std::string sentence) {
         if (!sentence.empty()) sentences.push_back(std::move(sentence));
     };
     const bool stands = result.status != FitStatus::not_converged;
     for (const std::string& note : result.notes) {
         // The verdict may have said so already.
-        if (sentences.front().find(note) == std::string::npos) add(sentence_of(note));
+        if (sentences[verdict_at].find(note) == std::string::npos) add(sentence_of(note));
     }
     for (const std::string& change : result.changes) add(sentence_of("changed: " + change));
     if (stands) add(calipers(result));
-    if (stands) add(least_sure(result));
+    if (stands) {
+        for (const NamedTierFinding& tier : result.named_tiers) {
+            for (const std::string& what : tier.what) add(sentence_of(what));
+        }
+        add(supposed(result));
+        add(least_sure(result));
+    }
     add(doubtful(result));
     add(disagreeing(result));
     add_some(bad_meets(result), sentences);
