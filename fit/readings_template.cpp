@@ -209,8 +209,8 @@ private:
                                 : fmt::format(" (jaws at {} and {})", one, other)));
         }
         row("depth", "", sigmas_.caliper_mm * mm,
-            fmt::format("expected {:.4g} {} (table to culet)", width_along(solid_, stone_.up),
-                        unit));
+            fmt::format("expected {:.4g} {} (from the table to the lowest point)",
+                        width_along(solid_, stone_.up), unit));
         for (std::size_t i = 0; i < azimuths.size() && table_ >= 0; i += 2) {
             row("table_width", of(azimuths[i]), sigmas_.table_mm * mm,
                 fmt::format("expected {:.4g} {} (from end to end of the table)",
