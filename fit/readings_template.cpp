@@ -133,13 +133,10 @@ private:
         const std::string expected = most - least < 0.05
                                          ? fmt::format("expected {:.2f}", degrees(tier.inclination))
                                          : fmt::format("expected {:.2f} to {:.2f}", least, most);
-        if (facets.size() == tier.facets.size() && !tier.pattern.empty()) {
-            row("inclination", tier.pattern, std::max(sigma, sigmas_.tier_deg),
-                fmt::format("{} (one value for all {})", expected, facets.size()));
-        } else {
-            row("inclination", "mean(" + names + ")", sigma,
-                fmt::format("{} (mean of these {})", expected, facets.size()));
-        }
+        const bool has_pattern = facets.size() == tier.facets.size() && !tier.pattern.empty();
+        row("inclination", has_pattern ? tier.pattern : "each(" + names + ")",
+            std::max(sigma, sigmas_.tier_deg),
+            fmt::format("{} (one value for all {})", expected, facets.size()));
     }
 
     // The largest crown facet of the girdle's that looks to this azimuth; empty: none.

@@ -31,7 +31,7 @@ struct ReadingsForm {
 };
 
 /// Rows: the inclination of every main facet; of every other tier one row for all of its facets (a
-/// pattern, or, where its names have none, their mean); four widths, the depth, the table's width
+/// pattern, or, where its names have none, their list); four widths, the depth, the table's width
 /// in two directions, the weight. `note` tells what the mesh would read: the catalogue's value of a
 /// standard cut. Names that a reading cannot hold are left out. The first lines say how the form
 /// is filled in. `stone.up` is up; lengths are in `stone.unit`. `has_material`: without one the
