@@ -41,17 +41,21 @@ int Binder::facet(const std::string& name) const {
     return found->second;
 }
 
-// A name, a pattern, or mean(), min(), max() of names and patterns.
+// A name, a pattern, each() of names and patterns, which is one of them after the other, or mean(),
+// min(), max().
 Binder::NamedFacets Binder::facets(const std::string& name) const {
     NamedFacets result;
     std::string inside = name;
-    static constexpr std::array<std::pair<const char*, Aggregate>, 3> aggregates{
-        {{"mean(", Aggregate::mean}, {"min(", Aggregate::min}, {"max(", Aggregate::max}}};
-    for (const auto& [word, aggregate] : aggregates) {
+    static constexpr std::array<std::pair<const char*, Aggregate>, 4> words{
+        {{"mean(", Aggregate::mean},
+         {"min(", Aggregate::min},
+         {"max(", Aggregate::max},
+         {"each(", Aggregate::single}}};
+    for (const auto& [word, aggregate] : words) {
         const std::string_view start(word);
-        if (name.size() > start.size() && name.compare(0, start.size(), start) == 0 &&
-            name.back() == ')') {
+        if (name.size() > start.size() && name.starts_with(start) && name.back() == ')') {
             result.aggregate = aggregate;
+            result.is_pattern = aggregate == Aggregate::single;
             inside = name.substr(start.size(), name.size() - start.size() - 1);
         }
     }
@@ -71,7 +75,7 @@ Binder::NamedFacets Binder::facets(const std::string& name) const {
 void Binder::add_facets(const std::string& name, NamedFacets& to) const {
     if (name.empty()) fail("an empty facet name");
     if (facet_of_name_.count(name) > 0 || name.find('*') == std::string::npos) {
-        if (to.aggregate == Aggregate::single) note_first_of_tier(name);
+        if (to.aggregate == Aggregate::single && !to.is_pattern) note_first_of_tier(name);
         to.facets.push_back(facet(name));
         return;
     }

@@ -70,7 +70,8 @@ std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_fil
 /// none is `skipped`.
 std::vector<WrittenReading> read_readings_csv(const std::filesystem::path& file);
 
-/// Several facets may share one reading through mean(), min() and max().
+/// Several facets may share one reading through mean(), min() and max(); each() of them is a
+/// reading for each, like a pattern.
 enum class Aggregate { single, mean, min, max };
 
 /// What an angle is measured from.

@@ -133,13 +133,10 @@ private:
         const std::string expected = most - least < 0.05
                                          ? fmt::format("expected {:.2f}", degrees(tier.inclination))
                                          : fmt::format("expected {:.2f} to {:.2f}", least, most);
-        if (facets.size() == tier.facets.size() && !tier.pattern.empty()) {
-            row("inclination", tier.pattern, std::max(sigma, sigmas_.tier_deg),
-                fmt::format("{} (one value for all {})", expected, facets.size()));
-        } else {
-            row("inclination", "mean(" + names + ")", sigma,
-                fmt::format("{} (mean of these {})", expected, facets.size()));
-        }
+        const bool has_pattern = facets.size() == tier.facets.size() && !tier.pattern.empty();
+        row("inclination", has_pattern ? tier.pattern : "each(" + names + ")",
+            std::max(sigma, sigmas_.tier_deg),
+            fmt::format("{} (one value for all {})", expected, facets.size()));
     }
 
     // The largest crown facet of the girdle's that looks to this azimuth; empty: none.
@@ -209,8 +206,8 @@ private:
                                 : fmt::format(" (jaws at {} and {})", one, other)));
         }
         row("depth", "", sigmas_.caliper_mm * mm,
-            fmt::format("expected {:.4g} {} (table to culet)", width_along(solid_, stone_.up),
-                        unit));
+            fmt::format("expected {:.4g} {} (from the table to the lowest point)",
+                        width_along(solid_, stone_.up), unit));
         for (std::size_t i = 0; i < azimuths.size() && table_ >= 0; i += 2) {
             row("table_width", of(azimuths[i]), sigmas_.table_mm * mm,
                 fmt::format("expected {:.4g} {} (from end to end of the table)",

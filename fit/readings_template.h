@@ -12,13 +12,12 @@ namespace culet {
 
 /// Standard uncertainties of usual instruments, degrees, mm and carat.
 ///
-/// Calipers: digital ones show 0.01 mm and are right within 0.02 mm (DIN 862, 0 to 150 mm): 0.02 /
-/// sqrt 3 = 0.012, and as much again for the jaws' place, added in squares. Table: its edge is
-/// sighted, through a loupe or a graticule of 0.1 mm. Goniometer: those
-/// of the bench show 0.1 degrees; a facet of less than a square millimetre hardly seats, one of
-/// less than 0.6 mm squared is read by its reflection alone. A value for all facets of a tier is
-/// also off by as much as they differ from each other. Scale: carat balances show 0.01 ct, of which
-/// half a step may be lost.
+/// Calipers: makers of digital ones state an error of up to 0.02 mm: 0.02 / sqrt 3 = 0.012, and
+/// 0.01 for the jaws' place, added in squares. Table: its edge is sighted, through a loupe or a
+/// graticule of 0.1 mm. Goniometer: those of the bench show 0.1 degrees; a facet of less than a
+/// square millimetre hardly seats, one of less than 0.6 mm squared is read by its reflection alone.
+/// A value for all facets of a tier is also off by as much as they differ from each other. Scale:
+/// carat balances show 0.01 ct, of which half a step may be lost.
 struct BenchSigmas {
     double caliper_mm = 0.015, table_mm = 0.03, scale_ct = 0.005;
     double large_facet_deg = 0.1, small_facet_deg = 0.2, tiny_facet_deg = 0.3, tier_deg = 0.3;
@@ -31,7 +30,7 @@ struct ReadingsForm {
 };
 
 /// Rows: the inclination of every main facet; of every other tier one row for all of its facets (a
-/// pattern, or, where its names have none, their mean); four widths, the depth, the table's width
+/// pattern, or, where its names have none, their list); four widths, the depth, the table's width
 /// in two directions, the weight. `note` tells what the mesh would read: the catalogue's value of a
 /// standard cut. Names that a reading cannot hold are left out. The first lines say how the form
 /// is filled in. `stone.up` is up; lengths are in `stone.unit`. `has_material`: without one the

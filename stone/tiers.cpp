@@ -86,6 +86,16 @@ std::string pattern_of(const Solid& solid, const std::string& name,
     return {};
 }
 
+// G of GNE: what stands before the side that a facet looks to; empty where no side is named.
+std::string before_side(const std::string& name) {
+    for (const std::string_view side : {"NE", "NW", "SE", "SW", "N", "E", "S", "W"}) {
+        if (name.size() > side.size() && name.ends_with(side)) {
+            return name.substr(0, name.size() - side.size());
+        }
+    }
+    return {};
+}
+
 // A of A.1; empty for any other name.
 std::string repeated_name(const std::string& name) {
     const std::size_t digits = name.find_last_not_of("0123456789") + 1;
@@ -122,7 +132,11 @@ bool name_matches(std::string_view pattern, std::string_view name) {
 
 std::vector<std::string> tier_names_of(const Solid& solid) {
     std::set<std::string> repeated;
-    for (const Facet& facet : solid.facets) repeated.insert(repeated_name(facet.name));
+    std::map<std::string, int> sides;
+    for (const Facet& facet : solid.facets) {
+        repeated.insert(repeated_name(facet.name));
+        if (const std::string tier = before_side(facet.name); !tier.empty()) ++sides[tier];
+    }
     std::vector<std::string> names;
     for (const Facet& facet : solid.facets) {
         const std::string& name = facet.name;
@@ -136,9 +150,14 @@ std::vector<std::string> tier_names_of(const Solid& solid) {
             names.push_back(digits == 1 && name[0] == 'f' ? std::string() : name.substr(0, digits));
             continue;
         }
-        // C1NE, P2Ea: a tier's number before the letters of the side.
+        // C1NE, P2Ea: a tier's number before the letters of the side; GNE: no number.
         const std::size_t letters = name.find_last_of("0123456789") + 1;
-        names.push_back(letters > 0 ? name.substr(0, letters) : name);
+        const auto side = sides.find(before_side(name));
+        if (letters > 0) {
+            names.push_back(name.substr(0, letters));
+        } else {
+            names.push_back(side != sides.end() && side->second > 2 ? side->first : name);
+        }
     }
     return names;
 }

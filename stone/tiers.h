@@ -36,7 +36,8 @@ struct FacetTier {
 std::vector<FacetTier> tiers_of(const Solid& solid, const Vec3& up);
 
 /// What each facet's name has in common with those of its tier: `C` of C1; `A` of A.1, and of A
-/// where there is an A.1; `C1` of C1NE; nothing of f12, which says only that the facet has no name.
+/// where there is an A.1; `C1` of C1NE and `G` of GNE; nothing of f12, which says only that the
+/// facet has no name.
 std::vector<std::string> tier_names_of(const Solid& solid);
 
 /// `*` stands for any run of characters. `A.*` means the tier A of a cut design: A itself too,

@@ -85,8 +85,11 @@ TEST_F(ReadingFiles, PatternsAndAggregates) {
         "inclination,mean(P*),40.8,0.1\n"
         "inclination,max(S1/S2),22,0.5\n"
         "edge,T/mean(S*),1.3,0.05\n"
-        "edge,T/S*,1.3,0.05,,,,table\n");
-    ASSERT_EQ(readings.size(), 8u + 3 + 8);
+        "edge,T/S*,1.3,0.05,,,,table\n"
+        "inclination,each(S1/S3/U*),30,0.5,,,,some\n");
+    ASSERT_EQ(readings.size(), 8u + 3 + 8 + 18);
+    EXPECT_EQ(readings[19].id, "some.S1");
+    EXPECT_EQ(readings[20].of, std::vector<std::string>{"S3"});
     EXPECT_EQ(readings[0].id, "crown.C1");
     EXPECT_EQ(readings[7].id, "crown.C8");
     EXPECT_EQ(readings[8].aggregate, Aggregate::mean);

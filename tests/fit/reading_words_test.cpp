@@ -268,6 +268,8 @@ TEST_F(Words, TiersOfADesignAreMeantByTheirNames) {
     EXPECT_THAT(notes_, Contains(HasSubstr("11 is one facet of the tier 11, which has 4")));
     rows("inclination,11,44,0.1\ninclination,11.1,44,0.1\n");
     EXPECT_THAT(notes_, IsEmpty());
+    EXPECT_EQ(rows("inclination,each(11/11.1),44,0.1\n").size(), 2u);
+    EXPECT_THAT(notes_, IsEmpty());
 }
 
 }  // namespace

@@ -134,7 +134,7 @@ Solid design(bool named) {
 }
 
 // GemCad's tiers: the mains one by one, the others by the names that the design has; without names,
-// as means.
+// as lists.
 TEST_F(Form, OfADesignMeansItsTiers) {
     const auto written = read(readings_form(stone_of_cut(design(true)), true).csv);
     for (const char* name : {"B", "B.7", "2", "2.7", "A*", "1*", "C*", "G*"}) {
@@ -143,8 +143,9 @@ TEST_F(Form, OfADesignMeansItsTiers) {
     Stone unnamed = stone_of_cut(design(false));
     const ReadingsForm form = readings_form(unnamed, true);
     unnamed.up_facet = form.up_facet;
-    EXPECT_THAT(form.csv, HasSubstr("mean(f"));
-    EXPECT_EQ(bind_readings(read(filled_in(form.csv)), unnamed).size(), std::size_t(form.rows));
+    EXPECT_THAT(form.csv, HasSubstr("each(f"));
+    // All 72 facets but the table, and 8 of lengths and weight.
+    EXPECT_EQ(bind_readings(read(filled_in(form.csv)), unnamed).size(), 72u + 8);
 }
 
 TEST_F(Form, NamesThatReadingsCannotHoldAreLeftOut) {

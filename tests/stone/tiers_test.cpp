@@ -103,9 +103,11 @@ TEST(Tiers, OfStandardCutsAreTheTrades) {
     EXPECT_EQ(main_facets(make_cut("round-brilliant", {{"culet", 3}}), k_up, false).size(), 8u);
     // A step cut has no facet that reaches from girdle to table: the largest tier stands for them.
     const Solid step = make_cut("step");
-    std::size_t first_steps = 0;
+    std::size_t first_steps = 0, girdles = 0;
     for (const FacetTier& tier : tiers_of(step, k_up)) first_steps += tier.pattern == "C1*" ? 1 : 0;
+    for (const FacetTier& tier : tiers_of(step, k_up)) girdles += tier.pattern == "G*" ? 1 : 0;
     EXPECT_EQ(first_steps, 1u);
+    EXPECT_EQ(girdles, 1u);
     EXPECT_EQ(main_facets(step, k_up, true).size(), 8u);
 }
 
