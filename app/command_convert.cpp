@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/solid_input.h"
 #include "app/terminal.h"
@@ -47,6 +48,7 @@ int convert(const ConvertOptions& options) {
                          "cannot be written: the name must end in .obj, .off, .ply, .stl or .asc, "
                          "or .pov for a scene");
     }
+    require_kind(options.in, {FileKind::solid}, "culet convert");
     const SolidInput input = load_solid(options.in, options.cut);
     // A mesh may be bent or dented and still be worth converting: it is written as it is.
     const std::vector<Fault> faults =
@@ -62,6 +64,9 @@ int convert(const ConvertOptions& options) {
     const bool quiet = options.common.quiet;
     for (const std::string& note : input.notes) {
         say(fmt::format("{}: {}", options.in.string(), note), quiet);
+    }
+    for (const std::string& detail : input.details) {
+        say(fmt::format("{}: {}", options.in.string(), detail), quiet || !options.common.verbose);
     }
     for (const Fault& fault : faults) {
         say(fmt::format("culet: warning: {}: {}: {}", options.in.string(), name_of(fault.kind),

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
+#include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/terminal.h"
 #include "render/probe.h"
@@ -45,6 +46,7 @@ int run_probe(const ProbeOptions& options) {
     if (options.pixel.empty() == options.ray.empty()) {
         throw InputError("probe needs one of --pixel X,Y and --ray OX,OY,OZ,DX,DY,DZ");
     }
+    require_kind(options.scene, {FileKind::scene}, "culet probe", options.common.set);
     Scene scene = read_scene(options.scene, options.common.set);
     scene.settings.seed = options.common.seed;
     const ProbeResult result =

@@ -123,6 +123,7 @@ Description describe_solid_file(const DescribeOptions& options) {
     const SolidInput input = load_solid(options.file, options.cut);
     Description about;
     about.notes = input.notes;
+    about.notes.insert(about.notes.end(), input.details.begin(), input.details.end());
     about.object["format"] = input.format;
     about.lines.push_back(fmt::format("{}: {}", options.file.string(), input.format));
     if (input.sheet) describe_sheet(*input.sheet, about);

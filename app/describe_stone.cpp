@@ -55,6 +55,7 @@ Description describe_stone_file(const DescribeOptions& options) {
     const Stone& stone = file.stone;
     Description about;
     about.notes = file.notes;
+    about.notes.insert(about.notes.end(), file.details.begin(), file.details.end());
     Json& object = about.object;
     object["format"] = "stone";
     object["name"] = stone.name;

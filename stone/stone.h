@@ -46,6 +46,7 @@ double azimuth(const Vec3& normal);
 struct SolidFile {
     Solid solid;
     std::vector<std::string> notes;
+    std::vector<std::string> details;  ///< of cut files, as in ReadCut
 };
 SolidFile read_solid(const std::filesystem::path& file);
 

@@ -141,6 +141,7 @@ StoneFile stone_of(const TomlTable& root) {
     SolidFile file = read_solid(result.mesh_file);
     stone.solid = std::move(file.solid);
     result.notes = std::move(file.notes);
+    result.details = std::move(file.details);
 
     switch (table->kind("up")) {
         case TomlTable::Kind::missing:
