@@ -166,7 +166,12 @@ Material catalogue_material(const std::string& name) {
         }
         return material;
     }
-    const std::vector<std::string> like = catalogue_names_like(name);
+    // What is called so before what is only described so (corundum is the host of ruby).
+    std::vector<std::string> like = catalogue_names_like(name);
+    const auto described = std::find_if(like.begin(), like.end(), [&name](const std::string& id) {
+        return !holds_words(id, name);
+    });
+    if (described != like.begin()) like.erase(described, like.end());
     throw InputError(fmt::format(
         "no material \"{}\" in the catalogue{}; culet info --materials WORD looks for one, or "
         "describe yours in a [material] table",
@@ -180,7 +185,10 @@ std::vector<std::string> catalogue_names_like(const std::string& words) {
     for (const std::string& name : names) {
         if (holds_words(about(name), words)) found.push_back(name);
     }
-    return found.empty() ? names_like(words, names) : found;
+    if (found.empty()) return names_like(words, names);
+    std::stable_partition(found.begin(), found.end(),
+                          [&words](const std::string& id) { return holds_words(id, words); });
+    return found;
 }
 
 bool Material::has_absorption() const {

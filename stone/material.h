@@ -63,7 +63,7 @@ std::vector<std::string> catalogue_names();
 Material catalogue_material(const std::string& name);
 
 /// Names whose material has all of `words` in its name, its kind or its usual colour (`blue
-/// sapphire`, `tsavorite`); else those nearest by spelling; in order, perhaps none.
+/// sapphire`, `tsavorite`), those named so first; else those nearest by spelling; perhaps none.
 std::vector<std::string> catalogue_names_like(const std::string& words);
 
 /// A sentence on the colour that is missing when stones of that name are coloured and the catalogue

@@ -58,8 +58,8 @@ Rgb face_up(const Material& material) {
 
 void print_mean_path() {
     fmt::print(
-        "mean way of the light through a brilliant of 6.5 mm, face up in light from all "
-        "sides (used: {:.2f} mm)\n",
+        "mean way of faintly absorbed light through a brilliant of 6.5 mm, face up in light "
+        "from all sides (of body colours: {:.2f} mm)\n",
         light_path_mm(k_usual_width_mm));
     for (const char* name : {"quartz", "corundum", "spinel", "garnet_almandine", "diamond"}) {
         Material material = catalogue_material(name);
