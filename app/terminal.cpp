@@ -33,10 +33,10 @@ struct LineState {
     }
 };
 
-// From how long the work has lasted and how far it is. Early guesses are worthless, and the last
-// seconds need none.
+// From how long the work has lasted and how far it is. Early guesses are worthless, for work often
+// begins faster than it goes on, and the last seconds need none.
 std::string time_left(double elapsed, double fraction) {
-    if (!(fraction > 0.02 && fraction < 1)) return {};
+    if (!(elapsed > 3 && fraction > 0.05 && fraction < 1)) return {};
     const double left = elapsed * (1 - fraction) / fraction;
     if (left < 1.5) return {};
     if (left < 90) return fmt::format(", about {:.0f} s left", left);

@@ -12,7 +12,7 @@ namespace culet {
 
 namespace {
 
-using Json = nlohmann::json;
+using Json = nlohmann::ordered_json;  // rays in their order
 
 std::string colour_cell(const Json& material) {
     const auto found = material.find("colour");

@@ -173,6 +173,13 @@ TEST_F(Slips, missing_colour_is_said_when_a_picture_is_drawn) {
     EXPECT_NE(info.out.find("drawn without colour"), std::string::npos) << info.out;
     const ProgramRun diamond = run_culet({"info", file("scene.toml"), "--set", "material=diamond"});
     EXPECT_EQ(diamond.out.find("drawn without colour"), std::string::npos);
+    write("dravite.toml", "[stone]\nmesh = \"hand.obj\"\nmaterial = \"tourmaline_dravite\"\n");
+    const ProgramRun stone = run_culet({"info", file("dravite.toml")});
+    EXPECT_NE(stone.out.find("note: tourmaline_dravite is drawn without colour"), std::string::npos)
+        << stone.out;
+    const ProgramRun ruby =
+        run_culet({"info", file("dravite.toml"), "--set", "stone.material=ruby_gem"});
+    EXPECT_NE(ruby.out.find("body colour deep red"), std::string::npos) << ruby.out;
     expect_answer({"info", file("scene.toml"), "--set", "material=sapphire"},
                   {"\"sapphire_blue\"", "--materials"});
 }
