@@ -52,11 +52,11 @@ void draw(const FitCommand& command, const std::string& title, const FitResult& 
 }
 
 int run_fit(const FitCommand& command) {
-    require_kind(command.stone, {FileKind::stone}, "culet fit", command.common.set);
     require_solid_name(command.output);
     require_writable(command.output);
     require_writable(command.report);
     require_writable(command.drawing);
+    require_kind(command.stone, {FileKind::stone}, "culet fit", command.common.set);
     StoneFile file = read_stone(command.stone, command.common.set);
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
     for (const std::string& detail : file.details) say(detail, !command.common.verbose);
