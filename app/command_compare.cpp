@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/solid_input.h"
 #include "app/terminal.h"
@@ -182,6 +183,7 @@ int run_compare(const CompareArguments& a, const std::string& version) {
             "compare takes a photograph and a render or a scene file: "
             "culet compare PHOTO RENDER -o DIR");
     }
+    require_photographs_first(a.pictures, a.simulated, a.common.set);
     if (!a.against_scene()) {
         if (a.photographs() > 1) {
             throw InputError(

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/readings_form.h"
 #include "app/solid_input.h"
@@ -52,6 +53,7 @@ int convert(const ConvertOptions& options) {
                          "cannot be written: the name must end in .obj, .off, .ply, .stl or .asc, "
                          "or .pov for a scene");
     }
+    require_kind(options.in, {FileKind::solid}, "culet convert");
     SolidInput input = load_solid(options.in, options.cut);
     if (!options.width.empty()) {
         scale_to_width(input.solid, length_mm(options.width, "--width"));
@@ -70,6 +72,9 @@ int convert(const ConvertOptions& options) {
     const bool quiet = options.common.quiet;
     for (const std::string& note : input.notes) {
         say(fmt::format("{}: {}", options.in.string(), note), quiet);
+    }
+    for (const std::string& detail : input.details) {
+        say(fmt::format("{}: {}", options.in.string(), detail), quiet || !options.common.verbose);
     }
     for (const Fault& fault : faults) {
         say(fmt::format("culet: warning: {}: {}: {}", options.in.string(), name_of(fault.kind),

@@ -15,6 +15,7 @@
 #include "stone/mesh_io.h"
 #include "stone/output_file.h"
 #include "stone/stone.h"
+#include "stone/toml_advice.h"
 #include "stone/toml_file.h"
 
 namespace culet {
@@ -185,6 +186,12 @@ void add_command_cut(CLI::App& program, int& exit_code) {
                    },
                    fmt::format("{}, {} to {} {}, default {}", p.what, p.least, p.most, p.unit,
                                p.value))
+                ->transform(CLI::Validator(
+                    [unit = p.unit](std::string& value) {
+                        value = without_unit(value, unit);
+                        return std::string();
+                    },
+                    ""))
                 ->type_name(p.unit.empty() ? "X" : p.unit);
         }
         add_common(*cut, options->common);

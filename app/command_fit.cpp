@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/terminal.h"
 #include "fit/fit.h"
@@ -55,8 +56,10 @@ int run_fit(const FitCommand& command) {
     require_writable(command.output);
     require_writable(command.report);
     require_writable(command.drawing);
+    require_kind(command.stone, {FileKind::stone}, "culet fit", command.common.set);
     StoneFile file = read_stone(command.stone, command.common.set);
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
+    for (const std::string& detail : file.details) say(detail, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
     const auto written = read_readings(command.stone, command.common.set);
     const Mended mesh = mended(file.stone, written);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "app/describe.h"
+#include "app/file_kinds.h"
+#include "app/material_list.h"
 #include "app/options.h"
 #include "app/readings_form.h"
 #include "app/solid_input.h"
@@ -25,14 +27,6 @@ struct InfoOptions {
     FormOptions form;
     std::string width;
 };
-
-// One line, whatever a name or a heading of the file holds.
-std::string printable(std::string text) {
-    for (char& c : text) {
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-    }
-    return text;
-}
 
 // The form for the stone of a file: a mesh, a cut design or a stone file.
 std::vector<std::string> form_of(const InfoOptions& options) {
@@ -95,10 +89,10 @@ int info(InfoOptions options) {
     }
     for (const std::string& line : form) say(line, options.common.quiet);
     if (options.json != "-" && options.form.readings != "-") {
-        for (const std::string& line : about.lines) fmt::print("{}\n", printable(line));
-        for (const std::string& note : about.notes) fmt::print("note: {}\n", printable(note));
+        for (const std::string& line : about.lines) fmt::print("{}\n", for_terminal(line));
+        for (const std::string& note : about.notes) fmt::print("note: {}\n", for_terminal(note));
         for (const Fault& fault : about.faults) {
-            fmt::print("fault: {}: {}\n", name_of(fault.kind), printable(fault.what));
+            fmt::print("fault: {}: {}\n", name_of(fault.kind), for_terminal(fault.what));
         }
         std::fflush(stdout);
     }
@@ -122,39 +116,26 @@ Description describe_job_file(const TomlTable& root) {
     return about;
 }
 
-void list_materials() {
-    for (const std::string& name : catalogue_names()) {
-        const Material material = catalogue_material(name);
-        std::string indices;
-        for (int ray = 0; ray < ray_count(material.optic); ++ray) {
-            indices += fmt::format("{}{} {:.3f}", ray == 0 ? "" : ", ",
-                                   ray_name(material.optic, ray), material.index[ray].at(589.3));
-        }
-        const bool coloured = material.absorption_per_mm[0].max() > 0;
-        fmt::print("{:<22} {:<38} {}{}\n", name, indices, material.name,
-                   coloured ? ", coloured" : "");
-    }
-}
-
 }  // namespace
 
 Description describe_file(const DescribeOptions& options) {
     if (is_solid_file(options.file)) return describe_solid_file(options);
-    const std::string extension = extension_of(options.file);
-    if (extension == "toml") {
-        const TomlTable root = read_toml(options.file, options.overrides);
-        if (root.has("fit") && !root.has("stone")) return describe_job_file(root);
-        if (root.has("camera") || root.has("light") || root.has("render")) {
-            return describe_scene_file(options);
-        }
-        if (root.kind("stone") == TomlTable::Kind::table) return describe_stone_file(options);
-        if (root.has("material") && !root.has("stone") && !root.has("mesh")) {
+    switch (kind_of(options.file, options.overrides)) {
+        case FileKind::job:
+            return describe_job_file(read_toml(options.file, options.overrides));
+        case FileKind::stone:
+            return describe_stone_file(options);
+        case FileKind::material:
             return describe_material_file(options);
-        }
-        return describe_scene_file(options);
-    }
-    for (const char* picture : {"exr", "hdr", "png", "jpg", "jpeg", "tif", "tiff"}) {
-        if (extension == picture) return describe_image_file(options);
+        case FileKind::scene:
+            return describe_scene_file(options);
+        case FileKind::picture:
+            return describe_image_file(options);
+        case FileKind::unknown:
+            if (extension_of(options.file) == "toml") return describe_scene_file(options);
+            break;
+        default:
+            break;
     }
     throw InputError(options.file,
                      "is of an unknown kind: info reads meshes and cuts (.obj .off .ply .stl .asc "
@@ -166,10 +147,22 @@ void add_command_info(CLI::App& program, int& exit_code) {
     auto options = std::make_shared<InfoOptions>();
     CLI::App* command =
         program.add_subcommand("info", "what a file holds, and what is wrong with it");
-    auto materials = std::make_shared<bool>(false);
+    auto materials = std::make_shared<std::optional<std::string>>();
+    auto page = std::make_shared<std::filesystem::path>();
     command->add_option("FILE", options->describe.file,
                         "mesh, cut, stone, scene, job, material or picture");
-    command->add_flag("--materials", *materials, "list the catalogue of materials");
+    command
+        ->add_option_function<std::vector<std::string>>(
+            "--materials",
+            [materials](const std::vector<std::string>& words) {
+                *materials = words.empty() ? std::string() : words.front();
+            },
+            "list the catalogue of materials, or those that WORD names: indices, birefringence, "
+            "density, colour")
+        ->expected(0, 1)
+        ->type_name("[WORD]");
+    command->add_option("-o,--output", *page, "the list of materials as a page with colour fields")
+        ->type_name("LIST.html");
     command->add_option("--json", options->json, "write one object there (-: stdout)")
         ->type_name("FILE");
     command
@@ -202,10 +195,14 @@ void add_command_info(CLI::App& program, int& exit_code) {
         "-v lists every facet. Exit code 1 when there are faults.\n"
         "Examples:\n"
         "  culet info design.asc\n"
+        "  culet info --materials garnet\n"
+        "  culet info --materials -o materials.html --json materials.json\n"
         "  culet info hand.obj -v --json hand.json\n"
-        "  culet info design.asc --width 6.5mm --material sapphire --readings form.csv");
-    command->callback([options, materials, &exit_code] {
-        if (*materials) return list_materials();
+        "  culet info design.asc --width 6.5mm --material sapphire_blue --readings form.csv");
+    command->callback([options, materials, page, &exit_code] {
+        if (*materials) return list_materials({**materials, options->json, *page});
+        if (!page->empty())
+            throw InputError("-o writes the list of materials: give --materials, or --json FILE");
         if (options->describe.file.empty()) throw InputError("name a file, or use --materials");
         exit_code = info(*options);
     });

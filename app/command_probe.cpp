@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
+#include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/terminal.h"
 #include "render/probe.h"
@@ -45,6 +46,7 @@ int run_probe(const ProbeOptions& options) {
     if (options.pixel.empty() == options.ray.empty()) {
         throw InputError("probe needs one of --pixel X,Y and --ray OX,OY,OZ,DX,DY,DZ");
     }
+    require_kind(options.scene, {FileKind::scene}, "culet probe", options.common.set);
     Scene scene = read_scene(options.scene, options.common.set);
     scene.settings.seed = options.common.seed;
     const ProbeResult result =
@@ -69,7 +71,7 @@ int run_probe(const ProbeOptions& options) {
         for (std::size_t i = 0; i < path.facets.size(); ++i) {
             if (i > 0)
                 facets += path.modes[i - 1] == 'i' ? " " : fmt::format(" -{}- ", path.modes[i - 1]);
-            facets += path.facets[i];
+            facets += for_terminal(path.facets[i]);
         }
         const PolarisationEllipse ellipse = ellipse_of(path.stokes);
         fmt::print("{:>9.6f}  {:<22} {:>8.1f}% {:>7.1f} {:>7.1f}  {}\n", weight, path.light,

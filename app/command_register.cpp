@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/terminal.h"
 #include "compare/photo.h"
@@ -63,6 +64,8 @@ void say_result(const RegisterArguments& a, const FoundPose& pose) {
 }
 
 int run_register(const RegisterArguments& a) {
+    require_kind(a.photo, {FileKind::picture}, "culet register", {});
+    require_kind(a.scene, {FileKind::scene}, "culet register", a.common.set);
     const Photo photo = read_photo(a.photo);
     const Scene scene = read_scene(a.scene, a.common.set);
     const PoseOptions options = options_of(a, photo);

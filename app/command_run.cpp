@@ -5,6 +5,7 @@
 #include <memory>
 #include <system_error>
 
+#include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/terminal.h"
 #include "compare/compare.h"
@@ -64,6 +65,7 @@ Job read_job(const fs::path& file, const std::vector<std::string>& overrides) {
 
 int run_job(const RunOptions& options) {
     const bool quiet = options.common.quiet;
+    require_kind(options.job, {FileKind::job}, "culet run", options.common.set);
     const Job job = read_job(options.job, options.common.set);
 
     // Everything that can be wrong with the inputs is found before the first output is written.

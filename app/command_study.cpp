@@ -6,6 +6,7 @@
 #include <optional>
 #include <system_error>
 
+#include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/study_scene.h"
 #include "app/terminal.h"
@@ -39,6 +40,8 @@ void refuse(const StudyCommand& command, const CLI::Option* given, const char* k
 }
 
 int run_study(const StudyCommand& command) {
+    require_kind(command.input, {FileKind::scene, FileKind::stone}, "culet study",
+                 command.common.set);
     const TomlTable root = read_toml(command.input, command.common.set);
     const bool is_stone = root.kind("stone") == TomlTable::Kind::table;
     if (!is_stone && (root.has("stone") || root.has("camera") || root.has("mesh"))) {
@@ -51,6 +54,7 @@ int run_study(const StudyCommand& command) {
     refuse(command, command.runs_given, "scenes");
     StoneFile file = read_stone(command.input, command.common.set);
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
+    for (const std::string& detail : file.details) say(detail, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
     const auto written = read_readings(command.input, command.common.set);
     const Mended mesh = mended(file.stone, written);

@@ -185,6 +185,7 @@ Description describe_solid_file(const DescribeOptions& options) {
     if (options.width_mm > 0) scale_to_width(input.solid, options.width_mm);
     Description about;
     about.notes = input.notes;
+    about.notes.insert(about.notes.end(), input.details.begin(), input.details.end());
     about.object["format"] = input.format;
     about.lines.push_back(fmt::format("{}: {}", options.file.string(), input.format));
     if (input.sheet) describe_sheet(*input.sheet, about);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "app/describe.h"
+#include "render/material_colour.h"
 #include "stone/material_io.h"
 #include "stone/stone_io.h"
 #include "stone/units.h"
@@ -42,6 +43,12 @@ void describe_material(const Material& material, Description& about) {
     }
     if (material.density_g_cm3)
         line += fmt::format(", density {:g} g/cm3", *material.density_g_cm3);
+    object["body_colour"] = Json();
+    if (material.has_absorption()) {
+        const StoneColour colour = body_colour(material);
+        object["body_colour"] = {{"name", colour.name}, {"srgb", display_hex(colour.rgb)}};
+        line += fmt::format(", body colour {} at {:g} mm", colour.name, k_usual_width_mm);
+    }
     object["density"] = material.density_g_cm3 ? Json(*material.density_g_cm3) : Json();
     object["valid_nm"] = {material.valid_from_nm, material.valid_to_nm};
     object["confidence"] = material.confidence;
@@ -55,6 +62,7 @@ Description describe_stone_file(const DescribeOptions& options) {
     const Stone& stone = file.stone;
     Description about;
     about.notes = file.notes;
+    about.notes.insert(about.notes.end(), file.details.begin(), file.details.end());
     Json& object = about.object;
     object["format"] = "stone";
     object["name"] = stone.name;
@@ -67,6 +75,8 @@ Description describe_stone_file(const DescribeOptions& options) {
                                       stone.name, file.mesh_file.string(), name_of(stone.unit)));
     if (file.has_material) {
         describe_material(stone.material, about);
+        if (std::string missing = missing_colour(stone.material); !missing.empty())
+            about.notes.push_back(std::move(missing));
     } else {
         object["material"] = Json();
         about.lines.push_back("no material is named: a fit does without, a picture does not");

@@ -11,25 +11,31 @@
 
 #include "app/options.h"
 #include "app/terminal.h"
+#include "app/usage_advice.h"
 #include "stone/errors.h"
-#include "stone/toml_file.h"
+#include "stone/name_suggestions.h"
 
 namespace {
-
-// Control characters of a hostile file name or field must not reach the terminal; one error is one
-// line.
-std::string printable(std::string text) {
-    for (char& c : text) {
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-    }
-    return text;
-}
 
 int complain(int code, const std::string& message) {
     const bool colour = isatty(STDERR_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
     fmt::print(stderr, "{}culet: error:{} {}\n", colour ? "\033[1;31m" : "",
-               colour ? "\033[0m" : "", printable(message));
+               colour ? "\033[0m" : "", culet::for_terminal(message));
     return code;
+}
+
+// A file where the command belongs is told from a misspelt command.
+std::string unknown_command(const std::string& word, const std::vector<std::string>& commands) {
+    const bool is_file = word.find('.') != std::string::npos;
+    if (is_file) {
+        return fmt::format(
+            "\"{0}\" stands where a command belongs: culet info {0} says what it "
+            "holds, culet --help lists the commands",
+            word);
+    }
+    const std::vector<std::string> like = culet::names_like(word, commands);
+    return fmt::format("no command \"{}\"{} (see culet --help)", word,
+                       like.empty() ? "" : fmt::format(", did you mean {}?", culet::listed(like)));
 }
 
 int run(int argc, char** argv) {
@@ -66,16 +72,17 @@ int run(int argc, char** argv) {
     }
     const bool names_a_command = argc > 1 && argv[1][0] != '-';
     if (names_a_command && std::find(commands.begin(), commands.end(), argv[1]) == commands.end()) {
-        const auto near = nearest_name(argv[1], commands);
-        return complain(exit_impossible,
-                        fmt::format("no command \"{}\"{} (see culet --help)", argv[1],
-                                    near ? fmt::format(", did you mean \"{}\"?", *near) : ""));
+        return complain(exit_impossible, unknown_command(argv[1], commands));
+    }
+    if (argc == 1) {
+        fmt::print(stderr, "{}", first_commands());
+        return exit_impossible;
     }
     try {
         program.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return program.exit(error);  // --help, --version
-        return complain(exit_impossible, fmt::format("{} (see culet --help)", error.what()));
+        return complain(exit_impossible, usage_advice(program, {argv + 1, argv + argc}, error));
     }
     return exit_code;
 }

@@ -27,6 +27,7 @@ SolidInput load_solid(const std::filesystem::path& file, const CutReading& how) 
             input.format == "asc" ? read_gemcad_asc(file, how) : read_gemcad_gem(file, how);
         input.solid = std::move(cut.solid);
         input.notes = std::move(cut.notes);
+        input.details = std::move(cut.details);
         input.sheet = std::move(cut.sheet);
         input.unused_planes = std::move(cut.unused_planes);
         input.repeated_planes = std::move(cut.repeated_planes);

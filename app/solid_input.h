@@ -15,7 +15,8 @@ struct SolidInput {
     Solid solid;
     std::string format;  ///< obj, off, ply, stl, asc, gem
     std::vector<std::string> notes;
-    std::optional<CutSheet> sheet;  ///< of a cut design
+    std::vector<std::string> details;  ///< as in ReadCut
+    std::optional<CutSheet> sheet;     ///< of a cut design
     std::vector<std::string> unused_planes, repeated_planes;
 };
 

@@ -11,11 +11,11 @@ namespace culet {
 void catch_interrupts();
 bool interrupted();
 
-/// A progress line for `what`: drawn only when stderr is a terminal, `quiet` is off and the work
-/// has lasted over a second. It always answers Ctrl-C, terminal or not.
+/// A progress line for `what`, with the time left: drawn only when stderr is a terminal, `quiet` is
+/// off and the work has lasted over a second. It always answers Ctrl-C, terminal or not.
 Progress progress_line(std::string what, bool quiet);
 
-/// One line for people, unless `quiet`.
+/// One line for people, unless `quiet`; foreign text in it is made safe (for_terminal).
 void say(const std::string& line, bool quiet);
 
 }  // namespace culet

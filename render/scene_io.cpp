@@ -348,6 +348,8 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
     } else {
         scene.stone = read_scene_stone(root, scene.notes);
     }
+    if (std::string missing = missing_colour(scene.stone.material); !missing.empty())
+        scene.notes.push_back(std::move(missing));
     if (const auto immersion = root.number("immersion")) {
         if (!(*immersion >= 1 && *immersion <= 4)) {
             root.fail("immersion",

@@ -153,7 +153,7 @@ void build_solid(ReadCut& cut, const std::vector<CutPlane>& planes, const CutRea
     for (std::size_t i = 0; i < names.size(); ++i) cut.solid.facets[i].name = std::move(names[i]);
 
     if (cut.contracted_edges > 0) {
-        cut.notes.push_back(fmt::format(
+        cut.details.push_back(fmt::format(
             "joined meets that miss: {} edges shorter than {:g} of the width; corners lie up to "
             "{:.2g} of the width off their planes",
             cut.contracted_edges, how.meet_tolerance, planarity(cut.solid) / width));

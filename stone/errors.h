@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace culet {
 
@@ -30,6 +31,11 @@ class Interrupted : public std::runtime_error {
 public:
     Interrupted() : std::runtime_error("interrupted") {}
 };
+
+/// Foreign text as one line that a terminal may be given: control characters (of ASCII and of
+/// Unicode's C1) are blanks, what stands in double quotes is shortened beyond 120 bytes and the
+/// whole beyond 2000; no character of UTF-8 is cut in two.
+std::string for_terminal(std::string_view text);
 
 /// Throws InternalError with `what` unless `condition` holds. Stays on in release builds.
 inline void check(bool condition, const char* what) {

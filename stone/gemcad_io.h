@@ -25,6 +25,7 @@ struct ReadCut {
     Solid solid;
     CutSheet sheet;
     std::vector<std::string> notes;
+    std::vector<std::string> details;  ///< what nearly every file has done to it: said on request
     /// Planes of the file that bound nothing, and planes equal to an earlier one; each as
     /// `tier 3 (-42.5 degrees), index 24`.
     std::vector<std::string> unused_planes, repeated_planes;

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "stone/errors.h"
-#include "stone/toml_file.h"
+#include "stone/name_suggestions.h"
 
 namespace culet {
 
@@ -109,7 +109,21 @@ Material pure_material(const std::string& id, const Json& entry) {
     material.orientation = text_of(entry, "orientation");
     material.confidence = text_of(entry, "confidence");
     material.source = text_of(entry, "source");
+    material.usual_colour = text_of(entry, "usual_colour");
     return material;
+}
+
+constexpr std::size_t k_longest_query = 200;
+
+// What a search of the catalogue looks at: names, kind, colour.
+std::string about(const std::string& id) {
+    const Json& materials = catalogue().at("materials");
+    const Json& absorptions = catalogue().at("absorption");
+    const auto colour = absorptions.find(id);
+    const std::string host = colour == absorptions.end() ? id : text_of(*colour, "material");
+    const Json& entry = materials.at(host);
+    return id + " " + text_of(entry, "name") + " " +
+           (colour == absorptions.end() ? text_of(entry, "usual_colour") : host);
 }
 
 }  // namespace
@@ -136,6 +150,11 @@ Material catalogue_material(const std::string& name) {
         Material material = pure_material(host, materials.at(host));
         material.id = name;
         material.absorption_source = text_of(*colour, "source");
+        material.absorption_confidence = text_of(*colour, "confidence");
+        material.absorption_depth = text_of(*colour, "scale_reason");
+        material.usual_colour.clear();
+        // How deep the stone of this name is, over the one that was measured.
+        const double depth = colour->value("scale", 1.0);
         const auto nm = colour->at("wavelength_nm").get<std::vector<double>>();
         const Json& rays = colour->at("rays");
         for (int ray = 0; ray < ray_count(material.optic); ++ray) {
@@ -143,16 +162,48 @@ Material catalogue_material(const std::string& name) {
             if (found == rays.end()) continue;
             // The catalogue's unit is 1/cm.
             material.absorption_per_mm[ray] =
-                Spectrum(nm, found->get<std::vector<double>>()).scaled(0.1);
+                Spectrum(nm, found->get<std::vector<double>>()).scaled(0.1 * depth);
         }
         return material;
     }
-    const auto near = nearest_name(name, catalogue_names());
-    throw InputError(
-        fmt::format("no material \"{}\" in the catalogue{}; culet info --materials lists them, or "
-                    "describe yours in a "
-                    "[material] table",
-                    name, near ? fmt::format(" (did you mean \"{}\"?)", *near) : std::string()));
+    // What is called so before what is only described so (corundum is the host of ruby).
+    std::vector<std::string> like = catalogue_names_like(name);
+    const auto described = std::find_if(like.begin(), like.end(), [&name](const std::string& id) {
+        return !holds_words(id, name);
+    });
+    if (described != like.begin()) like.erase(described, like.end());
+    throw InputError(fmt::format(
+        "no material \"{}\" in the catalogue{}; culet info --materials WORD looks for one, or "
+        "describe yours in a [material] table",
+        name, like.empty() ? std::string() : fmt::format(" (did you mean {}?)", listed(like))));
+}
+
+std::vector<std::string> catalogue_names_like(const std::string& words) {
+    const std::vector<std::string> names = catalogue_names();
+    std::vector<std::string> found;
+    if (words.size() > k_longest_query) return found;
+    for (const std::string& name : names) {
+        if (holds_words(about(name), words)) found.push_back(name);
+    }
+    if (found.empty()) return names_like(words, names);
+    std::stable_partition(found.begin(), found.end(),
+                          [&words](const std::string& id) { return holds_words(id, words); });
+    return found;
+}
+
+bool Material::has_absorption() const {
+    for (int ray = 0; ray < ray_count(optic); ++ray) {
+        if (absorption_per_mm[ray].max() > 0) return true;
+    }
+    return false;
+}
+
+std::string missing_colour(const Material& material) {
+    if (material.usual_colour.empty() || material.has_absorption()) return {};
+    return fmt::format(
+        "{} is drawn without colour: stones of that name are {}, but the catalogue has no "
+        "absorption spectrum of them (give one with absorption in a [material] table)",
+        material.id, material.usual_colour);
 }
 
 }  // namespace culet

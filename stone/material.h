@@ -45,6 +45,13 @@ struct Material {
     std::optional<double> density_g_cm3;
     double valid_from_nm = 380, valid_to_nm = 780;
     std::string orientation, confidence, source, absorption_source;
+    std::string absorption_confidence;  ///< measured, or a model, and how sure
+    std::string absorption_depth;       ///< why the catalogue's spectrum is not that of its source
+    /// Colour of most stones of that name, where no spectrum of them is at hand; else empty.
+    std::string usual_colour;
+
+    /// False: it is drawn without colour, for want of a spectrum or because it has none.
+    bool has_absorption() const;
 };
 
 /// Names of the catalogue: materials, then coloured varieties (`ruby_pale` is `corundum` with an
@@ -54,5 +61,13 @@ std::vector<std::string> catalogue_names();
 /// A material or coloured variety of the catalogue. Throws InputError with the nearest names when
 /// there is none of that name.
 Material catalogue_material(const std::string& name);
+
+/// Names whose material has all of `words` in its name, its kind or its usual colour (`blue
+/// sapphire`, `tsavorite`), those named so first; else those nearest by spelling; perhaps none.
+std::vector<std::string> catalogue_names_like(const std::string& words);
+
+/// A sentence on the colour that is missing when stones of that name are coloured and the catalogue
+/// has no spectrum of them; empty when nothing is missing.
+std::string missing_colour(const Material& material);
 
 }  // namespace culet

@@ -65,10 +65,10 @@ SolidFile read_solid(const std::filesystem::path& file) {
     SolidFile read;
     if (extension == ".asc" || extension == ".gem") {
         ReadCut cut = extension == ".asc" ? read_gemcad_asc(file) : read_gemcad_gem(file);
-        read = {std::move(cut.solid), std::move(cut.notes), true};
+        read = {std::move(cut.solid), std::move(cut.notes), std::move(cut.details), true};
     } else if (mesh_format(file)) {
         ReadSolid mesh = read_mesh(file);
-        read = {std::move(mesh.solid), std::move(mesh.notes), mesh.planes_stated};
+        read = {std::move(mesh.solid), std::move(mesh.notes), {}, mesh.planes_stated};
     } else {
         throw InputError(file,
                          "is of an unknown kind: a mesh or cut ends in .obj, .off, .ply, .stl, "

@@ -49,7 +49,8 @@ double azimuth(const Vec3& normal);
 struct SolidFile {
     Solid solid;
     std::vector<std::string> notes;
-    bool facets_are_whole = false;  ///< see Stone
+    std::vector<std::string> details;  ///< of cut files, as in ReadCut
+    bool facets_are_whole = false;     ///< see Stone
 };
 SolidFile read_solid(const std::filesystem::path& file);
 

@@ -142,6 +142,7 @@ StoneFile stone_of(const TomlTable& root) {
     stone.solid = std::move(file.solid);
     result.notes = std::move(file.notes);
     stone.facets_are_whole = file.facets_are_whole;
+    result.details = std::move(file.details);
 
     switch (table->kind("up")) {
         case TomlTable::Kind::missing:

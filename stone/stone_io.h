@@ -19,6 +19,7 @@ struct StoneFile {
     std::filesystem::path readings_file;  ///< empty: none named
     std::optional<double> density_g_cm3;  ///< the stone's own when given, else its material's
     std::vector<std::string> notes;       ///< from reading the mesh
+    std::vector<std::string> details;     ///< the same, said on request
 };
 
 /// Throws InputError. The mesh is read but not judged: run `find_faults`.

@@ -10,6 +10,7 @@
 
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "stone/toml_advice.h"
 
 namespace culet {
 
@@ -49,7 +50,11 @@ double finite_number(const std::filesystem::path& file, const toml::node& node,
                      std::string_view key) {
     const auto value = node.value<double>();
     if (!node.is_number() || !value) {
-        fail_at(file, node, fmt::format("{} must be a number, found {}", key, describe(node)));
+        const std::string advice =
+            node.is_string() ? number_advice(*node.value<std::string>()) : std::string();
+        fail_at(file, node,
+                fmt::format("{} must be a number, found {}{}", key, describe(node),
+                            advice.empty() ? "" : ": " + advice));
     }
     if (!std::isfinite(*value)) {
         fail_at(file, node, fmt::format("{} must be a finite number, found {}", key, *value));
@@ -138,14 +143,27 @@ void apply_override(toml::table& root, const std::string& setting) {
     }
 }
 
+// Line `number` of a text, counted from 1.
+std::string_view line_of_text(std::string_view text, long number) {
+    for (; number > 1; --number) {
+        const std::size_t end = text.find('\n');
+        if (end == std::string_view::npos) return {};
+        text.remove_prefix(end + 1);
+    }
+    return text.substr(0, text.find('\n'));
+}
+
 toml::table parsed(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     const std::string text = read_text(file, k_limit_bytes);
     toml::table root;
     try {
         root = toml::parse(text, file.string());
     } catch (const toml::parse_error& error) {
-        throw InputError(file, static_cast<long>(error.source().begin.line),
-                         fmt::format("is no TOML: {}", error.description()));
+        const auto line = static_cast<long>(error.source().begin.line);
+        const std::string advice = toml_advice(line_of_text(text, line));
+        throw InputError(file, line,
+                         fmt::format("is no TOML: {}{}", error.description(),
+                                     advice.empty() ? "" : "; " + advice));
     }
     for (const std::string& setting : overrides) apply_override(root, setting);
     return root;

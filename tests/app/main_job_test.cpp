@@ -103,7 +103,6 @@ TEST_F(MainJob, WhatCannotBeDoneIsOneLineAndLeavesNothing) {
     const std::string stone = (k_samples / "real-brilliant/stone.toml").string();
     std::ofstream(file("old.obj")) << "kept";
     const std::vector<std::vector<std::string>> cases{
-        {},
         {"bogus"},
         {"fit"},
         {"fit", file("missing.toml"), "-o", file("old.obj")},

@@ -1,0 +1,22 @@
+#pragma once
+// What somebody may have meant who wrote a name that is not known.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace culet {
+
+/// Those of `known` that somebody who wrote `word` may have meant, best first: they begin with its
+/// words, else hold all of them (`blue sapphire` is sapphire_blue), else are nearest by edit
+/// distance, whole or in one part of the name. Letters of either case, `-`, `_` and blanks are the
+/// same. Empty when none is near.
+std::vector<std::string> names_like(std::string_view word, const std::vector<std::string>& known);
+
+/// True when `text` holds every word of `words`; letters of either case are the same.
+bool holds_words(std::string_view text, std::string_view words);
+
+/// `"a"`, `"a" or "b"`, `"a", "b" or 5 more`: at most `most` names in quotes; empty without names.
+std::string listed(const std::vector<std::string>& names, std::size_t most = 4);
+
+}  // namespace culet

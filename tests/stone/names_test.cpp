@@ -1,0 +1,182 @@
+// Names that nobody knows, values that are no TOML, and foreign text for a terminal.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "stone/errors.h"
+#include "stone/material.h"
+#include "stone/name_suggestions.h"
+#include "stone/toml_advice.h"
+#include "stone/toml_file.h"
+#include "tests/scratch_folder.h"
+
+namespace culet {
+namespace {
+
+std::string error_of(const std::string& name) {
+    try {
+        catalogue_material(name);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+TEST(NamesLike, begin_with_the_word_else_hold_it_else_are_spelt_alike) {
+    const std::vector<std::string> known{"sapphire_blue", "ruby_gem", "ruby_pale", "topaz_blue"};
+    const auto names = [&known](const char* word) { return names_like(word, known); };
+    EXPECT_EQ(names("ruby"), (std::vector<std::string>{"ruby_gem", "ruby_pale"}));
+    EXPECT_EQ(names("Blue"), (std::vector<std::string>{"sapphire_blue", "topaz_blue"}));
+    EXPECT_EQ(names("blue sapphire"), std::vector<std::string>{"sapphire_blue"});
+    // One letter away from a part of the name.
+    EXPECT_EQ(names("saphire"), std::vector<std::string>{"sapphire_blue"});
+    EXPECT_TRUE(names("opal").empty());
+    EXPECT_TRUE(names("").empty());
+    EXPECT_TRUE(names(std::string(1000000, 'x').c_str()).empty());
+}
+
+TEST(NamesLike, are_listed_in_words) {
+    EXPECT_EQ(listed({}), "");
+    EXPECT_EQ(listed({"a"}), "\"a\"");
+    EXPECT_EQ(listed({"a", "b"}), "\"a\" or \"b\"");
+    EXPECT_EQ(listed({"a", "b", "c", "d", "e", "f"}, 3), "\"a\", \"b\", \"c\" or 3 more");
+}
+
+TEST(Catalogue, answers_trade_names_with_what_it_has) {
+    EXPECT_NE(error_of("sapphire").find("mean \"sapphire_blue\"?"), std::string::npos);
+    EXPECT_NE(error_of("ruby").find("mean \"ruby_gem\" or \"ruby_pale\"?"), std::string::npos)
+        << error_of("ruby");
+    EXPECT_NE(error_of("dimond").find("\"diamond\""), std::string::npos);
+    // Tsavorite and demantoid are kinds of garnet that the usual colours name.
+    EXPECT_EQ(catalogue_names_like("tsavorite"), std::vector<std::string>{"garnet_grossular"});
+    EXPECT_EQ(catalogue_names_like("Demantoid"), std::vector<std::string>{"garnet_andradite"});
+    EXPECT_TRUE(has(catalogue_names_like("garnet"), "garnet_rhodolite"));
+    EXPECT_TRUE(catalogue_names_like("qqqqqqqq").empty());
+    // A name of a megabyte is not echoed whole.
+    EXPECT_LT(for_terminal(error_of(std::string(1 << 20, 'x'))).size(), 400u);
+}
+
+TEST(Catalogue, says_when_the_colour_of_a_stone_is_missing) {
+    EXPECT_NE(missing_colour(catalogue_material("aquamarine")).find("light greenish blue"),
+              std::string::npos);
+    // Colourless as they should be; and coloured.
+    for (const char* name : {"diamond", "quartz", "glass_bk7", "corundum", "garnet_rhodolite",
+                             "peridot", "tourmaline_green"}) {
+        EXPECT_EQ(missing_colour(catalogue_material(name)), "") << name;
+    }
+    // Every material of the catalogue has a spectrum, is without colour, or says what is missing.
+    for (const std::string& name : catalogue_names()) {
+        const Material material = catalogue_material(name);
+        EXPECT_EQ(material.has_absorption(), !material.absorption_source.empty()) << name;
+    }
+}
+
+TEST(Catalogue, absorbs_by_the_table_times_the_depth_of_the_name) {
+    // Dubinsky et al. 2020: 14.6 /cm at 410 nm for 750 ppma Cr and E across c; the ruby of the
+    // catalogue has 2000 ppma. The pale one is as in its table: 2.609 /cm for 134 ppma.
+    EXPECT_NEAR(catalogue_material("ruby_gem").absorption_per_mm[0].at(410), 1.46 * 2000 / 750,
+                1e-4);
+    EXPECT_NEAR(catalogue_material("ruby_pale").absorption_per_mm[0].at(410), 0.2609, 1e-12);
+    EXPECT_FALSE(catalogue_material("ruby_gem").absorption_depth.empty());
+    EXPECT_TRUE(catalogue_material("ruby_pale").absorption_depth.empty());
+}
+
+TEST(Catalogue, bands_of_garnets_make_their_tables) {
+    // Gaussians over the wavenumber, half maximum at half the width; strengths in 1/cm.
+    struct Band {
+        double nm, width, peak;
+    };
+    // A share of almandine, and the broad band's strength.
+    struct Garnet {
+        const char* name;
+        double almandine, broad;
+    };
+    for (const Garnet& garnet :
+         {Garnet{"garnet_rhodolite", 0.42, 1.7}, {"garnet_almandine", 0.7, 3.5}}) {
+        const double iron = garnet.almandine;
+        const Band bands[] = {{505, 700, 15 * iron},  {527, 800, 20 * iron},
+                              {576, 650, 25 * iron},  {441, 7000, garnet.broad},
+                              {462, 700, 2.5 * iron}, {428, 800, 2.5 * iron},
+                              {617, 900, 2.5 * iron}, {690, 900, 2.5 * iron}};
+        const Material material = catalogue_material(garnet.name);
+        for (int nm = 380; nm <= 780; nm += 40) {
+            double sum = 0;
+            for (const Band& band : bands) {
+                const double x = (1e7 / nm - 1e7 / band.nm) / band.width;
+                sum += band.peak * std::exp2(-4 * x * x);
+            }
+            // The table has four digits: half of the last is 5e-4 of the value at most.
+            EXPECT_NEAR(material.absorption_per_mm[0].at(nm), 0.1 * sum, 5e-5 * sum) << nm;
+        }
+    }
+}
+
+TEST(TomlAdvice, says_what_to_write) {
+    EXPECT_EQ(toml_advice("name = Dravite, off-standard # mine"),
+              "put quotes about a text: name = \"Dravite, off-standard\"");
+    EXPECT_EQ(toml_advice("stone = ../a.toml"), "put quotes about a text: stone = \"../a.toml\"");
+    EXPECT_EQ(toml_advice("value = 6.52mm"), "write 6.52 without \"mm\"");
+    EXPECT_EQ(toml_advice("value = 6,52"), "write 6.52 with a point");
+    EXPECT_EQ(toml_advice("tolerance = 5%"),
+              "write 0.05 where a fraction is asked, 5 where per cent are");
+    EXPECT_EQ(toml_advice("unit: mm"), "write unit = mm, with =");
+    EXPECT_EQ(toml_advice("name = \"Dravite"), "a quote is not closed");
+    EXPECT_EQ(toml_advice("value ="), "a value is missing behind value =");
+    // Nothing to say of what is right, or of what lies inside lists.
+    for (const char* line : {"value = 6.52", "value = true", "at = [1, 2, x]", "", "# x", "[a"}) {
+        EXPECT_EQ(toml_advice(line), "") << line;
+    }
+    EXPECT_EQ(number_advice("5"), "");
+    EXPECT_EQ(number_advice("mm"), "");
+    EXPECT_EQ(without_unit("6.52 mm", "mm"), "6.52");
+    EXPECT_EQ(without_unit("58%", "%"), "58");
+    EXPECT_EQ(without_unit("33.8\u00b0", "deg"), "33.8");
+    // A foreign unit is left to whoever reads the number.
+    EXPECT_EQ(without_unit("6.52cm", "mm"), "6.52cm");
+    EXPECT_EQ(without_unit("wide", "mm"), "wide");
+}
+
+TEST(TomlAdvice, stands_in_the_error_with_the_line) {
+    const test::ScratchFolder folder;
+    const auto error = [&folder](const std::string& text) -> std::string {
+        std::ofstream(folder / "a.toml") << text;
+        try {
+            const TomlTable root = read_toml(folder / "a.toml");
+            root.number("value");
+        } catch (const InputError& caught) {
+            return caught.what();
+        }
+        return "no error";
+    };
+    const std::string unquoted = error("value = 1\nname = Dravite\n");
+    EXPECT_NE(unquoted.find("a.toml:2:"), std::string::npos) << unquoted;
+    EXPECT_NE(unquoted.find("name = \"Dravite\""), std::string::npos) << unquoted;
+    EXPECT_NE(error("value = \"6.52mm\"\n").find("write 6.52 without \"mm\""), std::string::npos);
+}
+
+TEST(ForTerminal, lets_no_control_character_through_and_shortens_what_is_quoted) {
+    EXPECT_EQ(for_terminal("a\x1b[31m\nb\x7f"), "a [31m b ");
+    EXPECT_EQ(for_terminal("a\u009b31m"), "a  31m");
+    EXPECT_EQ(for_terminal("\u00e4\u00f6 \"\u00fc\""), "\u00e4\u00f6 \"\u00fc\"");
+    const std::string quoted = for_terminal("no \"" + std::string(5000, 'x') + "\" here");
+    EXPECT_EQ(quoted.size(), std::string("no \"\" here").size() + 120);
+    EXPECT_NE(quoted.find("x...x"), std::string::npos);
+    EXPECT_TRUE(quoted.ends_with("\" here"));
+    EXPECT_LE(for_terminal(std::string(1 << 20, 'y')).size(), 2000u);
+    // No character is cut in two: every byte of a cut text of two-byte letters has its partner.
+    std::string letters;
+    for (int i = 0; i < 3001; ++i) letters += "\u00e4";
+    const std::string cut = for_terminal("x" + letters);
+    EXPECT_EQ(std::count(cut.begin(), cut.end(), '\xc3'),
+              std::count(cut.begin(), cut.end(), '\xa4'));
+}
+
+}  // namespace
+}  // namespace culet
