@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -21,7 +23,7 @@ extern "C" void note_interrupt(int) {
 struct LineState {
     std::string what;
     bool visible = false, drawn = false;
-    int last_percent = -1;
+    std::string last;
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 
     // The line is wiped when the work lets go of it, so that the next message starts clean.
@@ -31,6 +33,17 @@ struct LineState {
 };
 
 }  // namespace
+
+std::string progress_text(double fraction, double seconds) {
+    // Too little is done to tell.
+    constexpr double k_least = 0.01;
+    if (!(fraction >= k_least)) return fmt::format("{:.0f} s", seconds);
+    const double left = seconds * (1 - fraction) / fraction;
+    // To two digits: more is not known, and would flicker.
+    const double step = left < 20 ? 1 : left < 100 ? 5 : 10;
+    return fmt::format("{:3.0f} %, about {:.0f} s left", 100 * fraction,
+                       std::max(1.0, step * std::ceil(left / step)));
+}
 
 void catch_interrupts() {
     struct sigaction action {};
@@ -53,12 +66,12 @@ Progress progress_line(std::string what, bool quiet) {
         if (line->visible) {
             const std::chrono::duration<double> elapsed =
                 std::chrono::steady_clock::now() - line->start;
-            const int percent = static_cast<int>(100.0 * fraction);
-            if (elapsed.count() > 1.0 && percent != line->last_percent) {
-                line->last_percent = percent;
+            std::string told = progress_text(fraction, elapsed.count());
+            if (elapsed.count() > 1.0 && told != line->last) {
                 line->drawn = true;
-                fmt::print(stderr, "\r\033[K{} {:3d} %", line->what, percent);
+                fmt::print(stderr, "\r\033[K{} {}", line->what, told);
                 std::fflush(stderr);
+                line->last = std::move(told);
             }
         }
         return !interrupted();

@@ -11,7 +11,9 @@
 #include "render/beams/shading_passes.h"
 #include "render/eye_optics.h"
 #include "render/listener.h"
+#include "render/plan/price.h"
 #include "render/threads.h"
+#include "render/work_meter.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -82,6 +84,14 @@ std::vector<std::size_t> shared_beams(const Plan& plan, const ScreenView& view, 
         for (; first < end; ++first) leader[first] = std::min(middle_band, end - 1);
     }
     return leader;
+}
+
+double price_of(const StripSums& sums, int nodes) {
+    DrawnBeams work;
+    work.parted = static_cast<double>(sums.beams);
+    work.fragments = static_cast<double>(sums.fragments);
+    work.nodes = nodes;
+    return price_ns(work);
 }
 
 }  // namespace
@@ -228,6 +238,8 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
     StripSums whole;
     double lost = 0;
     int trees = 0;
+    WorkMeter* const meter = scene.settings.meter.get();
+    const int nodes_of_pass = passes.empty() ? 1 : passes.front().lights.nodes;
     Listener listener(progress, static_cast<double>(views.size()) * static_cast<double>(strips));
     for (std::size_t v = 0; v < views.size(); ++v) {
         SortedBeams* beams = work.beams.data() + v * bands;
@@ -243,6 +255,9 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
                     if (leader[b] != b) return;
                     beams[b].grow(work.stone.net, views[v], band.n / band.n_outside,
                                   settings.limits);
+                    DrawnBeams grown;
+                    grown.grown = static_cast<double>(beams[b].tree.beams());
+                    if (meter != nullptr) meter->spend(price_ns(grown));
                 },
                 tbb::simple_partitioner());
             report.seconds_build += seconds_since(building);
@@ -250,16 +265,19 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
             tbb::parallel_for(
                 0, strips,
                 [&](int strip) {
-                    if (!listener.goes_on()) return;
+                    if (!listener.goes_on() || (meter != nullptr && meter->over())) return;
                     if (v == 0) work.clear(strip);
-                    sums[static_cast<std::size_t>(strip)] = work.painters.local().paint(
-                        strip, views[v], beams, fronts, passes, options);
+                    const StripSums& sum = sums[static_cast<std::size_t>(strip)] =
+                        work.painters.local().paint(strip, views[v], beams, fronts, passes,
+                                                    options);
+                    if (meter != nullptr) meter->spend(price_of(sum, nodes_of_pass));
                     if (v + 1 == views.size()) work.develop(strip, picture);
                 },
                 tbb::simple_partitioner());
             report.seconds_shade += seconds_since(shading);
         });
         if (listener.stopped()) throw Interrupted();
+        if (meter != nullptr) meter->require_not_over();
         for (const StripSums& sum : sums) whole += sum;
         const bool kept = settings.crystal == CrystalBeams::merged || !plan.splits;
         for (std::size_t b = 0; kept && b < bands; ++b) {
