@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -80,6 +81,14 @@ int explain_plan(const RenderOptions& options) {
 
 // How near the picture is, where that was left to culet.
 void say_how_near(const RenderStats& stats, bool quiet) {
+    if (std::isnan(stats.error_bound)) {
+        say(fmt::format(
+                "a rough picture, nobody knows how near: one that is proven takes more than "
+                "about {} s; --tolerance 0.2 draws it",
+                k_usual_seconds),
+            quiet);
+        return;
+    }
     if (!stats.allowed_tolerance) return;
     const bool finest = stats.error_bound <= RenderSettings().tolerance;
     say(fmt::format("within {:.2g} of the mean radiance{}", stats.error_bound,
@@ -96,12 +105,12 @@ void say_all_about(const RenderStats& stats) {
                         decision.why),
             false);
     }
-    say(fmt::format("{} rays, {} beams in {:.2f} s; remainder {:.2g}, cut {:.2g}, error bound "
-                    "{:.2g} of the mean",
-                    stats.rays, stats.beams,
-                    stats.seconds_setup + stats.seconds_build + stats.seconds_shade +
-                        stats.seconds_check,
-                    stats.remainder, stats.cut, stats.error_bound),
+    say(fmt::format(
+            "{} rays, {} beams in {:.2f} s; remainder {:.2g}, cut {:.2g}, error bound "
+            "{:.2g} of the mean",
+            stats.rays, stats.beams,
+            stats.seconds_setup + stats.seconds_build + stats.seconds_shade + stats.seconds_check,
+            stats.remainder, stats.cut, stats.error_bound),
         false);
 }
 
@@ -112,8 +121,7 @@ public:
         : options_(options),
           output_(output),
           scene_(scene),
-          wanted_(!options.common.quiet && output.goes_to_a_file() &&
-                  isatty(STDERR_FILENO) != 0) {}
+          wanted_(!options.common.quiet && output.goes_to_a_file() && isatty(STDERR_FILENO) != 0) {}
 
     void first() {
         if (!wanted_) return;
@@ -187,6 +195,9 @@ int run_render(const RenderOptions& options) {
     if (options.common.verbose && !quiet) say_all_about(result.stats);
     const bool trusted = !options.verify || result.stats.verification->holds();
     if (!trusted) say("the error bound does not hold", quiet);
+    // A rough picture, for want of time.
+    if (scene.settings.allowed_ns > 0 && std::isnan(result.stats.error_bound))
+        return exit_untrusted;
     return trusted ? exit_good : exit_untrusted;
 }
 
@@ -198,8 +209,9 @@ void add_stone_options(CLI::App& command, StoneScene& stone) {
         presets += fmt::format("{}{}", presets.empty() ? "" : ", ", preset.name);
     command
         .add_option("--light", stone.light,
-                    presets + ", or the views polariscope, conoscope, dichroscope; a stone without "
-                              "a scene: jeweller")
+                    presets +
+                        ", or the views polariscope, conoscope, dichroscope; a stone without "
+                        "a scene: jeweller")
         ->type_name("PRESET");
     command
         .add_option("--width", stone.width_mm,

@@ -53,7 +53,8 @@ PictureOutput::PictureOutput(std::string out, bool spectral) : out_(std::move(ou
     const std::string extension = fs::path(out_).extension().string();
     if (extension != ".exr" && extension != ".png" && extension != ".hdr")
         throw InputError(out_, "pictures are written as .exr, .png or .hdr");
-    if (spectral && extension != ".exr") throw InputError(out_, "spectral planes need an .exr file");
+    if (spectral && extension != ".exr")
+        throw InputError(out_, "spectral planes need an .exr file");
     require_writable(out_);
 }
 

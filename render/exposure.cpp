@@ -25,9 +25,9 @@ double exposure_for_stone(const Picture& picture) {
         if (std::isfinite(most)) brightest.push_back(most);
     }
     if (brightest.empty()) return 1;
-    const auto at = brightest.begin() +
-                    static_cast<std::ptrdiff_t>((1 - k_share_over_white) *
-                                                static_cast<double>(brightest.size() - 1));
+    const auto at =
+        brightest.begin() + static_cast<std::ptrdiff_t>((1 - k_share_over_white) *
+                                                        static_cast<double>(brightest.size() - 1));
     std::nth_element(brightest.begin(), at, brightest.end());
     return *at > 0 ? 1 / *at : 1;
 }

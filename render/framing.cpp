@@ -25,16 +25,13 @@ void frame_stone(const Solid& solid, Facing facing, Camera& camera) {
         camera.up = {0, 1, 0};
     const Vec3 right = glm::normalize(glm::cross(camera.up, towards_eye)),
                upwards = glm::cross(towards_eye, right);
-    const auto [left_end, right_end] =
-        std::minmax_element(solid.vertices.begin(), solid.vertices.end(),
-                            [&right](const Vec3& a, const Vec3& b) {
-                                return glm::dot(a, right) < glm::dot(b, right);
-                            });
-    const auto [lower_end, upper_end] =
-        std::minmax_element(solid.vertices.begin(), solid.vertices.end(),
-                            [&upwards](const Vec3& a, const Vec3& b) {
-                                return glm::dot(a, upwards) < glm::dot(b, upwards);
-                            });
+    const auto [left_end, right_end] = std::minmax_element(
+        solid.vertices.begin(), solid.vertices.end(),
+        [&right](const Vec3& a, const Vec3& b) { return glm::dot(a, right) < glm::dot(b, right); });
+    const auto [lower_end, upper_end] = std::minmax_element(
+        solid.vertices.begin(), solid.vertices.end(), [&upwards](const Vec3& a, const Vec3& b) {
+            return glm::dot(a, upwards) < glm::dot(b, upwards);
+        });
     const double x = glm::dot(*left_end + *right_end, right) / 2,
                  y = glm::dot(*lower_end + *upper_end, upwards) / 2;
     const double wide = glm::dot(*right_end - *left_end, right),

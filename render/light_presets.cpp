@@ -12,15 +12,18 @@ namespace culet {
 namespace {
 
 const Vec3 k_up{0, 0, 1};
+// Half angles of the eye's hole. With 15 degrees, which show arrows, the hearts of a pavilion
+// of 40.75 degrees lie in the hole's reflection.
+constexpr double k_eye_deg = 15, k_hearts_eye_deg = 5;
 
 CapLight band(const Vec3& axis, double from_deg, double to_deg, LightColour colour) {
     return {glm::normalize(axis), radians(from_deg), radians(to_deg), std::move(colour)};
 }
 
-// The hood of a viewer: what its dark middle covers is the eye's hole.
-Lights reflector(const Vec3& axis) {
+// The hood of a viewer, round the hole for the eye.
+Lights reflector(const Vec3& axis, double hole_deg) {
     Lights lights;
-    lights.caps.push_back(band(axis, 15, 80, {Rgb{1.0, 0.25, 0.3}}));
+    lights.caps.push_back(band(axis, hole_deg, 80, {Rgb{1.0, 0.25, 0.3}}));
     return lights;
 }
 
@@ -71,7 +74,7 @@ Lights aset() {
 }
 
 Lights idealscope() {
-    Lights lights = reflector(k_up);
+    Lights lights = reflector(k_up, k_eye_deg);
     lights.hemispheres.push_back({-k_up, {1.0}});
     return lights;
 }
@@ -91,9 +94,9 @@ const std::vector<Made>& all_made() {
         {{"aset", "red, green and blue by elevation (AGS)", false, true}, aset},
         {{"idealscope", "a red reflector, white light from below", false, true}, idealscope},
         {{"arrows", "a red reflector before the crown", false, true},
-         [] { return reflector(k_up); }},
+         [] { return reflector(k_up, k_eye_deg); }},
         {{"hearts", "a red reflector before the pavilion, seen from below", true, true},
-         [] { return reflector(-k_up); }}};
+         [] { return reflector(-k_up, k_hearts_eye_deg); }}};
     return made;
 }
 

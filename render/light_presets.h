@@ -38,8 +38,8 @@ const LightPreset* find_light_preset(std::string_view name);
 ///   0-45 degrees, red 45-75, blue 75-90 (the viewer's head); dark below.
 /// idealscope: a red reflector 15-80 degrees round the eye's dark hole, white light from below,
 ///   which shows what leaks.
-/// arrows, hearts: a red reflector 15-80 degrees round the eye's dark hole, and no other light;
-///   arrows before the crown, hearts before the pavilion (about -z).
+/// arrows: that reflector alone, before the crown.
+/// hearts: the same before the pavilion, 5-80 degrees from straight down.
 /// Nothing for an unknown name.
 std::optional<Lights> light_preset(std::string_view name);
 

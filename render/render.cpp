@@ -85,6 +85,7 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
         if (!picture.misjudged || leave == Planner::Leave::surely) break;
         seconds_before += seconds_of(result.stats);
         tried = result.stats.notes;
+        if (scene.settings.meter != nullptr && scene.settings.meter->limited()) continue;
         tried.push_back(
             "what was left out matters more than its pilot saw: drawn with all that is "
             "not sure to change nothing");
@@ -100,8 +101,7 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
 
 // It was of this drawing alone.
 void forget_meter(RenderStats& stats) {
-    if (stats.plan)
-        stats.plan->settings.meter = stats.plan->reference.meter = nullptr;
+    if (stats.plan) stats.plan->settings.meter = stats.plan->reference.meter = nullptr;
 }
 
 }  // namespace

@@ -79,9 +79,9 @@ struct RenderResult {
 using PictureSink = std::function<void(const RenderResult&)>;
 
 /// Draws with the scene's engine: the exact reference renderer, or beams. Same scene and seed, same
-/// bytes, whatever the number of threads. `better`: where the tolerance is what `allowed_ns` allows,
-/// told of each picture on the way, the last of which is returned. Throws InputError (stone not
-/// closed, camera inside the stone) and Interrupted.
+/// bytes, whatever the number of threads. `better`: where the tolerance is what `allowed_ns`
+/// allows, told of each picture on the way, the last of which is returned. Throws InputError (stone
+/// not closed, camera inside the stone) and Interrupted.
 RenderResult render(const Scene& scene, const Progress& progress = {},
                     const PictureSink& better = {});
 

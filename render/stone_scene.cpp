@@ -53,8 +53,8 @@ Kind kind_of(const std::filesystem::path& file) {
 std::string materials_of_index(double index) {
     std::vector<std::pair<double, std::string>> near;
     for (const std::string& name : catalogue_names())
-        near.emplace_back(
-            std::abs(catalogue_material(name).index[0].at(k_d_line_nm) - index), name);
+        near.emplace_back(std::abs(catalogue_material(name).index[0].at(k_d_line_nm) - index),
+                          name);
     std::sort(near.begin(), near.end());
     std::string names;
     for (std::size_t i = 0; i < std::min(k_suggestions, near.size()); ++i)
@@ -65,9 +65,8 @@ std::string materials_of_index(double index) {
 [[noreturn]] void ask_for_material(const std::filesystem::path& file, Kind kind) {
     std::string hint = "e.g. --material diamond";
     if (kind == Kind::cut) {
-        const CutSheet sheet = (extension_of(file) == ".asc" ? read_gemcad_asc(file)
-                                                             : read_gemcad_gem(file))
-                                   .sheet;
+        const CutSheet sheet =
+            (extension_of(file) == ".asc" ? read_gemcad_asc(file) : read_gemcad_gem(file)).sheet;
         if (sheet.refractive_index && *sheet.refractive_index > 1) {
             hint = fmt::format("its index {:.4g} is that of {}", *sheet.refractive_index,
                                materials_of_index(*sheet.refractive_index));
@@ -126,8 +125,9 @@ Scene read_any_scene(const std::filesystem::path& file, const std::vector<std::s
         material = std::filesystem::absolute(material).string();
     if (kind == Kind::scene) {
         if (choices.width_mm)
-            throw InputError(file, "is a scene, whose stone has its size: --width is for stones "
-                                   "without a scene");
+            throw InputError(file,
+                             "is a scene, whose stone has its size: --width is for stones "
+                             "without a scene");
         TomlTable root = material.empty() ? read_toml(file, keys)
                                           : read_toml_with(file, {{"material", material}}, keys);
         return scene_of(root, nullptr, light);

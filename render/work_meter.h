@@ -44,6 +44,10 @@ public:
         return expected > 0 ? std::min(0.99, done / expected) : 0;
     }
     void allow(double ns) { limit_ = static_cast<long long>(ns); }
+    /// After a piece of work that was let go: what it had come to hangs on chance, so that all that
+    /// was allowed counts as spent.
+    void use_up() { spent_ = limit_; }
+    double left() const { return static_cast<double>(limit_ - spent_); }
     bool limited() const { return limit_ != std::numeric_limits<long long>::max(); }
 
 private:

@@ -71,8 +71,8 @@ TomlTable read_toml_with(const std::filesystem::path& file,
                          const std::vector<std::pair<std::string, std::string>>& texts,
                          const std::vector<std::string>& overrides);
 
-/// A table that no file holds: `texts` are its keys and values. Paths in it are seen from the folder
-/// of `file`, and errors name `file`, which is not read. Throws InputError.
+/// A table that no file holds: `texts` are its keys and values. Paths in it are seen from the
+/// folder of `file`, and errors name `file`, which is not read. Throws InputError.
 TomlTable toml_beside(const std::filesystem::path& file,
                       const std::vector<std::pair<std::string, std::string>>& texts,
                       const std::vector<std::string>& overrides = {});

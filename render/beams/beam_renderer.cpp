@@ -86,14 +86,6 @@ std::vector<std::size_t> shared_beams(const Plan& plan, const ScreenView& view, 
     return leader;
 }
 
-double price_of(const StripSums& sums, int nodes) {
-    DrawnBeams work;
-    work.parted = static_cast<double>(sums.beams);
-    work.fragments = static_cast<double>(sums.fragments);
-    work.nodes = nodes;
-    return price_ns(work);
-}
-
 }  // namespace
 
 struct BeamRenderer::Work {
@@ -255,9 +247,8 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
                     if (leader[b] != b) return;
                     beams[b].grow(work.stone.net, views[v], band.n / band.n_outside,
                                   settings.limits);
-                    DrawnBeams grown;
-                    grown.grown = static_cast<double>(beams[b].tree.beams());
-                    if (meter != nullptr) meter->spend(price_ns(grown));
+                    if (meter != nullptr)
+                        meter->spend(price_ns(DrawnBeams{beams[b].tree.beams(), 0, 0, 1}));
                 },
                 tbb::simple_partitioner());
             report.seconds_build += seconds_since(building);
@@ -270,7 +261,9 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
                     const StripSums& sum = sums[static_cast<std::size_t>(strip)] =
                         work.painters.local().paint(strip, views[v], beams, fronts, passes,
                                                     options);
-                    if (meter != nullptr) meter->spend(price_of(sum, nodes_of_pass));
+                    if (meter != nullptr)
+                        meter->spend(
+                            price_ns(DrawnBeams{0, sum.beams, sum.fragments, nodes_of_pass}));
                     if (v + 1 == views.size()) work.develop(strip, picture);
                 },
                 tbb::simple_partitioner());

@@ -45,8 +45,9 @@ double price_ns(const PathWork& work) {
 
 double price_ns(const DrawnBeams& work) {
     const double nodes = 1 + k_node * (work.nodes - 1);
-    return k_grown_beam * work.grown + k_parted_beam * nodes * work.parted +
-           k_fragment * nodes * work.fragments;
+    return k_grown_beam * static_cast<double>(work.grown) +
+           nodes * (k_parted_beam * static_cast<double>(work.parted) +
+                    k_fragment * static_cast<double>(work.fragments));
 }
 
 double price_ns(const BeamWork& work) {

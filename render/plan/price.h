@@ -16,10 +16,10 @@ double price_ns(const PathWork& work);
 
 /// Work of beams that were drawn.
 struct DrawnBeams {
-    double grown = 0;      ///< isotropic or merged, of trees
-    double parted = 0;     ///< of a crystal's two waves
-    double fragments = 0;  ///< pixels under them, each wavelength's pass by itself
-    int nodes = 1;         ///< wavelengths of a pass
+    long long grown = 0;      ///< isotropic or merged, of trees
+    long long parted = 0;     ///< of a crystal's two waves
+    long long fragments = 0;  ///< pixels under them, each wavelength's pass by itself
+    int nodes = 1;            ///< wavelengths of a pass
 };
 double price_ns(const DrawnBeams& work);
 

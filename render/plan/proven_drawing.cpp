@@ -47,6 +47,8 @@ constexpr double k_misjudged = 0.7, k_main_cause = 0.7;
 constexpr double k_last_by_beams = 4;
 // About what proofs took of the pictures' prices.
 constexpr double k_usual_proof = 0.7;
+// Paths at so many times what is left are not begun.
+constexpr double k_surely_over = 1.3;
 // The next step of a proof may take this share of the picture's price before it is drawn anew,
 // which takes longer. Two waves take far longer than one. After the last there is no other way.
 constexpr double k_proof_share = 1.5, k_proof_share_as_one = 15, k_last_proof_share = 6,
@@ -228,6 +230,10 @@ void ProvenDrawing::draw_until_proven(ScenePlan& plan, Prover& prover, Way way, 
     }
     for (int drawing = 1;; ++drawing) {
         if (meter != nullptr) meter->expect_more((1 + k_usual_proof) * price);
+        // What paths take is known well; what beams take they find out.
+        if (is_paced(scene_.settings) && !drawn_by_beams(settings) &&
+            price > k_surely_over * meter->left())
+            throw OverAllowance();
         RenderResult result = draw_with(settings);
         RenderStats& stats = result.stats;
         const auto start = std::chrono::steady_clock::now();

@@ -69,15 +69,15 @@ TEST_F(RenderStone, SaysHowNearThePictureIsWhereNobodyAskedForATolerance) {
     const nlohmann::json stats = nlohmann::json::parse(bytes("a.json"));
     EXPECT_GT(stats["allowed_tolerance"], 0);
     EXPECT_LE(stats["error_bound"], 0.3);
-    const ProgramRun asked = run_culet({"render", file("stone.toml"), "--size", "32", "-o",
-                                        file("b.png"), "--tolerance", "0.1"});
+    const ProgramRun asked = run_culet(
+        {"render", file("stone.toml"), "--size", "32", "-o", file("b.png"), "--tolerance", "0.1"});
     EXPECT_EQ(asked.exit_code, 0) << asked.err;
     EXPECT_THAT(asked.err, Not(HasSubstr("of the mean radiance")));
 }
 
 TEST_F(RenderStone, GoesToStdoutAndStatsAlone) {
-    const ProgramRun picture = run_culet({"render", file("stone.toml"), "--size", "24",
-                                          "--tolerance", "0.2", "-q", "-o", "-"});
+    const ProgramRun picture = run_culet(
+        {"render", file("stone.toml"), "--size", "24", "--tolerance", "0.2", "-q", "-o", "-"});
     EXPECT_EQ(picture.exit_code, 0) << picture.err;
     EXPECT_EQ(picture.out.substr(0, 8), "\x89PNG\r\n\x1a\n");
     ASSERT_EQ(run_culet({"render", file("stone.toml"), "--size", "24", "--tolerance", "0.2", "-q",
@@ -94,9 +94,9 @@ TEST_F(RenderStone, GoesToStdoutAndStatsAlone) {
 // The work allowed is counted: threads and load change nothing.
 TEST_F(RenderStone, WhatIsAllowedGivesTheSameBytesOnAnyNumberOfThreads) {
     for (const char* threads : {"1", "3"}) {
-        const ProgramRun run = run_culet({"render", file("stone.obj"), "--material", "zircon_high",
-                                          "--size", "20", "--threads", threads, "-q", "-o",
-                                          file(std::string(threads) + ".exr")});
+        const ProgramRun run =
+            run_culet({"render", file("stone.obj"), "--material", "zircon_high", "--size", "20",
+                       "--threads", threads, "-q", "-o", file(std::string(threads) + ".exr")});
         ASSERT_EQ(run.exit_code, 0) << run.err;
     }
     EXPECT_EQ(bytes("1.exr"), bytes("3.exr"));

@@ -35,8 +35,8 @@ Lights bare_sun() {
     Lights lights;
     lights.hemispheres.push_back({up, {Rgb{0.45, 0.5, 0.6}}});
     lights.lobes.push_back({up, 2, {Rgb{0.25, 0.4, 0.8}}});
-    lights.caps.push_back({glm::normalize(Vec3{1, 0.4, 1.1}), 0, radians(0.27),
-                           {Rgb{9000, 8600, 7900}}});
+    lights.caps.push_back(
+        {glm::normalize(Vec3{1, 0.4, 1.1}), 0, radians(0.27), {Rgb{9000, 8600, 7900}}});
     lights.constant = 0.08;
     return lights;
 }

@@ -72,14 +72,13 @@ TEST_F(StoneSceneTest, the_stone_spans_85_percent_of_the_tighter_side) {
         const char *name, *cut, *size;
         int tight;  // 0: across, 1: down
     };
-    for (const Case& c : {Case{"round", "round-brilliant", "[200,200]", 0},
-                          Case{"oval", "oval", "[200,200]", 0},
-                          Case{"wide", "round-brilliant", "[300,200]", 1},
-                          Case{"tall", "oval", "[120,200]", 0}}) {
+    for (const Case& c :
+         {Case{"round", "round-brilliant", "[200,200]", 0}, Case{"oval", "oval", "[200,200]", 0},
+          Case{"wide", "round-brilliant", "[300,200]", 1}, Case{"tall", "oval", "[120,200]", 0}}) {
         const std::string stone = mesh(std::string(c.name) + ".obj", make_cut(c.cut));
         for (const char* light : {"jeweller", "hearts"}) {
-            const Scene scene = read_any_scene(
-                stone, {std::string("camera.size=") + c.size}, of("diamond", light));
+            const Scene scene =
+                read_any_scene(stone, {std::string("camera.size=") + c.size}, of("diamond", light));
             const std::array<double, 2> found = spans(draw_quickly(scene).picture);
             const std::size_t tight = static_cast<std::size_t>(c.tight);
             EXPECT_NEAR(found[tight], 0.85, 0.012) << c.name << " " << light;
@@ -105,11 +104,11 @@ TEST_F(StoneSceneTest, a_scene_without_a_camera_is_framed_and_one_with_a_camera_
     const std::string light = "[light]\npreset = \"jeweller\"\n";
     const Scene without = read_scene(text_file("without.toml", head + light));
     EXPECT_NEAR(spans(draw_quickly(without).picture)[0], 0.85, 0.012);
-    const Scene size_alone = read_scene(
-        text_file("size.toml", head + light + "[camera]\nsize = [150, 100]\n"));
+    const Scene size_alone =
+        read_scene(text_file("size.toml", head + light + "[camera]\nsize = [150, 100]\n"));
     EXPECT_NEAR(spans(draw_quickly(size_alone).picture)[1], 0.85, 0.012);
-    const Scene with = read_scene(
-        text_file("with.toml", head + light + "[camera]\nposition = [0, 0, 30]\n"));
+    const Scene with =
+        read_scene(text_file("with.toml", head + light + "[camera]\nposition = [0, 0, 30]\n"));
     EXPECT_EQ(with.camera.position.z, 30);
     EXPECT_FALSE(with.camera.orthographic_width.has_value());
 }
