@@ -21,7 +21,6 @@ namespace culet {
 namespace {
 
 constexpr int k_pupil_points = 64;
-
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -231,7 +230,6 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
     double lost = 0;
     int trees = 0;
     WorkMeter* const meter = scene.settings.meter.get();
-    const int nodes_of_pass = passes.empty() ? 1 : passes.front().lights.nodes;
     Listener listener(progress, static_cast<double>(views.size()) * static_cast<double>(strips));
     for (std::size_t v = 0; v < views.size(); ++v) {
         SortedBeams* beams = work.beams.data() + v * bands;
@@ -262,8 +260,8 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
                         work.painters.local().paint(strip, views[v], beams, fronts, passes,
                                                     options);
                     if (meter != nullptr)
-                        meter->spend(
-                            price_ns(DrawnBeams{0, sum.beams, sum.fragments, nodes_of_pass}));
+                        meter->spend(price_ns(
+                            DrawnBeams{0, sum.beams, sum.fragments, passes[0].lights.nodes}));
                     if (v + 1 == views.size()) work.develop(strip, picture);
                 },
                 tbb::simple_partitioner());
