@@ -13,6 +13,7 @@
 #include "compare/report.h"
 #include "fit/fit.h"
 #include "fit/mending.h"
+#include "render/exposure.h"
 #include "render/image_io.h"
 #include "render/render.h"
 #include "render/scene_io.h"
@@ -81,6 +82,7 @@ int run_job(const RunOptions& options) {
     Scene scene = read_scene(job.scene, {}, &file.stone);
     scene.settings.threads = options.common.threads;
     scene.settings.seed = options.common.seed;
+    if (!scene.names_tolerance) scene.settings.allowed_ns = k_usual_allowance_ns;
     Photo photo;
     CompareOptions compare_options;
     if (!job.photo.empty()) {
@@ -132,9 +134,12 @@ int run_job(const RunOptions& options) {
     write_solid(fit.solid, folder / "fitted.obj");
     write_text(folder / "fit.json", fit_text);
     write_picture(rendered.picture, folder / "render.exr");
-    write_picture(rendered.picture, folder / "render.png");
+    // For people to look at: the linear values are in the EXR.
+    PngLook look;
+    look.exposure = exposure_for_stone(rendered.picture);
+    write_picture(rendered.picture, folder / "render.png", look);
     write_text(folder / "stats.json", stats_text);
-    if (started) write_picture(started->picture, folder / "start.png");
+    if (started) write_picture(started->picture, folder / "start.png", look);
 
     Report report;
     report.title = job.name;

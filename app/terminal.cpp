@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <memory>
@@ -23,8 +25,7 @@ extern "C" void note_interrupt(int) {
 struct LineState {
     std::string what;
     bool visible = false, drawn = false;
-    int last_percent = -1;
-    double last_drawn = 0;  // seconds from the start
+    std::string last;
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 
     // The line is wiped when the work lets go of it, so that the next message starts clean.
@@ -33,18 +34,18 @@ struct LineState {
     }
 };
 
-// From how long the work has lasted and how far it is. Early guesses are worthless, for work often
-// begins faster than it goes on, and the last seconds need none.
-std::string time_left(double elapsed, double fraction) {
-    if (!(elapsed > 3 && fraction > 0.05 && fraction < 1)) return {};
-    const double left = elapsed * (1 - fraction) / fraction;
-    if (left < 1.5) return {};
-    if (left < 90) return fmt::format(", about {:.0f} s left", left);
-    if (left < 5400) return fmt::format(", about {:.0f} min left", left / 60);
-    return fmt::format(", about {:.1f} h left", left / 3600);
-}
-
 }  // namespace
+
+std::string progress_text(double fraction, double seconds) {
+    // Too little is done to tell.
+    constexpr double k_least = 0.01;
+    if (!(fraction >= k_least)) return fmt::format("{:.0f} s", seconds);
+    const double left = seconds * (1 - fraction) / fraction;
+    // To two digits: more is not known, and would flicker.
+    const double step = left < 20 ? 1 : left < 100 ? 5 : 10;
+    return fmt::format("{:3.0f} %, about {:.0f} s left", 100 * fraction,
+                       std::max(1.0, step * std::ceil(left / step)));
+}
 
 void catch_interrupts() {
     struct sigaction action {};
@@ -67,17 +68,12 @@ Progress progress_line(std::string what, bool quiet) {
         if (line->visible) {
             const std::chrono::duration<double> elapsed =
                 std::chrono::steady_clock::now() - line->start;
-            const int percent = static_cast<int>(100.0 * fraction);
-            // Once a second at least while the work answers, for the time left runs on.
-            const bool due =
-                percent != line->last_percent || elapsed.count() > line->last_drawn + 1;
-            if (elapsed.count() > 1.0 && due) {
-                line->last_percent = percent;
-                line->last_drawn = elapsed.count();
+            std::string told = progress_text(fraction, elapsed.count());
+            if (elapsed.count() > 1.0 && told != line->last) {
                 line->drawn = true;
-                fmt::print(stderr, "\r\033[K{} {:3d} %{}", line->what, percent,
-                           time_left(elapsed.count(), fraction));
+                fmt::print(stderr, "\r\033[K{} {}", line->what, told);
                 std::fflush(stderr);
+                line->last = std::move(told);
             }
         }
         return !interrupted();

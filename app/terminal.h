@@ -15,6 +15,10 @@ bool interrupted();
 /// off and the work has lasted over a second. It always answers Ctrl-C, terminal or not.
 Progress progress_line(std::string what, bool quiet);
 
+/// What it says after so many seconds: how much is done and how long the rest will take at that
+/// pace; for the time being, how long it has taken.
+std::string progress_text(double fraction, double seconds);
+
 /// One line for people, unless `quiet`; foreign text in it is made safe (for_terminal).
 void say(const std::string& line, bool quiet);
 

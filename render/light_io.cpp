@@ -180,21 +180,15 @@ std::shared_ptr<const EnvironmentMap> read_environment(const TomlTable& table,
 
 }  // namespace
 
-Lights lights_of(const TomlTable& table, double stone_diameter, std::vector<std::string>& notes) {
+Lights lights_of(const TomlTable& table, std::vector<std::string>& notes) {
     table.refuse_unknown(with_view_keys(with_polarisation_keys(
         {"environment", "constant", "sphere", "lobe", "hemisphere", "cap", "plane"})));
     Lights lights;
     const auto preset = table.text("preset");
     const bool is_view = preset && is_view_preset(*preset);
     if (preset && !is_view) {
-        const auto known = light_preset(*preset, stone_diameter);
-        if (!known) {
-            table.fail(
-                "preset",
-                fmt::format("no light \"{}\"; known: aset, hearts, arrows, lightbox, daylight, and "
-                            "the views polariscope, conoscope, dichroscope",
-                            *preset));
-        }
+        const auto known = light_preset(*preset);
+        if (!known) table.fail("preset", no_light_preset(*preset));
         lights = *known;
     }
     if (table.has("environment")) {

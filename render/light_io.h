@@ -9,8 +9,7 @@
 
 namespace culet {
 
-/// Presets are sized by the stone's diameter. `notes` receives what was repaired or is doubtful.
-/// Throws InputError with file and line.
-Lights lights_of(const TomlTable& table, double stone_diameter, std::vector<std::string>& notes);
+/// `notes` receives what was repaired or is doubtful. Throws InputError with file and line.
+Lights lights_of(const TomlTable& table, std::vector<std::string>& notes);
 
 }  // namespace culet

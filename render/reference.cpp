@@ -12,9 +12,11 @@
 #include "render/listener.h"
 #include "render/pilot.h"
 #include "render/pixel_shader.h"
+#include "render/plan/price.h"
 #include "render/reference.h"
 #include "render/scene_checks.h"
 #include "render/threads.h"
+#include "render/work_meter.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -59,9 +61,15 @@ RenderResult render_with_reference(const Scene& whole, const Progress& progress)
     tbb::enumerable_thread_specific<PixelMemory> memories;
     // At every pixel: one may take seconds.
     Listener listener(progress, static_cast<double>(camera.width) * camera.height);
+    WorkMeter* const meter = settings.meter.get();
+    PathWork of_a_ray;
+    of_a_ray.general = plan.general;
+    of_a_ray.polarised = plan.polarised;
+    of_a_ray.nodes = plan.bands.front().count;
     const auto shade_tile = [&](long long tile) {
         std::vector<double> stokes(static_cast<std::size_t>(colours.size() * shader.planes()));
         PixelMemory& memory = memories.local();
+        PathWork work = of_a_ray;
         PixelSums& sum = sums[static_cast<std::size_t>(tile)];
         const int x0 = static_cast<int>(tile % tiles_wide) * k_tile,
                   y0 = static_cast<int>(tile / tiles_wide) * k_tile;
@@ -77,6 +85,11 @@ RenderResult render_with_reference(const Scene& whole, const Progress& progress)
                 const PixelSums seen = shader.shade(x, y, 1.0, number, stokes.data(), memory);
                 sum += seen;
                 film.put(x, y, seen, stokes.data());
+                if (meter == nullptr) continue;
+                work.rays = static_cast<double>(seen.rays);
+                work.events = static_cast<double>(seen.events);
+                meter->spend(price_ns(work));
+                if (meter->over()) return;
             }
         }
     };
@@ -84,6 +97,7 @@ RenderResult render_with_reference(const Scene& whole, const Progress& progress)
         tbb::parallel_for(0LL, tiles_wide * tiles_high, shade_tile, tbb::simple_partitioner());
     });
     if (listener.stopped()) throw Interrupted();
+    if (meter != nullptr) meter->require_not_over();
 
     // Sums in the order of the tiles: the same bytes whatever the threads did.
     RenderStats& stats = result.stats;

@@ -5,19 +5,16 @@
 #include <algorithm>
 
 #include "render/beams/beam_picture.h"
+#include "render/plan/paced_drawing.h"
 #include "render/plan/planner.h"
 #include "render/plan/proven_drawing.h"
 #include "render/reference.h"
 #include "render/scene_checks.h"
+#include "render/work_meter.h"
 
 namespace culet {
 
 namespace {
-
-bool leaves_something_open(const RenderSettings& settings) {
-    return settings.tolerance > 0 &&
-           (settings.engine == "auto" || settings.effects_auto || settings.wavelengths_nm.empty());
-}
 
 RenderResult drawn(const Scene& scene, const Progress& progress) {
     return drawn_by_beams(scene.settings) ? render_with_beams(scene, progress)
@@ -88,6 +85,7 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
         if (!picture.misjudged || leave == Planner::Leave::surely) break;
         seconds_before += seconds_of(result.stats);
         tried = result.stats.notes;
+        if (scene.settings.meter != nullptr && scene.settings.meter->limited()) continue;
         tried.push_back(
             "what was left out matters more than its pilot saw: drawn with all that is "
             "not sure to change nothing");
@@ -101,11 +99,33 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
     return result;
 }
 
+// It was of this drawing alone.
+void forget_meter(RenderStats& stats) {
+    if (stats.plan) stats.plan->settings.meter = stats.plan->reference.meter = nullptr;
+}
+
 }  // namespace
 
-RenderResult render(const Scene& scene, const Progress& progress) {
+bool leaves_something_open(const RenderSettings& settings) {
+    return settings.tolerance > 0 &&
+           (settings.engine == "auto" || settings.effects_auto || settings.wavelengths_nm.empty());
+}
+
+RenderResult render(const Scene& scene, const Progress& progress, const PictureSink& better) {
     const bool planned = leaves_something_open(scene.settings);
-    RenderResult result = planned ? drawn_as_planned(scene, progress) : drawn(scene, progress);
+    if (planned && scene.settings.allowed_ns > 0) {
+        require_renderable(scene);
+        RenderResult result = draw_within_allowance(scene, progress, drawn_as_planned, better);
+        forget_meter(result.stats);
+        return result;
+    }
+    // A plan has many parts: counted together, they tell how far it is.
+    Scene counted = scene;
+    if (planned && progress) counted.settings.meter = std::make_shared<WorkMeter>();
+    const Progress told =
+        counted.settings.meter ? counted_by(progress, counted.settings.meter) : progress;
+    RenderResult result = planned ? drawn_as_planned(counted, told) : drawn(scene, progress);
+    forget_meter(result.stats);
     RenderStats& stats = result.stats;
     const double tolerance = scene.settings.tolerance;
     if (tolerance > 0 && stats.error_bound > tolerance) {

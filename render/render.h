@@ -1,6 +1,7 @@
 #pragma once
 // Front door of the room: a scene in, a picture out, and what was left out of it.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,6 +54,8 @@ struct RenderStats {
     /// what the picture shows of its sampling, or of the beams.
     std::optional<ScenePlan> plan;
     std::optional<Verification> verification;  ///< where asked for
+    /// Where the tolerance was what the work allowed: the one that was chosen.
+    std::optional<double> allowed_tolerance;
     /// Largest |sum of powers - 1| met at a crystal's face before it was put right.
     double worst_imbalance = 0;
     /// Beams: mean of |difference to the reference| over pixels of the stone, relative to the mean,
@@ -72,10 +75,23 @@ struct RenderResult {
     RenderStats stats;
 };
 
+/// Told of a picture that is nearer to the truth than those before.
+using PictureSink = std::function<void(const RenderResult&)>;
+
 /// Draws with the scene's engine: the exact reference renderer, or beams. Same scene and seed, same
-/// bytes, whatever the number of threads. Throws InputError (stone not closed, camera inside the
-/// stone) and Interrupted.
-RenderResult render(const Scene& scene, const Progress& progress = {});
+/// bytes, whatever the number of threads. `better`: where the tolerance is what `allowed_ns`
+/// allows, told of each picture on the way, the last of which is returned. Throws InputError (stone
+/// not closed, camera inside the stone) and Interrupted.
+RenderResult render(const Scene& scene, const Progress& progress = {},
+                    const PictureSink& better = {});
+
+/// Whether `render` chooses anything itself: then `allowed_ns` counts.
+bool leaves_something_open(const RenderSettings& settings);
+
+/// A picture to be looked at while a better one is drawn: a crystal's two waves as one, few
+/// wavelengths, the coarsest beams where the scene can be drawn by them, else one ray a pixel. Its
+/// `error_bound` is NaN: nobody knows how near it is. Throws as `render`.
+RenderResult draw_quickly(const Scene& scene, const Progress& progress = {});
 
 /// Draws some pixels anew with everything on: the time of so many pixels of 64 to 256 rays
 /// each.

@@ -43,6 +43,7 @@ std::string stats_json(const RenderStats& stats) {
                  {"retraced", stats.retraced},
                  {"lost_area", stats.lost_area},
                  {"rays", stats.rays}};
+    if (stats.allowed_tolerance) json["allowed_tolerance"] = *stats.allowed_tolerance;
     if (stats.plan) json["plan"] = Json::parse(plan_json(*stats.plan));
     if (stats.verification) {
         const Verification& v = *stats.verification;

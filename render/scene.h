@@ -15,6 +15,8 @@
 
 namespace culet {
 
+class WorkMeter;  // work_meter.h
+
 /// What stands between the stone and the eye. Angles are in the picture, counter-clockwise from its
 /// x (to the right).
 struct EyeOptics {
@@ -218,6 +220,9 @@ enum class CrystalBeams {
     parted   ///< each goes its own way, and their powers are added
 };
 
+/// About ten seconds of two cores, in the nanoseconds of plan/price.h: what `culet render` allows.
+constexpr double k_usual_allowance_ns = 2e10;
+
 enum class PixelFilter { box, tent, gaussian };
 
 /// Deepest path that a scene may ask for, and that is followed where the tolerance decides.
@@ -255,6 +260,11 @@ struct RenderSettings {
     std::uint64_t seed = 1;
     int threads = 0;
     bool spectral = false;  ///< keep spectral planes
+    /// Processor time that a picture may take, in the nanoseconds of plan/price.h, where the scene
+    /// is planned: the tolerance is then what that allows, `tolerance` at the finest. 0: as long as
+    /// it takes.
+    double allowed_ns = 0;
+    std::shared_ptr<WorkMeter> meter;  ///< of drawing under way; counts nothing where there is none
 };
 
 struct Scene {
@@ -264,6 +274,10 @@ struct Scene {
     double immersion = 1;  ///< refractive index of what surrounds the stone
     RenderSettings settings;
     std::vector<std::string> notes;  ///< said on reading: negative texels clamped, ...
+    /// Of its lights, where it names one (light_presets.h).
+    std::string light_preset;
+    /// A tolerance was asked for; else settings.tolerance is a default.
+    bool names_tolerance = false;
 };
 
 }  // namespace culet

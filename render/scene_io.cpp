@@ -6,7 +6,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "render/camera_io.h"
+#include "render/framing.h"
 #include "render/light_io.h"
+#include "render/light_presets.h"
 #include "render/view_presets.h"
 #include "stone/errors.h"
 #include "stone/material_io.h"
@@ -16,79 +19,7 @@ namespace culet {
 
 namespace {
 
-constexpr int k_most_pixels_a_side = 32768;
-constexpr double k_most_pixels = 268435456;  // 2^28, as many as picture files are read with
 constexpr std::size_t k_most_wavelengths = 1000;
-
-Camera read_camera(const TomlTable& table) {
-    table.refuse_unknown(
-        with_view_keys({"position", "look_at", "up", "fov", "orthographic_width", "size",
-                        "principal_point", "aperture_radius", "focus_distance"}));
-    Camera camera;
-    read_eye_optics(table, camera);
-    if (const auto position = table.vector("position")) camera.position = *position;
-    if (const auto look_at = table.vector("look_at")) camera.look_at = *look_at;
-    if (const auto up = table.vector("up")) camera.up = *up;
-    const Vec3 view = camera.look_at - camera.position;
-    if (!(glm::length(view) > 0)) table.fail("look_at", "the camera looks at its own position");
-    const double sine = glm::length(glm::cross(glm::normalize(view), camera.up));
-    if (!(sine > 1e-9 * glm::length(camera.up)) || !(glm::length(camera.up) > 0)) {
-        table.fail("up",
-                   "camera up must not be zero nor along the view: for a face-up picture use up = "
-                   "[0, 1, 0]");
-    }
-    if (table.has("fov") && table.has("orthographic_width")) {
-        table.fail("fov", "give fov (perspective) or orthographic_width, not both");
-    }
-    const double fov_deg = table.number("fov").value_or(20);
-    if (!(fov_deg > 0 && fov_deg < 180)) {
-        table.fail("fov", fmt::format("fov must lie between 0 and 180 degrees, found {}", fov_deg));
-    }
-    camera.fov = radians(fov_deg);
-    if (const auto width = table.number("orthographic_width")) {
-        if (!(*width > 0)) {
-            table.fail("orthographic_width",
-                       fmt::format("orthographic_width must be positive, found {}", *width));
-        }
-        camera.orthographic_width = *width;
-    }
-    if (const auto size = table.numbers("size")) {
-        if (size->size() != 2)
-            table.fail("size", "size has two numbers, width and height in pixels");
-        for (double s : *size) {
-            if (!(s >= 1 && s <= k_most_pixels_a_side) || s != std::floor(s)) {
-                table.fail("size", fmt::format("size must be whole numbers from 1 to {}, found {}",
-                                               k_most_pixels_a_side, s));
-            }
-        }
-        if ((*size)[0] * (*size)[1] > k_most_pixels) {
-            table.fail("size", fmt::format("{} x {} pixels are more than one picture may have, "
-                                           "2^28",
-                                           (*size)[0], (*size)[1]));
-        }
-        camera.width = static_cast<int>((*size)[0]);
-        camera.height = static_cast<int>((*size)[1]);
-    }
-    if (const auto point = table.numbers("principal_point")) {
-        if (point->size() != 2)
-            table.fail("principal_point", "principal_point has two numbers, x and y in pixels");
-        for (double at : *point) {
-            if (!(std::abs(at) <= 100.0 * k_most_pixels_a_side))
-                table.fail("principal_point",
-                           fmt::format("principal_point lies {} pixels away", at));
-        }
-        camera.principal_point = {(*point)[0], (*point)[1]};
-    }
-    camera.aperture_radius = table.number("aperture_radius").value_or(0);
-    if (camera.aperture_radius < 0)
-        table.fail("aperture_radius", "aperture_radius must not be negative");
-    camera.focus_distance = table.number("focus_distance").value_or(0);
-    if (camera.aperture_radius > 0 && !(camera.focus_distance > 0) && !camera.cone) {
-        table.fail("aperture_radius",
-                   "an aperture needs focus_distance, the distance at which the picture is sharp");
-    }
-    return camera;
-}
 
 void read_coherence(const TomlTable& table, RenderSettings& settings) {
     switch (table.kind("coherence")) {
@@ -268,7 +199,32 @@ RenderSettings read_settings(const TomlTable& table) {
     return settings;
 }
 
-Stone read_scene_stone(const TomlTable& root, std::vector<std::string>& notes) {
+// The instrument that the scene is seen through, and the table that names it.
+std::optional<std::pair<std::string, TomlTable>> view_in(const TomlTable& root) {
+    std::optional<std::pair<std::string, TomlTable>> view;
+    const auto take = [&view](const TomlTable& table, bool may_be_light) {
+        const auto name = table.text("preset");
+        if (!name || (may_be_light && !is_view_preset(*name))) return;
+        if (!is_view_preset(*name)) {
+            table.fail("preset",
+                       fmt::format("no view \"{}\"; known: polariscope, conoscope, dichroscope "
+                                   "(presets of lights stand in [light])",
+                                   *name));
+        }
+        if (view) table.fail("preset", "the view is named twice");
+        view.emplace(*name, table);
+    };
+    take(root, false);
+    for (const char* key : {"camera", "light", "render"}) {
+        if (root.kind(key) == TomlTable::Kind::table)
+            take(*root.table(key), std::string(key) == "light");
+    }
+    return view;
+}
+
+}  // namespace
+
+Stone scene_stone_of(const TomlTable& root, std::vector<std::string>& notes) {
     if (root.has("stone") == root.has("mesh")) {
         root.fail("",
                   "a scene names its stone: stone = \"stone.toml\", or mesh = \"...\" with "
@@ -310,34 +266,7 @@ Stone read_scene_stone(const TomlTable& root, std::vector<std::string>& notes) {
     return stone;
 }
 
-// The instrument that the scene is seen through, and the table that names it.
-std::optional<std::pair<std::string, TomlTable>> view_in(const TomlTable& root) {
-    std::optional<std::pair<std::string, TomlTable>> view;
-    const auto take = [&view](const TomlTable& table, bool may_be_light) {
-        const auto name = table.text("preset");
-        if (!name || (may_be_light && !is_view_preset(*name))) return;
-        if (!is_view_preset(*name)) {
-            table.fail("preset",
-                       fmt::format("no view \"{}\"; known: polariscope, conoscope, dichroscope "
-                                   "(presets of lights stand in [light])",
-                                   *name));
-        }
-        if (view) table.fail("preset", "the view is named twice");
-        view.emplace(*name, table);
-    };
-    take(root, false);
-    for (const char* key : {"camera", "light", "render"}) {
-        if (root.kind(key) == TomlTable::Kind::table)
-            take(*root.table(key), std::string(key) == "light");
-    }
-    return view;
-}
-
-}  // namespace
-
-Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
-                 const Stone* stone_instead) {
-    const TomlTable root = read_toml(file, overrides);
+Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_view light_instead) {
     root.refuse_unknown(
         with_view_keys({"stone", "mesh", "material", "unit", "optic_axis", "principal_axes",
                         "convex", "name", "camera", "light", "object", "render", "immersion"}));
@@ -346,7 +275,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
     if (stone_instead != nullptr) {
         scene.stone = *stone_instead;
     } else {
-        scene.stone = read_scene_stone(root, scene.notes);
+        scene.stone = scene_stone_of(root, scene.notes);
     }
     if (std::string missing = missing_colour(scene.stone.material); !missing.empty())
         scene.notes.push_back(std::move(missing));
@@ -358,21 +287,35 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
         scene.immersion = *immersion;
     }
     const auto view = view_in(root);
-    const auto camera = root.table("camera");
-    if (camera) {
-        scene.camera = read_camera(*camera);
-    } else if (view) {
-        scene.camera = camera_above(scene.stone.solid);
-    }
-    const auto light = root.table("light");
-    if (light) {
-        scene.lights = lights_of(*light, diameter(scene.stone.solid), scene.notes);
+    const auto camera = root.table("camera"), light = root.table("light");
+    std::string preset(light_instead);
+    if (!preset.empty()) {
+        const auto lights = light_preset(preset);
+        if (!lights) throw InputError(no_light_preset(preset));
+        scene.lights = *lights;
+    } else if (light) {
+        scene.lights = lights_of(*light, scene.notes);
+        preset = light->text("preset").value_or("");
     } else if (!view) {
-        root.fail("", "the scene is dark: add a [light] table, e.g. constant = 1.0");
+        root.fail("", "the scene is dark: add a [light] table, e.g. preset = \"jeweller\"");
+    }
+    const LightPreset* known = find_light_preset(preset);
+    if (known != nullptr) scene.light_preset = known->name;
+    if (camera) scene.camera = read_camera(*camera);
+    if (!camera || !names_a_view(*camera)) {
+        const bool below = known != nullptr && known->from_below;
+        frame_stone(scene.stone.solid, below ? Facing::pavilion : Facing::crown, scene.camera);
     }
     if (view) apply_view_preset(view->first, view->second, scene);
-    if (const auto settings = root.table("render")) scene.settings = read_settings(*settings);
+    const auto settings = root.table("render");
+    if (settings) scene.settings = read_settings(*settings);
+    scene.names_tolerance = settings && settings->has("tolerance");
     return scene;
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                 const Stone* stone_instead, std::string_view light_instead) {
+    return scene_of(read_toml(file, overrides), stone_instead, light_instead);
 }
 
 }  // namespace culet

@@ -77,18 +77,4 @@ void apply_view_preset(std::string_view name, const TomlTable& table, Scene& sce
     scene.lights.hemispheres.push_back(light);
 }
 
-Camera camera_above(const Solid& solid) {
-    const double size = diameter(solid);
-    Vec3 low = solid.vertices.front(), high = low;
-    for (const Vec3& v : solid.vertices) {
-        low = glm::min(low, v);
-        high = glm::max(high, v);
-    }
-    Camera camera;
-    camera.look_at = 0.5 * (low + high);
-    camera.position = camera.look_at + Vec3{0, 0, 5 * size};
-    camera.orthographic_width = 1.1 * std::max(high.x - low.x, high.y - low.y);
-    return camera;
-}
-
 }  // namespace culet

@@ -29,7 +29,4 @@ void read_eye_optics(const TomlTable& table, Camera& camera);
 /// none was given. `table` holds the polariser's angle.
 void apply_view_preset(std::string_view name, const TomlTable& table, Scene& scene);
 
-/// Square on to the table, the whole stone in the picture: for views that name no camera.
-Camera camera_above(const Solid& solid);
-
 }  // namespace culet

@@ -219,9 +219,30 @@ std::optional<std::string> nearest_name(std::string_view word,
 }
 
 TomlTable read_toml(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    return read_toml_with(file, {}, overrides);
+}
+
+TomlTable read_toml_with(const std::filesystem::path& file,
+                         const std::vector<std::pair<std::string, std::string>>& texts,
+                         const std::vector<std::string>& overrides) {
     auto content = std::make_shared<TomlTable::Content>();
     content->file = file;
-    content->root = parsed(file, overrides);
+    content->root = parsed(file, {});
+    for (const auto& [key, text] : texts) content->root.insert_or_assign(key, text);
+    for (const std::string& setting : overrides) apply_override(content->root, setting);
+    TomlTable table;
+    table.node_ = &content->root;
+    table.content_ = std::move(content);
+    return table;
+}
+
+TomlTable toml_beside(const std::filesystem::path& file,
+                      const std::vector<std::pair<std::string, std::string>>& texts,
+                      const std::vector<std::string>& overrides) {
+    auto content = std::make_shared<TomlTable::Content>();
+    content->file = file;
+    for (const auto& [key, text] : texts) content->root.insert_or_assign(key, text);
+    for (const std::string& setting : overrides) apply_override(content->root, setting);
     TomlTable table;
     table.node_ = &content->root;
     table.content_ = std::move(content);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "stone/solid.h"
@@ -51,7 +52,12 @@ private:
     std::shared_ptr<const Content> content_;
     const void* node_ = nullptr;  // a toml::table inside content_
     std::string name_;
-    friend TomlTable read_toml(const std::filesystem::path&, const std::vector<std::string>&);
+    friend TomlTable read_toml_with(const std::filesystem::path&,
+                                    const std::vector<std::pair<std::string, std::string>>&,
+                                    const std::vector<std::string>&);
+    friend TomlTable toml_beside(const std::filesystem::path&,
+                                 const std::vector<std::pair<std::string, std::string>>&,
+                                 const std::vector<std::string>&);
 };
 
 /// Parses a file and applies `key.path=value` overrides: the value is TOML (a number, "text",
@@ -59,6 +65,17 @@ private:
 /// from 0. Throws InputError.
 TomlTable read_toml(const std::filesystem::path& file,
                     const std::vector<std::string>& overrides = {});
+
+/// The same with `texts`, keys and values, in place of the file's own.
+TomlTable read_toml_with(const std::filesystem::path& file,
+                         const std::vector<std::pair<std::string, std::string>>& texts,
+                         const std::vector<std::string>& overrides);
+
+/// A table that no file holds: `texts` are its keys and values. Paths in it are seen from the
+/// folder of `file`, and errors name `file`, which is not read. Throws InputError.
+TomlTable toml_beside(const std::filesystem::path& file,
+                      const std::vector<std::pair<std::string, std::string>>& texts,
+                      const std::vector<std::string>& overrides = {});
 
 /// A file's text with `overrides` applied and the keys `without` (camera.fov) left out, to be kept
 /// in `folder`: texts that name files, as seen from the file's folder, name them from there.

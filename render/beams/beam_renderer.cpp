@@ -11,7 +11,9 @@
 #include "render/beams/shading_passes.h"
 #include "render/eye_optics.h"
 #include "render/listener.h"
+#include "render/plan/price.h"
 #include "render/threads.h"
+#include "render/work_meter.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -19,7 +21,6 @@ namespace culet {
 namespace {
 
 constexpr int k_pupil_points = 64;
-
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
@@ -228,6 +229,7 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
     StripSums whole;
     double lost = 0;
     int trees = 0;
+    WorkMeter* const meter = scene.settings.meter.get();
     Listener listener(progress, static_cast<double>(views.size()) * static_cast<double>(strips));
     for (std::size_t v = 0; v < views.size(); ++v) {
         SortedBeams* beams = work.beams.data() + v * bands;
@@ -243,6 +245,8 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
                     if (leader[b] != b) return;
                     beams[b].grow(work.stone.net, views[v], band.n / band.n_outside,
                                   settings.limits);
+                    if (meter != nullptr)
+                        meter->spend(price_ns(DrawnBeams{beams[b].tree.beams(), 0, 0, 1}));
                 },
                 tbb::simple_partitioner());
             report.seconds_build += seconds_since(building);
@@ -250,16 +254,21 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
             tbb::parallel_for(
                 0, strips,
                 [&](int strip) {
-                    if (!listener.goes_on()) return;
+                    if (!listener.goes_on() || (meter != nullptr && meter->over())) return;
                     if (v == 0) work.clear(strip);
-                    sums[static_cast<std::size_t>(strip)] = work.painters.local().paint(
-                        strip, views[v], beams, fronts, passes, options);
+                    const StripSums& sum = sums[static_cast<std::size_t>(strip)] =
+                        work.painters.local().paint(strip, views[v], beams, fronts, passes,
+                                                    options);
+                    if (meter != nullptr)
+                        meter->spend(price_ns(
+                            DrawnBeams{0, sum.beams, sum.fragments, passes[0].lights.nodes}));
                     if (v + 1 == views.size()) work.develop(strip, picture);
                 },
                 tbb::simple_partitioner());
             report.seconds_shade += seconds_since(shading);
         });
         if (listener.stopped()) throw Interrupted();
+        if (meter != nullptr) meter->require_not_over();
         for (const StripSums& sum : sums) whole += sum;
         const bool kept = settings.crystal == CrystalBeams::merged || !plan.splits;
         for (std::size_t b = 0; kept && b < bands; ++b) {

@@ -10,8 +10,10 @@
 #include "render/eye_optics.h"
 #include "render/listener.h"
 #include "render/pixel_shader.h"
+#include "render/plan/price.h"
 #include "render/stone_body.h"
 #include "render/threads.h"
+#include "render/work_meter.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -143,6 +145,11 @@ PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const Pat
     drawing.spectra.resize(pixels.at.size() * static_cast<std::size_t>(wavelengths));
     std::atomic<long long> nanoseconds{0};
     Listener listener(progress);
+    WorkMeter* const meter = scene.settings.meter.get();
+    PathWork of_a_ray;
+    of_a_ray.general = plan.general;
+    of_a_ray.polarised = plan.polarised;
+    of_a_ray.nodes = plan.bands.front().count;
     on_threads(scene.settings.threads, [&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.at.size(), 8), [&](const auto&
                                                                                            range) {
@@ -155,6 +162,13 @@ PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const Pat
                     static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(scene.camera.width) +
                     static_cast<std::uint64_t>(x);
                 sums[p] = shader.shade(x, y, 1, number, stokes.data(), memory);
+                if (meter != nullptr) {
+                    PathWork work = of_a_ray;
+                    work.rays = static_cast<double>(sums[p].rays);
+                    work.events = static_cast<double>(sums[p].events);
+                    meter->spend(price_ns(work));
+                    if (meter->over()) return;
+                }
                 for (int i = 0; i < wavelengths && shader.planes() > 1; ++i) {
                     double seen = 0;
                     for (int k = 0; k < shader.planes(); ++k)
@@ -171,6 +185,7 @@ PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const Pat
         });
     });
     if (listener.stopped()) throw Interrupted();
+    if (meter != nullptr) meter->require_not_over();
     PixelSums whole;
     for (const PixelSums& sum : sums) {
         whole += sum;

@@ -30,6 +30,7 @@ struct BeamCount {
 };
 constexpr BeamCount k_single{330, 1.1, 0.5, 0.25, 0.6, 0.2},
     k_parted{11500, 0.45, 0.4, 0.1, 0.1, 0.85};
+constexpr double k_grown_beam = 300, k_parted_beam = 1500, k_fragment = 60;
 // Of a beam's price, another wavelength along the same way.
 constexpr double k_node = 0.1;
 
@@ -40,6 +41,13 @@ double price_ns(const PathWork& work) {
         return k_general_ray * work.rays + (k_general_event + work.nodes) * work.events;
     const double event = work.polarised ? k_event : k_plain_event;
     return k_ray * work.rays + (event + k_leaf_node * (work.nodes - 1)) * work.events;
+}
+
+double price_ns(const DrawnBeams& work) {
+    const double nodes = 1 + k_node * (work.nodes - 1);
+    return k_grown_beam * static_cast<double>(work.grown) +
+           nodes * (k_parted_beam * static_cast<double>(work.parted) +
+                    k_fragment * static_cast<double>(work.fragments));
 }
 
 double price_ns(const BeamWork& work) {

@@ -14,7 +14,16 @@ struct PathWork {
 };
 double price_ns(const PathWork& work);
 
-/// Work of the beams.
+/// Work of beams that were drawn.
+struct DrawnBeams {
+    long long grown = 0;      ///< isotropic or merged, of trees
+    long long parted = 0;     ///< of a crystal's two waves
+    long long fragments = 0;  ///< pixels under them, each wavelength's pass by itself
+    int nodes = 1;            ///< wavelengths of a pass
+};
+double price_ns(const DrawnBeams& work);
+
+/// Work of the beams, guessed beforehand.
 struct BeamWork {
     double pixels = 0;  ///< of the stone
     double bands = 1;

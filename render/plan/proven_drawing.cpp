@@ -10,6 +10,7 @@
 #include "render/plan/planner.h"
 #include "render/plan/proof_pilot.h"
 #include "render/reference.h"
+#include "render/work_meter.h"
 
 namespace culet {
 
@@ -44,10 +45,19 @@ constexpr double k_misjudged = 0.7, k_main_cause = 0.7;
 // The last drawing is the reference's, which is off by nothing but its few rays, unless it would
 // take so many times as long.
 constexpr double k_last_by_beams = 4;
+// About what proofs took of the pictures' prices.
+constexpr double k_usual_proof = 0.7;
+// Paths at so many times what is left are not begun.
+constexpr double k_surely_over = 1.3;
 // The next step of a proof may take this share of the picture's price before it is drawn anew,
 // which takes longer. Two waves take far longer than one. After the last there is no other way.
 constexpr double k_proof_share = 1.5, k_proof_share_as_one = 15, k_last_proof_share = 6,
                  k_least_proof_ns = 3e7;
+
+// The work is what is given, and the tolerance follows.
+bool is_paced(const RenderSettings& settings) {
+    return settings.meter != nullptr && settings.meter->limited();
+}
 
 void add_proof(const Proof& proof, const ScenePlan& plan, RenderStats& stats) {
     stats.error_bound = proof.bound + plan.bound_of_depth;
@@ -181,15 +191,33 @@ std::optional<ProvenDrawing::Next> ProvenDrawing::next(ScenePlan& plan, const Tr
 }
 
 ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
+    SoFar so_far;
+    try {
+        draw_until_proven(plan, prover, way, so_far);
+    } catch (const OverAllowance&) {
+        if (!so_far.best) throw;
+        so_far.done.misjudged = false;
+    }
+    ProvenPicture done = so_far.done;
+    done.result = std::move(*so_far.best);
+    // Where the work is what is given, nobody asks how often it was drawn.
+    if (!is_paced(scene_.settings)) {
+        for (const std::string& note : so_far.notes) done.result.stats.notes.push_back(note);
+    }
+    done.result.stats.plan = std::move(plan);
+    return done;
+}
+
+void ProvenDrawing::draw_until_proven(ScenePlan& plan, Prover& prover, Way way, SoFar& so_far) {
     const int most = way == Way::any ? k_most_drawings : way == Way::as_one ? k_most_as_one : 1;
     const double tolerance = scene_.settings.tolerance;
     RenderSettings settings = plan.settings;
     double price = plan.price_ns, seconds_before = 0, error_before = 0;
-    std::optional<RenderResult> best;
-    std::vector<std::string> notes;
+    WorkMeter* const meter = scene_.settings.meter.get();
+    std::optional<RenderResult>& best = so_far.best;
+    ProvenPicture& done = so_far.done;
     int pixels_without = 0;  // at which the truth was drawn without what the plan left out
     double off_without = 0;
-    ProvenPicture done;
     if (learned_ && plan.beams) {
         plan.beams->learn_from(*learned_);
         const ProposedBeams other = plan.beams->cheapest(
@@ -201,6 +229,11 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
         }
     }
     for (int drawing = 1;; ++drawing) {
+        if (meter != nullptr) meter->expect_more((1 + k_usual_proof) * price);
+        // What paths take is known well; what beams take they find out.
+        if (is_paced(scene_.settings) && !drawn_by_beams(settings) &&
+            price > k_surely_over * meter->left())
+            throw OverAllowance();
         RenderResult result = draw_with(settings);
         RenderStats& stats = result.stats;
         const auto start = std::chrono::steady_clock::now();
@@ -259,12 +292,8 @@ ProvenPicture ProvenDrawing::draw(ScenePlan plan, Prover& prover, Way way) {
         if (!other) break;
         settings = other->settings;
         price = other->price;
-        notes.push_back(other->note);
+        so_far.notes.push_back(other->note);
     }
-    done.result = std::move(*best);
-    for (const std::string& note : notes) done.result.stats.notes.push_back(note);
-    done.result.stats.plan = std::move(plan);
-    return done;
 }
 
 }  // namespace culet

@@ -25,7 +25,8 @@ public:
     /// `once`: a single picture. `as_one`: a crystal's two waves go as one, and no finer drawing
     /// brings the second back.
     enum class Way { any, as_one, once };
-    /// The nearest of at most five pictures. Throws Interrupted.
+    /// The nearest of at most five pictures, or of those that the scene's meter allows. Throws
+    /// Interrupted, and OverAllowance where it allows none.
     ProvenPicture draw(ScenePlan plan, Prover& prover, Way way);
 
 private:
@@ -41,6 +42,12 @@ private:
         const RenderStats& stats;
         const Proof& proof;
     };
+    struct SoFar {
+        std::optional<RenderResult> best;
+        std::vector<std::string> notes;
+        ProvenPicture done;
+    };
+    void draw_until_proven(ScenePlan& plan, Prover& prover, Way way, SoFar& so_far);
     RenderResult draw_with(const RenderSettings& settings);
     void find_causes(BeamProposal& beams, const Prover& prover, const RenderSettings& settings,
                      double price) const;

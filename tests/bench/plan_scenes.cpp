@@ -6,14 +6,46 @@
 
 #include "render/light_presets.h"
 #include "stone/cuts/cuts.h"
+#include "stone/units.h"
 #include "tests/bench/bench_scenes.h"
 
 namespace culet {
 
 namespace {
 
+PlaneLight window(const Vec3& point, double half_width, double half_height) {
+    const Vec3 normal = glm::normalize(-point);
+    const Vec3 u = glm::normalize(glm::cross(Vec3{0, 0, 1}, normal));
+    const Vec3 v = glm::cross(normal, u);
+    return {point, normal, half_width * u, half_height * v, {2.5}};
+}
+
+// A dim room with two near windows.
+Lights two_windows(double size) {
+    Lights lights;
+    lights.constant = 0.05;
+    lights.planes.push_back(window(size * Vec3{12, 3, 12}, 3 * size, 5 * size));
+    lights.planes.push_back(window(size * Vec3{-9, -7, 14}, 2 * size, 3 * size));
+    return lights;
+}
+
+// A sun of its true size and a sky: the hardest of all.
+Lights bare_sun() {
+    const Vec3 up{0, 0, 1};
+    Lights lights;
+    lights.hemispheres.push_back({up, {Rgb{0.45, 0.5, 0.6}}});
+    lights.lobes.push_back({up, 2, {Rgb{0.25, 0.4, 0.8}}});
+    lights.caps.push_back(
+        {glm::normalize(Vec3{1, 0.4, 1.1}), 0, radians(0.27), {Rgb{9000, 8600, 7900}}});
+    lights.constant = 0.08;
+    return lights;
+}
+
+// "lightbox" and "daylight" are those that culet's figures were measured in, not today's presets.
 Lights light_named(const std::string& name, double size) {
     if (name == "smooth") return smooth_lights(3);
+    if (name == "lightbox") return two_windows(size);
+    if (name == "daylight") return bare_sun();
     if (name == "lamp") {
         // One tungsten lamp over a grey room.
         Lights lights;
@@ -21,7 +53,7 @@ Lights light_named(const std::string& name, double size) {
         lights.caps.push_back({glm::normalize(Vec3{0.4, 0.2, 1}), 0, 0.35, {std::string("A")}});
         return lights;
     }
-    return *light_preset(name, size);
+    return *light_preset(name);
 }
 
 }  // namespace

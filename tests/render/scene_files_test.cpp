@@ -231,7 +231,7 @@ TEST(Lights, no_ray_is_brighter_than_the_bound) {
 TEST(Lights, aset_has_the_zones_of_the_ags) {
     // AGS Laboratories, Angular Spectrum Evaluation Tool: by elevation, green to 45 degrees, red to
     // 75, blue above.
-    const LightField field(*light_preset("aset", 1), WavelengthSet({450, 540, 620}));
+    const LightField field(*light_preset("aset"), WavelengthSet({450, 540, 620}));
     const auto name = [&](double elevation_deg) {
         return field.name_at(
             {0, 0, 0}, {std::cos(radians(elevation_deg)), 0, std::sin(radians(elevation_deg))});
@@ -243,9 +243,9 @@ TEST(Lights, aset_has_the_zones_of_the_ags) {
     EXPECT_EQ(name(44.9), "cap 2");
     EXPECT_EQ(name(0.1), "cap 2");
     EXPECT_EQ(name(-0.1), "dark");
-    for (const char* preset : {"hearts", "arrows", "lightbox", "daylight"})
-        EXPECT_TRUE(light_preset(preset, 1).has_value()) << preset;
-    EXPECT_FALSE(light_preset("disco", 1).has_value());
+    for (const LightPreset& preset : light_presets())
+        EXPECT_TRUE(light_preset(preset.name).has_value()) << preset.name;
+    EXPECT_FALSE(light_preset("disco").has_value());
 }
 
 TEST(Environment, a_bright_texel_is_seen_where_the_contract_puts_it) {

@@ -1,0 +1,96 @@
+#include "app/picture_output.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+#include "render/exposure.h"
+#include "render/light_presets.h"
+#include "stone/errors.h"
+#include "stone/output_file.h"
+
+namespace culet {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// A file of our own, gone with this.
+class ScratchFile {
+public:
+    explicit ScratchFile(const std::string& ending) {
+        std::string name = (fs::temp_directory_path() / ("culet-XXXXXX" + ending)).string();
+        const int file = mkstemps(name.data(), static_cast<int>(ending.size()));
+        if (file < 0) throw InputError(name, "cannot be made, to write a picture to stdout");
+        close(file);
+        path_ = name;
+    }
+    ~ScratchFile() {
+        std::error_code ignored;
+        fs::remove(path_, ignored);
+    }
+    ScratchFile(const ScratchFile&) = delete;
+    ScratchFile& operator=(const ScratchFile&) = delete;
+    const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+}  // namespace
+
+PictureOutput::PictureOutput(std::string out, bool spectral) : out_(std::move(out)) {
+    if (out_ == "-") {
+        if (isatty(STDOUT_FILENO) != 0)
+            throw InputError("a picture is nothing for a terminal: name a file, or send stdout on");
+        if (spectral) throw InputError("spectral planes need an .exr file");
+        return;
+    }
+    if (out_.empty()) return;
+    const std::string extension = fs::path(out_).extension().string();
+    if (extension != ".exr" && extension != ".png" && extension != ".hdr")
+        throw InputError(out_, "pictures are written as .exr, .png or .hdr");
+    if (spectral && extension != ".exr")
+        throw InputError(out_, "spectral planes need an .exr file");
+    require_writable(out_);
+}
+
+void PictureOutput::look_as(const std::string& exposure, const std::string& tonemap,
+                            const Scene& scene) {
+    tone_map_ = tonemap == "reinhard" ? ToneMap::reinhard : ToneMap::none;
+    if (exposure.empty()) {
+        const LightPreset* preset = find_light_preset(scene.light_preset);
+        if (preset != nullptr && !preset->instrument) exposure_.reset();
+    } else if (exposure == "auto") {
+        exposure_.reset();
+    } else {
+        double factor = 0;
+        const char* const end = exposure.data() + exposure.size();
+        const auto [stop, problem] = std::from_chars(exposure.data(), end, factor);
+        if (problem != std::errc() || stop != end || !(factor > 0) || !std::isfinite(factor)) {
+            throw InputError(fmt::format(
+                "--exposure is auto, or a factor on linear light above 0, found \"{}\"", exposure));
+        }
+        exposure_ = factor;
+    }
+}
+
+void PictureOutput::write(const Picture& picture,
+                          const std::vector<std::pair<std::string, std::string>>& text) const {
+    if (out_.empty()) return;
+    PngLook look;
+    look.exposure = exposure_ ? *exposure_ : exposure_for_stone(picture);
+    look.tone_map = tone_map_;
+    if (out_ != "-") return write_picture(picture, out_, look, text);
+    const ScratchFile file(".png");
+    write_picture(picture, file.path(), look, text);
+    const std::string bytes = read_text(file.path());
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() ||
+        std::fflush(stdout) != 0)
+        throw InputError("stdout took only a part of the picture");
+}
+
+}  // namespace culet

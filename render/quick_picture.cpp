@@ -1,0 +1,47 @@
+#include <limits>
+
+#include "render/beams/beam_picture.h"
+#include "render/reference.h"
+#include "render/render.h"
+#include "render/scene_checks.h"
+
+namespace culet {
+
+namespace {
+
+// Coarse enough for a second, fine enough to see what it will be.
+constexpr double k_tolerance = 0.1, k_cut = 0.02;
+const std::vector<double> k_three_nm{450, 550, 610};
+
+}  // namespace
+
+RenderResult draw_quickly(const Scene& scene, const Progress& progress) {
+    require_renderable(scene);
+    Scene quick = scene;
+    RenderSettings& settings = quick.settings;
+    settings.meter = nullptr;
+    settings.allowed_ns = 0;
+    settings.tolerance = k_tolerance;
+    settings.cut_weight = settings.split_weight = k_cut;
+    settings.crystal_beams = CrystalBeams::merged;
+    settings.effects_auto = false;
+    for (const Effects effect : {Effects::dispersion, Effects::polarization, Effects::aperture})
+        settings.effects[static_cast<std::size_t>(effect)] = false;
+    if (settings.wavelengths_nm.empty()) settings.wavelengths_nm = k_three_nm;
+    RenderResult result;
+    if (refused_by_beams(quick, make_plan(quick)).empty()) {
+        settings.engine = "preview";
+        FrameRenderer frames(quick);
+        frames.report_to(progress);
+        frames.draw(false);
+        result = frames.take();
+    } else {
+        settings.engine = "reference";
+        settings.samples = 1;
+        result = render_with_reference(quick, progress);
+    }
+    result.stats.error_bound = std::numeric_limits<double>::quiet_NaN();
+    return result;
+}
+
+}  // namespace culet

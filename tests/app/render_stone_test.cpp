@@ -1,0 +1,128 @@
+// culet render of a stone alone, as a user runs it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "render/image_io.h"
+#include "tests/app/run_program.h"
+#include "tests/scratch_folder.h"
+
+namespace culet {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ProgramRun;
+using test::run_culet;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class RenderStone : public testing::Test {
+protected:
+    void SetUp() override {
+        ASSERT_EQ(run_culet({"cut", "step", "-o", file("stone.obj"), "-q"}).exit_code, 0);
+        ASSERT_EQ(run_culet({"cut", "step", "-o", file("stone.asc"), "-q"}).exit_code, 0);
+        std::ofstream(file("stone.toml"))
+            << "[stone]\nmesh = \"stone.obj\"\nmaterial = \"spinel\"\n";
+    }
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    std::string bytes(const std::string& name) const {
+        std::ifstream stream(folder_ / name, std::ios::binary);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+    test::ScratchFolder folder_;
+};
+
+TEST_F(RenderStone, MeshesDesignsAndStoneFilesNeedNoScene) {
+    for (const char* stone : {"stone.obj", "stone.asc", "stone.toml"}) {
+        const std::string picture = file(std::string(stone) + ".png");
+        const ProgramRun run = run_culet({"render", file(stone), "--material", "spinel", "--size",
+                                          "48", "--tolerance", "0.1", "-o", picture});
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_EQ(run.out, "");
+        const ReadPicture read = read_picture(picture);
+        EXPECT_EQ(read.picture.width, 48);
+        EXPECT_EQ(read.picture.height, 48);
+        // Exposed: some of the stone is near white.
+        EXPECT_GT(*std::max_element(read.picture.rgb.begin(), read.picture.rgb.end()), 0.95f);
+    }
+}
+
+TEST_F(RenderStone, SaysTheSizeThatItTakes) {
+    const ProgramRun run = run_culet({"render", file("stone.asc"), "--material", "spinel", "--size",
+                                      "32", "--tolerance", "0.2", "-o", file("a.png")});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("6.5 mm wide"));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+TEST_F(RenderStone, SaysHowNearThePictureIsWhereNobodyAskedForATolerance) {
+    const ProgramRun run = run_culet({"render", file("stone.toml"), "--size", "32", "-o",
+                                      file("a.png"), "--stats", file("a.json")});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("of the mean radiance"));
+    const nlohmann::json stats = nlohmann::json::parse(bytes("a.json"));
+    EXPECT_GT(stats["allowed_tolerance"], 0);
+    EXPECT_LE(stats["error_bound"], 0.3);
+    const ProgramRun asked = run_culet(
+        {"render", file("stone.toml"), "--size", "32", "-o", file("b.png"), "--tolerance", "0.1"});
+    EXPECT_EQ(asked.exit_code, 0) << asked.err;
+    EXPECT_THAT(asked.err, Not(HasSubstr("of the mean radiance")));
+}
+
+TEST_F(RenderStone, GoesToStdoutAndStatsAlone) {
+    const ProgramRun picture = run_culet(
+        {"render", file("stone.toml"), "--size", "24", "--tolerance", "0.2", "-q", "-o", "-"});
+    EXPECT_EQ(picture.exit_code, 0) << picture.err;
+    EXPECT_EQ(picture.out.substr(0, 8), "\x89PNG\r\n\x1a\n");
+    ASSERT_EQ(run_culet({"render", file("stone.toml"), "--size", "24", "--tolerance", "0.2", "-q",
+                         "-o", file("same.png")})
+                  .exit_code,
+              0);
+    EXPECT_EQ(picture.out, bytes("same.png"));
+    const ProgramRun stats = run_culet(
+        {"render", file("stone.toml"), "--size", "24", "--tolerance", "0.2", "-q", "--stats", "-"});
+    EXPECT_EQ(stats.exit_code, 0) << stats.err;
+    EXPECT_TRUE(nlohmann::json::parse(stats.out).contains("error_bound"));
+}
+
+// The work allowed is counted: threads and load change nothing.
+TEST_F(RenderStone, WhatIsAllowedGivesTheSameBytesOnAnyNumberOfThreads) {
+    for (const char* threads : {"1", "3"}) {
+        const ProgramRun run =
+            run_culet({"render", file("stone.obj"), "--material", "zircon_high", "--size", "20",
+                       "--threads", threads, "-q", "-o", file(std::string(threads) + ".exr")});
+        ASSERT_EQ(run.exit_code, 0) << run.err;
+    }
+    EXPECT_EQ(bytes("1.exr"), bytes("3.exr"));
+    EXPECT_FALSE(bytes("1.exr").empty());
+}
+
+TEST_F(RenderStone, RefusesInOneLineAndWritesNothing) {
+    const auto refused = [&](std::vector<std::string> arguments, const std::string& why) {
+        arguments.insert(arguments.begin(), "render");
+        const ProgramRun run = run_culet(arguments);
+        EXPECT_EQ(run.exit_code, 2) << why;
+        EXPECT_THAT(run.err, HasSubstr(why));
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_FALSE(fs::exists(folder_ / "x.png")) << why;
+    };
+    const std::string out = file("x.png"), stone = file("stone.obj");
+    refused({stone, "-o", out}, "--material");
+    refused({stone, "-o", out, "--material", "spinel", "--light", "daylihgt"}, "\"daylight\"");
+    refused({stone, "-o", out, "--material", "spinel", "--light", "jewellery"}, "\"jeweller\"");
+    refused({stone, "-o", out, "--material", "spinell"}, "spinel");
+    refused({stone, "-o", out, "--material", "spinel", "--exposure", "bright"}, "--exposure");
+    refused({stone, "-o", out, "--material", "spinel", "--width", "0"}, "--width");
+    refused({stone, "-o", out, "--material", "spinel", "--size", "12,34,56"}, "--size");
+    refused({stone, "-o", "-", "--stats", "-", "--material", "spinel"}, "stdout");
+    refused({stone, "--material", "spinel"}, "-o IMAGE");
+}
+
+}  // namespace
+}  // namespace culet
