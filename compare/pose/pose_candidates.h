@@ -11,6 +11,7 @@ struct Candidate {
     StoneView view;
     RefinedView refined;
     EdgeSupport support;
+    CrownEvidence evidence;  ///< once settled
 };
 
 struct SeenView {
