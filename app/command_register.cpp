@@ -22,7 +22,7 @@ struct RegisterArguments {
     CommonOptions common;
     std::string photo, scene, out, overlay, json, mask;
     double facet_error_deg = 0.2, search_deg = 35, focal_error = 20, principal_point_error = 0,
-           within_deg = 2, within_px = 0, doubt_percent = 0.1;
+           within_deg = 5, within_px = 0, doubt_percent = 0.1;
     bool one_chirality = false;
 };
 
@@ -125,12 +125,12 @@ void add_command_register(CLI::App& program, int& exit_code) {
         ->check(CLI::Range(0.0, 100.0));
     command
         ->add_option("--within-deg", a.within_deg,
-                     "refuse a view that is not this sure (degrees, 99 %; default 2)")
+                     "refuse a view that is not this sure (degrees, 99 %; default 5)")
         ->check(CLI::Range(0.001, 90.0));
     command
         ->add_option("--within-px", a.within_px,
-                     "refuse a place that is not this sure (pixels, 99 %; default half a percent "
-                     "of the stone's diameter, but no less than 1)")
+                     "refuse a place that is not this sure (pixels, 99 %; default 1.5 % of "
+                     "the stone's diameter, but no less than 1)")
         ->check(CLI::Range(0.001, 1e6));
     command
         ->add_option("--doubt", a.doubt_percent,

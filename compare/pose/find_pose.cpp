@@ -88,9 +88,12 @@ void take_nearest_of_equals(const PoseTask& task, std::vector<Candidate>& best) 
                 best.begin() + static_cast<std::ptrdiff_t>(chosen) + 1);
 }
 
-/// How much less likely than the pose another view is. What the stone looks alike from counts only
+/// How much less likely than the pose another view is. One within what the pose may be off is the
+/// same. What the stone looks alike from counts only
 /// where the start may have meant it: the start is off by about half of what is searched.
 double rivalry(const PoseTask& task, const FoundPose& pose, const TriedPose& other) {
+    const bool within = other.mirrored == pose.mirrored && other.turn <= pose.sigmas.angle_99;
+    if (within) return 1e300;
     if (!other.symmetric) return other.lead;
     if (other.mirrored != pose.mirrored || other.start_angle > task.options.search) return 1e300;
     const double sigma = 0.5 * task.options.search;

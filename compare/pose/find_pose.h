@@ -25,9 +25,9 @@ namespace culet {
 
 /// A pose is refused beyond these: see docs/registration.md for what they are derived from.
 struct PoseLimits {
-    /// How sure a pose must be, at 99 %: the view's angle to the stone, radians (2 degrees), and
-    /// the stone's place in the picture; 0: half a percent of the stone's diameter, or a pixel.
-    double angle = 0.0349;
+    /// How sure a pose must be, at 99 %: the view's angle to the stone, radians (5 degrees), and
+    /// the stone's place in the picture; 0: 1.5 % of the stone's diameter, or a pixel.
+    double angle = 0.0873;
     double shift_px = 0;
     /// Median distance of the outline from the photograph's, as a share of the diameter.
     double outline_residual = 0.01;

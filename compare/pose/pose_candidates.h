@@ -29,6 +29,9 @@ std::vector<SeenView> images_of(const PoseTask& task, const PhotoSide* side, con
 bool nearer_to_start(const PhotoSide* a_side, const StoneView& a, const PhotoSide* b_side,
                      const StoneView& b);
 
+/// Whether it shows the side of the stone (of its plane z = 0) that the start does not.
+bool shows_other_side(const PoseTask& task, const StoneView& view);
+
 double angle_between(const StoneView& a, const StoneView& b);
 
 /// Views nearer than this to one another are the same.

@@ -20,10 +20,16 @@ namespace {
 constexpr double k_surely = 4.4;
 
 // Of the stone's diameter.
-constexpr double k_place = 0.005;
-// Natural logarithm of about how many views are tried that have nothing to do with one another: the
-// best of them is met by so much more than chance.
-constexpr double k_places_tried = 10;
+constexpr double k_place = 0.015;
+// Views are tried until one is met by more than chance: models of other proportions and pictures of
+// other things came to evidence of up to 11 (bench_pose --fault all).
+constexpr double k_places_tried = 8;
+
+/// Evidence that the edges are the stone's: that of whole edges, and that of how many standard
+/// deviations more of their points are met than elsewhere.
+double evidence_of(const FoundPose& pose) {
+    return pose.evidence.log_odds + 0.5 * pose.support_z * std::abs(pose.support_z);
+}
 
 std::string percent(double share) {
     return share < 0.01 ? fmt::format("{:.1g} %", 100 * share)
@@ -106,6 +112,11 @@ void judge(const PoseTask& task, const Candidate& won, double rival, double riva
         pose.trouble = std::move(why);
         pose.remedy = std::move(remedy);
     };
+    if (shows_other_side(task, won.refined.solved.view)) {
+        refuse("the photograph shows the other side of the stone than the scene's camera",
+               "Put the scene's camera on the side that the photograph shows: turn the sign of its "
+               "position along the stone's axis");
+    }
     const double outline_limit = std::max(1.0, limits.outline_residual * diameter);
     if (pose.outline_px > outline_limit) {
         refuse(fmt::format("the stone's outline lies {:.1f} pixels from the photograph's (at most "
@@ -115,7 +126,7 @@ void judge(const PoseTask& task, const Candidate& won, double rival, double riva
                "paint the stone white in a mask and give it with --mask; else the model is of "
                "another stone, or its widths are wrong");
     }
-    const double by_chance = std::min(1.0, std::exp(k_places_tried - pose.evidence.log_odds));
+    const double by_chance = std::min(1.0, std::exp(k_places_tried - evidence_of(pose)));
     const double by_rival = rival < 700 ? 1 / (1 + std::exp(rival)) : 0;
     pose.doubt = std::min(1.0, by_chance + by_rival);
     if (pose.doubt > limits.doubt && by_chance >= by_rival) {

@@ -28,12 +28,12 @@ struct Cut {
 const std::vector<Cut> k_cuts{
     {"round-brilliant", "diamond", 8, "cushion", {{"table", 66}, {"crown-angle", 30}}},
     {"step", "tourmaline_elbaite", 2, "oval", {{"table", 70}, {"crown-angle", 30}}},
-    {"oval", "corundum", 2, "step", {{"table", 64}, {"crown-angle", 40}}},
+    {"oval", "spinel", 2, "step", {{"table", 64}, {"crown-angle", 40}}},
     {"pear", "yag", 1, "marquise", {{"table", 64}, {"crown-angle", 40}}},
     {"trillion", "diamond", 3, "pear", {{"table", 66}, {"crown-angle", 38}}},
-    {"cushion", "quartz", 2, "round-brilliant", {{"table", 66}, {"crown-angle", 38}}},
+    {"cushion", "garnet_pyrope", 2, "round-brilliant", {{"table", 66}, {"crown-angle", 38}}},
     {"princess", "cubic_zirconia", 4, "step", {{"table", 78}, {"crown-height", 8}}},
-    {"marquise", "chrysoberyl", 2, "oval", {{"table", 64}, {"crown-angle", 40}}}};
+    {"marquise", "glass_sf10", 2, "oval", {{"table", 64}, {"crown-angle", 40}}}};
 const std::vector<std::string> k_lights{"windows", "dome", "ring", "overcast"};
 
 /// Facets that lie in a dark room: a plate of grey patches of the stone's outline.
