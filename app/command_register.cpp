@@ -18,11 +18,13 @@ namespace culet {
 
 namespace {
 
+constexpr double k_unsure_deg = 2;  // as scene_comparison.cpp
+
 struct RegisterArguments {
     CommonOptions common;
     std::string photo, scene, out, overlay, json, mask;
     double facet_error_deg = 0.2, search_deg = 35, focal_error = 20, principal_point_error = 0,
-           within_deg = 5, within_px = 0, doubt_percent = 0.1;
+           within_deg = 10, within_px = 0, doubt_percent = 0.1;
     bool one_chirality = false;
 };
 
@@ -53,6 +55,10 @@ void say_result(const RegisterArguments& a, const FoundPose& pose) {
                     degrees(pose.start_angle), pose.start_scale, degrees(pose.sigmas.angle_99),
                     pose.sigmas.shift_99_px),
         quiet);
+    if (degrees(pose.sigmas.angle_99) > k_unsure_deg)
+        say("that is not very sure: tilt the stone by 10 to 20 degrees and take it larger, or fit "
+            "it to more readings; culet compare --calibrate takes poses sure to 2 degrees",
+            quiet);
     if (pose.mirrored)
         say("the photograph is mirrored: turn it left to right before it is compared", quiet);
     if (!pose.chirality_known)
@@ -125,11 +131,11 @@ void add_command_register(CLI::App& program, int& exit_code) {
         ->check(CLI::Range(0.0, 100.0));
     command
         ->add_option("--within-deg", a.within_deg,
-                     "refuse a view that is not this sure (degrees, 99 %; default 5)")
+                     "refuse a view that is not this sure (degrees, 99 %; default 10)")
         ->check(CLI::Range(0.001, 90.0));
     command
         ->add_option("--within-px", a.within_px,
-                     "refuse a place that is not this sure (pixels, 99 %; default 1.5 % of "
+                     "refuse a place that is not this sure (pixels, 99 %; default 3 % of "
                      "the stone's diameter, but no less than 1)")
         ->check(CLI::Range(0.001, 1e6));
     command

@@ -20,6 +20,7 @@ constexpr std::size_t k_settled = 8;  // of the refined, to the end
 // Poses that look alike by the stone's symmetry and are no likelier than this one than another
 // cannot be told apart: the one nearest to the start is taken.
 constexpr double k_tie = 8;
+constexpr double k_near = radians(10);  // no other view, but the same with other facets
 
 EdgeSupport support_of(const PoseTask& task, const PhotoSide& side, const StoneView& view) {
     WireSpacing spacing;
@@ -88,9 +89,17 @@ void take_nearest_of_equals(const PoseTask& task, std::vector<Candidate>& best) 
                 best.begin() + static_cast<std::ptrdiff_t>(chosen) + 1);
 }
 
+/// Views near by that are not much less likely are part of how unsure the pose is.
+void widen(const Candidate& won, const Candidate& other, const TriedPose& tried, FoundPose& pose) {
+    if (tried.mirrored != pose.mirrored || tried.turn > k_near || tried.lead > k_tie) return;
+    const PicturePoint a = won.refined.solved.view.at, b = other.refined.solved.view.at;
+    pose.sigmas.angle_99 = std::max(pose.sigmas.angle_99, tried.turn);
+    pose.sigmas.shift_99_px = std::max(pose.sigmas.shift_99_px, std::hypot(a.x - b.x, a.y - b.y));
+}
+
 /// How much less likely than the pose another view is. One within what the pose may be off is the
-/// same. What the stone looks alike from counts only
-/// where the start may have meant it: the start is off by about half of what is searched.
+/// same. What the stone looks alike from counts only where the start may have meant it: the start
+/// is off by about half of what is searched.
 double rivalry(const PoseTask& task, const FoundPose& pose, const TriedPose& other) {
     const bool within = other.mirrored == pose.mirrored && other.turn <= pose.sigmas.angle_99;
     if (within) return 1e300;
@@ -115,7 +124,6 @@ void describe(const PoseTask& task, const std::vector<Candidate>& best, FoundPos
     pose.evidence = won.evidence;
     describe_sigmas(task, won, pose);
     describe_marks(won, pose);
-    double rival = 1e300, rival_turn = 0;
     for (std::size_t i = 1; i < best.size(); ++i) {
         TriedPose other;
         other.camera = camera_of(best[i].refined.solved.view, task.start);
@@ -126,13 +134,17 @@ void describe(const PoseTask& task, const std::vector<Candidate>& best, FoundPos
                                      : won.support.log_likelihood - best[i].support.log_likelihood;
         other.log_odds = best[i].evidence.log_odds;
         other.start_angle = angle_between(best[i].refined.solved.view, best[i].side->start);
-        if (const double here = rivalry(task, pose, other); here < rival) {
-            rival = here;
-            rival_turn = other.turn;
-        }
+        widen(won, best[i], other, pose);
         if (other.symmetric && other.mirrored != pose.mirrored && other.lead < k_tie)
             pose.chirality_known = false;
         pose.others.push_back(other);
+    }
+    double rival = 1e300, rival_turn = 0;
+    for (const TriedPose& other : pose.others) {
+        const double here = rivalry(task, pose, other);
+        if (here >= rival) continue;
+        rival = here;
+        rival_turn = other.turn;
     }
     const std::vector<SeenView> images = images_of(task, won.side, solved.view);
     for (std::size_t i = 1; i < images.size(); ++i) {

@@ -25,9 +25,10 @@ namespace culet {
 
 /// A pose is refused beyond these: see docs/registration.md for what they are derived from.
 struct PoseLimits {
-    /// How sure a pose must be, at 99 %: the view's angle to the stone, radians (5 degrees), and
-    /// the stone's place in the picture; 0: 1.5 % of the stone's diameter, or a pixel.
-    double angle = 0.0873;
+    /// How sure a pose must be, at 99 %: the view's angle to the stone, radians (10 degrees), and
+    /// the stone's place in the picture; 0: 3 % of the stone's diameter, or a pixel. They are wide:
+    /// what a pose is worth is what it states. Who needs more asks for more.
+    double angle = 0.1745;
     double shift_px = 0;
     /// Median distance of the outline from the photograph's, as a share of the diameter.
     double outline_residual = 0.01;
@@ -116,6 +117,7 @@ struct FoundPose {
     double support_z = 0;
     CrownEvidence evidence;
     double doubt = 1;  ///< as in PoseLimits
+    /// The view's sigma by the normal equations, and by groups of edges (`variances_by_groups`).
     double angle_by_edges = 0, angle_by_groups = 0;
     /// Of the model as the edges show it: tilt as in PoseOptions, and how far planes lie off at
     /// their facets' middles, a length. One sigma.

@@ -14,13 +14,12 @@ namespace {
 
 // Lengths of vectors of normal errors are below 2.6 times the root of the sum of their variances in
 // 99 of 100 cases, whatever the share of each axis (2.58 for one axis, 2.15 for two, 1.94 for
-// three). Edges that were mistaken for the stone's are no normal errors: over 23 trials of
-// bench_pose (17 of 400 pixels with facets off by 0.2 degrees, 6 of 800 with exact ones) the worst
-// error was 4.3 times.
-constexpr double k_surely = 4.4;
+// three). Edges that were mistaken for the stone's are no normal errors, and the normal equations
+// know nothing of them; groups of edges do. Of the place, 2.6 was too little for groups, too.
+constexpr double k_surely = 4.4, k_surely_by_groups = 2.6, k_place_by_groups = 3.3;
 
 // Of the stone's diameter.
-constexpr double k_place = 0.015;
+constexpr double k_place = 0.03;
 // Views are tried until one is met by more than chance: models of other proportions and pictures of
 // other things came to evidence of up to 11 (bench_pose --fault all).
 constexpr double k_places_tried = 8;
@@ -70,11 +69,13 @@ void describe_sigmas(const PoseTask& task, const Candidate& won, FoundPose& pose
         if (task.options.principal_point_error > 0)
             sigmas.principal_point = sigma(std::max(variance(7, 7), variance(8, 8)));
     }
-    pose.angle_by_edges =
-        std::hypot(sigma(variance(0, 0)), sigma(variance(1, 1)), sigma(variance(2, 2)));
+    const auto by_edges = [&](int k) { return sigma(variance(k, k)); };
+    pose.angle_by_edges = std::hypot(by_edges(0), by_edges(1), by_edges(2));
     pose.angle_by_groups = std::sqrt(by_groups[0] + by_groups[1] + by_groups[2]);
-    sigmas.angle_99 = k_surely * sigmas.angle;
-    sigmas.shift_99_px = k_surely * std::hypot(sigmas.shift_px[0], sigmas.shift_px[1]);
+    sigmas.angle_99 =
+        std::max(k_surely * pose.angle_by_edges, k_surely_by_groups * pose.angle_by_groups);
+    sigmas.shift_99_px = std::max(k_surely * std::hypot(by_edges(3), by_edges(4)),
+                                  k_place_by_groups * std::sqrt(by_groups[3] + by_groups[4]));
     pose.facet_error = won.refined.facet_error;
     pose.facet_offset = won.refined.facet_offset;
 }
