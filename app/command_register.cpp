@@ -19,11 +19,13 @@ namespace culet {
 
 namespace {
 
+constexpr double k_unsure_deg = 2;  // as scene_comparison.cpp
+
 struct RegisterArguments {
     CommonOptions common;
     std::string photo, scene, out, overlay, json, mask;
     double facet_error_deg = 0.2, search_deg = 35, focal_error = 20, principal_point_error = 0,
-           within_deg = 0.1, within_px = 0.1;
+           within_deg = 10, within_px = 0, doubt_percent = 0.1;
     bool one_chirality = false;
 };
 
@@ -36,6 +38,7 @@ PoseOptions options_of(const RegisterArguments& a, const Photo& photo) {
     options.principal_point_error = a.principal_point_error / 100;
     options.limits.angle = radians(a.within_deg);
     options.limits.shift_px = a.within_px;
+    options.limits.doubt = a.doubt_percent / 100;
     options.both_chiralities = !a.one_chirality;
     options.threads = a.common.threads;
     return options;
@@ -45,7 +48,7 @@ void say_result(const RegisterArguments& a, const FoundPose& pose) {
     const bool quiet = a.common.quiet;
     for (const std::string& warning : pose.warnings) say(warning, quiet);
     if (!pose.usable()) {
-        say("refused: " + pose.trouble, quiet);
+        say("refused: " + pose.trouble + ". " + pose.remedy + ".", quiet);
         return;
     }
     say(fmt::format("found: {:.1f} degrees from the start, {:.3f} times its size; sure to {:.2f} "
@@ -53,6 +56,10 @@ void say_result(const RegisterArguments& a, const FoundPose& pose) {
                     degrees(pose.start_angle), pose.start_scale, degrees(pose.sigmas.angle_99),
                     pose.sigmas.shift_99_px),
         quiet);
+    if (degrees(pose.sigmas.angle_99) > k_unsure_deg)
+        say("that is not very sure: tilt the stone by 10 to 20 degrees and take it larger, or fit "
+            "it to more readings; culet compare --calibrate takes poses sure to 2 degrees",
+            quiet);
     if (pose.mirrored)
         say("the photograph is mirrored: turn it left to right before it is compared", quiet);
     if (!pose.chirality_known)
@@ -127,12 +134,18 @@ void add_command_register(CLI::App& program, int& exit_code) {
         ->check(CLI::Range(0.0, 100.0));
     command
         ->add_option("--within-deg", a.within_deg,
-                     "refuse a view that is not this sure (99 %; default 0.1)")
+                     "refuse a view that is not this sure (degrees, 99 %; default 10)")
         ->check(CLI::Range(0.001, 90.0));
     command
         ->add_option("--within-px", a.within_px,
-                     "refuse a place that is not this sure (99 %; default 0.1)")
+                     "refuse a place that is not this sure (pixels, 99 %; default 3 % of "
+                     "the stone's diameter, but no less than 1)")
         ->check(CLI::Range(0.001, 1e6));
+    command
+        ->add_option("--doubt", a.doubt_percent,
+                     "refuse a pose whose chance of being a wrong one is larger (percent; default "
+                     "0.1; 100 takes any)")
+        ->check(CLI::Range(1e-6, 100.0));
     command->add_flag("--not-mirrored", a.one_chirality,
                       "the photograph is surely not mirrored: do not try it so");
     add_common(*command, a.common, true);

@@ -38,6 +38,9 @@ constexpr double k_bar_for_tilts = 0.2;  // of the progress
 // stones of 0.2 degrees of facet error would be left with the scene's camera, which is farther off.
 constexpr double k_pose_angle = radians(2.0), k_pose_shift = 0.005;
 
+// What a pose is off by less than this costs the scores nothing that shows.
+constexpr double k_worth_saying = radians(0.1);
+
 Progress part_of(const Progress& progress, double from, double to) {
     if (!progress) return {};
     return [=, &progress](double fraction) { return progress(from + (to - from) * fraction); };
@@ -171,7 +174,7 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
         if (result.pose->usable()) {
             result.pose_used = true;
             result.scene.camera = result.pose->camera;
-            if (result.pose->sigmas.angle_99 > PoseLimits{}.angle) {
+            if (result.pose->sigmas.angle_99 > k_worth_saying) {
                 notes.push_back(fmt::format(
                     "pose: known to {:.2f} degrees (99 %); what it is off counts as facet error, "
                     "0.5 degrees as 0.15 to 0.25",
@@ -187,7 +190,9 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
             }
         } else {
             notes.push_back("pose: " + result.pose->trouble +
-                            "; the scene's own camera was taken instead");
+                            "; the scene's own camera was taken instead. What to do: culet "
+                            "register finds the pose by itself and takes options. " +
+                            result.pose->remedy);
         }
     }
 

@@ -4,8 +4,10 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/core.hpp>
 
+#include "compare/pose/edge_evidence.h"
 #include "compare/pose/pose_certainty.h"
 #include "compare/pose/same_look.h"
 #include "stone/units.h"
@@ -18,6 +20,7 @@ constexpr std::size_t k_settled = 8;  // of the refined, to the end
 // Poses that look alike by the stone's symmetry and are no likelier than this one than another
 // cannot be told apart: the one nearest to the start is taken.
 constexpr double k_tie = 8;
+constexpr double k_near = radians(10);  // no other view, but the same with other facets
 
 EdgeSupport support_of(const PoseTask& task, const PhotoSide& side, const StoneView& view) {
     WireSpacing spacing;
@@ -55,19 +58,57 @@ bool looks_alike(const PoseTask& task, const Candidate& a, const Candidate& b) {
                       a.side->mirrored != b.side->mirrored);
 }
 
-/// Of poses that differ by the stone's symmetry and are about as likely, the one that is not
-/// mirrored and nearest to the start comes first.
+/// How much likelier the first of two views is that look alike by the stone's symmetry: by the
+/// edges that it meets, and by how little the model's facets must change for them. (Of normal
+/// errors of unknown size the likelihood goes with the size to the power of minus their number.)
+double lead_of(const Candidate& a, const Candidate& b) {
+    const SolvedView &one = a.refined.solved, &other = b.refined.solved;
+    const int tilts = std::min(one.tilts_found, other.tilts_found);
+    return a.support.log_likelihood - b.support.log_likelihood +
+           tilts * std::log(other.facet_error / one.facet_error);
+}
+
+/// Of poses that differ by the stone's symmetry the likeliest comes first; of about as likely ones
+/// the one that is not mirrored and nearest to the start.
 void take_nearest_of_equals(const PoseTask& task, std::vector<Candidate>& best) {
-    std::size_t chosen = 0;
-    const auto better = [&](const Candidate& a, const Candidate& b) {
-        return nearer_to_start(a.side, a.refined.solved.view, b.side, b.refined.solved.view);
-    };
+    std::vector<std::size_t> alike{0};
+    std::size_t likeliest = 0;
     for (std::size_t i = 1; i < best.size(); ++i) {
-        if (best[0].support.log_likelihood - best[i].support.log_likelihood > k_tie) break;
-        if (looks_alike(task, best[0], best[i]) && better(best[i], best[chosen])) chosen = i;
+        if (!looks_alike(task, best[0], best[i])) continue;
+        alike.push_back(i);
+        if (lead_of(best[i], best[likeliest]) > 0) likeliest = i;
+    }
+    std::size_t chosen = likeliest;
+    for (const std::size_t i : alike) {
+        if (lead_of(best[likeliest], best[i]) > k_tie) continue;
+        if (nearer_to_start(best[i].side, best[i].refined.solved.view, best[chosen].side,
+                            best[chosen].refined.solved.view))
+            chosen = i;
     }
     std::rotate(best.begin(), best.begin() + static_cast<std::ptrdiff_t>(chosen),
                 best.begin() + static_cast<std::ptrdiff_t>(chosen) + 1);
+}
+
+/// Views near by that are not much less likely are part of how unsure the pose is.
+void widen(const Candidate& won, const Candidate& other, const TriedPose& tried, FoundPose& pose) {
+    if (tried.mirrored != pose.mirrored || tried.turn > k_near || tried.lead > k_tie) return;
+    const PicturePoint a = won.refined.solved.view.at, b = other.refined.solved.view.at;
+    pose.sigmas.angle_99 = std::max(pose.sigmas.angle_99, tried.turn);
+    pose.sigmas.shift_99_px = std::max(pose.sigmas.shift_99_px, std::hypot(a.x - b.x, a.y - b.y));
+}
+
+/// How much less likely than the pose another view is. One within what the pose may be off is the
+/// same. What the stone looks alike from counts only where the start may have meant it: the start
+/// is off by about half of what is searched.
+double rivalry(const PoseTask& task, const FoundPose& pose, const TriedPose& other) {
+    const bool within = other.mirrored == pose.mirrored && other.turn <= pose.sigmas.angle_99;
+    if (within) return 1e300;
+    if (!other.symmetric) return other.lead;
+    if (other.mirrored != pose.mirrored || other.start_angle > task.options.search) return 1e300;
+    const double sigma = 0.5 * task.options.search;
+    return other.lead +
+           0.5 * (other.start_angle * other.start_angle - pose.start_angle * pose.start_angle) /
+               (sigma * sigma);
 }
 
 void describe(const PoseTask& task, const std::vector<Candidate>& best, FoundPose& pose) {
@@ -80,29 +121,40 @@ void describe(const PoseTask& task, const std::vector<Candidate>& best, FoundPos
     pose.crown_support = won.support.met;
     pose.chance_support = won.support.chance;
     pose.support_z = won.support.z;
+    pose.evidence = won.evidence;
     describe_sigmas(task, won, pose);
     describe_marks(won, pose);
-    double rival = 1e300;
     for (std::size_t i = 1; i < best.size(); ++i) {
         TriedPose other;
         other.camera = camera_of(best[i].refined.solved.view, task.start);
         other.mirrored = best[i].side->mirrored;
         other.turn = angle_between(best[i].refined.solved.view, solved.view);
-        other.lead = won.support.log_likelihood - best[i].support.log_likelihood;
         other.symmetric = looks_alike(task, won, best[i]);
-        if (!other.symmetric) rival = std::min(rival, other.lead);
+        other.lead = other.symmetric ? lead_of(won, best[i])
+                                     : won.support.log_likelihood - best[i].support.log_likelihood;
+        other.log_odds = best[i].evidence.log_odds;
+        other.start_angle = angle_between(best[i].refined.solved.view, best[i].side->start);
+        widen(won, best[i], other, pose);
         if (other.symmetric && other.mirrored != pose.mirrored && other.lead < k_tie)
             pose.chirality_known = false;
         pose.others.push_back(other);
+    }
+    double rival = 1e300, rival_turn = 0;
+    for (const TriedPose& other : pose.others) {
+        const double here = rivalry(task, pose, other);
+        if (here >= rival) continue;
+        rival = here;
+        rival_turn = other.turn;
     }
     const std::vector<SeenView> images = images_of(task, won.side, solved.view);
     for (std::size_t i = 1; i < images.size(); ++i) {
         const StoneView& view = images[i].coarse.view;
         pose.others.push_back({camera_of(view, task.start), images[i].side->mirrored,
-                               angle_between(view, solved.view), 0, true});
+                               angle_between(view, solved.view), 0, true, won.evidence.log_odds,
+                               angle_between(view, images[i].side->start)});
         if (images[i].side != won.side) pose.chirality_known = false;
     }
-    judge(task, won, rival, pose);
+    judge(task, won, rival, rival_turn, pose);
 }
 
 void choose(const PoseTask& task, std::vector<Candidate>& candidates, FoundPose& pose) {
@@ -117,14 +169,18 @@ void choose(const PoseTask& task, std::vector<Candidate>& candidates, FoundPose&
     tbb::parallel_for(std::size_t{0}, best.size(), [&](std::size_t i) {
         Candidate& c = best[i];
         c.refined = settle(task.wire, c.side->picture, c.refined, settings_of(task, *c.side));
-        if (!c.refined.lost) c.support = support_of(task, *c.side, c.refined.solved.view);
+        if (c.refined.lost) return;
+        c.support = support_of(task, *c.side, c.refined.solved.view);
+        c.evidence = crown_evidence(c.side->picture, c.side->stone, c.refined.points,
+                                    c.side->shape.diameter);
     });
     report(task, 0.95);
     best = distinct(std::move(best));
     if (best.empty()) {
-        pose.trouble =
-            "no view of this stone has its edges where the photograph has any: is it this "
-            "stone, and is the start within 30 degrees?";
+        pose.trouble = "no view of this stone has its edges where the photograph has any";
+        pose.remedy =
+            "Check that this is the stone, from this side, and turn the scene's camera to within "
+            "30 degrees of how the stone was held; --search-deg 60 searches farther";
         return;
     }
     take_nearest_of_equals(task, best);
@@ -141,6 +197,9 @@ FoundPose searched(PoseTask& task, const Photo& photo) {
     pose.camera = task.start;
     if (!silhouette.found()) {
         pose.trouble = silhouette.trouble;
+        pose.remedy =
+            "Give a photograph that shows the stone before a plain background, or paint "
+            "the stone white in a mask and give it with --mask";
         return pose;
     }
     if (!silhouette.warning.empty()) pose.warnings.push_back(silhouette.warning);
@@ -154,10 +213,11 @@ FoundPose searched(PoseTask& task, const Photo& photo) {
 }  // namespace
 
 FoundPose find_pose(const Photo& photo, const Solid& solid, const Camera& start,
-                    const PoseOptions& options, const Progress& progress) {
-    require_suitable(photo, solid, start, options);
-    PoseTask task{WireSolid(solid), {},       resized_to(start, photo.width, photo.height),
-                  options,          progress, {}};
+                    const PoseOptions& given, const Progress& progress) {
+    require_suitable(photo, solid, start, given);
+    PoseOptions options = given;
+    const Camera camera = start_for(start, photo.width, photo.height, options);
+    PoseTask task{WireSolid(solid), {}, camera, options, progress, {}};
     task.symmetries = symmetries_of(task.wire);
     FoundPose pose;
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);

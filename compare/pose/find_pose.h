@@ -23,21 +23,18 @@
 
 namespace culet {
 
-/// A pose is refused beyond these. See docs/registration.md for what they are derived from.
+/// A pose is refused beyond these: see docs/registration.md for what they are derived from.
 struct PoseLimits {
-    /// What a pose that is not refused promises, at 99 %: the view's angle to the stone, radians
-    /// (0.1 degrees), and the stone's place in the picture. Facets that are not as in the model
-    /// move edges, and a model with facet errors of 0.2 degrees does not allow this promise for
-    /// most cuts: who can do with less raises the limits.
-    double angle = 0.001745;
-    double shift_px = 0.1;
+    /// How sure a pose must be, at 99 %: the view's angle to the stone, radians (10 degrees), and
+    /// the stone's place in the picture; 0: 3 % of the stone's diameter, or a pixel. They are wide:
+    /// what a pose is worth is what it states. Who needs more asks for more.
+    double angle = 0.1745;
+    double shift_px = 0;
     /// Median distance of the outline from the photograph's, as a share of the diameter.
     double outline_residual = 0.01;
-    /// Standard deviations by which edges of the crown must be met above chance.
-    double least_support_z = 5;
-    /// By how much (natural logarithm of the likelihood) the pose must beat every pose that is not
-    /// the same but for the stone's symmetry.
-    double least_lead = 8;
+    /// Chance that the pose is a wrong one: that its edges are met by chance, or that another view
+    /// is the right one.
+    double doubt = 0.001;
 };
 
 struct PoseOptions {
@@ -75,6 +72,21 @@ struct TriedPose {
     double lead = 0;  ///< how much less likely than the chosen one (natural logarithm)
     /// The stone looks the same from here but for its small irregularities.
     bool symmetric = false;
+    double log_odds = 0;     ///< as CrownEvidence
+    double start_angle = 0;  ///< from the start's view
+};
+
+/// What whole edges of the crown say (edge_evidence.h).
+struct CrownEvidence {
+    int looked = 0, met = 0;  ///< crown edges
+    double met_share = 0;     ///< of their length
+    double chance_share = 0;  ///< of their length, laid elsewhere
+    /// Natural logarithm of how much likelier what is met is with the stone's edges there than by
+    /// chance. Edges are independent witnesses; that many places were tried is not in it.
+    double log_odds = 0;
+    /// How far the photograph's edges lie from those that were met, over what is expected of the
+    /// model's facets and of the picture there: root mean square.
+    double misfit = 0;
 };
 
 struct PoseSigmas {
@@ -103,6 +115,10 @@ struct FoundPose {
     double outline_px = 0, crown_px = 0;
     double crown_support = 0, chance_support = 0;  ///< shares of the crown's edge points met
     double support_z = 0;
+    CrownEvidence evidence;
+    double doubt = 1;  ///< as in PoseLimits
+    /// The view's sigma by the normal equations, and by groups of edges (`variances_by_groups`).
+    double angle_by_edges = 0, angle_by_groups = 0;
     /// Of the model as the edges show it: tilt as in PoseOptions, and how far planes lie off at
     /// their facets' middles, a length. One sigma.
     double facet_error = 0, facet_offset = 0;
@@ -112,6 +128,7 @@ struct FoundPose {
     std::vector<EdgeMark> marks;
     std::vector<std::string> warnings;
     std::string trouble;  ///< why it should not be used; empty when all is well
+    std::string remedy;   ///< what to do about it: a sentence or two
 
     bool usable() const { return trouble.empty(); }
 };

@@ -1,7 +1,9 @@
 #include "compare/pose/pose_candidates.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/matrix.hpp>
+#include <numbers>
 
 #include "compare/pose/same_look.h"
 #include "stone/units.h"
@@ -11,6 +13,7 @@ namespace culet {
 namespace {
 
 constexpr int k_views_each = 12;  // of the coarse search, of either chirality
+constexpr int k_views_over = 6;   // of the stone turned over
 constexpr int k_turned_from = 3;  // of these, turned all round
 constexpr int k_turned_each = 8;
 constexpr std::size_t k_refined = 24;
@@ -30,10 +33,31 @@ std::vector<Candidate> worth_refining(const PoseTask& task, const std::vector<Se
                 return other.side == image.side &&
                        angle_between(other.view, image.coarse.view) < radians(k_same_view_deg);
             });
-        if (!known) candidates.push_back({image.side, image.coarse.view, {}, {}});
+        if (!known) candidates.push_back({image.side, image.coarse.view, {}, {}, {}});
         if (candidates.size() >= k_refined) break;
     }
     return candidates;
+}
+
+/// The places of the best few views of either side of the stone.
+std::vector<std::size_t> best_of_each_side(const PoseTask& task,
+                                           const std::vector<SeenView>& found) {
+    std::vector<std::size_t> best;
+    for (const bool over : {false, true}) {
+        int left = over ? 1 : k_turned_from;
+        for (std::size_t i = 0; i < found.size() && left > 0; ++i) {
+            if (shows_other_side(task, found[i].coarse.view) != over) continue;
+            best.push_back(i);
+            --left;
+        }
+    }
+    return best;
+}
+
+StoneView turned_over(const StoneView& view) {
+    StoneView over = view;
+    over.turn = view.turn * rotation_by({std::numbers::pi, 0, 0});
+    return over;
 }
 
 }  // namespace
@@ -46,12 +70,20 @@ std::vector<Candidate> coarse_candidates(const PoseTask& task) {
                           task.progress))
             found.push_back({side.get(), view});
     }
+    // A photograph of the other side must not be taken for this one.
+    if (task.options.all_turns) {
+        const PhotoSide& side = *task.sides.front();
+        for (const CoarseView& view :
+             search_views(target_of(task, side), turned_over(side.start), task.options.search,
+                          k_views_over, task.progress))
+            found.push_back({&side, view});
+    }
     sort_by_score(found);
     report(task, 0.3);
     if (task.options.all_turns) {
         std::vector<SeenView> turned;
-        const std::size_t from = std::min<std::size_t>(k_turned_from, found.size());
-        for (std::size_t i = 0; i < from; ++i) {
+        const std::vector<std::size_t> from = best_of_each_side(task, found);
+        for (const std::size_t i : from) {
             for (const auto& side : task.sides) {
                 // A stone that looks alike mirrored looks so from the mirrored direction.
                 StoneView view = found[i].coarse.view;
@@ -96,6 +128,12 @@ bool nearer_to_start(const PhotoSide* a_side, const StoneView& a, const PhotoSid
                      const StoneView& b) {
     if (a_side->mirrored != b_side->mirrored) return !a_side->mirrored;
     return angle_between(a, a_side->start) < angle_between(b, b_side->start);
+}
+
+bool shows_other_side(const PoseTask& task, const StoneView& view) {
+    // Seen from beside, a stone has no such sides.
+    const double start = task.sides.front()->start.turn[2].z;
+    return std::abs(start) > 0.5 && view.turn[2].z * start < 0;
 }
 
 double angle_between(const StoneView& a, const StoneView& b) {

@@ -11,6 +11,7 @@ struct Candidate {
     StoneView view;
     RefinedView refined;
     EdgeSupport support;
+    CrownEvidence evidence;  ///< once settled
 };
 
 struct SeenView {
@@ -27,6 +28,9 @@ std::vector<SeenView> images_of(const PoseTask& task, const PhotoSide* side, con
 /// Not mirrored comes before mirrored; of either, the one turned less.
 bool nearer_to_start(const PhotoSide* a_side, const StoneView& a, const PhotoSide* b_side,
                      const StoneView& b);
+
+/// Whether it shows the side of the stone (of its plane z = 0) that the start does not.
+bool shows_other_side(const PoseTask& task, const StoneView& view);
 
 double angle_between(const StoneView& a, const StoneView& b);
 

@@ -11,7 +11,10 @@ void describe_sigmas(const PoseTask& task, const Candidate& won, FoundPose& pose
 /// The photograph's edge at every point of the wireframe, and the medians of their distances.
 void describe_marks(const Candidate& won, FoundPose& pose);
 
-/// Says in `trouble` which of the limits is passed. `rival`: the lead over the next other view.
-void judge(const PoseTask& task, const Candidate& won, double rival, FoundPose& pose);
+/// Sets `doubt`, and says in `trouble` which of the limits is passed and in `remedy` what to do
+/// about it. `rival`: the lead over the next other view (infinite: there is none), `rival_turn`:
+/// where it is, radians from this one.
+void judge(const PoseTask& task, const Candidate& won, double rival, double rival_turn,
+           FoundPose& pose);
 
 }  // namespace culet

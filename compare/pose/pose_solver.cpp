@@ -160,6 +160,7 @@ public:
         const double found = 1 - variance_left / (expected_ * expected_);
         if (found > 0.15) sizes_.push_back(std::abs(value) / std::sqrt(found));
     }
+    int count() const { return static_cast<int>(sizes_.size()); }
     double sigma() const {
         if (sizes_.size() < 5) return expected_;
         const double found = upper_median(sizes_) / 0.6745;
@@ -258,6 +259,7 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
         }
         result.facet_error = std::numbers::sqrt2 * tilt.sigma();
         result.facet_offset = lift.sigma();
+        result.tilts_found = tilt.count();
     }
     const StoneView before = result.view;
     result.view = changed(before, change);

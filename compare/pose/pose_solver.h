@@ -37,6 +37,7 @@ struct SolvedView {
     /// The expected errors as the edges show them, drawn a little towards what was expected. With
     /// the covariance only.
     double facet_error = 0, facet_offset = 0;
+    int tilts_found = 0;  ///< tilts that the edges could find: what `facet_error` is from
     bool converged = false;
 };
 

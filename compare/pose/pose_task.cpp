@@ -1,5 +1,7 @@
 #include "compare/pose/pose_task.h"
 
+#include <algorithm>
+#include <cmath>
 #include <opencv2/core.hpp>
 
 #include "compare/pixels.h"
@@ -10,6 +12,10 @@ namespace culet {
 
 namespace {
 
+// Sizes that differ by no more than this are of one shape.
+constexpr double k_rounding_px = 1.5;
+// Standard deviation of a place that is anywhere in what was cut off.
+constexpr double k_of_the_cut = 0.29;
 constexpr double k_edge_reach = 0.012;  // of the edge map, of the diameter
 
 }  // namespace
@@ -17,6 +23,7 @@ constexpr double k_edge_reach = 0.012;  // of the edge map, of the diameter
 PhotoSide::PhotoSide(const cv::Mat& colour, const cv::Mat& mask, double saturation,
                      const Camera& start_camera, const Vec3& middle, bool mirrored_)
     : mirrored(mirrored_),
+      stone(mask),
       shape(outline_shape(mask)),
       map(colour, mask, shape.diameter, k_edge_reach),
       picture(colour, saturation) {
@@ -42,14 +49,30 @@ void require_suitable(const Photo& photo, const Solid& solid, const Camera& star
         throw InputError("the mask has another size than the photograph");
 }
 
-Camera resized_to(const Camera& start, int width, int height) {
+Camera start_for(const Camera& start, int width, int height, PoseOptions& options) {
     Camera camera = start;
-    if (camera.principal_point) {
-        (*camera.principal_point)[0] *= static_cast<double>(width) / start.width;
-        (*camera.principal_point)[1] *= static_cast<double>(height) / start.height;
-    }
     camera.width = width;
     camera.height = height;
+    const double across = static_cast<double>(width) / start.width,
+                 down = static_cast<double>(height) / start.height;
+    const double off = std::abs(across - down) * std::min(start.width, start.height);
+    if (camera.principal_point) {
+        (*camera.principal_point)[0] *= across;
+        (*camera.principal_point)[1] *= down;
+        return camera;
+    }
+    if (off <= k_rounding_px) return camera;
+    // No more was cut off than must have been: a photograph no larger than the start's picture has
+    // its pixels.
+    const double grown = std::max({1.0, across, down});
+    if (camera.orthographic_width) {
+        *camera.orthographic_width *= across / grown;
+        return camera;
+    }
+    camera.fov = 2 * std::atan(std::tan(start.fov / 2) * down / grown);
+    const double cut = std::max(grown * start.width - width, grown * start.height - height);
+    options.principal_point_error =
+        std::hypot(options.principal_point_error, k_of_the_cut * cut / width);
     return camera;
 }
 

@@ -19,6 +19,7 @@ struct PhotoSide {
     PhotoSide(const cv::Mat& colour, const cv::Mat& mask, double saturation,
               const Camera& start_camera, const Vec3& middle, bool mirrored_);
     bool mirrored;
+    cv::Mat stone;  ///< CV_8U
     OutlineShape shape;
     EdgeMap map;
     EdgePicture picture;
@@ -39,8 +40,10 @@ struct PoseTask {
 void require_suitable(const Photo& photo, const Solid& solid, const Camera& start,
                       const PoseOptions& options);
 
-/// The start with the photograph's size: the same picture with more or fewer pixels.
-Camera resized_to(const Camera& start, int width, int height);
+/// The start with the photograph's size. Of the start's shape, the photograph is the same picture
+/// with more or fewer pixels. Of another it was cropped: unless the start has a principal point,
+/// where that is and how long the lens is are known less well then, and `options` say so.
+Camera start_for(const Camera& start, int width, int height, PoseOptions& options);
 
 Silhouette silhouette_of(const Photo& photo, const PoseOptions& options, const cv::Mat& colour);
 

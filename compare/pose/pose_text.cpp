@@ -35,6 +35,8 @@ std::string pose_json(const FoundPose& pose) {
     Json json{{"schema", 1}};
     json["status"] = pose.usable() ? "found" : "refused";
     json["trouble"] = pose.trouble;
+    json["remedy"] = pose.remedy;
+    json["doubt"] = pose.doubt;
     json["camera"] = camera_json(pose.camera);
     json["mirrored"] = pose.mirrored;
     json["chirality_known"] = pose.chirality_known;
@@ -56,7 +58,11 @@ std::string pose_json(const FoundPose& pose) {
     json["crown"] = {{"distance_px", pose.crown_px},
                      {"met", pose.crown_support},
                      {"met_by_chance", pose.chance_support},
-                     {"z", pose.support_z}};
+                     {"z", pose.support_z},
+                     {"edges", pose.evidence.looked},
+                     {"edges_met", pose.evidence.met},
+                     {"edges_met_by_chance", pose.evidence.chance_share * pose.evidence.looked},
+                     {"log_odds", pose.evidence.log_odds}};
     json["facet_error_deg"] = degrees(pose.facet_error);
     json["facet_offset"] = pose.facet_offset;
     json["others"] = Json::array();

@@ -17,7 +17,7 @@ constexpr std::size_t k_fewest_edges = 40;
 // Of a whole edge's place: neighbouring light that the blur mixes in.
 constexpr double k_edge_sigma = 0.06;
 constexpr int k_settling_rounds = 7;
-constexpr int k_groups = 8;
+constexpr int k_groups = 16;
 // Half of what is searched, pixels, and so many sigmas of what facet errors do.
 constexpr double k_first_width = 0.7, k_width = 0.4, k_facet_widths = 2.5;
 // Facet errors that are found are taken within these bounds of the expected ones: below, nothing

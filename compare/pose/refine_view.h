@@ -34,7 +34,7 @@ RefinedView settle(const WireSolid& wire, const EdgePicture& picture, const Refi
                    const RefineSettings& settings);
 
 /// Variances of the view's turn (three axes), place (two) and logarithm of scale as the edges
-/// themselves show them: the jackknife (Quenouille 1949, Tukey 1958) over eight groups of edges.
+/// themselves show them: the jackknife (Quenouille 1949, Tukey 1958) over sixteen groups of edges.
 /// Edges that were mistaken for the stone's show here, where the covariance believes them.
 std::array<double, 6> variances_by_groups(const WireSolid& wire, const RefinedView& refined,
                                           const RefineSettings& settings);

@@ -87,7 +87,12 @@ TEST_F(Register, refuses_with_its_outputs_written) {
                    "--overlay", file("overlay.png"), "--json", file("pose.json")});
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_NE(run.err.find("refused: "), std::string::npos) << run.err;
-    EXPECT_EQ(nlohmann::json::parse(text(file("pose.json"))).at("status"), "refused");
+    const auto pose = nlohmann::json::parse(text(file("pose.json")));
+    EXPECT_EQ(pose.at("status"), "refused");
+    // What to do ends the line that is shown.
+    const std::string remedy = pose.at("remedy").get<std::string>() + ".\n";
+    ASSERT_GT(remedy.size(), 20u);
+    EXPECT_EQ(run.err.substr(run.err.size() - remedy.size()), remedy) << run.err;
     EXPECT_TRUE(fs::exists(file("posed.toml")) && fs::exists(file("overlay.png")));
 }
 

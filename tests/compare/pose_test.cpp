@@ -349,9 +349,31 @@ TEST(FindPose, refuses_what_it_cannot_promise) {
     const Shot made = shot("trillion", 0.2, 4, 8, "dome", 240, 12);
     PoseOptions options;
     options.search = radians(12);
+    options.limits.angle = radians(0.1);
     const FoundPose pose =
         find_pose(made.photo, made.model, rough_start(made, 10, 0.9, 4), options);
     EXPECT_FALSE(pose.usable());
+    EXPECT_FALSE(pose.remedy.empty());
+}
+
+// Expected of a photograph from below: no pose of the crown, whose outline is the same.
+TEST(FindPose, refuses_a_photograph_of_the_other_side) {
+    Shot made = shot("round-brilliant", 0.2, 175, 12, "overcast", 320, 17);
+    const Camera start = synthetic::camera_at(made.model, standpoint(5, 12, 320));
+    const FoundPose pose = find_pose(made.photo, made.model, start);
+    EXPECT_FALSE(pose.usable());
+    EXPECT_FALSE(pose.remedy.empty());
+}
+
+// Expected: the camera that took the whole picture, told by no more than the part that is left.
+TEST(FindPose, finds_the_camera_of_a_cropped_photograph) {
+    Shot made = shot("round-brilliant", 0.2, 20, 12, "overcast", 320, 11);
+    const Camera start = rough_start(made, 15, 1.1, 3);
+    made.photo = synthetic::cropped(made.photo, 30, 12, 270, 300);
+    const FoundPose pose = find_pose(made.photo, made.model, start);
+    EXPECT_TRUE(pose.usable()) << pose.trouble;
+    EXPECT_EQ(pose.camera.width, 270);
+    EXPECT_LT(angle_to_truth(made, pose, 8), pose.sigmas.angle_99);
 }
 
 TEST(FindPose, refuses_another_stone) {

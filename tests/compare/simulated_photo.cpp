@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
@@ -25,6 +26,20 @@ double normal(std::mt19937_64& random) {
 
 double uniform(std::mt19937_64& random, double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+/// Written and read again, in 8 bits through the sRGB curve.
+void compress(Photo& photo, int quality) {
+    cv::Mat shown(photo.height, photo.width, CV_8UC3), back;
+    for (std::size_t i = 0; i < photo.rgb.size(); ++i)
+        shown.data[i] = static_cast<unsigned char>(
+            std::lround(255 * srgb_encoded(static_cast<double>(photo.rgb[i]))));
+    cv::cvtColor(shown, shown, cv::COLOR_RGB2BGR);
+    std::vector<unsigned char> bytes;
+    cv::imencode(".jpg", shown, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
+    cv::cvtColor(cv::imdecode(bytes, cv::IMREAD_COLOR), back, cv::COLOR_BGR2RGB);
+    for (std::size_t i = 0; i < photo.rgb.size(); ++i)
+        photo.rgb[i] = static_cast<float>(srgb_decoded(back.data[i] / 255.0));
 }
 
 }  // namespace
@@ -77,7 +92,33 @@ Photo photographed(const Picture& picture, const CameraFaults& faults, std::mt19
             photo.rgb.push_back(static_cast<float>(value));
         }
     }
+    if (faults.jpeg_quality > 0) compress(photo, faults.jpeg_quality);
     return photo;
+}
+
+Photo cropped(const Photo& photo, int left, int top, int width, int height) {
+    Photo part = photo;
+    part.width = width;
+    part.height = height;
+    part.rgb.clear();
+    for (int y = top; y < top + height; ++y) {
+        const auto row =
+            photo.rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * photo.width + left);
+        part.rgb.insert(part.rgb.end(), row, row + 3 * static_cast<std::ptrdiff_t>(width));
+    }
+    return part;
+}
+
+Photo mirrored(const Photo& photo) {
+    Photo turned = photo;
+    for (int y = 0; y < photo.height; ++y) {
+        for (int x = 0; x < photo.width; ++x) {
+            const auto to = static_cast<std::size_t>(y * photo.width + x);
+            const auto from = static_cast<std::size_t>(y * photo.width + photo.width - 1 - x);
+            for (std::size_t c = 0; c < 3; ++c) turned.rgb[3 * to + c] = photo.rgb[3 * from + c];
+        }
+    }
+    return turned;
 }
 
 Lights named_lights(const std::string& name) {

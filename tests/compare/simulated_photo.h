@@ -21,10 +21,17 @@ struct CameraFaults {
     double read_noise = 6;         ///< electrons
     double exposure_share = 0.98;  ///< of the stone's pixels below clipping
     bool eight_bit = true;         ///< sRGB
+    int jpeg_quality = 0;          ///< of an 8-bit picture that was written as JPEG; 0: it was not
 };
 
 /// What a camera makes of a picture in linear light.
 Photo photographed(const Picture& picture, const CameraFaults& faults, std::mt19937_64& random);
+
+/// The rectangle of a picture: what is left when it is cropped.
+Photo cropped(const Photo& photo, int left, int top, int width, int height);
+
+/// Turned left to right.
+Photo mirrored(const Photo& photo);
 
 /// "windows", "dome", "ring", "overcast": lights of the upper half, so that what is behind the
 /// stone is one tone.

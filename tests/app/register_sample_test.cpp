@@ -1,0 +1,116 @@
+// The sample's simulated photograph (samples/dravite-step) is registered with the sample's scene
+// and its own fit, in the forms that a photograph has by the time it is used.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/app/run_program.h"
+#include "tests/scratch_folder.h"
+
+namespace culet {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ProgramRun;
+using test::run_culet;
+
+const fs::path k_sample = fs::path(CULET_SOURCE_DIR) / "samples/dravite-step";
+const std::string k_photo = (k_sample / "simulated-photo.png").string();
+
+std::string text(const fs::path& name) {
+    std::ifstream stream(name, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// The stone is fitted once; its scene names the fitted mesh.
+class RegisterSample : public testing::Test {
+protected:
+    static void SetUpTestSuite() {
+        folder_ = std::make_unique<test::ScratchFolder>();
+        const ProgramRun fit =
+            run_culet({"fit", (k_sample / "stone.toml").string(), "-o", file("fitted.obj"), "-q"});
+        ASSERT_TRUE(fs::exists(file("fitted.obj"))) << fit.err;
+        std::string stone = text(k_sample / "stone.toml");
+        stone.replace(stone.find("hand.obj"), 8, "fitted.obj");
+        const std::size_t readings = stone.find("readings = ");
+        stone.erase(readings, stone.find('\n', readings) - readings);
+        std::ofstream(file("stone.toml")) << stone;
+        fs::copy(k_sample / "scene.toml", file("scene.toml"));
+    }
+    static void TearDownTestSuite() { folder_.reset(); }
+    static std::string file(const std::string& name) { return (*folder_ / name).string(); }
+    static ProgramRun registered(const std::string& photo,
+                                 const std::vector<std::string>& more = {}) {
+        std::vector<std::string> call{
+            "register", photo, file("scene.toml"), "-o", file("posed.toml"), "--json", "-"};
+        call.insert(call.end(), more.begin(), more.end());
+        return run_culet(call);
+    }
+    static std::unique_ptr<test::ScratchFolder> folder_;
+};
+std::unique_ptr<test::ScratchFolder> RegisterSample::folder_;
+
+/// Degrees between the directions from the stone (at the origin) to where the camera was found and
+/// where it stood (making/true-scene.toml).
+double angle_to_truth(const ProgramRun& run) {
+    const auto found = nlohmann::json::parse(run.out).at("camera").at("position");
+    const std::string scene = text(k_sample / "making/true-scene.toml");
+    const std::size_t at = scene.find("position = ") + 11;
+    const auto stood = nlohmann::json::parse(scene.substr(at, scene.find(']', at) + 1 - at));
+    double dot = 0, a = 0, b = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double p = found.at(k).get<double>(), q = stood.at(k).get<double>();
+        dot += p * q;
+        a += p * p;
+        b += q * q;
+    }
+    return std::acos(std::min(1.0, dot / std::sqrt(a * b))) * 180 / std::numbers::pi;
+}
+
+// Expected: found, where the camera stood, to what is stated and to less than a degree.
+void expect_found(const ProgramRun& run) {
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const double stated = nlohmann::json::parse(run.out).at("sigma").at("angle_99_deg");
+    EXPECT_LT(angle_to_truth(run), std::min(1.0, stated));
+}
+
+TEST_F(RegisterSample, is_found_as_it_is) {
+    expect_found(registered(k_photo));
+}
+
+TEST_F(RegisterSample, is_found_as_a_jpeg) {
+    const cv::Mat photo = cv::imread(k_photo);
+    cv::imwrite(file("photo.jpg"), photo, {cv::IMWRITE_JPEG_QUALITY, 85});
+    expect_found(registered(file("photo.jpg")));
+}
+
+TEST_F(RegisterSample, is_found_when_cropped) {
+    const cv::Mat photo = cv::imread(k_photo);
+    cv::imwrite(file("cropped.png"), photo(cv::Rect(30, 10, 420, 365)));
+    expect_found(registered(file("cropped.png")));
+}
+
+// Every limit can be set: what is taken by default is refused when more is asked for, in words that
+// name the option.
+TEST_F(RegisterSample, is_refused_when_it_must_be_surer) {
+    const ProgramRun run = registered(k_photo, {"--within-deg", "0.01"});
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_NE(run.err.find("--within-deg"), std::string::npos) << run.err;
+}
+
+TEST_F(RegisterSample, is_refused_from_the_wrong_side) {
+    // Turned over: the scene's camera looks at the pavilion.
+    const ProgramRun run = registered(k_photo, {"--set", "camera.position=[0, 0, -120]"});
+    EXPECT_EQ(run.exit_code, 1) << run.out;
+}
+
+}  // namespace
+}  // namespace culet
