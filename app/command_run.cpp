@@ -35,7 +35,7 @@ struct RunOptions {
 
 struct Job {
     std::string name;
-    fs::path stone, scene, photo, mask;
+    fs::path stone, scene, photo, mask;  ///< empty: that step is not asked for
     bool simulated = false, start = false;
 };
 
@@ -44,131 +44,186 @@ Job read_job(const fs::path& file, const std::vector<std::string>& overrides) {
     root.refuse_unknown({"name", "fit", "render", "compare"});
     Job job;
     job.name = root.text("name").value_or(file.stem().string());
-    const auto fit = root.table("fit");
-    if (!fit) root.fail("", "a job needs a [fit] table with stone = \"stone.toml\"");
-    fit->refuse_unknown({"stone"});
-    if (!fit->has("stone")) fit->fail("", "[fit] needs stone = \"stone.toml\"");
-    job.stone = *fit->path("stone");
-    const auto render = root.table("render");
-    if (!render) root.fail("", "a job needs a [render] table with scene = \"scene.toml\"");
-    render->refuse_unknown({"scene"});
-    if (!render->has("scene")) render->fail("", "[render] needs scene = \"scene.toml\"");
-    job.scene = *render->path("scene");
+    if (const auto fit = root.table("fit")) {
+        fit->refuse_unknown({"stone"});
+        if (!fit->has("stone")) fit->fail("", "[fit] needs stone = \"stone.toml\"");
+        job.stone = *fit->path("stone");
+    }
+    if (const auto render = root.table("render")) {
+        render->refuse_unknown({"scene"});
+        if (!render->has("scene")) render->fail("", "[render] needs scene = \"scene.toml\"");
+        job.scene = *render->path("scene");
+    }
+    if (job.stone.empty() && job.scene.empty()) {
+        root.fail("",
+                  "a job needs a [fit] table with stone = \"stone.toml\", a [render] table with "
+                  "scene = \"scene.toml\", or both");
+    }
     if (const auto compare = root.table("compare")) {
         compare->refuse_unknown({"photo", "mask", "simulated", "start"});
+        if (job.scene.empty()) {
+            compare->fail("", "[compare] needs a render: add [render] with scene = \"scene.toml\"");
+        }
         if (const auto photo = compare->path("photo")) job.photo = *photo;
         if (const auto mask = compare->path("mask")) job.mask = *mask;
         job.simulated = compare->boolean("simulated").value_or(false);
-        job.start = compare->boolean("start").value_or(false);
+        job.start = compare->boolean("start").value_or(false) && !job.stone.empty();
     }
     return job;
+}
+
+// What the files of a job hold: all that can be wrong with them is found before any output.
+struct JobInput {
+    StoneFile file;
+    std::vector<std::string> notes;
+    std::vector<Reading> readings;
+    FitOptions fit_options;
+    Scene scene;
+    Photo photo;
+    CompareOptions compare_options;
+};
+
+JobInput read_input(const Job& job, const CommonOptions& common) {
+    JobInput input;
+    if (!job.stone.empty()) {
+        StoneFile& file = input.file = read_stone(job.stone);
+        if (!job.scene.empty()) require_material(file, job.stone);
+        if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
+        const auto written = read_readings(job.stone);
+        const Mended mesh = mended(file.stone, written);
+        file.stone = mesh.stone;
+        input.notes = mesh.notes;
+        input.readings = bind_readings(written, file.stone, &input.notes);
+        input.fit_options = read_fit_options(job.stone);
+    }
+    if (!job.scene.empty()) {
+        Scene& scene = input.scene =
+            read_scene(job.scene, {}, job.stone.empty() ? nullptr : &input.file.stone);
+        scene.settings.threads = common.threads;
+        scene.settings.seed = common.seed;
+        if (!scene.names_tolerance) scene.settings.allowed_ns = k_usual_allowance_ns;
+    }
+    if (!job.photo.empty()) {
+        input.photo = read_photo(job.photo);
+        if (!job.mask.empty()) {
+            input.compare_options.mask = read_mask(job.mask, input.photo.width, input.photo.height);
+        }
+        input.compare_options.simulated = job.simulated;
+        input.compare_options.seed = common.seed;
+    }
+    return input;
+}
+
+// What was made of it.
+struct JobResult {
+    std::optional<FitResult> fit;
+    std::optional<RenderResult> rendered, started;
+    std::optional<Comparison> comparison;
+};
+
+JobResult make(const Job& job, JobInput& input, bool quiet) {
+    JobResult made;
+    Scene& scene = input.scene;
+    if (!job.stone.empty()) {
+        made.fit = fit_stone(input.file.stone, input.readings, input.fit_options,
+                             progress_line("fitting", quiet));
+        made.fit->notes.insert(made.fit->notes.begin(), input.notes.begin(), input.notes.end());
+        say(fmt::format("fit: {}: {}", name_of(made.fit->status), made.fit->message), quiet);
+        scene.stone.solid = made.fit->solid;
+    }
+    if (job.scene.empty()) return made;
+    for (const std::string& note : scene.notes) say(note, quiet);
+    made.rendered = render(scene, progress_line("rendering", quiet));
+    const RenderStats& stats = made.rendered->stats;
+    for (const std::string& note : stats.notes) say(note, quiet);
+    if (job.start) {
+        Scene before = scene;
+        before.stone.solid = input.file.stone.solid;
+        made.started = render(before, progress_line("rendering the starting mesh", quiet));
+    }
+    say(fmt::format("render: {} x {} pixels in {:.1f} s, error bound {:.2g} of the mean",
+                    made.rendered->picture.width, made.rendered->picture.height,
+                    stats.seconds_setup + stats.seconds_shade, stats.error_bound),
+        quiet);
+    if (!job.photo.empty()) {
+        made.comparison = compare(input.photo, photo_of(made.rendered->picture),
+                                  input.compare_options, progress_line("comparing", quiet));
+        say(fmt::format("compare: {}: {}", name_of(made.comparison->verdict),
+                        made.comparison->reason),
+            quiet);
+    }
+    return made;
+}
+
+void put_pictures(const JobResult& made, const fs::path& folder) {
+    write_picture(made.rendered->picture, folder / "render.exr");
+    // For people to look at: the linear values are in the EXR.
+    PngLook look;
+    look.exposure = exposure_for_stone(made.rendered->picture);
+    write_picture(made.rendered->picture, folder / "render.png", look);
+    write_text(folder / "stats.json", stats_json(made.rendered->stats));
+    if (made.started) write_picture(made.started->picture, folder / "start.png", look);
+}
+
+Report report_of(const RunOptions& options, const Job& job, const JobInput& input,
+                 const JobResult& made) {
+    Report report;
+    report.title = job.name;
+    report.version = CULET_VERSION;
+    report.command = fmt::format("culet run {} -o {}", options.job, options.out);
+    report.files = {{"job", options.job}};
+    if (made.fit) {
+        report.files.push_back({"stone", job.stone.string()});
+        report.fit_json = fit_report(*made.fit);
+        report.fitted = made.fit->solid;
+        report.length_unit = name_of(input.file.stone.unit);
+    }
+    if (made.rendered) {
+        report.files.push_back({"scene", job.scene.string()});
+        report.stats_json = stats_json(made.rendered->stats);
+        report.settings = read_text(job.scene);
+        report.fitted_render = photo_of(made.rendered->picture);
+    }
+    if (made.started) {
+        report.starting = input.file.stone.solid;
+        report.starting_render = photo_of(made.started->picture);
+    }
+    if (made.comparison) {
+        report.files.push_back(
+            {job.simulated ? "simulated photograph" : "photograph", job.photo.string()});
+        report.scores_json =
+            scores_json(*made.comparison, {job.photo.string(), "render.exr", job.mask.string()});
+        report.comparison = made.comparison;
+    }
+    return report;
 }
 
 int run_job(const RunOptions& options) {
     const bool quiet = options.common.quiet;
     require_kind(options.job, {FileKind::job}, "culet run", options.common.set);
     const Job job = read_job(options.job, options.common.set);
-
-    // Everything that can be wrong with the inputs is found before the first output is written.
-    StoneFile file = read_stone(job.stone);
-    require_material(file, job.stone);
-    if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
-    const auto written = read_readings(job.stone);
-    const Mended mesh = mended(file.stone, written);
-    file.stone = mesh.stone;
-    std::vector<std::string> notes = mesh.notes;
-    const auto readings = bind_readings(written, file.stone, &notes);
-    const FitOptions fit_options = read_fit_options(job.stone);
-    Scene scene = read_scene(job.scene, {}, &file.stone);
-    scene.settings.threads = options.common.threads;
-    scene.settings.seed = options.common.seed;
-    if (!scene.names_tolerance) scene.settings.allowed_ns = k_usual_allowance_ns;
-    Photo photo;
-    CompareOptions compare_options;
-    if (!job.photo.empty()) {
-        photo = read_photo(job.photo);
-        if (!job.mask.empty())
-            compare_options.mask = read_mask(job.mask, photo.width, photo.height);
-        compare_options.simulated = job.simulated;
-        compare_options.seed = options.common.seed;
-    }
+    JobInput input = read_input(job, options.common);
     const fs::path folder = options.out;
     std::error_code problem;
     if (fs::exists(folder, problem) && !fs::is_directory(folder, problem)) {
         throw InputError(folder, "is a file: -o names the folder for the results");
     }
-
     fs::create_directories(folder, problem);
     if (problem) throw InputError(folder, fmt::format("cannot be made: {}", problem.message()));
     require_writable(folder / "report.html");
 
-    FitResult fit = fit_stone(file.stone, readings, fit_options, progress_line("fitting", quiet));
-    fit.notes.insert(fit.notes.begin(), notes.begin(), notes.end());
-    say(fmt::format("fit: {}: {}", name_of(fit.status), fit.message), quiet);
-
-    scene.stone.solid = fit.solid;
-    for (const std::string& note : scene.notes) say(note, quiet);
-    const RenderResult rendered = render(scene, progress_line("rendering", quiet));
-    for (const std::string& note : rendered.stats.notes) say(note, quiet);
-    std::optional<RenderResult> started;
-    if (job.start) {
-        Scene before = scene;
-        before.stone.solid = file.stone.solid;
-        started = render(before, progress_line("rendering the starting mesh", quiet));
+    const JobResult made = make(job, input, quiet);
+    const Report report = report_of(options, job, input, made);
+    if (made.fit) {
+        write_solid(made.fit->solid, folder / "fitted.obj");
+        write_text(folder / "fit.json", report.fit_json);
     }
-    say(fmt::format("render: {} x {} pixels in {:.1f} s, error bound {:.2g} of the mean",
-                    rendered.picture.width, rendered.picture.height,
-                    rendered.stats.seconds_setup + rendered.stats.seconds_shade,
-                    rendered.stats.error_bound),
-        quiet);
-
-    std::optional<Comparison> comparison;
-    if (!job.photo.empty()) {
-        comparison = compare(photo, photo_of(rendered.picture), compare_options,
-                             progress_line("comparing", quiet));
-        say(fmt::format("compare: {}: {}", name_of(comparison->verdict), comparison->reason),
-            quiet);
-    }
-
-    const std::string fit_text = fit_report(fit), stats_text = stats_json(rendered.stats);
-    write_solid(fit.solid, folder / "fitted.obj");
-    write_text(folder / "fit.json", fit_text);
-    write_picture(rendered.picture, folder / "render.exr");
-    // For people to look at: the linear values are in the EXR.
-    PngLook look;
-    look.exposure = exposure_for_stone(rendered.picture);
-    write_picture(rendered.picture, folder / "render.png", look);
-    write_text(folder / "stats.json", stats_text);
-    if (started) write_picture(started->picture, folder / "start.png", look);
-
-    Report report;
-    report.title = job.name;
-    report.version = CULET_VERSION;
-    report.command = fmt::format("culet run {} -o {}", options.job, options.out);
-    report.files = {
-        {"job", options.job}, {"stone", job.stone.string()}, {"scene", job.scene.string()}};
-    report.fit_json = fit_text;
-    report.fitted = fit.solid;
-    report.length_unit = name_of(file.stone.unit);
-    report.stats_json = stats_text;
-    report.settings = read_text(job.scene);
-    if (job.start) {
-        report.starting = file.stone.solid;
-        report.starting_render = photo_of(started->picture);
-        report.fitted_render = photo_of(rendered.picture);
-    }
-    if (comparison) {
-        report.files.push_back(
-            {job.simulated ? "simulated photograph" : "photograph", job.photo.string()});
-        report.scores_json =
-            scores_json(*comparison, {job.photo.string(), "render.exr", job.mask.string()});
-        write_text(folder / "scores.json", report.scores_json);
-        report.comparison = std::move(comparison);
-    }
+    if (made.rendered) put_pictures(made, folder);
+    if (made.comparison) write_text(folder / "scores.json", report.scores_json);
     write_report(report, folder / "report.html");
     fmt::print("{}\n", (folder / "report.html").string());
-
-    const bool trusted = fit.usable() && (!report.comparison || report.comparison->usable());
+    const bool trusted =
+        (!made.fit || made.fit->usable()) && (!made.comparison || made.comparison->usable());
     return trusted ? exit_good : exit_untrusted;
 }
 

@@ -47,6 +47,11 @@ std::string changes_section(const Report& report) {
         body +=
             "<p class=\"note\">The same scene with the starting mesh and with the fitted one; "
             "nothing else differs.</p>\n";
+    } else if (report.fitted_render && !report.comparison) {
+        body += fmt::format(
+            "<figure class=\"wide\"><img src=\"{}\" alt=\"Render of the stone\"></figure>\n",
+            picture_uri(*report.fitted_render, white_of(report)));
+        if (!report.starting) return section("changes", "The stone as it would look", body);
     }
     if (report.starting && report.fitted) {
         body += change_drawings(*report.starting, *report.fitted);

@@ -72,7 +72,9 @@ Expected expected_of_sisters(const Row& own, double own_mesh, const std::vector<
     // So an odd facet of a design is no slip, and a rough drawing of like facets makes none.
     const Expected alike = expected(median(values), robust_sigma(values)),
                    as_drawn = expected(own_mesh + median(off_mesh), robust_sigma(off_mesh));
-    const auto strength = [&](const Expected& e) { return std::abs(own.value - e.value) / e.sigma; };
+    const auto strength = [&](const Expected& e) {
+        return std::abs(own.value - e.value) / e.sigma;
+    };
     return strength(alike) < strength(as_drawn) ? alike : as_drawn;
 }
 
@@ -101,8 +103,8 @@ void doubt_if_far(const std::vector<Reading>& readings, const Row& row, const Ex
     const double off = row.value - expected.value, strength = std::abs(off) / sigma;
     if (!(strength > k_doubted_with_slip)) return;
     const double unit = is_angle(first.kind) ? degrees(1) : 1;
-    const auto slip = find_slip(unit * row.value, unit * expected.value,
-                                unit * k_explained * sigma, measured_by(first.kind));
+    const auto slip = find_slip(unit * row.value, unit * expected.value, unit * k_explained * sigma,
+                                measured_by(first.kind));
     if (!(strength > k_doubted) && !(slip && is_telling(slip->what))) return;
     Doubt doubt;
     doubt.expected = expected.value;
@@ -159,8 +161,7 @@ void put_back_doubted(const std::vector<Reading>& readings, const std::vector<Do
     for (const Doubt& d : doubts) {
         const Reading& r = readings[d.reading];
         suspects.push_back(r.id);
-        proposals.push_back(
-            {r.id, is_angle(r.kind), d.expected, d.sigma, d.slip, d.corrected, {}});
+        proposals.push_back({r.id, is_angle(r.kind), d.expected, d.sigma, d.slip, d.corrected, {}});
         if (std::find(words.begin(), words.end(), d.what) == words.end()) words.push_back(d.what);
     }
     result.suspects.insert(result.suspects.begin(), suspects.begin(), suspects.end());
@@ -172,7 +173,8 @@ void put_back_doubted(const std::vector<Reading>& readings, const std::vector<Do
         result.message += (result.message.empty() ? "" : "; ") + line;
         result.doubts.push_back(line);
     }
-    result.message += words.size() == 1 ? "; the fit does without it" : "; the fit does without them";
+    result.message +=
+        words.size() == 1 ? "; the fit does without it" : "; the fit does without them";
     if (!was_good) result.message += "; without: " + before;
     if (result.status != FitStatus::not_converged) result.status = FitStatus::contradictory;
 }

@@ -21,8 +21,8 @@ constexpr double k_sisters_deg = 0.3, k_from_mesh_deg = 1, k_from_drawing_deg = 
 constexpr std::size_t k_fewest_azimuths = 4;
 
 std::string count_words(std::size_t n) {
-    static constexpr std::array<const char*, 13> words{"no",   "one", "two",   "three", "four",
-                                                       "five", "six", "seven", "eight", "nine",
+    static constexpr std::array<const char*, 13> words{"no",   "one",    "two",   "three", "four",
+                                                       "five", "six",    "seven", "eight", "nine",
                                                        "ten",  "eleven", "twelve"};
     return n < words.size() ? words[n] : std::to_string(n);
 }
@@ -54,8 +54,7 @@ double mesh_sigma(const std::vector<Angle>& all, bool is_design) {
     return std::max(radians(is_design ? k_from_mesh_deg : k_from_drawing_deg), robust_sigma(off));
 }
 
-Expected expected_of(const Angle& own, const std::vector<const Angle*>& sisters,
-                     double from_mesh) {
+Expected expected_of(const Angle& own, const std::vector<const Angle*>& sisters, double from_mesh) {
     // Two that differ do not say which of them is wrong.
     constexpr std::size_t k_fewest_sisters = 2;
     if (sisters.size() < k_fewest_sisters) {
@@ -76,13 +75,21 @@ void check_inclinations(const Stone& stone, const std::vector<Reading>& readings
                         bool is_design, std::vector<Doubt>& doubts) {
     std::vector<std::size_t> asked;
     for (std::size_t i = 0; i < readings.size(); ++i) {
-        if (is_of_one_facet(readings[i], ReadingKind::inclination)) asked.push_back(i);
+        const Reading& r = readings[i];
+        const bool is_mean = r.kind == ReadingKind::inclination && !r.facets.empty() && !r.exact &&
+                             r.aggregate == Aggregate::mean && r.datum.kind == Datum::Kind::up;
+        if (is_mean || is_of_one_facet(r, ReadingKind::inclination)) asked.push_back(i);
     }
-    std::vector<Angle> all;
+    std::vector<Angle> all, means;
     for (Row& row : rows_of(readings, asked)) {
-        const int facet = readings[row.readings.front()].facets[0];
-        const double mesh = inclination(stone.solid.facets[std::size_t(facet)].plane.normal, up);
-        all.push_back({std::move(row), facet, mesh});
+        const Reading& r = readings[row.readings.front()];
+        double mesh = 0;
+        for (const int f : r.facets) {
+            mesh += inclination(stone.solid.facets[std::size_t(f)].plane.normal, up) /
+                    double(r.facets.size());
+        }
+        (r.aggregate == Aggregate::mean ? means : all)
+            .push_back({std::move(row), r.facets[0], mesh});
     }
     std::vector<int> tier_of(stone.solid.facets.size(), -1);
     const std::vector<NamedTier> tiers = named_tiers(stone.solid, up);
@@ -100,6 +107,10 @@ void check_inclinations(const Stone& stone, const std::vector<Reading>& readings
             }
         }
         doubt_if_far(readings, own.row, expected_of(own, sisters, from_mesh), doubts);
+    }
+    // A mean has no sisters.
+    for (const Angle& own : means) {
+        doubt_if_far(readings, own.row, expected_of(own, {}, from_mesh), doubts);
     }
 }
 
@@ -146,11 +157,11 @@ void check_azimuths(const Stone& stone, const std::vector<Reading>& readings,
         const Reading& r = readings[asked[k]];
         const double off = wrapped(turns[way][k] - common[way].angle);
         const double expected = r.value - off;
-        doubt_if_far(readings, {{asked[k]}, r.value, r.sigma},
-                     {expected, sigma,
-                      fmt::format("where the other azimuths put this facet ({:.1f})",
-                                  degrees(expected))},
-                     doubts);
+        doubt_if_far(
+            readings, {{asked[k]}, r.value, r.sigma},
+            {expected, sigma,
+             fmt::format("where the other azimuths put this facet ({:.1f})", degrees(expected))},
+            doubts);
     }
 }
 
@@ -159,8 +170,8 @@ void check_azimuths(const Stone& stone, const std::vector<Reading>& readings,
 void check_angles(const Stone& stone, const std::vector<Reading>& readings, bool is_design,
                   std::vector<Doubt>& doubts) {
     const int table = find_facet(stone.solid, stone.up_facet);
-    const Vec3 up = table >= 0 ? stone.solid.facets[std::size_t(table)].plane.normal
-                               : glm::normalize(stone.up);
+    const Vec3 up =
+        table >= 0 ? stone.solid.facets[std::size_t(table)].plane.normal : glm::normalize(stone.up);
     check_inclinations(stone, readings, up, is_design, doubts);
     check_azimuths(stone, readings, doubts);
 }

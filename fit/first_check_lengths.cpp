@@ -27,6 +27,9 @@ struct Length {
     double ratio = 0;  ///< log of read over drawn
     double drawn = 0;
     ReadingKind kind = ReadingKind::width;
+    long line = 0;  ///< of the file: readings of one row are one number
+
+    bool shares_row(const Length& other) const { return line > 0 && line == other.line; }
 };
 
 double drawn_width(const Stone& stone, const Reading& r, double turn) {
@@ -41,8 +44,8 @@ double drawn_table(const Stone& stone, const Reading& r, double turn) {
     const double a = r.azimuth - turn;
     double low = 1e300, high = -1e300;
     for (const int corner : stone.solid.facets[std::size_t(table)].corners) {
-        const double along = glm::dot(Vec3{std::cos(a), std::sin(a), 0},
-                                      stone.solid.vertices[std::size_t(corner)]);
+        const double along =
+            glm::dot(Vec3{std::cos(a), std::sin(a), 0}, stone.solid.vertices[std::size_t(corner)]);
         low = std::min(low, along);
         high = std::max(high, along);
     }
@@ -50,9 +53,8 @@ double drawn_table(const Stone& stone, const Reading& r, double turn) {
 }
 
 std::vector<Length> lengths_of(const Stone& stone, const std::vector<Reading>& readings) {
-    const double turn = azimuth_turn(readings, [&](int facet) {
-        return stone.solid.facets[std::size_t(facet)].plane.normal;
-    });
+    const double turn = azimuth_turn(
+        readings, [&](int facet) { return stone.solid.facets[std::size_t(facet)].plane.normal; });
     std::vector<Length> lengths;
     for (std::size_t i = 0; i < readings.size(); ++i) {
         const Reading& r = readings[i];
@@ -62,7 +64,8 @@ std::vector<Length> lengths_of(const Stone& stone, const std::vector<Reading>& r
         if (r.kind == ReadingKind::table_width) drawn = drawn_table(stone, r, turn);
         if (r.kind == ReadingKind::depth) drawn = width_along(stone.solid, stone.up);
         if (!(drawn > 0)) continue;
-        lengths.push_back({{{i}, r.value, r.sigma}, std::log(r.value / drawn), drawn, r.kind});
+        lengths.push_back(
+            {{{i}, r.value, r.sigma}, std::log(r.value / drawn), drawn, r.kind, r.line});
     }
     return lengths;
 }
@@ -71,7 +74,8 @@ std::vector<double> ratios_of(const std::vector<Length>& lengths, ReadingKind ki
                               const Length* but = nullptr) {
     std::vector<double> ratios;
     for (const Length& l : lengths) {
-        if (l.kind == kind && &l != but) ratios.push_back(l.ratio);
+        const bool is_other = but == nullptr || (&l != but && !l.shares_row(*but));
+        if (l.kind == kind && is_other) ratios.push_back(l.ratio);
     }
     return ratios;
 }
@@ -85,8 +89,7 @@ Expected from_ratios(const Length& own, const std::vector<double>& ratios, doubl
 
 // What a volume or weight would be by the mesh and by how much larger the stone is.
 double expected_volume(const Stone& stone, ReadingKind kind, double log_larger) {
-    const double mm3 =
-        volume(stone.solid) * std::pow(mm_per(stone.unit), 3) * std::exp(log_larger);
+    const double mm3 = volume(stone.solid) * std::pow(mm_per(stone.unit), 3) * std::exp(log_larger);
     return kind == ReadingKind::weight ? carat(mm3, stone.material.density_g_cm3.value_or(0)) : mm3;
 }
 
@@ -142,21 +145,22 @@ void check_lengths(const Stone& stone, const std::vector<Reading>& readings, boo
         const std::vector<double> sisters = ratios_of(lengths, own.kind, &own);
         const auto among = [&](double floor, const char* what) {
             const Expected e = from_ratios(own, sisters, floor, "");
-            doubt_if_far(readings, own.row,
-                         {e.value, e.sigma, fmt::format("the other {} say ({:.4g})", what, e.value)},
-                         doubts);
+            doubt_if_far(
+                readings, own.row,
+                {e.value, e.sigma, fmt::format("the other {} say ({:.4g})", what, e.value)},
+                doubts);
         };
         const auto beside_widths = [&](double floor) {
             const Expected e = from_ratios(own, widths, floor, "");
-            doubt_if_far(readings, own.row,
-                         {e.value, e.sigma,
-                          fmt::format("the widths and the mesh say ({:.4g})", e.value)},
-                         doubts);
+            doubt_if_far(
+                readings, own.row,
+                {e.value, e.sigma, fmt::format("the widths and the mesh say ({:.4g})", e.value)},
+                doubts);
         };
         const auto beside_all = [&] {
             std::vector<double> others;
             for (const Length& l : lengths) {
-                if (&l != &own) others.push_back(l.ratio);
+                if (&l != &own && !l.shares_row(own)) others.push_back(l.ratio);
             }
             // The volume grows with the cube.
             if (weighed) others.push_back(*weighed / 3);

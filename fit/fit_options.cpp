@@ -58,8 +58,8 @@ Prior read_prior(const TomlTable& table, Prior prior) {
     const auto positive = [&](const char* key, double most) {
         const auto value = table.number(key);
         if (value && !(*value > 0 && *value <= most)) {
-            table.fail(key, fmt::format("`{}` of [fit] must be more than 0 and at most {:g}", key,
-                                        most));
+            table.fail(
+                key, fmt::format("`{}` of [fit] must be more than 0 and at most {:g}", key, most));
         }
         return value;
     };

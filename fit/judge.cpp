@@ -175,14 +175,14 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
     }
     if (!finished.converged) {
         const std::string edge = shortest_edge(system, finished.shape, result.unit);
-        return end(FitStatus::not_converged,
-                   edge.empty()
-                       ? fmt::format("the fit does not settle ({} steps): some part of the stone is "
-                                     "hardly held by the readings; look at the suspects, read more, "
-                                     "or give [fit] a prior",
-                                     finished.iterations)
-                       : fmt::format("the fit does not settle ({} steps): {}", finished.iterations,
-                                     edge));
+        return end(
+            FitStatus::not_converged,
+            edge.empty()
+                ? fmt::format("the fit does not settle ({} steps): some part of the stone is "
+                              "hardly held by the readings; look at the suspects, read more, "
+                              "or give [fit] a prior",
+                              finished.iterations)
+                : fmt::format("the fit does not settle ({} steps): {}", finished.iterations, edge));
     }
     if (result.dof > 0 && result.chi2_p < result.options.significance) {
         return end(FitStatus::contradictory,
@@ -210,9 +210,8 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
                         result.help.empty() ? "a prior would fill it in ([fit] prior = \"mesh\")"
                                             : "next, " + bench_words(result.help[0])));
     }
-    end(FitStatus::converged,
-        fmt::format("the readings agree (chi-square {:.1f}, {:.0f} expected)", result.chi2,
-                    result.dof));
+    end(FitStatus::converged, fmt::format("the readings agree (chi-square {:.1f}, {:.0f} expected)",
+                                          result.chi2, result.dof));
 }
 
 }  // namespace culet

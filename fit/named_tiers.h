@@ -10,8 +10,8 @@
 namespace culet {
 
 struct NamedTier {
-    std::string name;   ///< `C*` where the tier has a name; else its first and last facet
-    std::string words;  ///< in the trade's words, plural: `crown mains`, `facets of tier A*`
+    std::string name;         ///< `C*` where the tier has a name; else its first and last facet
+    std::string words;        ///< in the trade's words, plural: `crown mains`, `facets of tier A*`
     std::vector<int> facets;  ///< of the solid, in its order; two or more
 };
 

@@ -62,8 +62,8 @@ std::vector<Candidate> candidates(const System& system, const Shape& shape,
     const std::vector<Facet>& facets = system.stone().solid.facets;
     const std::vector<Edge>& edges = system.edges().edges;
     all.reserve(2 * (facets.size() + edges.size()) + shape.points.size() + 40);
-    std::set<Kind> has_tool{Kind::inclination, Kind::azimuth,     Kind::width, Kind::depth,
-                            Kind::table_width, Kind::weight, Kind::volume};
+    std::set<Kind> has_tool{Kind::inclination, Kind::azimuth, Kind::width, Kind::depth,
+                            Kind::table_width, Kind::weight,  Kind::volume};
     for (const Reading& r : system.readings()) has_tool.insert(r.kind);
     // Whoever has read most of the stone may have a microscope with a scale; at the bench nobody
     // has.

@@ -45,11 +45,10 @@ bool is_open(const FitResult& result, const std::string& facet) {
 // A doubted row may hold several readings, all of them suspects.
 std::size_t doubted_more(const FitResult& result) {
     const auto left_out =
-        std::count_if(result.readings.begin(), result.readings.end(), [](const FittedReading& r) {
-            return r.suspect && !r.left_out.empty();
-        });
-    return std::size_t(std::max<std::ptrdiff_t>(
-        0, left_out - std::ptrdiff_t(result.doubts.size())));
+        std::count_if(result.readings.begin(), result.readings.end(),
+                      [](const FittedReading& r) { return r.suspect && !r.left_out.empty(); });
+    return std::size_t(
+        std::max<std::ptrdiff_t>(0, left_out - std::ptrdiff_t(result.doubts.size())));
 }
 
 std::string verdict(const FitResult& result) {

@@ -57,8 +57,9 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
         prior_ = make_prior(options.prior, solid_, up_facet_, half_width(), mesh_shape_);
         estimate_angle_sigmas(solid_, readings_, prior_);
         const bool exact = options.meets == MeetTreatment::exact;
-        count_beside_prior(mesh_shape_, solid_, exact ? k_meet_miss * 2 * half_width() : 0,
-                           [&](const Reading& r) { return unit_of(r); }, readings_);
+        count_beside_prior(
+            mesh_shape_, solid_, exact ? k_meet_miss * 2 * half_width() : 0,
+            [&](const Reading& r) { return unit_of(r); }, readings_);
     }
     find_exchanges();
     pair_facets();

@@ -152,12 +152,11 @@ std::vector<NamedTierFinding> tier_findings(const Stone& stone,
                                             const std::vector<std::string>& left_out,
                                             bool is_design) {
     const int table = find_facet(stone.solid, stone.up_facet);
-    const Vec3 up = table >= 0 ? stone.solid.facets[std::size_t(table)].plane.normal
-                               : glm::normalize(stone.up);
+    const Vec3 up =
+        table >= 0 ? stone.solid.facets[std::size_t(table)].plane.normal : glm::normalize(stone.up);
     std::vector<NamedTierFinding> findings;
     for (const NamedTier& tier : named_tiers(stone.solid, up)) {
-        const std::vector<Read> reads =
-            reads_of(tier, stone, readings, left_out, up, is_design);
+        const std::vector<Read> reads = reads_of(tier, stone, readings, left_out, up, is_design);
         if (reads.empty()) continue;
         NamedTierFinding finding;
         finding.name = tier.name;
@@ -165,9 +164,8 @@ std::vector<NamedTierFinding> tier_findings(const Stone& stone,
         finding.facets = int(tier.facets.size());
         finding.read = int(reads.size());
         const auto [least, most] =
-            std::minmax_element(reads.begin(), reads.end(), [](const Read& a, const Read& b) {
-                return a.value < b.value;
-            });
+            std::minmax_element(reads.begin(), reads.end(),
+                                [](const Read& a, const Read& b) { return a.value < b.value; });
         finding.spread = most->value - least->value;
         find_odd(stone, reads, finding);
         for (const OddFacets& odd : finding.odd) finding.what.push_back(sentence_of(finding, odd));

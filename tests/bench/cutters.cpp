@@ -110,7 +110,9 @@ public:
 
     Row angle(const std::string& facet, const std::string& as, double sigma) {
         const double read = degrees(inclination(plane(facet).normal, {0, 0, 1}));
-        return {"inclination", {as}, fmt::format("{:.1f}", std::min(90.0, read + normal(random_, sigma))),
+        return {"inclination",
+                {as},
+                fmt::format("{:.1f}", std::min(90.0, read + normal(random_, sigma))),
                 sigma};
     }
     Row length(const char* kind, std::vector<std::string> of, double true_value) {
@@ -160,7 +162,8 @@ std::vector<Row> read_rows(const std::string& cut, Evening& evening, Random& ran
     if (cut == "round-brilliant") {
         // One facet of each small tier, taken for all of them.
         for (const char* tier : {"S", "U", "L", "G"}) {
-            rows.push_back(bench.angle(tier + std::string("1"), tier + std::string("*"), k_small_facet));
+            rows.push_back(
+                bench.angle(tier + std::string("1"), tier + std::string("*"), k_small_facet));
         }
     } else if (!is_step(cut)) {
         for (int i = 1; i <= 8; ++i) {
@@ -180,8 +183,8 @@ std::vector<Row> read_rows(const std::string& cut, Evening& evening, Random& ran
     for (const int a : {0, 90}) {
         rows.push_back(bench.length("table_width", {std::to_string(a)}, bench.table_width(a)));
     }
-    rows.push_back({"weight", {}, fmt::format("{:.3f}", bench.carats() + normal(random, k_scale)),
-                    k_scale});
+    rows.push_back(
+        {"weight", {}, fmt::format("{:.3f}", bench.carats() + normal(random, k_scale)), k_scale});
     return rows;
 }
 
@@ -201,7 +204,8 @@ std::string slipped(const Row& row, Slipped slip, const std::vector<Row>& rows, 
             std::swap(text[0], text[1]);
             break;
         case Slipped::decimal_point:
-            return fmt::format("{:g}", one_of(random, 2) == 0 && !is_angle ? value * 10 : value / 10);
+            return fmt::format("{:g}",
+                               one_of(random, 2) == 0 && !is_angle ? value * 10 : value / 10);
         case Slipped::first_digit:
             text.replace(0, 1, other_digit(text[0], random));
             break;
@@ -283,9 +287,10 @@ std::vector<std::size_t> make_slip(std::vector<Row>& rows, Slipped slip, Random&
 
 const char* name_of(Slipped slip) {
     static constexpr const char* names[]{
-        "none",         "digits swapped", "decimal point", "another first digit", "digit lost",
-        "digit doubled", "other side",    "inches",        "grams",               "of another tier",
-        "rows exchanged", "turned digit", "copied row"};
+        "none",       "digits swapped",  "decimal point",  "another first digit",
+        "digit lost", "digit doubled",   "other side",     "inches",
+        "grams",      "of another tier", "rows exchanged", "turned digit",
+        "copied row"};
     return names[int(slip)];
 }
 
@@ -298,7 +303,8 @@ Evening cutters_evening(const std::string& cut, const Population& population, Sl
     };
     std::map<std::string, double> proportions;
     if (cut == "round-brilliant") proportions = {{"diameter", within(5, 8)}};
-    if (cut == "oval" || cut == "cushion") proportions = {{"width", within(5, 8)}, {"ratio", within(1.1, 1.4)}};
+    if (cut == "oval" || cut == "cushion")
+        proportions = {{"width", within(5, 8)}, {"ratio", within(1.1, 1.4)}};
     evening.design.solid = make_cut(cut, proportions);
     evening.design.up_facet = "T";
     evening.design.material.density_g_cm3 = 3.52;

@@ -14,17 +14,17 @@ namespace culet::bench {
 enum class Slipped {
     none,
     digits_swapped,
-    decimal_point,    ///< ten times too much or too little
-    first_digit,      ///< another one
+    decimal_point,  ///< ten times too much or too little
+    first_digit,    ///< another one
     digit_lost,
     digit_doubled,
-    other_side,       ///< 90 degrees less the angle
+    other_side,  ///< 90 degrees less the angle
     inches,
     grams,
-    other_tier,       ///< the value of a facet of another tier
-    rows_exchanged,   ///< a crown main's value and a pavilion main's
-    turned_digit,     ///< 6 for 9, 1 for 7, 3 for 8 in the first two places
-    copied_row        ///< a length's value written once more in an angle's or length's row
+    other_tier,      ///< the value of a facet of another tier
+    rows_exchanged,  ///< a crown main's value and a pavilion main's
+    turned_digit,    ///< 6 for 9, 1 for 7, 3 for 8 in the first two places
+    copied_row       ///< a length's value written once more in an angle's or length's row
 };
 inline constexpr int k_slips = 12;
 const char* name_of(Slipped slip);
@@ -42,7 +42,7 @@ struct Evening {
     Stone design;  ///< the mesh that the cutter starts from
     Solid truth;
     std::vector<WrittenReading> rows;
-    std::vector<long> wrong_lines;  ///< of the rows with the slip
+    std::vector<long> wrong_lines;   ///< of the rows with the slip
     std::vector<std::string> steep;  ///< the two mains
     std::vector<bool> was_read;      ///< of each facet: its inclination was, by itself
 };

@@ -101,16 +101,17 @@ void count(const Evening& evening, bool verbose, Tally& tally) {
     if (sound && is_clean) count_facets(evening, result, tally);
     if (is_clean) {
         ++tally.steep_asked;
-        tally.steep_named += std::all_of(
-            evening.steep.begin(), evening.steep.end(), [&](const std::string& name) {
-                return std::any_of(result.named_tiers.begin(), result.named_tiers.end(),
-                                   [&](const NamedTierFinding& tier) {
-                                       return std::any_of(
-                                           tier.odd.begin(), tier.odd.end(), [&](const OddFacets& o) {
-                                               return std::find(o.facets.begin(), o.facets.end(),
-                                                                name) != o.facets.end();
-                                           });
-                                   });
+        tally.steep_named +=
+            std::all_of(evening.steep.begin(), evening.steep.end(), [&](const std::string& name) {
+                return std::any_of(
+                    result.named_tiers.begin(), result.named_tiers.end(),
+                    [&](const NamedTierFinding& tier) {
+                        return std::any_of(
+                            tier.odd.begin(), tier.odd.end(), [&](const OddFacets& o) {
+                                return std::find(o.facets.begin(), o.facets.end(), name) !=
+                                       o.facets.end();
+                            });
+                    });
             });
     }
 }
@@ -128,10 +129,11 @@ void print(const std::string& what, const Tally& t, bool clean) {
     }
     fmt::print("  false alarms {:.1f} %  two mains named {:.1f} %\n", percent(t.alarms, t.sets),
                percent(t.steep_named, t.steep_asked));
-    fmt::print("{:34} inclinations read: {:.2f} sigma rms; not read: {:.1f} % within one sigma; "
-               "azimuths (none read): {:.1f} %\n",
-               "", std::sqrt(t.read_squares / std::max(1, t.read)), percent(t.within, t.unread),
-               percent(t.within_azimuth, t.unread_azimuth));
+    fmt::print(
+        "{:34} inclinations read: {:.2f} sigma rms; not read: {:.1f} % within one sigma; "
+        "azimuths (none read): {:.1f} %\n",
+        "", std::sqrt(t.read_squares / std::max(1, t.read)), percent(t.within, t.unread),
+        percent(t.within_azimuth, t.unread_azimuth));
     std::fflush(stdout);
 }
 
@@ -163,8 +165,8 @@ int main(int argc, char** argv) {
         if (std::string(cut).find(only) == std::string::npos) continue;
         Tally clean, slips;
         for (int i = 0; i < sets; ++i) {
-            count(cutters_evening(cut, population, Slipped::none, seed + std::uint64_t(i)),
-                  verbose, clean);
+            count(cutters_evening(cut, population, Slipped::none, seed + std::uint64_t(i)), verbose,
+                  clean);
             if (clean_only) continue;
             const auto slip = Slipped(1 + i % k_slips);
             count(cutters_evening(cut, population, slip, seed + std::uint64_t(i)), verbose, slips);

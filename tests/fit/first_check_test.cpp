@@ -1,0 +1,153 @@
+// Readings held against their tier and the mesh before any fit. Expectations: the sizes of the
+// slips that the tests make.
+
+#include "fit/first_check.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fit/tier_findings.h"
+#include "stone/cuts/cuts.h"
+#include "tests/bench/cutters.h"
+
+namespace culet {
+namespace {
+
+using bench::cutters_evening;
+using bench::Evening;
+using bench::Slipped;
+using testing::HasSubstr;
+
+WrittenReading row(const std::string& kind, std::vector<std::string> of, double value, double sigma,
+                   long line) {
+    WrittenReading w;
+    w.kind = kind;
+    w.of = std::move(of);
+    w.value = value;
+    w.sigma = sigma;
+    w.file = "readings.csv";
+    w.line = line;
+    return w;
+}
+
+class FirstCheck : public testing::Test {
+protected:
+    FirstCheck() {
+        stone_.solid = make_cut("round-brilliant", {{"crown-angle", 33.8}});
+        stone_.up_facet = "T";
+        stone_.material.density_g_cm3 = 3.52;
+    }
+    // Eight crown mains, one of them misread.
+    std::vector<Reading> mains(double fifth) const {
+        const double values[]{33.8, 33.7, 33.9, 33.8, fifth, 33.8, 33.9, 33.7};
+        std::vector<WrittenReading> rows;
+        for (int i = 0; i < 8; ++i) {
+            rows.push_back(
+                row("inclination", {"C" + std::to_string(i + 1)}, values[i], 0.1, i + 2));
+        }
+        return bind_readings(rows, stone_);
+    }
+    std::vector<Reading> lengths(double third, double depth, double carats) const {
+        return bind_readings(
+            {row("width", {"0"}, 6.50, 0.01, 2), row("width", {"45"}, 6.51, 0.01, 3),
+             row("width", {"90"}, third, 0.01, 4), row("width", {"135"}, 6.49, 0.01, 5),
+             row("depth", {}, depth, 0.01, 6), row("weight", {}, carats, 0.005, 7)},
+            stone_);
+    }
+    double depth() const { return width_along(stone_.solid, {0, 0, 1}); }
+    double carats() const { return carat(volume(stone_.solid), 3.52); }
+    Stone stone_;
+};
+
+TEST_F(FirstCheck, names_swapped_digits_with_file_line_and_slip) {
+    const std::vector<Doubt> doubts = first_check(stone_, mains(38.3), true);
+    ASSERT_EQ(doubts.size(), 1u);
+    EXPECT_EQ(doubts[0].reading, 4u);
+    EXPECT_EQ(doubts[0].slip, "two digits swapped");
+    EXPECT_NEAR(degrees(doubts[0].corrected), 33.8, 1e-9);
+    EXPECT_THAT(doubts[0].what, HasSubstr("readings.csv line 6"));
+    EXPECT_THAT(doubts[0].what, HasSubstr("4.5 degrees from its seven sisters (33.7 to 33.9)"));
+}
+
+TEST_F(FirstCheck, a_main_half_a_degree_off_is_a_finding_and_no_slip) {
+    EXPECT_TRUE(first_check(stone_, mains(34.3), true).empty());
+}
+
+TEST_F(FirstCheck, lone_angles_are_held_against_the_mesh) {
+    const auto one = bind_readings({row("inclination", {"C1"}, 56.2, 0.1, 2)}, stone_);
+    const std::vector<Doubt> doubts = first_check(stone_, one, true);
+    ASSERT_EQ(doubts.size(), 1u);
+    EXPECT_EQ(doubts[0].slip, "counted from the other side");
+}
+
+TEST_F(FirstCheck, lengths_are_held_against_each_other_and_the_mesh) {
+    EXPECT_TRUE(first_check(stone_, lengths(6.50, depth(), carats()), true).empty());
+    const auto only = [&](const std::vector<Reading>& readings, std::size_t wanted) {
+        const std::vector<Doubt> doubts = first_check(stone_, readings, true);
+        ASSERT_EQ(doubts.size(), 1u);
+        EXPECT_EQ(doubts[0].reading, wanted) << doubts[0].what;
+    };
+    only(lengths(5.60, depth(), carats()), 2);       // digits swapped
+    only(lengths(6.50, depth() * 10, carats()), 4);  // decimal point
+    only(lengths(6.50, depth(), carats() / 5), 5);   // grams
+}
+
+TEST_F(FirstCheck, a_row_for_a_whole_tier_does_not_vouch_for_itself) {
+    // Eight equal values from one row: wrong all together.
+    const auto readings = bind_readings({row("inclination", {"C*"}, 43.3, 0.1, 2)}, stone_);
+    EXPECT_EQ(first_check(stone_, readings, true).size(), 8u);
+}
+
+TEST_F(FirstCheck, a_tier_whose_facets_differ_by_design_is_no_slip) {
+    Stone oval;
+    oval.solid = make_cut("oval", {{"ratio", 1.4}});
+    oval.up_facet = "T";
+    std::vector<WrittenReading> rows;
+    long line = 2;
+    for (const Facet& facet : oval.solid.facets) {
+        if (facet.name[0] != 'C') continue;
+        const double is = degrees(inclination(facet.plane.normal, {0, 0, 1}));
+        rows.push_back(row("inclination", {facet.name}, is, 0.1, line++));
+    }
+    EXPECT_TRUE(first_check(oval, bind_readings(rows, oval), true).empty());
+}
+
+TEST_F(FirstCheck, a_fit_goes_on_without_the_doubted_reading_and_lists_it_first) {
+    const Evening evening = cutters_evening("round-brilliant", {}, Slipped::digits_swapped, 3);
+    const std::vector<Reading> readings = bind_readings(evening.rows, evening.design);
+    FitOptions options;
+    options.prior.source = Prior::Source::catalogue;
+    const FitResult result = fit_stone(evening.design, readings, options);
+    EXPECT_EQ(result.status, FitStatus::contradictory);
+    ASSERT_EQ(result.readings.size(), readings.size());
+    ASSERT_FALSE(result.suspects.empty());
+    const auto wrong = std::find_if(readings.begin(), readings.end(), [&](const Reading& r) {
+        return r.line == evening.wrong_lines[0];
+    });
+    EXPECT_EQ(result.suspects[0], wrong->id);
+    EXPECT_TRUE(result.closed && result.convex && result.missing_facets.empty());
+}
+
+TEST_F(FirstCheck, two_steep_mains_are_told_in_one_sentence) {
+    std::vector<Reading> readings = mains(33.8);
+    readings[2].value += radians(0.5);
+    readings[3].value += radians(0.5);
+    const auto tiers = tier_findings(stone_, readings, {}, true);
+    ASSERT_EQ(tiers.size(), 1u);
+    EXPECT_EQ(tiers[0].name, "C*");
+    ASSERT_EQ(tiers[0].odd.size(), 1u);
+    EXPECT_THAT(tiers[0].odd[0].facets, testing::ElementsAre("C3", "C4"));
+    // Weighted means: 0.55 steeper by these values, sigma 0.1 sqrt(1/2 + 1/6).
+    EXPECT_NEAR(degrees(tiers[0].odd[0].sigma), 0.0816, 1e-4);
+    EXPECT_EQ(tiers[0].what[0],
+              "C3 and C4 are 0.6 degrees (+- 0.1) steeper than the other crown mains");
+}
+
+TEST_F(FirstCheck, mains_that_are_alike_give_no_sentence) {
+    EXPECT_TRUE(tier_findings(stone_, mains(33.8), {}, true)[0].odd.empty());
+}
+
+}  // namespace
+}  // namespace culet

@@ -1,0 +1,126 @@
+// The prior of the facets: fills what readings leave open, and is as sure as it says.
+
+#include "fit/prior.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "stone/checks.h"
+#include "stone/cuts/cuts.h"
+#include "tests/bench/cutters.h"
+#include "tests/bench/fit_truth.h"
+
+namespace culet {
+namespace {
+
+using bench::cutters_evening;
+using bench::Evening;
+using bench::Slipped;
+
+FitOptions with_prior() {
+    FitOptions options;
+    options.prior.source = Prior::Source::catalogue;
+    return options;
+}
+
+class PriorOfCut : public testing::TestWithParam<const char*> {};
+
+TEST_P(PriorOfCut, an_evening_of_readings_gives_a_whole_stone) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        const Evening evening = cutters_evening(GetParam(), {}, Slipped::none, seed);
+        const FitResult result =
+            fit_stone(evening.design, bind_readings(evening.rows, evening.design), with_prior());
+        EXPECT_EQ(result.status, FitStatus::converged) << result.message;
+        EXPECT_TRUE(result.closed && result.convex && result.missing_facets.empty());
+        EXPECT_EQ(result.prior.source, Prior::Source::catalogue);
+        EXPECT_EQ(result.undetermined_freedoms, 0);
+    }
+}
+
+// A chi-square of squared errors over sigmas squared of some 70 facets that hang together: twice
+// the expected value would be a sigma that is 1.4 times too small.
+TEST_P(PriorOfCut, sigmas_hold_for_facets_that_nobody_read) {
+    double squares = 0;
+    int count = 0;
+    for (std::uint64_t seed = 11; seed <= 16; ++seed) {
+        const Evening evening = cutters_evening(GetParam(), {}, Slipped::none, seed);
+        const FitResult result =
+            fit_stone(evening.design, bind_readings(evening.rows, evening.design), with_prior());
+        for (std::size_t f = 0; f < result.facets.size(); ++f) {
+            if (evening.was_read[f] || result.facets[f].name == "T") continue;
+            const int there = find_facet(evening.truth, result.facets[f].name);
+            const double is =
+                inclination(evening.truth.facets[std::size_t(there)].plane.normal, {0, 0, 1});
+            squares += std::pow(
+                (result.facets[f].inclination - is) / result.facets[f].sigma_inclination, 2);
+            ++count;
+        }
+    }
+    EXPECT_LT(squares / count, 1.5);
+    EXPECT_GT(squares / count, 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(cuts, PriorOfCut,
+                         testing::Values("round-brilliant", "oval", "cushion", "step"));
+
+TEST(Prior, is_left_out_where_the_readings_hold_the_stone) {
+    const bench::Truth truth = bench::make_truth(bench::TruthKind::step, false, 1);
+    std::vector<WrittenReading> rows = bench::read_by_instruments(truth, 5);
+    for (const WrittenReading& w : bench::read_azimuths(truth, 5)) rows.push_back(w);
+    FitOptions options = with_prior();
+    options.prior.source = Prior::Source::mesh;
+    const std::vector<Reading> readings = bind_readings(rows, truth.stone);
+    const FitResult with = fit_stone(truth.stone, readings, options);
+    const FitResult without = fit_stone(truth.stone, readings, FitOptions());
+    EXPECT_EQ(with.prior.source, Prior::Source::none);
+    EXPECT_EQ(with.status, without.status);
+    EXPECT_DOUBLE_EQ(with.chi2, without.chi2);
+    for (const FittedFacet& facet : with.facets) EXPECT_EQ(facet.read_inclination, 1);
+}
+
+TEST(Prior, a_reading_draws_its_facet_and_is_told_from_the_prior) {
+    Stone stone;
+    stone.solid = make_cut("round-brilliant");
+    stone.up_facet = "T";
+    WrittenReading w;
+    w.kind = "inclination";
+    w.of = {"P1"};
+    const double start = degrees(inclination(
+        stone.solid.facets[std::size_t(find_facet(stone.solid, "P1"))].plane.normal, {0, 0, 1}));
+    w.value = start + 0.5;
+    w.sigma = 0.05;
+    WrittenReading width;
+    width.kind = "width";
+    width.of = {"0"};
+    width.value = 6.5;
+    width.sigma = 0.01;
+    const FitResult result = fit_stone(stone, bind_readings({w, width}, stone), with_prior());
+    ASSERT_EQ(result.status, FitStatus::converged) << result.message;
+    for (const FittedFacet& facet : result.facets) {
+        if (facet.name == "P1") {
+            EXPECT_GT(facet.read_inclination, 0.8);
+            EXPECT_GT(degrees(facet.inclination), start + 0.3);
+        }
+        if (facet.name == "U1") EXPECT_LT(facet.read_inclination, 0.2);
+    }
+}
+
+TEST(Prior, soft_symmetry_of_few_readings_ends) {
+    // The users' second job: 80 readings of 128 freedoms and a rotation within a sigma.
+    for (const double sigma : {0.3, 0.5}) {
+        Evening evening = cutters_evening("round-brilliant", {}, Slipped::none, 2);
+        WrittenReading w;
+        w.kind = "rotation";
+        w.of = {"8"};
+        w.sigma = sigma;
+        evening.rows.push_back(w);
+        const FitResult result =
+            fit_stone(evening.design, bind_readings(evening.rows, evening.design), with_prior());
+        EXPECT_NE(result.status, FitStatus::not_converged) << result.message;
+        EXPECT_TRUE(result.closed && result.convex);
+    }
+}
+
+}  // namespace
+}  // namespace culet
