@@ -7,12 +7,10 @@
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "fit/as_drawn.h"
 #include "fit/assess.h"
 #include "fit/describe.h"
-#include "fit/covariance.h"
 #include "fit/diagnostics.h"
 #include "fit/find_symmetry.h"
 #include "fit/finish.h"
@@ -23,9 +21,10 @@
 #include "fit/level_facets.h"
 #include "fit/meet_sigmas.h"
 #include "fit/mending.h"
+#include "fit/mesh_notes.h"
 #include "fit/portfolio.h"
+#include "fit/prior_needed.h"
 #include "fit/refit.h"
-#include "fit/relaxation.h"
 #include "fit/robust.h"
 #include "fit/set_aside.h"
 #include "fit/shape_findings.h"
@@ -123,53 +122,6 @@ std::optional<FitResult> fit_without_gross(const FitResult& spoilt, const Stone&
         far = wrong;
     }
     return std::nullopt;
-}
-
-// Azimuths are said to count from the mesh, and count from elsewhere.
-std::string other_turn(const System& system) {
-    constexpr double k_noticed_deg = 5;
-    const double turn = degrees(std::remainder(system.mesh_turn(), 2 * std::numbers::pi));
-    if (!system.stone().azimuth_from_mesh || std::abs(turn) < k_noticed_deg) return {};
-    return fmt::format(
-        "by the azimuths read, the mesh stands turned by {:.0f} degrees: it was turned back; check "
-        "where azimuths, those of widths too, are counted from",
-        -turn);
-}
-
-// The mesh was drawn in another unit, most likely.
-std::string other_size(const System& system) {
-    const double factor = system.mesh_scale(), apart = std::max(factor, 1 / factor);
-    if (apart < 3) return {};
-    std::string guess;
-    for (double known : {10.0, 25.4, 100.0, 1000.0}) {
-        if (apart > known / 1.6 && apart < known * 1.6) guess = fmt::format("{:g} ", known);
-    }
-    return fmt::format(
-        "the mesh is {} times too {} for the lengths that were read{}: it was scaled; check `unit` "
-        "of [stone]",
-        guess.empty() ? fmt::format("{:.3g}", apart) : "about " + guess.substr(0, guess.size() - 1),
-        factor > 1 ? "small" : "large", guess.empty() ? "" : ", as if drawn in another unit");
-}
-
-// Nothing of the stone is left to the mesh, as far as one can tell before the fit.
-bool readings_hold_all(const Stone& stone, const std::vector<Reading>& readings,
-                       FitOptions options) {
-    if (options.prior.source == Prior::Source::none) return true;
-    options.prior.source = Prior::Source::none;
-    const System system(stone, readings, options);
-    // Symmetry within a sigma makes more equations than it tells anything.
-    const auto values = std::count_if(readings.begin(), readings.end(), [](const Reading& r) {
-        return !is_relation(r.kind) && !r.exact;
-    });
-    const Freedoms freedoms = system.freedoms();
-    const Relaxation::Counts counts = Relaxation(system, freedoms).counts();
-    constexpr int k_shifts = 3;
-    if (values >= freedoms.size() - counts.hard - k_shifts) return true;
-    constexpr std::size_t k_large = 150;  // facets; there one would wait for it
-    if (stone.solid.facets.size() > k_large) return false;
-    const Covariance covariance(
-        linearise(system, system.mesh_shape(), system.mesh_outline(), false));
-    return covariance.usable() && covariance.open_freedoms() == 0;
 }
 
 FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const FitOptions& options,

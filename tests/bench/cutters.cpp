@@ -14,20 +14,15 @@
 #include "stone/checks.h"
 #include "stone/cuts/cuts.h"
 #include "stone/units.h"
+#include "tests/bench/cutter_slips.h"
 #include "tests/bench/fit_truth.h"
 
 namespace culet::bench {
 
 namespace {
 
-using Random = std::mt19937_64;
-
 double normal(Random& random, double sigma) {
     return std::normal_distribution<double>(0, sigma)(random);
-}
-
-std::size_t one_of(Random& random, std::size_t count) {
-    return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
 }
 
 bool is_step(const std::string& cut) {
@@ -97,25 +92,18 @@ bool cut_stone(const Solid& design, const Population& population,
     return true;
 }
 
-struct Row {
-    std::string kind;
-    std::vector<std::string> of;
-    std::string value;
-    double sigma = 0;
-};
-
 class Bench {
 public:
     Bench(const Evening& evening, Random& random) : evening_(evening), random_(random) {}
 
-    Row angle(const std::string& facet, const std::string& as, double sigma) {
+    CutterRow angle(const std::string& facet, const std::string& as, double sigma) {
         const double read = degrees(inclination(plane(facet).normal, {0, 0, 1}));
         return {"inclination",
                 {as},
                 fmt::format("{:.1f}", std::min(90.0, read + normal(random_, sigma))),
                 sigma};
     }
-    Row length(const char* kind, std::vector<std::string> of, double true_value) {
+    CutterRow length(const char* kind, std::vector<std::string> of, double true_value) {
         constexpr double k_caliper = 0.01;
         return {kind, std::move(of), fmt::format("{:.2f}", true_value + normal(random_, k_caliper)),
                 k_caliper};
@@ -148,10 +136,10 @@ private:
     Random& random_;
 };
 
-std::vector<Row> read_rows(const std::string& cut, Evening& evening, Random& random) {
+std::vector<CutterRow> read_rows(const std::string& cut, Evening& evening, Random& random) {
     Bench bench(evening, random);
     constexpr double k_goniometer = 0.1, k_small_facet = 0.5, k_scale = 0.005;
-    std::vector<Row> rows;
+    std::vector<CutterRow> rows;
     std::set<std::string> read;
     for (const std::vector<std::string>& tier : main_tiers(cut)) {
         for (const std::string& name : tier) {
@@ -188,111 +176,7 @@ std::vector<Row> read_rows(const std::string& cut, Evening& evening, Random& ran
     return rows;
 }
 
-std::string other_digit(char digit, Random& random) {
-    const char other = char('0' + one_of(random, 10));
-    return other == digit ? other_digit(digit, random) : std::string(1, other);
-}
-
-// The value as the slip leaves it; empty where this value cannot suffer it, or hardly changes.
-std::string slipped(const Row& row, Slipped slip, const std::vector<Row>& rows, Random& random) {
-    std::string text = row.value;
-    const bool is_angle = row.kind == "inclination";
-    const double value = std::stod(text);
-    switch (slip) {
-        case Slipped::digits_swapped:
-            if (text.size() < 2 || text[1] == '.') return {};
-            std::swap(text[0], text[1]);
-            break;
-        case Slipped::decimal_point:
-            return fmt::format("{:g}",
-                               one_of(random, 2) == 0 && !is_angle ? value * 10 : value / 10);
-        case Slipped::first_digit:
-            text.replace(0, 1, other_digit(text[0], random));
-            break;
-        case Slipped::digit_lost:
-            if (text.size() < 3) return {};
-            text.erase(0, 1);
-            break;
-        case Slipped::digit_doubled:
-            if (is_angle) return {};  // more than 90: no reading at all
-            text.insert(0, 1, text[0]);
-            break;
-        case Slipped::other_side:
-            if (!is_angle) return {};
-            return fmt::format("{:.1f}", 90 - value);
-        case Slipped::inches:
-            if (is_angle || row.kind == "weight") return {};
-            return fmt::format("{:.3f}", value / 25.4);
-        case Slipped::grams:
-            return row.kind == "weight" ? fmt::format("{:.3f}", value / 5) : std::string();
-        case Slipped::other_tier:
-        case Slipped::copied_row: {
-            if (!is_angle && slip == Slipped::other_tier) return {};
-            const Row& other = rows[one_of(random, rows.size())];
-            if (other.kind != (slip == Slipped::other_tier ? row.kind : other.kind)) return {};
-            return other.value;
-        }
-        case Slipped::turned_digit:
-            for (std::size_t i = 0; i < std::min<std::size_t>(2, text.size()); ++i) {
-                static const std::string from = "69173850", to = "96713805";
-                const std::size_t at = from.find(text[i]);
-                if (at != std::string::npos && from[at] != to[at]) {
-                    text[i] = to[at];
-                    break;
-                }
-            }
-            break;
-        case Slipped::none:
-        case Slipped::rows_exchanged:
-            return {};
-    }
-    return text;
-}
-
-// A slip that one could see: an angle off by two degrees or more, a length by a tenth.
-bool is_gross(const Row& row, const std::string& value) {
-    if (value.empty()) return false;
-    const double was = std::stod(row.value), is = std::stod(value);
-    if (!(is > 0) || (row.kind == "inclination" && is > 90)) return false;
-    return row.kind == "inclination" ? std::abs(is - was) > 2 : std::abs(std::log(is / was)) > 0.1;
-}
-
-std::vector<std::size_t> make_slip(std::vector<Row>& rows, Slipped slip, Random& random) {
-    if (slip == Slipped::none) return {};
-    // Pattern rows are no single reading of a cutter's.
-    const auto is_single = [](const Row& row) {
-        return row.of.empty() || row.of[0].find('*') == std::string::npos;
-    };
-    for (int attempt = 0; attempt < 1000; ++attempt) {
-        const std::size_t at = one_of(random, rows.size());
-        if (!is_single(rows[at])) continue;
-        if (slip == Slipped::rows_exchanged) {
-            const std::size_t other = one_of(random, rows.size());
-            if (rows[at].kind != "inclination" || rows[other].kind != "inclination" ||
-                !is_single(rows[other]) || !is_gross(rows[at], rows[other].value)) {
-                continue;
-            }
-            std::swap(rows[at].value, rows[other].value);
-            return {at, other};
-        }
-        const std::string value = slipped(rows[at], slip, rows, random);
-        if (!is_gross(rows[at], value)) continue;
-        rows[at].value = value;
-        return {at};
-    }
-    throw std::runtime_error("no row for this slip");
-}
-
 }  // namespace
-
-const char* name_of(Slipped slip) {
-    static constexpr const char* names[]{
-        "none",       "digits swapped",  "decimal point",  "another first digit",
-        "digit lost", "digit doubled",   "other side",     "inches",
-        "grams",      "of another tier", "rows exchanged", "turned digit",
-        "copied row"};
-    return names[int(slip)];
-}
 
 Evening cutters_evening(const std::string& cut, const Population& population, Slipped slip,
                         std::uint64_t seed) {
@@ -321,7 +205,7 @@ Evening cutters_evening(const std::string& cut, const Population& population, Sl
     }
     while (!cut_stone(evening.design.solid, population, evening.steep, random, evening.truth)) {
     }
-    std::vector<Row> rows = read_rows(cut, evening, random);
+    std::vector<CutterRow> rows = read_rows(cut, evening, random);
     const std::vector<std::size_t> wrong = make_slip(rows, slip, random);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         WrittenReading w;

@@ -1,0 +1,16 @@
+#pragma once
+// Whether a prior has anything to fill in.
+
+#include <vector>
+
+#include "fit/fit.h"
+#include "fit/measurement.h"
+
+namespace culet {
+
+/// Nothing of the stone is left to the mesh, as far as one can tell before the fit: by the rank of
+/// the linear model at the mesh, of large stones by counting. True without a prior in `options`.
+bool readings_hold_all(const Stone& stone, const std::vector<Reading>& readings,
+                       FitOptions options);
+
+}  // namespace culet
