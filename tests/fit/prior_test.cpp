@@ -102,7 +102,9 @@ TEST(Prior, a_reading_draws_its_facet_and_is_told_from_the_prior) {
             EXPECT_GT(facet.read_inclination, 0.8);
             EXPECT_GT(degrees(facet.inclination), start + 0.3);
         }
-        if (facet.name == "U1") EXPECT_LT(facet.read_inclination, 0.2);
+        if (facet.name == "U1") {
+            EXPECT_LT(facet.read_inclination, 0.2);
+        }
     }
 }
 
