@@ -19,6 +19,7 @@ namespace {
 // How much facets of one tier, and a tier and its design, honestly differ.
 constexpr double k_sisters_deg = 0.3, k_from_mesh_deg = 1, k_from_drawing_deg = 3;
 constexpr std::size_t k_fewest_azimuths = 4;
+constexpr double k_level_deg = 5;
 
 std::string count_words(std::size_t n) {
     static constexpr std::array<const char*, 13> words{"no",   "one",    "two",   "three", "four",
@@ -133,11 +134,14 @@ Turn common_turn(const std::vector<double>& turns) {
     return best;
 }
 
-void check_azimuths(const Stone& stone, const std::vector<Reading>& readings,
+void check_azimuths(const Stone& stone, const std::vector<Reading>& readings, const Vec3& up,
                     std::vector<Doubt>& doubts) {
     std::vector<std::size_t> asked;
     for (std::size_t i = 0; i < readings.size(); ++i) {
-        if (is_of_one_facet(readings[i], ReadingKind::azimuth)) asked.push_back(i);
+        if (!is_of_one_facet(readings[i], ReadingKind::azimuth)) continue;
+        // A level facet has none.
+        const Vec3& n = stone.solid.facets[std::size_t(readings[i].facets[0])].plane.normal;
+        if (inclination(n, up) > radians(k_level_deg)) asked.push_back(i);
     }
     if (asked.size() < k_fewest_azimuths) return;
     // Counted as drawn, or the other way round (a mesh drawn as its mirror image).
@@ -173,7 +177,7 @@ void check_angles(const Stone& stone, const std::vector<Reading>& readings, bool
     const Vec3 up =
         table >= 0 ? stone.solid.facets[std::size_t(table)].plane.normal : glm::normalize(stone.up);
     check_inclinations(stone, readings, up, is_design, doubts);
-    check_azimuths(stone, readings, doubts);
+    check_azimuths(stone, readings, up, doubts);
 }
 
 }  // namespace culet

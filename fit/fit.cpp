@@ -145,7 +145,8 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
     const std::optional<Stone> mirrored = mirrored_to_azimuths(drawn, readings);
     const Stone& stone = mirrored ? *mirrored : drawn;
     FitOptions used = options;
-    if (!options.prior.always && readings_hold_all(stone, readings, options)) {
+    if (options.prior.source != Prior::Source::none && !options.prior.always &&
+        readings_hold_all(stone, readings, options)) {
         used.prior.source = Prior::Source::none;
     }
     System system(stone, readings, used);
@@ -284,7 +285,11 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
 FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
                     const FitOptions& options, const Progress& progress) {
     const bool is_design = options.prior.source == Prior::Source::catalogue;
-    const std::vector<Doubt> doubts = first_check(stone, readings, is_design);
+    // Readings that hold the stone check each other, and better.
+    std::vector<Doubt> doubts;
+    if (options.first_check && !readings_hold_all(stone, readings, options)) {
+        doubts = first_check(stone, readings, is_design);
+    }
     std::vector<std::size_t> doubted;
     for (const Doubt& d : doubts) doubted.push_back(d.reading);
     std::sort(doubted.begin(), doubted.end());

@@ -59,6 +59,9 @@ struct FitOptions {
     double significance = 0.001;
     Loss loss = Loss::none;
     Prior prior;
+    /// Hold every reading against its tier and the mesh first (first_check.h), where the readings
+    /// do not check each other: they leave parts of the stone open.
+    bool first_check = false;
     /// An earlier result of the same mesh and nearly the same readings: the fit goes on from there
     /// and looks for no other start, unless it cannot get there.
     std::optional<Solid> start;
@@ -75,7 +78,7 @@ struct FitOptions {
 /// `iterations`, `starts`, `significance`, `loss` = "none" | "huber" | "cauchy", `prior` =
 /// "catalogue" | "mesh" | "none". Where no prior is named it is the catalogue's for a mesh that
 /// `culet cut` wrote and for GemCad designs, else the mesh's, and counts only where readings leave
-/// the stone open. Throws InputError.
+/// the stone open. `first_check` is on. Throws InputError.
 FitOptions read_fit_options(const std::filesystem::path& stone_file,
                             const std::vector<std::string>& overrides = {});
 

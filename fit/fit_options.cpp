@@ -78,6 +78,7 @@ FitOptions read_fit_options(const std::filesystem::path& stone_file,
     FitOptions options;
     const TomlTable file = read_toml(stone_file, overrides);
     options.prior.source = source_of(file);
+    options.first_check = true;
     const auto table = file.table("fit");
     if (!table) return options;
     table->refuse_unknown({"meets", "meet_sigma", "iterations", "starts", "significance", "loss",

@@ -8,8 +8,9 @@
 
 namespace culet {
 
-/// Nothing of the stone is left to the mesh, as far as one can tell before the fit: by the rank of
-/// the linear model at the mesh, of large stones by counting. True without a prior in `options`.
+/// Next to nothing of the stone is left to the mesh, as far as one can tell before the fit: by the
+/// rank of the linear model at the mesh (up to four open freedoms: a rough mesh shows some that are
+/// none), of large stones by counting.
 bool readings_hold_all(const Stone& stone, const std::vector<Reading>& readings,
                        FitOptions options);
 

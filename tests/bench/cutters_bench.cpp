@@ -47,6 +47,7 @@ FitResult fit_evening(const Evening& evening) {
     if (soft_meets != 0) options.meets = MeetTreatment::soft;
     if (soft_meets > 0) options.meet_sigma = soft_meets;
     options.prior.source = Prior::Source::catalogue;
+    options.first_check = true;
     return fit_stone(evening.design, bind_readings(evening.rows, evening.design), options);
 }
 

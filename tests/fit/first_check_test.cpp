@@ -119,6 +119,7 @@ TEST_F(FirstCheck, a_fit_goes_on_without_the_doubted_reading_and_lists_it_first)
     const std::vector<Reading> readings = bind_readings(evening.rows, evening.design);
     FitOptions options;
     options.prior.source = Prior::Source::catalogue;
+    options.first_check = true;
     const FitResult result = fit_stone(evening.design, readings, options);
     EXPECT_EQ(result.status, FitStatus::contradictory);
     ASSERT_EQ(result.readings.size(), readings.size());

@@ -21,6 +21,7 @@ using bench::Slipped;
 FitOptions with_prior() {
     FitOptions options;
     options.prior.source = Prior::Source::catalogue;
+    options.first_check = true;
     return options;
 }
 
