@@ -95,7 +95,7 @@ TEST_F(RenderStone, GoesToStdoutAndStatsAlone) {
 TEST_F(RenderStone, WhatIsAllowedGivesTheSameBytesOnAnyNumberOfThreads) {
     for (const char* threads : {"1", "3"}) {
         const ProgramRun run =
-            run_culet({"render", file("stone.obj"), "--material", "zircon_high", "--size", "20",
+            run_culet({"render", file("stone.obj"), "--material", "spinel", "--size", "20",
                        "--threads", threads, "-q", "-o", file(std::string(threads) + ".exr")});
         ASSERT_EQ(run.exit_code, 0) << run.err;
     }
@@ -117,7 +117,7 @@ TEST_F(RenderStone, RefusesInOneLineAndWritesNothing) {
     refused({stone, "-o", out, "--material", "spinel", "--light", "daylihgt"}, "\"daylight\"");
     refused({stone, "-o", out, "--material", "spinel", "--light", "jewellery"}, "\"jeweller\"");
     refused({stone, "-o", out, "--material", "spinell"}, "spinel");
-    refused({stone, "-o", out, "--material", "spinel", "--exposure", "bright"}, "--exposure");
+    refused({file("stone.toml"), "-o", out, "--exposure", "bright"}, "--exposure");
     refused({stone, "-o", out, "--material", "spinel", "--width", "0"}, "--width");
     refused({stone, "-o", out, "--material", "spinel", "--size", "12,34,56"}, "--size");
     refused({stone, "-o", "-", "--stats", "-", "--material", "spinel"}, "stdout");
