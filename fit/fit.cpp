@@ -285,16 +285,24 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
 FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
                     const FitOptions& options, const Progress& progress) {
     const bool is_design = options.prior.source == Prior::Source::catalogue;
-    // Readings that hold the stone check each other, and better.
     std::vector<Doubt> doubts;
-    if (options.first_check && !readings_hold_all(stone, readings, options)) {
+    const auto fit_the_rest = [&] {
+        std::vector<std::size_t> doubted;
+        for (const Doubt& d : doubts) doubted.push_back(d.reading);
+        std::sort(doubted.begin(), doubted.end());
+        FitResult result = fit(stone, without(readings, doubted), options, progress, Tries::all);
+        if (!doubts.empty()) put_back_doubted(readings, doubts, result);
+        return result;
+    };
+    // Readings that hold the stone check each other, and better.
+    const bool few = options.first_check && !readings_hold_all(stone, readings, options);
+    if (few) doubts = first_check(stone, readings, is_design);
+    FitResult result = fit_the_rest();
+    if (options.first_check && !few && result.prior.source != Prior::Source::none) {
+        // After all they do not.
         doubts = first_check(stone, readings, is_design);
+        if (!doubts.empty()) result = fit_the_rest();
     }
-    std::vector<std::size_t> doubted;
-    for (const Doubt& d : doubts) doubted.push_back(d.reading);
-    std::sort(doubted.begin(), doubted.end());
-    FitResult result = fit(stone, without(readings, doubted), options, progress, Tries::all);
-    if (!doubts.empty()) put_back_doubted(readings, doubts, result);
     result.named_tiers = tier_findings(stone, readings, result.suspects, is_design);
     return result;
 }

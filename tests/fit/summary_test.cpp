@@ -99,8 +99,9 @@ TEST(Summary, tells_what_was_found_out) {
         EXPECT_THAT(lines, Contains(words));
     }
     EXPECT_THAT(lines, Contains(HasSubstr("The table leans 0.8 +- 0.04 degrees")));
-    EXPECT_THAT(lines, Contains("The reading that would help most: azimuth of S3 (it would settle "
-                                "something that is open)."));
+    EXPECT_THAT(
+        lines, Contains("What would help most: read the azimuth (the index) of S3 (it would settle "
+                        "something that is open)."));
     // A tilt that its uncertainty explains is none; a reading that brings little is not asked for.
     r.own_axis.sigma = radians(0.4);
     r.help[0].closes = false;
