@@ -28,7 +28,7 @@ protected:
         ASSERT_EQ(run_culet({"cut", "step", "-o", file("stone.obj"), "-q"}).exit_code, 0);
         ASSERT_EQ(run_culet({"cut", "step", "-o", file("stone.asc"), "-q"}).exit_code, 0);
         std::ofstream(file("stone.toml"))
-            << "[stone]\nmesh = \"stone.obj\"\nmaterial = \"spinel\"\n";
+            << "[stone]\nmesh = \"stone.obj\"\nmaterial = \"diamond\"\n";
     }
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
     std::string bytes(const std::string& name) const {
@@ -41,7 +41,7 @@ protected:
 TEST_F(RenderStone, MeshesDesignsAndStoneFilesNeedNoScene) {
     for (const char* stone : {"stone.obj", "stone.asc", "stone.toml"}) {
         const std::string picture = file(std::string(stone) + ".png");
-        const ProgramRun run = run_culet({"render", file(stone), "--material", "spinel", "--size",
+        const ProgramRun run = run_culet({"render", file(stone), "--material", "diamond", "--size",
                                           "48", "--tolerance", "0.1", "-o", picture});
         EXPECT_EQ(run.exit_code, 0) << run.err;
         EXPECT_EQ(run.out, "");
@@ -54,7 +54,7 @@ TEST_F(RenderStone, MeshesDesignsAndStoneFilesNeedNoScene) {
 }
 
 TEST_F(RenderStone, SaysTheSizeThatItTakes) {
-    const ProgramRun run = run_culet({"render", file("stone.asc"), "--material", "spinel", "--size",
+    const ProgramRun run = run_culet({"render", file("stone.asc"), "--material", "diamond", "--size",
                                       "32", "--tolerance", "0.2", "-o", file("a.png")});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.err, HasSubstr("6.5 mm wide"));
@@ -95,7 +95,7 @@ TEST_F(RenderStone, GoesToStdoutAndStatsAlone) {
 TEST_F(RenderStone, WhatIsAllowedGivesTheSameBytesOnAnyNumberOfThreads) {
     for (const char* threads : {"1", "3"}) {
         const ProgramRun run =
-            run_culet({"render", file("stone.obj"), "--material", "spinel", "--size", "20",
+            run_culet({"render", file("stone.obj"), "--material", "diamond", "--size", "20",
                        "--threads", threads, "-q", "-o", file(std::string(threads) + ".exr")});
         ASSERT_EQ(run.exit_code, 0) << run.err;
     }
@@ -114,14 +114,14 @@ TEST_F(RenderStone, RefusesInOneLineAndWritesNothing) {
     };
     const std::string out = file("x.png"), stone = file("stone.obj");
     refused({stone, "-o", out}, "--material");
-    refused({stone, "-o", out, "--material", "spinel", "--light", "daylihgt"}, "\"daylight\"");
-    refused({stone, "-o", out, "--material", "spinel", "--light", "jewellery"}, "\"jeweller\"");
+    refused({stone, "-o", out, "--material", "diamond", "--light", "daylihgt"}, "\"daylight\"");
+    refused({stone, "-o", out, "--material", "diamond", "--light", "jewellery"}, "\"jeweller\"");
     refused({stone, "-o", out, "--material", "spinell"}, "spinel");
     refused({file("stone.toml"), "-o", out, "--exposure", "bright"}, "--exposure");
-    refused({stone, "-o", out, "--material", "spinel", "--width", "0"}, "--width");
-    refused({stone, "-o", out, "--material", "spinel", "--size", "12,34,56"}, "--size");
-    refused({stone, "-o", "-", "--stats", "-", "--material", "spinel"}, "stdout");
-    refused({stone, "--material", "spinel"}, "-o IMAGE");
+    refused({stone, "-o", out, "--material", "diamond", "--width", "0"}, "--width");
+    refused({stone, "-o", out, "--material", "diamond", "--size", "12,34,56"}, "--size");
+    refused({stone, "-o", "-", "--stats", "-", "--material", "diamond"}, "stdout");
+    refused({stone, "--material", "diamond"}, "-o IMAGE");
 }
 
 }  // namespace
