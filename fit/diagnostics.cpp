@@ -9,7 +9,6 @@
 #include "fit/disagreement.h"
 #include "fit/facet_functions.h"
 #include "fit/finish.h"
-#include "fit/flush_jaws.h"
 #include "fit/linear.h"
 #include "fit/parts_read.h"
 #include "fit/snooping.h"
@@ -257,7 +256,6 @@ Diagnosis diagnose(const System& system, const Shape& shape,
         diagnosis.disagreeing = disagreeing_exact_readings(system, shape, outline);
     }
 
-    const FlushJaws jaws(system, shape, *outline, linear, *covariance);
     const Vec3 middle = middle_of(shape);
     const RowWriter writer(shape);
     // Azimuths are told in the result's frame, which turns to lie as the mesh does.
@@ -267,18 +265,16 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     for (int f = 0; f < layout.facets; ++f) {
         const auto rows = facet_functions(shape, f, layout, middle);
         const auto total = [&](std::size_t k) {
-            return std::sqrt(
-                std::max(0.0, covariance->total_variance(rows[k]) + jaws.more_variance(rows[k])));
+            return std::sqrt(covariance->total_variance(rows[k]));
         };
         FacetSigma& sigma = diagnosis.facets[std::size_t(f)];
         sigma.inclination = total(0);
         sigma.offset = total(2);
         const double flat = std::hypot(shape.normals[f].x, shape.normals[f].y);
-        const FunctionRow turned = rows[1] + turn;
         sigma.azimuth = flat > 1e-9
                             ? std::sqrt(std::max(
                                   0.0, covariance->total_variance(rows[1]) + turn_variance +
-                                           2 * rows[1].dot(with_turn) + jaws.more_variance(turned)))
+                                           2 * rows[1].dot(with_turn)))
                             : std::numeric_limits<double>::quiet_NaN();
     }
     if (system.has_prior()) find_parts_read(shape, linear, *covariance, middle, diagnosis);

@@ -1,6 +1,7 @@
 #include "fit/exact_finish.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <optional>
 
 #include "fit/leaning.h"
@@ -24,19 +25,26 @@ constexpr double k_hardly_worse = 4;
 constexpr double k_no_length = 1e-9, k_drawn = 1e-5;
 // Of chi-square, by which an edge that was not drawn so may cost more when it is held: two sigmas.
 constexpr double k_cost_of_an_edge = 4;
+// Half diameters: far below what anything reads.
+constexpr double k_apart = 1e-5;
+
+bool is_same_place(const Shape& one, const Shape& other) {
+    for (std::size_t p = 0; p < one.points.size(); ++p) {
+        if (glm::distance(one.points[p], other.points[p]) > k_apart) return false;
+    }
+    return true;
+}
 
 }  // namespace
 
 ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, const FinishOptions& options) {
     const int iterations = options.iterations;
-    KnownEnds of_this_start;
-    KnownEnds* const ends = options.known ? options.known : &of_this_start;
     ExactFinish result;
     SaddleSolver solver;
     const bool goes_on = options.agreeable > 0;
     Settled settled = settle(
         relaxation, solver, start, {},
-        {.iterations = iterations, .near_an_end = goes_on, .jaws_rest = goes_on, .known = ends});
+        {.iterations = iterations, .near_an_end = goes_on, .jaws_rest = goes_on});
     Softness softness;
     softness.with_priors = false;
     // What the readings may as well mean: each meaning has an end of its own. The best of those
@@ -50,7 +58,7 @@ ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, const Finis
         const double off_now = off(settled.shape);
         const double goal = settled.chi2 + off_now - off(another);
         Settled other = settle(relaxation, solver, another, {},
-                               {.iterations = iterations, .goal = goal, .known = ends});
+                               {.iterations = iterations, .goal = goal});
         other.iterations += settled.iterations;
         if (is_same_place(other.shape, settled.shape)) return false;
         if (!(other.chi2 + off(other.shape) < settled.chi2 + off_now - k_gain)) {

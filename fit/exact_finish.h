@@ -4,7 +4,6 @@
 // symmetry that hold to rounding.
 
 #include "fit/finish.h"
-#include "fit/known_ends.h"
 #include "fit/relaxation.h"
 
 namespace culet {
@@ -26,8 +25,6 @@ struct FinishOptions {
     /// From the end of an earlier fit, the chi-square below which readings that changed a little
     /// have not changed their meaning: no other turns and leanings are then looked for.
     double agreeable = 0;
-    /// Of earlier starts with this relaxation, if any.
-    KnownEnds* known = nullptr;
 };
 
 ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, const FinishOptions& options);

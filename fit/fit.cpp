@@ -8,7 +8,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "fit/as_drawn.h"
 #include "fit/assess.h"
 #include "fit/describe.h"
 #include "fit/diagnostics.h"
@@ -29,7 +28,6 @@
 #include "fit/set_aside.h"
 #include "fit/shape_findings.h"
 #include "fit/statistics.h"
-#include "fit/swung_facets.h"
 #include "fit/system.h"
 #include "fit/tier_findings.h"
 #include "fit/topology.h"
@@ -167,12 +165,6 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
         portfolio = fit_from_starts(system, options, progress);
     }
     Candidate& best = portfolio.best;
-    // A mesh drawn with care says to which side facets are turned.
-    if (!goes_on && best.sound && best.start != "mesh") {
-        if (auto better = better_with_facets_swung(system, best, options.iterations)) {
-            best = std::move(*better);
-        }
-    }
     const std::vector<double> weights =
         options.loss == Loss::none ? std::vector<double>()
                                    : reweight(system, best, options.loss, options.iterations);
@@ -193,7 +185,7 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
     if (progress && !progress(0.95)) throw Interrupted();
 
     const Finished& finished = best.finished;
-    const auto diagnose_best = [&] {
+    const Diagnosis diagnosis = [&] {
         Diagnosis plain = diagnose(system, finished.shape, finished.outline,
                                    {.significance = options.significance,
                                     .binding = best.binding,
@@ -208,16 +200,7 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
                         {.significance = options.significance,
                          .binding = best.binding,
                          .seen_from = &robust.finished});
-    };
-    Diagnosis diagnosis = diagnose_best();
-    // Not where the search was dear: then it is of no stone, or of a large one.
-    if (!diagnosis.undetermined.empty() && portfolio.work < k_dear) {
-        const Progress part = [&](double) { return !progress || progress(0.95); };
-        if (auto other = end_as_drawn(system, best, diagnosis.undetermined, options, part)) {
-            best = std::move(*other);
-            diagnosis = diagnose_best();
-        }
-    }
+    }();
     const System::Pose pose = system.pose_of(finished.shape);
     result.iterations = finished.iterations;
     result.chi2 = diagnosis.chi2;

@@ -38,18 +38,17 @@ constexpr double k_traded = 0.2;
 // A good start takes fewer to find its place in the first stage.
 constexpr int k_first_steps = 15;
 
-Softness softness_of(const Stage& stage, bool with_readings, double mesh_sigma) {
+Softness softness_of(const Stage& stage, bool with_readings) {
     Softness s;
     s.incidence = stage.incidence;
     s.readings = stage.readings;
     s.hinge = stage.incidence / 5;
     s.with_readings = with_readings;
-    s.mesh_sigma = mesh_sigma;
     return s;
 }
 
 int solve_stage(Relaxation& relaxation, SaddleSolver& solver, Shape& shape,
-                const Softness& softness, bool keep_normals, int most_steps, double stride,
+                const Softness& softness, bool keep_normals, int most_steps,
                 const Progress& progress, double fraction) {
     const Freedoms& freedoms = relaxation.freedoms();
     Eigen::VectorXd metric = relaxation.metric();
@@ -74,7 +73,7 @@ int solve_stage(Relaxation& relaxation, SaddleSolver& solver, Shape& shape,
                 solver.solve(-sheet.prior_gradient, -sheet.rows.residuals(), k_step_precision);
             const double length = s.unknowns.cwiseAbs().maxCoeff();
             if (!s.good || !(length < 10)) break;
-            const Eigen::VectorXd step = s.unknowns * std::min(1.0, stride / length);
+            const Eigen::VectorXd& step = s.unknowns;
             Shape next =
                 freedoms.moved(shape, {step.data(), static_cast<std::size_t>(step.size())});
             Sheet there = relaxation.sheet(next, softness);
@@ -111,7 +110,6 @@ struct StageRunner {
     Relaxation& relaxation;
     const Progress& progress;
     const std::vector<int>& sides;  ///< known ones stay
-    const Manner& manner;
     SaddleSolver solver{};
     int steps = 0;
 
@@ -121,8 +119,8 @@ struct StageRunner {
     };
     void once(Shape& shape, const Stage& stage, Kind kind, double fraction) {
         steps += solve_stage(relaxation, solver, shape,
-                             softness_of(stage, kind.with_readings, manner.mesh_sigma), kind.keep,
-                             kind.most_steps, manner.stride, progress, fraction);
+                             softness_of(stage, kind.with_readings), kind.keep, kind.most_steps,
+                             progress, fraction);
     }
     void stage(Shape& shape, const Stage& stage, double fraction) {
         once(shape, stage, {.with_readings = true}, fraction);
@@ -133,7 +131,7 @@ struct StageRunner {
         for (int round = 0; round < 3; ++round) {
             const std::vector<Shape> others =
                 better_leanings(relaxation, solver, shape,
-                                softness_of(stage, true, manner.mesh_sigma), k_may_lean, 1, sides);
+                                softness_of(stage, true), k_may_lean, 1, sides);
             if (others.empty()) break;
             shape = relaxation.freedoms().symmetrised(others.front());
             once(shape, stage, {.with_readings = true}, fraction);
@@ -143,15 +141,13 @@ struct StageRunner {
 
 }  // namespace
 
-Approach approach(Relaxation& relaxation, const Start& start, const Manner& manner,
-                  const Progress& progress) {
+Approach approach(Relaxation& relaxation, const Start& start, const Progress& progress) {
     Approach result;
     result.start = start.name;
-    result.manner = manner;
     result.sides = start.sides;
     result.shape = relaxation.freedoms().symmetrised(start.shape);
     relaxation.forget_ties();  // of another start
-    StageRunner run{relaxation, progress, start.sides, manner};
+    StageRunner run{relaxation, progress, start.sides};
     // First a convex stone with planar facets, whatever its size: lengths of edges that a rough
     // mesh has inside out would hold it there.
     const bool keep = start.keep_normals_at_first;
@@ -160,7 +156,7 @@ Approach approach(Relaxation& relaxation, const Start& start, const Manner& mann
         looking_as(relaxation.system(), std::move(result.shape), start.sides));
     if (keep) run.once(result.shape, {0.03, 0.02}, {.with_readings = true, .keep = true}, 0.1);
     const auto judge = [&] {
-        const Softness softness = softness_of(k_stages[result.stages], true, manner.mesh_sigma);
+        const Softness softness = softness_of(k_stages[result.stages], true);
         const Sheet sheet = relaxation.sheet(result.shape, softness);
         result.misfit = sheet.merit - sheet.prior;
         result.is_plausible =
@@ -184,7 +180,7 @@ Graded graded_fit(Relaxation& relaxation, const Approach& rough, const Progress&
     Graded result;
     result.shape = rough.shape;
     relaxation.forget_ties();
-    StageRunner run{relaxation, progress, rough.sides, rough.manner};
+    StageRunner run{relaxation, progress, rough.sides};
     for (std::size_t i = rough.stages; i < k_stages.size(); ++i) {
         run.stage(result.shape, k_stages[i], 0.2 + 0.1 * double(i));
     }

@@ -3,7 +3,6 @@
 // Incidences, exact readings and the readings themselves begin soft and are tightened stage by
 // stage, so that a bad start can still change its mind; hinges keep the stone convex on the way.
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,18 +12,9 @@
 
 namespace culet {
 
-/// How the stages go. What leads nowhere in one manner may well lead home in another.
-struct Manner {
-    /// Half diameters, of any corner in one step.
-    double stride = std::numeric_limits<double>::infinity();
-    double mesh_sigma = Softness{}.mesh_sigma;  ///< how loosely the mesh holds the stone
-};
-
 /// After the first stages, which tell good starts from hopeless ones at a part of the cost.
 struct Approach {
     std::string start;  ///< its name
-    Manner manner;
-    bool is_second_try = false;  ///< of a start that led to no stone in the usual manner
     Shape shape;
     std::vector<int> sides;     ///< of the start
     std::size_t stages = 0;     ///< that it has gone through
@@ -34,8 +24,7 @@ struct Approach {
     double work = 0;  ///< multiplications of its factorisations, about
 };
 /// Throws Interrupted when progress says so.
-Approach approach(Relaxation& relaxation, const Start& start, const Manner& manner = {},
-                  const Progress& progress = {});
+Approach approach(Relaxation& relaxation, const Start& start, const Progress& progress = {});
 
 struct Graded {
     Shape shape;

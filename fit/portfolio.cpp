@@ -27,11 +27,6 @@ constexpr int k_most_facets = 4500, k_least_starts = 4;
 // starts of 105 facets and noise of 20 % take up to 1e9, half a second.
 constexpr double k_most_work = 1.5e10, k_most_work_in_vain = 7e9;
 constexpr int k_least_starts_in_vain = 2;
-// Where no start leads to a stone: the mesh pulls less, then strides are shorter (half the stone's
-// radius is 0.5, and no linearisation holds so far). One in two hundred step cuts drawn off by 10
-// or 20 % needs them.
-constexpr std::array<Manner, 2> k_other_manners{{{.mesh_sigma = 1.6}, {.stride = 0.2}}};
-
 // The chi-square test by counting: the least redundancy that there can be decides what is accepted
 // at once, and only in between is it counted out.
 bool agrees(const System& system, const Candidate& candidate, int free, int counted,
@@ -48,12 +43,11 @@ bool agrees(const System& system, const Candidate& candidate, int free, int coun
 }
 
 // A stone whose last steps creep is still the better one where it agrees better by more than
-// chi-square's own noise: so at an edge that the readings want to have no length. Where there is no
-// stone, what the usual manner led to tells best why.
+// chi-square's own noise: so at an edge that the readings want to have no length.
 auto rank(const Candidate& c, double handicap = 0) {
     constexpr double k_part = 1.05, k_noise = 4;
     const double chi2 = c.finished.chi2 + handicap;
-    return std::make_tuple(!c.sound, !c.sound && c.is_second_try,
+    return std::make_tuple(!c.sound,
                            !(c.finished.worst_hard < k_hard_limit),
                            c.finished.converged ? chi2 : k_part * chi2 + k_noise);
 }
@@ -66,26 +60,16 @@ public:
 
     bool mesh_is_good() const { return starts_.mesh_is_good(); }
     /// The next start that may well lead home; when there is none, the best of those that have
-    /// waited. No more than `most` are tried for it. `in_vain`: no stone was found so far.
-    std::optional<Approach> next(int most, bool only_plausible, bool in_vain, double& work,
+    /// waited. No more than `most` are tried for it.
+    std::optional<Approach> next(int most, bool only_plausible, double& work,
                                  const Progress& progress) {
         while (static_cast<int>(waiting_.size()) < most) {
             std::optional<Start> start = starts_.next();
             if (!start) break;
-            Approach found = approach(relaxation_, *start, {}, progress);
+            Approach found = approach(relaxation_, *start, progress);
             work += found.work;
-            tried_.push_back(std::move(*start));
             if (found.is_plausible) return found;
             waiting_.push_back(std::move(found));
-        }
-        // Where none led to a stone, all that can be changed is how they go.
-        while (in_vain && again_ < k_other_manners.size() * tried_.size()) {
-            const Manner& manner = k_other_manners[again_ / tried_.size()];
-            const Start& start = tried_[again_++ % tried_.size()];
-            Approach found = approach(relaxation_, start, manner, progress);
-            work += found.work;
-            found.is_second_try = true;
-            if (found.is_plausible) return found;
         }
         if (waiting_.empty() || only_plausible) return std::nullopt;
         const auto best = std::min_element(
@@ -100,8 +84,6 @@ private:
     Relaxation& relaxation_;
     Starts starts_;
     std::vector<Approach> waiting_;
-    std::vector<Start> tried_;
-    std::size_t again_ = 0;  // how many of those have been tried again, in each manner
 };
 
 }  // namespace
@@ -138,7 +120,6 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
 
     Portfolio result;
     Approaches approaches(system, relaxation);
-    KnownEnds known;
     std::vector<double> ends;
     int fruitless = 0, without_stone = 0;
     double& work = result.work;
@@ -159,16 +140,14 @@ Portfolio fit_from_starts(const System& system, const FitOptions& options,
         // Beside a stone that agrees, only another that may agree as well is worth the time.
         const bool only_plausible = result.best.agrees;
         const std::optional<Approach> rough =
-            approaches.next(most - result.starts, only_plausible, !result.best.sound, work, part);
+            approaches.next(most - result.starts, only_plausible, work, part);
         if (!rough) break;
         const Graded graded = graded_fit(relaxation, *rough, part);
         Candidate candidate =
             finish_candidate(system, relaxation, graded.shape,
                              {.iterations = options.iterations,
-                              .hopeless = result.best.sound ? result.best.finished.chi2 : 1e300,
-                              .known = &known});
+                              .hopeless = result.best.sound ? result.best.finished.chi2 : 1e300});
         candidate.start = rough->start;
-        candidate.is_second_try = rough->is_second_try;
         candidate.finished.iterations += graded.steps;
         without_stone += candidate.is_no_stone;
         work += graded.work + candidate.finished.work;

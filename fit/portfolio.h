@@ -17,7 +17,6 @@ struct Candidate {
     bool sound = false;          ///< closed, convex where it must be, with all facets
     bool agrees = false;         ///< passes the chi-square test
     bool is_no_stone = false;    ///< exact_finish.h
-    bool is_second_try = false;  ///< graded.h
     std::vector<Held> held;      ///< corners that the readings want above a neighbour facet
     double cost_of_holding = 0;
     int binding = 0;  ///< how many of them bind: each like one more exact reading

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/known_ends.h"
 #include "fit/onto_hard_equations.h"
 #include "fit/promised_merit.h"
 
@@ -118,11 +117,6 @@ bool creeps_on(const std::vector<double>& merits) {
 
 Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
                const std::vector<Held>& held, const SettleOptions& options) {
-    if (const Settled* end = options.known ? options.known->end_from(start) : nullptr) {
-        Settled result = *end;
-        result.iterations = 0;
-        return result;
-    }
     const Freedoms& freedoms = relaxation.freedoms();
     Softness softness;
     softness.with_priors = false;
@@ -142,16 +136,9 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
     // The readings are asked again what they mean here. At a kink (a caliper's jaw that touches two
     // corners at once) they would change their mind for ever; `choose` ties the two.
     bool asked = false;
-    std::vector<Shape> ways{start};
-    const Settled* arrived = nullptr;
     const auto meaning_changes = [&] {
         if (choices > k_most_choices) return false;
         asked = true;
-        if (options.known) {
-            arrived = options.known->end_from(shape);
-            if (arrived) return false;
-            ways.push_back(shape);
-        }
         relaxation.choose(shape, true);
         Sheet fresh = relaxation.sheet(shape, softness, held);
         if (std::abs(fresh.merit - sheet.merit) < k_same_meaning * (1 + sheet.merit)) {
@@ -272,7 +259,6 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
             if (!asked && (next_gain < k_little || as_promised) && sheet.hard_sum < k_all_but_met)
                 meaning_changes();
         }
-        if (arrived) break;
         if (!better) {
             curved = false;
             length_before = 0;
@@ -289,12 +275,6 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
         const bool creeps = sheet.hard_sum < k_all_but_met && creeps_on(merits);
         if ((quiet >= k_quiet || creeps) && ends(true)) break;
     }
-    if (arrived) {
-        const int iterations = result.iterations;
-        result = *arrived;
-        result.iterations = iterations;
-        return result;
-    }
     if (options.jaws_rest && !relaxation.ties_hold(shape)) {
         SettleOptions again = options;
         again.jaws_rest = false;
@@ -305,7 +285,6 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
     result.shape = std::move(shape);
     result.ties = relaxation.ties();
     look_at_end(relaxation, held, result);
-    if (options.known && result.converged) options.known->add(ways, result);
     return result;
 }
 

@@ -20,8 +20,6 @@ struct Settled {
     std::vector<Tie> ties;  ///< of the meaning that it is the end of
 };
 
-class KnownEnds;
-
 struct SettleOptions {
     int iterations = 100;
     /// After a few steps it ends where chi-square is not near to it.
@@ -31,8 +29,6 @@ struct SettleOptions {
     bool near_an_end = false;
     /// Likewise jaws rest on corners that are level: as long as all of them carry a part.
     bool jaws_rest = false;
-    /// Where there are any, ends found before are taken from there, and new ones added.
-    KnownEnds* known = nullptr;
 };
 
 /// `held`: corners that stay below a facet. `solver` keeps its layout from call to call. What meets

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "fit/known_ends.h"
 #include "fit/laid_between_jaws.h"
 #include "fit/orbits.h"
 #include "tests/bench/fit_trials.h"

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "fit/known_ends.h"
 #include "fit/measurement.h"
 #include "fit/promised_merit.h"
 #include "tests/bench/fit_trials.h"
@@ -58,36 +57,6 @@ TEST_F(Settling, AStepPromisesWhatItsEquationsLeave) {
     }
     // Where steps have become short the equations are straight.
     EXPECT_LT(kept, 1e-9);
-}
-
-TEST_F(Settling, AWayGoneBeforeIsNotGoneAgain) {
-    const Freedoms freedoms = system_.freedoms();
-    Relaxation relaxation(system_, freedoms);
-    SaddleSolver solver;
-    // Some way off an end: from the mesh itself each start goes its own way for long.
-    Shape start = settle(relaxation, solver, system_.mesh_shape(), {}, {}).shape;
-    for (std::size_t p = 0; p < start.points.size(); ++p) {
-        start.points[p].y += p % 3 == 0 ? 2e-3 : -1e-3;
-    }
-    KnownEnds known;
-    const Settled first = settle(relaxation, solver, start, {}, {.known = &known});
-    ASSERT_TRUE(first.converged);
-    ASSERT_GT(first.iterations, 2);
-
-    const Settled same = settle(relaxation, solver, start, {}, {.known = &known});
-    EXPECT_EQ(same.iterations, 0);
-    EXPECT_EQ(same.chi2, first.chi2);
-    EXPECT_TRUE(is_same_place(same.shape, first.shape));
-
-    // Another start, whose steps join the way.
-    Shape beside = start;
-    for (std::size_t p = 0; p < beside.points.size(); ++p) {
-        beside.points[p].x += p % 2 == 0 ? 3e-5 : -3e-5;
-    }
-    EXPECT_EQ(known.end_from(beside), nullptr);
-    const Settled joined = settle(relaxation, solver, beside, {}, {.known = &known});
-    EXPECT_LT(joined.iterations, first.iterations);
-    EXPECT_EQ(joined.chi2, first.chi2);
 }
 
 }  // namespace
