@@ -1,0 +1,36 @@
+#pragma once
+// Measured values as people write them: to the digit that the uncertainty allows, units typeset.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace culet {
+
+/// "deg" -> "°", "mm3" -> " mm³", "" -> "": what follows the number, a no-break space included.
+/// Escaped, for a unit may come from a file.
+std::string unit_suffix(std::string_view unit);
+
+/// Below this the unit's displays show nothing: a smaller sigma is that of what is held exactly.
+double finest_of(std::string_view unit);
+
+/// "33.784 ± 0.099°": sigma to two digits, the value to the same place. "0° (exact)" where sigma is
+/// finer than `finest_of`; the value alone where there is no sigma (none, NaN, infinite, negative);
+/// "–" without a value; "not known" for an angle whose sigma is a right angle or more.
+std::string quantity(const std::optional<double>& value, const std::optional<double>& sigma,
+                     std::string_view unit);
+
+/// The value alone, to the place that sigma allows, with its unit: fitted values, residuals.
+std::string to_place_of(const std::optional<double>& value, const std::optional<double>& sigma,
+                        std::string_view unit);
+
+/// The smallest slip that would be noticed in a reading of `value`. A slip as large as that tells
+/// nobody anything (of angles: 90°; of lengths: the length): "any slip would pass".
+std::string smallest_slip(const std::optional<double>& detectable,
+                          const std::optional<double>& value, std::string_view unit);
+
+/// A sentence of the fit, typeset: "0.6 degrees (+- 0.1)" -> "0.6° (± 0.1)", "mm3" -> "mm³". Only
+/// behind a digit or a blank, so that names stay what they are. Not escaped.
+std::string typeset(std::string_view sentence);
+
+}  // namespace culet
