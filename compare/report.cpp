@@ -25,16 +25,22 @@ std::string report_page(const Report& report) {
     const Json stats =
         parsed_object<Json>(report.stats_json, "the render's figures for the report");
 
-    std::string page;
-    page += headline_section(report, fit);
-    page += pictures_section(report);
+    const FitView fitted{report.fit_json, report.fitted, report.length_unit};
+    // What to believe, what to look at, the picture; then what explains them.
+    std::string page = headline_section(report, fitted) + fit_look_section(fitted);
+    const std::string compared = pictures_section(report), rendered = changes_section(report);
+    page += compared.empty() ? rendered : compared;
+    const bool has_picture = !compared.empty() || report.fitted_render;
+    if (!has_picture) page += fit_drawing_section(fitted, false);
+    page += fit_proportions_section(fitted);
     page += meaning_section(report);
     page += reflexes_section(report);
     page += maps_section(report);
+    if (!compared.empty()) page += rendered;
     page += scores_section(report, scores);
     page += registration_section(report);
-    page += changes_section(report);
-    page += fit_section({report.fit_json, report.fitted, report.length_unit});
+    if (has_picture) page += fit_drawing_section(fitted, true);
+    page += fit_section(fitted);
     page += plan_section(stats);
     page += provenance_section(report);
     Json data = Json::object();

@@ -2,25 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-#include <nlohmann/json.hpp>
-
 #include "compare/report_parts.h"
 #include "page/html.h"
-#include "page/json_fields.h"
+#include "page/parts.h"
 
 namespace culet {
 
 namespace {
-
-using Json = nlohmann::json;
-
-std::string tile(const std::string& name, const std::string& value, const std::string& about,
-                 const char* style = "") {
-    return fmt::format("<div class=\"tile {}\"><dt>{}</dt><dd><b>{}</b><span>{}</span></dd></div>",
-                       style, escaped(name), value, escaped(about));
-}
 
 const Score* score_of(const Comparison& comparison, const char* key) {
     for (const Score& score : comparison.scores) {
@@ -71,23 +59,6 @@ std::string comparison_tiles(const Comparison& c) {
     return tiles;
 }
 
-std::string fit_tiles(const Json& fit) {
-    if (fit.empty()) return {};
-    std::string status = text_at(fit, "status");
-    std::replace(status.begin(), status.end(), '_', ' ');
-    const auto count = [&](const char* key) {
-        return fit.contains(key) && fit[key].is_array() ? fit[key].size() : 0;
-    };
-    const bool trusted = status == "converged";
-    return tile("Fit", escaped(status.empty() ? "–" : status),
-                fmt::format("χ² {} of {} degrees of freedom; {}, {} readings",
-                            significant(number_at(fit, "chi2")), whole(number_at(fit, "dof")),
-                            count("suspects") == 0 ? "no suspects"
-                                                   : fmt::format("{} suspect", count("suspects")),
-                            count("readings")),
-                trusted ? "" : "bad");
-}
-
 // What the page's reader must know before believing the verdict.
 const char* const k_what_it_means =
     "The chance level is the same render, turned and mirrored in the picture's plane: what outline "
@@ -100,12 +71,6 @@ const char* const k_what_is_calibrated =
     "light, which score like this photograph. It knows of facets, camera noise and registration; "
     "dust, inclusions, another tone curve or a light that is not quite the scene's count as facet "
     "error too.";
-
-std::string sentence(std::string text) {
-    if (!text.empty())
-        text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-    return text.empty() || text.back() == '.' ? text : text + ".";
-}
 
 }  // namespace
 
@@ -123,7 +88,7 @@ VerdictShown verdict_shown(Verdict verdict) {
     return {"", "", ""};
 }
 
-std::string headline_section(const Report& report, const nlohmann::json& fit) {
+std::string headline_section(const Report& report, const FitView& fitted) {
     std::string body =
         fmt::format("<header class=\"headline\"><h1>{}</h1>\n", escaped(report.title));
     if (report.comparison) {
@@ -141,15 +106,13 @@ std::string headline_section(const Report& report, const nlohmann::json& fit) {
                 "on "
                 "shapes and places.</p>\n";
         }
-        body += fmt::format(
-            "<div class=\"verdict {}\"><span class=\"symbol\" aria-hidden=\"true\">{}</span>"
-            "<div><p class=\"word\">{}</p><p>{}</p></div></div>\n",
-            shown_verdict.style, shown_verdict.symbol, shown_verdict.word,
-            escaped(sentence(c.reason)));
+        body += verdict_card(shown_verdict.style, shown_verdict.symbol, shown_verdict.word,
+                             "<p>" + escaped(as_sentence(c.reason)) + "</p>");
     }
+    body += fit_card(fitted);
     std::string tiles;
     if (report.comparison) tiles += comparison_tiles(*report.comparison);
-    tiles += fit_tiles(fit);
+    tiles += fit_tiles(fitted);
     if (!tiles.empty()) body += "<dl class=\"tiles\">" + tiles + "</dl>\n";
     if (report.comparison && report.comparison->usable()) {
         body += fmt::format("<p class=\"meaning\">{}</p>\n",

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <optional>
+#include <utility>
 
 #include "compare/pixels.h"
 #include "compare/report_parts.h"
 #include "page/html.h"
 #include "page/parts.h"
+#include "stone/quantile.h"
 
 namespace culet {
 
@@ -41,6 +44,28 @@ std::string map_uri(const PixelMap& map, ColourMap colours, double low, double h
     return png_uri(png_bytes(picture));
 }
 
+std::optional<double> white_for_stone(std::vector<float> brightest) {
+    // Most of a stone is shown as a medium tone; glints are few and may burn out, but not more than
+    // a fourteenth of it, and not less than a fiftieth: a picture without a white looks dull.
+    constexpr double k_median_shown = 0.4, k_most_over = 0.07, k_least_over = 0.02;
+    std::erase_if(brightest, [](float v) { return !(v > 0) || !std::isfinite(v); });
+    if (brightest.empty()) return std::nullopt;
+    const auto level = [&](double share) { return double(quantile(brightest, share)); };
+    return std::clamp(level(0.5) / k_median_shown, level(1 - k_most_over), level(1 - k_least_over));
+}
+
+double white_shown(const Comparison& comparison) {
+    const ComparedPictures& pictures = comparison.pictures;
+    const std::vector<float>& outline = pictures.photo_outline.values;
+    std::vector<float> brightest;
+    for (std::size_t p = 0; p < outline.size() && 3 * p + 2 < pictures.photo.rgb.size(); ++p) {
+        const float* rgb = pictures.photo.rgb.data() + 3 * p;
+        if (outline[p] > 0.5f) brightest.push_back(std::max({rgb[0], rgb[1], rgb[2]}));
+    }
+    return std::min(pictures.white,
+                    white_for_stone(std::move(brightest)).value_or(pictures.white));
+}
+
 std::string picture_uri(const Photo& picture, double white) {
     cv::Mat shown_now;
     encoded(colour_of(picture) * (1 / std::max(white, 1e-30))).convertTo(shown_now, CV_8U, 255);
@@ -53,10 +78,11 @@ std::string pictures_section(const Report& report) {
     if (pictures.photo.rgb.empty() || pictures.render.rgb.empty()) return {};
     const std::string word = photo_word(report);
     const bool usable = report.comparison->usable();
+    const double white = white_shown(*report.comparison);
     std::string body =
         slider("pictures-slider",
-               {word, picture_uri(pictures.photo, pictures.white), "The stone in the " + word},
-               {"render", picture_uri(pictures.render, pictures.white),
+               {word, picture_uri(pictures.photo, white), "The stone in the " + word},
+               {"render", picture_uri(pictures.render, white),
                 "The render, laid onto the " + word});
     body += usable ? fmt::format(
                          "<p class=\"note\">The render is moved onto the {} by its outline "
@@ -66,6 +92,12 @@ std::string pictures_section(const Report& report) {
                          word)
                    : "<p class=\"note\">The render is laid over as well as its outline allows; "
                      "its exposure is its own.</p>\n";
+    if (white < 0.95 * pictures.white) {
+        body += fmt::format(
+            "<p class=\"note\">Both are shown {} times as bright as the {} is, so that the stone "
+            "does not look dull; scores and maps are of the light as it is.</p>\n",
+            significant(pictures.white / white, 2), word);
+    }
     std::string heading = word + " and render";
     heading[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(heading[0])));
     return section("pictures", heading, body);

@@ -40,7 +40,7 @@ std::string reflexes_section(const Report& report) {
             "<figure class=\"overlay reflexes\"><svg viewBox=\"0 0 {0} {1}\" role=\"img\" "
             "aria-label=\"{2}\"><image href=\"{3}\" width=\"{0}\" height=\"{1}\"/>{4}</svg>"
             "<figcaption>{2}</figcaption></figure>\n",
-            picture.width, picture.height, escaped(what), picture_uri(picture, c.pictures.white),
+            picture.width, picture.height, escaped(what), picture_uri(picture, white_shown(c)),
             shapes);
     };
     std::string body =

@@ -48,7 +48,7 @@ std::string registration_section(const Report& report) {
         "pictures over the {2}\"><image href=\"{3}\" width=\"{0}\" height=\"{1}\" "
         "opacity=\"0.55\"/>"
         "<path class=\"outline-photo\" d=\"{4}\"/><path class=\"outline-render\" d=\"{5}\"/></svg>",
-        photo.width, photo.height, word, picture_uri(photo, c.pictures.white),
+        photo.width, photo.height, word, picture_uri(photo, white_shown(c)),
         outline_path(c.pictures.photo_outline), outline_path(c.pictures.render_outline));
     body += fmt::format(
         "<figcaption><span class=\"key-photo\">outline in the {}</span> "
@@ -88,7 +88,9 @@ std::string registration_section(const Report& report) {
                              : "The best pose that was found. It was not trusted, and the scene's "
                                "own camera was taken.");
     }
-    return section("registration", "Registration", body);
+    // A refusal is about the outlines.
+    return folded_section("registration", "How the outlines were laid on one another", body,
+                          !c.usable());
 }
 
 }  // namespace culet

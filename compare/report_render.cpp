@@ -12,7 +12,7 @@
 #include "page/html.h"
 #include "page/json_fields.h"
 #include "page/parts.h"
-#include "stone/quantile.h"
+#include "page/quantity.h"
 
 namespace culet {
 
@@ -20,17 +20,22 @@ namespace {
 
 using Json = nlohmann::json;
 
+constexpr float k_covered = 0.5f;  // of a pixel, what the stone must fill to count as its light
+
 double white_of(const Report& report) {
     if (report.renders_white > 0) return report.renders_white;
     // The same for both pictures: brightness is part of what is compared.
-    std::vector<float> values;
+    std::vector<float> brightest;
     for (const auto* picture : {&report.starting_render, &report.fitted_render}) {
         if (!picture->has_value()) continue;
-        for (const float v : (*picture)->rgb) {
-            if (v > 0) values.push_back(v);
+        const Photo& photo = **picture;
+        for (std::size_t p = 0; 3 * p + 2 < photo.rgb.size(); ++p) {
+            if (p < photo.coverage.size() && photo.coverage[p] < k_covered) continue;
+            const float* rgb = photo.rgb.data() + 3 * p;
+            brightest.push_back(std::max({rgb[0], rgb[1], rgb[2]}));
         }
     }
-    return values.empty() ? 1 : static_cast<double>(quantile(std::move(values), 0.995));
+    return white_for_stone(std::move(brightest)).value_or(1);
 }
 
 }  // namespace
@@ -47,15 +52,17 @@ std::string changes_section(const Report& report) {
         body +=
             "<p class=\"note\">The same scene with the starting mesh and with the fitted one; "
             "nothing else differs.</p>\n";
-    } else if (report.fitted_render && !report.comparison) {
+    } else if (report.fitted_render && pictures_section(report).empty()) {
         body += fmt::format(
             "<figure class=\"wide\"><img src=\"{}\" alt=\"Render of the stone\"></figure>\n",
             picture_uri(*report.fitted_render, white_of(report)));
         if (!report.starting) return section("changes", "The stone as it would look", body);
     }
     if (report.starting && report.fitted) {
-        body += change_drawings(*report.starting, *report.fitted);
-        body += changes_table(*report.starting, *report.fitted, report.length_unit);
+        body += folded("What became steeper and what flatter, drawn",
+                       change_drawings(*report.starting, *report.fitted));
+        body += folded(fmt::format("{} facets before and after", report.fitted->facets.size()),
+                       changes_table(*report.starting, *report.fitted, report.length_unit));
     }
     return section("changes", "Catalogue against fitted", body);
 }
@@ -67,7 +74,7 @@ std::string plan_section(const Json& stats) {
         rows += fmt::format(
             "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td class=\"n\">{}</td></tr>\n",
             escaped(text_at(effect, "name")), true_at(effect, "on") ? "on" : "off",
-            escaped(text_at(effect, "why")), significant(number_at(effect, "error_bound"), 2));
+            escaped(typeset(text_at(effect, "why"))), significant(number_at(effect, "error_bound"), 2));
     }
     std::string body;
     if (!rows.empty()) {
@@ -99,7 +106,7 @@ std::string plan_section(const Json& stats) {
             table("Figures of the render",
                   "<th scope=\"col\">Figure</th><th scope=\"col\" class=\"n\">Value</th>", facts);
     }
-    return section("plan", "How it was rendered", body);
+    return folded_section("plan", "How it was rendered", body);
 }
 
 std::string provenance_section(const Report& report) {
@@ -125,7 +132,7 @@ std::string provenance_section(const Report& report) {
         body += fmt::format("<details><summary>Settings</summary><pre>{}</pre></details>\n",
                             escaped(report.settings));
     }
-    return section("provenance", "How this page was made", body);
+    return folded_section("provenance", "How this page was made", body);
 }
 
 }  // namespace culet

@@ -24,26 +24,41 @@ struct ScoreWords {
 };
 
 constexpr ScoreWords k_words[] = {
-    {"zncc", "ZNCC, 2 %", "same places bright and dark, seen through a blur of 2 % of the stone",
+    {"zncc", "Pattern of light",
+     "ZNCC at 2 %: the same places bright and dark, seen through a blur of 2 % of the stone; 1 is "
+     "perfect",
      3},
-    {"zncc_1pct", "ZNCC, 1 %", "the same, finer", 3},
-    {"zncc_4pct", "ZNCC, 4 %", "the same, coarser", 3},
-    {"reflex_f1", "Reflexes, F1", "bright spots of one picture found in the other", 3},
-    {"reflex_area_f1", "Reflexes, F1 by area", "the same, large spots count more", 3},
-    {"reflex_hue", "Reflexes of one hue", "coloured reflexes found that have the photo's hue", 2},
-    {"cw_ssim", "CW-SSIM", "are the facets' images where they should be; blind to the light", 3},
-    {"ssim", "SSIM", "structure, for comparison with the literature only", 3},
-    {"gmsd", "GMSD", "edges alike, for comparison with the literature only", 3},
-    {"nmi", "Mutual information", "does one brightness tell the other, whatever the tone curve", 3},
-    {"psnr", "PSNR, dB", "error of the encoded colours against full scale", 1},
-    {"deltaE00_mean", "ΔE00, mean", "visible colour difference", 2},
-    {"deltaE00_p95", "ΔE00, 95 %", "95 % of the stone differ less", 2},
-    {"body_deltaE00", "Body colour, ΔE00", "between the mean colours: material and white balance",
-     2},
-    {"colour_emd", "Colours, EMD", "how far colours must be moved, wherever they are", 2},
-    {"facet_tilts_deg", "Facets' tilts, degrees",
+    {"zncc_1pct", "Pattern of light, finer", "ZNCC at 1 %: the same through half the blur", 3},
+    {"zncc_4pct", "Pattern of light, coarser", "ZNCC at 4 %: the same through twice the blur", 3},
+    {"reflex_f1", "Bright spots found",
+     "F1: bright spots of one picture found in the other, 0 to 1", 3},
+    {"reflex_area_f1", "Bright spots found, by area", "the same, large spots count more", 3},
+    {"reflex_hue", "Bright spots of one hue",
+     "of the coloured spots that were found, those with the photo's hue, 0 to 1", 2},
+    {"cw_ssim", "Facets' images in place",
+     "CW-SSIM: are the facets' images where they should be; hardly minds the light; 1 is perfect",
+     3},
+    {"ssim", "Structure",
+     "SSIM: likeness of each neighbourhood; for comparison with the literature only", 3},
+    {"gmsd", "Edges",
+     "GMSD: how differently sharp the edges are, 0 is alike; for comparison with the literature "
+     "only",
+     3},
+    {"nmi", "Brightness told by brightness",
+     "mutual information: does one picture's brightness tell the other's, whatever the tone curve",
+     3},
+    {"psnr", "Error of the colours, dB",
+     "PSNR: error of the encoded colours against full scale, 10 dB more is a third of it", 1},
+    {"deltaE00_mean", "Colour difference", "ΔE00 (CIEDE2000), mean: 1 is just visible", 2},
+    {"deltaE00_p95", "Colour difference, nearly all", "ΔE00 that 95 % of the stone stay under", 2},
+    {"body_deltaE00", "Body colour difference",
+     "ΔE00 between the mean colours: material and white balance", 2},
+    {"colour_emd", "Colours, wherever they are",
+     "EMD (earth mover's distance): how far colours must be moved to be the photo's", 2},
+    {"facet_tilts_deg", "Tilted facets, °",
      "how much of the difference is what tilted facets change", 3},
-    {"flip_mean", "FLIP, mean", "visible difference when the two are flicked between", 3},
+    {"flip_mean", "Difference to the eye",
+     "FLIP, mean: what shows when the two are flicked between, 0 is nothing", 3},
 };
 
 const ScoreWords* words_for(const std::string& key) {
@@ -127,17 +142,19 @@ std::string scores_section(const Report& report, const nlohmann::json& scores) {
         if (words_for(key) == nullptr) rows += score_row(scores, key, value);
     }
     if (rows.empty()) return {};
+    const auto count = std::count(rows.begin(), rows.end(), '\n');
     const Comparison& c = *report.comparison;
     std::string body = table("Scores beside their chance level",
                              "<th scope=\"col\">Score</th><th scope=\"col\" class=\"n\">Value</th>"
                              "<th scope=\"col\" class=\"n\">Chance level</th>"
-                             "<th scope=\"col\" class=\"n\">z</th>"
+                             "<th scope=\"col\" class=\"n\">Over chance (z)</th>"
                              "<th scope=\"col\">Chance | and this picture ●</th>",
                              rows);
     body += fmt::format(
         "<p class=\"note\">↑ more is better, ↓ less is better. Chance level: mean ± standard "
-        "deviation of {} draws (seed {}): {}. z counts standard deviations from it, of atanh for "
-        "correlations; the smallest share that {} draws can show is 1/{}.</p>\n",
+        "deviation of {} draws (seed {}): {}. Over chance: "
+        "how many of these deviations the score is better (of atanh for correlations); 3 is no "
+        "chance. The smallest share that {} draws can show is 1/{}.</p>\n",
         c.null_draws, c.seed, escaped(c.null_note), c.null_draws, c.null_draws + 1);
     if (c.photo_light > 0) {
         body += fmt::format(
@@ -157,7 +174,7 @@ std::string scores_section(const Report& report, const nlohmann::json& scores) {
         "gain. Gain on the render: red {}, green {}, blue {}.</p>\n",
         c.compared_pixels, decimals(100 * c.saturated, 1), significant(c.gain[0], 4),
         significant(c.gain[1], 4), significant(c.gain[2], 4));
-    return section("scores", "Scores", body);
+    return folded_section("scores", fmt::format("{} scores beside their chance level", count), body);
 }
 
 }  // namespace culet

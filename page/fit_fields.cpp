@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace culet {
 
@@ -89,6 +90,14 @@ std::set<std::string> suspects_of(const Json& fit) {
         if (suspect.is_object()) suspects.insert(text_at(suspect, "id"));
     }
     return suspects;
+}
+
+std::optional<double> direction_sigma(const Json& facet) {
+    const auto tilt = number_at(facet, "sigma_inclination");
+    if (!tilt) return std::nullopt;
+    const double level =
+        std::sin(number_at(facet, "inclination").value_or(0) * std::numbers::pi / 180);
+    return std::hypot(*tilt, level * number_at(facet, "sigma_azimuth").value_or(0));
 }
 
 const Json* facet_in(const Json& fit, const std::string& name) {

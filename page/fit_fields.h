@@ -2,6 +2,7 @@
 // What a fit report says of facets and readings. Private to the room: shows JSON.
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -24,6 +25,9 @@ std::vector<Worst> worst_readings(const nlohmann::json& fit,
                                   const std::vector<std::string>& facets);
 
 std::set<std::string> suspects_of(const nlohmann::json& fit);
+
+/// How far the normal may be off, degrees; a level facet has no azimuth. Nothing: not known.
+std::optional<double> direction_sigma(const nlohmann::json& facet);
 
 const nlohmann::json* facet_in(const nlohmann::json& fit, const std::string& name);
 

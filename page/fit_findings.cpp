@@ -9,6 +9,8 @@
 #include "page/html.h"
 #include "page/json_fields.h"
 #include "page/parts.h"
+#include "page/quantity.h"
+#include "page/reading_words.h"
 
 namespace culet {
 
@@ -36,22 +38,9 @@ std::string cell(const std::string& text) {
     return "<td class=\"n\">" + text + "</td>";
 }
 
-std::string folded(const std::string& summary, const std::string& body) {
-    if (body.empty()) return {};
-    return "<details><summary>" + summary + "</summary>\n" + body + "</details>\n";
-}
-
-std::string proportions_table(const Json& fit) {
-    std::string rows;
-    for (const Json& p : array_at(fit, "proportions")) {
-        rows += fmt::format("<tr><th scope=\"row\">{}</th>{}{}</tr>\n", escaped(text_at(p, "name")),
-                            cell(fmt::format("{} {}", significant(number_at(p, "value"), 5),
-                                             escaped(text_at(p, "unit")))),
-                            cell(significant(number_at(p, "sigma"), 2)));
-    }
-    return rows.empty()
-               ? ""
-               : table("Proportions of the cut", head_of({"Proportion", "Value", "±"}), rows);
+std::string angle_at(const Json& object, const char* key) {
+    const std::string text = decimals(number_at(object, key), 2);
+    return text == "–" ? text : text + "°";
 }
 
 std::string tiers_table(const Json& fit) {
@@ -59,33 +48,41 @@ std::string tiers_table(const Json& fit) {
     for (const Json& tier : array_at(fit, "tiers")) {
         rows += fmt::format("<tr><th scope=\"row\">{} <small>{} facets</small></th>{}{}{}{}</tr>\n",
                             escaped(text_at(tier, "name")), array_at(tier, "facets").size(),
-                            cell(decimals(number_at(tier, "inclination"), 2)),
-                            cell(decimals(number_at(tier, "spread"), 2)),
-                            cell(decimals(number_at(tier, "inclination_own_axis"), 2)),
-                            cell(decimals(number_at(tier, "spread_own_axis"), 2)));
+                            cell(angle_at(tier, "inclination")), cell(angle_at(tier, "spread")),
+                            cell(angle_at(tier, "inclination_own_axis")),
+                            cell(angle_at(tier, "spread_own_axis")));
     }
     if (rows.empty()) return {};
-    return table("Tiers, in degrees from the table and from the stone's own axis",
+    return table("Tiers, from the table and from the stone's own axis",
                  head_of({"Tier", "Mean", "Spread", "Mean, own axis", "Spread, own axis"}), rows);
 }
 
-std::string help_table(const Json& fit) {
+std::string help_table(const Json& fit, const std::string& unit) {
     std::string rows;
     for (const Json& help : array_at(fit, "help")) {
+        const auto sigma = number_at(help, "sigma");
+        const auto share = number_at(help, "reduces");
         rows += fmt::format(
-            "<tr><th scope=\"row\">{} {}</th>{}{}{}</tr>\n", escaped(text_at(help, "kind")),
-            escaped(list_at(help, "of")), cell(significant(number_at(help, "sigma"), 2)),
-            cell(number_at(help, "reduces") ? decimals(100 * *number_at(help, "reduces"), 1) : "–"),
+            "<tr><th scope=\"row\">{}</th>{}{}{}</tr>\n", escaped(reading_words(help)),
+            cell(to_place_of(sigma, sigma, reading_unit(text_at(help, "kind"), unit))),
+            cell(share ? decimals(100 * *share, 1) + " %" : "–"),
             cell(true_at(help, "closes") ? "yes" : "no"));
     }
     if (rows.empty()) return {};
-    return table(
-        "Further readings that would help most",
-        head_of({"Reading", "with a σ of", "takes off the variance, %", "settles what is open"}),
-        rows);
+    return table("Further readings that would help most",
+                 head_of({"Reading", "if read to ±", "takes off the facets' variance",
+                          "settles what is open"}),
+                 rows);
 }
 
-std::string meets_table(const Json& fit) {
+// A probability as people read it.
+std::string chance(const std::optional<double>& p) {
+    if (!p) return "–";
+    if (*p < 1e-4) return "under 0.01 %";
+    return significant(100 * *p, 2) + " %";
+}
+
+std::string meets_table(const Json& fit, const std::string& unit) {
     const auto meets = fit.find("meets");
     if (meets == fit.end()) return {};
     std::vector<const Json*> order;
@@ -96,30 +93,29 @@ std::string meets_table(const Json& fit) {
     std::string rows;
     for (const Json* meet : order) {
         const bool bad = true_at(*meet, "contradicted");
-        rows += fmt::format("<tr{}><th scope=\"row\">{}{}</th><td>{}</td>{}{}{}</tr>\n",
+        rows += fmt::format("<tr{}><th scope=\"row\">{}{}</th><td>{}</td>{}{}</tr>\n",
                             bad ? " class=\"suspect\"" : "", escaped(list_at(*meet, "facets")),
                             bad ? " <span class=\"badge\">does not meet</span>" : "",
                             escaped(text_at(*meet, "how")),
-                            cell(significant(number_at(*meet, "miss"), 2)),
-                            cell(significant(number_at(*meet, "sigma"), 2)),
-                            cell(significant(number_at(*meet, "p"), 2)));
+                            cell(quantity(number_at(*meet, "miss"), number_at(*meet, "sigma"), unit)),
+                            cell(chance(number_at(*meet, "p"))));
     }
     if (rows.empty()) return {};
     return table("Meets of more than three facets, the least likely first",
                  "<th scope=\"col\">Facets</th><th scope=\"col\">Treated</th>"
-                 "<th scope=\"col\" class=\"n\">Miss</th><th scope=\"col\" class=\"n\">σ</th>"
-                 "<th scope=\"col\" class=\"n\">p</th>",
+                 "<th scope=\"col\" class=\"n\">Miss</th>"
+                 "<th scope=\"col\" class=\"n\">Chance of as large a miss</th>",
                  rows);
 }
 
 std::string shape_list(const Json& fit) {
-    std::string items;
+    std::vector<std::string> items;
     for (const char* key : {"shape", "extra_facets"}) {
         for (const Json& one : array_at(fit, key)) {
-            items += "<li>" + escaped(text_at(one, "what")) + "</li>";
+            items.push_back(escaped(as_sentence(typeset(text_at(one, "what")))));
         }
     }
-    return items.empty() ? "" : "<ul>" + items + "</ul>\n";
+    return short_list(items);
 }
 
 std::string symmetry_tables(const Json& fit) {
@@ -131,27 +127,26 @@ std::string symmetry_tables(const Json& fit) {
             "<tr><th scope=\"row\">{}</th>{}{}{}<td>{}</td></tr>\n", escaped(text_at(g, "group")),
             cell(fmt::format("{} / {}", whole(number_at(g, "tested")),
                              whole(number_at(g, "conditions")))),
-            cell(significant(number_at(g, "chi2"), 3)), cell(significant(number_at(g, "p"), 2)),
+            cell(significant(number_at(g, "chi2"), 3)), cell(chance(number_at(g, "p"))),
             true_at(g, "supported") ? "supported" : "not supported");
     }
     for (const Json& t : array_at(*symmetry, "tiers")) {
         tiers += fmt::format(
             "<tr><th scope=\"row\">{}</th>{}{}{}{}</tr>\n", escaped(text_at(t, "tier")),
-            cell(significant(number_at(t, "deviation"), 2)),
-            cell(significant(number_at(t, "sigma"), 2)),
-            cell(significant(number_at(t, "at_most"), 2)), cell(escaped(text_at(t, "worst"))));
+            cell(angle_at(t, "deviation")), cell(angle_at(t, "sigma")),
+            cell(angle_at(t, "at_most")), cell(escaped(text_at(t, "worst"))));
     }
-    std::string body = "<p>" + escaped(text_at(*symmetry, "message")) + ".</p>\n";
+    std::string body = "<p>" + escaped(as_sentence(typeset(text_at(*symmetry, "message")))) + "</p>\n";
     if (!rows.empty()) {
         body += table("Groups held against the readings",
                       "<th scope=\"col\">Group</th><th scope=\"col\" class=\"n\">Conditions "
                       "tested</th><th scope=\"col\" class=\"n\">χ²</th><th scope=\"col\" "
-                      "class=\"n\">p</th><th scope=\"col\"></th>",
+                      "class=\"n\">Chance of as much</th><th scope=\"col\"></th>",
                       rows);
     }
     if (!tiers.empty()) {
         body +=
-            table("How alike the facets of each tier are, degrees",
+            table("How alike the facets of each tier are",
                   head_of({"Tier", "Deviation", "True scatter", "At most (95 %)", "Worst"}), tiers);
     }
     return body;
@@ -159,11 +154,12 @@ std::string symmetry_tables(const Json& fit) {
 
 }  // namespace
 
-std::string findings_tables(const Json& fit) {
+std::string findings_tables(const Json& fit, const std::string& length_unit) {
     if (!fit.is_object()) return {};
-    return proportions_table(fit) + folded("Symmetry", symmetry_tables(fit)) +
+    return folded("Symmetry", symmetry_tables(fit)) +
            folded("Tiers and the stone's own axis", tiers_table(fit)) +
-           folded("What to read next", help_table(fit)) + folded("Meets", meets_table(fit)) +
+           folded("Readings that would help", help_table(fit, length_unit)) +
+           folded("Meets", meets_table(fit, length_unit)) +
            folded("Edges and facets that are in doubt", shape_list(fit));
 }
 

@@ -6,9 +6,9 @@
 
 namespace culet {
 
-/// Proportions with uncertainties; tiers against the table and against the stone's own axis;
-/// further readings that would help; meets, edges and facets that the readings deny; symmetry.
-/// Each only where the report has it.
-std::string findings_tables(const nlohmann::json& fit);
+/// Tiers against the table and against the stone's own axis; further readings that would help;
+/// meets, edges and facets that the readings deny; symmetry. Folded, and each only where the report
+/// has it.
+std::string findings_tables(const nlohmann::json& fit, const std::string& length_unit);
 
 }  // namespace culet

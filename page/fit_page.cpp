@@ -11,6 +11,7 @@
 #include "page/fit_tables.h"
 #include "page/html.h"
 #include "page/parts.h"
+#include "page/quantity.h"
 
 namespace culet {
 
@@ -18,42 +19,45 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string fit_facts(const Json& fit) {
-    const std::string status = text_at(fit, "status");
-    std::string words;
-    if (status == "converged") words = "The stone below agrees with the readings.";
-    if (status == "not_converged")
-        words = "The search did not settle: do not rely on the stone below.";
-    if (status == "contradictory") words = "The readings contradict one another: see the suspects.";
-    if (status == "undetermined") words = "The readings leave some facets free: see below.";
-    // The fit's own sentences say more.
-    std::string sentences;
+/// All that the fit says in sentences.
+std::string fit_words(const Json& fit) {
+    std::vector<std::string> sentences;
     for (const Json& sentence : array_at(fit, "summary")) {
-        if (!sentence.is_string()) continue;
-        sentences += (sentences.empty() ? "" : " ") + escaped(sentence.get<std::string>());
+        if (sentence.is_string()) sentences.push_back(escaped(typeset(sentence.get<std::string>())));
     }
-    if (!sentences.empty()) words = sentences;
-    std::string shown_status = status;
-    std::replace(shown_status.begin(), shown_status.end(), '_', ' ');
-    std::string body = fmt::format(
-        "<p><span class=\"badge {}\">{}</span> {}</p>\n", status == "converged" ? "good" : "bad",
-        escaped(shown_status.empty() ? "status unknown" : shown_status), words);
-    std::string free;
-    for (const Json& one : array_at(fit, "undetermined")) {
-        free += fmt::format("<li>{}: {}</li>", escaped(text_at(one, "facet")),
-                            escaped(text_at(one, "freedom")));
-    }
-    if (!free.empty()) body += "<p>Left free by the readings:</p><ul>" + free + "</ul>\n";
-    const auto yes_no = [&](const char* key) {
-        return !fit.contains(key) ? "–" : true_at(fit, key) ? "yes" : "no";
+    std::string list;
+    for (const std::string& sentence : sentences) list += "<li>" + sentence + "</li>\n";
+    if (list.empty()) return {};
+    return folded(fmt::format("The fit in its own words, {} sentences", sentences.size()),
+                  "<ul>" + list + "</ul>\n");
+}
+
+std::string fit_figures(const Json& fit, const std::string& unit) {
+    std::string rows;
+    const auto row = [&](const char* name, const std::string& value) {
+        if (value.empty() || value == "–") return;
+        rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", name, value);
     };
-    body += fmt::format(
-        "<p class=\"note\">χ² {} with {} degrees of freedom; {} iterations in {} s; closed: {}, "
-        "convex: {}, largest distance of a corner from its plane {}.</p>\n",
-        significant(number_at(fit, "chi2")), whole(number_at(fit, "dof")),
-        whole(number_at(fit, "iterations")), significant(number_at(fit, "seconds")),
-        yes_no("closed"), yes_no("convex"), significant(number_at(fit, "planarity_max")));
-    return body;
+    const auto yes_no = [&](const char* key) {
+        return !fit.contains(key) ? "" : true_at(fit, key) ? "yes" : "no";
+    };
+    std::string status = text_at(fit, "status");
+    std::replace(status.begin(), status.end(), '_', ' ');
+    row("status", escaped(status));
+    row("χ² of the readings", significant(number_at(fit, "chi2")));
+    row("χ² to be expected (degrees of freedom)", whole(number_at(fit, "dof")));
+    row("χ² that is no surprise yet", significant(number_at(fit, "chi2_limit")));
+    row("closed", yes_no("closed"));
+    row("convex", yes_no("convex"));
+    const auto planarity = number_at(fit, "planarity_max");
+    row("largest distance of a corner from its plane",
+        planarity && *planarity < finest_of(unit) ? "none" : significant(planarity, 2) + unit_suffix(unit));
+    row("steps of the search", whole(number_at(fit, "iterations")));
+    row("seconds", significant(number_at(fit, "seconds"), 2));
+    if (rows.empty()) return {};
+    return folded("Figures of the search",
+                  table("Figures of the search",
+                        "<th scope=\"col\">Figure</th><th scope=\"col\">Value</th>", rows));
 }
 
 std::string painted(const FitView& view, FitColour colour) {
@@ -83,23 +87,26 @@ std::string stone_views(const Solid& solid, const std::vector<FacetPaint>& paint
            "through with the Tab key.</p></div>\n";
 }
 
+std::string fit_drawing_section(const FitView& view, bool fold) {
+    if (!view.fitted) return {};
+    const Json fit = parsed_object<Json>(view.fit_json, "the fit report for the page");
+    std::string body = painted(view, FitColour::residual);
+    if (!fit.empty()) {
+        body += folded("How sure: the same views by uncertainty",
+                       painted(view, FitColour::uncertainty));
+    }
+    const std::string heading = "Drawing of the stone, with its facets' names";
+    return fold ? folded_section("drawing", heading, body) : section("drawing", heading, body);
+}
+
 std::string fit_section(const FitView& view) {
     const Json fit = parsed_object<Json>(view.fit_json, "the fit report for the page");
-    if (fit.empty() && !view.fitted) return {};
-    std::string body;
-    if (!fit.empty()) body += fit_facts(fit);
-    if (view.fitted) {
-        body += painted(view, FitColour::residual);
-        const std::string sure = painted(view, FitColour::uncertainty);
-        if (!sure.empty() && !fit.empty()) {
-            body += "<details><summary>How sure: the same views by uncertainty</summary>\n" + sure +
-                    "</details>\n";
-        }
-    }
-    body += findings_tables(fit);
-    body += readings_table(fit);
-    body += facets_table(fit, view.length_unit);
-    return section("fit", "The fitted stone", body);
+    if (fit.empty()) return {};
+    return section("fit", "The fit in detail",
+                   fit_words(fit) + facets_table(fit, view.length_unit) +
+                       readings_table(fit, view.length_unit) +
+                       findings_tables(fit, view.length_unit) +
+                       fit_figures(fit, view.length_unit));
 }
 
 }  // namespace culet

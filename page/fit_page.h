@@ -1,8 +1,11 @@
 #pragma once
-// A fit as part of a page, from its JSON report.
+// A fit as part of a page, from its JSON report: the verdict, what to look at, the drawing, the
+// proportions, and everything else behind lines to click. Each part is empty where the report has
+// nothing for it, and throws InputError when the report is no JSON object.
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "stone/solid.h"
 
@@ -14,8 +17,18 @@ struct FitView {
     std::string length_unit = "mm";
 };
 
-/// "The fitted stone": status, drawings, readings, facets. Empty without report and solid. Throws
-/// InputError when the report is no JSON object.
+/// A word, a sign, and a sentence or two.
+std::string fit_card(const FitView& view);
+/// How many readings and facets, how sure: `<div>`s of a list of tiles.
+std::string fit_tiles(const FitView& view);
+/// Suspects with what to do about them; what stands out; what is open; what to read next.
+std::string fit_look_section(const FitView& view);
+/// The views of the stone by its readings and by its uncertainty; `fold`: where a page has another
+/// picture.
+std::string fit_drawing_section(const FitView& view, bool fold);
+/// The proportions that people ask for first, calipers beside the diameter; the others folded.
+std::string fit_proportions_section(const FitView& view);
+/// Everything else, folded.
 std::string fit_section(const FitView& view);
 
 /// The fitted stone, each facet coloured by how much steeper (red) or flatter (blue) it became.

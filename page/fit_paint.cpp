@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "page/fit_fields.h"
 #include "page/html.h"
+#include "page/quantity.h"
 
 namespace culet {
 
@@ -18,20 +18,10 @@ using Json = nlohmann::json;
 constexpr const char* k_plain = "#d9dde0";
 
 std::string pose_of(const Json& facet) {
-    return fmt::format("inclination {}° ± {}°, azimuth {}° ± {}°",
-                       decimals(number_at(facet, "inclination"), 2),
-                       significant(number_at(facet, "sigma_inclination"), 2),
-                       decimals(number_at(facet, "azimuth"), 2),
-                       significant(number_at(facet, "sigma_azimuth"), 2));
-}
-
-/// How far the normal may be off, degrees; a level facet has no azimuth.
-std::optional<double> direction_sigma(const Json& facet) {
-    const auto tilt = number_at(facet, "sigma_inclination");
-    if (!tilt) return std::nullopt;
-    const double level =
-        std::sin(number_at(facet, "inclination").value_or(0) * std::numbers::pi / 180);
-    return std::hypot(*tilt, level * number_at(facet, "sigma_azimuth").value_or(0));
+    const auto azimuth = number_at(facet, "sigma_azimuth");
+    return "inclination " +
+           quantity(number_at(facet, "inclination"), number_at(facet, "sigma_inclination"), "deg") +
+           (azimuth ? ", azimuth " + quantity(number_at(facet, "azimuth"), azimuth, "deg") : "");
 }
 
 std::string freedoms_of(const Json& fit, const std::string& facet) {
@@ -76,13 +66,13 @@ FitPaint residuals(const Json& fit, const std::vector<std::string>& names) {
             own.colour =
                 css_colour(ColourMap::residual, std::abs(worst[f].normalized) / k_worst_shown);
             own.about +=
-                fmt::format("worst of {} readings {}, {} standard uncertainties off",
+                fmt::format("worst of {} readings {}, {} times its ± off",
                             worst[f].count, worst[f].reading, decimals(worst[f].normalized, 2));
         }
         paint.facets.push_back(std::move(own));
     }
     paint.legend = {ColourMap::residual,
-                    "each facet's worst reading, in standard uncertainties; grey: none of its own",
+                    "how far each facet's worst reading is off, in multiples of its ±; grey: not read",
                     "0",
                     "2",
                     "4 or more",
@@ -117,7 +107,7 @@ FitPaint uncertainties(const Json& fit, const std::vector<std::string>& names) {
         paint.facets.push_back(std::move(own));
     }
     paint.legend.map = ColourMap::uncertainty;
-    paint.legend.what = "how far a facet's normal may be off (one standard uncertainty), degrees";
+    paint.legend.what = "how far a facet's direction may be off (±), degrees";
     paint.legend.from = "0";
     paint.legend.middle = significant(0.5 * top, 2);
     paint.legend.to = significant(top, 2) + " or more";

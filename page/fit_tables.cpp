@@ -9,18 +9,14 @@
 #include "page/fit_paint.h"
 #include "page/html.h"
 #include "page/parts.h"
+#include "page/quantity.h"
+#include "page/reading_words.h"
 
 namespace culet {
 
 namespace {
 
 using Json = nlohmann::json;
-
-std::string joined(const std::vector<std::string>& names) {
-    std::string result;
-    for (const std::string& name : names) result += (result.empty() ? "" : " / ") + name;
-    return result;
-}
 
 // A bar from the middle: -4 .. 4 standard uncertainties.
 std::string residual_bar(double normalized) {
@@ -33,6 +29,33 @@ std::string residual_bar(double normalized) {
         from, std::max(length, 0.6), css_colour(ColourMap::residual, size));
 }
 
+// Relations (meets, symmetry) have no value, only how nearly they hold.
+std::string read_as(const std::optional<double>& value, const std::optional<double>& sigma,
+                    const std::string& unit) {
+    if (value) return quantity(value, sigma, unit);
+    if (!sigma) return "–";
+    return *sigma < finest_of(unit) ? "held exactly" : "± " + to_place_of(sigma, sigma, unit);
+}
+
+std::string reading_row(const Json& reading, bool suspected, const std::string& length_unit) {
+    const bool suspect = suspected || true_at(reading, "suspect");
+    const auto normalized = number_at(reading, "normalized");
+    const auto value = number_at(reading, "value"), redundancy = number_at(reading, "redundancy");
+    const std::string unit = reading_unit(text_at(reading, "kind"), length_unit);
+    const auto sigma = true_at(reading, "exact") ? 0.0 : number_at(reading, "sigma");
+    const auto cell = [](const std::string& text) { return "<td class=\"n\">" + text + "</td>"; };
+    return fmt::format(
+        "<tr{}><th scope=\"row\">{}{}</th><td>{}</td>{}{}{}{}<td>{}</td>{}{}</tr>\n",
+        suspect ? " class=\"suspect\"" : "", escaped(text_at(reading, "id")),
+        suspect ? " <span class=\"badge\">suspect</span>" : "", escaped(reading_words(reading)),
+        cell(read_as(value, sigma, unit)),
+        cell(to_place_of(number_at(reading, "fitted"), sigma, unit)),
+        cell(to_place_of(number_at(reading, "residual"), sigma, unit)),
+        cell(decimals(normalized, 1)), normalized ? residual_bar(*normalized) : "",
+        cell(redundancy ? decimals(100 * *redundancy, 0) + " %" : "–"),
+        cell(smallest_slip(number_at(reading, "detectable"), value, unit)));
+}
+
 }  // namespace
 
 std::string facets_table(const Json& fit, const std::string& unit) {
@@ -43,11 +66,12 @@ std::string facets_table(const Json& fit, const std::string& unit) {
     std::string rows;
     std::size_t f = 0;
     for (const Json& facet : array_at(fit, "facets")) {
-        const auto pair = [&](const char* key, const char* sigma, int places) {
-            return fmt::format("<td class=\"n\">{} <small>± {}</small></td>",
-                               decimals(number_at(facet, key), places),
-                               significant(number_at(facet, sigma), 2));
+        const auto pair = [&](const char* key, const char* sigma, const char* in) {
+            return fmt::format("<td class=\"n\">{}</td>",
+                               quantity(number_at(facet, key), number_at(facet, sigma), in));
         };
+        // A level facet has no azimuth.
+        const bool level = !number_at(facet, "sigma_azimuth");
         const double size = std::abs(worst[f].normalized);
         const std::string swatch =
             worst[f].reading.empty()
@@ -57,58 +81,49 @@ std::string facets_table(const Json& fit, const std::string& unit) {
         rows += fmt::format(
             "<tr><th scope=\"row\">{}{}</th>{}{}{}<td class=\"n\">{}</td><td class=\"n\">{}</td>"
             "</tr>\n",
-            swatch, escaped(names[f]), pair("inclination", "sigma_inclination", 3),
-            pair("azimuth", "sigma_azimuth", 3), pair("offset", "sigma_offset", 4), worst[f].count,
+            swatch, escaped(names[f]), pair("inclination", "sigma_inclination", "deg"),
+            level ? "<td class=\"n\">–</td>" : pair("azimuth", "sigma_azimuth", "deg"),
+            pair("offset", "sigma_offset", unit.c_str()), worst[f].count,
             worst[f].reading.empty() ? "–"
-                                     : decimals(worst[f].normalized, 2) + " <small>" +
+                                     : decimals(worst[f].normalized, 1) + " <small>" +
                                            escaped(worst[f].reading) + "</small>");
         ++f;
     }
-    return table("Facets as fitted",
-                 fmt::format("<th scope=\"col\">Facet</th><th scope=\"col\" class=\"n\">"
-                             "Inclination, °</th><th scope=\"col\" class=\"n\">Azimuth, °</th>"
-                             "<th scope=\"col\" class=\"n\">Offset, {}</th><th scope=\"col\" "
-                             "class=\"n\">Readings</th><th scope=\"col\" class=\"n\">Worst, σ</th>",
-                             escaped(unit)),
-                 rows);
+    return folded(
+        fmt::format("{} facets as fitted", names.size()),
+        table("Facets as fitted",
+              "<th scope=\"col\">Facet</th><th scope=\"col\" class=\"n\">Inclination</th>"
+              "<th scope=\"col\" class=\"n\">Azimuth</th><th scope=\"col\" class=\"n\">Offset</th>"
+              "<th scope=\"col\" class=\"n\">Readings</th>"
+              "<th scope=\"col\" class=\"n\">Worst, times its ±</th>",
+              rows) +
+            "<p class=\"note\">Offset: from the stone's middle to the facet. \"Exact\" is what "
+            "other facets are measured from, or what was ordered to hold.</p>\n");
 }
 
-std::string readings_table(const Json& fit) {
+std::string readings_table(const Json& fit, const std::string& length_unit) {
     const std::set<std::string> suspects = suspects_of(fit);
     std::string rows;
     for (const Json& reading : array_at(fit, "readings")) {
         const std::string id = text_at(reading, "id");
-        const bool suspect = true_at(reading, "suspect") || suspects.contains(id);
-        const auto normalized = number_at(reading, "normalized");
-        const auto cell = [&](const char* key, int digits) {
-            return fmt::format("<td class=\"n\">{}</td>",
-                               significant(number_at(reading, key), digits));
-        };
-        rows += fmt::format(
-            "<tr{}><th scope=\"row\">{}{}</th><td>{}</td><td>{}</td>{}{}{}{}<td class=\"n\">{}</td>"
-            "<td>{}</td>{}{}</tr>\n",
-            suspect ? " class=\"suspect\"" : "", escaped(id),
-            suspect ? " <span class=\"badge\">suspect</span>" : "",
-            escaped(text_at(reading, "kind")), escaped(joined(names_of(reading))), cell("value", 6),
-            cell("sigma", 2), cell("fitted", 6), cell("residual", 2), decimals(normalized, 2),
-            normalized ? residual_bar(*normalized) : "", cell("redundancy", 2),
-            cell("detectable", 2));
+        rows += reading_row(reading, suspects.contains(id), length_unit);
     }
     if (rows.empty()) return {};
-    return table(
-               "Readings and what is left of them",
-               "<th scope=\"col\">Reading</th><th scope=\"col\">Kind</th><th scope=\"col\">Of</th>"
-               "<th scope=\"col\" class=\"n\">Value</th><th scope=\"col\" class=\"n\">σ</th>"
-               "<th scope=\"col\" class=\"n\">Fitted</th>"
-               "<th scope=\"col\" class=\"n\">Residual</th>"
-               "<th scope=\"col\" class=\"n\">Normalized</th><th scope=\"col\">−4 … 4</th>"
-               "<th scope=\"col\" class=\"n\">Redundancy</th>"
-               "<th scope=\"col\" class=\"n\">Detectable</th>",
-               rows) +
-           "<p class=\"note\">Normalized: the residual over its own standard uncertainty. "
-           "Redundancy: "
-           "0 means that nothing checks this reading, 1 that it adds nothing. Detectable: the "
-           "smallest error in it that would be noticed.</p>\n";
+    return folded(
+        fmt::format("{} readings and how far the stone is off them",
+                    array_at(fit, "readings").size()),
+        table("Readings and the stone beside them",
+              "<th scope=\"col\">Reading</th><th scope=\"col\">Of</th>"
+              "<th scope=\"col\" class=\"n\">Read</th><th scope=\"col\" class=\"n\">Stone has</th>"
+              "<th scope=\"col\" class=\"n\">Off</th><th scope=\"col\" class=\"n\">Times its ±</th>"
+              "<th scope=\"col\">−4 … 4</th>"
+              "<th scope=\"col\" class=\"n\">Checked by others</th>"
+              "<th scope=\"col\" class=\"n\">Smallest slip that shows</th>",
+              rows) +
+            "<p class=\"note\">Times its ±: how far off, against what it may be off by chance; over "
+            "4 is no chance. Checked by others: 0 % means that nothing checks this reading, 100 % "
+            "that the others alone say as much. Smallest slip that shows: a slip of the pen or of "
+            "the gauge smaller than that would not be noticed.</p>\n");
 }
 
 }  // namespace culet

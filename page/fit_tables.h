@@ -6,7 +6,8 @@
 
 namespace culet {
 
-std::string readings_table(const nlohmann::json& fit);
+/// Both folded, with how many there are.
+std::string readings_table(const nlohmann::json& fit, const std::string& length_unit);
 std::string facets_table(const nlohmann::json& fit, const std::string& unit);
 
 }  // namespace culet

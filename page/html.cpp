@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 
@@ -108,6 +109,12 @@ std::string base64(std::string_view bytes) {
 
 std::string png_uri(std::string_view png) {
     return "data:image/png;base64," + base64(png);
+}
+
+std::string as_sentence(std::string text) {
+    if (text.empty()) return text;
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    return text.back() == '.' ? text : text + ".";
 }
 
 std::string decimals(const std::optional<double>& value, int count) {

@@ -25,6 +25,9 @@ std::string decimals(const std::optional<double>& value, int count);
 /// A count: no decimals.
 std::string whole(const std::optional<double>& value);
 
+/// With a capital in front and a stop behind. Not escaped.
+std::string as_sentence(std::string text);
+
 /// To that many significant digits, without trailing noise: 0.00123, 12.3, 1230.
 std::string significant(const std::optional<double>& value, int count = 3);
 

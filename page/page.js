@@ -53,3 +53,14 @@ for (const drawings of document.querySelectorAll(".drawings")) {
     facet.addEventListener("focus", () => choose(facet));
   }
 }
+// Paper cannot be clicked: what is folded is printed open.
+const opened = [];
+addEventListener("beforeprint", () => {
+  for (const part of document.querySelectorAll("details:not([open])")) {
+    part.open = true;
+    opened.push(part);
+  }
+});
+addEventListener("afterprint", () => {
+  for (const part of opened.splice(0)) part.open = false;
+});

@@ -42,6 +42,50 @@ std::string section(const std::string& id, const std::string& heading, const std
         id, escaped(heading), body);
 }
 
+std::string folded(const std::string& summary, const std::string& body, bool open) {
+    if (body.empty()) return {};
+    return fmt::format("<details{}><summary>{}</summary>\n{}</details>\n", open ? " open" : "",
+                       summary, body);
+}
+
+std::string folded_section(const std::string& id, const std::string& heading,
+                           const std::string& body, bool open) {
+    if (body.empty()) return {};
+    return fmt::format("<section id=\"{0}\" class=\"folded\" aria-labelledby=\"{0}-heading\">\n{1}"
+                       "</section>\n",
+                       id,
+                       folded(fmt::format("<h2 id=\"{}-heading\">{}</h2>", id, escaped(heading)),
+                              body, open));
+}
+
+std::string tile(const std::string& name, const std::string& value, const std::string& about,
+                 const char* style) {
+    return fmt::format("<div class=\"tile {}\"><dt>{}</dt><dd><b>{}</b><span>{}</span></dd></div>",
+                       style, escaped(name), value, escaped(about));
+}
+
+std::string verdict_card(const char* style, const char* symbol, const std::string& word,
+                         const std::string& body) {
+    return fmt::format(
+        "<div class=\"verdict {}\"><span class=\"symbol\" aria-hidden=\"true\">{}</span>"
+        "<div><p class=\"word\">{}</p>{}</div></div>\n",
+        style, symbol, escaped(word), body);
+}
+
+std::string short_list(const std::vector<std::string>& items) {
+    // Ten lines are read; with two more nothing would be won by folding them.
+    constexpr std::size_t k_shown = 8, k_unfolded = 10;
+    if (items.empty()) return {};
+    const std::size_t shown = items.size() <= k_unfolded ? items.size() : k_shown;
+    std::string first, rest;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        (i < shown ? first : rest) += "<li>" + items[i] + "</li>\n";
+    }
+    first = "<ul>" + first + "</ul>\n";
+    if (rest.empty()) return first;
+    return first + folded(fmt::format("{} more", items.size() - shown), "<ul>" + rest + "</ul>\n");
+}
+
 std::string table(const std::string& caption, const std::string& head, const std::string& body) {
     // More than a screenful scrolls under its heading.
     const bool tall = std::count(body.begin(), body.end(), '\n') > 24;

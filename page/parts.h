@@ -2,6 +2,7 @@
 // The parts that pages are put together from. Each returns HTML.
 
 #include <string>
+#include <vector>
 
 #include "page/colour_maps.h"
 
@@ -14,6 +15,24 @@ std::string html_page(const std::string& title, const std::string& body,
 
 /// `<section id=... >` with its heading; nothing when the body is empty.
 std::string section(const std::string& id, const std::string& heading, const std::string& body);
+
+/// Behind a line to click; nothing when the body is empty. The summary is HTML.
+std::string folded(const std::string& summary, const std::string& body, bool open = false);
+
+/// A section whose heading is that line.
+std::string folded_section(const std::string& id, const std::string& heading,
+                           const std::string& body, bool open = false);
+
+/// One of the figures under a verdict: what it is, the figure (HTML), what to know about it.
+std::string tile(const std::string& name, const std::string& value, const std::string& about,
+                 const char* style = "");
+
+/// The verdict at the top of a page: a word and a sign; `body` is HTML.
+std::string verdict_card(const char* style, const char* symbol, const std::string& word,
+                         const std::string& body);
+
+/// Items (HTML) as a list; of a long one the first ones, the others folded.
+std::string short_list(const std::vector<std::string>& items);
 
 /// `<div class="scroll">` around a table, so that a narrow screen scrolls the table, not the page.
 std::string table(const std::string& caption, const std::string& head, const std::string& body);

@@ -93,6 +93,10 @@ std::string quantity(const std::optional<double>& value, const std::optional<dou
     return to_place_of(value, sigma, "") + " ± " + in_place(*sigma, place_of(*sigma)) + suffix;
 }
 
+std::string as_read(const std::optional<double>& value, std::string_view unit) {
+    return given(value) ? trimmed(*value, unit) + unit_suffix(unit) : k_none;
+}
+
 std::string smallest_slip(const std::optional<double>& detectable,
                           const std::optional<double>& value, std::string_view unit) {
     if (!given(detectable) || !(*detectable > 0)) return k_none;

@@ -24,6 +24,9 @@ std::string quantity(const std::optional<double>& value, const std::optional<dou
 std::string to_place_of(const std::optional<double>& value, const std::optional<double>& sigma,
                         std::string_view unit);
 
+/// A reading as the display showed it: no digits that nobody read.
+std::string as_read(const std::optional<double>& value, std::string_view unit);
+
 /// The smallest slip that would be noticed in a reading of `value`. A slip as large as that tells
 /// nobody anything (of angles: 90°; of lengths: the length): "any slip would pass".
 std::string smallest_slip(const std::optional<double>& detectable,

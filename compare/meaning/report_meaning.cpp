@@ -192,7 +192,7 @@ std::string nulls_table(const Meaning& meaning) {
     }
     if (rows.empty()) return {};
     return table("Chance, the worst first",
-                 "<th scope=\"col\">Were it</th><th scope=\"col\" class=\"n\">ZNCC, 2 %</th>"
+                 "<th scope=\"col\">Were it</th><th scope=\"col\" class=\"n\">Pattern of light</th>"
                  "<th scope=\"col\" class=\"n\">z of the photograph</th>"
                  "<th scope=\"col\" class=\"n\">Draws as good</th>"
                  "<th scope=\"col\" class=\"n\">Best draw looks like</th>",
@@ -210,7 +210,7 @@ std::string hypotheses_table(const Meaning& meaning) {
     if (rows.empty()) return {};
     return table("What else it could be",
                  "<th scope=\"col\">Were this true of the stone</th>"
-                 "<th scope=\"col\" class=\"n\">ZNCC, 2 %</th>"
+                 "<th scope=\"col\" class=\"n\">Pattern of light</th>"
                  "<th scope=\"col\" class=\"n\">It would look like</th>",
                  rows);
 }

@@ -1,0 +1,279 @@
+#include "page/fit_verdict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "page/fit_fields.h"
+#include "page/fit_page.h"
+#include "page/html.h"
+#include "page/parts.h"
+#include "page/quantity.h"
+#include "page/reading_words.h"
+
+namespace culet {
+
+namespace {
+
+using Json = nlohmann::json;
+
+const Json* with_id(const Json& list, const std::string& id) {
+    for (const Json& one : list) {
+        if (text_at(one, "id") == id) return &one;
+    }
+    return nullptr;
+}
+
+std::string remedy_for(const Json* proposal, const std::string& unit) {
+    if (proposal == nullptr) return "Read it again.";
+    if (!text_at(*proposal, "slip").empty()) {
+        return fmt::format("If that is the slip, write {} in its place; otherwise read it again.",
+                           as_read(number_at(*proposal, "corrected"), unit));
+    }
+    std::string others;
+    for (const Json& id : array_at(*proposal, "alternatives")) {
+        if (id.is_string()) others += (others.empty() ? "" : ", ") + id.get<std::string>();
+    }
+    return others.empty() ? "Read it again."
+                          : "Read it again; if it stands, the slip may be in " + others + ".";
+}
+
+/// A suspect that no line of the first check tells of.
+std::string suspect_words(const Json& reading, const Json* proposal, const std::string& unit) {
+    std::string text = text_at(reading, "id") + ": " + reading_words(reading);
+    const auto value = number_at(reading, "value");
+    if (!value) return text + " does not hold together with the others";
+    text += " was read as " + as_read(value, unit);
+    if (proposal != nullptr) {
+        const auto estimate = number_at(*proposal, "estimate");
+        const auto sigma = number_at(*proposal, "sigma");
+        text += ", the others say " + quantity(estimate, sigma, unit);
+        if (estimate) {
+            text += fmt::format(": {} away",
+                                to_place_of(std::abs(*value - *estimate), sigma, unit));
+        }
+        if (const std::string slip = text_at(*proposal, "slip"); !slip.empty()) {
+            text += fmt::format("; {}? ({})", as_read(number_at(*proposal, "corrected"), unit), slip);
+        }
+    } else if (const auto off = number_at(reading, "normalized")) {
+        text += fmt::format(", {} times its ± from what the others say",
+                            decimals(std::abs(*off), 1));
+    }
+    return text;
+}
+
+std::vector<std::string> texts_at(const Json& fit, const char* key) {
+    std::vector<std::string> texts;
+    for (const Json& one : array_at(fit, key)) {
+        if (one.is_string()) texts.push_back(one.get<std::string>());
+    }
+    return texts;
+}
+
+struct Verdict {
+    std::string word;
+    const char *style, *symbol;
+    std::vector<std::string> sentences;  ///< not escaped
+};
+
+Verdict contradiction(const Json& fit) {
+    const std::vector<SuspectLine> suspects = suspect_lines(fit);
+    Verdict verdict{"The readings contradict each other", "bad", "!", {}};
+    if (suspects.empty()) {
+        const auto apart = texts_at(fit, "disagreeing");
+        verdict.sentences = {
+            apart.empty() ? as_sentence(text_at(fit, "message"))
+                          : fmt::format("{} readings cannot hold together: see below.",
+                                        apart.size())};
+        return verdict;
+    }
+    verdict.word = suspects.size() == 1
+                       ? "One reading contradicts the others"
+                       : fmt::format("{} readings contradict the others", suspects.size());
+    verdict.sentences.push_back(suspects.front().what + ".");
+    if (suspects.size() > 1) verdict.sentences.push_back("The others are listed below.");
+    // The fit says behind its doubts whether the others agree.
+    const auto doubts = texts_at(fit, "doubts"), summary = texts_at(fit, "summary");
+    if (!doubts.empty() && summary.size() > doubts.size()) {
+        verdict.sentences.push_back(summary[doubts.size()]);
+    }
+    return verdict;
+}
+
+Verdict agreement(const Json& fit) {
+    Verdict verdict{"The stone agrees with the readings", "good", "✓", {}};
+    const auto tiers = tier_sentences(fit);
+    if (tiers.empty()) {
+        if (!array_at(fit, "readings").empty()) verdict.sentences = {"No reading is in doubt."};
+        return verdict;
+    }
+    verdict.sentences.push_back(tiers.front());
+    if (tiers.size() > 1) {
+        verdict.sentences.push_back(fmt::format("{} more {} below.", tiers.size() - 1,
+                                                tiers.size() == 2 ? "finding is" : "findings are"));
+    }
+    return verdict;
+}
+
+Verdict verdict_of(const Json& fit) {
+    const std::string status = text_at(fit, "status");
+    if (status == "converged") return agreement(fit);
+    if (status == "contradictory") return contradiction(fit);
+    if (status == "undetermined") {
+        Verdict verdict{"The readings leave parts of the stone open", "fair", "?", {}};
+        verdict.sentences = open_sentences(fit);
+        if (verdict.sentences.size() > 2) {
+            verdict.sentences.resize(1);
+            verdict.sentences.emplace_back("More of these are below.");
+        }
+        if (verdict.sentences.empty()) verdict.sentences = {as_sentence(text_at(fit, "message"))};
+        return verdict;
+    }
+    if (status == "not_converged") {
+        return {"Do not rely on this stone", "bad", "✕", {as_sentence(text_at(fit, "message"))}};
+    }
+    return {"The report does not say how the fit ended", "poor", "?", {}};
+}
+
+std::string readings_tile(const Json& fit) {
+    const Json& readings = array_at(fit, "readings");
+    if (readings.empty()) return {};
+    const std::size_t suspects = suspects_of(fit).size();
+    const auto unchecked =
+        std::count_if(readings.begin(), readings.end(), [](const Json& reading) {
+            const auto redundancy = number_at(reading, "redundancy");
+            return number_at(reading, "value") && redundancy && *redundancy < 0.01 &&
+                   !true_at(reading, "exact");
+        });
+    std::string about = suspects == 0 ? "none suspect" : fmt::format("{} suspect", suspects);
+    // Beside a prior few are: each is held against its tier instead.
+    const auto prior = fit.find("prior");
+    const std::string source = prior == fit.end() ? "" : text_at(*prior, "source");
+    if (unchecked > 0 && (source.empty() || source == "none")) {
+        about += fmt::format("; nothing checks {} of them", unchecked);
+    }
+    return tile("Readings", std::to_string(readings.size()), about, suspects == 0 ? "" : "bad");
+}
+
+std::set<std::string> open_facets(const Json& fit) {
+    std::set<std::string> open;
+    for (const Json& one : array_at(fit, "undetermined")) open.insert(text_at(one, "facet"));
+    return open;
+}
+
+std::string facets_tile(const Json& fit) {
+    const Json& facets = array_at(fit, "facets");
+    if (facets.empty()) return {};
+    const auto prior = fit.find("prior");
+    const std::string source = prior == fit.end() ? "" : text_at(*prior, "source");
+    if (!source.empty() && source != "none") {
+        const auto read = std::count_if(facets.begin(), facets.end(), [](const Json& facet) {
+            const auto from = facet.find("from_readings");
+            return from != facet.end() && number_at(*from, "inclination").value_or(0) > 0.5;
+        });
+        return tile("Facets read", fmt::format("{} of {}", read, facets.size()),
+                    source == "catalogue" ? "the rest supposed near the design"
+                                          : "the rest supposed near the mesh as drawn");
+    }
+    const std::set<std::string> open = open_facets(fit);
+    return tile("Facets", std::to_string(facets.size()),
+                open.empty() ? "all held by the readings"
+                             : fmt::format("{} left open by the readings", open.size()));
+}
+
+std::string sureness_tile(const Json& fit) {
+    const std::set<std::string> open = open_facets(fit);
+    std::vector<std::pair<double, std::string>> sigmas;
+    for (const Json& facet : array_at(fit, "facets")) {
+        const auto sigma = direction_sigma(facet);
+        if (sigma && *sigma > 0 && !open.contains(text_at(facet, "name"))) sigmas.emplace_back(*sigma, text_at(facet, "name"));
+    }
+    if (sigmas.size() < 2) return {};
+    std::stable_sort(sigmas.begin(), sigmas.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    const auto shown = [](double sigma) { return "± " + to_place_of(sigma, sigma, "deg"); };
+    return tile("Half of the facets within", shown(sigmas[sigmas.size() / 2].first),
+                fmt::format("least sure is {}, {}", sigmas.back().second,
+                            shown(sigmas.back().first)));
+}
+
+}  // namespace
+
+std::vector<SuspectLine> suspect_lines(const Json& fit) {
+    std::vector<SuspectLine> lines;
+    const auto doubts = texts_at(fit, "doubts"), suspects = texts_at(fit, "suspects");
+    const Json &readings = array_at(fit, "readings"), &proposals = array_at(fit, "proposals");
+    std::vector<std::string> doubted, others;
+    for (const std::string& id : suspects) {
+        const Json* reading = with_id(readings, id);
+        const bool out = reading != nullptr && !text_at(*reading, "left_out").empty();
+        (out && !doubts.empty() ? doubted : others).push_back(id);
+    }
+    for (std::size_t i = 0; i < doubts.size(); ++i) {
+        // A doubted row may hold several readings: only then the two lists do not go together.
+        const Json* proposal =
+            doubted.size() == doubts.size() ? with_id(proposals, doubted[i]) : nullptr;
+        const Json* reading =
+            doubted.size() == doubts.size() ? with_id(readings, doubted[i]) : nullptr;
+        const std::string unit =
+            reading_unit(reading == nullptr ? "" : text_at(*reading, "kind"), text_at(fit, "unit"));
+        lines.push_back({typeset(doubts[i]),
+                         "It is left out of the fit. " + remedy_for(proposal, unit)});
+    }
+    for (const std::string& id : others) {
+        const Json* reading = with_id(readings, id);
+        const Json* proposal = with_id(proposals, id);
+        if (reading == nullptr) {
+            lines.push_back({id, "Read it again."});
+            continue;
+        }
+        const std::string unit = reading_unit(text_at(*reading, "kind"), text_at(fit, "unit"));
+        lines.push_back({suspect_words(*reading, proposal, unit), remedy_for(proposal, unit)});
+    }
+    return lines;
+}
+
+std::vector<std::string> tier_sentences(const Json& fit) {
+    std::vector<std::string> sentences;
+    for (const Json& tier : array_at(fit, "tier_angles")) {
+        for (const std::string& what : texts_at(tier, "what")) {
+            sentences.push_back(as_sentence(typeset(what)));
+        }
+    }
+    return sentences;
+}
+
+std::vector<std::string> open_sentences(const Json& fit) {
+    std::vector<std::string> sentences;
+    for (const std::string& words : texts_at(fit, "undetermined_words")) {
+        sentences.push_back(as_sentence(typeset(words)));
+    }
+    if (!sentences.empty()) return sentences;
+    for (const Json& one : array_at(fit, "undetermined")) {
+        if (text_at(one, "facet").empty()) continue;
+        sentences.push_back(fmt::format("Nothing measured fixes the {} of {}.",
+                                        text_at(one, "freedom"), text_at(one, "facet")));
+    }
+    return sentences;
+}
+
+std::string fit_card(const FitView& view) {
+    const Json fit = parsed_object<Json>(view.fit_json, "the fit report for the page");
+    if (fit.empty()) return {};
+    const Verdict verdict = verdict_of(fit);
+    std::string text;
+    for (const std::string& sentence : verdict.sentences) {
+        if (!sentence.empty()) text += (text.empty() ? "" : " ") + escaped(typeset(sentence));
+    }
+    return verdict_card(verdict.style, verdict.symbol, verdict.word,
+                        text.empty() ? "" : "<p>" + text + "</p>");
+}
+
+std::string fit_tiles(const FitView& view) {
+    const Json fit = parsed_object<Json>(view.fit_json, "the fit report for the page");
+    return readings_tile(fit) + facets_tile(fit) + sureness_tile(fit);
+}
+
+}  // namespace culet
