@@ -36,8 +36,29 @@ struct RunOptions {
 struct Job {
     std::string name;
     fs::path stone, scene, photo, mask;  ///< empty: that step is not asked for
+    fs::path picture;                    ///< a render that is there already, in the scene's place
     bool simulated = false, start = false;
 };
+
+void read_compare(const TomlTable& compare, Job& job) {
+    compare.refuse_unknown({"photo", "render", "mask", "simulated", "start"});
+    if (const auto photo = compare.path("photo")) job.photo = *photo;
+    if (const auto picture = compare.path("render")) job.picture = *picture;
+    if (const auto mask = compare.path("mask")) job.mask = *mask;
+    job.simulated = compare.boolean("simulated").value_or(false);
+    job.start = compare.boolean("start").value_or(false) && !job.stone.empty();
+    if (job.scene.empty() && job.picture.empty()) {
+        compare.fail("",
+                     "[compare] needs a render: add [render] with scene = \"scene.toml\", or "
+                     "render = \"picture.exr\" for one that is there already");
+    }
+    if (!job.scene.empty() && !job.picture.empty()) {
+        compare.fail("render", "the job renders a picture itself: leave out this or [render]");
+    }
+    if (!job.picture.empty() && job.photo.empty()) {
+        compare.fail("", "[compare] needs photo = \"photo.png\" to compare the render with");
+    }
+}
 
 Job read_job(const fs::path& file, const std::vector<std::string>& overrides) {
     const TomlTable root = read_toml(file, overrides);
@@ -54,20 +75,11 @@ Job read_job(const fs::path& file, const std::vector<std::string>& overrides) {
         if (!render->has("scene")) render->fail("", "[render] needs scene = \"scene.toml\"");
         job.scene = *render->path("scene");
     }
-    if (job.stone.empty() && job.scene.empty()) {
+    if (const auto compare = root.table("compare")) read_compare(*compare, job);
+    if (job.stone.empty() && job.scene.empty() && job.picture.empty()) {
         root.fail("",
                   "a job needs a [fit] table with stone = \"stone.toml\", a [render] table with "
                   "scene = \"scene.toml\", or both");
-    }
-    if (const auto compare = root.table("compare")) {
-        compare->refuse_unknown({"photo", "mask", "simulated", "start"});
-        if (job.scene.empty()) {
-            compare->fail("", "[compare] needs a render: add [render] with scene = \"scene.toml\"");
-        }
-        if (const auto photo = compare->path("photo")) job.photo = *photo;
-        if (const auto mask = compare->path("mask")) job.mask = *mask;
-        job.simulated = compare->boolean("simulated").value_or(false);
-        job.start = compare->boolean("start").value_or(false) && !job.stone.empty();
     }
     return job;
 }
@@ -79,7 +91,7 @@ struct JobInput {
     std::vector<Reading> readings;
     FitOptions fit_options;
     Scene scene;
-    Photo photo;
+    Photo photo, picture;
     CompareOptions compare_options;
 };
 
@@ -105,6 +117,7 @@ JobInput read_input(const Job& job, const CommonOptions& common) {
     }
     if (!job.photo.empty()) {
         input.photo = read_photo(job.photo);
+        if (!job.picture.empty()) input.picture = read_photo(job.picture);
         if (!job.mask.empty()) {
             input.compare_options.mask = read_mask(job.mask, input.photo.width, input.photo.height);
         }
@@ -121,17 +134,8 @@ struct JobResult {
     std::optional<Comparison> comparison;
 };
 
-JobResult make(const Job& job, JobInput& input, bool quiet) {
-    JobResult made;
-    Scene& scene = input.scene;
-    if (!job.stone.empty()) {
-        made.fit = fit_stone(input.file.stone, input.readings, input.fit_options,
-                             progress_line("fitting", quiet));
-        made.fit->notes.insert(made.fit->notes.begin(), input.notes.begin(), input.notes.end());
-        say(fmt::format("fit: {}: {}", name_of(made.fit->status), made.fit->message), quiet);
-        scene.stone.solid = made.fit->solid;
-    }
-    if (job.scene.empty()) return made;
+void draw(const Job& job, const JobInput& input, JobResult& made, bool quiet) {
+    const Scene& scene = input.scene;
     for (const std::string& note : scene.notes) say(note, quiet);
     made.rendered = render(scene, progress_line("rendering", quiet));
     const RenderStats& stats = made.rendered->stats;
@@ -145,9 +149,22 @@ JobResult make(const Job& job, JobInput& input, bool quiet) {
                     made.rendered->picture.width, made.rendered->picture.height,
                     stats.seconds_setup + stats.seconds_shade, stats.error_bound),
         quiet);
+}
+
+JobResult make(const Job& job, JobInput& input, bool quiet) {
+    JobResult made;
+    if (!job.stone.empty()) {
+        made.fit = fit_stone(input.file.stone, input.readings, input.fit_options,
+                             progress_line("fitting", quiet));
+        made.fit->notes.insert(made.fit->notes.begin(), input.notes.begin(), input.notes.end());
+        say(fmt::format("fit: {}: {}", name_of(made.fit->status), made.fit->message), quiet);
+        input.scene.stone.solid = made.fit->solid;
+    }
+    if (!job.scene.empty()) draw(job, input, made, quiet);
     if (!job.photo.empty()) {
-        made.comparison = compare(input.photo, photo_of(made.rendered->picture),
-                                  input.compare_options, progress_line("comparing", quiet));
+        made.comparison =
+            compare(input.photo, made.rendered ? photo_of(made.rendered->picture) : input.picture,
+                    input.compare_options, progress_line("comparing", quiet));
         say(fmt::format("compare: {}: {}", name_of(made.comparison->verdict),
                         made.comparison->reason),
             quiet);
@@ -191,8 +208,11 @@ Report report_of(const RunOptions& options, const Job& job, const JobInput& inpu
     if (made.comparison) {
         report.files.push_back(
             {job.simulated ? "simulated photograph" : "photograph", job.photo.string()});
+        if (!made.rendered) report.files.push_back({"render", job.picture.string()});
         report.scores_json =
-            scores_json(*made.comparison, {job.photo.string(), "render.exr", job.mask.string()});
+            scores_json(*made.comparison,
+                        {job.photo.string(), made.rendered ? "render.exr" : job.picture.string(),
+                         job.mask.string()});
         report.comparison = made.comparison;
     }
     return report;

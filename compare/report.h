@@ -34,7 +34,8 @@ struct Report {
 
     /// The same scene with the starting mesh and with the fitted one, of one size.
     std::optional<Photo> starting_render, fitted_render;
-    double renders_white = 0;  ///< linear value shown as white; 0: such that the stone is well exposed
+    double renders_white =
+        0;  ///< linear value shown as white; 0: such that the stone is well exposed
 
     /// The photograph with the stone's edges where the pose puts them, PNG bytes; empty: none.
     std::string pose_overlay_png;

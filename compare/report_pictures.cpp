@@ -62,8 +62,7 @@ double white_shown(const Comparison& comparison) {
         const float* rgb = pictures.photo.rgb.data() + 3 * p;
         if (outline[p] > 0.5f) brightest.push_back(std::max({rgb[0], rgb[1], rgb[2]}));
     }
-    return std::min(pictures.white,
-                    white_for_stone(std::move(brightest)).value_or(pictures.white));
+    return std::min(pictures.white, white_for_stone(std::move(brightest)).value_or(pictures.white));
 }
 
 std::string picture_uri(const Photo& picture, double white) {
@@ -79,11 +78,9 @@ std::string pictures_section(const Report& report) {
     const std::string word = photo_word(report);
     const bool usable = report.comparison->usable();
     const double white = white_shown(*report.comparison);
-    std::string body =
-        slider("pictures-slider",
-               {word, picture_uri(pictures.photo, white), "The stone in the " + word},
-               {"render", picture_uri(pictures.render, white),
-                "The render, laid onto the " + word});
+    std::string body = slider(
+        "pictures-slider", {word, picture_uri(pictures.photo, white), "The stone in the " + word},
+        {"render", picture_uri(pictures.render, white), "The render, laid onto the " + word});
     body += usable ? fmt::format(
                          "<p class=\"note\">The render is moved onto the {} by its outline "
                          "and brought to its exposure and white balance by one factor a "

@@ -74,7 +74,8 @@ std::string plan_section(const Json& stats) {
         rows += fmt::format(
             "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td class=\"n\">{}</td></tr>\n",
             escaped(text_at(effect, "name")), true_at(effect, "on") ? "on" : "off",
-            escaped(typeset(text_at(effect, "why"))), significant(number_at(effect, "error_bound"), 2));
+            escaped(typeset(text_at(effect, "why"))),
+            significant(number_at(effect, "error_bound"), 2));
     }
     std::string body;
     if (!rows.empty()) {

@@ -174,7 +174,8 @@ std::string scores_section(const Report& report, const nlohmann::json& scores) {
         "gain. Gain on the render: red {}, green {}, blue {}.</p>\n",
         c.compared_pixels, decimals(100 * c.saturated, 1), significant(c.gain[0], 4),
         significant(c.gain[1], 4), significant(c.gain[2], 4));
-    return folded_section("scores", fmt::format("{} scores beside their chance level", count), body);
+    return folded_section("scores", fmt::format("{} scores beside their chance level", count),
+                          body);
 }
 
 }  // namespace culet

@@ -62,11 +62,11 @@ std::string help_table(const Json& fit, const std::string& unit) {
     for (const Json& help : array_at(fit, "help")) {
         const auto sigma = number_at(help, "sigma");
         const auto share = number_at(help, "reduces");
-        rows += fmt::format(
-            "<tr><th scope=\"row\">{}</th>{}{}{}</tr>\n", escaped(reading_words(help)),
-            cell(to_place_of(sigma, sigma, reading_unit(text_at(help, "kind"), unit))),
-            cell(share ? decimals(100 * *share, 1) + " %" : "–"),
-            cell(true_at(help, "closes") ? "yes" : "no"));
+        rows +=
+            fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}</tr>\n", escaped(reading_words(help)),
+                        cell(to_place_of(sigma, sigma, reading_unit(text_at(help, "kind"), unit))),
+                        cell(share ? decimals(100 * *share, 1) + " %" : "–"),
+                        cell(true_at(help, "closes") ? "yes" : "no"));
     }
     if (rows.empty()) return {};
     return table("Further readings that would help most",
@@ -93,12 +93,13 @@ std::string meets_table(const Json& fit, const std::string& unit) {
     std::string rows;
     for (const Json* meet : order) {
         const bool bad = true_at(*meet, "contradicted");
-        rows += fmt::format("<tr{}><th scope=\"row\">{}{}</th><td>{}</td>{}{}</tr>\n",
-                            bad ? " class=\"suspect\"" : "", escaped(list_at(*meet, "facets")),
-                            bad ? " <span class=\"badge\">does not meet</span>" : "",
-                            escaped(text_at(*meet, "how")),
-                            cell(quantity(number_at(*meet, "miss"), number_at(*meet, "sigma"), unit)),
-                            cell(chance(number_at(*meet, "p"))));
+        rows +=
+            fmt::format("<tr{}><th scope=\"row\">{}{}</th><td>{}</td>{}{}</tr>\n",
+                        bad ? " class=\"suspect\"" : "", escaped(list_at(*meet, "facets")),
+                        bad ? " <span class=\"badge\">does not meet</span>" : "",
+                        escaped(text_at(*meet, "how")),
+                        cell(quantity(number_at(*meet, "miss"), number_at(*meet, "sigma"), unit)),
+                        cell(chance(number_at(*meet, "p"))));
     }
     if (rows.empty()) return {};
     return table("Meets of more than three facets, the least likely first",
@@ -131,12 +132,13 @@ std::string symmetry_tables(const Json& fit) {
             true_at(g, "supported") ? "supported" : "not supported");
     }
     for (const Json& t : array_at(*symmetry, "tiers")) {
-        tiers += fmt::format(
-            "<tr><th scope=\"row\">{}</th>{}{}{}{}</tr>\n", escaped(text_at(t, "tier")),
-            cell(angle_at(t, "deviation")), cell(angle_at(t, "sigma")),
-            cell(angle_at(t, "at_most")), cell(escaped(text_at(t, "worst"))));
+        tiers +=
+            fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}{}</tr>\n", escaped(text_at(t, "tier")),
+                        cell(angle_at(t, "deviation")), cell(angle_at(t, "sigma")),
+                        cell(angle_at(t, "at_most")), cell(escaped(text_at(t, "worst"))));
     }
-    std::string body = "<p>" + escaped(as_sentence(typeset(text_at(*symmetry, "message")))) + "</p>\n";
+    std::string body =
+        "<p>" + escaped(as_sentence(typeset(text_at(*symmetry, "message")))) + "</p>\n";
     if (!rows.empty()) {
         body += table("Groups held against the readings",
                       "<th scope=\"col\">Group</th><th scope=\"col\" class=\"n\">Conditions "

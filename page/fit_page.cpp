@@ -23,7 +23,8 @@ using Json = nlohmann::json;
 std::string fit_words(const Json& fit) {
     std::vector<std::string> sentences;
     for (const Json& sentence : array_at(fit, "summary")) {
-        if (sentence.is_string()) sentences.push_back(escaped(typeset(sentence.get<std::string>())));
+        if (sentence.is_string())
+            sentences.push_back(escaped(typeset(sentence.get<std::string>())));
     }
     std::string list;
     for (const std::string& sentence : sentences) list += "<li>" + sentence + "</li>\n";
@@ -51,7 +52,8 @@ std::string fit_figures(const Json& fit, const std::string& unit) {
     row("convex", yes_no("convex"));
     const auto planarity = number_at(fit, "planarity_max");
     row("largest distance of a corner from its plane",
-        planarity && *planarity < finest_of(unit) ? "none" : significant(planarity, 2) + unit_suffix(unit));
+        planarity && *planarity < finest_of(unit) ? "none"
+                                                  : significant(planarity, 2) + unit_suffix(unit));
     row("steps of the search", whole(number_at(fit, "iterations")));
     row("seconds", significant(number_at(fit, "seconds"), 2));
     if (rows.empty()) return {};
@@ -105,8 +107,7 @@ std::string fit_section(const FitView& view) {
     return section("fit", "The fit in detail",
                    fit_words(fit) + facets_table(fit, view.length_unit) +
                        readings_table(fit, view.length_unit) +
-                       findings_tables(fit, view.length_unit) +
-                       fit_figures(fit, view.length_unit));
+                       findings_tables(fit, view.length_unit) + fit_figures(fit, view.length_unit));
 }
 
 }  // namespace culet

@@ -65,18 +65,18 @@ FitPaint residuals(const Json& fit, const std::vector<std::string>& names) {
         } else {
             own.colour =
                 css_colour(ColourMap::residual, std::abs(worst[f].normalized) / k_worst_shown);
-            own.about +=
-                fmt::format("worst of {} readings {}, {} times its ± off",
-                            worst[f].count, worst[f].reading, decimals(worst[f].normalized, 2));
+            own.about += fmt::format("worst of {} readings {}, {} times its ± off", worst[f].count,
+                                     worst[f].reading, decimals(worst[f].normalized, 2));
         }
         paint.facets.push_back(std::move(own));
     }
-    paint.legend = {ColourMap::residual,
-                    "how far each facet's worst reading is off, in multiples of its ±; grey: not read",
-                    "0",
-                    "2",
-                    "4 or more",
-                    ""};
+    paint.legend = {
+        ColourMap::residual,
+        "how far each facet's worst reading is off, in multiples of its ±; grey: not read",
+        "0",
+        "2",
+        "4 or more",
+        ""};
     for (const Worst& one : worst) {
         if (one.suspect) paint.legend.mark = "dashed: has a suspect reading";
     }

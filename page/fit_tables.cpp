@@ -44,16 +44,15 @@ std::string reading_row(const Json& reading, bool suspected, const std::string& 
     const std::string unit = reading_unit(text_at(reading, "kind"), length_unit);
     const auto sigma = true_at(reading, "exact") ? 0.0 : number_at(reading, "sigma");
     const auto cell = [](const std::string& text) { return "<td class=\"n\">" + text + "</td>"; };
-    return fmt::format(
-        "<tr{}><th scope=\"row\">{}{}</th><td>{}</td>{}{}{}{}<td>{}</td>{}{}</tr>\n",
-        suspect ? " class=\"suspect\"" : "", escaped(text_at(reading, "id")),
-        suspect ? " <span class=\"badge\">suspect</span>" : "", escaped(reading_words(reading)),
-        cell(read_as(value, sigma, unit)),
-        cell(to_place_of(number_at(reading, "fitted"), sigma, unit)),
-        cell(to_place_of(number_at(reading, "residual"), sigma, unit)),
-        cell(decimals(normalized, 1)), normalized ? residual_bar(*normalized) : "",
-        cell(redundancy ? decimals(100 * *redundancy, 0) + " %" : "–"),
-        cell(smallest_slip(number_at(reading, "detectable"), value, unit)));
+    return fmt::format("<tr{}><th scope=\"row\">{}{}</th><td>{}</td>{}{}{}{}<td>{}</td>{}{}</tr>\n",
+                       suspect ? " class=\"suspect\"" : "", escaped(text_at(reading, "id")),
+                       suspect ? " <span class=\"badge\">suspect</span>" : "",
+                       escaped(reading_words(reading)), cell(read_as(value, sigma, unit)),
+                       cell(to_place_of(number_at(reading, "fitted"), sigma, unit)),
+                       cell(to_place_of(number_at(reading, "residual"), sigma, unit)),
+                       cell(decimals(normalized, 1)), normalized ? residual_bar(*normalized) : "",
+                       cell(redundancy ? decimals(100 * *redundancy, 0) + " %" : "–"),
+                       cell(smallest_slip(number_at(reading, "detectable"), value, unit)));
 }
 
 }  // namespace
@@ -120,7 +119,8 @@ std::string readings_table(const Json& fit, const std::string& length_unit) {
               "<th scope=\"col\" class=\"n\">Checked by others</th>"
               "<th scope=\"col\" class=\"n\">Smallest slip that shows</th>",
               rows) +
-            "<p class=\"note\">Times its ±: how far off, against what it may be off by chance; over "
+            "<p class=\"note\">Times its ±: how far off, against what it may be off by chance; "
+            "over "
             "4 is no chance. Checked by others: 0 % means that nothing checks this reading, 100 % "
             "that the others alone say as much. Smallest slip that shows: a slip of the pen or of "
             "the gauge smaller than that would not be noticed.</p>\n");

@@ -51,15 +51,16 @@ std::string suspect_words(const Json& reading, const Json* proposal, const std::
         const auto sigma = number_at(*proposal, "sigma");
         text += ", the others say " + quantity(estimate, sigma, unit);
         if (estimate) {
-            text += fmt::format(": {} away",
-                                to_place_of(std::abs(*value - *estimate), sigma, unit));
+            text +=
+                fmt::format(": {} away", to_place_of(std::abs(*value - *estimate), sigma, unit));
         }
         if (const std::string slip = text_at(*proposal, "slip"); !slip.empty()) {
-            text += fmt::format("; {}? ({})", as_read(number_at(*proposal, "corrected"), unit), slip);
+            text +=
+                fmt::format("; {}? ({})", as_read(number_at(*proposal, "corrected"), unit), slip);
         }
     } else if (const auto off = number_at(reading, "normalized")) {
-        text += fmt::format(", {} times its ± from what the others say",
-                            decimals(std::abs(*off), 1));
+        text +=
+            fmt::format(", {} times its ± from what the others say", decimals(std::abs(*off), 1));
     }
     return text;
 }
@@ -84,9 +85,9 @@ Verdict contradiction(const Json& fit) {
     if (suspects.empty()) {
         const auto apart = texts_at(fit, "disagreeing");
         verdict.sentences = {
-            apart.empty() ? as_sentence(text_at(fit, "message"))
-                          : fmt::format("{} readings cannot hold together: see below.",
-                                        apart.size())};
+            apart.empty()
+                ? as_sentence(text_at(fit, "message"))
+                : fmt::format("{} readings cannot hold together: see below.", apart.size())};
         return verdict;
     }
     verdict.word = suspects.size() == 1
@@ -141,12 +142,11 @@ std::string readings_tile(const Json& fit) {
     const Json& readings = array_at(fit, "readings");
     if (readings.empty()) return {};
     const std::size_t suspects = suspects_of(fit).size();
-    const auto unchecked =
-        std::count_if(readings.begin(), readings.end(), [](const Json& reading) {
-            const auto redundancy = number_at(reading, "redundancy");
-            return number_at(reading, "value") && redundancy && *redundancy < 0.01 &&
-                   !true_at(reading, "exact");
-        });
+    const auto unchecked = std::count_if(readings.begin(), readings.end(), [](const Json& reading) {
+        const auto redundancy = number_at(reading, "redundancy");
+        return number_at(reading, "value") && redundancy && *redundancy < 0.01 &&
+               !true_at(reading, "exact");
+    });
     std::string about = suspects == 0 ? "none suspect" : fmt::format("{} suspect", suspects);
     // Beside a prior few are: each is held against its tier instead.
     const auto prior = fit.find("prior");
@@ -188,15 +188,16 @@ std::string sureness_tile(const Json& fit) {
     std::vector<std::pair<double, std::string>> sigmas;
     for (const Json& facet : array_at(fit, "facets")) {
         const auto sigma = direction_sigma(facet);
-        if (sigma && *sigma > 0 && !open.contains(text_at(facet, "name"))) sigmas.emplace_back(*sigma, text_at(facet, "name"));
+        if (sigma && *sigma > 0 && !open.contains(text_at(facet, "name")))
+            sigmas.emplace_back(*sigma, text_at(facet, "name"));
     }
     if (sigmas.size() < 2) return {};
     std::stable_sort(sigmas.begin(), sigmas.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     const auto shown = [](double sigma) { return "± " + to_place_of(sigma, sigma, "deg"); };
-    return tile("Half of the facets within", shown(sigmas[sigmas.size() / 2].first),
-                fmt::format("least sure is {}, {}", sigmas.back().second,
-                            shown(sigmas.back().first)));
+    return tile(
+        "Half of the facets within", shown(sigmas[sigmas.size() / 2].first),
+        fmt::format("least sure is {}, {}", sigmas.back().second, shown(sigmas.back().first)));
 }
 
 }  // namespace
@@ -219,8 +220,8 @@ std::vector<SuspectLine> suspect_lines(const Json& fit) {
             doubted.size() == doubts.size() ? with_id(readings, doubted[i]) : nullptr;
         const std::string unit =
             reading_unit(reading == nullptr ? "" : text_at(*reading, "kind"), text_at(fit, "unit"));
-        lines.push_back({typeset(doubts[i]),
-                         "It is left out of the fit. " + remedy_for(proposal, unit)});
+        lines.push_back(
+            {typeset(doubts[i]), "It is left out of the fit. " + remedy_for(proposal, unit)});
     }
     for (const std::string& id : others) {
         const Json* reading = with_id(readings, id);

@@ -51,11 +51,10 @@ std::string folded(const std::string& summary, const std::string& body, bool ope
 std::string folded_section(const std::string& id, const std::string& heading,
                            const std::string& body, bool open) {
     if (body.empty()) return {};
-    return fmt::format("<section id=\"{0}\" class=\"folded\" aria-labelledby=\"{0}-heading\">\n{1}"
-                       "</section>\n",
-                       id,
-                       folded(fmt::format("<h2 id=\"{}-heading\">{}</h2>", id, escaped(heading)),
-                              body, open));
+    return fmt::format(
+        "<section id=\"{0}\" class=\"folded\" aria-labelledby=\"{0}-heading\">\n{1}"
+        "</section>\n",
+        id, folded(fmt::format("<h2 id=\"{}-heading\">{}</h2>", id, escaped(heading)), body, open));
 }
 
 std::string tile(const std::string& name, const std::string& value, const std::string& about,

@@ -100,7 +100,7 @@ std::string as_read(const std::optional<double>& value, std::string_view unit) {
 std::string smallest_slip(const std::optional<double>& detectable,
                           const std::optional<double>& value, std::string_view unit) {
     if (!given(detectable) || !(*detectable > 0)) return k_none;
-    const bool blind = unit == "deg"                  ? *detectable >= k_right_angle_deg
+    const bool blind = unit == "deg"                 ? *detectable >= k_right_angle_deg
                        : given(value) && *value != 0 ? *detectable >= std::abs(*value)
                                                      : false;
     if (blind || *detectable >= k_largest_written) return "any slip would pass";
