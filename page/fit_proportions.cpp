@@ -89,6 +89,9 @@ std::string fit_proportions_section(const FitView& view) {
                     "flats the largest is from corner to corner."
                   : "");
     }
+    if (text_at(fit, "status") == "not_converged") {
+        return folded_section("proportions", "Proportions, not to be relied on", body);
+    }
     return section("proportions", "Proportions", body);
 }
 

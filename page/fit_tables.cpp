@@ -96,7 +96,7 @@ std::string facets_table(const Json& fit, const std::string& unit) {
               "<th scope=\"col\" class=\"n\">Readings</th>"
               "<th scope=\"col\" class=\"n\">Worst, times its ±</th>",
               rows) +
-            "<p class=\"note\">Offset: from the stone's middle to the facet. \"Exact\" is what "
+            "<p class=\"note\">Offset: from the stone's middle to the facet. Held exactly is what "
             "other facets are measured from, or what was ordered to hold.</p>\n");
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "page/fit_fields.h"
@@ -123,14 +124,10 @@ Verdict verdict_of(const Json& fit) {
     if (status == "converged") return agreement(fit);
     if (status == "contradictory") return contradiction(fit);
     if (status == "undetermined") {
-        Verdict verdict{"The readings leave parts of the stone open", "fair", "?", {}};
-        verdict.sentences = open_sentences(fit);
-        if (verdict.sentences.size() > 2) {
-            verdict.sentences.resize(1);
-            verdict.sentences.emplace_back("More of these are below.");
-        }
-        if (verdict.sentences.empty()) verdict.sentences = {as_sentence(text_at(fit, "message"))};
-        return verdict;
+        return {"The readings leave parts of the stone open",
+                "fair",
+                "?",
+                {as_sentence(text_at(fit, "message"))}};
     }
     if (status == "not_converged") {
         return {"Do not rely on this stone", "bad", "✕", {as_sentence(text_at(fit, "message"))}};
@@ -231,7 +228,10 @@ std::vector<SuspectLine> suspect_lines(const Json& fit) {
             continue;
         }
         const std::string unit = reading_unit(text_at(*reading, "kind"), text_at(fit, "unit"));
-        lines.push_back({suspect_words(*reading, proposal, unit), remedy_for(proposal, unit)});
+        lines.push_back({suspect_words(*reading, proposal, unit),
+                         (text_at(*reading, "left_out").empty() ? "The fit still takes it in. "
+                                                                : "It is left out of the fit. ") +
+                             remedy_for(proposal, unit)});
     }
     return lines;
 }
@@ -247,17 +247,24 @@ std::vector<std::string> tier_sentences(const Json& fit) {
 }
 
 std::vector<std::string> open_sentences(const Json& fit) {
-    std::vector<std::string> sentences;
-    for (const std::string& words : texts_at(fit, "undetermined_words")) {
-        sentences.push_back(as_sentence(typeset(words)));
+    std::vector<std::string> words, order, by_facet;
+    for (const std::string& one : texts_at(fit, "undetermined_words")) {
+        words.push_back(as_sentence(typeset(one)));
     }
-    if (!sentences.empty()) return sentences;
+    std::map<std::string, std::vector<std::string>> freedoms;
     for (const Json& one : array_at(fit, "undetermined")) {
-        if (text_at(one, "facet").empty()) continue;
-        sentences.push_back(fmt::format("Nothing measured fixes the {} of {}.",
-                                        text_at(one, "freedom"), text_at(one, "facet")));
+        const std::string facet = text_at(one, "facet");
+        if (facet.empty()) continue;
+        if (freedoms[facet].empty()) order.push_back(facet);
+        freedoms[facet].push_back(text_at(one, "freedom"));
     }
-    return sentences;
+    for (const std::string& facet : order) {
+        by_facet.push_back(
+            fmt::format("Nothing measured fixes the {} of {}.", listed(freedoms[facet]), facet));
+    }
+    // The fit's words tell of several facets together where they are alike.
+    return words.empty() || (!by_facet.empty() && by_facet.size() < words.size()) ? by_facet
+                                                                                  : words;
 }
 
 std::string fit_card(const FitView& view) {
@@ -274,7 +281,8 @@ std::string fit_card(const FitView& view) {
 
 std::string fit_tiles(const FitView& view) {
     const Json fit = parsed_object<Json>(view.fit_json, "the fit report for the page");
-    return readings_tile(fit) + facets_tile(fit) + sureness_tile(fit);
+    const bool stands = text_at(fit, "status") != "not_converged";
+    return readings_tile(fit) + facets_tile(fit) + (stands ? sureness_tile(fit) : "");
 }
 
 }  // namespace culet

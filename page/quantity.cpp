@@ -85,7 +85,7 @@ std::string quantity(const std::optional<double>& value, const std::optional<dou
     if (!given(value)) return k_none;
     const std::string suffix = unit_suffix(unit);
     if (!given(sigma) || *sigma < 0) return to_place_of(value, std::nullopt, unit);
-    if (*sigma < finest_of(unit)) return trimmed(*value, unit) + suffix + " (exact)";
+    if (*sigma < finest_of(unit)) return trimmed(*value, unit) + suffix + " (held exactly)";
     if (unit == "deg" && *sigma >= k_right_angle_deg) return "not known";
     if (*sigma >= k_largest_written) {
         return significant(*value, 2) + " ± " + significant(*sigma, 2) + suffix;
@@ -109,7 +109,7 @@ std::string smallest_slip(const std::optional<double>& detectable,
 
 std::string typeset(std::string_view sentence) {
     static constexpr std::pair<std::string_view, std::string_view> k_signs[] = {
-        {" degrees", "°"}, {"+- ", "± "}, {"mm3", "mm³"}, {"mm2", "mm²"}};
+        {" degrees", "°"}, {" um", " µm"}, {"+- ", "± "}, {"mm3", "mm³"}, {"mm2", "mm²"}};
     const auto of_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; };
     std::string result;
     for (std::size_t at = 0; at < sentence.size();) {
@@ -118,7 +118,7 @@ std::string typeset(std::string_view sentence) {
         const auto fits = [&](const auto& sign) {
             if (!rest.starts_with(sign.first)) return false;
             const bool ends = rest.size() == sign.first.size() || !of_word(rest[sign.first.size()]);
-            if (sign.first == " degrees") {
+            if (sign.first.starts_with(' ')) {
                 return ends && std::isdigit(static_cast<unsigned char>(before)) != 0;
             }
             if (sign.first == "+- ") return before == ' ' || before == '(';

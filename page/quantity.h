@@ -14,9 +14,9 @@ std::string unit_suffix(std::string_view unit);
 /// Below this the unit's displays show nothing: a smaller sigma is that of what is held exactly.
 double finest_of(std::string_view unit);
 
-/// "33.784 ± 0.099°": sigma to two digits, the value to the same place. "0° (exact)" where sigma is
-/// finer than `finest_of`; the value alone where there is no sigma (none, NaN, infinite, negative);
-/// "–" without a value; "not known" for an angle whose sigma is a right angle or more.
+/// "33.784 ± 0.099°": sigma to two digits, the value to the same place. "0° (held exactly)" where
+/// sigma is finer than `finest_of`; the value alone where there is no sigma (none, NaN, infinite,
+/// negative); "–" without a value; "not known" for an angle whose sigma is a right angle or more.
 std::string quantity(const std::optional<double>& value, const std::optional<double>& sigma,
                      std::string_view unit);
 

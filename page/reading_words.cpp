@@ -19,14 +19,6 @@ using Json = nlohmann::json;
 // A tenth of the variance is five per cent of the uncertainty: less is not worth the work.
 constexpr double k_worth_it = 0.1;
 
-std::string listed(const std::vector<std::string>& names) {
-    std::string text;
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
-    }
-    return text;
-}
-
 bool is_number(const std::string& text) {
     return !text.empty() && text.find_first_not_of("+-.0123456789") == std::string::npos;
 }
@@ -41,6 +33,14 @@ std::string order(const Json& help) {
 }
 
 }  // namespace
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+    }
+    return text;
+}
 
 std::string reading_unit(const std::string& kind, const std::string& length_unit) {
     constexpr std::array k_angles{"inclination", "azimuth",  "dihedral",

@@ -3,8 +3,12 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 namespace culet {
+
+/// "A, B and C".
+std::string listed(const std::vector<std::string>& names);
 
 /// The unit of a reading of that kind: "deg", "ct", "mm3", or `length_unit`.
 std::string reading_unit(const std::string& kind, const std::string& length_unit);

@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
 #include <sstream>
 
+#include "compare/report_parts.h"
 #include "stone/errors.h"
 #include "tests/compare/synthetic_pictures.h"
 
@@ -142,6 +144,47 @@ TEST(Report, has_only_the_sections_whose_data_is_there) {
         EXPECT_THAT(page, Not(HasSubstr(std::string("<section id=\"") + id + "\""))) << id;
     }
     EXPECT_EQ(nesting_fault(page), "");
+}
+
+// Where `parts` begin, one after another.
+void expect_order(const std::string& page, const std::vector<std::string>& parts) {
+    std::size_t last = 0;
+    for (const std::string& part : parts) {
+        const std::size_t at = page.find(part);
+        ASSERT_NE(at, std::string::npos) << part;
+        EXPECT_LT(last, at) << part;
+        last = at;
+    }
+}
+
+TEST(Report, begins_with_the_verdicts_then_what_to_look_at_then_the_picture) {
+    Report report = full_report();
+    expect_order(
+        report_page(report),
+        {"class=\"verdict", "One reading contradicts the others", "<section id=\"look\"",
+         "<section id=\"pictures\"", "<section id=\"scores\" class=\"folded\"",
+         "<section id=\"drawing\" class=\"folded\"", "<section id=\"fit\"",
+         "<section id=\"plan\" class=\"folded\"", "<section id=\"provenance\" class=\"folded\""});
+    report.comparison.reset();
+    report.scores_json.clear();
+    expect_order(report_page(report),
+                 {"class=\"verdict", "<section id=\"look\"", "<section id=\"changes\"",
+                  "<section id=\"drawing\" class=\"folded\""});
+    report.fitted_render.reset();
+    report.starting_render.reset();
+    // Nothing was rendered: the drawing is the picture.
+    expect_order(report_page(report),
+                 {"class=\"verdict", "<section id=\"look\"", "<section id=\"drawing\" aria"});
+}
+
+TEST(Report, shows_the_stone_well_exposed) {
+    // Of a hundred values nine in ten are dull and the rest are glints: white is such that the
+    // median is shown at 0.4, but neither more than 7 nor fewer than 2 of them are over white.
+    std::vector<float> dull(90, 0.1f), glints{0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1, 2, 3};
+    dull.insert(dull.end(), glints.begin(), glints.end());
+    EXPECT_NEAR(white_for_stone(dull).value(), 0.5, 1e-6);
+    EXPECT_NEAR(white_for_stone(std::vector<float>(100, 0.2f)).value(), 0.2, 1e-6);
+    EXPECT_FALSE(white_for_stone({0, 0, std::numeric_limits<float>::quiet_NaN()}));
 }
 
 TEST(Report, of_nothing_is_still_a_page) {

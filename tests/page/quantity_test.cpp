@@ -33,10 +33,10 @@ TEST(Quantity, of_negative_values_has_a_true_minus_and_no_negative_zero) {
 }
 
 TEST(Quantity, finer_than_any_display_is_exact) {
-    EXPECT_EQ(quantity(0, 4.8e-21, "deg"), "0° (exact)");
-    EXPECT_EQ(quantity(90, 0, "deg"), "90° (exact)");
-    EXPECT_EQ(quantity(45.125, 1e-9, "deg"), "45.125° (exact)");
-    EXPECT_EQ(quantity(1e-27, 0, "deg"), "0° (exact)");
+    EXPECT_EQ(quantity(0, 4.8e-21, "deg"), "0° (held exactly)");
+    EXPECT_EQ(quantity(90, 0, "deg"), "90° (held exactly)");
+    EXPECT_EQ(quantity(45.125, 1e-9, "deg"), "45.125° (held exactly)");
+    EXPECT_EQ(quantity(1e-27, 0, "deg"), "0° (held exactly)");
 }
 
 TEST(Quantity, without_a_usable_sigma_is_the_value_alone) {
@@ -55,9 +55,9 @@ TEST(Quantity, of_nothing_is_a_dash) {
 TEST(Quantity, of_huge_numbers_stays_short) {
     EXPECT_EQ(quantity(41, 214336, "deg"), "not known");
     EXPECT_EQ(quantity(1e300, 1e299, "mm"), "1.0e+300 ± 1.0e+299\u00a0mm");
-    EXPECT_LT(quantity(1e300, 0.1, "mm").size(), 30u);
-    EXPECT_LT(quantity(1e300, 0, "mm").size(), 30u);
-    EXPECT_LT(quantity(-1e300, std::nullopt, "mm").size(), 30u);
+    EXPECT_LT(quantity(1e300, 0.1, "mm").size(), 40u);
+    EXPECT_LT(quantity(1e300, 0, "mm").size(), 40u);
+    EXPECT_LT(quantity(-1e300, std::nullopt, "mm").size(), 40u);
 }
 
 TEST(Quantity, names_no_slip_where_nothing_checks) {
@@ -80,6 +80,8 @@ TEST(Quantity, typesets_sentences_of_the_fit_and_not_names) {
               "an area of 0.019 mm², a volume of 3 mm³.");
     EXPECT_EQ(typeset("my degrees.csv line 4: 38.3 degrees"), "my degrees.csv line 4: 38.3°");
     EXPECT_EQ(typeset("facet Amm3, mm3x and a+- b"), "facet Amm3, mm3x and a+- b");
+    EXPECT_EQ(typeset("planes miss by 10 um, sigma 1.2 um: release it"),
+              "planes miss by 10 µm, sigma 1.2 µm: release it");
     EXPECT_EQ(typeset(""), "");
 }
 

@@ -1,0 +1,222 @@
+// Reports as `culet fit --report` writes them (docs/stone-files.md), cut down by hand; what the
+// page must say of them is worked out by hand.
+
+#include "page/fit_page.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "stone/errors.h"
+
+namespace culet {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+using Json = nlohmann::json;
+
+Json reading(const std::string& id, double value) {
+    return {{"id", id},         {"kind", "inclination"}, {"of", {"C5"}},        {"value", value},
+            {"sigma", 0.1},     {"exact", false},        {"fitted", 33.8},      {"residual", -4.5},
+            {"normalized", -9}, {"redundancy", 0.5},     {"detectable", 214336}};
+}
+
+Json converged() {
+    return {{"status", "converged"},
+            {"message", "the readings agree (chi-square 12.6, 165 expected)"},
+            {"unit", "mm"},
+            {"chi2", 12.6},
+            {"dof", 165.0},
+            {"readings", {reading("r0", 33.8), reading("r1", 33.9)}},
+            {"facets",
+             {{{"name", "T"},
+               {"inclination", 1e-27},
+               {"sigma_inclination", 4.8e-21},
+               {"sigma_azimuth", nullptr},
+               {"from_readings", {{"inclination", 1.0}}}},
+              {{"name", "C5"},
+               {"inclination", 33.78684},
+               {"sigma_inclination", 0.098784},
+               {"azimuth", 180.0},
+               {"sigma_azimuth", 0.2},
+               {"from_readings", {{"inclination", 0.2}}}}}},
+            {"prior", {{"source", "catalogue"}}},
+            {"suspects", Json::array()}};
+}
+
+Json slipped() {
+    Json fit = converged();
+    fit["status"] = "contradictory";
+    fit["doubts"] = {"readings.csv line 10: inclination of C5 38.3 degrees is 4.5 degrees away"};
+    fit["summary"] = {"The doubt.", "It is left out; the other readings agree with this stone."};
+    fit["suspects"] = {"r0"};
+    fit["readings"][0]["left_out"] = "far off";
+    fit["proposals"] = {{{"id", "r0"},
+                         {"estimate", 33.8},
+                         {"sigma", 0.3},
+                         {"slip", "two digits swapped"},
+                         {"corrected", 33.8}}};
+    return fit;
+}
+
+FitView view(const Json& fit) {
+    return {fit.dump(), std::nullopt, "mm"};
+}
+
+TEST(FitPage, card_is_in_plain_words_without_statistics) {
+    const std::string card = fit_card(view(converged())), tiles = fit_tiles(view(converged()));
+    EXPECT_THAT(card, HasSubstr("The stone agrees with the readings"));
+    EXPECT_THAT(card, HasSubstr("No reading is in doubt."));
+    EXPECT_THAT(card + tiles, Not(HasSubstr("chi")));
+    EXPECT_THAT(card + tiles, Not(HasSubstr("χ")));
+    EXPECT_THAT(tiles, HasSubstr("<b>2</b><span>none suspect</span>"));
+    EXPECT_THAT(tiles, HasSubstr("<b>1 of 2</b><span>the rest supposed near the design</span>"));
+}
+
+TEST(FitPage, card_tells_what_stands_out) {
+    Json fit = converged();
+    fit["tier_angles"] = {{{"what", {"P3 is 0.6 degrees (+- 0.1) steeper", "P5 is flatter"}}}};
+    EXPECT_THAT(fit_card(view(fit)),
+                HasSubstr("P3 is 0.6° (± 0.1) steeper. 1 more finding is below."));
+    EXPECT_THAT(fit_look_section(view(fit)), HasSubstr("<li>P5 is flatter.</li>"));
+}
+
+TEST(FitPage, names_the_slip_and_what_to_do) {
+    EXPECT_THAT(fit_card(view(slipped())), HasSubstr("One reading contradicts the others"));
+    EXPECT_THAT(fit_card(view(slipped())),
+                HasSubstr("readings.csv line 10: inclination of C5 38.3° is 4.5° away. It is left "
+                          "out; the other readings agree with this stone."));
+    EXPECT_THAT(fit_look_section(view(slipped())),
+                HasSubstr("<b>readings.csv line 10: inclination of C5 38.3° is 4.5° away.</b> It "
+                          "is left out of the fit. If that is the slip, write 33.8° in its place; "
+                          "otherwise read it again."));
+}
+
+TEST(FitPage, tells_of_a_suspect_that_the_fit_still_heeds) {
+    Json fit = slipped();
+    fit["doubts"] = Json::array();
+    fit["readings"][0].erase("left_out");
+    fit["readings"][0]["value"] = 38.3;
+    EXPECT_THAT(fit_look_section(view(fit)),
+                HasSubstr("<b>r0: inclination of C5 was read as 38.3°, the others say 33.80 ± "
+                          "0.30°: 4.50° away; 33.8°? (two digits swapped).</b> The fit still "
+                          "takes it in."));
+}
+
+TEST(FitPage, card_of_every_status) {
+    Json fit = converged();
+    fit["message"] = "too little was read";
+    for (const auto& [status, word] :
+         {std::pair{"undetermined", "The readings leave parts of the stone open"},
+          {"not_converged", "Do not rely on this stone"},
+          {"contradictory", "The readings contradict each other"}}) {
+        fit["status"] = status;
+        EXPECT_THAT(fit_card(view(fit)), HasSubstr(word));
+        EXPECT_THAT(fit_card(view(fit)), HasSubstr("<p>Too little was read.</p>")) << status;
+    }
+    fit["status"] = "no such status";
+    EXPECT_THAT(fit_card(view(fit)), HasSubstr("does not say how the fit ended"));
+}
+
+TEST(FitPage, says_what_is_open_a_facet_a_line_and_folds_long_lists) {
+    Json fit = converged();
+    for (int f = 0; f < 12; ++f) {
+        for (const char* freedom : {"inclination", "offset"}) {
+            fit["undetermined"].push_back(
+                {{"facet", "P" + std::to_string(f)}, {"freedom", freedom}});
+        }
+    }
+    const std::string section = fit_look_section(view(fit));
+    EXPECT_THAT(section, HasSubstr("Nothing measured fixes the inclination and offset of P0."));
+    // Eight are shown.
+    EXPECT_THAT(section, HasSubstr("<summary>4 more</summary>"));
+}
+
+TEST(FitPage, says_what_to_read_next_only_where_it_is_worth_it) {
+    Json fit = converged();
+    fit["help"] = {{{"kind", "azimuth"}, {"of", {"G29"}}, {"reduces", 0.36}},
+                   {{"kind", "dihedral"}, {"of", {"P5", "P4"}}, {"closes", true}},
+                   {{"kind", "depth"}, {"of", Json::array()}, {"reduces", 0.01}}};
+    const std::string section = fit_look_section(view(fit));
+    // sqrt(1 - 0.36) = 0.8
+    EXPECT_THAT(section, HasSubstr("Read the azimuth (the index) of G29: on the whole the facets "
+                                   "would be known 20 % better."));
+    EXPECT_THAT(section, HasSubstr("Read the angle between P5 and P4: it would settle"));
+    EXPECT_THAT(section, Not(HasSubstr("depth")));
+}
+
+TEST(FitPage, has_nothing_to_look_at_where_there_is_nothing) {
+    EXPECT_THAT(fit_look_section(view(converged())), IsEmpty());
+    for (const FitView& none : {FitView{}, view(Json::object())}) {
+        EXPECT_EQ(fit_card(none) + fit_tiles(none) + fit_look_section(none) +
+                      fit_drawing_section(none, false) + fit_proportions_section(none) +
+                      fit_section(none),
+                  "");
+    }
+}
+
+TEST(FitPage, shows_calipers_beside_the_diameter) {
+    Json fit = converged();
+    const auto add = [&](const char* name, double value, double sigma, const char* unit) {
+        fit["proportions"].push_back(
+            {{"name", name}, {"value", value}, {"sigma", sigma}, {"unit", unit}});
+    };
+    add("diameter", 6.4787, 0.0081, "mm");
+    add("caliper min", 6.394, 0.015, "mm");
+    add("caliper max", 6.521, 0.011, "mm");
+    add("caliper mean", 6.4787, 0.0081, "mm");
+    add("volume", 58.43847, 0.25538, "mm3");
+    const std::string section = fit_proportions_section(view(fit));
+    const std::size_t diameter = section.find("diameter"), caliper = section.find("caliper");
+    EXPECT_LT(diameter, caliper);
+    EXPECT_THAT(section,
+                HasSubstr("least 6.394 ± 0.015\u00a0mm<br>largest 6.521 ± 0.011\u00a0mm<br>"
+                          "mean 6.4787 ± 0.0081\u00a0mm"));
+    EXPECT_THAT(section, HasSubstr("<summary>1 more proportions</summary>"));
+    EXPECT_THAT(section, HasSubstr("58.44 ± 0.26\u00a0mm³"));
+}
+
+TEST(FitPage, tables_are_folded_with_their_counts_and_have_sensible_digits) {
+    const std::string section = fit_section(view(converged()));
+    EXPECT_THAT(section, HasSubstr("<summary>2 facets as fitted</summary>"));
+    EXPECT_THAT(section, HasSubstr("<summary>2 readings and"));
+    EXPECT_THAT(section, HasSubstr("33.787 ± 0.099°"));
+    EXPECT_THAT(section, HasSubstr("0° (held exactly)"));
+    EXPECT_THAT(section, HasSubstr("any slip would pass"));
+    for (const char* noise : {"e-21", "e-27", "214336", "Redundancy", "Detectable", "Normalized"}) {
+        EXPECT_THAT(section, Not(HasSubstr(noise)));
+    }
+}
+
+TEST(FitPage, escapes_names_in_every_sentence) {
+    const std::string evil = "<script>alert(1)</script>";
+    Json fit = slipped();
+    fit["doubts"] = {evil};
+    fit["summary"] = {evil, evil};
+    fit["suspects"] = {"r0", "r1", evil};
+    fit["readings"][1]["of"] = {evil};
+    fit["readings"][1]["kind"] = evil;
+    fit["proposals"].push_back({{"id", "r1"}, {"estimate", 1.0}, {"alternatives", {evil}}});
+    fit["tier_angles"] = {{{"what", {evil}}}};
+    fit["undetermined"] = {{{"facet", evil}, {"freedom", evil}}};
+    fit["help"] = {{{"kind", evil}, {"of", {evil}}, {"closes", true}}};
+    fit["changes"] = {evil};
+    fit["unit"] = evil;
+    fit["proportions"] = {{{"name", evil}, {"value", 1.0}, {"sigma", 0.1}, {"unit", evil}}};
+    fit["facets"][1]["name"] = evil;
+    const FitView shown = {fit.dump(), std::nullopt, evil};
+    const std::string page = fit_card(shown) + fit_tiles(shown) + fit_look_section(shown) +
+                             fit_proportions_section(shown) + fit_section(shown);
+    EXPECT_THAT(page, HasSubstr("&lt;"));
+    EXPECT_THAT(page, Not(HasSubstr("<script")));
+}
+
+TEST(FitPage, refuses_what_is_no_report) {
+    EXPECT_THROW(fit_card({"[1]", std::nullopt, "mm"}), InputError);
+}
+
+}  // namespace
+}  // namespace culet
