@@ -153,8 +153,9 @@ std::string scores_section(const Report& report, const nlohmann::json& scores) {
     body += fmt::format(
         "<p class=\"note\">↑ more is better, ↓ less is better. Chance level: mean ± standard "
         "deviation of {} draws (seed {}): {}. Over chance: "
-        "how many of these deviations the score is better (of atanh for correlations); 3 is no "
-        "chance. The smallest share that {} draws can show is 1/{}.</p>\n",
+        "how many of these deviations the score is better (of atanh for correlations); over 3 "
+        "hardly "
+        "happens by chance. The smallest share that {} draws can show is 1/{}.</p>\n",
         c.null_draws, c.seed, escaped(c.null_note), c.null_draws, c.null_draws + 1);
     if (c.photo_light > 0) {
         body += fmt::format(

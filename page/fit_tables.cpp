@@ -120,8 +120,8 @@ std::string readings_table(const Json& fit, const std::string& length_unit) {
               "<th scope=\"col\" class=\"n\">Smallest slip that shows</th>",
               rows) +
             "<p class=\"note\">Times its ±: how far off, against what it may be off by chance; "
-            "over "
-            "4 is no chance. Checked by others: 0 % means that nothing checks this reading, 100 % "
+            "over 4 hardly happens by chance. Checked by others: 0 % means that nothing checks "
+            "this reading, 100 % "
             "that the others alone say as much. Smallest slip that shows: a slip of the pen or of "
             "the gauge smaller than that would not be noticed.</p>\n");
 }

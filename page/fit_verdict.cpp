@@ -135,6 +135,19 @@ Verdict verdict_of(const Json& fit) {
     return {"The report does not say how the fit ended", "poor", "?", {}};
 }
 
+/// A row for several facets gives readings `r16.S1`, `r16.S2`, ...; ids of people's own are rows.
+std::size_t rows_of(const Json& readings) {
+    std::set<std::string> rows;
+    for (const Json& reading : readings) {
+        const std::string id = text_at(reading, "id");
+        const std::string row = id.substr(0, id.find('.'));
+        const bool own = row.size() < 2 || row[0] != 'r' ||
+                         row.find_first_not_of("0123456789", 1) != std::string::npos;
+        rows.insert(own ? id : row);
+    }
+    return rows.size();
+}
+
 std::string readings_tile(const Json& fit) {
     const Json& readings = array_at(fit, "readings");
     if (readings.empty()) return {};
@@ -145,6 +158,8 @@ std::string readings_tile(const Json& fit) {
                !true_at(reading, "exact");
     });
     std::string about = suspects == 0 ? "none suspect" : fmt::format("{} suspect", suspects);
+    const std::size_t rows = rows_of(readings);
+    if (rows < readings.size()) about = fmt::format("from {} rows; {}", rows, about);
     // Beside a prior few are: each is held against its tier instead.
     const auto prior = fit.find("prior");
     const std::string source = prior == fit.end() ? "" : text_at(*prior, "source");

@@ -76,6 +76,13 @@ TEST(FitPage, card_is_in_plain_words_without_statistics) {
     EXPECT_THAT(tiles, HasSubstr("<b>1 of 2</b><span>the rest supposed near the design</span>"));
 }
 
+TEST(FitPage, counts_rows_beside_readings) {
+    Json fit = converged();
+    fit["readings"] = {reading("r0.C1", 1), reading("r0.C2.1", 1), reading("mine.1", 1),
+                       reading("mine.2", 1)};
+    EXPECT_THAT(fit_tiles(view(fit)), HasSubstr("<b>4</b><span>from 3 rows; none suspect</span>"));
+}
+
 TEST(FitPage, card_tells_what_stands_out) {
     Json fit = converged();
     fit["tier_angles"] = {{{"what", {"P3 is 0.6 degrees (+- 0.1) steeper", "P5 is flatter"}}}};
