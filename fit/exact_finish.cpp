@@ -40,7 +40,7 @@ bool is_same_place(const Shape& one, const Shape& other) {
 ExactFinish exact_finish(Relaxation& relaxation, const Shape& start, const FinishOptions& options) {
     const int iterations = options.iterations;
     ExactFinish result;
-    SaddleSolver solver;
+    KktSolver solver;
     const bool goes_on = options.agreeable > 0;
     Settled settled = settle(
         relaxation, solver, start, {},

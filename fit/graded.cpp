@@ -47,7 +47,7 @@ Softness softness_of(const Stage& stage, bool with_readings) {
     return s;
 }
 
-int solve_stage(Relaxation& relaxation, SaddleSolver& solver, Shape& shape,
+int solve_stage(Relaxation& relaxation, KktSolver& solver, Shape& shape,
                 const Softness& softness, bool keep_normals, int most_steps,
                 const Progress& progress, double fraction) {
     const Freedoms& freedoms = relaxation.freedoms();
@@ -69,7 +69,7 @@ int solve_stage(Relaxation& relaxation, SaddleSolver& solver, Shape& shape,
         std::vector<int> pressed = sheet.above;
         for (int round = 0; round < k_most_rounds && !better; ++round) {
             if (!solver.factor(sheet.rows, sheet.prior_stiffness + kept + damping * metric)) break;
-            const SaddleSolver::Solution s =
+            const KktSolver::Solution s =
                 solver.solve(-sheet.prior_gradient, -sheet.rows.residuals(), k_step_precision);
             const double length = s.unknowns.cwiseAbs().maxCoeff();
             if (!s.good || !(length < 10)) break;
@@ -110,7 +110,7 @@ struct StageRunner {
     Relaxation& relaxation;
     const Progress& progress;
     const std::vector<int>& sides;  ///< known ones stay
-    SaddleSolver solver{};
+    KktSolver solver{};
     int steps = 0;
 
     struct Kind {

@@ -28,7 +28,7 @@ void add_rows(const Rows& from, double scale, double variance, SparseRows& to) {
 }
 
 // Hard equations first, then motions that nothing sees, then, if asked, what was read.
-bool factor(const Linearised& linear, double stiffness, bool with_soft, SaddleSolver& solver) {
+bool factor(const Linearised& linear, double stiffness, bool with_soft, KktSolver& solver) {
     SparseRows rows;
     add_rows(linear.hard_rows, k_hard_scale, 0, rows);
     for (const Eigen::VectorXd& gauge : linear.gauge_rows) {
@@ -74,7 +74,7 @@ Eigen::MatrixXd Inference::times_covariance(const Eigen::MatrixXd& rows) const {
 }
 
 Eigen::MatrixXd Inference::reach(const Eigen::MatrixXd& rows) const {
-    SaddleSolver solver;
+    KktSolver solver;
     if (!factor(linear_, 1, false, solver)) return Eigen::MatrixXd();
     // All digits: what is left of motions that equations forbid is told from those that they allow.
     const Eigen::MatrixXd moved = solver.solve_all(rows.transpose(), Eigen::MatrixXd()).unknowns;

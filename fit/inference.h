@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "fit/linear.h"
-#include "fit/saddle_solver.h"
+#include "fit/kkt_solver.h"
 
 namespace culet {
 
@@ -52,7 +52,7 @@ public:
 private:
     Linearised linear_;
     RowWriter writer_;
-    SaddleSolver solver_;
+    KktSolver solver_;
     bool usable_ = false;
     Eigen::VectorXd multipliers_;
 };

@@ -136,7 +136,7 @@ std::vector<std::vector<char>> best_turns(Eigen::VectorXd r, const Eigen::Matrix
 }  // namespace
 
 std::vector<Eigen::VectorXd> better_meanings(const std::vector<Relaxation::Folded>& folded,
-                                             const SaddleSolver& solver,
+                                             const KktSolver& solver,
                                              const Eigen::VectorXd& pulls, std::size_t most) {
     const auto count = static_cast<Eigen::Index>(folded.size());
     // A value that grows by its shift takes as much off the residual. Of what the turn of facet i
@@ -170,7 +170,7 @@ std::vector<Eigen::VectorXd> better_meanings(const std::vector<Relaxation::Folde
     return meanings;
 }
 
-std::vector<Shape> better_leanings(Relaxation& relaxation, SaddleSolver& solver, const Shape& shape,
+std::vector<Shape> better_leanings(Relaxation& relaxation, KktSolver& solver, const Shape& shape,
                                    const Softness& softness, double within, std::size_t most,
                                    const std::vector<int>& sides) {
     relaxation.choose(shape, softness.incidence == 0);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fit/relaxation.h"
-#include "fit/saddle_solver.h"
+#include "fit/kkt_solver.h"
 
 namespace culet {
 
@@ -22,7 +22,7 @@ inline constexpr std::size_t k_most_leanings = 4;
 /// facets, the best first; none where none should be turned. Only facets within this sine of
 /// upright are asked, and of them those whose entry in `sides` (none: of all) is 0. `solver` may
 /// know the pattern of the equations from steps before.
-std::vector<Shape> better_leanings(Relaxation& relaxation, SaddleSolver& solver, const Shape& shape,
+std::vector<Shape> better_leanings(Relaxation& relaxation, KktSolver& solver, const Shape& shape,
                                    const Softness& softness, double within, std::size_t most,
                                    const std::vector<int>& sides = {});
 
@@ -30,7 +30,7 @@ std::vector<Shape> better_leanings(Relaxation& relaxation, SaddleSolver& solver,
 /// `most` best such sets of facets that gain, the best first. `pulls` are the rows' residuals over
 /// their variances at the optimum of the factored equations.
 std::vector<Eigen::VectorXd> better_meanings(const std::vector<Relaxation::Folded>& folded,
-                                             const SaddleSolver& solver,
+                                             const KktSolver& solver,
                                              const Eigen::VectorXd& pulls, std::size_t most);
 
 }  // namespace culet

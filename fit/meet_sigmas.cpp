@@ -6,7 +6,7 @@
 
 #include "fit/diagnostics.h"
 #include "fit/inference.h"
-#include "fit/saddle_solver.h"
+#include "fit/kkt_solver.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -117,7 +117,7 @@ public:
 private:
     Linearised linear_;
     Eigen::VectorXd stiffness_;
-    SaddleSolver solver_;  // keeps its pattern
+    KktSolver solver_;  // keeps its pattern
     std::array<bool, 2> present_{};
 };
 

@@ -3,10 +3,8 @@
 // shows Eigen.
 
 #include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
-#include <vector>
-
-#include "fit/fronts.h"
 
 namespace culet {
 
@@ -23,10 +21,9 @@ class NormalInverse {
 public:
     /// False when the matrix is not positive definite.
     bool compute(const NormalEquations& equations);
-    /// What f' A^-1 g is the product of: half of it for each. Of a function of few neighbours this
-    /// costs but a small part of a solution.
+    /// What f' A^-1 g is the product of: half of it for each.
     struct Half {
-        Fronts::Half short_rows;
+        Eigen::SparseVector<double> short_rows;
         Eigen::VectorXd long_rows;
     };
     Half half(const Eigen::SparseVector<double>& f) const;
@@ -35,7 +32,7 @@ public:
     Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
 
 private:
-    Fronts fronts_;
+    Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factors_;
     // Long rows D by Woodbury: A^-1 = A0^-1 - W (1 + D W)^-1 W', W = A0^-1 D'.
     Eigen::MatrixXd wide_;  // W
     Eigen::LLT<Eigen::MatrixXd> capacitance_;

@@ -13,7 +13,7 @@ constexpr double k_all_but_exact = 1e-15;
 
 }  // namespace
 
-Corrected onto_hard_equations(const Relaxation& relaxation, const SaddleSolver& solver,
+Corrected onto_hard_equations(const Relaxation& relaxation, const KktSolver& solver,
                               const Sheet& sheet, const Softness& softness, Shape shape,
                               const Correction& correction) {
     const Freedoms& freedoms = relaxation.freedoms();

@@ -3,7 +3,7 @@
 // equations leaves them by its square; the factors of the step lead back. Private to the room.
 
 #include "fit/relaxation.h"
-#include "fit/saddle_solver.h"
+#include "fit/kkt_solver.h"
 
 namespace culet {
 
@@ -20,7 +20,7 @@ struct Corrected {
     Shape shape;
     bool stalls = false;
 };
-Corrected onto_hard_equations(const Relaxation& relaxation, const SaddleSolver& solver,
+Corrected onto_hard_equations(const Relaxation& relaxation, const KktSolver& solver,
                               const Sheet& sheet, const Softness& softness, Shape shape,
                               const Correction& correction);
 

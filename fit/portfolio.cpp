@@ -22,7 +22,7 @@ constexpr int k_patience = 6, k_patience_good = 2;
 constexpr int k_patience_without_stone = 5;
 // Starts times facets that are tried, but no fewer starts than these.
 constexpr int k_most_facets = 4500, k_least_starts = 4;
-// Of all starts together (SaddleSolver::work), and at least so many starts: those of readings that
+// Of all starts together (KktSolver::work), and at least so many starts: those of readings that
 // fit no stone take ten times as many steps each as others. The less while none gave a stone. All
 // starts of 105 facets and noise of 20 % take up to 1e9, half a second.
 constexpr double k_most_work = 1.5e10, k_most_work_in_vain = 7e9;

@@ -2,7 +2,7 @@
 
 namespace culet {
 
-double promised_merit(const Sheet& sheet, const SaddleSolver::Solution& step,
+double promised_merit(const Sheet& sheet, const KktSolver::Solution& step,
                       const std::vector<SymmetricEntry>& bends) {
     const Eigen::VectorXd &x = step.unknowns, &stiffness = sheet.prior_stiffness;
     // Forces are what is left of residuals, over their variances.

@@ -4,12 +4,12 @@
 // for, and next to nothing is left for another step. Private to the room.
 
 #include "fit/relaxation.h"
-#include "fit/saddle_solver.h"
+#include "fit/kkt_solver.h"
 
 namespace culet {
 
 /// `step`: solved from the sheet. `bends`: the curvature that it was factored with.
-double promised_merit(const Sheet& sheet, const SaddleSolver::Solution& step,
+double promised_merit(const Sheet& sheet, const KktSolver::Solution& step,
                       const std::vector<SymmetricEntry>& bends = {});
 
 }  // namespace culet

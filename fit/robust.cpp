@@ -12,7 +12,7 @@ namespace {
 
 constexpr double k_huber = 1.345, k_cauchy = 2.385;
 constexpr int k_rounds = 40;
-// In multiplications (SaddleSolver::work), some seconds: of large stones a few rounds have to do.
+// In multiplications (KktSolver::work), some seconds: of large stones a few rounds have to do.
 constexpr double k_most_work = 5e9;
 // A weight never goes to nothing: a sigma a million times as large says as much.
 constexpr double k_least_weight = 1e-12;

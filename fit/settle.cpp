@@ -72,8 +72,8 @@ double step_precision(const SparseRows& rows) {
 Shape onto_constraints(const Relaxation& relaxation, Shape shape, const std::vector<Held>& held) {
     Sheet sheet = relaxation.hard_sheet(shape, held);
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(relaxation.freedoms().size());
-    for (const double least : {SaddleSolver::k_least_variance, k_least_close}) {
-        SaddleSolver solver;
+    for (const double least : {KktSolver::k_least_variance, k_least_close}) {
+        KktSolver solver;
         std::vector<Held> factored;
         for (int i = 0; i < 10 && sheet.hard_worst > k_met; ++i) {
             // After two steps the same factors do: what they miss is of second order in steps of
@@ -115,7 +115,7 @@ bool creeps_on(const std::vector<double>& merits) {
 
 }  // namespace
 
-Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
+Settled settle(Relaxation& relaxation, KktSolver& solver, const Shape& start,
                const std::vector<Held>& held, const SettleOptions& options) {
     const Freedoms& freedoms = relaxation.freedoms();
     Softness softness;
@@ -161,7 +161,7 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
     };
     Eigen::VectorXd forces;
     std::vector<SymmetricEntry> bends;
-    double least = SaddleSolver::k_least_variance;
+    double least = KktSolver::k_least_variance;
     bool may_be_close = true;
     if (options.near_an_end && solver.factor(sheet.rows, damping * metric)) {
         const auto s = solver.solve(none, -sheet.rows.residuals(), step_precision(sheet.rows));
@@ -185,7 +185,7 @@ Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
                 factored = solver.factor(sheet.rows, damping * metric, {}, least);
             }
             if (!factored && least == k_least_close) {
-                least = SaddleSolver::k_least_variance;
+                least = KktSolver::k_least_variance;
                 may_be_close = false;
                 factored = solver.factor(sheet.rows, damping * metric);
             }

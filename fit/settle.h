@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "fit/relaxation.h"
-#include "fit/saddle_solver.h"
+#include "fit/kkt_solver.h"
 
 namespace culet {
 
@@ -33,7 +33,7 @@ struct SettleOptions {
 
 /// `held`: corners that stay below a facet. `solver` keeps its layout from call to call. What meets
 /// misses by less than any reading could tell.
-Settled settle(Relaxation& relaxation, SaddleSolver& solver, const Shape& start,
+Settled settle(Relaxation& relaxation, KktSolver& solver, const Shape& start,
                const std::vector<Held>& held, const SettleOptions& options);
 /// Onto the hard equations by smallest steps, until rounding is all that is left.
 void bring_to_meet(Relaxation& relaxation, const std::vector<Held>& held, Settled& settled);

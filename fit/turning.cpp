@@ -146,7 +146,7 @@ Best best_turn(const std::vector<Caliper>& calipers, const Corners& corners, con
 class Loosened {
 public:
     // Small moves of all the unknowns against the motion that `turn` measures.
-    Loosened(const SaddleSolver& solver, const SparseRows& rows, const Eigen::VectorXd& turn)
+    Loosened(const KktSolver& solver, const SparseRows& rows, const Eigen::VectorXd& turn)
         : solver_(solver), rows_(rows), turn_(turn) {
         const auto turned = solver.solve(turn, Eigen::VectorXd::Zero(rows.count()), k_precision);
         if (!turned.good) return;
@@ -199,7 +199,7 @@ public:
     }
 
 private:
-    const SaddleSolver& solver_;
+    const KktSolver& solver_;
     const SparseRows& rows_;
     const Eigen::VectorXd& turn_;
     Eigen::VectorXd turned_;
@@ -212,7 +212,7 @@ double turn_off_the_mesh(const Relaxation& relaxation, const Shape& shape) {
     return standing_of_mesh(shape.points, relaxation.system().mesh_shape().points).misfit(0);
 }
 
-std::optional<Shape> turned_better(Relaxation& relaxation, SaddleSolver& solver, const Shape& shape,
+std::optional<Shape> turned_better(Relaxation& relaxation, KktSolver& solver, const Shape& shape,
                                    const Softness& softness) {
     relaxation.forget_ties();
     relaxation.choose(shape, softness.incidence == 0);

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "fit/relaxation.h"
-#include "fit/saddle_solver.h"
+#include "fit/kkt_solver.h"
 
 namespace culet {
 
@@ -27,7 +27,7 @@ double turn_off_the_mesh(const Relaxation& relaxation, const Shape& shape);
 /// (W + S)^-1 (w - read) and a constant, exactly where equations are linear. Costs one
 /// factorisation and two solutions for each corner that a jaw may touch. `solver` may know the
 /// pattern of the equations from steps before.
-std::optional<Shape> turned_better(Relaxation& relaxation, SaddleSolver& solver, const Shape& shape,
+std::optional<Shape> turned_better(Relaxation& relaxation, KktSolver& solver, const Shape& shape,
                                    const Softness& softness);
 
 }  // namespace culet

@@ -42,7 +42,7 @@ TEST_F(Settling, AStepPromisesWhatItsEquationsLeave) {
     softness.incidence = softness.readings = 0.01;
     softness.hinge = 0.002;
     Shape shape = system_.mesh_shape();
-    SaddleSolver solver;
+    KktSolver solver;
     double kept = 1;
     for (int i = 0; i < 8; ++i) {
         const Sheet sheet = relaxation.sheet(shape, softness);

@@ -4,21 +4,21 @@
 //     [ P  J' ] [x]   [a]      P: what holds each unknown back (damping, priors), positive
 //     [ J  -C ] [y] = [b]      J: a row for each equation, C: its variance, 0 when it is exact
 //
-// Equations of any weight, from exact to hardly counted, stand side by side; variances are never
-// squared into one matrix where that would harm (elimination_order.h), so that an uncertainty of
-// 1e-12 does none. The matrix is quasi-definite (Vanderbei 1995): it has an LDL' factorisation in
-// any order of elimination.
+// the Karush-Kuhn-Tucker (KKT) conditions of a least squares step under equality constraints
+// (Nocedal & Wright 2006, chapter 16). Equations of any weight, from exact to hardly counted, stand
+// side by side; variances are never squared into one matrix, so that an uncertainty of 1e-12 does
+// no harm. The matrix is quasi-definite (Vanderbei 1995): it has an LDL' factorisation without
+// pivoting in any order of elimination.
 
 #include <Eigen/Core>
-#include <set>
+#include <Eigen/SparseCholesky>
 #include <vector>
 
-#include "fit/fronts.h"
 #include "fit/sparse_rows.h"
 
 namespace culet {
 
-class SaddleSolver {
+class KktSolver {
 public:
     /// Entries of P beside its diagonal come in `curvature`: row >= column. False when
     /// the matrix cannot be factored, or curvature has made it indefinite on what the equations
@@ -27,7 +27,8 @@ public:
     /// smaller it is, the nearer to each other exact equations may be before refinement fails, and
     /// the sooner equations that repeat each other cannot be factored.
     bool factor(const SparseRows& rows, const Eigen::VectorXd& stiffness,
-                std::vector<SymmetricEntry> curvature = {}, double least = k_least_variance);
+                const std::vector<SymmetricEntry>& curvature = {},
+                double least = k_least_variance);
     /// Far above rounding, far below the variance of anything that is read (lengths are in half
     /// diameters).
     static constexpr double k_least_variance = 1e-9;
@@ -47,38 +48,21 @@ public:
     };
     Solutions solve_all(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                         double precision = 1e-13) const;
-    /// What all its factorisations and solutions took, about, in multiplications.
+    /// What all its factorisations took, about, in multiplications.
     double work() const { return work_; }
     /// log |det| of the matrix as it was factored: log det C + log det (P + J'C^-1 J).
     double log_determinant() const;
 
 private:
-    /// Right-hand sides and solutions, one a column, side by side in memory.
-    using Sides = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    using Matrix = Eigen::SparseMatrix<double>;
+    void assemble(const SparseRows& rows, const Eigen::VectorXd& stiffness,
+                  const std::vector<SymmetricEntry>& curvature, double least);
+    Eigen::VectorXd refined(const Eigen::VectorXd& right, double precision) const;
 
-    void lay_out();
-    bool place_rows(const std::vector<char>& stays);
-    bool place_curvature();
-    template <int W>
-    void times(const Sides& x, Sides& product) const;
-    template <int W>
-    void solve_once(const Sides& right, Sides& x) const;
-    template <int W>
-    Sides refined(const Sides& right, double precision) const;
-
-    int unknowns_ = 0, equations_ = 0, eliminated_ = 0;
-    bool laid_out_ = false;
-    SparseRows rows_;
-    std::vector<double> weight_;  // of each folded equation: 1 / variance
-    Eigen::VectorXd stiffness_;
-    std::vector<SymmetricEntry> curvature_;
-    std::vector<char> sharp_, is_folded_;  // of the equations
-    std::vector<std::size_t> diagonal_;    // slots of the unknowns' own entries
-    std::vector<std::size_t> slot_;        // of the equations' entries, in the order they are added
-    std::vector<std::size_t> first_slot_;  // of each equation in `slot_`
-    std::vector<std::size_t> curved_;      // of curvature
-    std::set<std::vector<int>> past_;      // columns of soft rows that were there before
-    Fronts fronts_;
+    Eigen::Index unknowns_ = 0, equations_ = 0;
+    Matrix matrix_;             // its lower half, as it is factored
+    Eigen::VectorXd softened_;  // what exact equations are factored with, of each row
+    Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factors_;
     double work_ = 0;
 };
 

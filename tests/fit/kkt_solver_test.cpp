@@ -1,6 +1,6 @@
 // The sparse saddle solver against dense algebra on the same numbers.
 
-#include "fit/saddle_solver.h"
+#include "fit/kkt_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -68,13 +68,13 @@ Problem random_problem(std::mt19937_64& random) {
     return p;
 }
 
-TEST(SaddleSolver, SolvesWhatDenseAlgebraSolves) {
+TEST(KktSolver, SolvesWhatDenseAlgebraSolves) {
     std::mt19937_64 random(20261121);
     std::normal_distribution<double> normal;
     for (int round = 0; round < 200; ++round) {
         const Problem p = random_problem(random);
         const Eigen::MatrixXd k = p.dense();
-        SaddleSolver solver;
+        KktSolver solver;
         ASSERT_TRUE(solver.factor(p.rows, p.stiffness, p.curvature)) << round;
         const Eigen::Index n = p.stiffness.size(), m = p.rows.count();
         // Exact equations may repeat each other: only such right-hand sides as have a solution.
@@ -93,9 +93,9 @@ TEST(SaddleSolver, SolvesWhatDenseAlgebraSolves) {
     }
 }
 
-TEST(SaddleSolver, KeepsToNewNumbersRowsAndCurvature) {
+TEST(KktSolver, KeepsToNewNumbersRowsAndCurvature) {
     std::mt19937_64 random(7);
-    SaddleSolver solver;
+    KktSolver solver;
     for (int round = 0; round < 60; ++round) {
         // The same rows again with other numbers, or others altogether.
         static Problem p = random_problem(random);
@@ -113,14 +113,14 @@ TEST(SaddleSolver, KeepsToNewNumbersRowsAndCurvature) {
     }
 }
 
-TEST(SaddleSolver, KeepsToSoftRowsThatComeAndGo) {
+TEST(KktSolver, KeepsToSoftRowsThatComeAndGo) {
     std::mt19937_64 random(13);
     const auto below = [&](int count) {
         return std::uniform_int_distribution<int>(0, count - 1)(random);
     };
     const Problem base = random_problem(random);
     const int unknowns = static_cast<int>(base.stiffness.size());
-    SaddleSolver solver;
+    KktSolver solver;
     for (int round = 0; round < 50; ++round) {
         Problem p = base;
         for (int i = 0; i < below(12); ++i) {
@@ -139,38 +139,38 @@ TEST(SaddleSolver, KeepsToSoftRowsThatComeAndGo) {
     }
 }
 
-TEST(SaddleSolver, TellsCurvatureThatLeavesADirectionUnheld) {
+TEST(KktSolver, TellsCurvatureThatLeavesADirectionUnheld) {
     SparseRows rows;
     rows.add(0, 1.0);
     rows.add(1, 1.0);
     rows.close(0, 0);
     const Eigen::VectorXd stiffness = Eigen::VectorXd::Ones(2);
-    SaddleSolver solver;
+    KktSolver solver;
     // Along (1, -1), all that the equation leaves, P is 1 - c.
     EXPECT_TRUE(solver.factor(rows, stiffness, {{1, 0, 0.9}}));
     EXPECT_FALSE(solver.factor(rows, stiffness, {{1, 0, 1.1}}));
 }
 
-TEST(SaddleSolver, LetsExactEquationsRepeatEachOther) {
+TEST(KktSolver, LetsExactEquationsRepeatEachOther) {
     SparseRows rows;
     for (int copy = 0; copy < 3; ++copy) {
         for (int c = 0; c < 3; ++c) rows.add(c, 1.0 + c);
         rows.close(0, 0);
     }
-    SaddleSolver solver;
+    KktSolver solver;
     ASSERT_TRUE(solver.factor(rows, Eigen::VectorXd::Ones(3)));
     const auto s = solver.solve(Eigen::VectorXd::Zero(3), Eigen::VectorXd::Constant(3, 14.0));
     // The smallest step with x + 2 y + 3 z = 14.
     EXPECT_NEAR((s.unknowns - Eigen::Vector3d(1, 2, 3)).norm(), 0, 1e-9);
 }
 
-TEST(SaddleSolver, HasTheDeterminantOfTheWholeMatrix) {
+TEST(KktSolver, HasTheDeterminantOfTheWholeMatrix) {
     std::mt19937_64 random(11);
     for (int round = 0; round < 20; ++round) {
         Problem p = random_problem(random);
         // Exact equations are factored with a variance of their own.
         for (double& v : p.rows.variance) v = std::max(v, 1e-6);
-        SaddleSolver solver;
+        KktSolver solver;
         ASSERT_TRUE(solver.factor(p.rows, p.stiffness, p.curvature));
         const double expected =
             p.dense().fullPivLu().matrixLU().diagonal().cwiseAbs().array().log().sum();
@@ -178,8 +178,8 @@ TEST(SaddleSolver, HasTheDeterminantOfTheWholeMatrix) {
     }
 }
 
-TEST(SaddleSolver, DoesWithoutEquations) {
-    SaddleSolver solver;
+TEST(KktSolver, DoesWithoutEquations) {
+    KktSolver solver;
     ASSERT_TRUE(solver.factor({}, Eigen::VectorXd::Constant(4, 2.0)));
     const auto s = solver.solve(Eigen::VectorXd::Ones(4), Eigen::VectorXd());
     EXPECT_NEAR((s.unknowns - Eigen::VectorXd::Constant(4, 0.5)).norm(), 0, 1e-15);
