@@ -355,6 +355,58 @@ Sheet Relaxation::sheet(const Shape& shape, const Softness& softness, const std:
     return sheet;
 }
 
+std::vector<Relaxation::Residual> Relaxation::residuals(const Softness& softness) const {
+    std::vector<Residual> all;
+    const double soft2 = softness.incidence * softness.incidence;
+    for (std::size_t i = 0; i < incidences_.size(); ++i) {
+        const Incidence& incidence = system_.incidences()[std::size_t(incidences_[i])];
+        const double own = system_.incidence_sigma(incidence);
+        all.push_back({culet::height(incidence.facet, Corner{incidence.point}),
+                       std::sqrt((own * own + soft2) / incidence_images_[i]), false});
+    }
+    for (const Equation& e : equations_) {
+        if (!softness.with_readings) break;
+        const double sigma =
+            e.exact ? softness.incidence : std::hypot(e.sigma, softness.readings);
+        // sqrt(l^2 + s^2) on both sides: what is shorter than s is all the same to the stage, and
+        // has no direction to be held to.
+        const double s = e.has_kink ? k_round * softness.incidence : 0;
+        const double value = s > 0 ? std::hypot(e.value, s) : e.value;
+        all.push_back({[formula = e.formula, s, value](const Shape& shape) {
+                           Quantity q = formula(shape);
+                           if (s > 0) {
+                               const double round = std::hypot(q.value, s);
+                               for (Quantity::Slope& slope : q.slopes)
+                                   slope.slope *= q.value / round;
+                               q.value = round;
+                           }
+                           q.value -= value;
+                           return q;
+                       },
+                       sigma, !e.exact && e.role == Equation::Role::reading});
+    }
+    for (const Tie& tie : ties_) {
+        all.push_back({extent(Corner{tie.one}, Corner{tie.other}, tie.direction),
+                       std::hypot(k_tie_sigma, softness.incidence), false});
+    }
+    for (const int p : points_) {
+        if (!softness.with_priors) break;
+        const Vec3& drawn = system_.mesh_shape().points[std::size_t(p)];
+        for (int k = 0; k < 3; ++k) {
+            Vec3 axis(0);
+            axis[k] = 1;
+            all.push_back({point_component(p, axis, drawn[k]), softness.mesh_sigma, false});
+        }
+    }
+    return all;
+}
+
+Relaxation::Residual Relaxation::hinge(const Held& corner, const Softness& softness) const {
+    const double images = hinge_images_[std::size_t(hinge_of(corner))];
+    return {culet::height(corner.facet, Corner{corner.point}), softness.hinge / std::sqrt(images),
+            false};
+}
+
 Relaxation::Missed Relaxation::missed(const Shape& shape, const Softness& softness,
                                       const std::vector<Held>& holding, double sharp) const {
     Missed missed;

@@ -90,6 +90,16 @@ public:
     /// stops corners before they rise above a facet has to know which will (semismooth Newton).
     Sheet sheet(const Shape& shape, const Softness& softness, const std::vector<Held>& held = {},
                 const std::vector<int>* pressed = nullptr);
+    /// formula = 0, within sigma: each equation of a stage but its hinges, one of each orbit.
+    struct Residual {
+        Formula formula;
+        double sigma = 1;
+        bool is_reading = false;
+    };
+    std::vector<Residual> residuals(const Softness& softness) const;
+    /// That of a corner above a neighbour facet: as `above` names them.
+    Residual hinge(const Held& corner, const Softness& softness) const;
+
     /// By how much hard equations are missed, corners that share a jaw, and readings of no more
     /// variance than `sharp`: in the rows of a sheet that holds these corners, zero in others.
     struct Missed {

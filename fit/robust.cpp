@@ -10,7 +10,6 @@ namespace culet {
 
 namespace {
 
-constexpr double k_huber = 1.345, k_cauchy = 2.385;
 constexpr int k_rounds = 40;
 // In multiplications (KktSolver::work), some seconds: of large stones a few rounds have to do.
 constexpr double k_most_work = 5e9;

@@ -7,6 +7,9 @@
 
 namespace culet {
 
+/// Of residuals in sigmas (Huber 1964; Holland & Welsch 1977).
+inline constexpr double k_huber = 1.345, k_cauchy = 2.385;
+
 /// Weight of a residual of `z` sigma: 1 within 1.345 and 1.345/|z| beyond (Huber 1964), or
 /// 1/(1 + (z/2.385)^2) (Cauchy); both cost 5 % of efficiency on normal errors (Holland & Welsch
 /// 1977). 1 for no loss.
