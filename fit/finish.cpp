@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fit/kkt_solver.h"
 #include "fit/linear.h"
 
 namespace culet {
@@ -13,9 +14,6 @@ namespace {
 // their way in each step; those that no reading holds do not move.
 constexpr double k_first_damping = 1e-2;
 constexpr double k_least_damping = 1e-6;
-// Corners that want to stand above a neighbour facet are held this far below it, in half diameters:
-// far above rounding, far below anything one could measure.
-constexpr double k_hold_below = 1e-7;
 // Steps in a row that gain no more, at the end: this part of chi-square, a ten-thousandth of a
 // sigma. Freedoms that the readings all but leave open would creep for ever.
 constexpr double k_no_gain = 1e-8;
@@ -24,34 +22,46 @@ std::span<const double> steps(const Eigen::VectorXd& step) {
     return {step.data(), static_cast<std::size_t>(step.size())};
 }
 
+Eigen::VectorXd none(const Linearised& linear) {
+    return Eigen::VectorXd::Zero(linear.layout.size());
+}
+
+// What a step is to take off the rows of `kkt_rows`.
+Eigen::VectorXd right_side(const Linearised& linear, bool with_soft) {
+    Eigen::VectorXd right =
+        Eigen::VectorXd::Zero(linear.hard_rows.rows() + Eigen::Index(linear.gauge_rows.size()) +
+                              (with_soft ? linear.soft_rows.rows() : 0));
+    right.head(linear.hard_rows.rows()) = -linear.hard_residuals;
+    if (with_soft) right.tail(linear.soft_rows.rows()) = -linear.soft_residuals;
+    return right;
+}
+
 // Smallest steps onto the hard equations, until rounding is all that is left.
 Shape onto_constraints(const System& system, Shape shape,
                        const std::shared_ptr<const Outline>& outline,
-                       const std::vector<Equation>& held, int rounds) {
+                       int rounds) {
     double before = 1e300;
     for (int i = 0; i < rounds; ++i) {
-        const Linearised linear = linearise(system, shape, outline, false, held);
+        const Linearised linear = linearise(system, shape, outline, false);
         const double worst = linear.worst_hard();
         if (worst < 1e-16 || worst > 0.5 * before) break;
         before = worst;
-        const ConstrainedSolver solver(linear, 1, false);
-        if (!solver.usable()) break;
-        const Shape next =
-            moved(shape, steps(solver.solve(Eigen::VectorXd::Zero(linear.layout.size()),
-                                            -linear.hard_residuals)));
-        if (linearise(system, next, outline, false, held).worst_hard() >= worst) break;
+        KktSolver solver;
+        if (!solver.factor(kkt_rows(linear, false), linear.metric)) break;
+        const auto s = solver.solve(none(linear), right_side(linear, false));
+        if (!s.good) break;
+        const Shape next = moved(shape, steps(s.unknowns));
+        if (linearise(system, next, outline, false).worst_hard() >= worst) break;
         shape = next;
     }
     return shape;
 }
 
-// Gauss-Newton under the system's hard equations and `held` ones.
-Finished settle(const System& system, const Shape& start, const std::vector<Equation>& held,
-                int iterations) {
+}  // namespace
+
+Finished finish(const System& system, const Shape& start, int iterations) {
     Finished result;
-    const bool splits = system.splits();
     const auto outline_of = [&](const Shape& shape) -> std::shared_ptr<const Outline> {
-        if (!splits) return system.mesh_outline();
         System::Enclosed enclosed = system.enclosed(shape);
         return enclosed.closed ? enclosed.outline : nullptr;
     };
@@ -63,15 +73,16 @@ Finished settle(const System& system, const Shape& start, const std::vector<Equa
         result.enclosed = false;
         return result;
     }
-    Linearised linear = linearise(system, shape, outline, !splits, held);
+    Linearised linear = linearise(system, shape, outline, false);
     double damping = k_first_damping;
     int quiet = 0;
     for (int i = 0; i < iterations; ++i) {
         result.iterations = i + 1;
-        const ConstrainedSolver solver(linear, damping);
-        if (!solver.usable()) break;
-        const Eigen::VectorXd gradient = linear.soft_rows.transpose() * linear.soft_residuals;
-        Eigen::VectorXd step = solver.solve(-gradient, -linear.hard_residuals);
+        KktSolver solver;
+        if (!solver.factor(kkt_rows(linear, true), damping * linear.metric)) break;
+        const auto s = solver.solve(none(linear), right_side(linear, true));
+        if (!s.good) break;
+        Eigen::VectorXd step = s.unknowns;
         const double length = step.cwiseAbs().maxCoeff();
         // Half a unit is half the stone's radius: no linearisation holds so far.
         if (length > 0.2) step *= 0.2 / length;
@@ -81,17 +92,18 @@ Finished settle(const System& system, const Shape& start, const std::vector<Equa
         // equations stand between points and planes, so the corners' outline does not matter.
         double off_before = 1e300;
         for (int k = 0; k < 6; ++k) {
-            const Linearised off = linearise(system, next, outline, false, held);
+            const Linearised off = linearise(system, next, outline, false);
             const double worst = off.worst_hard();
             if (worst < 1e-13 || !(worst < 0.7 * off_before)) break;
             off_before = worst;
-            next = moved(next, steps(solver.solve(Eigen::VectorXd::Zero(linear.layout.size()),
-                                                  -off.hard_residuals)));
+            Eigen::VectorXd back = right_side(off, true);
+            back.tail(off.soft_rows.rows()).setZero();
+            next = moved(next, steps(solver.solve(none(linear), back).unknowns));
         }
         const std::shared_ptr<const Outline> next_outline = outline_of(next);
         bool better = false;
         if (next_outline) {
-            Linearised there = linearise(system, next, next_outline, !splits, held);
+            Linearised there = linearise(system, next, next_outline, false);
             // The hard equations first: their size is the size of what they leave undone.
             const double hard_before = linear.hard_residuals.lpNorm<1>(),
                          hard_after = there.hard_residuals.lpNorm<1>();
@@ -125,7 +137,7 @@ Finished settle(const System& system, const Shape& start, const std::vector<Equa
             break;
         }
     }
-    shape = onto_constraints(system, std::move(shape), outline, held, 10);
+    shape = onto_constraints(system, std::move(shape), outline, 10);
     result.outline = outline_of(shape);
     if (!result.outline) {
         result.outline = outline;
@@ -135,32 +147,6 @@ Finished settle(const System& system, const Shape& start, const std::vector<Equa
     result.chi2 = linear.chi2();
     result.worst_hard = linear.worst_hard();
     result.shape = std::move(shape);
-    return result;
-}
-
-}  // namespace
-
-Finished finish(const System& system, const Shape& start, int iterations) {
-    std::vector<Equation> held;
-    Finished result = settle(system, start, held, iterations);
-    if (system.splits()) return result;
-    // Penalties let corners stand a hair above their neighbours. Those are held just below from now
-    // on: an active set that only grows, since a corner that readings push out will be pushed
-    // again.
-    for (int round = 0; round < 8; ++round) {
-        const std::size_t before = held.size();
-        for (Equation& e : system.hinges()) {
-            if (!(e.formula(result.shape).value > 0)) continue;
-            e.role = Equation::Role::relation;
-            e.exact = true;
-            e.value = -k_hold_below;
-            held.push_back(std::move(e));
-        }
-        if (held.size() == before) break;
-        const int steps = result.iterations;
-        result = settle(system, result.shape, held, iterations);
-        result.iterations += steps;
-    }
     return result;
 }
 

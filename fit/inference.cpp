@@ -10,36 +10,11 @@ namespace culet {
 
 namespace {
 
-using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-
 // Exact equations are factored with a variance of 1e-9 and refined to none; so much larger, that
 // is small beside what the best readings know, and still far above rounding.
 constexpr double k_hard_scale = 30;
 // Of variances: what is told of them has three digits.
 constexpr double k_precision = 1e-6;
-
-void add_rows(const Rows& from, double scale, double variance, SparseRows& to) {
-    for (Eigen::Index i = 0; i < from.rows(); ++i) {
-        for (Rows::InnerIterator it(from, i); it; ++it) {
-            to.add(static_cast<int>(it.col()), scale * it.value());
-        }
-        to.close(0, variance);
-    }
-}
-
-// Hard equations first, then motions that nothing sees, then, if asked, what was read.
-bool factor(const Linearised& linear, double stiffness, bool with_soft, KktSolver& solver) {
-    SparseRows rows;
-    add_rows(linear.hard_rows, k_hard_scale, 0, rows);
-    for (const Eigen::VectorXd& gauge : linear.gauge_rows) {
-        for (Eigen::Index i = 0; i < gauge.size(); ++i) {
-            if (gauge(i) != 0) rows.add(static_cast<int>(i), gauge(i));
-        }
-        rows.close(0, 0);
-    }
-    if (with_soft) add_rows(linear.soft_rows, 1, 1, rows);
-    return solver.factor(rows, stiffness * linear.metric);
-}
 
 Eigen::Index equations_of(const Linearised& linear, bool with_soft) {
     return linear.hard_rows.rows() + Eigen::Index(linear.gauge_rows.size()) +
@@ -52,7 +27,8 @@ Inference::Inference(const System& system, const Shape& shape,
                      const std::shared_ptr<const Outline>& outline,
                      const std::vector<Equation>& held)
     : linear_(linearise(system, shape, outline, false, held)), writer_(shape) {
-    usable_ = factor(linear_, 1 / k_unheld_variance, true, solver_);
+    usable_ = solver_.factor(kkt_rows(linear_, true, k_hard_scale),
+                             linear_.metric / k_unheld_variance);
     if (!usable_) return;
     Eigen::VectorXd right = Eigen::VectorXd::Zero(equations_of(linear_, true));
     right.tail(linear_.soft_rows.rows()) = -linear_.soft_residuals;
@@ -75,7 +51,8 @@ Eigen::MatrixXd Inference::times_covariance(const Eigen::MatrixXd& rows) const {
 
 Eigen::MatrixXd Inference::reach(const Eigen::MatrixXd& rows) const {
     KktSolver solver;
-    if (!factor(linear_, 1, false, solver)) return Eigen::MatrixXd();
+    if (!solver.factor(kkt_rows(linear_, false, k_hard_scale), linear_.metric))
+        return Eigen::MatrixXd();
     // All digits: what is left of motions that equations forbid is told from those that they allow.
     const Eigen::MatrixXd moved = solver.solve_all(rows.transpose(), Eigen::MatrixXd()).unknowns;
     const Eigen::MatrixXd product = rows * moved;

@@ -14,7 +14,6 @@ using Triplets = RowWriter::Triplets;
 // tilts, offsets and extras are of the order of one.
 constexpr double k_point_weight = 1 / (0.4 * 0.4);
 constexpr double k_loose_point_weight = 0.5;
-constexpr double k_repeat = 1e-13;
 constexpr double k_hinge_sigma = 1e-4;
 
 // The six rigid motions as steps of the unknowns.
@@ -196,58 +195,27 @@ Linearised linearise(const System& system, const Shape& shape,
     return linear;
 }
 
-ConstrainedSolver::ConstrainedSolver(const Linearised& linear, double damping, bool with_soft)
-    : unknowns_(linear.layout.size()),
-      hard_(linear.hard_rows.rows()),
-      gauges_(static_cast<Eigen::Index>(linear.gauge_rows.size())),
-      factors_(std::make_unique<Eigen::SparseLU<Eigen::SparseMatrix<double>>>()) {
-    Triplets all;
-    if (with_soft) {
-        const Eigen::SparseMatrix<double> normal =
-            Eigen::SparseMatrix<double>(linear.soft_rows.transpose()) *
-            Eigen::SparseMatrix<double>(linear.soft_rows);
-        for (Eigen::Index k = 0; k < normal.outerSize(); ++k) {
-            for (Eigen::SparseMatrix<double>::InnerIterator it(normal, k); it; ++it) {
-                all.emplace_back(it.row(), it.col(), it.value());
+SparseRows kkt_rows(const Linearised& linear, bool with_soft, double hard_scale) {
+    SparseRows rows;
+    const auto add = [&](const Eigen::SparseMatrix<double, Eigen::RowMajor>& from, double scale,
+                         double variance) {
+        for (Eigen::Index i = 0; i < from.rows(); ++i) {
+            for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(from, i); it;
+                 ++it) {
+                rows.add(static_cast<int>(it.col()), scale * it.value());
             }
+            rows.close(0, variance);
         }
-    }
-    for (Eigen::Index i = 0; i < unknowns_; ++i) all.emplace_back(i, i, damping * linear.metric(i));
-    const auto border = [&](Eigen::Index row, Eigen::Index column, double value) {
-        all.emplace_back(unknowns_ + row, column, value);
-        all.emplace_back(column, unknowns_ + row, value);
     };
-    for (Eigen::Index k = 0; k < hard_; ++k) {
-        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(linear.hard_rows, k);
-             it; ++it) {
-            border(k, it.col(), it.value());
+    add(linear.hard_rows, hard_scale, 0);
+    for (const Eigen::VectorXd& gauge : linear.gauge_rows) {
+        for (Eigen::Index i = 0; i < gauge.size(); ++i) {
+            if (gauge(i) != 0) rows.add(static_cast<int>(i), gauge(i));
         }
+        rows.close(0, 0);
     }
-    for (Eigen::Index k = 0; k < gauges_; ++k) {
-        const Eigen::VectorXd& row = linear.gauge_rows[k];
-        for (Eigen::Index i = 0; i < unknowns_; ++i) {
-            if (row(i) != 0) border(hard_ + k, i, row(i));
-        }
-    }
-    const Eigen::Index size = unknowns_ + hard_ + gauges_;
-    for (Eigen::Index k = unknowns_; k < size; ++k) all.emplace_back(k, k, -k_repeat);
-    matrix_.resize(size, size);
-    matrix_.setFromTriplets(all.begin(), all.end());
-    matrix_.makeCompressed();
-    factors_->compute(matrix_);
-    usable_ = factors_->info() == Eigen::Success;
-}
-
-Eigen::VectorXd ConstrainedSolver::solve(const Eigen::VectorXd& unknowns,
-                                         const Eigen::VectorXd& hard) const {
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(unknowns_ + hard_ + gauges_);
-    right.head(unknowns_) = unknowns;
-    right.segment(unknowns_, hard_) = hard;
-    Eigen::VectorXd solution = factors_->solve(right);
-    // One refinement: the weights span many powers of ten.
-    const Eigen::VectorXd rest = right - matrix_ * solution;
-    solution += factors_->solve(rest);
-    return solution.head(unknowns_);
+    if (with_soft) add(linear.soft_rows, 1, 1);
+    return rows;
 }
 
 }  // namespace culet

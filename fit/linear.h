@@ -1,12 +1,11 @@
 #pragma once
-// The equations of a fit made linear about a shape, and their solution under hard constraints.
-// Private to the room: shows Eigen.
+// The equations of a fit made linear about a shape. Private to the room: shows Eigen.
 
 #include <Eigen/SparseCore>
-#include <Eigen/SparseLU>
 #include <memory>
 #include <vector>
 
+#include "fit/sparse_rows.h"
 #include "fit/system.h"
 
 namespace culet {
@@ -51,20 +50,8 @@ Linearised linearise(const System& system, const Shape& shape,
                      const std::shared_ptr<const Outline>& outline, bool with_hinges,
                      const std::vector<Equation>& held = {});
 
-/// [J'J + damping M, A'; A, -e] factored. The tiny e lets hard equations repeat each other.
-class ConstrainedSolver {
-public:
-    /// `with_soft` false: only the metric (smallest steps that meet the hard equations).
-    ConstrainedSolver(const Linearised& linear, double damping, bool with_soft = true);
-    bool usable() const { return usable_; }
-    /// Solves for the unknowns with right-hand sides for unknowns and hard equations.
-    Eigen::VectorXd solve(const Eigen::VectorXd& unknowns, const Eigen::VectorXd& hard) const;
-
-private:
-    Eigen::Index unknowns_ = 0, hard_ = 0, gauges_ = 0;
-    bool usable_ = false;
-    Eigen::SparseMatrix<double> matrix_;
-    std::unique_ptr<Eigen::SparseLU<Eigen::SparseMatrix<double>>> factors_;
-};
+/// What the KKT solver takes: hard equations (times `hard_scale`), then motions that nothing sees,
+/// both exact, then, if asked, what was read, of variance one.
+SparseRows kkt_rows(const Linearised& linear, bool with_soft, double hard_scale = 1);
 
 }  // namespace culet

@@ -73,34 +73,17 @@ public:
     bool has(std::size_t group) const { return present_[group]; }
 
     double operator()(const Sigmas& sigmas) {
-        SparseRows rows;
-        const auto add = [&](const Eigen::SparseMatrix<double, Eigen::RowMajor>& from,
-                             Eigen::Index i, double variance) {
-            for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(from, i); it;
-                 ++it) {
-                rows.add(static_cast<int>(it.col()), it.value());
-            }
-            rows.close(0, variance);
-        };
-        for (Eigen::Index i = 0; i < linear_.hard_rows.rows(); ++i) add(linear_.hard_rows, i, 0);
-        for (const Eigen::VectorXd& gauge : linear_.gauge_rows) {
-            for (Eigen::Index i = 0; i < gauge.size(); ++i) {
-                if (gauge(i) != 0) rows.add(static_cast<int>(i), gauge(i));
-            }
-            rows.close(0, 0);
-        }
-        const Eigen::Index first = rows.count();
-        const Eigen::Index count = linear_.soft_rows.rows();
+        SparseRows rows = kkt_rows(linear_, true);
+        const Eigen::Index count = linear_.soft_rows.rows(), first = rows.count() - count;
         Eigen::VectorXd variance = Eigen::VectorXd::Ones(count);
         double logarithms = 0;
         for (Eigen::Index i = 0; i < count; ++i) {
             const Equation& e = linear_.soft[std::size_t(i)];
-            if (e.group >= 0) {
-                // Rows are over the sigmas of the linear model.
-                variance(i) = std::pow(sigmas[std::size_t(e.group)] / e.sigma, 2);
-                logarithms += 2 * std::log(e.sigma);
-            }
-            add(linear_.soft_rows, i, variance(i));
+            if (e.group < 0) continue;
+            // Rows are over the sigmas of the linear model.
+            variance(i) = std::pow(sigmas[std::size_t(e.group)] / e.sigma, 2);
+            rows.variance[std::size_t(first + i)] = variance(i);
+            logarithms += 2 * std::log(e.sigma);
         }
         constexpr double k_none = std::numeric_limits<double>::infinity();
         if (!solver_.factor(rows, stiffness_)) return k_none;
