@@ -8,8 +8,8 @@
 #include "app/options.h"
 #include "app/terminal.h"
 #include "fit/fit.h"
-#include "fit/mending.h"
-#include "fit/summary.h"
+#include "fit/mesh/repair.h"
+#include "fit/findings/summary.h"
 #include "page/drawing.h"
 #include "page/fit_paint.h"
 #include "stone/errors.h"
@@ -62,7 +62,7 @@ int run_fit(const FitCommand& command) {
     for (const std::string& detail : file.details) say(detail, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
     const auto written = read_readings(command.stone, command.common.set);
-    const Mended mesh = mended(file.stone, written);
+    const Repaired mesh = repaired(file.stone, written);
     file.stone = mesh.stone;
     std::vector<std::string> notes = mesh.notes;
     const auto readings = bind_readings(written, file.stone, &notes);

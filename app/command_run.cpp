@@ -12,7 +12,7 @@
 #include "compare/rendered_photo.h"
 #include "compare/report.h"
 #include "fit/fit.h"
-#include "fit/mending.h"
+#include "fit/mesh/repair.h"
 #include "render/exposure.h"
 #include "render/image_io.h"
 #include "render/render.h"
@@ -102,7 +102,7 @@ JobInput read_input(const Job& job, const CommonOptions& common) {
         if (!job.scene.empty()) require_material(file, job.stone);
         if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
         const auto written = read_readings(job.stone);
-        const Mended mesh = mended(file.stone, written);
+        const Repaired mesh = repaired(file.stone, written);
         file.stone = mesh.stone;
         input.notes = mesh.notes;
         input.readings = bind_readings(written, file.stone, &input.notes);

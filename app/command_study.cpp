@@ -10,8 +10,8 @@
 #include "app/options.h"
 #include "app/study_scene.h"
 #include "app/terminal.h"
-#include "fit/mending.h"
-#include "fit/study.h"
+#include "fit/mesh/repair.h"
+#include "fit/study/study.h"
 #include "page/study_page.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
@@ -57,7 +57,7 @@ int run_study(const StudyCommand& command) {
     for (const std::string& detail : file.details) say(detail, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
     const auto written = read_readings(command.input, command.common.set);
-    const Mended mesh = mended(file.stone, written);
+    const Repaired mesh = repaired(file.stone, written);
     file.stone = mesh.stone;
     std::vector<std::string> notes = mesh.notes;
     const auto readings = bind_readings(written, file.stone, &notes);

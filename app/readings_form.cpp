@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "fit/readings_template.h"
+#include "fit/readings/readings_template.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 #include "stone/proportions.h"

@@ -8,31 +8,31 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "fit/assess.h"
-#include "fit/describe.h"
-#include "fit/diagnostics.h"
 #include "fit/find_symmetry.h"
-#include "fit/finish.h"
-#include "fit/first_check.h"
-#include "fit/fitted_parts.h"
-#include "fit/gross_angles.h"
-#include "fit/judge.h"
-#include "fit/level_facets.h"
-#include "fit/meet_sigmas.h"
-#include "fit/mending.h"
-#include "fit/mesh_notes.h"
-#include "fit/portfolio.h"
-#include "fit/prior_needed.h"
-#include "fit/refit.h"
-#include "fit/robust.h"
-#include "fit/set_aside.h"
-#include "fit/shape_findings.h"
-#include "fit/statistics.h"
-#include "fit/system.h"
-#include "fit/tier_findings.h"
-#include "fit/topology.h"
-#include "fit/turned_azimuths.h"
-#include "fit/unread_size.h"
+#include "fit/findings/assess.h"
+#include "fit/findings/describe.h"
+#include "fit/findings/first_check.h"
+#include "fit/findings/fitted_parts.h"
+#include "fit/findings/judge.h"
+#include "fit/findings/shape_findings.h"
+#include "fit/findings/tier_findings.h"
+#include "fit/mesh/notes.h"
+#include "fit/mesh/repair.h"
+#include "fit/model/system.h"
+#include "fit/readings/level_facets.h"
+#include "fit/retries/angle_blunders.h"
+#include "fit/retries/leave_one_out.h"
+#include "fit/retries/topology.h"
+#include "fit/retries/turned_azimuths.h"
+#include "fit/retries/unread_size.h"
+#include "fit/solve/free_meets.h"
+#include "fit/starts/multistart.h"
+#include "fit/starts/refit.h"
+#include "fit/starts/robust.h"
+#include "fit/uncertainty/diagnostics.h"
+#include "fit/uncertainty/meet_sigmas.h"
+#include "fit/uncertainty/prior_needed.h"
+#include "fit/uncertainty/statistics.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -85,17 +85,17 @@ constexpr int k_most_rounds = 2;
 constexpr int k_starts_without = 2;
 constexpr double k_dear = 2e9;
 
-FitOptions with_few_starts(FitOptions options, const Portfolio& all) {
+FitOptions with_few_starts(FitOptions options, const Multistart& all) {
     options.starts = std::min(options.starts, all.work > k_dear ? 1 : k_starts_without);
     return options;
 }
 
 // A fit that angles far off the mesh have spoilt, again without those that it then contradicts; or,
 // when it contradicts none of them, from where it ends. Nothing when that explains no more.
-std::optional<FitResult> fit_without_gross(const FitResult& spoilt, const Stone& stone,
-                                           const std::vector<Reading>& readings,
-                                           std::vector<std::size_t> far, const FitOptions& options,
-                                           const Progress& progress) {
+std::optional<FitResult> fit_without_blunders(const FitResult& spoilt, const Stone& stone,
+                                              const std::vector<Reading>& readings,
+                                              std::vector<std::size_t> far,
+                                              const FitOptions& options, const Progress& progress) {
     const bool any_will_do = spoilt.status == FitStatus::not_converged;
     for (int round = 0; round < k_most_rounds && !far.empty(); ++round) {
         FitResult result = fit(stone, without(readings, far), options, progress, Tries::nothing);
@@ -112,7 +112,7 @@ std::optional<FitResult> fit_without_gross(const FitResult& spoilt, const Stone&
             return std::nullopt;
         }
         if (wrong.size() == far.size()) {
-            put_back_gross(readings, far, result);
+            put_back_blunders(readings, far, result);
             // What explains a contradiction takes most of chi-square with it.
             if (any_will_do || result.chi2 < 0.5 * spoilt.chi2) return result;
             return std::nullopt;
@@ -158,17 +158,17 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
         again = refit_from(system, *shape, options.iterations);
     }
     const bool goes_on = again && again->is_an_end();
-    Portfolio portfolio;
+    Multistart multistart;
     if (goes_on) {
-        portfolio.best = std::move(*again);
+        multistart.best = std::move(*again);
     } else {
-        portfolio = fit_from_starts(system, options, progress);
+        multistart = fit_from_starts(system, options, progress);
     }
-    Candidate& best = portfolio.best;
+    Candidate& best = multistart.best;
     const std::vector<double> weights =
         options.loss == Loss::none ? std::vector<double>()
                                    : reweight(system, best, options.loss, options.iterations);
-    result.starts = portfolio.starts;
+    result.starts = multistart.starts;
     result.start = best.start;
     result.vanishing_edges = edges_kept_open(system, best.held);
     result.vanishing_chi2 = best.cost_of_holding;
@@ -209,7 +209,7 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
     result.chi2_limit = chi2_quantile(options.significance, diagnosis.dof);
     result.suspect_limit = diagnosis.suspect_limit;
     result.undetermined = diagnosis.undetermined;
-    result.undetermined_freedoms = diagnosis.undetermined_freedoms;
+    result.rank_defect = diagnosis.rank_defect;
     fill_in(system, readings, finished.shape, diagnosis, pose, weights, result);
     assess(system, finished, diagnosis, result);
     describe_findings(system, finished, best.held, diagnosis, pose, result);
@@ -231,7 +231,7 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
     if (tries == Tries::all && stone.azimuth_from_mesh && !mirrored) {
         auto better = fit_turning_azimuths_back(
             result, readings, system.mesh_turn(), [&](const std::vector<Reading>& back) {
-                return fit(drawn, back, with_few_starts(options, portfolio), progress,
+                return fit(drawn, back, with_few_starts(options, multistart), progress,
                            Tries::without_far_angles);
             });
         if (better) {
@@ -242,21 +242,28 @@ FitResult fit(const Stone& drawn, const std::vector<Reading>& readings, const Fi
     }
     if (const auto far = angles_far_from_mesh(system);
         tries != Tries::nothing && may_be_bent(result, readings, far)) {
-        auto better = fit_without_gross(result, drawn, readings, far,
-                                        with_few_starts(options, portfolio), progress);
+        auto better = fit_without_blunders(result, drawn, readings, far,
+                                           with_few_starts(options, multistart), progress);
         if (better) result = std::move(*better);
     }
     if (tries == Tries::all) {
-        auto better = fit_setting_aside(result, readings, [&](const std::vector<Reading>& others) {
-            return fit(drawn, others, with_few_starts(options, portfolio), progress,
-                       Tries::without_far_angles);
-        });
+        auto better =
+            fit_leaving_one_out(result, readings, [&](const std::vector<Reading>& others) {
+                return fit(drawn, others, with_few_starts(options, multistart), progress,
+                           Tries::without_far_angles);
+            });
         if (better) result = std::move(*better);
     }
     result.options.starts = options.starts;
     result.seconds = seconds_since_begin();
     if (options.allow_topology) {
-        result = fit_with_changes(stone, readings, options, std::move(result), progress);
+        FitOptions plain = options;
+        plain.allow_topology = false;
+        plain.findings = true;
+        result = fit_with_changes(stone, readings, options, std::move(result),
+                                  [&](const Stone& changed, const std::vector<Reading>& moved) {
+                                      return fit_stone(changed, moved, plain, progress);
+                                  });
         result.seconds = seconds_since_begin();
     }
     if (progress) progress(1);

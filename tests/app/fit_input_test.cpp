@@ -1,4 +1,4 @@
-// Meshes and readings as people really bring them, through the command line: which are mended, and
+// Meshes and readings as people really bring them, through the command line: which are repaired, and
 // what is said of those that are not.
 
 #include <gmock/gmock.h>

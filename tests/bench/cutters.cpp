@@ -10,7 +10,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "fit/named_tiers.h"
+#include "fit/readings/named_tiers.h"
 #include "stone/checks.h"
 #include "stone/cuts/cuts.h"
 #include "stone/units.h"

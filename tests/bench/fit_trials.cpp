@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fit/mending.h"
+#include "fit/mesh/repair.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
 #include "tests/bench/cpu_time.h"
@@ -14,7 +14,7 @@ Trial fit_mesh(const Stone& mesh, const std::vector<WrittenReading>& readings,
     Trial trial;
     const double start = clocks().cpu;
     try {
-        const Stone stone = mended(mesh).stone;
+        const Stone stone = repaired(mesh).stone;
         trial.result = fit_stone(stone, bind_readings(readings, stone), options);
     } catch (const InputError& error) {
         trial.refusal = error.what();

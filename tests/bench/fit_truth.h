@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/measurement.h"
+#include "fit/readings/measurement.h"
 #include "stone/stone.h"
 
 namespace culet::bench {

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "fit/cut_quantities.h"
-#include "fit/rounding.h"
-#include "fit/slips.h"
-#include "fit/system.h"
+#include "fit/findings/cut_quantities.h"
+#include "fit/model/system.h"
+#include "fit/readings/rounding.h"
+#include "fit/readings/slips.h"
 #include "stone/errors.h"
 #include "tests/fit/test_stones.h"
 
@@ -323,7 +323,7 @@ TEST(Help, KeepsItsPromise) {
     added.id = "added";
     readings.push_back(added);
     const FitResult after = fit_stone(stone_of(box), readings);
-    EXPECT_EQ(after.undetermined_freedoms, before.undetermined_freedoms - 1);
+    EXPECT_EQ(after.rank_defect, before.rank_defect - 1);
 }
 
 // Widrow & Kollar: without noise all of step^2/12 is common, from half a step on next to nothing;
@@ -431,7 +431,7 @@ protected:
 TEST_F(HardNumbers, TinyUncertaintiesOfAllReadings) {
     std::vector<Reading> readings = box_readings(1e-12);
     const FitResult result = fit_stone(stone_of(box_), readings);
-    EXPECT_EQ(result.undetermined_freedoms, 0) << result.message;
+    EXPECT_EQ(result.rank_defect, 0) << result.message;
     EXPECT_NEAR(volume(result.solid), 8, 1e-9);
     EXPECT_LT(find(result, "volume")->sigma, 1e-9);
 }
@@ -439,7 +439,7 @@ TEST_F(HardNumbers, TinyUncertaintiesOfAllReadings) {
 TEST_F(HardNumbers, HugeUncertaintiesLeaveEverythingOpen) {
     const FitResult result = fit_stone(stone_of(box_), box_readings(1e12));
     EXPECT_EQ(result.status, FitStatus::undetermined) << result.message;
-    EXPECT_EQ(result.undetermined_freedoms, 12);
+    EXPECT_EQ(result.rank_defect, 12);
 }
 
 TEST_F(HardNumbers, OneTinyAmongOrdinaryOnesDecides) {
@@ -476,7 +476,7 @@ TEST_F(HardNumbers, OneReadingAndNone) {
         if (count == 1) readings.push_back(depth(box_, 0.01));
         const FitResult result = fit_stone(stone_of(box_), readings);
         EXPECT_EQ(result.status, FitStatus::undetermined);
-        EXPECT_EQ(result.undetermined_freedoms, 12 - int(count));
+        EXPECT_EQ(result.rank_defect, 12 - int(count));
         EXPECT_FALSE(result.undetermined_words.empty());
         EXPECT_FALSE(result.help.empty());
         EXPECT_TRUE(result.help[0].closes);

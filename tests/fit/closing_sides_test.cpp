@@ -1,5 +1,5 @@
 // Which way facets look, told by the edges read round them. Expected is how the stones were made.
-#include "fit/closing_sides.h"
+#include "fit/starts/closing_sides.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
 // The covariance of a fit: each algorithm against another one.
-#include "fit/covariance.h"
+#include "fit/uncertainty/covariance.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
 #include <cmath>
 
-#include "fit/elimination.h"
-#include "fit/normal_inverse.h"
-#include "fit/system.h"
+#include "fit/model/system.h"
+#include "fit/solve/null_space.h"
+#include "fit/uncertainty/normal_inverse.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {
@@ -125,11 +125,11 @@ TEST(Covariance, BothAlgorithmsAgree) {
         const Covariance dense(linear, Covariance::Algorithm::dense);
         const Covariance sparse(linear, Covariance::Algorithm::sparse);
         ASSERT_TRUE(dense.usable() && sparse.usable()) << c.name;
-        EXPECT_EQ(dense.open_freedoms(), sparse.open_freedoms()) << c.name;
+        EXPECT_EQ(dense.rank_defect(), sparse.rank_defect()) << c.name;
         for (Eigen::Index i = 0; i < dense.leverages().size(); ++i) {
             EXPECT_NEAR(dense.leverages()(i), sparse.leverages()(i), 2e-3) << c.name << " " << i;
         }
-        if (dense.open_freedoms() > 0) continue;
+        if (dense.rank_defect() > 0) continue;
         for (int f = 0; f < linear.layout.facets; ++f) {
             for (int k = 0; k < 3; ++k) {
                 FunctionRow row(linear.layout.size());
@@ -142,14 +142,14 @@ TEST(Covariance, BothAlgorithmsAgree) {
     }
 }
 
-// Freedoms by Steinitz: edges + 6, less what is held by the frame and by independent readings.
+// Parameters by Steinitz: edges + 6, less what is held by the frame and by independent readings.
 TEST(Covariance, CountsWhatIsOpen) {
     const Stone stone = stone_of(brilliant());
     const System system(stone, {}, {});
     const Linearised linear = linearise(system, system.mesh_shape(), system.mesh_outline(), false);
     for (const auto algorithm : {Covariance::Algorithm::dense, Covariance::Algorithm::sparse}) {
         // 128 edges + 6, less shifts (3), the table's tilts (2) and the turn about up.
-        EXPECT_EQ(Covariance(linear, algorithm).open_freedoms(), 128);
+        EXPECT_EQ(Covariance(linear, algorithm).rank_defect(), 128);
     }
 }
 

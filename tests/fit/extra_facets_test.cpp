@@ -8,8 +8,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "fit/extra_facets.h"
-#include "fit/refit.h"
+#include "fit/findings/extra_facets.h"
+#include "fit/starts/refit.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {

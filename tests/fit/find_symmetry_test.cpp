@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 
-#include "fit/variance_component.h"
+#include "fit/uncertainty/variance_component.h"
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
 #include "tests/fit/test_stones.h"

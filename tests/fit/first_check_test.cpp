@@ -1,14 +1,15 @@
 // Readings held against their tier and the mesh before any fit. Expectations: the sizes of the
 // slips that the tests make.
 
-#include "fit/first_check.h"
+#include "fit/findings/first_check.h"
+#include "fit/fit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "fit/tier_findings.h"
+#include "fit/findings/tier_findings.h"
 #include "stone/cuts/cuts.h"
 #include "tests/bench/cutters.h"
 

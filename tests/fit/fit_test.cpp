@@ -267,17 +267,17 @@ TEST_F(BoxReadings, NoReadingsAtAllLeaveTheMeshAndSaySo) {
     const FitResult result = fit({});
     EXPECT_EQ(result.status, FitStatus::undetermined) << result.message;
     // 12 edges + 6, less 3 shifts, the table's two tilts and the turn about up.
-    EXPECT_EQ(result.undetermined_freedoms, 12 + 6 - 6);
+    EXPECT_EQ(result.rank_defect, 12 + 6 - 6);
     EXPECT_NEAR(volume(result.solid), 8, 1e-6);
 }
 
 TEST_F(BoxReadings, OneReadingTakesOneFreedom) {
-    EXPECT_EQ(fit({depth(box_, 0.01)}).undetermined_freedoms, 11);
+    EXPECT_EQ(fit({depth(box_, 0.01)}).rank_defect, 11);
 }
 
 TEST_F(BoxReadings, TheSameReadingTwiceIsNoContradiction) {
     const FitResult result = fit({depth(box_, 0.01), depth(box_, 0.01)});
-    EXPECT_EQ(result.undetermined_freedoms, 11);
+    EXPECT_EQ(result.rank_defect, 11);
     EXPECT_NEAR(result.dof, 1, 1e-6);
     Reading r = exact(ReadingKind::depth, {}, 2.2);
     EXPECT_EQ(fit({r, r}).status, FitStatus::undetermined);
@@ -375,7 +375,7 @@ TEST(Fit, ALargeStoneHasUncertaintiesToo) {
     EXPECT_NEAR(result.readings[0].redundancy, 0.5, 1e-3);
     EXPECT_NEAR(result.dof, 1, 2e-3);
     // Edges + 6, less shifts, the table's tilts, the turn about up, and the depth.
-    EXPECT_EQ(result.undetermined_freedoms, edge_count(solid) - 1);
+    EXPECT_EQ(result.rank_defect, edge_count(solid) - 1);
     for (const FittedFacet& f : result.facets) EXPECT_GT(f.sigma_offset, 0) << f.name;
 }
 

@@ -1,6 +1,6 @@
 // The sparse saddle solver against dense algebra on the same numbers.
 
-#include "fit/kkt_solver.h"
+#include "fit/solve/kkt_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace culet {
 namespace {
 
 struct Problem {
-    SparseRows rows;
+    JacobianRows rows;
     Eigen::VectorXd stiffness;
     std::vector<SymmetricEntry> curvature;
 
@@ -140,7 +140,7 @@ TEST(KktSolver, KeepsToSoftRowsThatComeAndGo) {
 }
 
 TEST(KktSolver, TellsCurvatureThatLeavesADirectionUnheld) {
-    SparseRows rows;
+    JacobianRows rows;
     rows.add(0, 1.0);
     rows.add(1, 1.0);
     rows.close(0, 0);
@@ -152,7 +152,7 @@ TEST(KktSolver, TellsCurvatureThatLeavesADirectionUnheld) {
 }
 
 TEST(KktSolver, LetsExactEquationsRepeatEachOther) {
-    SparseRows rows;
+    JacobianRows rows;
     for (int copy = 0; copy < 3; ++copy) {
         for (int c = 0; c < 3; ++c) rows.add(c, 1.0 + c);
         rows.close(0, 0);

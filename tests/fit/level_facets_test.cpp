@@ -1,5 +1,5 @@
 // Azimuths of facets that lie level.
-#include "fit/level_facets.h"
+#include "fit/readings/level_facets.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

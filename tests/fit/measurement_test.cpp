@@ -1,4 +1,4 @@
-#include "fit/measurement.h"
+#include "fit/readings/measurement.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The stone's own axis: free of what its angles are counted from.
-#include "fit/own_axis.h"
+#include "fit/findings/own_axis.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

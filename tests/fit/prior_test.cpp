@@ -1,6 +1,7 @@
 // The prior of the facets: fills what readings leave open, and is as sure as it says.
 
-#include "fit/prior.h"
+#include "fit/model/prior.h"
+#include "fit/fit.h"
 
 #include <gtest/gtest.h>
 
@@ -35,7 +36,7 @@ TEST_P(PriorOfCut, an_evening_of_readings_gives_a_whole_stone) {
         EXPECT_EQ(result.status, FitStatus::converged) << result.message;
         EXPECT_TRUE(result.closed && result.convex && result.missing_facets.empty());
         EXPECT_EQ(result.prior.source, Prior::Source::catalogue);
-        EXPECT_EQ(result.undetermined_freedoms, 0);
+        EXPECT_EQ(result.rank_defect, 0);
     }
 }
 

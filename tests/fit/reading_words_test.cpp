@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "fit/fit.h"
-#include "fit/measurement.h"
+#include "fit/readings/measurement.h"
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
 #include "stone/gemcad_io.h"

@@ -1,6 +1,6 @@
 // The form for the bench: its rows are readings, and their expected values are those of the mesh.
 
-#include "fit/readings_template.h"
+#include "fit/readings/readings_template.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // From an earlier result with one reading edited.
 
-#include "fit/refit.h"
+#include "fit/starts/refit.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "fit/laid_between_jaws.h"
-#include "fit/orbits.h"
+#include "fit/model/orbits.h"
+#include "fit/solve/caliper_turn.h"
 #include "tests/bench/fit_trials.h"
 
 namespace culet {
@@ -48,12 +48,12 @@ TEST(Refit, AResultIsLaidBetweenTheJawsAsItWasFitted) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const Fitted f = fitted_step_cut(seed);
         const System system(f.truth.stone, bind_readings(f.readings, f.truth.stone), {});
-        const Freedoms freedoms = system.freedoms();
-        const Relaxation relaxation(system, freedoms);
+        const Parameters parameters = system.parameters();
+        const Relaxation relaxation(system, parameters);
         const Shape told = *shape_of(system, f.result.solid);
-        const Shape laid = laid_between_jaws(relaxation, told);
+        const Shape laid = turned_to_calipers(relaxation, told);
         for (const double by : {-1e-3, 2e-3}) {
-            const Shape again = laid_between_jaws(relaxation, turned_about_z(told, by));
+            const Shape again = turned_to_calipers(relaxation, turned_about_z(told, by));
             double worst = 0;
             for (std::size_t p = 0; p < laid.points.size(); ++p) {
                 // A minimum that is no kink is found to the root of rounding.
@@ -67,19 +67,20 @@ TEST(Refit, AResultIsLaidBetweenTheJawsAsItWasFitted) {
 // Sides of a step cut lie flush between the jaws: corners that a fit left level share their jaws
 // from the start, and the last stage has hardly more to do than to look.
 TEST(Refit, JawsRestWhereTheyRested) {
-    int ties = 0, few = 0;
+    int shared_contacts = 0, few = 0;
     constexpr int k_stones = 10;
     for (unsigned seed = 1; seed <= k_stones; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Fitted f = fitted_step_cut(seed);
         const System system(f.truth.stone, bind_readings(f.readings, f.truth.stone), {});
-        const Freedoms freedoms = system.freedoms();
-        Relaxation relaxation(system, freedoms);
-        const Shape laid = laid_between_jaws(relaxation, *shape_of(system, f.result.solid));
-        relaxation.forget_ties();
+        const Parameters parameters = system.parameters();
+        Relaxation relaxation(system, parameters);
+        const Shape laid = turned_to_calipers(relaxation, *shape_of(system, f.result.solid));
+        relaxation.forget_contacts();
         relaxation.choose(laid, true);
-        relaxation.tie_level_corners(laid);
-        for (const Tie& tie : relaxation.ties()) ties += tie.direction.z == 0;
+        relaxation.share_level_corners(laid);
+        for (const SharedContact& tie : relaxation.shared_contacts())
+            shared_contacts += tie.direction.z == 0;
         const auto edge = std::find_if(f.readings.begin(), f.readings.end(),
                                        [](const WrittenReading& r) { return r.kind == "edge"; });
         *edge->value += 0.5 * *edge->sigma;
@@ -90,7 +91,7 @@ TEST(Refit, JawsRestWhereTheyRested) {
         EXPECT_LT(again.chi2,
                   fit_mesh(f.truth.stone, f.readings, without_findings()).result.chi2 + 2);
     }
-    EXPECT_GT(ties, k_stones);
+    EXPECT_GT(shared_contacts, k_stones);
     // Where the edited reading takes a jaw off one of two corners, it takes a step more.
     EXPECT_GT(few, k_stones / 2);
 }

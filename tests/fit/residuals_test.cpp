@@ -1,6 +1,6 @@
 // Every formula: a closed-form value on a solid whose answer is known, and its slopes against
 // central differences (error of order step^2 = 1e-10 for smooth formulas of size one).
-#include "fit/residuals.h"
+#include "fit/model/residuals.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "fit/linear.h"
+#include "fit/model/linear.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {
@@ -43,7 +43,7 @@ Shape odd_shape() {
     std::normal_distribution<double> normal(0, 0.03);
     std::vector<double> step(static_cast<std::size_t>(layout.size()));
     for (double& s : step) s = normal(random);
-    shape = moved(shape, step);
+    shape = retracted(shape, step);
     shape.extras = {0.1, -0.2, 0.4};
     return shape;
 }
@@ -85,9 +85,9 @@ void expect_slopes(const Formula& formula, const char* what) {
     for (int i = 0; i < layout.size(); ++i) {
         std::vector<double> step(static_cast<std::size_t>(layout.size()), 0.0);
         step[i] = h;
-        const double up = formula(moved(shape, step)).value;
+        const double up = formula(retracted(shape, step)).value;
         step[i] = -h;
-        const double down = formula(moved(shape, step)).value;
+        const double down = formula(retracted(shape, step)).value;
         const double numeric = (up - down) / (2 * h);
         EXPECT_NEAR(exact[i], numeric, 1e-6 * (1 + std::abs(numeric))) << what << ", unknown " << i;
         largest = std::max(largest, std::abs(numeric));

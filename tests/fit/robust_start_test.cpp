@@ -8,9 +8,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "fit/canonical.h"
-#include "fit/mending.h"
-#include "fit/starts.h"
+#include "fit/mesh/repair.h"
+#include "fit/model/canonical.h"
+#include "fit/starts/starts.h"
 #include "stone/checks.h"
 #include "tests/bench/fit_trials.h"
 #include "tests/fit/test_stones.h"
@@ -120,9 +120,8 @@ TEST(RobustStart, LeaningsThatGainOnlyWithATurnAreFound) {
 // are all alike, and a start that was told what an earlier one had seen. The reference starts at
 // the truth.
 TEST(RobustStart, LesserEndsAreLeft) {
-    for (const Lost& c :
-         {Lost{TruthKind::step, false, 61, 0}, Lost{TruthKind::step, true, 29, 0},
-          Lost{TruthKind::pear, false, 109, 0}}) {
+    for (const Lost& c : {Lost{TruthKind::step, false, 61, 0}, Lost{TruthKind::step, true, 29, 0},
+                          Lost{TruthKind::pear, false, 109, 0}}) {
         expect_no_worse_than_from_the_truth(c, 0.1);
     }
 }
@@ -234,7 +233,7 @@ TEST(Mending, WeldsPrivateCorners) {
         }
     }
     EXPECT_FALSE(is_closed(split.solid));
-    const Mended result = mended(split);
+    const Repaired result = repaired(split);
     EXPECT_EQ(result.stone.solid.vertices.size(), truth.stone.solid.vertices.size());
     EXPECT_EQ(result.notes.size(), 1u);
     expect_found(truth, split, "private corners");
@@ -244,7 +243,7 @@ TEST(Mending, TurnsASurfaceRound) {
     const Truth truth = make_truth(TruthKind::round, false, 7);
     Stone inside_out = truth.stone;
     for (Facet& f : inside_out.solid.facets) std::reverse(f.corners.begin(), f.corners.end());
-    EXPECT_GT(volume(mended(inside_out).stone.solid), 0);
+    EXPECT_GT(volume(repaired(inside_out).stone.solid), 0);
     expect_found(truth, inside_out, "inside out");
 }
 
@@ -262,14 +261,14 @@ TEST(Mending, JoinsPiecesOfAFacet) {
             pieces.solid.facets.push_back(piece);
         }
     }
-    const Mended result = mended(pieces);
+    const Repaired result = repaired(pieces);
     EXPECT_EQ(result.stone.solid.facets.size(), truth.stone.solid.facets.size());
     expect_found(truth, pieces, "pieces");
 }
 
 TEST(Mending, LeavesASoundMeshAsItIs) {
     const Truth truth = make_truth(TruthKind::pear, false, 1);
-    const Mended result = mended(truth.stone);
+    const Repaired result = repaired(truth.stone);
     EXPECT_THAT(result.notes, ::testing::IsEmpty());
     EXPECT_EQ(result.stone.solid.vertices, truth.stone.solid.vertices);
 }

@@ -1,4 +1,4 @@
-#include "fit/statistics.h"
+#include "fit/uncertainty/statistics.h"
 
 #include <gtest/gtest.h>
 

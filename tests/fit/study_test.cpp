@@ -1,4 +1,4 @@
-#include "fit/study.h"
+#include "fit/study/study.h"
 
 #include <gtest/gtest.h>
 

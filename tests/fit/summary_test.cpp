@@ -1,4 +1,4 @@
-#include "fit/summary.h"
+#include "fit/findings/summary.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

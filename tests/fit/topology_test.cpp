@@ -1,12 +1,12 @@
 // Edges and facets that the readings deny or leave open, by name.
-#include "fit/topology.h"
+#include "fit/retries/topology.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
-#include "fit/come_to_nothing.h"
+#include "fit/mesh/come_to_nothing.h"
 #include "stone/checks.h"
 #include "tests/fit/test_stones.h"
 

@@ -1,4 +1,4 @@
-#include "fit/measurement.h"
+#include "fit/readings/measurement.h"
 #include "tests/fuzz/fuzz_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -2,7 +2,7 @@
 // read before it counts; the readings are read by themselves.
 
 #include "fit/fit.h"
-#include "fit/measurement.h"
+#include "fit/readings/measurement.h"
 #include "stone/stone_io.h"
 #include "tests/fuzz/fuzz_file.h"
 

@@ -52,7 +52,7 @@ Scene hard_scene(const HardCase& hard_case, const HardPoint& point, const TomlTa
     }
     write_text(folder / (name + ".toml"), scene_text(hard_case, point, name + ".obj"));
     Scene scene = read_scene(folder / (name + ".toml"));
-    scene.stone.solid = solid;  // as it is: a mesh that is read may be mended
+    scene.stone.solid = solid;  // as it is: a mesh that is read may be repaired
     return scene;
 }
 

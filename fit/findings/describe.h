@@ -1,0 +1,21 @@
+#pragma once
+// Puts what was found out about the stone into the result of its fit. Private to the room.
+
+#include "fit/findings/result.h"
+#include "fit/model/system.h"
+#include "fit/solve/active_set.h"
+#include "fit/solve/free_meets.h"
+#include "fit/uncertainty/diagnostics.h"
+
+namespace culet {
+
+/// Own axis, tiers, meets, edges and facets. `result` holds facets, readings and tests already.
+/// `held` are corners (point below facet) that the fit had to hold down.
+/// Held corners as exact equations, as they lie.
+std::vector<Equation> conditions_of(const Shape& shape, const std::vector<ActiveCorner>& held);
+
+void describe_findings(const System& system, const Finished& finished,
+                       const std::vector<ActiveCorner>& held, const Diagnosis& diagnosis,
+                       const System::Pose& pose, FitResult& result);
+
+}  // namespace culet

@@ -1,0 +1,217 @@
+#include "fit/findings/judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "fit/findings/bench_words.h"
+#include "fit/mesh/come_to_nothing.h"
+#include "fit/uncertainty/statistics.h"
+#include "stone/checks.h"
+
+namespace culet {
+
+namespace {
+
+// Contract with the user: corners lie on their planes to this part of the diameter.
+constexpr double k_planarity = 1e-12;
+
+std::string names(const std::vector<std::string>& list) {
+    std::string text;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        if (i == 8) return text + fmt::format(" and {} more", list.size() - i);
+        text += (i == 0 ? "" : ", ") + list[i];
+    }
+    return text;
+}
+
+// Who is to blame, as far as one can tell.
+std::string contradiction(const FitResult& result) {
+    std::string text;
+    if (!result.extra_facets.empty() && result.extra_facets.front().or_wrong.empty()) {
+        text = "; " + result.extra_facets.front().what;
+    } else if (!result.suspects.empty()) {
+        text = "; look at " + names(result.suspects);
+        const Proposal& first = result.proposals.front();
+        if (!first.slip.empty()) {
+            text += fmt::format(" ({}: {:g}?)", first.slip,
+                                first.in_radians ? degrees(first.corrected) : first.corrected);
+        } else if (!first.alternatives.empty()) {
+            text += " (or at " + names(first.alternatives) + " instead)";
+        }
+    } else if (!result.disagreeing.empty()) {
+        text = "; the fewest that cannot hold together: " + names(result.disagreeing);
+    }
+    return text;
+}
+
+// Next to an edge that the readings leave next to no length the steps creep.
+std::string shortest_edge(const System& system, const Shape& shape, LengthUnit unit) {
+    constexpr double k_no_length = 2e-3;  // of the half diameter
+    const Edge* shortest = nullptr;
+    double least = k_no_length;
+    for (const Edge& edge : system.edges().edges) {
+        const double length =
+            glm::length(shape.points[std::size_t(edge.from)] - shape.points[std::size_t(edge.to)]);
+        if (!(length < least)) continue;
+        least = length;
+        shortest = &edge;
+    }
+    if (shortest == nullptr || system.splits()) return {};
+    const std::vector<Facet>& facets = system.stone().solid.facets;
+    std::string ends;
+    for (const int end : {shortest->from, shortest->to}) {
+        for (const int f : system.edges().facets_of_vertex[std::size_t(end)]) {
+            if (f == shortest->left || f == shortest->right) continue;
+            ends += (ends.empty() ? "" : ", ") + facets[std::size_t(f)].name;
+        }
+    }
+    return fmt::format(
+        "edge {}|{} (between {}) has come down to {:.2g} {}, where steps creep; draw its ends as "
+        "one corner, or allow the topology to change",
+        facets[std::size_t(shortest->left)].name, facets[std::size_t(shortest->right)].name, ends,
+        least * system.scale(), name_of(unit));
+}
+
+std::string in_the_way(const Solid& solid) {
+    const ComeToNothing come = come_to_nothing(solid);
+    std::string text;
+    if (!come.facets.empty()) {
+        text = fmt::format(
+            ": nothing is left of {}; read how large they are, leave them out of the mesh, or "
+            "allow the topology to change",
+            names(come.facets));
+    }
+    if (!come.edges.empty()) {
+        text += fmt::format("{} {} lie in one plane; draw each two as one facet",
+                            text.empty() ? ":" : ";", names(come.edges));
+    }
+    return text;
+}
+
+}  // namespace
+
+void judge(const System& system, const Finished& finished, const Diagnosis& diagnosis,
+           FitResult& result) {
+    std::vector<std::string> broken;
+    for (std::size_t r = 0; r < system.readings().size(); ++r) {
+        const Reading& reading = system.readings()[r];
+        const double unit = system.unit_of(reading);
+        if (reading.exact && std::abs(diagnosis.readings[r].residual) > k_hard_limit * unit) {
+            broken.push_back(reading.id);
+        }
+    }
+    const auto end = [&](FitStatus status, std::string message) {
+        result.status = status;
+        result.message = std::move(message);
+        if (!result.vanishing_edges.empty() && status != FitStatus::not_converged) {
+            result.message += fmt::format("; the readings want edge {} to have no length",
+                                          names(result.vanishing_edges));
+        }
+        for (const std::string& note : result.notes) result.message += "; " + note;
+        if (!diagnosis.analysed) {
+            result.message +=
+                "; the stone is too large for uncertainties and suspects: none are given";
+        }
+    };
+    if (!broken.empty()) {
+        return end(FitStatus::contradictory,
+                   fmt::format("exact readings contradict each other: {}",
+                               names(result.disagreeing.empty() ? broken : result.disagreeing)));
+    }
+    if (!result.missing_facets.empty()) {
+        return end(FitStatus::not_converged,
+                   fmt::format("the fitted planes leave no room for facet {}",
+                               names(result.missing_facets)));
+    }
+    for (const ShapeFinding& f : result.shape_findings) {
+        if (f.kind == ShapeFinding::Kind::facet_vanishes) {
+            return end(FitStatus::not_converged,
+                       f.what + "; leave it out of the mesh, or allow the topology to change");
+        }
+    }
+    if (finished.worst_hard > k_hard_limit) {
+        return end(FitStatus::not_converged,
+                   "the facets and meets could not be brought together" + in_the_way(result.solid));
+    }
+    // Under the hypothesis that an edge has a length at all, chi-square with one freedom for each.
+    if (!result.vanishing_edges.empty() &&
+        chi2_tail(result.vanishing_chi2, double(result.vanishing_edges.size())) <
+            result.options.significance) {
+        return end(FitStatus::not_converged,
+                   fmt::format("the readings want edge {} to have no length, and agree with the "
+                               "mesh's facets only at a loss (chi2 {:.1f} more)",
+                               names(result.vanishing_edges), result.vanishing_chi2));
+    }
+    if (!system.stone().convex) {
+        const std::vector<Fault> faults =
+            find_faults(result.solid, {.planarity = k_planarity, .must_be_convex = false});
+        if (!faults.empty()) {
+            return end(FitStatus::not_converged,
+                       "the fitted stone is not sound: " + faults.front().what);
+        }
+    }
+    if (!result.closed || (!result.convex && system.stone().convex)) {
+        const std::vector<Fault> faults = find_faults(
+            result.solid, {.planarity = k_planarity, .must_be_convex = system.stone().convex});
+        return end(FitStatus::not_converged,
+                   fmt::format("the fitted stone is not {}{}", result.closed ? "convex" : "closed",
+                               faults.empty() ? "" : ": " + faults.front().what));
+    }
+    if (result.planarity_max >
+        std::max(k_planarity * diameter(result.solid), coordinate_rounding(result.solid))) {
+        return end(FitStatus::not_converged,
+                   fmt::format("corners lie up to {:.2g} {} off their facets' planes",
+                               result.planarity_max, name_of(result.unit)));
+    }
+    // Before the steps: next to an edge that has no length they creep.
+    for (const ShapeFinding& f : result.shape_findings) {
+        if (f.kind == ShapeFinding::Kind::edge_vanishes && f.p < result.options.significance) {
+            return end(FitStatus::contradictory, f.what + "; allow the topology to change");
+        }
+    }
+    if (!finished.converged) {
+        const std::string edge = shortest_edge(system, finished.shape, result.unit);
+        return end(
+            FitStatus::not_converged,
+            edge.empty()
+                ? fmt::format("the fit does not settle ({} steps): some part of the stone is "
+                              "hardly held by the readings; look at the suspects, read more, "
+                              "or give [fit] a prior",
+                              finished.iterations)
+                : fmt::format("the fit does not settle ({} steps): {}", finished.iterations, edge));
+    }
+    if (result.dof > 0 && result.chi2_p < result.options.significance) {
+        return end(FitStatus::contradictory,
+                   fmt::format("the readings do not agree within their uncertainties (chi-square "
+                               "{:.1f}, {:.1f} expected, at most {:.1f} at the {:g} level){}",
+                               result.chi2, result.dof, result.chi2_limit,
+                               result.options.significance, contradiction(result)));
+    }
+    if (!result.suspects.empty()) {
+        return end(FitStatus::contradictory,
+                   "readings that cannot belong to the others" + contradiction(result));
+    }
+    if (!result.extra_facets.empty()) {
+        return end(FitStatus::contradictory, result.extra_facets.front().what);
+    }
+    if (result.rank_defect > 0) {
+        std::set<std::string> facets;
+        for (const Undetermined& u : result.undetermined) facets.insert(u.facet);
+        return end(
+            FitStatus::undetermined,
+            fmt::format("too little was read to fix the whole stone: {} of its {} facets {} as in "
+                        "the mesh{}; {}",
+                        facets.size(), result.facets.size(), facets.size() == 1 ? "is" : "are",
+                        facets.empty() ? "" : " (" + names({facets.begin(), facets.end()}) + ")",
+                        result.help.empty() ? "a prior would fill it in ([fit] prior = \"mesh\")"
+                                            : "next, " + bench_words(result.help[0])));
+    }
+    end(FitStatus::converged, fmt::format("the readings agree (chi-square {:.1f}, {:.0f} expected)",
+                                          result.chi2, result.dof));
+}
+
+}  // namespace culet

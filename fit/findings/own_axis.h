@@ -1,0 +1,35 @@
+#pragma once
+// The stone's own best axis. A table that was polished 0.8 degrees askew turns equal pavilion
+// facets into unequal ones as long as their angles are counted from it; counted from the axis about
+// which the tiers are most alike they are equal again. Private to the room.
+
+#include <vector>
+
+#include "fit/findings/findings.h"
+#include "fit/model/axis_groups.h"
+#include "fit/uncertainty/inference.h"
+
+namespace culet {
+
+/// Orbits of two facets and more of the form's symmetry, as far as the shape comes near to it
+/// (within 5 % of the half diameter), the girdle's included.
+std::vector<Tier> tiers_of(const System& system, const Shape& shape, const AxisGroup& group);
+
+/// The symmetry of the form that the shape comes near to.
+AxisGroup form_group(const System& system, const Shape& shape);
+
+/// In the frame and scale of the fit. The direction a that minimises
+///     sum over tiers w_t / sin^2(i_t) sum over facets (n_k . a - mean of n . a)^2,
+/// the least eigenvector of a 3 x 3 matrix; w_t = 1 / variance of the tier's inclinations about
+/// it, by repeated weighting, so that a tier that is askew (the stars about a tilted table) does
+/// not pull at it. With fewer than two turns in the form's symmetry: the direction least along the
+/// girdle's normals. `inference` may be null: sigmas are then infinite.
+struct AxisEstimate {
+    OwnAxis axis;
+    std::vector<Quantity> across;  ///< its components along two directions normal to it
+    std::array<Vec3, 2> directions{};
+};
+AxisEstimate own_axis(const System& system, const Shape& shape, const std::vector<Tier>& tiers,
+                      const Inference* inference);
+
+}  // namespace culet

@@ -1,0 +1,119 @@
+#pragma once
+// What a fit comes to: the stone, what is known of each facet and reading, and what was found out.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fit/findings/assessment.h"
+#include "fit/findings/findings.h"
+#include "fit/model/options.h"
+#include "fit/model/undetermined.h"
+#include "fit/readings/measurement.h"
+#include "stone/stone.h"
+#include "stone/units.h"
+
+namespace culet {
+
+enum class FitStatus {
+    converged,
+    not_converged,  ///< no stone was found, or not one that could be cut
+    contradictory,  ///< the readings do not agree within their uncertainties
+    undetermined    ///< parts of the stone are open: nearly as in the mesh
+};
+const char* name_of(FitStatus status);
+
+struct FittedFacet {
+    std::string name;
+    Plane plane;
+    double inclination = 0, azimuth = 0;  ///< radians; azimuth in the frame of the fitted solid
+    double inclination_own_axis = 0;      ///< NaN when the stone has no axis of its own
+    double sigma_inclination = 0, sigma_azimuth = 0;  ///< radians; azimuth: NaN for level facets
+    double sigma_offset = 0;  ///< of the plane's distance from the middle of the stone
+    /// What part the readings have in these, the rest being the prior's: 1 - the variance over that
+    /// of the prior alone. 1 without a prior.
+    double read_inclination = 1, read_azimuth = 1, read_offset = 1;
+    double area = 0;  ///< of the facet in the result; 0: not there
+    double sigma_area = 0;
+};
+
+struct FittedReading {
+    std::string id;
+    ReadingKind kind = ReadingKind::inclination;
+    std::vector<std::string> of;
+    double value = 0, sigma = 0, fitted = 0, residual = 0;  ///< radians, length, mm3 or carat
+    double normalized = 0;  ///< residual / its own standard uncertainty (Baarda's w)
+    double redundancy = 0;  ///< 0: nothing checks this reading; 1: it adds nothing
+    double detectable = 0;  ///< smallest error that the test would find, 80 times in 100; 0: none
+    bool suspect = false, exact = false;
+    double rounding = 0;   ///< step of the instrument; 0: none
+    double weight = 1;     ///< left to it by a robust loss
+    std::string left_out;  ///< why it takes no part; empty: it does
+};
+
+/// How the meets of more than three facets were treated, and by how much they miss.
+struct MeetReport {
+    int exact = 0, soft = 0, released = 0;
+    double sigma = 0;         ///< of soft meets
+    double girdle_sigma = 0;  ///< of girdle facets in soft meets
+    bool estimated = false;   ///< sigma comes from the data
+    int ends = 0;  ///< of the estimate: how many local ones were found; the likeliest is taken
+    double miss_rms = 0, miss_max = 0;  ///< distance of planes from their meets
+};
+
+/// The prior as it was used, in radians and the stone's unit.
+struct PriorReport {
+    Prior::Source source = Prior::Source::none;                                 ///< none: not used
+    double tier_angle = 0, facet_angle = 0, tier_offset = 0, facet_offset = 0;  ///< estimated
+};
+
+struct FitResult {
+    FitStatus status = FitStatus::not_converged;
+    std::string message;  ///< why, in one line
+    Solid solid;          ///< in the stone's unit
+    LengthUnit unit = LengthUnit::mm;
+    std::vector<FittedFacet> facets;  ///< in the mesh's order
+    std::vector<FittedReading> readings;
+    std::vector<Undetermined> undetermined;
+    std::vector<std::string> suspects;  ///< ids, the worst first
+    std::vector<Proposal> proposals;    ///< for the suspects
+    /// Readings left out because they are far off what their like say, a line each (first_check.h).
+    std::vector<std::string> doubts;
+    /// The smallest set of readings that cannot hold together, where there is a contradiction.
+    std::vector<std::string> disagreeing;
+    std::vector<std::string> undetermined_words;  ///< what nothing fixes, one sentence each
+    std::vector<NextReading> help;                ///< the best further readings, the best first
+    std::vector<FittedProportion> proportions;
+    std::vector<std::string> missing_facets;
+    /// Edges that the readings want to have no length, as `A/B`: they are kept at a hair's.
+    std::vector<std::string> vanishing_edges;
+    double vanishing_chi2 = 0;  ///< what keeping them costs
+    int starts = 0;             ///< tried
+    std::string start;          ///< that the result came from
+    /// What was done to the mesh before it could be fitted: turned round, scaled, ...
+    std::vector<std::string> notes;
+    MeetReport meets;
+    PriorReport prior;
+    OwnAxis own_axis;
+    std::vector<Tier> tiers;
+    std::vector<NamedTierFinding> named_tiers;
+    std::vector<MeetFinding> meet_findings;
+    std::vector<ShapeFinding> shape_findings;
+    std::vector<ExtraFacet> extra_facets;
+    std::optional<SymmetryReport> symmetry;  ///< when it was looked for
+    std::vector<std::string> changes;        ///< of the topology, in their order
+    double planarity_max = 0;
+    bool closed = false, convex = false;
+    double chi2 = 0, dof = 0, chi2_limit = 0, chi2_p = 1;
+    double suspect_limit = 0;  ///< of |normalized|
+    double azimuth_zero = 0;   ///< where in the solid's frame the readings' azimuths begin; radians
+    int rank_defect = 0;
+    int iterations = 0;
+    double seconds = 0;
+    FitOptions options;
+
+    /// Good enough to go on with.
+    bool usable() const { return status == FitStatus::converged; }
+};
+
+}  // namespace culet

@@ -1,0 +1,292 @@
+#include "fit/findings/shape_findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <set>
+
+#include "fit/uncertainty/covariance.h"
+
+namespace culet {
+
+namespace {
+
+// An edge of the mesh by its two sides and the facets beyond its ends.
+struct MeshEdge {
+    Edge edge;
+    std::vector<int> beyond_from, beyond_to;
+};
+
+std::vector<int> others(const std::vector<int>& facets, const Edge& edge) {
+    std::vector<int> rest;
+    for (int f : facets) {
+        if (f != edge.left && f != edge.right) rest.push_back(f);
+    }
+    return rest;
+}
+
+std::string name(const System& system, int facet) {
+    return system.stone().solid.facets[std::size_t(facet)].name;
+}
+
+std::vector<std::string> names_of(const System& system, const Edge& edge) {
+    std::vector<std::string> names{name(system, edge.left), name(system, edge.right)};
+    for (const int end : {edge.from, edge.to}) {
+        for (int f : others(system.edges().facets_of_vertex[std::size_t(end)], edge)) {
+            names.push_back(name(system, f));
+        }
+    }
+    return names;
+}
+
+// Whether holding a corner below a facet keeps this edge, which ends at both, from turning over.
+bool keeps_open(const System& system, const Edge& edge, int point, int facet) {
+    if (edge.from != point && edge.to != point) return false;
+    if (edge.left == facet || edge.right == facet) return false;
+    const int far_end = edge.from == point ? edge.to : edge.from;
+    const std::vector<int>& there = system.edges().facets_of_vertex[std::size_t(far_end)];
+    return std::find(there.begin(), there.end(), facet) != there.end();
+}
+
+// Corners held below the facet at the other end of an edge keep the edge from turning round. Let
+// go, it would be as long as the readings want it.
+void add_vanishing(const System& system, const Finished& finished, const Inference& inference,
+                   std::vector<ShapeFinding>& findings) {
+    const std::vector<Equation>& hard = inference.linear().hard;
+    std::vector<Eigen::Index> held;
+    for (std::size_t i = 0; i < hard.size(); ++i) {
+        if (hard[i].holds_corner()) held.push_back(Eigen::Index(i));
+    }
+    if (held.empty()) return;
+    // Of an edge both ends may be held, which is one condition said twice: they are let go
+    // together. A corner of an edge of length l lies l times the slope below the far facet.
+    std::vector<const Edge*> edges;
+    std::vector<Eigen::VectorXd> columns;
+    for (const Edge& edge : system.edges().edges) {
+        const Vec3 across = glm::cross(finished.shape.normals[std::size_t(edge.left)],
+                                       finished.shape.normals[std::size_t(edge.right)]);
+        // Facets of one plane have no edge that could vanish.
+        if (!(glm::dot(across, across) > 0)) continue;
+        const Vec3 along = glm::normalize(across);
+        Eigen::VectorXd column = Eigen::VectorXd::Zero(Eigen::Index(hard.size()));
+        for (const Eigen::Index k : held) {
+            const Equation& e = hard[std::size_t(k)];
+            if (!keeps_open(system, edge, e.point, e.facet)) continue;
+            column(k) = std::abs(glm::dot(along, finished.shape.normals[std::size_t(e.facet)]));
+        }
+        if (column.maxCoeff() < 1e-9) continue;
+        edges.push_back(&edge);
+        columns.push_back(std::move(column));
+    }
+    if (edges.empty()) return;
+    Eigen::MatrixXd combinations(Eigen::Index(hard.size()), Eigen::Index(columns.size()));
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+        combinations.col(Eigen::Index(k)) = columns[k];
+    }
+    const Eigen::MatrixXd v = inference.multiplier_covariance(combinations);
+    const Eigen::VectorXd pulls = combinations.transpose() * inference.multipliers();
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+        const double pull = pulls(Eigen::Index(k));
+        const double information = v(Eigen::Index(k), Eigen::Index(k));
+        // Readings so vague that what they say is no number say nothing.
+        if (!std::isfinite(pull) || !std::isfinite(information)) continue;
+        // Drawn apart, or pulled so loosely that rounding decides: not what shapes the stone.
+        if (!(pull > 0) || !(information > 4)) continue;
+        ShapeFinding finding;
+        finding.kind = ShapeFinding::Kind::edge_vanishes;
+        finding.facets = names_of(system, *edges[k]);
+        finding.value = -pull / information;
+        finding.sigma = 1 / std::sqrt(information);
+        // One-sided: only a wish for less than nothing counts.
+        finding.p = 0.5 * std::erfc(pull / std::sqrt(2 * information));
+        findings.push_back(std::move(finding));
+    }
+}
+
+// A facet whose outline is shut by the held corners. One that is as small without being held is as
+// small as the readings say.
+void add_shut_facets(const System& system, const Finished& finished, const Inference& inference,
+                     std::vector<ShapeFinding>& findings) {
+    const Outline& outline = *finished.outline;
+    std::set<int> held_points, held_facets;
+    for (const Equation& e : inference.linear().hard) {
+        if (!e.holds_corner()) continue;
+        held_points.insert(e.point);
+        held_facets.insert(e.facet);
+    }
+    for (std::size_t f = 0; f < outline.loops.size(); ++f) {
+        double width = 0;
+        const std::vector<int>& loop = outline.loops[f];
+        const bool is_held = held_facets.contains(static_cast<int>(f)) ||
+                             std::any_of(loop.begin(), loop.end(), [&](int c) {
+                                 return held_points.contains(outline.corners[std::size_t(c)].point);
+                             });
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                width = std::max(
+                    width,
+                    glm::length(place_of(finished.shape, outline.corners[std::size_t(loop[i])]) -
+                                place_of(finished.shape, outline.corners[std::size_t(loop[j])])));
+            }
+        }
+        // Holding leaves 1e-7 of the half diameter; an area of that width is no facet.
+        double shape_area = 0;
+        if (loop.size() >= 3) {
+            std::vector<Corner> corners;
+            for (int c : loop) corners.push_back(outline.corners[std::size_t(c)]);
+            shape_area = enclosed_area(corners)(finished.shape).value;
+        }
+        if (loop.size() >= 3 && shape_area > (is_held ? 1e-5 * std::max(width, 1e-5) : 0)) continue;
+        ShapeFinding finding;
+        finding.kind = ShapeFinding::Kind::facet_vanishes;
+        finding.facets = {name(system, static_cast<int>(f))};
+        findings.push_back(std::move(finding));
+    }
+}
+
+// Cheaply, the most that a quantity's sigma may be: without the corners that are held.
+class MostSigma {
+public:
+    MostSigma(const Shape& shape, const Diagnosis& diagnosis)
+        : writer_(shape), covariance_(diagnosis.covariance.get()) {}
+    double operator()(const Quantity& q) const {
+        constexpr double k_margin = 1.1;
+        if (covariance_ == nullptr) return std::numeric_limits<double>::infinity();
+        return k_margin * std::sqrt(covariance_->total_variance(writer_.function(q)));
+    }
+
+private:
+    RowWriter writer_;
+    const Covariance* covariance_;
+};
+
+void add_open_edges(const System& system, const Finished& finished, const Inference& inference,
+                    const MostSigma& most_sigma, std::vector<ShapeFinding>& findings) {
+    if (system.splits()) return;
+    std::vector<const Edge*> edges;
+    std::vector<Quantity> lengths;
+    for (const Edge& edge : system.edges().edges) {
+        const Corner a{edge.from, {-1, -1, -1}}, b{edge.to, {-1, -1, -1}};
+        const double length =
+            glm::length(place_of(finished.shape, a) - place_of(finished.shape, b));
+        if (!(length < k_short_edge) || !(length > 1e-9)) continue;
+        const Quantity quantity = corner_distance(a, b)(finished.shape);
+        if (length > 2 * most_sigma(quantity)) continue;
+        edges.push_back(&edge);
+        lengths.push_back(quantity);
+    }
+    const std::vector<double> sigmas = inference.sigmas(lengths);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const double sigma = sigmas[i];
+        if (!(lengths[i].value < 2 * sigma) || !(sigma < 0.5)) continue;
+        ShapeFinding finding;
+        finding.kind = ShapeFinding::Kind::edge_open;
+        finding.facets = names_of(system, *edges[i]);
+        const bool known = std::any_of(findings.begin(), findings.end(), [&](const auto& other) {
+            return other.facets[0] == finding.facets[0] && other.facets.size() > 1 &&
+                   other.facets[1] == finding.facets[1];
+        });
+        if (known) continue;
+        finding.value = lengths[i].value;
+        finding.sigma = sigma;
+        findings.push_back(std::move(finding));
+    }
+}
+
+void add_open_facets(const System& system, const Finished& finished, const Diagnosis& diagnosis,
+                     std::vector<ShapeFinding>& findings) {
+    const Outline& outline = *finished.outline;
+    for (std::size_t f = 0; f < outline.loops.size(); ++f) {
+        if (outline.loops[f].size() < 3) continue;
+        std::vector<Corner> corners;
+        for (int c : outline.loops[f]) corners.push_back(outline.corners[std::size_t(c)]);
+        const double value = enclosed_area(corners)(finished.shape).value;
+        const double sigma = diagnosis.facets[f].area;
+        // Beyond a tenth of the half diameter squared the area is simply not known.
+        if (!(value < 2 * sigma) || !(sigma < 0.1)) continue;
+        ShapeFinding finding;
+        finding.kind = ShapeFinding::Kind::facet_open;
+        finding.facets = {name(system, static_cast<int>(f))};
+        const bool known = std::any_of(findings.begin(), findings.end(), [&](const auto& other) {
+            return other.kind == ShapeFinding::Kind::facet_vanishes &&
+                   other.facets == finding.facets;
+        });
+        if (known) continue;
+        finding.value = value;
+        finding.sigma = sigma;
+        findings.push_back(std::move(finding));
+    }
+}
+
+void add_same_planes(const System& system, const Finished& finished, const Diagnosis& diagnosis,
+                     const Inference& inference, const MostSigma& most_sigma,
+                     std::vector<ShapeFinding>& findings) {
+    std::vector<const Edge*> edges;
+    std::vector<Quantity> angles;
+    std::vector<double> values;
+    for (const Edge& edge : system.edges().edges) {
+        const Vec3 &a = finished.shape.normals[std::size_t(edge.left)],
+                   &b = finished.shape.normals[std::size_t(edge.right)];
+        const double angle = angle_between(a, b);
+        const FacetSigma &s = diagnosis.facets[std::size_t(edge.left)],
+                         &t = diagnosis.facets[std::size_t(edge.right)];
+        const auto own = [](const FacetSigma& sigma, const Vec3& n) {
+            const double flat = std::hypot(n.x, n.y);
+            const double across = std::isfinite(sigma.azimuth) ? flat * sigma.azimuth : 0;
+            return std::hypot(sigma.inclination, across);
+        };
+        // What both might be apart at most, before asking for their common covariance.
+        const double most = own(s, a) + own(t, b);
+        if (!(angle < 2 * most) || !(angle < 0.2)) continue;
+        const Quantity quantity = tilt_between(edge.left, edge.right)(finished.shape);
+        if (angle > 2 * most_sigma(quantity)) continue;
+        edges.push_back(&edge);
+        angles.push_back(quantity);
+        values.push_back(angle);
+    }
+    const std::vector<double> sigmas = inference.sigmas(angles);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        if (!(values[i] < 2 * sigmas[i]) || !(sigmas[i] < 0.5)) continue;
+        ShapeFinding finding;
+        finding.kind = ShapeFinding::Kind::same_plane;
+        finding.facets = {name(system, edges[i]->left), name(system, edges[i]->right)};
+        finding.value = values[i];
+        finding.sigma = sigmas[i];
+        findings.push_back(std::move(finding));
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> edges_kept_open(const System& system,
+                                         const std::vector<ActiveCorner>& held) {
+    std::vector<std::string> edges;
+    for (const ActiveCorner& h : held) {
+        for (const Edge& edge : system.edges().edges) {
+            if (!keeps_open(system, edge, h.point, h.facet)) continue;
+            std::string both = name(system, edge.left) + "/" + name(system, edge.right);
+            if (std::find(edges.begin(), edges.end(), both) == edges.end()) {
+                edges.push_back(std::move(both));
+            }
+        }
+    }
+    return edges;
+}
+
+std::vector<ShapeFinding> find_open_shape(const System& system, const Finished& finished,
+                                          const Diagnosis& diagnosis, const Inference& inference) {
+    std::vector<ShapeFinding> findings;
+    if (!finished.outline) return findings;
+    add_vanishing(system, finished, inference, findings);
+    add_shut_facets(system, finished, inference, findings);
+    const MostSigma most_sigma(finished.shape, diagnosis);
+    add_open_edges(system, finished, inference, most_sigma, findings);
+    add_open_facets(system, finished, diagnosis, findings);
+    add_same_planes(system, finished, diagnosis, inference, most_sigma, findings);
+    return findings;
+}
+
+}  // namespace culet

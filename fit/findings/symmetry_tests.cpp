@@ -1,0 +1,342 @@
+#include "fit/findings/symmetry_tests.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "fit/findings/own_axis.h"
+#include "fit/findings/polar_coordinates.h"
+#include "fit/uncertainty/statistics.h"
+#include "fit/uncertainty/variance_component.h"
+
+namespace culet {
+
+namespace {
+
+// Dense algebra on three numbers a facet; beyond this it would take minutes.
+constexpr std::size_t k_most_facets = 700;
+// Told by the readings: better than half of the half diameter.
+constexpr double k_told = 0.25;
+// Exact by other conditions.
+constexpr double k_exact = 1e-18;
+// Tested at least to this part, a group counts as determined.
+constexpr double k_enough = 0.5;
+
+// How many conditions symmetry puts on a shape whose meets are exact: edges less their orbits.
+int edge_conditions(const System& system, const AxisGroup& group) {
+    std::set<std::pair<int, int>> seen;
+    int orbits = 0;
+    for (const Edge& e : system.edges().edges) {
+        if (seen.count(std::minmax(e.left, e.right)) > 0) continue;
+        ++orbits;
+        for (const AxisGroup::Element& g : group.elements) {
+            seen.insert(std::minmax(g.facets[std::size_t(e.left)], g.facets[std::size_t(e.right)]));
+        }
+    }
+    return static_cast<int>(system.edges().edges.size()) - orbits;
+}
+
+// Orthonormal columns for the range of a matrix: at most `most`, none below `least`.
+Eigen::MatrixXd range_of(const Eigen::MatrixXd& matrix, double least,
+                         Eigen::Index most = std::numeric_limits<int>::max()) {
+    if (matrix.size() == 0) return Eigen::MatrixXd(matrix.rows(), 0);
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(matrix);
+    most = std::min({most, matrix.rows(), matrix.cols()});
+    Eigen::Index rank = 0;
+    while (rank < most && std::abs(qr.matrixR()(rank, rank)) > least) ++rank;
+    return qr.householderQ() * Eigen::MatrixXd::Identity(matrix.rows(), rank);
+}
+
+// What the tests of all groups share.
+struct Space {
+    Eigen::MatrixXd placement;  // orthonormal: of the symmetry's axis in the stone
+    Eigen::MatrixXd open;       // orthonormal: what the meets leave open, but for placement
+    Eigen::MatrixXd told;       // of the ways to miss the form's symmetry those that the readings
+    Eigen::VectorXd values;     // tell, uncorrelated; the stone's place along them
+    Eigen::VectorXd variance;   // and its variance
+    Eigen::Index form_freedoms = 0;
+
+    Eigen::MatrixXd without_placement(const Eigen::MatrixXd& matrix) const {
+        return matrix - placement * (placement.transpose() * matrix);
+    }
+};
+
+// Changes of shape that keep a group's symmetry and all meets. A symmetric mean of what the meets
+// leave open is open itself, but for as much as the shape is not symmetric: the number of such
+// changes is known (edges less conditions), which tells them from that.
+Eigen::MatrixXd symmetric_changes(const System& system, const Space& space,
+                                  const Eigen::MatrixXd& columns, int edge_conditions) {
+    const Eigen::MatrixXd symmetric = range_of(space.without_placement(columns), 1e-9);
+    const Eigen::Index most =
+        system.splits() ? symmetric.cols() : space.open.cols() - Eigen::Index(edge_conditions);
+    return symmetric *
+           range_of(symmetric.transpose() * space.open, 1e-6, std::max<Eigen::Index>(0, most));
+}
+
+Space space_of(const System& system, const AxisGroup& form, const PolarCoordinates& coordinates,
+               const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& reach) {
+    Space space;
+    space.placement = range_of(coordinates.placement, 1e-9);
+    const Eigen::MatrixXd seen = space.without_placement(reach);
+    // The number of ways that exact meets leave open is known: without it small asymmetry of the
+    // fitted shape itself would show as more.
+    space.open =
+        range_of(space.without_placement(seen.transpose()), 1e-6,
+                 system.splits() ? reach.rows() : Eigen::Index(system.edges().edges.size()));
+    const SymmetricModel model = symmetric_model(coordinates, form);
+    const Eigen::MatrixXd symmetric =
+        symmetric_changes(system, space, model.columns, edge_conditions(system, form));
+    space.form_freedoms = symmetric.cols();
+    // Across all that is symmetric, reachable or not.
+    const Eigen::MatrixXd columns = range_of(space.without_placement(model.columns), 1e-9);
+    const Eigen::MatrixXd ways = range_of(space.open - columns * (columns.transpose() * space.open),
+                                          1e-6, space.open.cols() - symmetric.cols());
+    if (ways.cols() == 0) return space;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(ways.transpose() * covariance *
+                                                               ways);
+    std::vector<Eigen::Index> told;
+    for (Eigen::Index i = 0; i < ways.cols(); ++i) {
+        const double variance = eigen.eigenvalues()(i);
+        if (variance >= k_exact && variance <= k_told) told.push_back(i);
+    }
+    space.told = ways * eigen.eigenvectors()(Eigen::all, told);
+    space.values = space.told.transpose() * model.deviations;
+    space.variance = eigen.eigenvalues()(told);
+    return space;
+}
+
+// Chi-square of the stone nearest to this one that has the group's symmetry: what a part of the
+// form's group leaves free beyond the form's own freedoms is fitted by weighted least squares.
+GroupTest test_group(const System& system, const AxisGroup& group,
+                     const PolarCoordinates& coordinates, const Space& space, double level) {
+    GroupTest test;
+    test.group = group.name();
+    test.order = group.order;
+    test.mirrors = group.mirrors;
+    test.mirror_azimuth = std::remainder(group.plane + 0.5 * std::numbers::pi, std::numbers::pi);
+    const Eigen::MatrixXd changes = symmetric_changes(
+        system, space, symmetric_model(coordinates, group).columns, edge_conditions(system, group));
+    test.conditions = static_cast<int>(space.open.cols() - changes.cols());
+    if (space.told.cols() == 0) return test;
+    // Where readings tell nothing of a freedom it is next to nothing here.
+    const Eigen::MatrixXd fitted =
+        range_of(space.told.transpose() * changes, 1e-4, changes.cols() - space.form_freedoms);
+    const Eigen::VectorXd weights = space.variance.cwiseSqrt().cwiseInverse();
+    Eigen::VectorXd left = space.values.cwiseProduct(weights);
+    if (fitted.cols() > 0) {
+        const Eigen::HouseholderQR<Eigen::MatrixXd> qr(weights.asDiagonal() * fitted);
+        left.applyOnTheLeft(qr.householderQ().adjoint());
+    }
+    const Eigen::Index over = left.size() - fitted.cols();
+    test.tested = std::min(static_cast<int>(over), test.conditions);
+    test.chi2 = left.tail(over).squaredNorm();
+    test.p = chi2_tail(test.chi2, test.tested);
+    test.determined = test.tested >= k_enough * test.conditions;
+    test.supported = test.tested > 0 && test.p >= level;
+    return test;
+}
+
+// Contrasts that are zero because the frame or exact conditions make them so (the table's, from
+// which all else is read) say nothing of how far a stone is from symmetric.
+Contrasts without_what_holds(const Contrasts& contrasts) {
+    Contrasts free;
+    for (std::size_t i = 0; i < contrasts.values.size(); ++i) {
+        const double value = contrasts.values[i], variance = contrasts.variances[i];
+        if (!(variance > k_exact) && !(value * value > k_exact)) continue;
+        free.values.push_back(value);
+        free.variances.push_back(variance);
+    }
+    return free;
+}
+
+// Where all is held, symmetric it is.
+VarianceComponent spread_of(const Contrasts& free) {
+    return free.values.empty() ? VarianceComponent() : variance_component(free);
+}
+
+// Polar angle and azimuth of facets, two rows each.
+struct Directions {
+    Eigen::VectorXd deviations;
+    Eigen::MatrixXd columns, covariance;
+};
+Directions directions_of(const std::vector<int>& facets, const SymmetricModel& model,
+                         const Eigen::MatrixXd& covariance) {
+    std::vector<Eigen::Index> rows;
+    for (int f : facets) {
+        rows.push_back(Eigen::Index(3 * f));
+        rows.push_back(Eigen::Index(3 * f + 1));
+    }
+    return {model.deviations(rows), model.columns(rows, Eigen::all), covariance(rows, rows)};
+}
+
+TierSymmetry test_tier(const System& system, const FacetOrbit& orbit, const SymmetricModel& model,
+                       const Eigen::MatrixXd& covariance) {
+    TierSymmetry tier;
+    for (int f : orbit.facets) {
+        tier.facets.push_back(system.stone().solid.facets[std::size_t(f)].name);
+    }
+    const Directions directions = directions_of(orbit.facets, model, covariance);
+    const auto& [deviations, columns, v] = directions;
+    const Eigen::VectorXd off =
+        deviations - columns * columns.completeOrthogonalDecomposition().solve(deviations);
+    double squares = 0;
+    for (std::size_t i = 0; i < orbit.facets.size(); ++i) {
+        const double angle = std::hypot(off(Eigen::Index(2 * i)), off(Eigen::Index(2 * i + 1)));
+        squares += angle * angle;
+        if (angle < tier.worst_off || (i > 0 && angle == tier.worst_off)) continue;
+        tier.worst_off = angle;
+        tier.worst = tier.facets[i];
+    }
+    tier.deviation = std::sqrt(squares / double(orbit.facets.size()));
+    const Contrasts contrasts = without_what_holds(contrasts_of(deviations, v, columns));
+    const VarianceComponent component = spread_of(contrasts);
+    tier.sigma = component.sigma;
+    tier.sigma_sigma = component.sigma_sigma;
+    tier.at_most = component.at_most;
+    double chi2 = 0;
+    int tested = 0;
+    for (std::size_t i = 0; i < contrasts.values.size(); ++i) {
+        if (!(contrasts.variances[i] > k_exact) || !(contrasts.variances[i] < k_told)) continue;
+        chi2 += contrasts.values[i] * contrasts.values[i] / contrasts.variances[i];
+        ++tested;
+    }
+    tier.p = chi2_tail(chi2, tested);
+    return tier;
+}
+
+std::string in_degrees(double angle) {
+    return fmt::format("{:.2g}", degrees(angle));
+}
+
+// What a group says in a stone file.
+std::vector<std::string> readings_for(const GroupTest& test, const std::string& how) {
+    std::vector<std::string> readings;
+    if (test.order > 1) {
+        readings.push_back(fmt::format("kind = \"rotation\", of = [\"{}\"], {}", test.order, how));
+    }
+    if (test.mirrors) {
+        readings.push_back(fmt::format("kind = \"mirror\", of = [\"{:.6g}\"], {}",
+                                       degrees(test.mirror_azimuth), how));
+    }
+    return readings;
+}
+
+void conclude(SymmetryReport& report, double level) {
+    const GroupTest* proposed = nullptr;
+    for (const GroupTest& test : report.groups) {
+        if (test.supported && test.determined && !proposed) proposed = &test;
+    }
+    const GroupTest& form = report.groups.front();
+    const std::string spread =
+        fmt::format("facets within {} degrees of it (sigma {})", in_degrees(report.sigma),
+                    in_degrees(report.sigma_sigma));
+    if (proposed) {
+        report.proposed = proposed->group;
+        report.readings = readings_for(*proposed, "exact = true");
+        report.message = fmt::format(
+            "{} is supported: chi2 {:.1f} for {} of {} conditions, p {:.2g}", proposed->group,
+            proposed->chi2, proposed->tested, proposed->conditions, proposed->p);
+        if (proposed != &form) {
+            report.message +=
+                fmt::format("; {} is denied (p {:.2g}), {}", form.group, form.p, spread);
+        }
+        return;
+    }
+    report.proposed = "C1";
+    // A single level facet may be all that is askew: the table that everything else is read from.
+    std::string askew;
+    bool others = false;
+    for (const TierSymmetry& tier : report.tiers) {
+        if (tier.p >= level) continue;
+        others = others || tier.facets.size() > 1 || !askew.empty();
+        askew =
+            fmt::format("{}, which stands {} degrees off", tier.tier, in_degrees(tier.worst_off));
+    }
+    if (!form.determined) {
+        report.message =
+            fmt::format("the readings leave {} open: they tell of {} of its {} conditions only",
+                        form.group, form.tested, form.conditions);
+        return;
+    }
+    report.message =
+        fmt::format("no exact symmetry: {} is denied (chi2 {:.1f} for {}, p {:.2g}); {}",
+                    form.group, form.chi2, form.tested, form.p, spread);
+    if (!askew.empty() && !others) {
+        report.message += fmt::format("; the stone would have it but for {}", askew);
+    }
+    report.readings =
+        readings_for(form, fmt::format("sigma = {:.2g}", std::max(1e-6, degrees(report.sigma))));
+}
+
+}  // namespace
+
+SymmetryReport symmetry_of(const System& system, const Shape& shape, const Inference& inference,
+                           const FitOptions& options) {
+    SymmetryReport report;
+    const AxisGroup form = form_group(system, shape);
+    report.form = report.proposed = form.name();
+    if (form.is_trivial()) {
+        report.message = "the stone's form has no symmetry";
+        return report;
+    }
+    if (shape.normals.size() > k_most_facets || !inference.usable()) {
+        report.proposed = "C1";
+        report.message =
+            shape.normals.size() > k_most_facets
+                ? fmt::format(
+                      "symmetry was not looked for: {} facets are more than the {} up to "
+                      "which it is tested, so C1 says nothing of this stone",
+                      shape.normals.size(), k_most_facets)
+                : "symmetry was not looked for: the stone has no covariance to test it by";
+        return report;
+    }
+    const std::vector<Tier> tiers = tiers_of(system, shape, form);
+    const PolarCoordinates coordinates = polar_coordinates(system, shape, inference, tiers);
+    const Eigen::MatrixXd covariance = inference.covariance(coordinates.rows);
+    // What the meets and exact readings leave open at all, whatever was read.
+    const Eigen::MatrixXd reach = inference.reach(coordinates.rows);
+    if (reach.size() == 0) {
+        report.proposed = "C1";
+        report.message = "the meets could not be analysed";
+        return report;
+    }
+    const Space space = space_of(system, form, coordinates, covariance, reach);
+    for (const AxisGroup& group : subgroups_of(form)) {
+        report.groups.push_back(
+            test_group(system, group, coordinates, space, options.significance));
+    }
+    const SymmetricModel model = symmetric_model(coordinates, form);
+    std::vector<int> alike;
+    for (const FacetOrbit& orbit : orbits_of(form, shape.normals.size())) {
+        // A single facet is unlike nothing, unless turns must leave it level.
+        if (orbit.facets.size() == 1 && !orbit.stays && orbit.own_mirror < 0) continue;
+        TierSymmetry tier = test_tier(system, orbit, model, covariance);
+        tier.tier = tier.facets.front();
+        for (const Tier& t : tiers) {
+            if (std::find(t.facets.begin(), t.facets.end(), orbit.facets.front()) !=
+                t.facets.end()) {
+                tier.tier = t.name;
+            }
+        }
+        report.tiers.push_back(std::move(tier));
+        alike.insert(alike.end(), orbit.facets.begin(), orbit.facets.end());
+    }
+    // Together: a tier alone may be symmetric about an axis of its own.
+    SymmetricModel placed = model;
+    placed.columns.conservativeResize(Eigen::NoChange,
+                                      model.columns.cols() + coordinates.placement.cols());
+    placed.columns.rightCols(coordinates.placement.cols()) = coordinates.placement;
+    const Directions all = directions_of(alike, placed, covariance);
+    const VarianceComponent whole =
+        spread_of(without_what_holds(contrasts_of(all.deviations, all.covariance, all.columns)));
+    report.sigma = whole.sigma;
+    report.sigma_sigma = whole.sigma_sigma;
+    conclude(report, options.significance / double(report.tiers.size() + 1));
+    return report;
+}
+
+}  // namespace culet

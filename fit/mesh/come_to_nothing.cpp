@@ -1,0 +1,31 @@
+#include "fit/mesh/come_to_nothing.h"
+
+#include "stone/half_edges.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+// Of the diameter, and of a degree: no caliper and no goniometer tells so little.
+constexpr double k_no_width = 1e-5, k_one_plane_deg = 1e-3;
+
+}  // namespace
+
+ComeToNothing come_to_nothing(const Solid& solid) {
+    ComeToNothing result;
+    const double least = k_no_width * diameter(solid);
+    for (const Facet& facet : solid.facets) {
+        if (narrow_width(solid, facet) < least) result.facets.push_back(facet.name);
+    }
+    for (const Edge& edge : half_edges(solid).edges) {
+        const Facet &left = solid.facets[std::size_t(edge.left)],
+                    &right = solid.facets[std::size_t(edge.right)];
+        if (angle_between(left.plane.normal, right.plane.normal) < radians(k_one_plane_deg)) {
+            result.edges.push_back(left.name + "|" + right.name);
+        }
+    }
+    return result;
+}
+
+}  // namespace culet

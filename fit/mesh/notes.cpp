@@ -1,0 +1,34 @@
+#include "fit/mesh/notes.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace culet {
+
+std::string other_turn(const System& system) {
+    constexpr double k_noticed_deg = 5;
+    const double turn = degrees(std::remainder(system.mesh_turn(), 2 * std::numbers::pi));
+    if (!system.stone().azimuth_from_mesh || std::abs(turn) < k_noticed_deg) return {};
+    return fmt::format(
+        "by the azimuths read, the mesh stands turned by {:.0f} degrees: it was turned back; check "
+        "where azimuths, those of widths too, are counted from",
+        -turn);
+}
+
+std::string other_size(const System& system) {
+    const double factor = system.mesh_scale(), apart = std::max(factor, 1 / factor);
+    if (apart < 3) return {};
+    std::string guess;
+    for (double known : {10.0, 25.4, 100.0, 1000.0}) {
+        if (apart > known / 1.6 && apart < known * 1.6) guess = fmt::format("{:g} ", known);
+    }
+    return fmt::format(
+        "the mesh is {} times too {} for the lengths that were read{}: it was scaled; check `unit` "
+        "of [stone]",
+        guess.empty() ? fmt::format("{:.3g}", apart) : "about " + guess.substr(0, guess.size() - 1),
+        factor > 1 ? "small" : "large", guess.empty() ? "" : ", as if drawn in another unit");
+}
+
+}  // namespace culet

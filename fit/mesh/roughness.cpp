@@ -1,0 +1,65 @@
+#include "fit/mesh/roughness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace culet {
+
+std::optional<MeshRoughness> MeshRoughness::of(const System& system) {
+    const Shape& mesh = system.mesh_shape();
+    // Of k corners k - 3 show how far they lie off a plane.
+    double squares = 0, redundancy = 0;
+    for (std::size_t f = 0; f < mesh.normals.size(); ++f) {
+        const std::vector<int>& loop = system.mesh_outline()->loops[f];
+        for (int corner : loop) {
+            const double off =
+                glm::dot(mesh.normals[f], mesh.points[std::size_t(corner)]) - mesh.offsets[f];
+            squares += off * off;
+        }
+        redundancy += double(loop.size()) - 3;
+    }
+    if (!(redundancy > 0)) return std::nullopt;
+    return MeshRoughness(system, std::sqrt(squares / redundancy));
+}
+
+double MeshRoughness::turn(int facet) const {
+    double spread = 0;
+    for (const Vec3& off : from_middle(facet)) spread += glm::dot(off, off);
+    return corner_ / std::sqrt(std::max(1e-12, spread / 2));
+}
+
+double MeshRoughness::tilt(int facet) const {
+    const Vec3& n = system_->mesh_shape().normals[std::size_t(facet)];
+    // A level facet has no way down: any will do.
+    const Vec3 across =
+        std::hypot(n.x, n.y) > 0 ? glm::normalize(Vec3{-n.y, n.x, 0}) : Vec3{1, 0, 0};
+    const Vec3 down = glm::cross(n, across);
+    double downs = 0, acrosses = 0, both = 0;
+    for (const Vec3& off : from_middle(facet)) {
+        const double d = glm::dot(off, down), a = glm::dot(off, across);
+        downs += d * d;
+        acrosses += a * a;
+        both += d * a;
+    }
+    // Of a plane laid through the corners by least squares.
+    const double determinant = downs * acrosses - both * both;
+    return determinant > 0 ? corner_ * std::sqrt(acrosses / determinant)
+                           : std::numeric_limits<double>::infinity();
+}
+
+std::vector<Vec3> MeshRoughness::from_middle(int facet) const {
+    const std::vector<Vec3>& points = system_->mesh_shape().points;
+    std::vector<Vec3> corners;
+    Vec3 middle(0);
+    for (const int corner : system_->mesh_outline()->loops[std::size_t(facet)]) {
+        corners.push_back(points[std::size_t(corner)]);
+        middle += corners.back();
+    }
+    middle /= double(corners.size());
+    for (Vec3& corner : corners) corner -= middle;
+    return corners;
+}
+
+}  // namespace culet

@@ -1,0 +1,25 @@
+#pragma once
+// Motions of the whole stone that no reading sees, and what else is undetermined. Private to the
+// room: shows Eigen.
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+
+#include "fit/model/linear.h"
+
+namespace culet {
+
+/// Parameters held less than twice as tightly by the readings as by the mesh (lambda = 4 in
+/// variance) count as not determined.
+inline constexpr double k_determined = 4;
+/// For the question what is open, a reading is tight enough at this weight: squares of larger ones
+/// would drown a weight of one in rounding.
+inline constexpr double k_tight = 1e6;
+
+/// Orthonormal in the metric, one a column. The turn about up is one of them also where `rows`, of
+/// the readings, see it (widths along azimuths) but hold it less than the mesh does: no freedom of
+/// the stone's shape.
+Eigen::MatrixXd datum_defect(const Linearised& linear,
+                             const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows);
+
+}  // namespace culet

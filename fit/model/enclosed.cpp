@@ -1,0 +1,105 @@
+// The solid that a shape's planes enclose, and its corners in terms of the unknowns.
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "fit/model/system.h"
+
+namespace culet {
+
+namespace {
+
+// Exact meets come out of the planes as edges of rounding length; real edges are longer than this
+// part of the half diameter by far.
+constexpr double k_rounding_edge = 1e-10;
+
+// The three of these planes that cross most squarely.
+std::array<int, 3> squarest(const Shape& shape, const std::vector<int>& planes) {
+    std::array<int, 3> best{planes[0], planes[1], planes[2]};
+    double most = -1;
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        for (std::size_t j = i + 1; j < planes.size(); ++j) {
+            for (std::size_t k = j + 1; k < planes.size(); ++k) {
+                const double det = std::abs(
+                    glm::dot(shape.normals[planes[i]],
+                             glm::cross(shape.normals[planes[j]], shape.normals[planes[k]])));
+                if (det > most) {
+                    most = det;
+                    best = {planes[i], planes[j], planes[k]};
+                }
+            }
+        }
+    }
+    return best;
+}
+
+}  // namespace
+
+System::Enclosed System::enclosed(const Shape& shape) const {
+    std::vector<NamedPlane> planes;
+    for (std::size_t f = 0; f < shape.normals.size(); ++f) {
+        planes.push_back({solid_.facets[f].name, {shape.normals[f], shape.offsets[f]}});
+    }
+    Enclosed result;
+    HalfSpaceSolid cut = intersect_half_spaces(planes);
+    auto outline = std::make_shared<Outline>();
+    outline->loops.resize(planes.size());
+    if (!cut.bounded || cut.empty) {
+        result.outline = outline;
+        for (const NamedPlane& plane : planes) result.missing.push_back(plane.name);
+        return result;
+    }
+    ContractedSolid tidy = contract_near_meets(cut.solid, k_rounding_edge);
+    result.solid = std::move(tidy.solid);
+    result.closed = true;
+
+    std::vector<int> facet_of(result.solid.facets.size());
+    std::vector<std::vector<int>> planes_of(result.solid.vertices.size());
+    std::vector<bool> present(planes.size(), false);
+    for (std::size_t i = 0; i < result.solid.facets.size(); ++i) {
+        const Facet& facet = result.solid.facets[i];
+        int f = 0;
+        while (solid_.facets[f].name != facet.name) ++f;
+        facet_of[i] = f;
+        present[f] = true;
+        outline->loops[f] = facet.corners;
+        for (int corner : facet.corners) planes_of[corner].push_back(f);
+    }
+    for (std::size_t f = 0; f < planes.size(); ++f) {
+        if (!present[f]) result.missing.push_back(planes[f].name);
+    }
+
+    // Points whose every incidence is exact stand for themselves.
+    std::vector<bool> exact(shape.points.size(), true);
+    for (const Incidence& incidence : incidences_) {
+        if (incidence.how != MeetTreatment::exact) exact[incidence.point] = false;
+    }
+    for (std::size_t v = 0; v < planes_of.size(); ++v) {
+        Corner corner;
+        for (std::size_t p = 0; p < edges_.facets_of_vertex.size() && corner.point < 0; ++p) {
+            if (!exact[p] ||
+                glm::length(shape.points[p] - result.solid.vertices[v]) > 10 * k_rounding_edge) {
+                continue;
+            }
+            corner.point = static_cast<int>(p);
+        }
+        if (corner.point < 0 && planes_of[v].size() >= 3) {
+            corner.planes = squarest(shape, planes_of[v]);
+        }
+        outline->corners.push_back(corner);
+    }
+    result.outline = outline;
+    return result;
+}
+
+Solid System::met_solid(const Shape& shape) const {
+    Solid solid = solid_;
+    for (std::size_t v = 0; v < solid.vertices.size(); ++v) solid.vertices[v] = shape.points[v];
+    for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+        solid.facets[f].plane = {shape.normals[f], shape.offsets[f]};
+    }
+    return solid;
+}
+
+}  // namespace culet

@@ -1,0 +1,50 @@
+#pragma once
+// Exact symmetry: which facets and meets are images of which, and by what motion. The axis of all
+// rotations is +z through the origin, and all mirror planes contain it.
+
+#include <glm/mat3x3.hpp>
+#include <optional>
+#include <vector>
+
+#include "fit/model/shape.h"
+#include "stone/automorphisms.h"
+
+namespace culet {
+
+/// A motion of space that exchanges facets and meets.
+struct SymmetryMotion {
+    Automorphism exchange;
+    glm::dmat3 motion{1.0};  ///< a turn about z, or a mirroring at a plane through z
+};
+glm::dmat3 turn_about_z(double angle);
+/// All of it, about z.
+Shape turned_about_z(Shape shape, double angle);
+/// `azimuth` of the plane's normal.
+glm::dmat3 mirroring_at(double azimuth);
+
+/// A member of an orbit: the image of the first one under `from_first`.
+struct OrbitMember {
+    int first = -1;
+    glm::dmat3 from_first{1.0};
+};
+
+/// What the motions that keep a thing in its place leave free: the directions that they all keep.
+struct KeptDirections {
+    enum class Kind { all, vertical_plane, axis } kind = Kind::all;
+    Vec3 outward{1, 0, 0};  ///< vertical_plane: its level direction
+};
+
+struct Orbits {
+    std::vector<OrbitMember> facets, points;
+    std::vector<KeptDirections> kept_by_facet, kept_by_point;  ///< of first members
+    std::vector<SymmetryMotion> generators;
+
+    bool empty() const { return generators.empty(); }
+};
+
+/// Nothing when the motions contradict each other on these facets: two of them that exchange facets
+/// alike but move space differently.
+std::optional<Orbits> orbits_of(const std::vector<SymmetryMotion>& generators, int facets,
+                                int points);
+
+}  // namespace culet

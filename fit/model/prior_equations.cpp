@@ -1,0 +1,78 @@
+// The facets' prior as equations: one for each facet's angle, azimuth and offset, and one for each
+// of the tiers' common parts.
+
+#include "fit/model/system.h"
+
+namespace culet {
+
+namespace {
+
+Formula unknown_extra(int extra) {
+    return [=](const Shape& shape) {
+        Quantity q{shape.extras[std::size_t(extra)], {}};
+        q.add(Quantity::By::extra, extra, 1);
+        return q;
+    };
+}
+
+Formula plane_offset(int facet) {
+    return [=](const Shape& shape) {
+        Quantity q{shape.offsets[std::size_t(facet)], {}};
+        q.add(Quantity::By::offset, facet, 1);
+        return q;
+    };
+}
+
+// Less the start, where a formula has it in itself.
+std::pair<Formula, double> formula_of(const PriorTerm& term) {
+    switch (term.of) {
+        case PriorTerm::Of::inclination:
+            return {tilt_from_side(term.facet, term.side), term.start};
+        case PriorTerm::Of::azimuth:
+            return {azimuth_error(term.facet, -1, term.start), 0};
+        case PriorTerm::Of::offset:
+            return {plane_offset(term.facet), term.start};
+        case PriorTerm::Of::level_x:
+            return {horizontal_component(term.facet, 0), term.start};
+        case PriorTerm::Of::level_y:
+            break;
+    }
+    return {horizontal_component(term.facet, 1), term.start};
+}
+
+}  // namespace
+
+std::vector<Equation> System::expected_equations() const {
+    std::vector<Equation> all;
+    const auto sigma_of = [&](PriorLevel level) { return prior_.sigmas[std::size_t(level)]; };
+    const auto put = [&](Formula formula, double value, double sigma) {
+        Equation e;
+        e.role = Equation::Role::expected;
+        e.formula = std::move(formula);
+        e.value = value;
+        e.sigma = sigma;
+        all.push_back(std::move(e));
+    };
+    for (const PriorTerm& term : prior_.terms) {
+        const PriorLevel tier = term.is_angle() ? PriorLevel::tier_angle : PriorLevel::tier_offset;
+        const PriorLevel own = term.is_angle() ? PriorLevel::facet_angle : PriorLevel::facet_offset;
+        const double ratio = term.of == PriorTerm::Of::azimuth ? prior_.azimuth_ratio : 1;
+        auto [formula, value] = formula_of(term);
+        if (term.extra < 0) {
+            // Of no tier: both errors at once.
+            put(std::move(formula), value, ratio * std::hypot(sigma_of(tier), sigma_of(own)));
+        } else {
+            put(weighted_sum({{1, std::move(formula)}, {-1, unknown_extra(term.extra)}}), value,
+                ratio * sigma_of(own));
+        }
+    }
+    const auto put_common = [&](const std::vector<int>& extras, PriorLevel level, double ratio) {
+        for (const int e : extras) put(unknown_extra(e), 0, ratio * sigma_of(level));
+    };
+    put_common(prior_.angle_extras, PriorLevel::tier_angle, 1);
+    put_common(prior_.azimuth_extras, PriorLevel::tier_angle, prior_.azimuth_ratio);
+    put_common(prior_.offset_extras, PriorLevel::tier_offset, 1);
+    return all;
+}
+
+}  // namespace culet

@@ -1,0 +1,43 @@
+#pragma once
+// What the fit varies: every facet's plane, every meet as a point of its own, and a few numbers of
+// symmetry readings. Planes and points are tied by the bilinear incidence normal . x = offset,
+// which is far better conditioned than corners computed from planes alone.
+// Inside the fit the stone is upright (up is +z), about the origin, and its half diameter is 1.
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "stone/solid.h"
+
+namespace culet {
+
+/// One state of the unknowns.
+struct Shape {
+    std::vector<Vec3> normals;  ///< unit
+    std::vector<double> offsets;
+    std::vector<Vec3> points;
+    std::vector<double> extras;  ///< centres of rotations, mirror planes
+};
+
+/// Where each unknown stands in the vector of small steps: two tilts and a shift for each facet,
+/// three coordinates for each point, then the extras.
+struct Layout {
+    int facets = 0, points = 0, extras = 0;
+
+    int tilt(int facet) const { return 3 * facet; }
+    int offset(int facet) const { return 3 * facet + 2; }
+    int point(int p) const { return 3 * facets + 3 * p; }
+    int extra(int e) const { return 3 * facets + 3 * points + e; }
+    int size() const { return 3 * facets + 3 * points + extras; }
+};
+
+Layout layout_of(const Shape& shape);
+
+/// Two unit directions that span the plane normal to `n`; a smooth choice but at n = -z.
+std::array<Vec3, 2> tangents(const Vec3& n);
+
+/// The shape after a step in the order of `Layout`. Normals stay unit.
+Shape retracted(const Shape& shape, std::span<const double> step);
+
+}  // namespace culet

@@ -1,0 +1,231 @@
+#include "fit/readings/binder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "fit/readings/slips.h"
+#include "stone/errors.h"
+#include "stone/tiers.h"
+
+namespace culet {
+
+namespace {
+
+// A hand-made mesh's inclinations are hardly further off.
+constexpr double k_slip_tolerance_deg = 12;
+// Beyond upright by more than this is no scatter of an instrument.
+constexpr double k_over_upright_deg = 2;
+
+}  // namespace
+
+std::optional<double> plain_number(std::string_view text) {
+    double value = 0;
+    if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+        return std::nullopt;
+    }
+    return value;
+}
+
+Binder::Binder(const Stone& stone, const std::vector<WrittenReading>& all)
+    : stone_(stone), all_(all) {
+    for (std::size_t i = 0; i < stone.solid.facets.size(); ++i) {
+        facet_of_name_.emplace(stone.solid.facets[i].name, static_cast<int>(i));
+    }
+    tier_of_ = tier_names_of(stone.solid);
+}
+
+std::vector<Reading> Binder::bind(const WrittenReading& written, const std::string& id) {
+    written_ = &written;
+    const auto word = kind_word(written.kind);
+    if (!word) refuse_kind();
+    const ReadingKind kind = word->kind;
+    if (written.skipped) return {};
+    Reading base;
+    base.id = id;
+    base.kind = kind;
+    base.exact = written.exact;
+    base.released = written.released;
+    base.note = written.note;
+    base.file = written.file;
+    base.line = written.line;
+    set_value(base);
+    if (word->trade == KindWord::Trade::index) from_index(base);
+    base.datum = datum(kind);
+    if (word->trade != KindWord::Trade::none && written.of.empty()) {
+        return of_trade(base, word->trade);
+    }
+    switch (kind) {
+        case ReadingKind::inclination:
+        case ReadingKind::azimuth:
+            return of_one_facet(base);
+        case ReadingKind::dihedral:
+        case ReadingKind::edge:
+            return of_two_facets(base);
+        case ReadingKind::distance:
+            return {of_two_places(base)};
+        case ReadingKind::width:
+        case ReadingKind::table_width:
+            return {along_direction(base)};
+        case ReadingKind::depth:
+        case ReadingKind::volume:
+        case ReadingKind::weight:
+            return {of_whole_stone(base)};
+        case ReadingKind::meet:
+        case ReadingKind::parallel:
+        case ReadingKind::coplanar:
+            return {of_many_facets(base)};
+        case ReadingKind::rotation:
+        case ReadingKind::mirror:
+            return {of_symmetry(base)};
+    }
+    fail("unknown kind");
+}
+
+void Binder::fail(const std::string& what) const {
+    const std::string who =
+        written_->id.empty() ? written_->kind : written_->kind + " '" + written_->id + "'";
+    throw InputError(written_->file, written_->line, who + ": " + what);
+}
+
+void Binder::refuse_kind() const {
+    std::string known;
+    for (int i = 0; i <= static_cast<int>(ReadingKind::mirror); ++i) {
+        known += std::string(i == 0 ? "" : ", ") + name_of(static_cast<ReadingKind>(i));
+    }
+    const auto near = near_kind_word(written_->kind);
+    throw InputError(
+        written_->file, written_->line,
+        fmt::format("unknown kind of reading '{}'{}; known are {}", written_->kind,
+                    near ? fmt::format(" (did you mean {}?)", *near) : std::string(), known));
+}
+
+void Binder::set_value(Reading& reading) const {
+    const WrittenReading& w = *written_;
+    if (w.released && reading.kind != ReadingKind::meet) fail("only a meet can be released");
+    if (is_relation(reading.kind)) {
+        if (w.value) fail("has no value; leave it empty and give sigma or exact = true");
+    } else if (!w.value) {
+        fail("value is missing");
+    } else {
+        if (!std::isfinite(*w.value)) fail("value is not a finite number");
+        reading.value = counted(*w.value, w.value_unit, "value", reading.kind);
+    }
+    if (w.rounding) {
+        if (!(*w.rounding > 0) || !std::isfinite(*w.rounding)) {
+            fail(
+                fmt::format("rounding is {:g}; it must be positive (the step of the "
+                            "instrument's display, such as 0.1)",
+                            *w.rounding));
+        }
+        if (is_relation(reading.kind)) fail("takes no rounding: it has no value");
+        reading.rounding = counted(*w.rounding, w.rounding_unit, "rounding", reading.kind);
+    }
+    if (w.sigma) {
+        if (!std::isfinite(*w.sigma)) fail("sigma is not a finite number");
+        if (!(*w.sigma > 0)) {
+            fail(
+                fmt::format("sigma is {:g}; it must be positive (one standard uncertainty), or "
+                            "give exact = true",
+                            *w.sigma));
+        }
+        reading.sigma = counted(*w.sigma, w.sigma_unit, "sigma", reading.kind);
+    } else if (!w.exact && !w.released && reading.kind != ReadingKind::meet && !w.rounding) {
+        fail("sigma is missing (one standard uncertainty), or give exact = true");
+    }
+    if (w.exact && w.released) fail("cannot be exact and released");
+    // A girdle facet that leans the other way by as little as the instrument may be off.
+    if (reading.kind == ReadingKind::inclination && reading.value > 90 &&
+        reading.value <= 90 + std::min(3 * reading.sigma, k_over_upright_deg)) {
+        note(fmt::format("{:g} degrees count as {:g}: an upright facet, to within its sigma",
+                         reading.value, 180 - reading.value));
+        reading.value = 180 - reading.value;
+    }
+    // A tooth is no angle yet.
+    if (kind_word(w.kind)->trade != KindWord::Trade::index) refuse_value(reading);
+    if (measure_of(reading.kind) == WrittenUnit::Of::angle) {
+        reading.value = radians(reading.value);
+        reading.sigma = radians(reading.sigma);
+        reading.rounding = radians(reading.rounding);
+    }
+}
+
+// Degrees still.
+void Binder::refuse_value(const Reading& reading) const {
+    const double v = reading.value;
+    switch (reading.kind) {
+        case ReadingKind::inclination:
+            if (v < 0 || v > 90) {
+                fail(
+                    fmt::format("value {:g} is outside 0..90 degrees{}; pavilion facets count "
+                                "from the horizontal too",
+                                v, meant_inclination(v)));
+            }
+            break;
+        case ReadingKind::azimuth:
+            if (v < -360 || v > 360) {
+                fail(fmt::format("value {:g} is outside -360..360 degrees (a turn less: {:g}?)", v,
+                                 std::fmod(v, 360)));
+            }
+            break;
+        case ReadingKind::dihedral:
+            if (v <= 0 || v >= (stone_.convex ? 180 : 360)) {
+                fail(fmt::format("value {:g} is outside 0..180 degrees (interior angle)", v));
+            }
+            break;
+        case ReadingKind::distance:
+            if (v < 0) fail(fmt::format("value {:g} is a negative length", v));
+            break;
+        case ReadingKind::edge:
+        case ReadingKind::width:
+        case ReadingKind::depth:
+        case ReadingKind::table_width:
+        case ReadingKind::volume:
+        case ReadingKind::weight:
+            if (!(v > 0)) fail(fmt::format("value {:g} must be positive", v));
+            break;
+        default:
+            break;
+    }
+}
+
+// What an impossible inclination may have been meant to be: the slip that comes near to the
+// facet of the mesh.
+std::string Binder::meant_inclination(double value) const {
+    if (written_->of.size() != 1) return {};
+    const auto found = facet_of_name_.find(written_->of[0]);
+    if (found == facet_of_name_.end()) return {};
+    const Vec3& normal = stone_.solid.facets[std::size_t(found->second)].plane.normal;
+    const auto slip = find_slip(value, degrees(inclination(normal, stone_up())),
+                                k_slip_tolerance_deg, Measured::angle);
+    return slip ? fmt::format(" ({}: {:g}?)", slip->what, slip->corrected) : std::string();
+}
+
+Vec3 Binder::stone_up() const {
+    const auto up = facet_of_name_.find(stone_.up_facet);
+    return up == facet_of_name_.end() ? stone_.up
+                                      : stone_.solid.facets[std::size_t(up->second)].plane.normal;
+}
+
+Datum Binder::datum(ReadingKind kind) const {
+    const std::string& name = written_->datum;
+    if (name.empty() || name == "table" || name == "up") return {};
+    if (!is_angle(kind) || kind == ReadingKind::dihedral) {
+        fail("takes no datum; only inclinations and azimuths are measured from something");
+    }
+    const bool known_facet = facet_of_name_.count(name) > 0;
+    if (kind == ReadingKind::inclination && !known_facet) {
+        if (name == "axis") return {Datum::Kind::axis, -1};
+        if (name == "girdle") return {Datum::Kind::girdle, -1};
+    }
+    if (kind == ReadingKind::azimuth && name == stone_.up_facet) {
+        fail("the facet that says what is up has no azimuth to count from");
+    }
+    return {Datum::Kind::facet, facet(name)};
+}
+
+}  // namespace culet

@@ -1,0 +1,89 @@
+#pragma once
+// Finds what written readings name on a solid, and refuses what cannot be meant. Private to the
+// room; `bind_readings` of measurement.h is its front.
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fit/readings/measurement.h"
+#include "fit/readings/reading_words.h"
+
+namespace culet {
+
+/// The whole text as a finite number, or nothing.
+std::optional<double> plain_number(std::string_view text);
+
+/// Of one stone; throws InputError with the place of the reading that is being bound.
+class Binder {
+public:
+    /// `all` are the readings of the file, which tell where an unknown facet may lie.
+    Binder(const Stone& stone, const std::vector<WrittenReading>& all);
+
+    /// One reading, or one for each facet that a pattern matches, or several for a trade's word.
+    std::vector<Reading> bind(const WrittenReading& written, const std::string& id);
+
+    /// What was taken for something that it does not quite say, one line each.
+    std::vector<std::string> notes() const;
+
+private:
+    struct NamedFacets {
+        Aggregate aggregate = Aggregate::single;
+        bool is_pattern = false;
+        std::vector<int> facets;
+    };
+
+    [[noreturn]] void fail(const std::string& what) const;
+    [[noreturn]] void refuse_kind() const;
+    void set_value(Reading& reading) const;
+    void refuse_value(const Reading& reading) const;
+    std::string meant_inclination(double value) const;
+    Vec3 stone_up() const;
+    Datum datum(ReadingKind kind) const;
+
+    // binder_names.cpp
+    int facet(const std::string& name) const;
+    NamedFacets facets(const std::string& name) const;
+    void add_facets(const std::string& name, NamedFacets& to) const;
+    Place place(const std::string& name) const;
+    bool share_edge(int a, int b) const;
+    void need_edge(int a, int b) const;
+    void need_names(std::size_t count, const char* what) const;
+    std::string facet_name(int facet) const { return stone_.solid.facets[facet].name; }
+
+    // binder_kinds.cpp
+    std::vector<Reading> of_one_facet(const Reading& base) const;
+    std::vector<Reading> of_two_facets(const Reading& base) const;
+    Reading of_two_places(const Reading& base) const;
+    Reading along_direction(const Reading& base) const;
+    Reading of_whole_stone(const Reading& base) const;
+    Reading of_many_facets(const Reading& base) const;
+    Reading of_symmetry(const Reading& base) const;
+
+    // binder_trade.cpp
+    double counted(double number, const WrittenUnit& unit, const char* column,
+                   ReadingKind kind) const;
+    void from_index(Reading& reading) const;
+    std::vector<Reading> of_trade(const Reading& base, KindWord::Trade trade) const;
+    std::vector<Reading> of_diameter(const Reading& base) const;
+    std::vector<Reading> of_table(const Reading& base) const;
+    std::vector<Reading> of_mains(const Reading& base, bool crown) const;
+    int facet_in_other_case(const std::string& name) const;
+    std::vector<int> facets_in_other_case(const std::string& pattern) const;
+    void note(const std::string& what) const;
+    void note_tiers(const std::string& pattern, const std::vector<int>& facets) const;
+    void note_first_of_tier(const std::string& name) const;
+
+    const Stone& stone_;
+    const std::vector<WrittenReading>& all_;
+    const WrittenReading* written_ = nullptr;
+    std::map<std::string, int, std::less<>> facet_of_name_;
+    std::vector<std::string> tier_of_;  // of each facet
+    mutable std::vector<std::string> notes_;
+    // As they were written, and what they were taken for: of many, one line.
+    mutable std::map<std::string, std::string> other_case_;
+};
+
+}  // namespace culet

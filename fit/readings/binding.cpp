@@ -1,0 +1,57 @@
+// All readings of a file, bound to one solid.
+
+#include <fmt/format.h>
+
+#include <map>
+#include <set>
+
+#include "fit/readings/binder.h"
+#include "fit/readings/level_facets.h"
+#include "fit/readings/reading_sizes.h"
+#include "stone/errors.h"
+
+namespace culet {
+
+std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, const Stone& stone,
+                                   std::vector<std::string>* notes) {
+    const std::size_t skipped = skipped_readings(written);
+    if (skipped > 0 && skipped == written.size()) {
+        throw InputError(written[0].file,
+                         "no row has a value yet: write what was read into the column `value`; "
+                         "rows that stay empty are skipped");
+    }
+    Binder binder(stone, written);
+    std::set<std::string> given;
+    for (const WrittenReading& w : written) given.insert(w.id);
+    std::map<std::string, const WrittenReading*> owner;
+    std::vector<Reading> readings;
+    for (std::size_t i = 0; i < written.size(); ++i) {
+        std::string id = written[i].id;
+        if (id.empty()) {
+            id = "r" + std::to_string(i);
+            while (given.count(id) > 0) id += "_";
+        }
+        for (Reading& reading : binder.bind(written[i], id)) {
+            const auto [at, fresh] = owner.emplace(reading.id, &written[i]);
+            if (!fresh) {
+                throw InputError(
+                    written[i].file, written[i].line,
+                    fmt::format("the id '{}' is taken by the reading at {}:{}", reading.id,
+                                at->second->file.filename().string(), at->second->line));
+            }
+            readings.push_back(std::move(reading));
+        }
+    }
+    refuse_level_azimuths(readings, stone);
+    refuse_other_units(readings, stone);
+    if (notes != nullptr) {
+        for (std::string& note : binder.notes()) notes->push_back(std::move(note));
+        if (skipped > 0) {
+            notes->push_back(
+                fmt::format("{} row{} without a value skipped", skipped, skipped == 1 ? "" : "s"));
+        }
+    }
+    return readings;
+}
+
+}  // namespace culet

@@ -1,0 +1,101 @@
+#include "fit/readings/measurement.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "fit/readings/reading_words.h"
+#include "fit/readings/readings_csv.h"
+#include "stone/errors.h"
+#include "stone/toml_file.h"
+
+namespace culet {
+
+namespace {
+
+constexpr std::array<const char*, 15> k_kind_names{
+    "inclination", "azimuth",  "dihedral",    "distance", "edge",
+    "width",       "depth",    "table_width", "volume",   "weight",
+    "meet",        "parallel", "coplanar",    "rotation", "mirror"};
+
+WrittenReading reading_of_table(const TomlTable& table) {
+    table.refuse_unknown(
+        {"kind", "of", "value", "sigma", "exact", "released", "datum", "id", "note", "rounding"});
+    WrittenReading reading;
+    reading.file = table.file();
+    reading.line = table.line();
+    if (!table.has("kind")) table.fail("", "a reading without `kind`");
+    reading.kind = *table.text("kind");
+    // `of` may be one text with slashes, a number (an azimuth) or a list of either.
+    for (const std::string& word : table.words("of").value_or(std::vector<std::string>{})) {
+        for (std::string& name : split_names(word)) reading.of.push_back(std::move(name));
+    }
+    const auto number = [&](const char* key, WrittenUnit& unit) -> std::optional<double> {
+        // "6.52 mm"
+        if (table.kind(key) != TomlTable::Kind::text) return table.number(key);
+        WrittenNumber found = written_number(*table.text(key), false);
+        if (!found.problem.empty()) table.fail(key, fmt::format("{} {}", key, found.problem));
+        unit = std::move(found.unit);
+        return found.value;
+    };
+    reading.value = number("value", reading.value_unit);
+    reading.sigma = number("sigma", reading.sigma_unit);
+    reading.rounding = number("rounding", reading.rounding_unit);
+    reading.exact = table.boolean("exact").value_or(false);
+    reading.released = table.boolean("released").value_or(false);
+    reading.datum = table.text("datum").value_or(std::string());
+    reading.id = table.text("id").value_or(std::string());
+    reading.note = table.text("note").value_or(std::string());
+    return reading;
+}
+
+}  // namespace
+
+const char* name_of(ReadingKind kind) {
+    return k_kind_names[static_cast<std::size_t>(kind)];
+}
+
+std::optional<ReadingKind> reading_kind(std::string_view name) {
+    for (std::size_t i = 0; i < k_kind_names.size(); ++i) {
+        if (name == k_kind_names[i]) return static_cast<ReadingKind>(i);
+    }
+    return std::nullopt;
+}
+
+bool is_relation(ReadingKind kind) {
+    return kind == ReadingKind::meet || kind == ReadingKind::parallel ||
+           kind == ReadingKind::coplanar || kind == ReadingKind::rotation ||
+           kind == ReadingKind::mirror;
+}
+
+bool is_angle(ReadingKind kind) {
+    return kind == ReadingKind::inclination || kind == ReadingKind::azimuth ||
+           kind == ReadingKind::dihedral;
+}
+
+std::size_t skipped_readings(const std::vector<WrittenReading>& written) {
+    return static_cast<std::size_t>(std::count_if(
+        written.begin(), written.end(), [](const WrittenReading& w) { return w.skipped; }));
+}
+
+std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_file,
+                                          const std::vector<std::string>& overrides) {
+    const TomlTable root = read_toml(stone_file, overrides);
+    std::vector<WrittenReading> readings;
+    const auto tables = root.tables("reading");
+    if (tables.size() > k_most_readings) {
+        throw InputError(stone_file, "more than 100000 readings");
+    }
+    for (const TomlTable& table : tables) readings.push_back(reading_of_table(table));
+    const auto stone = root.table("stone");
+    const auto csv = stone ? stone->path("readings") : std::nullopt;
+    if (csv) {
+        for (WrittenReading& reading : read_readings_csv(*csv)) {
+            readings.push_back(std::move(reading));
+        }
+    }
+    return readings;
+}
+
+}  // namespace culet

@@ -1,0 +1,208 @@
+#include "fit/readings/reading_sizes.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "stone/errors.h"
+#include "stone/half_edges.h"
+#include "stone/units.h"
+#include "stone/upper_median.h"
+
+namespace culet {
+
+namespace {
+
+// Overall lengths of a stone and of its mesh agree within tens of per cent, whoever modelled it. A
+// factor near one between two units is a slip of units, not a finding.
+void refuse_other_unit(const Reading& reading, const Stone& stone) {
+    double of_mesh = 0;
+    if (reading.kind == ReadingKind::depth) {
+        of_mesh = width_along(stone.solid, stone.up);
+    } else if (reading.kind == ReadingKind::width) {
+        // Any girdle direction will do to tell a factor of ten.
+        of_mesh = diameter(stone.solid);
+    } else if (reading.kind == ReadingKind::table_width) {
+        const int table = find_facet(stone.solid, stone.up_facet);
+        if (table < 0) return;
+        Vec3 low(1e300), high(-1e300);
+        for (int corner : stone.solid.facets[table].corners) {
+            low = glm::min(low, stone.solid.vertices[corner]);
+            high = glm::max(high, stone.solid.vertices[corner]);
+        }
+        of_mesh = glm::length(high - low) / std::numbers::sqrt2;
+    } else {
+        return;
+    }
+    if (!(of_mesh > 0)) return;
+    const double ratio = reading.value / of_mesh;
+    const double apart = std::max(ratio, 1 / ratio);
+    static constexpr std::array<double, 4> factors{10, 25.4, 100, 1000};
+    for (double factor : factors) {
+        if (apart < factor / 1.5 || apart > factor * 1.5) continue;
+        std::string guess;
+        for (const LengthUnit unit :
+             {LengthUnit::mm, LengthUnit::cm, LengthUnit::m, LengthUnit::inch}) {
+            // value [unit] in the stone's unit would be value * mm_per(unit) / mm_per(stone.unit)
+            const double wanted = mm_per(unit) / mm_per(stone.unit) * ratio;
+            if (wanted > 1 / 1.5 && wanted < 1.5) guess = name_of(unit);
+        }
+        throw InputError(
+            reading.file, reading.line,
+            fmt::format("{} '{}' is {:g} {}, but the mesh measures {:.4g}: about {:g} times {}{}",
+                        name_of(reading.kind), reading.id, reading.value, name_of(stone.unit),
+                        of_mesh, factor, ratio > 1 ? "less" : "more",
+                        guess.empty() ? "; check `unit` of [stone]"
+                                      : fmt::format("; is the reading in {}? Every length must be "
+                                                    "in the stone's unit ({})",
+                                                    guess, name_of(stone.unit))));
+    }
+    if (apart > 5) {
+        throw InputError(reading.file, reading.line,
+                         fmt::format("{} '{}' is {:g} {}, but the mesh measures {:.4g}; check the "
+                                     "value and `unit` of [stone]",
+                                     name_of(reading.kind), reading.id, reading.value,
+                                     name_of(stone.unit), of_mesh));
+    }
+}
+
+// Three or more overall lengths that all ask for the same other size: then it is the mesh that was
+// drawn in another unit, which is no matter, since only its shape counts.
+bool mesh_is_in_another_unit(const std::vector<Reading>& readings, const Stone& stone) {
+    std::vector<double> ratios;
+    for (const Reading& r : readings) {
+        const double mine = r.kind == ReadingKind::depth   ? width_along(stone.solid, stone.up)
+                            : r.kind == ReadingKind::width ? diameter(stone.solid)
+                                                           : 0;
+        if (mine > 0 && r.value > 0) ratios.push_back(r.value / mine);
+    }
+    if (ratios.size() < 3) return false;
+    std::sort(ratios.begin(), ratios.end());
+    const double middle = ratios[ratios.size() / 2];
+    // Proportions that are drawn wrong by half and more count for less than that.
+    return std::max(middle, 1 / middle) > 2.5 && ratios.back() < 8 * ratios.front();
+}
+
+// Most overall lengths agree with each other and with the mesh's proportions: one that does not is
+// a slip of its own, which the first check names (first_check.h), and no matter of units.
+bool most_lengths_agree(const std::vector<Reading>& readings, const Stone& stone) {
+    std::vector<double> logs;
+    for (const Reading& r : readings) {
+        const double mine = r.kind == ReadingKind::depth   ? width_along(stone.solid, stone.up)
+                            : r.kind == ReadingKind::width ? diameter(stone.solid)
+                                                           : 0;
+        if (mine > 0 && r.value > 0) logs.push_back(std::log(r.value / mine));
+    }
+    if (logs.size() < 3) return false;
+    const double middle = upper_median(logs);
+    const auto near = std::count_if(logs.begin(), logs.end(),
+                                    [&](double l) { return std::abs(l - middle) < std::log(2.0); });
+    return std::abs(middle) < std::log(2.5) && 2 * near > std::ptrdiff_t(logs.size());
+}
+
+// Logarithms of how much larger readings are than the mesh, in their order, and whose they are.
+struct Asked {
+    std::vector<double> logs;
+    const Reading* first = nullptr;
+
+    void add(const Reading& reading, double of_mesh) {
+        if (!(of_mesh > 0) || !(reading.value > 0)) return;
+        logs.push_back(std::log(reading.value / of_mesh));
+        if (first == nullptr) first = &reading;
+    }
+    double middle() const { return upper_median(logs); }
+};
+
+Asked asked_by_overall_lengths(const std::vector<Reading>& readings, const Stone& stone) {
+    Asked asked;
+    for (const Reading& r : readings) {
+        if (r.kind == ReadingKind::depth) asked.add(r, width_along(stone.solid, stone.up));
+        if (r.kind == ReadingKind::width) asked.add(r, diameter(stone.solid));
+    }
+    return asked;
+}
+
+Asked asked_by_edges(const std::vector<Reading>& readings, const Stone& stone) {
+    Asked asked;
+    std::map<std::pair<int, int>, double> lengths;
+    for (const Edge& e : half_edges(stone.solid).edges) {
+        lengths[std::minmax(e.left, e.right)] =
+            glm::length(stone.solid.vertices[e.from] - stone.solid.vertices[e.to]);
+    }
+    for (const Reading& r : readings) {
+        if (r.kind != ReadingKind::edge || r.facets.size() != 2) continue;
+        const auto found = lengths.find(std::minmax(r.facets[0], r.facets[1]));
+        if (found != lengths.end()) asked.add(r, found->second);
+    }
+    return asked;
+}
+
+// No mesh, however rough, has its edges so many times too long for its widths.
+constexpr double k_two_units = 8;
+constexpr std::size_t k_enough_edges = 5;
+
+void refuse_lengths_of_two_units(const Asked& overall, const Asked& edges, const Stone& stone) {
+    if (overall.logs.empty() || edges.logs.size() < k_enough_edges) return;
+    const double apart = overall.middle() - edges.middle();
+    if (std::abs(apart) < std::log(k_two_units)) return;
+    const bool few_overall = overall.logs.size() < edges.logs.size();
+    const Reading& named = few_overall ? *overall.first : *edges.first;
+    throw InputError(
+        named.file, named.line,
+        fmt::format("{} '{}' and others like it are about {:.3g} times too {} for the {} {}: is "
+                    "one kind in another unit? Every length must be in the stone's unit ({})",
+                    name_of(named.kind), named.id, std::exp(std::abs(apart)),
+                    (apart < 0) == few_overall ? "small" : "large",
+                    few_overall ? edges.logs.size() : overall.logs.size(),
+                    few_overall ? "edges that were read" : "widths and depths that were read",
+                    name_of(stone.unit)));
+}
+
+// A rough mesh may be collapsed to a twentieth of its volume; not to less.
+constexpr double k_impossible_volume = 100;
+
+void refuse_impossible_volume(const Reading& reading, const Stone& stone, double larger) {
+    const bool weighed = reading.kind == ReadingKind::weight;
+    const double mm3 =
+        std::abs(volume(stone.solid)) * std::pow(std::exp(larger) * mm_per(stone.unit), 3);
+    const double expected = weighed ? carat(mm3, stone.material.density_g_cm3.value_or(0)) : mm3;
+    if (!(expected > 0) || !(reading.value > 0)) return;
+    const double ratio = reading.value / expected;
+    if (std::max(ratio, 1 / ratio) < k_impossible_volume) return;
+    throw InputError(
+        reading.file, reading.line,
+        fmt::format("{} '{}' is {:g} {}, but a stone of this mesh's shape and of the lengths that "
+                    "were read has about {:.3g}; check the value{}",
+                    name_of(reading.kind), reading.id, reading.value, weighed ? "ct" : "mm3",
+                    expected,
+                    weighed ? ", its unit (carat) and the density" : " and its unit (mm3)"));
+}
+
+}  // namespace
+
+void refuse_other_units(const std::vector<Reading>& readings, const Stone& stone) {
+    const bool agree = most_lengths_agree(readings, stone);
+    if (!agree && !mesh_is_in_another_unit(readings, stone)) {
+        for (const Reading& reading : readings) refuse_other_unit(reading, stone);
+    }
+    const Asked overall = asked_by_overall_lengths(readings, stone),
+                edges = asked_by_edges(readings, stone);
+    refuse_lengths_of_two_units(overall, edges, stone);
+    if (agree) return;
+    const Asked& lengths = overall.logs.empty() ? edges : overall;
+    const double larger = lengths.logs.empty() ? 0 : lengths.middle();
+    for (const Reading& r : readings) {
+        if (r.kind == ReadingKind::volume || r.kind == ReadingKind::weight) {
+            refuse_impossible_volume(r, stone, larger);
+        }
+    }
+}
+
+}  // namespace culet

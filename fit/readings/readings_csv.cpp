@@ -1,0 +1,257 @@
+// readings.csv, as spreadsheets and people write it.
+
+#include "fit/readings/readings_csv.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include "fit/readings/measurement.h"
+#include "fit/readings/reading_words.h"
+#include "stone/errors.h"
+#include "stone/output_file.h"
+
+namespace culet {
+
+namespace {
+
+struct CsvRow {
+    std::vector<std::string> fields;
+    long line = 0;
+
+    bool is_blank() const {
+        return std::all_of(fields.begin(), fields.end(),
+                           [](const std::string& field) { return field.empty(); });
+    }
+};
+
+std::string lower(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+// The lines before the header: blank, comments, and the `sep=;` that Excel understands.
+bool says_nothing(std::string_view line) {
+    const std::string plain = lower(without_blanks(line));
+    const std::size_t start = plain.find_first_not_of("\";,\t ");
+    return start == std::string::npos || plain[start] == '#' || plain.starts_with("sep=");
+}
+
+// What parts the fields: told by the header.
+char separator_of(std::string_view text) {
+    std::size_t begin = 0;
+    while (begin < text.size()) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        const std::string_view line = text.substr(begin, end - begin);
+        begin = end + 1;
+        if (says_nothing(line)) continue;
+        for (const char c : {';', '\t'}) {
+            if (line.find(c) != std::string_view::npos) return c;
+        }
+        break;
+    }
+    return ',';
+}
+
+// RFC 4180, for any separator: fields may be quoted, a quote inside is doubled, a quoted field may
+// run over lines.
+class CsvReader {
+public:
+    CsvReader(const std::filesystem::path& file, std::string_view text, char separator)
+        : file_(file), text_(text), separator_(separator) {}
+
+    std::vector<CsvRow> rows() {
+        row_.line = 1;
+        for (std::size_t i = 0; i < text_.size(); ++i) {
+            const char c = text_[i];
+            if (c == '\0') throw InputError(file_, line_, "a zero byte: this is not a text file");
+            if (at_start() && c == '#') {
+                i = std::min(text_.find('\n', i), text_.size());
+                new_line();
+                continue;
+            }
+            if (c == '\n') ++line_;
+            if (!quoted_) {
+                plain(c);
+            } else if (c != '"') {
+                field_ += c;
+            } else if (i + 1 < text_.size() && text_[i + 1] == '"') {
+                field_ += '"';
+                ++i;
+            } else {
+                quoted_ = false;
+            }
+        }
+        if (quoted_) throw InputError(file_, row_.line, "a quoted field is never closed");
+        if (!field_.empty() || !row_.fields.empty()) end_row();
+        return std::move(rows_);
+    }
+
+private:
+    bool at_start() const {
+        return !quoted_ && !was_quoted_ && row_.fields.empty() && without_blanks(field_).empty();
+    }
+    void new_line() {
+        ++line_;
+        row_.line = line_;
+        field_.clear();
+    }
+    void plain(char c) {
+        if (c == '"' && without_blanks(field_).empty() && !was_quoted_) {
+            field_.clear();
+            quoted_ = was_quoted_ = true;
+        } else if (c == separator_) {
+            end_field();
+        } else if (c == '\n') {
+            end_row();
+        } else if (!was_quoted_) {
+            field_ += c;
+        } else if (c != ' ' && c != '\t' && c != '\r') {
+            throw InputError(file_, line_, "text after a closing quote; put the quote at its end");
+        }
+    }
+    void end_field() {
+        row_.fields.push_back(without_blanks(field_));
+        field_.clear();
+        was_quoted_ = false;
+    }
+    void end_row() {
+        end_field();
+        const bool comment = row_.fields[0].starts_with('#');
+        if (!comment && !row_.is_blank() && !lower(row_.fields[0]).starts_with("sep=")) {
+            rows_.push_back(row_);
+        }
+        row_.fields.clear();
+        row_.line = line_;
+    }
+
+    const std::filesystem::path& file_;
+    std::string_view text_;
+    char separator_;
+    std::vector<CsvRow> rows_;
+    CsvRow row_;
+    std::string field_;
+    bool quoted_ = false, was_quoted_ = false;
+    long line_ = 1;
+};
+
+bool truth(const std::filesystem::path& file, long line, const std::string& column,
+           const std::string& written) {
+    const std::string text = lower(written);
+    if (text.empty() || text == "false" || text == "0" || text == "no") return false;
+    if (text == "true" || text == "1" || text == "yes") return true;
+    throw InputError(file, line, column + " is '" + written + "'; expected true or false");
+}
+
+enum Column { kind, of, value, sigma, exact, released, datum, id, note, rounding, count };
+constexpr std::array<const char*, Column::count> k_columns{
+    "kind", "of", "value", "sigma", "exact", "released", "datum", "id", "note", "rounding"};
+
+// Where each column stands; -1: nowhere.
+std::array<int, Column::count> columns_of(const CsvRow& header, const std::filesystem::path& file) {
+    std::array<int, Column::count> at{};
+    at.fill(-1);
+    for (std::size_t i = 0; i < header.fields.size(); ++i) {
+        const std::string name = lower(header.fields[i]);
+        // Spreadsheets put empty columns after the last.
+        if (name.empty()) continue;
+        const auto known = std::find(k_columns.begin(), k_columns.end(), name);
+        if (known == k_columns.end()) {
+            throw InputError(file, header.line,
+                             "unknown column '" + header.fields[i] +
+                                 "'; expected the header kind,of,value,sigma (and exact, released, "
+                                 "datum, id, note, rounding)");
+        }
+        int& place = at[static_cast<std::size_t>(known - k_columns.begin())];
+        if (place >= 0) {
+            throw InputError(file, header.line, "column '" + header.fields[i] + "' stands twice");
+        }
+        place = static_cast<int>(i);
+    }
+    for (std::size_t c = 0; c <= Column::sigma; ++c) {
+        if (at[c] < 0) {
+            throw InputError(file, header.line,
+                             std::string("the header lacks the column '") + k_columns[c] +
+                                 "'; expected kind,of,value,sigma");
+        }
+    }
+    return at;
+}
+
+class RowReader {
+public:
+    RowReader(const std::filesystem::path& file, const CsvRow& header, char separator)
+        : file_(file),
+          at_(columns_of(header, file)),
+          width_(header.fields.size()),
+          separator_(separator) {}
+
+    WrittenReading reading(const CsvRow& row) const {
+        if (row.fields.size() > width_) {
+            throw InputError(
+                file_, row.line,
+                fmt::format("{} fields under a header of {}; {}quote a field that contains a {}",
+                            row.fields.size(), width_,
+                            separator_ == ',' ? "write numbers with a decimal point, and " : "",
+                            separator_ == ',' ? "comma" : "separator"));
+        }
+        const auto field = [&](Column column) -> std::string {
+            const int i = at_[column];
+            return i < 0 || i >= static_cast<int>(row.fields.size()) ? std::string()
+                                                                     : row.fields[i];
+        };
+        WrittenReading reading;
+        reading.file = file_;
+        reading.line = row.line;
+        reading.kind = field(Column::kind);
+        reading.of = split_names(field(Column::of));
+        const auto number = [&](Column column, WrittenUnit& unit) -> std::optional<double> {
+            if (field(column).empty()) return std::nullopt;
+            WrittenNumber found = written_number(field(column), separator_ == ',');
+            if (!found.problem.empty()) {
+                throw InputError(file_, row.line,
+                                 fmt::format("{} {}", k_columns[column], found.problem));
+            }
+            unit = std::move(found.unit);
+            return found.value;
+        };
+        reading.value = number(Column::value, reading.value_unit);
+        reading.sigma = number(Column::sigma, reading.sigma_unit);
+        reading.rounding = number(Column::rounding, reading.rounding_unit);
+        reading.exact = truth(file_, row.line, "exact", field(Column::exact));
+        reading.released = truth(file_, row.line, "released", field(Column::released));
+        reading.datum = field(Column::datum);
+        reading.id = field(Column::id);
+        reading.note = field(Column::note);
+        mark_blank(reading);
+        return reading;
+    }
+
+private:
+    const std::filesystem::path& file_;
+    std::array<int, Column::count> at_;
+    std::size_t width_;
+    char separator_;
+};
+
+}  // namespace
+
+std::vector<WrittenReading> read_readings_csv(const std::filesystem::path& file) {
+    std::string text = read_text(file, 64u << 20);
+    // Spreadsheets put a byte order mark first.
+    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+    const char separator = separator_of(text);
+    const std::vector<CsvRow> rows = CsvReader(file, text, separator).rows();
+    if (rows.empty()) {
+        throw InputError(file, "no readings: expected the header kind,of,value,sigma");
+    }
+    if (rows.size() - 1 > k_most_readings) throw InputError(file, "more than 100000 readings");
+    const RowReader reader(file, rows.front(), separator);
+    std::vector<WrittenReading> readings;
+    for (std::size_t r = 1; r < rows.size(); ++r) readings.push_back(reader.reading(rows[r]));
+    return readings;
+}
+
+}  // namespace culet

@@ -1,0 +1,400 @@
+#include "fit/retries/topology.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "stone/checks.h"
+#include "stone/half_edges.h"
+
+namespace culet {
+
+namespace {
+
+std::string list_of(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+// Of the diameter; and how many are tried.
+constexpr double k_doubtful = 0.1;
+constexpr std::size_t k_most_doubtful = 6;
+
+// A stone on its way, and which of the first readings still apply.
+struct Stage {
+    Stone stone;
+    std::vector<Reading> readings;
+    std::vector<int> origin;  // index among the first readings; -1: added on the way
+};
+
+bool share_edge(const Solid& solid, int a, int b) {
+    const std::vector<int>& other = solid.facets[std::size_t(b)].corners;
+    int shared = 0;
+    for (int c : solid.facets[std::size_t(a)].corners) {
+        shared += std::find(other.begin(), other.end(), c) != other.end() ? 1 : 0;
+    }
+    return shared >= 2;
+}
+
+// The same reading on the changed solid; nothing when what it is of is gone.
+std::optional<Reading> carried_over(const Reading& reading, const Solid& before,
+                                    const Solid& after) {
+    Reading r = reading;
+    const auto facet = [&](int f) {
+        return f < 0 ? f : find_facet(after, before.facets[std::size_t(f)].name);
+    };
+    std::vector<int> kept;
+    const bool in_pairs = r.kind == ReadingKind::dihedral || r.kind == ReadingKind::edge ||
+                          (r.kind == ReadingKind::mirror && !r.has_direction);
+    const std::size_t stride = in_pairs ? 2 : 1;
+    for (std::size_t i = 0; i + stride <= r.facets.size(); i += stride) {
+        std::vector<int> term;
+        for (std::size_t k = 0; k < stride; ++k) term.push_back(facet(r.facets[i + k]));
+        if (std::any_of(term.begin(), term.end(), [](int f) { return f < 0; })) continue;
+        if (r.kind == ReadingKind::edge && !share_edge(after, term[0], term[1])) continue;
+        kept.insert(kept.end(), term.begin(), term.end());
+    }
+    const bool all = kept.size() == r.facets.size();
+    // What many facets share in is of those that are left; what names single ones is of all.
+    const bool shared = r.kind == ReadingKind::meet || r.kind == ReadingKind::parallel ||
+                        r.kind == ReadingKind::coplanar;
+    const std::size_t least = r.kind == ReadingKind::meet ? 3 : 2;
+    if (!all && !(shared && kept.size() >= least)) return std::nullopt;
+    r.facets = kept;
+    if (r.datum.facet >= 0 && (r.datum.facet = facet(r.datum.facet)) < 0) return std::nullopt;
+    for (Place& place : r.places) {
+        // Corners have no names that would outlive a change.
+        if (place.vertex >= 0) return std::nullopt;
+        if (place.facet >= 0 && (place.facet = facet(place.facet)) < 0) return std::nullopt;
+        if (place.other_facet >= 0) {
+            place.other_facet = facet(place.other_facet);
+            if (place.other_facet < 0 || !share_edge(after, place.facet, place.other_facet)) {
+                return std::nullopt;
+            }
+        }
+    }
+    return r;
+}
+
+// Whether a changed stage may be fitted; then it becomes the stage.
+bool change_solid(Stage& stage, Solid solid, std::vector<std::string>& changes) {
+    if (solid.facets.empty()) return false;
+    Stage next;
+    next.stone = stage.stone;
+    next.stone.solid = std::move(solid);
+    if (!stage.stone.up_facet.empty() && find_facet(next.stone.solid, stage.stone.up_facet) < 0) {
+        return false;
+    }
+    std::vector<std::string> dropped;
+    for (std::size_t i = 0; i < stage.readings.size(); ++i) {
+        auto reading = carried_over(stage.readings[i], stage.stone.solid, next.stone.solid);
+        // A meet that was let go may have become nothing to let go.
+        if (reading && reading->released) {
+            bool meets = false;
+            const HalfEdges edges = half_edges(next.stone.solid);
+            for (const std::vector<int>& there : edges.facets_of_vertex) {
+                meets = meets ||
+                        std::all_of(reading->facets.begin(), reading->facets.end(), [&](int f) {
+                            return std::find(there.begin(), there.end(), f) != there.end();
+                        });
+            }
+            if (!meets) reading.reset();
+        }
+        if (!reading) {
+            if (stage.origin[i] >= 0) dropped.push_back(stage.readings[i].id);
+            continue;
+        }
+        next.readings.push_back(std::move(*reading));
+        next.origin.push_back(stage.origin[i]);
+    }
+    std::vector<std::string> gone;
+    for (const Facet& facet : stage.stone.solid.facets) {
+        if (find_facet(next.stone.solid, facet.name) < 0) gone.push_back(facet.name);
+    }
+    if (!gone.empty()) {
+        changes.push_back("facets gone, the readings leave no room for them: " + list_of(gone));
+    }
+    if (!dropped.empty()) {
+        changes.push_back("readings that no longer apply: " + list_of(dropped));
+    }
+    stage = std::move(next);
+    return true;
+}
+
+Reading released_meet(const Stage& stage, const std::vector<std::string>& names, int number) {
+    Reading r;
+    r.id = fmt::format("released-meet-{}", number);
+    r.kind = ReadingKind::meet;
+    r.released = true;
+    for (const std::string& name : names) {
+        r.facets.push_back(find_facet(stage.stone.solid, name));
+        r.of.push_back(name);
+    }
+    return r;
+}
+
+// All facets round the corner that these share.
+std::vector<std::string> corner_of(const Solid& solid, const std::vector<std::string>& names) {
+    const HalfEdges edges = half_edges(solid);
+    for (const std::vector<int>& there : edges.facets_of_vertex) {
+        std::vector<std::string> here;
+        for (int f : there) here.push_back(solid.facets[std::size_t(f)].name);
+        if (std::all_of(names.begin(), names.end(), [&](const std::string& n) {
+                return std::find(here.begin(), here.end(), n) != here.end();
+            })) {
+            return here;
+        }
+    }
+    return {};
+}
+
+std::set<std::pair<std::string, std::string>> edges_of(const Solid& solid) {
+    std::set<std::pair<std::string, std::string>> names;
+    if (!is_closed(solid)) return names;
+    for (const Edge& e : half_edges(solid).edges) {
+        const std::string &a = solid.facets[std::size_t(e.left)].name,
+                          &b = solid.facets[std::size_t(e.right)].name;
+        names.insert(a < b ? std::pair(a, b) : std::pair(b, a));
+    }
+    return names;
+}
+
+void list_edges(const Solid& before, const Solid& after, std::vector<std::string>& changes) {
+    const auto old_edges = edges_of(before), new_edges = edges_of(after);
+    std::vector<std::string> gone, came;
+    for (const auto& e : old_edges) {
+        if (new_edges.count(e) == 0) gone.push_back(e.first + "|" + e.second);
+    }
+    for (const auto& e : new_edges) {
+        if (old_edges.count(e) == 0) came.push_back(e.first + "|" + e.second);
+    }
+    if (!gone.empty()) changes.push_back("edges gone: " + list_of(gone));
+    if (!came.empty()) changes.push_back("edges new: " + list_of(came));
+}
+
+// One round of changes that `result` asks for. False when it asks for none that can be made.
+bool change(Stage& stage, const FitResult& result, int& released,
+            std::vector<std::string>& changes) {
+    if (!result.missing_facets.empty() && result.closed) {
+        return change_solid(stage, result.solid, changes);
+    }
+    const Solid& solid = stage.stone.solid;
+    std::vector<std::pair<int, int>> collapsing;
+    std::vector<const ShapeFinding*> flips;
+    std::set<int> touched;
+    std::vector<std::string> said;
+    const HalfEdges edges = half_edges(solid);
+    for (const ShapeFinding& finding : result.shape_findings) {
+        if (finding.kind == ShapeFinding::Kind::facet_vanishes) {
+            const std::vector<int>& loop =
+                solid.facets[std::size_t(find_facet(solid, finding.facets[0]))].corners;
+            if (std::any_of(loop.begin(), loop.end(), [&](int c) { return touched.count(c) > 0; }))
+                continue;
+            // To the edge or the point that is left of it: what is longer than a hundredth of its
+            // longest side stays.
+            double longest = 0;
+            const auto length = [&](std::size_t i) {
+                const Vec3 d = result.solid.vertices[std::size_t(loop[i])] -
+                               result.solid.vertices[std::size_t(loop[(i + 1) % loop.size()])];
+                return std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+            };
+            if (result.solid.vertices.size() != solid.vertices.size()) continue;
+            for (std::size_t i = 0; i < loop.size(); ++i) longest = std::max(longest, length(i));
+            bool point = longest < 1e-5 * diameter(solid);
+            for (std::size_t i = 0; i < loop.size(); ++i) {
+                touched.insert(loop[i]);
+                if (point || length(i) < 0.01 * longest) {
+                    collapsing.emplace_back(loop[i], loop[(i + 1) % loop.size()]);
+                }
+            }
+        } else if (finding.kind == ShapeFinding::Kind::edge_vanishes) {
+            for (const Edge& e : edges.edges) {
+                const std::string &a = solid.facets[std::size_t(e.left)].name,
+                                  &b = solid.facets[std::size_t(e.right)].name;
+                if (a != finding.facets[0] || b != finding.facets[1]) continue;
+                if (touched.count(e.from) > 0 || touched.count(e.to) > 0) continue;
+                touched.insert({e.from, e.to});
+                collapsing.emplace_back(e.from, e.to);
+                const bool flip = finding.p < result.options.significance;
+                if (flip) flips.push_back(&finding);
+                said.push_back(fmt::format("edge {}|{} {}: {}", a, b,
+                                           flip ? "let go" : "drawn together", finding.what));
+            }
+        }
+    }
+    if (!collapsing.empty()) {
+        if (!change_solid(stage, with_collapsed_edges(solid, collapsing), changes)) return false;
+        changes.insert(changes.end(), said.begin(), said.end());
+        for (const ShapeFinding* flip : flips) {
+            const std::vector<std::string> there = corner_of(stage.stone.solid, flip->facets);
+            if (there.size() < 4) continue;
+            stage.readings.push_back(released_meet(stage, there, ++released));
+            stage.origin.push_back(-1);
+        }
+        return true;
+    }
+    // One after the other, the worst first: readings of lengths that end where a meet comes apart
+    // flag_blunders its neighbours until it has. Many at once when there are more than rounds.
+    std::vector<const MeetFinding*> bad;
+    for (const MeetFinding& meet : result.meet_findings) {
+        if (meet.contradicted && meet.how != "released") bad.push_back(&meet);
+    }
+    std::stable_sort(bad.begin(), bad.end(), [](const MeetFinding* a, const MeetFinding* b) {
+        return a->chi2 / a->conditions > b->chi2 / b->conditions;
+    });
+    if (bad.size() > 1 && bad.size() <= std::size_t(k_most_rounds))
+        bad.erase(bad.begin() + 1, bad.end());
+    for (const MeetFinding* meet : bad) {
+        stage.readings.push_back(released_meet(stage, meet->facets, ++released));
+        stage.origin.push_back(-1);
+        changes.push_back("came apart: " + meet->advice);
+    }
+    return !bad.empty();
+}
+
+// The shortest edges of the fitted stone, which may lie the other way round in the real one: a
+// contradiction need not drive an edge to zero when lengths were read that end at its corners.
+std::vector<std::pair<int, int>> doubtful_edges(const Stage& stage, const FitResult& result) {
+    const Solid &mesh = stage.stone.solid, &fitted = result.solid;
+    std::vector<std::pair<double, std::pair<int, int>>> edges;
+    if (mesh.vertices.size() != fitted.vertices.size()) return {};
+    for (const Edge& e : half_edges(mesh).edges) {
+        const Vec3 d = fitted.vertices[std::size_t(e.from)] - fitted.vertices[std::size_t(e.to)];
+        const double length = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+        if (length < k_doubtful * diameter(fitted)) edges.push_back({length, {e.from, e.to}});
+    }
+    std::sort(edges.begin(), edges.end());
+    std::vector<std::pair<int, int>> shortest;
+    for (const auto& [length, edge] : edges) {
+        if (shortest.size() < k_most_doubtful) shortest.push_back(edge);
+    }
+    return shortest;
+}
+
+// The stage with one edge let go.
+bool let_go(Stage& stage, const std::pair<int, int>& edge, int number,
+            std::vector<std::string>& changes) {
+    std::vector<std::string> names, sides;
+    const HalfEdges edges = half_edges(stage.stone.solid);
+    for (const int end : {edge.first, edge.second}) {
+        for (int f : edges.facets_of_vertex[std::size_t(end)]) {
+            const std::string& name = stage.stone.solid.facets[std::size_t(f)].name;
+            if (std::find(names.begin(), names.end(), name) != names.end()) {
+                sides.push_back(name);
+            } else {
+                names.push_back(name);
+            }
+        }
+    }
+    std::vector<std::string> said;
+    if (!change_solid(stage, with_collapsed_edges(stage.stone.solid, {edge}), said)) return false;
+    const std::vector<std::string> there = corner_of(stage.stone.solid, names);
+    if (there.size() < 4) return false;
+    stage.readings.push_back(released_meet(stage, there, number));
+    stage.origin.push_back(-1);
+    changes.push_back("edge " + sides.front() + "|" + sides.back() +
+                      " let go: the readings contradict each other with it");
+    changes.insert(changes.end(), said.begin(), said.end());
+    return true;
+}
+
+// The result with every reading of the user in its place.
+void put_readings_back(const std::vector<Reading>& first, const Stage& stage, FitResult& result) {
+    std::vector<FittedReading> all(first.size());
+    std::vector<bool> there(first.size(), false);
+    for (std::size_t i = 0; i < stage.origin.size() && i < result.readings.size(); ++i) {
+        if (stage.origin[i] < 0) continue;
+        all[std::size_t(stage.origin[i])] = result.readings[i];
+        there[std::size_t(stage.origin[i])] = true;
+    }
+    constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        if (there[i]) continue;
+        FittedReading& r = all[i];
+        r.id = first[i].id;
+        r.kind = first[i].kind;
+        r.of = first[i].of;
+        r.value = first[i].value;
+        r.sigma = first[i].sigma;
+        r.exact = first[i].exact;
+        r.fitted = r.residual = r.normalized = r.redundancy = k_none;
+    }
+    result.readings = std::move(all);
+    std::erase_if(result.suspects, [&](const std::string& id) {
+        return std::none_of(first.begin(), first.end(),
+                            [&](const Reading& r) { return r.id == id; });
+    });
+}
+
+// The better of two results: a closed stone with all its facets first, then one that the readings
+// agree with, then one where the steps came to an end.
+bool is_better(const FitResult& a, const FitResult& b) {
+    const auto rank = [](const FitResult& r) {
+        return std::tuple(!r.closed || !r.missing_facets.empty(),
+                          !(r.chi2_p > r.options.significance),
+                          r.status == FitStatus::not_converged, -r.chi2_p);
+    };
+    return rank(a) < rank(b);
+}
+
+}  // namespace
+
+FitResult fit_with_changes(const Stone& stone, const std::vector<Reading>& readings,
+                           const FitOptions& options, FitResult first, const FitAgain& fit) {
+    Stage stage{stone, readings, {}};
+    for (std::size_t i = 0; i < readings.size(); ++i) stage.origin.push_back(int(i));
+    FitResult best = first, last = std::move(first);
+    Stage best_stage = stage;
+    std::vector<std::string> changes, best_changes;
+    int released = 0;
+    for (int round = 0; round < k_most_rounds; ++round) {
+        if (change(stage, last, released, changes)) {
+            last = fit(stage.stone, stage.readings);
+        } else if (last.status == FitStatus::contradictory && round == 0) {
+            Stage chosen;
+            FitResult chosen_result;
+            std::vector<std::string> chosen_changes;
+            for (const auto& edge : doubtful_edges(stage, last)) {
+                Stage other = stage;
+                std::vector<std::string> said = changes;
+                if (!let_go(other, edge, released + 1, said)) continue;
+                FitResult tried = fit(other.stone, other.readings);
+                if (!(tried.chi2_p > options.significance) ||
+                    tried.status == FitStatus::not_converged ||
+                    (!chosen_changes.empty() && !is_better(tried, chosen_result))) {
+                    continue;
+                }
+                chosen = std::move(other);
+                chosen_result = std::move(tried);
+                chosen_changes = std::move(said);
+            }
+            // Only what ends the contradiction is worth a change that no reading asked for.
+            if (chosen_changes.empty()) break;
+            ++released;
+            stage = std::move(chosen);
+            last = std::move(chosen_result);
+            changes = std::move(chosen_changes);
+        } else {
+            break;
+        }
+        if (!is_better(last, best)) continue;
+        best = last;
+        best_stage = stage;
+        best_changes = changes;
+    }
+    best.changes = std::move(best_changes);
+    best.options = options;
+    if (best.changes.empty()) return best;
+    list_edges(stone.solid, best.solid, best.changes);
+    put_readings_back(readings, best_stage, best);
+    best.message += fmt::format("; the topology was changed ({} change{})", best.changes.size(),
+                                best.changes.size() == 1 ? "" : "s");
+    return best;
+}
+
+}  // namespace culet

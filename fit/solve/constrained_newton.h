@@ -1,0 +1,43 @@
+#pragma once
+// Gauss-Newton and Newton steps under hard constraints (Nocedal & Wright 2006, chapter 18) in the
+// freedoms, to the nearest end of one meaning of the readings. Private to the room.
+
+#include <vector>
+
+#include "fit/solve/kkt_solver.h"
+#include "fit/solve/relaxation.h"
+
+namespace culet {
+
+/// Meets that miss by more, all together, do not meet.
+inline constexpr double k_all_but_met = 1e-6;
+
+struct LocalOptimum {
+    Shape shape;
+    bool converged = false;
+    int iterations = 0;
+    double chi2 = 0, worst_hard = 0;
+    std::vector<SharedContact> shared_contacts;  ///< of the meaning that it is the end of
+};
+
+struct NewtonOptions {
+    int iterations = 100;
+    /// After a few steps it ends where chi-square is not near to it.
+    double goal = 1e300;
+    /// The equations bend as they do where the steps will end, so that the first step may already
+    /// be Newton's.
+    bool near_an_end = false;
+    /// Likewise jaws rest on corners that are level: as long as all of them carry a part.
+    bool contacts_shared = false;
+};
+
+/// `held`: corners that stay below a facet. `solver` keeps its layout from call to call. What meets
+/// misses by less than any reading could tell.
+LocalOptimum constrained_newton(Relaxation& relaxation, KktSolver& solver, const Shape& start,
+                                const std::vector<ActiveCorner>& held,
+                                const NewtonOptions& options);
+/// Onto the hard equations by smallest steps, until rounding is all that is left.
+void bring_to_meet(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
+                   LocalOptimum& optimum);
+
+}  // namespace culet

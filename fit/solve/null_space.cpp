@@ -1,0 +1,242 @@
+#include "fit/solve/null_space.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace culet {
+
+namespace {
+
+using Entries = std::vector<std::pair<int, double>>;
+
+// What is left of an equation after substitution, relative to what went into it, when it only
+// repeats others.
+constexpr double k_repeats = 1e-10;
+// And relative to what its rounding errors are in proportion to: fifty times the unit of rounding,
+// as many terms as are added up.
+constexpr double k_rounding = 1e-14;
+// A preferred column is taken when its entry is at least this part of the largest.
+constexpr double k_preferred = 0.1;
+// Entries this much smaller than the largest of their sum are what cancellation leaves.
+constexpr double k_cancelled = 1e-15;
+
+// Forward elimination: an expression stands in unknowns that were left when it was made. What
+// became of those since is put in at the end, once, from the last one made to the first.
+class Elimination {
+public:
+    explicit Elimination(int unknowns)
+        : expressions_(std::size_t(unknowns)),
+          step_(std::size_t(unknowns), -1),
+          doubts_(std::size_t(unknowns), 0),
+          sum_(std::size_t(unknowns), 0),
+          size_(std::size_t(unknowns), 0) {}
+
+    // True when the equation took one more unknown.
+    bool add(const Entries& equation, int first_preferred, int end_preferred) {
+        substitute(equation);
+        double largest = 0;
+        for (const auto& [column, value] : row_) largest = std::max(largest, std::abs(value));
+        if (!(largest > k_repeats * most_ && largest > k_rounding * doubt_)) return false;
+        int pivot = -1;
+        double best = 0, at_pivot = 0;
+        for (const auto& [column, value] : row_) {
+            const bool preferred = column >= first_preferred && column < end_preferred;
+            const double rank =
+                std::abs(value) +
+                (preferred && std::abs(value) > k_preferred * largest ? 2 * largest : 0);
+            if (rank > best) {
+                best = rank;
+                pivot = column;
+                at_pivot = value;
+            }
+        }
+        Entries& expression = expressions_[std::size_t(pivot)];
+        expression.reserve(row_.size() - 1);
+        for (const auto& [column, value] : row_) {
+            if (column != pivot) expression.emplace_back(column, -value / at_pivot);
+        }
+        doubts_[std::size_t(pivot)] = doubt_ / std::abs(at_pivot);
+        step_[std::size_t(pivot)] = static_cast<int>(order_.size());
+        order_.push_back(pivot);
+        return true;
+    }
+
+    // Rows of the basis all full.
+    FreeDirections::Dense dense_result() const {
+        std::vector<int> place(expressions_.size(), -1);
+        int count = 0;
+        for (std::size_t i = 0; i < place.size(); ++i) {
+            if (step_[i] < 0) place[i] = count++;
+        }
+        FreeDirections::Dense basis =
+            FreeDirections::Dense::Zero(Eigen::Index(place.size()), count);
+        for (std::size_t i = 0; i < place.size(); ++i) {
+            if (place[i] >= 0) basis(Eigen::Index(i), place[i]) = 1;
+        }
+        for (auto pivot = order_.rbegin(); pivot != order_.rend(); ++pivot) {
+            for (const auto& [column, value] : expressions_[std::size_t(*pivot)]) {
+                if (place[std::size_t(column)] >= 0) {
+                    basis(*pivot, place[std::size_t(column)]) += value;
+                } else {
+                    basis.row(*pivot) += value * basis.row(column);
+                }
+            }
+        }
+        return basis;
+    }
+
+    FreeDirections result() {
+        for (auto pivot = order_.rbegin(); pivot != order_.rend(); ++pivot) {
+            Entries& expression = expressions_[std::size_t(*pivot)];
+            for (const auto& [column, value] : expression) {
+                if (step_[std::size_t(column)] < 0) {
+                    accumulate(column, value);
+                    continue;
+                }
+                for (const auto& [other, factor] : expressions_[std::size_t(column)]) {
+                    accumulate(other, value * factor);
+                }
+            }
+            expression.clear();
+            take_sum(expression);
+        }
+        FreeDirections free;
+        const int unknowns = int(expressions_.size());
+        std::vector<int> place(expressions_.size(), -1);
+        int count = 0;
+        std::size_t entries = 0;
+        for (int i = 0; i < unknowns; ++i) {
+            if (step_[std::size_t(i)] < 0) place[std::size_t(i)] = count++;
+            entries += 1 + expressions_[std::size_t(i)].size();
+        }
+        free.basis.resize(unknowns, count);
+        free.basis.reserve(Eigen::Index(entries));
+        for (int i = 0; i < unknowns; ++i) {
+            free.basis.startVec(i);
+            if (step_[std::size_t(i)] < 0) {
+                free.basis.insertBack(i, place[std::size_t(i)]) = 1;
+                continue;
+            }
+            Entries& expression = expressions_[std::size_t(i)];
+            std::sort(expression.begin(), expression.end());
+            for (const auto& [column, value] : expression) {
+                free.basis.insertBack(i, place[std::size_t(column)]) = value;
+                free.growth = std::max(free.growth, std::abs(value));
+            }
+        }
+        free.basis.finalize();
+        free.rank = unknowns - count;
+        return free;
+    }
+
+private:
+    // True when the column was not in the sum.
+    bool accumulate(int column, double value) {
+        const std::size_t c = std::size_t(column);
+        const bool is_new = size_[c] == 0 && value != 0;
+        if (is_new) touched_.push_back(column);
+        sum_[c] += value;
+        size_[c] += std::abs(value);
+        return is_new;
+    }
+    // What is left of an unknown in the sum, which loses it.
+    double taken(int column) {
+        const std::size_t c = std::size_t(column);
+        const double value = std::abs(sum_[c]) > k_cancelled * size_[c] ? sum_[c] : 0;
+        sum_[c] = size_[c] = 0;
+        return value;
+    }
+    void take_sum(Entries& to) {
+        for (const int column : touched_) {
+            if (const double value = taken(column); value != 0) to.emplace_back(column, value);
+        }
+        touched_.clear();
+    }
+    // The equation in unknowns that are left, in `row_`.
+    void substitute(const Entries& equation) {
+        most_ = doubt_ = 0;
+        waiting_.clear();
+        const auto put = [&](int column, double value) {
+            most_ = std::max(most_, std::abs(value));
+            const int step = step_[std::size_t(column)];
+            if (!accumulate(column, value) || step < 0) return;
+            waiting_.push_back(step);
+            std::push_heap(waiting_.begin(), waiting_.end(), std::greater<>());
+        };
+        for (const auto& [column, value] : equation) put(column, value);
+        // The earliest first: it stands in later ones only.
+        while (!waiting_.empty()) {
+            std::pop_heap(waiting_.begin(), waiting_.end(), std::greater<>());
+            const int column = order_[std::size_t(waiting_.back())];
+            waiting_.pop_back();
+            const double value = taken(column);
+            if (value == 0) continue;
+            doubt_ = std::max(doubt_, std::abs(value) * doubts_[std::size_t(column)]);
+            for (const auto& [other, factor] : expressions_[std::size_t(column)]) {
+                put(other, value * factor);
+            }
+        }
+        doubt_ = std::max(doubt_, most_);
+        row_.clear();
+        take_sum(row_);
+    }
+
+    std::vector<Entries> expressions_;  // of eliminated unknowns, in those that are not
+    std::vector<int> step_;             // when each was eliminated; -1: it is left
+    std::vector<double> doubts_;        // of expressions, see below
+    std::vector<int> order_;            // of elimination
+    std::vector<double> sum_, size_;
+    std::vector<int> touched_, waiting_;
+    Entries row_;
+    double most_ = 0;  // the largest term of the latest substitution
+    // What its rounding errors are in proportion to (running error analysis, Higham 2002, 3.3): the
+    // largest term, or that of an expression, over the pivot by which it was divided.
+    double doubt_ = 0;
+};
+
+}  // namespace
+
+namespace {
+
+Elimination eliminated(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows,
+                       Eigen::Index first_preferred, Eigen::Index end_preferred) {
+    Elimination elimination(int(rows.cols()));
+    // Short equations first: their expressions are short.
+    std::vector<std::pair<Eigen::Index, Eigen::Index>> order;
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+        order.emplace_back(rows.innerVector(i).nonZeros(), i);
+    }
+    std::stable_sort(order.begin(), order.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (const auto& [length, i] : order) {
+        Entries entries;
+        double squares = 0;
+        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, i); it; ++it) {
+            if (it.value() == 0) continue;
+            entries.emplace_back(int(it.col()), it.value());
+            squares += it.value() * it.value();
+        }
+        if (!(squares > 0)) continue;
+        for (auto& [column, value] : entries) value /= std::sqrt(squares);
+        elimination.add(entries, int(first_preferred), int(end_preferred));
+    }
+    return elimination;
+}
+
+}  // namespace
+
+FreeDirections free_directions(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows,
+                               Eigen::Index first_preferred, Eigen::Index end_preferred) {
+    return eliminated(rows, first_preferred, end_preferred).result();
+}
+
+FreeDirections::Dense dense_free_directions(
+    const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows, Eigen::Index first_preferred,
+    Eigen::Index end_preferred) {
+    return eliminated(rows, first_preferred, end_preferred).dense_result();
+}
+
+}  // namespace culet

@@ -1,0 +1,206 @@
+#include "fit/solve/sign_ambiguity.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "fit/solve/second_order_correction.h"
+
+namespace culet {
+
+namespace {
+
+constexpr double k_damping = 1e-6;
+// Of what one turn does to the others.
+constexpr double k_precision = 1e-4;
+// Of chi-square; less is not worth another round.
+constexpr double k_least_gain = 0.01;
+// A step this long in one of the freedoms is no longer linear.
+constexpr double k_longest = 0.5;
+constexpr Correction k_back{.most = 6, .met = 1e-10, .precision = k_precision};
+// Chains begin at each facet; of more than so many at those whose first turn costs least.
+constexpr std::size_t k_most_begins = 128;
+
+// Which facets to turn so that 2 r't + t'B t is least, t being 1 for those that are turned and 0
+// for the others: one and two at a time as long as that gains, then by chains of turns (Kernighan &
+// Lin 1970), each the best of those that are left although it may cost, of which the part is kept
+// that gains most.
+class Turns {
+public:
+    Turns(Eigen::VectorXd r, const Eigen::MatrixXd& big)
+        : big_(&big), r_(std::move(r)), turned_(std::size_t(r_.size()), 0) {}
+
+    void gain_by_ones_and_twos() {
+        // Each gains; rounding may make it seem so for ever.
+        Eigen::Index left = 4 * r_.size();
+        while (left-- > 0 && gain_by_one_or_two()) continue;
+    }
+    bool gain_by_one_or_two() {
+        double best = -k_least_gain;
+        Eigen::Index first = -1, second = -1;
+        for (Eigen::Index i = 0; i < r_.size(); ++i) {
+            const double one = alone(i);
+            if (one < best) {
+                best = one;
+                first = i;
+                second = -1;
+            }
+            for (Eigen::Index k = 0; k < i; ++k) {
+                const double both = one + alone(k) + 2 * way(i) * way(k) * (*big_)(i, k);
+                if (both < best) {
+                    best = both;
+                    first = i;
+                    second = k;
+                }
+            }
+        }
+        if (first < 0) return false;
+        turn(first);
+        if (second >= 0) turn(second);
+        return true;
+    }
+
+    /// Where the chains lead that begin at each facet, and ones and twos from there.
+    std::vector<Turns> ends_of_chains() const {
+        std::vector<Eigen::Index> begins;
+        for (Eigen::Index i = 0; i < r_.size(); ++i) begins.push_back(i);
+        if (begins.size() > k_most_begins) {
+            std::stable_sort(begins.begin(), begins.end(), [this](Eigen::Index a, Eigen::Index b) {
+                return alone(a) < alone(b);
+            });
+            begins.resize(k_most_begins);
+        }
+        std::vector<Turns> ends;
+        for (const Eigen::Index begin : begins) {
+            Turns chain = *this, best = *this;
+            std::vector<char> is_taken(turned_.size(), 0);
+            Eigen::Index next = begin;
+            for (std::size_t length = 0; length < turned_.size(); ++length) {
+                if (length > 0) next = chain.cheapest(is_taken);
+                chain.turn(next);
+                is_taken[std::size_t(next)] = 1;
+                if (length == 0 || chain.change_ < best.change_) best = chain;
+            }
+            best.gain_by_ones_and_twos();
+            ends.push_back(std::move(best));
+        }
+        return ends;
+    }
+
+    double change() const { return change_; }
+    const std::vector<char>& turned() const { return turned_; }
+
+private:
+    // By how much a facet is turned next: there, or back.
+    double way(Eigen::Index i) const { return turned_[std::size_t(i)] ? -1.0 : 1.0; }
+    double alone(Eigen::Index i) const { return 2 * way(i) * r_(i) + (*big_)(i, i); }
+    Eigen::Index cheapest(const std::vector<char>& is_taken) const {
+        Eigen::Index best = -1;
+        for (Eigen::Index i = 0; i < r_.size(); ++i) {
+            if (!is_taken[std::size_t(i)] && (best < 0 || alone(i) < alone(best))) best = i;
+        }
+        return best;
+    }
+    void turn(Eigen::Index i) {
+        change_ += alone(i);
+        r_ += big_->col(i) * way(i);
+        turned_[std::size_t(i)] ^= 1;
+    }
+
+    const Eigen::MatrixXd* big_;
+    Eigen::VectorXd r_;
+    std::vector<char> turned_;
+    double change_ = 0;
+};
+
+// The best few, the best first; none gains nothing.
+std::vector<std::vector<char>> best_turns(Eigen::VectorXd r, const Eigen::MatrixXd& big,
+                                          std::size_t most) {
+    Turns near(std::move(r), big);
+    near.gain_by_ones_and_twos();
+    std::vector<Turns> ends = near.ends_of_chains();
+    ends.push_back(std::move(near));
+    std::stable_sort(ends.begin(), ends.end(),
+                     [](const Turns& a, const Turns& b) { return a.change() < b.change(); });
+    std::vector<std::vector<char>> best;
+    for (const Turns& end : ends) {
+        if (!(end.change() < -k_least_gain) || best.size() == most) break;
+        if (std::find(best.begin(), best.end(), end.turned()) == best.end())
+            best.push_back(end.turned());
+    }
+    return best;
+}
+
+}  // namespace
+
+std::vector<Eigen::VectorXd> better_sign_choices(const std::vector<Relaxation::Folded>& folded,
+                                                 const KktSolver& solver,
+                                                 const Eigen::VectorXd& pulls, std::size_t most) {
+    const auto count = static_cast<Eigen::Index>(folded.size());
+    // A value that grows by its shift takes as much off the residual. Of what the turn of facet i
+    // adds to chi-square, r(i) is half the part that is linear and big(i, i) the square one.
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(count);
+    Eigen::MatrixXd shifts = Eigen::MatrixXd::Zero(pulls.size(), count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        for (const auto& [row, shift] : folded[std::size_t(i)].turns) {
+            r(i) -= shift * pulls(row);
+            shifts(row, i) = shift;
+        }
+    }
+    const auto solved = solver.solve_all(Eigen::MatrixXd(), shifts, k_precision);
+    if (!solved.good) return {};
+    Eigen::MatrixXd big = Eigen::MatrixXd::Zero(count, count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+        for (const auto& [row, shift] : folded[std::size_t(k)].turns) {
+            // forces = (J x - b) / variance
+            big.row(k) -= shift * solved.forces.row(row);
+        }
+    }
+    // As it is but for what solving leaves: else turns there and back would seem to gain.
+    big = (0.5 * (big + big.transpose())).eval();
+    std::vector<Eigen::VectorXd> choices_of_sign;
+    for (const std::vector<char>& turned : best_turns(std::move(r), big, most)) {
+        choices_of_sign.push_back(Eigen::VectorXd::Zero(pulls.size()));
+        for (Eigen::Index i = 0; i < count; ++i) {
+            if (turned[std::size_t(i)]) choices_of_sign.back() += shifts.col(i);
+        }
+    }
+    return choices_of_sign;
+}
+
+std::vector<Shape> better_signs(Relaxation& relaxation, KktSolver& solver, const Shape& shape,
+                                const PenaltyScale& penalty, double within, std::size_t most,
+                                const std::vector<int>& sides) {
+    relaxation.choose(shape, penalty.incidence == 0);
+    std::vector<Relaxation::Folded> folded = relaxation.folded(shape, within);
+    std::erase_if(folded, [&](const Relaxation::Folded& f) {
+        return !sides.empty() && sides[std::size_t(f.facet)] != 0;
+    });
+    if (folded.empty()) return {};
+    const StepLinearisation linearisation = relaxation.linearisation(shape, penalty);
+    if (!solver.factor(linearisation.rows,
+                       linearisation.prior_stiffness + k_damping * relaxation.metric()))
+        return {};
+    Eigen::VectorXd pulls = linearisation.rows.residuals();
+    for (Eigen::Index i = 0; i < pulls.size(); ++i) {
+        const double variance = linearisation.rows.variance[std::size_t(i)];
+        pulls(i) = variance > 0 ? pulls(i) / variance : 0;
+    }
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(relaxation.parameters().size());
+    std::vector<Shape> others;
+    for (const Eigen::VectorXd& right : better_sign_choices(folded, solver, pulls, most)) {
+        const auto s = solver.solve(none, right, k_precision);
+        if (!s.good || s.unknowns.cwiseAbs().maxCoeff() > k_longest) continue;
+        Shape other = relaxation.parameters().retracted_with_turn(
+            shape, {s.unknowns.data(), static_cast<std::size_t>(s.unknowns.size())});
+        // What nothing holds moves far, and off what must hold exactly.
+        others.push_back(onto_hard_equations(relaxation, solver, linearisation, penalty,
+                                             std::move(other), k_back)
+                             .shape);
+    }
+    return others;
+}
+
+}  // namespace culet

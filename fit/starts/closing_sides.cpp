@@ -1,0 +1,275 @@
+#include "fit/starts/closing_sides.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace culet {
+
+namespace {
+
+// Sums of two squared normal errors exceed this once in a thousand times: where edges close better
+// nothing is asked.
+constexpr double k_open = 13.8;
+// Of one facet, in chi-square: beyond it something else is wrong.
+constexpr double k_most_misfit = 50;
+// A side is known where the other costs five sigmas more.
+constexpr double k_known = 25;
+constexpr double k_least_gain = 1e-6;
+// Turns in one chain, from everywhere and from one facet on.
+constexpr int k_chain = 60, k_local_chain = 14;
+// Chains that cost so much in between lead nowhere.
+constexpr double k_highest = 200;
+constexpr int k_most_rounds = 100;
+// What was not read is off by as much as a hand-made mesh is: a part of an edge's own length.
+constexpr double k_drawn_length = 0.3;
+// An edge's direction is not known at all where its planes are this near to parallel.
+constexpr double k_least_sine = 1e-9, k_any_direction = 1.5;
+// Variance of lengths that are exact.
+constexpr double k_rounding = 1e-24;
+
+struct Sided {
+    std::array<Vec3, 2> normal{};  // looking down, looking up
+    double sigma = 0;              // radians
+    bool has_two = false;
+};
+
+// One edge in a facet's round: its neighbour, and for both sides of each what it adds to the way
+// round and to the variance.
+struct Way {
+    int neighbour = -1;
+    std::array<std::array<Vec3, 2>, 2> along{};
+    std::array<std::array<double, 2>, 2> variance{};
+};
+
+class Closing {
+public:
+    Closing(const System& system, const std::vector<int>& known, double rough);
+
+    bool has_turning() const { return !turning_.empty(); }
+    void look();
+    std::vector<int> sides(std::vector<int> known) const;
+
+private:
+    double misfit(std::size_t facet) const {
+        Vec3 left(0);
+        double variance = 0;
+        for (const Way& w : ways_[facet]) {
+            const auto own = std::size_t(up_[facet]), other = std::size_t(up_[w.neighbour]);
+            left += w.along[own][other];
+            variance += w.variance[own][other];
+        }
+        return std::min(glm::dot(left, left) / variance, k_most_misfit);
+    }
+    double around(int facet) const {
+        double sum = misfit(std::size_t(facet));
+        for (const int n : near_[std::size_t(facet)]) sum += misfit(std::size_t(n));
+        return sum;
+    }
+    double change(int facet) {
+        const double before = around(facet);
+        turn(facet);
+        const double after = around(facet);
+        turn(facet);
+        return after - before;
+    }
+    void turn(int facet) { up_[std::size_t(facet)] ^= 1; }
+    // Of a chain of best turns from one facet on (or from anywhere) the part that gains most.
+    struct Chain {
+        double gain = 0;
+        std::vector<int> turns;
+    };
+    Chain chain(const std::vector<int>& from, bool grows, int longest);
+
+    std::vector<std::vector<Way>> ways_;
+    std::vector<std::vector<int>> near_;  // neighbours
+    std::vector<char> up_, may_turn_;
+    std::vector<int> turning_;  // facets that may
+};
+
+std::vector<Sided> sided_normals(const System& system, const std::vector<int>& known,
+                                 double rough) {
+    const Shape& mesh = system.mesh_shape();
+    const std::size_t count = mesh.normals.size();
+    std::vector<std::optional<double>> tilt(count), turn(count);
+    std::vector<double> sigmas(count, 0);
+    for (const Reading& r : system.readings()) {
+        if (r.aggregate != Aggregate::single || r.datum.kind != Datum::Kind::up) continue;
+        if (r.kind != ReadingKind::inclination && r.kind != ReadingKind::azimuth) continue;
+        const auto f = std::size_t(r.facets[0]);
+        (r.kind == ReadingKind::inclination ? tilt : turn)[f] = r.value;
+        const double part = r.kind == ReadingKind::azimuth && tilt[f] ? std::sin(*tilt[f]) : 1;
+        sigmas[f] = std::max(sigmas[f], part * std::hypot(r.sigma, r.rounding / std::sqrt(12.0)));
+    }
+    std::vector<Sided> result(count);
+    for (std::size_t f = 0; f < count; ++f) {
+        Sided& s = result[f];
+        if (static_cast<int>(f) != system.up_facet() && tilt[f] && turn[f]) {
+            const Vec3 level{std::cos(*turn[f]), std::sin(*turn[f]), 0};
+            const double z = std::cos(*tilt[f]), flat = std::sin(*tilt[f]);
+            s.normal = {flat * level - Vec3{0, 0, z}, flat * level + Vec3{0, 0, z}};
+            s.sigma = sigmas[f];
+            s.has_two = known[f] == 0;
+            continue;
+        }
+        const std::vector<int>& loop = system.mesh_outline()->loops[f];
+        Vec3 mean(0);
+        for (const int corner : loop)
+            mean += mesh.points[std::size_t(corner)] / double(loop.size());
+        double spread = 0;
+        for (const int corner : loop) {
+            const Vec3 off = mesh.points[std::size_t(corner)] - mean;
+            spread += glm::dot(off, off);
+        }
+        s.normal = {mesh.normals[f], mesh.normals[f]};
+        s.sigma = static_cast<int>(f) == system.up_facet()
+                      ? 0
+                      : rough / std::sqrt(std::max(1e-12, spread / 2));
+    }
+    return result;
+}
+
+Closing::Closing(const System& system, const std::vector<int>& known, double rough) {
+    const std::vector<Sided> sided = sided_normals(system, known, rough);
+    const Shape& mesh = system.mesh_shape();
+    const std::size_t count = sided.size();
+    ways_.resize(count);
+    near_.resize(count);
+    may_turn_.assign(count, 0);
+    for (std::size_t f = 0; f < count; ++f) {
+        // The mesh's corners round a facet say more of its normal than the plane nearest to them,
+        // which a long thin facet turns by.
+        Vec3 area(0);
+        const std::vector<int>& loop = system.mesh_outline()->loops[f];
+        for (std::size_t k = 0; k < loop.size(); ++k) {
+            area += glm::cross(mesh.points[std::size_t(loop[k])],
+                               mesh.points[std::size_t(loop[(k + 1) % loop.size()])]);
+        }
+        up_.push_back(known[f] == 0 ? area.z > 0 : known[f] > 0);
+        if (!sided[f].has_two) continue;
+        may_turn_[f] = 1;
+        turning_.push_back(static_cast<int>(f));
+    }
+    std::vector<std::pair<std::pair<int, int>, const Reading*>> read;
+    for (const Reading& r : system.readings()) {
+        if (r.kind != ReadingKind::edge || r.aggregate != Aggregate::single) continue;
+        read.push_back({std::minmax(r.facets[0], r.facets[1]), &r});
+    }
+    std::sort(read.begin(), read.end());
+    for (const Edge& e : system.edges().edges) {
+        const std::pair<int, int> pair = std::minmax(e.left, e.right);
+        const auto at = std::lower_bound(
+            read.begin(), read.end(), pair,
+            [](const auto& entry, const std::pair<int, int>& p) { return entry.first < p; });
+        double length =
+            glm::distance(mesh.points[std::size_t(e.from)], mesh.points[std::size_t(e.to)]);
+        double sigma = std::hypot(std::numbers::sqrt2 * rough, k_drawn_length * length);
+        if (at != read.end() && at->first == pair) {
+            const Reading& r = *at->second;
+            length = r.value / system.unit_of(r);
+            sigma = std::hypot(r.sigma, r.rounding / std::sqrt(12.0)) / system.unit_of(r);
+        }
+        for (const auto& [own, other] : {std::pair{e.left, e.right}, std::pair{e.right, e.left}}) {
+            Way way;
+            way.neighbour = other;
+            const Sided &a = sided[std::size_t(own)], &b = sided[std::size_t(other)];
+            const double turn = std::hypot(a.sigma, b.sigma);
+            for (const std::size_t i : {0, 1}) {
+                for (const std::size_t k : {0, 1}) {
+                    const Vec3 u = glm::cross(a.normal[i], b.normal[k]);
+                    const double sine = std::max(k_least_sine, glm::length(u));
+                    const double swing = std::min(k_any_direction, turn / sine);
+                    way.along[i][k] = u * (length / sine);
+                    way.variance[i][k] =
+                        k_rounding + sigma * sigma + length * length * swing * swing;
+                }
+            }
+            ways_[std::size_t(own)].push_back(way);
+            near_[std::size_t(own)].push_back(other);
+        }
+    }
+    for (std::vector<int>& n : near_) {
+        std::sort(n.begin(), n.end());
+        n.erase(std::unique(n.begin(), n.end()), n.end());
+    }
+}
+
+Closing::Chain Closing::chain(const std::vector<int>& from, bool grows, int longest) {
+    Chain best;
+    std::vector<int> turned, front = from;
+    std::vector<char> is_turned(up_.size(), 0), in_front(up_.size(), 0);
+    for (const int f : front) in_front[std::size_t(f)] = 1;
+    double height = 0;
+    for (int k = 0; k < longest && height < k_highest; ++k) {
+        int next = -1;
+        double least = std::numeric_limits<double>::infinity();
+        for (const int f : front) {
+            if (is_turned[std::size_t(f)]) continue;
+            const double by = change(f);
+            if (!(by < least)) continue;
+            least = by;
+            next = f;
+        }
+        if (next < 0) break;
+        turn(next);
+        is_turned[std::size_t(next)] = 1;
+        turned.push_back(next);
+        height += least;
+        if (height < -best.gain - k_least_gain) best = {-height, turned};
+        if (!grows) continue;
+        for (const int n : near_[std::size_t(next)]) {
+            if (!may_turn_[std::size_t(n)] || in_front[std::size_t(n)]) continue;
+            in_front[std::size_t(n)] = 1;
+            front.push_back(n);
+        }
+    }
+    for (const int f : turned) turn(f);
+    return best;
+}
+
+void Closing::look() {
+    for (int round = 0; round < k_most_rounds; ++round) {
+        // Only next to where edges do not close.
+        std::vector<int> suspects;
+        for (const int f : turning_) {
+            const auto& n = near_[std::size_t(f)];
+            if (misfit(std::size_t(f)) > k_open || std::any_of(n.begin(), n.end(), [&](int other) {
+                    return misfit(std::size_t(other)) > k_open;
+                })) {
+                suspects.push_back(f);
+            }
+        }
+        Chain best = chain(suspects, false, k_chain);
+        if (best.turns.empty()) {
+            for (const int f : suspects) {
+                Chain other = chain({f}, true, k_local_chain);
+                if (other.gain > best.gain + k_least_gain) best = std::move(other);
+            }
+        }
+        if (best.turns.empty()) return;
+        for (const int f : best.turns) turn(f);
+    }
+}
+
+std::vector<int> Closing::sides(std::vector<int> known) const {
+    Closing here = *this;
+    for (const int f : turning_) {
+        if (here.change(f) > k_known) known[std::size_t(f)] = up_[std::size_t(f)] ? 1 : -1;
+    }
+    return known;
+}
+
+}  // namespace
+
+std::vector<int> closing_sides(const System& system, std::vector<int> known, double rough) {
+    Closing closing(system, known, rough);
+    if (!closing.has_turning()) return known;
+    closing.look();
+    return closing.sides(std::move(known));
+}
+
+}  // namespace culet

@@ -1,0 +1,187 @@
+#include "fit/starts/multistart.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include "fit/starts/penalty_continuation.h"
+#include "fit/uncertainty/diagnostics.h"
+#include "fit/uncertainty/statistics.h"
+
+namespace culet {
+
+namespace {
+
+// What holding edges at no length may cost in chi-square before another start is asked.
+constexpr double k_cheap = 1;
+// Starts in a row that gave nothing better; good: the best agrees, or the mesh was drawn with care.
+constexpr int k_patience = 6, k_patience_good = 2;
+// Starts in a row from the first that gave nothing like a stone: the readings are no stone's.
+constexpr int k_patience_without_stone = 5;
+// Starts times facets that are tried, but no fewer starts than these.
+constexpr int k_most_facets = 4500, k_least_starts = 4;
+// Of all starts together (KktSolver::work), and at least so many starts: those of readings that
+// fit no stone take ten times as many steps each as others. The less while none gave a stone. All
+// starts of 105 facets and noise of 20 % take up to 1e9, half a second.
+constexpr double k_most_work = 1.5e10, k_most_work_in_vain = 7e9;
+constexpr int k_least_starts_in_vain = 2;
+// The chi-square test by counting: the least redundancy that there can be decides what is accepted
+// at once, and only in between is it counted out.
+bool agrees(const System& system, const Candidate& candidate, int free, int counted,
+            double significance) {
+    if (system.has_estimated_groups()) return true;
+    const double chi2 = candidate.finished.chi2;
+    const int least = counted - free + candidate.binding;
+    if (chi2_tail(chi2, std::max(0, least)) > significance && counted > free) return true;
+    if (!(chi2_tail(chi2, counted + candidate.binding) > significance)) return false;
+    const Diagnosis d = diagnose(system, candidate.finished.shape, candidate.finished.outline,
+                                 {.full = false, .binding = candidate.binding});
+    // Readings that say less than one of them together contradict nobody.
+    return chi2_tail(d.chi2, std::max(1.0, d.dof)) > significance;
+}
+
+// A stone whose last steps creep is still the better one where it agrees better by more than
+// chi-square's own noise: so at an edge that the readings want to have no length.
+auto rank(const Candidate& c, double handicap = 0) {
+    constexpr double k_part = 1.05, k_noise = 4;
+    const double chi2 = c.finished.chi2 + handicap;
+    return std::make_tuple(!c.sound, !(c.finished.worst_hard < k_hard_limit),
+                           c.finished.converged ? chi2 : k_part * chi2 + k_noise);
+}
+
+// The starts as the first stages leave them.
+class Screening {
+public:
+    Screening(const System& system, Relaxation& relaxation)
+        : relaxation_(relaxation), starts_(system) {}
+
+    bool mesh_is_good() const { return starts_.mesh_is_good(); }
+    /// The next start that may well lead home; when there is none, the best of those that have
+    /// waited. No more than `most` are tried for it.
+    std::optional<Screened> next(int most, bool only_plausible, double& work,
+                                 const Progress& progress) {
+        while (static_cast<int>(waiting_.size()) < most) {
+            std::optional<Start> start = starts_.next();
+            if (!start) break;
+            Screened found = screen(relaxation_, *start, progress);
+            work += found.work;
+            if (found.is_plausible) return found;
+            waiting_.push_back(std::move(found));
+        }
+        if (waiting_.empty() || only_plausible) return std::nullopt;
+        const auto best = std::min_element(
+            waiting_.begin(), waiting_.end(),
+            [](const Screened& a, const Screened& b) { return a.misfit < b.misfit; });
+        Screened found = std::move(*best);
+        waiting_.erase(best);
+        return found;
+    }
+
+private:
+    Relaxation& relaxation_;
+    Starts starts_;
+    std::vector<Screened> waiting_;
+};
+
+}  // namespace
+
+Candidate finish_candidate(const System& system, Relaxation& relaxation, const Shape& shape,
+                           const ActiveSetOptions& options) {
+    Candidate candidate;
+    if (system.splits()) {
+        candidate.finished = finish(system, shape, options.iterations);
+        const System::Enclosed enclosed = system.enclosed(candidate.finished.shape);
+        candidate.sound = enclosed.closed && enclosed.missing.empty();
+        return candidate;
+    }
+    ActiveSetFit exact = fit_active_set(relaxation, shape, options);
+    candidate.finished = std::move(exact.finished);
+    candidate.held = std::move(exact.held);
+    candidate.cost_of_holding = exact.cost_of_holding;
+    candidate.is_no_stone = exact.is_no_stone;
+    candidate.binding = relaxation.binding(candidate.finished.shape, candidate.held);
+    candidate.sound = relaxation.is_convex(candidate.finished.shape) &&
+                      volume(system.met_solid(candidate.finished.shape)) > 0;
+    return candidate;
+}
+
+Multistart fit_from_starts(const System& system, const FitOptions& options,
+                           const Progress& progress) {
+    const Parameters parameters = system.parameters();
+    Relaxation relaxation(system, parameters);
+    // Free directions: freedoms less hard equations, less shifts (and a turn) that nothing sees.
+    const Relaxation::Counts counts = relaxation.counts();
+    const int counted = counts.soft, hard = counts.hard;
+    const int shifts = parameters.orbits().empty() ? 3 : 1;
+    const int free = std::max(0, parameters.size() - hard - shifts);
+
+    Multistart result;
+    Screening approaches(system, relaxation);
+    std::vector<double> ends;
+    int fruitless = 0, without_stone = 0;
+    double& work = result.work;
+    // Each costs a large stone as much as all of them a small one.
+    const int facets = static_cast<int>(system.stone().solid.facets.size());
+    const int most = std::min(options.starts, std::max(k_least_starts, k_most_facets / facets));
+    const auto may_go_on = [&] {
+        const bool found = result.best.sound;
+        return result.starts < most &&
+               (work < (found ? k_most_work : k_most_work_in_vain) ||
+                result.starts < (found ? k_least_starts : k_least_starts_in_vain));
+    };
+    while (may_go_on()) {
+        const double begin = 0.7 * result.starts / (result.starts + 1.0);
+        const Progress part = [&](double fraction) {
+            return !progress || progress(begin + (0.7 - begin) * fraction);
+        };
+        // Beside a stone that agrees, only another that may agree as well is worth the time.
+        const bool only_plausible = result.best.agrees;
+        const std::optional<Screened> rough =
+            approaches.next(most - result.starts, only_plausible, work, part);
+        if (!rough) break;
+        const Continued continued = continue_penalties(relaxation, *rough, part);
+        Candidate candidate =
+            finish_candidate(system, relaxation, continued.shape,
+                             {.iterations = options.iterations,
+                              .hopeless = result.best.sound ? result.best.finished.chi2 : 1e300});
+        candidate.start = rough->start;
+        candidate.finished.iterations += continued.steps;
+        without_stone += candidate.is_no_stone;
+        work += continued.work + candidate.finished.work;
+        const bool good = candidate.is_an_end();
+        candidate.agrees = good && agrees(system, candidate, free, counted, options.significance);
+        const double chi2 = candidate.finished.chi2;
+        // An optimum that agrees but poorly, or that lies where an edge has no length, may be a
+        // lesser one: others get a chance.
+        const bool accept =
+            candidate.agrees && candidate.cost_of_holding < k_cheap &&
+            (system.has_estimated_groups() ||
+             chi2_tail(chi2, std::max(1, counted - free + candidate.binding)) > k_agrees_well);
+        // Starts from who meets whom are alike: of a bad mesh all of the first may miss the same
+        // way.
+        const bool again = good && (candidate.agrees || approaches.mesh_is_good()) &&
+                           std::any_of(ends.begin(), ends.end(), [&](double other) {
+                               return std::abs(other - chi2) < k_same_chi2;
+                           });
+        if (good) ends.push_back(chi2);
+        ++fruitless;
+        // What the readings leave open is as the earlier start had it: the mesh before others.
+        if (result.starts++ == 0 || rank(candidate, k_same_chi2) < rank(result.best)) {
+            result.best = std::move(candidate);
+            fruitless = 0;
+        }
+        // Readings that contradict each other do so from every start.
+        const bool tired =
+            result.best.sound && result.best.finished.converged &&
+            fruitless >=
+                (result.best.agrees || approaches.mesh_is_good() ? k_patience_good : k_patience);
+        if (without_stone == result.starts && without_stone >= k_patience_without_stone) break;
+        // Ending twice where it ended before is no accident, if nothing better was seen.
+        if (accept || tired || (again && result.best.finished.chi2 > chi2 - k_same_chi2)) break;
+    }
+    return result;
+}
+
+}  // namespace culet

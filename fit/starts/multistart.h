@@ -1,0 +1,52 @@
+#pragma once
+// Several starts, one after another, until one of them ends in a stone that could be cut and that
+// the readings agree with.
+
+#include <string>
+#include <vector>
+
+#include "fit/model/options.h"
+#include "fit/model/system.h"
+#include "fit/solve/active_set.h"
+#include "stone/progress.h"
+
+namespace culet {
+
+struct Candidate {
+    Finished finished;
+    std::string start;               ///< its name
+    bool sound = false;              ///< closed, convex where it must be, with all facets
+    bool agrees = false;             ///< passes the chi-square test
+    bool is_no_stone = false;        ///< active_set.h
+    std::vector<ActiveCorner> held;  ///< corners that the readings want above a neighbour facet
+    double cost_of_holding = 0;
+    int binding = 0;  ///< how many of them bind: each like one more exact reading
+
+    /// A stone that could be cut, and whose hard equations hold.
+    bool holds() const { return sound && finished.worst_hard < k_hard_limit; }
+    bool is_an_end() const { return holds() && finished.converged; }
+};
+
+/// Chance of so large a chi-square, from which on the readings agree well.
+inline constexpr double k_agrees_well = 0.2;
+/// Ends whose chi-squares differ by less are of one stone: a third of a sigma in one reading.
+inline constexpr double k_same_chi2 = 0.1;
+
+struct Multistart {
+    Candidate best;
+    int starts = 0;   ///< tried
+    double work = 0;  ///< of all starts, about, in multiplications
+};
+
+/// The last stage from a shape that is nearly right.
+Candidate finish_candidate(const System& system, Relaxation& relaxation, const Shape& shape,
+                           const ActiveSetOptions& options);
+
+/// Accepts the first candidate that is sound and agrees, or two that end in the same sound stone
+/// (then the readings contradict each other, and no start will help); gives up after several
+/// starts in a row that gave nothing better; else the best of `options.starts`. Throws Interrupted
+/// when progress says so.
+Multistart fit_from_starts(const System& system, const FitOptions& options,
+                           const Progress& progress = {});
+
+}  // namespace culet

@@ -1,0 +1,130 @@
+#include "fit/starts/penalty_continuation.h"
+
+#include <algorithm>
+#include <array>
+
+#include "fit/solve/relax.h"
+#include "fit/solve/sign_ambiguity.h"
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+constexpr int k_most_steps = 40;
+// As long as incidences are this soft, facets within this sine of upright may turn out to look the
+// other way.
+constexpr double k_leaning_until = 0.005, k_may_lean = 0.6;
+// Measured, in multiplications: a step of a stage, for each number that is varied.
+constexpr double k_work_of_a_row = 7000;
+
+struct Stage {
+    double incidence, readings;
+};
+// Of the half diameter. From the schedule that brought 20 of 20 rough meshes home in trials.
+constexpr std::array<Stage, 6> k_stages{
+    {{0.1, 0.05}, {0.03, 0.02}, {0.01, 0.005}, {0.003, 0.0}, {0.001, 0.0}, {0.0003, 0.0}}};
+
+// The best of a stage trades misfit for nearness to the mesh: of a rough mesh about this part of
+// what the priors leave. It only decides which starts are finished first.
+constexpr double k_traded = 0.2;
+// A good start takes fewer to find its place in the first stage.
+constexpr int k_first_steps = 15;
+
+PenaltyScale penalty_of(const Stage& stage, bool with_readings) {
+    PenaltyScale s;
+    s.incidence = stage.incidence;
+    s.readings = stage.readings;
+    s.hinge = stage.incidence / 5;
+    s.with_readings = with_readings;
+    return s;
+}
+
+struct StageRunner {
+    Relaxation& relaxation;
+    const Progress& progress;
+    const std::vector<int>& sides;  ///< known ones stay
+    KktSolver solver{};
+    int steps = 0;
+    double work = 0;
+
+    struct Kind {
+        bool with_readings = false, keep = false;
+        int most_steps = k_most_steps;
+    };
+    void once(Shape& shape, const Stage& stage, Kind kind, double fraction) {
+        relaxation.choose(shape, false);
+        const int before = steps;
+        shape = relax(relaxation, shape, penalty_of(stage, kind.with_readings),
+                      {.keep_normals = kind.keep, .most_steps = kind.most_steps}, progress,
+                      fraction, steps);
+        work += k_work_of_a_row * (steps - before) * relaxation.parameters().size();
+    }
+    void stage(Shape& shape, const Stage& stage, double fraction) {
+        once(shape, stage, {.with_readings = true}, fraction);
+        resolve_signs(shape, stage, fraction);
+    }
+    void resolve_signs(Shape& shape, const Stage& stage, double fraction) {
+        if (stage.incidence <= k_leaning_until) return;
+        for (int round = 0; round < 3; ++round) {
+            const std::vector<Shape> others = better_signs(
+                relaxation, solver, shape, penalty_of(stage, true), k_may_lean, 1, sides);
+            if (others.empty()) break;
+            shape = relaxation.parameters().symmetrised(others.front());
+            once(shape, stage, {.with_readings = true}, fraction);
+        }
+    }
+};
+
+}  // namespace
+
+Screened screen(Relaxation& relaxation, const Start& start, const Progress& progress) {
+    Screened result;
+    result.start = start.name;
+    result.sides = start.sides;
+    result.shape = relaxation.parameters().symmetrised(start.shape);
+    relaxation.forget_contacts();  // of another start
+    StageRunner run{relaxation, progress, start.sides};
+    // First a convex stone with planar facets, whatever its size: lengths of edges that a rough
+    // mesh has inside out would hold it there.
+    const bool keep = start.keep_normals_at_first;
+    if (!start.is_convex) run.once(result.shape, {0.03, 0.0}, {.keep = keep}, 0.05);
+    result.shape = relaxation.parameters().symmetrised(
+        looking_as(relaxation.system(), std::move(result.shape), start.sides));
+    if (keep) run.once(result.shape, {0.03, 0.02}, {.with_readings = true, .keep = true}, 0.1);
+    const auto judge = [&] {
+        const PenaltyScale penalty = penalty_of(k_stages[result.stages], true);
+        const StepLinearisation linearisation = relaxation.linearisation(result.shape, penalty);
+        result.misfit = linearisation.merit - linearisation.prior;
+        result.is_plausible =
+            result.misfit <= relaxation.expected_misfit(penalty) + k_traded * linearisation.prior;
+    };
+    run.once(result.shape, k_stages[0], {.with_readings = true, .most_steps = k_first_steps}, 0.2);
+    judge();
+    if (result.is_plausible) {
+        run.resolve_signs(result.shape, k_stages[0], 0.25);
+        ++result.stages;
+        run.stage(result.shape, k_stages[1], 0.3);
+        judge();
+        ++result.stages;
+    }
+    result.steps = run.steps;
+    result.work = (run.work + run.solver.work());
+    return result;
+}
+
+Continued continue_penalties(Relaxation& relaxation, const Screened& rough,
+                             const Progress& progress) {
+    Continued result;
+    result.shape = rough.shape;
+    relaxation.forget_contacts();
+    StageRunner run{relaxation, progress, rough.sides};
+    for (std::size_t i = rough.stages; i < k_stages.size(); ++i) {
+        run.stage(result.shape, k_stages[i], 0.2 + 0.1 * double(i));
+    }
+    result.steps = rough.steps + run.steps;
+    result.work = (run.work + run.solver.work());
+    return result;
+}
+
+}  // namespace culet

@@ -1,0 +1,107 @@
+#include "fit/starts/refit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "fit/model/azimuth_turn.h"
+#include "fit/model/orbits.h"
+#include "fit/model/upright_turn.h"
+#include "fit/solve/caliper_turn.h"
+#include "fit/uncertainty/statistics.h"
+
+namespace culet {
+
+namespace {
+
+// Where planes of a corner come nearest to each other, near `guess` where they leave it open.
+Vec3 meet_of(const std::vector<Plane>& planes, const Vec3& guess) {
+    glm::dmat3 normals(0.0);
+    Vec3 right(0);
+    for (const Plane& plane : planes) {
+        normals += glm::outerProduct(plane.normal, plane.normal);
+        right += (plane.offset - glm::dot(plane.normal, guess)) * plane.normal;
+    }
+    normals += glm::dmat3(1e-9);
+    return guess + glm::inverse(normals) * right;
+}
+
+}  // namespace
+
+Candidate finish_from(const System& system, const Shape& shape, int iterations) {
+    const Parameters parameters = system.parameters();
+    Relaxation relaxation(system, parameters);
+    Candidate candidate = finish_candidate(system, relaxation, parameters.symmetrised(shape),
+                                           {.iterations = iterations});
+    candidate.start = "last result";
+    return candidate;
+}
+
+Candidate refit_from(const System& system, const Shape& shape, int iterations) {
+    const Parameters parameters = system.parameters();
+    Relaxation relaxation(system, parameters);
+    // The least redundancy that there can be, by counting: so many shifts at most are unseen.
+    const Relaxation::Counts counts = relaxation.counts();
+    constexpr int k_shifts = 3;
+    const int least = counts.soft + counts.hard + k_shifts - parameters.size();
+    const double agreeable = chi2_quantile(k_agrees_well, std::max(1, least));
+    Candidate candidate = finish_candidate(
+        system, relaxation, turned_to_calipers(relaxation, parameters.symmetrised(shape)),
+        {.iterations = iterations, .agreeable = agreeable});
+    candidate.start = "earlier result";
+    return candidate;
+}
+
+std::optional<Shape> shape_of(const System& system, const Solid& solid) {
+    Shape shape = system.mesh_shape();
+    const std::vector<Facet>& mesh = system.stone().solid.facets;
+    std::vector<Plane> planes;
+    for (const Facet& facet : mesh) {
+        const int there = find_facet(solid, facet.name);
+        if (there < 0) return std::nullopt;
+        planes.push_back(solid.facets[std::size_t(there)].plane);
+    }
+    Vec3 mean(0);
+    for (const Vec3& v : solid.vertices) mean += v / double(solid.vertices.size());
+    for (Plane& plane : planes) {
+        plane.offset = (plane.offset - glm::dot(plane.normal, mean)) / system.scale();
+    }
+
+    const int up = system.up_facet();
+    const auto [x, y, z] =
+        turn_to_z(up >= 0 ? planes[std::size_t(up)].normal : glm::normalize(system.stone().up));
+    glm::dmat3 turn = glm::transpose(glm::dmat3(x, y, z));
+    // About up: as most facets of the mesh stand, then as the azimuths that were read say.
+    double east = 0, north = 0;
+    for (std::size_t f = 0; f < planes.size(); ++f) {
+        const Vec3 n = turn * planes[f].normal;
+        const Vec3& m = shape.normals[f];
+        east += n.x * m.x + n.y * m.y;
+        north += n.x * m.y - n.y * m.x;
+    }
+    if (east != 0 || north != 0) turn = turn_about_z(std::atan2(north, east)) * turn;
+    if (!system.stone().azimuth_from_mesh) {
+        turn = turn_about_z(azimuth_turn(
+                   system.readings(),
+                   [&](int facet) { return turn * planes[std::size_t(facet)].normal; })) *
+               turn;
+    }
+    for (std::size_t f = 0; f < planes.size(); ++f) {
+        planes[f].normal = glm::normalize(turn * planes[f].normal);
+        shape.normals[f] = planes[f].normal;
+        shape.offsets[f] = planes[f].offset;
+    }
+    if (up >= 0) shape.normals[std::size_t(up)] = Vec3{0, 0, 1};
+    std::vector<std::vector<Plane>> of_point(shape.points.size());
+    for (const Incidence& incidence : system.incidences()) {
+        of_point[std::size_t(incidence.point)].push_back(planes[std::size_t(incidence.facet)]);
+    }
+    for (std::size_t p = 0; p < shape.points.size(); ++p) {
+        shape.points[p] = meet_of(of_point[p], shape.points[p]);
+    }
+    return shape;
+}
+
+}  // namespace culet

@@ -1,0 +1,73 @@
+#include "fit/starts/robust.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "fit/model/linear.h"
+#include "fit/solve/relax.h"
+#include "fit/starts/refit.h"
+
+namespace culet {
+
+namespace {
+
+constexpr int k_rounds = 40;
+// In multiplications (KktSolver::work), some seconds: of large stones a few rounds have to do.
+constexpr double k_most_work = 5e9;
+// A weight never goes to nothing: a sigma a million times as large says as much.
+constexpr double k_least_weight = 1e-12;
+
+}  // namespace
+
+double robust_weight(Loss loss, double z) {
+    z = std::abs(z);
+    switch (loss) {
+        case Loss::none:
+            return 1;
+        case Loss::huber:
+            return z <= k_huber ? 1 : std::max(k_least_weight, k_huber / z);
+        case Loss::cauchy:
+            return std::max(k_least_weight, 1 / (1 + (z / k_cauchy) * (z / k_cauchy)));
+    }
+    return 1;
+}
+
+std::vector<double> reweight(System& system, Candidate& candidate, Loss loss, int iterations) {
+    // Each by its own weight.
+    system.keep_replicates_apart();
+    const std::size_t count = system.readings().size();
+    std::vector<double> weights(count, 1), sigmas;
+    for (const Reading& r : system.readings()) sigmas.push_back(r.sigma);
+    double work = 0;
+    for (int round = 0; round < k_rounds && work < k_most_work; ++round) {
+        const Finished& finished = candidate.finished;
+        std::vector<double> worst(count, 0);
+        for (const Equation& e : system.equations(finished.shape, finished.outline)) {
+            if (e.reading < 0 || e.exact || e.role != Equation::Role::reading) continue;
+            const std::size_t r = std::size_t(e.reading);
+            const double unit = system.unit_of(system.readings()[r]);
+            const double off = e.formula(finished.shape).value - e.value;
+            worst[r] = std::max(worst[r], std::abs(off) * unit / sigmas[r]);
+        }
+        double change = 0;
+        for (std::size_t r = 0; r < count; ++r) {
+            if (!(sigmas[r] > 0) || system.readings()[r].exact) continue;
+            const double weight = robust_weight(loss, worst[r]);
+            change = std::max(change, std::abs(std::log(weight / weights[r])));
+            weights[r] = weight;
+            system.set_reading_sigma(int(r), sigmas[r] / std::sqrt(weight));
+        }
+        if (change < 0.01) break;
+        Candidate next = finish_from(system, finished.shape, iterations);
+        work += next.finished.work;
+        next.start = candidate.start;
+        next.finished.iterations += candidate.finished.iterations;
+        // A start that was sound stays so, or the weights lead nowhere.
+        if ((candidate.sound && !next.sound) || next.is_no_stone) break;
+        candidate = std::move(next);
+        if (!candidate.finished.converged) break;
+    }
+    return weights;
+}
+
+}  // namespace culet

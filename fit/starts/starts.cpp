@@ -1,0 +1,334 @@
+#include "fit/starts/starts.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <numbers>
+
+#include "fit/mesh/roughness.h"
+#include "fit/model/azimuth_turn.h"
+#include "fit/model/canonical.h"
+#include "fit/starts/closing_sides.h"
+#include "stone/checks.h"
+
+namespace culet {
+
+namespace {
+
+// A mesh whose corners lie within this part of the half diameter of their facets' planes was drawn
+// with care, if those above a neighbour facet rise so little in the mean square over all corners
+// and their neighbours.
+constexpr double k_drawn_with_care = 0.02, k_nearly_convex = 0.005;
+
+Vec3 mean_of(const std::vector<Vec3>& points, std::size_t count) {
+    Vec3 mean(0);
+    for (std::size_t i = 0; i < count; ++i) mean += points[i] / double(count);
+    return mean;
+}
+
+Vec3 times(const Eigen::Matrix3d& m, const Vec3& v) {
+    const Eigen::Vector3d r = m * Eigen::Vector3d(v.x, v.y, v.z);
+    return {r.x(), r.y(), r.z()};
+}
+
+// x -> m x + shift; planes follow their points.
+Shape mapped(Shape shape, const Eigen::Matrix3d& m, const Vec3& shift) {
+    const Eigen::Matrix3d of_normals = m.inverse().transpose();
+    for (std::size_t f = 0; f < shape.normals.size(); ++f) {
+        const Vec3 n = times(of_normals, shape.normals[f]);
+        const double length = glm::length(n);
+        shape.normals[f] = n / length;
+        shape.offsets[f] = shape.offsets[f] / length + glm::dot(shape.normals[f], shift);
+    }
+    for (Vec3& p : shape.points) p = times(m, p) + shift;
+    return shape;
+}
+
+struct Moments {
+    Eigen::Matrix3d cross = Eigen::Matrix3d::Zero(), own = Eigen::Matrix3d::Zero();
+    Vec3 from{0, 0, 0}, to{0, 0, 0};
+};
+Moments moments(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
+    Moments m;
+    m.from = mean_of(from, from.size());
+    m.to = mean_of(to, from.size());
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        const Vec3 a = from[i] - m.from, b = to[i] - m.to;
+        const Eigen::Vector3d p(a.x, a.y, a.z), q(b.x, b.y, b.z);
+        m.cross += q * p.transpose();
+        m.own += p * p.transpose();
+    }
+    return m;
+}
+
+}  // namespace
+
+Starts::Starts(const System& system) : system_(system) {
+    const Shape& mesh = system.mesh_shape();
+    double worst = 0;
+    for (const Incidence& i : system.incidences()) {
+        if (i.point >= static_cast<int>(system.stone().solid.vertices.size())) continue;
+        worst = std::max(worst, std::abs(glm::dot(mesh.normals[i.facet], mesh.points[i.point]) -
+                                         mesh.offsets[i.facet]));
+    }
+    // Heights above small facets that were drawn a little askew are large: one of many says little.
+    double squares = 0;
+    int hinges = 0;
+    for (const Equation& e : system.hinges()) {
+        const double above = std::max(0.0, e.formula(mesh).value);
+        squares += above * above;
+        ++hinges;
+    }
+    mesh_is_good_ =
+        worst < k_drawn_with_care && squares <= k_nearly_convex * k_nearly_convex * double(hinges);
+    find_sides();
+}
+
+void Starts::make_canonical() {
+    if (canonical_made_) return;
+    canonical_made_ = true;
+    canonical_ = canonical_polyhedron(system_.stone().solid, system_.edges());
+}
+
+std::optional<Start> Starts::next() {
+    while (true) {
+        std::optional<Start> start;
+        bool without_sides = false;
+        // A mesh drawn with care goes first: what the readings leave open then stays as drawn.
+        switch (at_++) {
+            case 0:
+                if (mesh_is_good_) start = mesh();
+                break;
+            case 1:
+                start = similar();
+                break;
+            case 2:
+                if (!mesh_is_good_) start = mesh();
+                break;
+            case 3:
+                start = from_angles(similar(), "canonical with the angles read");
+                break;
+            case 4:
+                without_sides = true;
+                if (std::any_of(sides_.begin(), sides_.end(), [](int s) { return s != 0; })) {
+                    start = similar();
+                }
+                break;
+            case 5:
+                start = affine();
+                break;
+            case 6:
+                start = from_angles(mesh(), "mesh with the angles read");
+                break;
+            case 7:
+                start = stretched(0.6);
+                break;
+            case 8:
+                start = blend(0.5);
+                break;
+            case 9:
+                start = stretched(1.6);
+                break;
+            case 10:
+                start = from_angles(stretched(0.6), "flat canonical with the angles read");
+                break;
+            case 11:
+                start = blend(0.25);
+                break;
+            case 12:
+                start = stretched(0.35);
+                break;
+            default:
+                return std::nullopt;
+        }
+        if (start) {
+            // The mesh may be wrong about them all the same: one start does not ask.
+            if (!without_sides) start->sides = sides_;
+            return start;
+        }
+    }
+}
+
+// What the mesh says of a facet counts when it tells the two meanings of the reading apart by six
+// times what its corners' errors tilt it by.
+void Starts::find_sides() {
+    const Shape& mesh = system_.mesh_shape();
+    sides_.assign(mesh.normals.size(), 0);
+    const std::optional<MeshRoughness> rough = MeshRoughness::of(system_);
+    if (!rough) return;
+    for (const Reading& r : system_.readings()) {
+        if (r.kind != ReadingKind::inclination || r.datum.kind != Datum::Kind::up ||
+            r.aggregate != Aggregate::single) {
+            continue;
+        }
+        const int f = r.facets[0];
+        const double z = std::clamp(mesh.normals[f].z, -1.0, 1.0);
+        const double drawn = std::acos(z);
+        const double as_up = std::abs(drawn - r.value),
+                     as_down = std::abs(drawn - (std::numbers::pi - r.value));
+        if (std::abs(as_up - as_down) > 6 * rough->tilt(f)) sides_[f] = as_up < as_down ? 1 : -1;
+    }
+    // Scanned girdles need it: without, 3 of 10 rough meshes of such were lost, and the others took
+    // four times as long (tests/bench/corpus_bench.cpp). Not where facets follow each other: those
+    // that were not read have the sides of others.
+    if (system_.exact_motions().empty())
+        sides_ = closing_sides(system_, std::move(sides_), rough->corner());
+}
+
+Shape looking_as(const System& system, Shape shape, const std::vector<int>& sides) {
+    for (std::size_t f = 0; f < sides.size(); ++f) {
+        Vec3& n = shape.normals[f];
+        if (static_cast<int>(f) == system.up_facet() || !(sides[f] * n.z < 0)) continue;
+        n.z = -n.z;
+        Vec3 mean(0);
+        const std::vector<int>& loop = system.mesh_outline()->loops[f];
+        for (int corner : loop) mean += shape.points[corner] / double(loop.size());
+        shape.offsets[f] = glm::dot(n, mean);
+    }
+    return shape;
+}
+
+Start Starts::mesh() const {
+    return {"mesh", system_.mesh_shape(), false, false, {}};
+}
+
+// Brings the up facet level, and azimuths to where they were read.
+Shape Starts::upright(Shape shape) const {
+    if (system_.up_facet() >= 0) {
+        const Vec3 n = shape.normals[system_.up_facet()];
+        const Vec3 axis = glm::cross(n, Vec3{0, 0, 1});
+        const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(
+            Eigen::Vector3d(n.x, n.y, n.z), Eigen::Vector3d::UnitZ());
+        if (glm::length(axis) > 1e-12 || n.z < 0) {
+            shape = mapped(std::move(shape), turn.toRotationMatrix(), Vec3(0));
+        }
+        shape.normals[system_.up_facet()] = Vec3{0, 0, 1};
+    }
+    const double angle =
+        azimuth_turn(system_.readings(), [&](int facet) { return shape.normals[facet]; });
+    if (angle != 0) {
+        const Eigen::AngleAxisd turn(angle, Eigen::Vector3d::UnitZ());
+        shape = mapped(std::move(shape), turn.toRotationMatrix(), Vec3(0));
+        if (system_.up_facet() >= 0) shape.normals[system_.up_facet()] = Vec3{0, 0, 1};
+    }
+    return shape;
+}
+
+// Umeyama (1991).
+std::optional<Start> Starts::similar() {
+    make_canonical();
+    if (!canonical_) return std::nullopt;
+    const Shape& mesh = system_.mesh_shape();
+    const Moments m = moments(canonical_->points, mesh.points);
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(m.cross, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::Vector3d sign(1, 1, 1);
+    if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) sign(2) = -1;
+    const double scale = svd.singularValues().dot(sign) / m.own.trace();
+    if (!(scale > 0) || !std::isfinite(scale)) return std::nullopt;
+    const Eigen::Matrix3d map =
+        scale * (svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose());
+    return over_mesh("canonical", mapped(*canonical_, map, m.to - times(map, m.from)));
+}
+
+// A canonical polyhedron that was laid over the mesh; points that it has not are the mesh's.
+Start Starts::over_mesh(const std::string& name, Shape shape) const {
+    const Shape& mesh = system_.mesh_shape();
+    Start start{name, std::move(shape), false, true, {}};
+    start.shape.extras = mesh.extras;
+    for (std::size_t p = start.shape.points.size(); p < mesh.points.size(); ++p) {
+        start.shape.points.push_back(mesh.points[p]);
+        start.is_convex = false;
+    }
+    start.shape = upright(std::move(start.shape));
+    return start;
+}
+
+std::optional<Start> Starts::affine() {
+    make_canonical();
+    if (!canonical_) return std::nullopt;
+    const Shape& mesh = system_.mesh_shape();
+    const Moments m = moments(canonical_->points, mesh.points);
+    const Eigen::Matrix3d map = m.cross * m.own.inverse();
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(map);
+    // A mesh turned inside out, or crushed flat, says nothing of proportions.
+    if (!(map.determinant() > 0) || !(svd.singularValues()(2) > 0.15 * svd.singularValues()(0))) {
+        return std::nullopt;
+    }
+    return over_mesh("canonical, as long and wide as the mesh",
+                     mapped(*canonical_, map, m.to - times(map, m.from)));
+}
+
+std::optional<Start> Starts::stretched(double along_up) {
+    std::optional<Start> start = similar();
+    if (!start) return start;
+    start->name = along_up < 1 ? "flat canonical" : "tall canonical";
+    start->shape = mapped(std::move(start->shape),
+                          Eigen::Vector3d(1, 1, along_up).asDiagonal().toDenseMatrix(), Vec3(0));
+    if (system_.up_facet() >= 0) start->shape.normals[system_.up_facet()] = Vec3{0, 0, 1};
+    return start;
+}
+
+std::optional<Start> Starts::blend(double of_mesh) {
+    std::optional<Start> start = similar();
+    if (!start) return start;
+    start->name = "between canonical and mesh";
+    start->is_convex = false;
+    const Shape& mesh = system_.mesh_shape();
+    for (std::size_t p = 0; p < mesh.points.size(); ++p) {
+        start->shape.points[p] += of_mesh * (mesh.points[p] - start->shape.points[p]);
+    }
+    return start;
+}
+
+std::optional<Start> Starts::from_angles(std::optional<Start> base, const std::string& name) const {
+    if (!base) return base;
+    Shape& shape = base->shape;
+    const std::size_t facets = shape.normals.size();
+    std::vector<double> tilt(facets, -1), turn(facets, 0);
+    std::vector<bool> turned(facets, false);
+    bool any = false;
+    for (const Reading& r : system_.readings()) {
+        if (r.datum.kind != Datum::Kind::up || r.facets.empty()) continue;
+        for (int f : r.facets) {
+            if (r.kind == ReadingKind::inclination) {
+                tilt[f] = r.value;
+                any = true;
+            }
+            if (r.kind == ReadingKind::azimuth) {
+                turn[f] = r.value;
+                turned[f] = true;
+                any = true;
+            }
+        }
+    }
+    if (!any) return std::nullopt;
+    const Vec3 middle = mean_of(shape.points, shape.points.size());
+    for (std::size_t f = 0; f < facets; ++f) {
+        if (static_cast<int>(f) == system_.up_facet()) continue;
+        Vec3& n = shape.normals[f];
+        const double flat = std::hypot(n.x, n.y);
+        const double inclination = tilt[f] >= 0 ? tilt[f] : std::atan2(flat, std::abs(n.z));
+        const double azimuth = turned[f] ? turn[f] : std::atan2(n.y, n.x);
+        n = {std::sin(inclination) * std::cos(azimuth), std::sin(inclination) * std::sin(azimuth),
+             std::cos(inclination)};
+        // Inclinations do not say whether a facet looks up or down; where it lies does, better than
+        // the normal of a rough mesh.
+        Vec3 mean(0);
+        const std::vector<int>& loop = system_.mesh_outline()->loops[f];
+        for (int corner : loop) mean += shape.points[corner] / double(loop.size());
+        if (sides_[f] != 0) {
+            n.z = std::copysign(n.z, sides_[f]);
+        } else if (glm::dot(n, mean - middle) < glm::dot(Vec3{n.x, n.y, -n.z}, mean - middle)) {
+            n.z = -n.z;
+        }
+        shape.offsets[f] = glm::dot(n, mean);
+    }
+    base->name = name;
+    base->keep_normals_at_first = true;
+    base->is_convex = false;
+    return base;
+}
+
+}  // namespace culet

@@ -1,0 +1,214 @@
+// The error beside the Cramer-Rao limit, as readings are taken away.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fit/study/parts.h"
+
+namespace culet {
+
+namespace {
+
+// Of all readings that have a value; after the last, as many as are left when each is needed.
+constexpr std::array k_shares{1.0, 0.9, 0.75, 0.625, 0.5, 0.375, 0.25, 0.1875, 0.125};
+// Redundancies nearer than this are equal: the order then is that of the list.
+constexpr double k_same_redundancy = 1e-6;
+
+bool counts(const Reading& reading) {
+    return !reading.exact && !is_relation(reading.kind);
+}
+
+int count(const std::vector<Reading>& readings) {
+    return static_cast<int>(std::count_if(readings.begin(), readings.end(), counts));
+}
+
+std::vector<Reading> without(const std::vector<Reading>& readings,
+                             const std::vector<std::size_t>& removed) {
+    std::vector<Reading> rest;
+    for (std::size_t r = 0; r < readings.size(); ++r) {
+        if (std::find(removed.begin(), removed.end(), r) == removed.end()) {
+            rest.push_back(readings[r]);
+        }
+    }
+    return rest;
+}
+
+// The `most` readings that the others tell best already.
+std::vector<std::size_t> most_redundant(const std::vector<Reading>& readings,
+                                        const FitResult& fitted, int most) {
+    std::vector<std::size_t> order;
+    for (std::size_t r = 0; r < readings.size(); ++r) {
+        if (counts(readings[r]) && fitted.readings[r].redundancy > k_same_redundancy) {
+            order.push_back(r);
+        }
+    }
+    const auto rounded = [&](std::size_t r) {
+        return std::llround(fitted.readings[r].redundancy / k_same_redundancy);
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return rounded(a) > rounded(b); });
+    if (order.size() > static_cast<std::size_t>(most)) order.resize(static_cast<std::size_t>(most));
+    return order;
+}
+
+struct Selection {
+    std::vector<Reading> readings;
+    FitResult fitted;  // of their true values
+};
+
+// Takes readings away, a few at a time and always those that the others tell best, until `target`
+// are left. False when no more can go without leaving a freedom open.
+bool thin_out(const StudyTruth& truth, const FitOptions& options, int target,
+              const StudyBudget& budget, Selection& selection) {
+    while (count(selection.readings) > target) {
+        const int now = count(selection.readings);
+        int batch = std::min(now - target, std::max(1, now / 12));
+        bool removed = false;
+        for (; batch > 0 && !removed; batch /= 2) {
+            if (budget.spent()) return false;
+            const auto out = most_redundant(selection.readings, selection.fitted, batch);
+            if (out.empty()) return false;
+            Selection next{without(selection.readings, out), {}};
+            next.fitted = fit_stone(truth.stone, next.readings, options);
+            if (!is_sound(truth.stone, next.fitted) || next.fitted.rank_defect > 0) {
+                continue;
+            }
+            selection = std::move(next);
+            removed = true;
+        }
+        if (!removed) return false;
+    }
+    return true;
+}
+
+StudyLimit measured(const StudyTruth& truth, const Selection& selection, const FitOptions& options,
+                    int all, StudyLimit row, int draw, std::uint64_t seed,
+                    std::vector<StudyError>& errors) {
+    const std::vector<Reading> drawn = drawn_readings(truth.readings, seed, draw);
+    std::vector<Reading> kept;
+    // The same reading has the same error in every row.
+    for (const Reading& reading : selection.readings) {
+        const auto same = std::find_if(drawn.begin(), drawn.end(),
+                                       [&](const Reading& d) { return d.id == reading.id; });
+        kept.push_back(*same);
+    }
+    const FitResult fitted = fit_stone(truth.stone, kept, options);
+    row.readings = count(selection.readings);
+    row.share = double(row.readings) / std::max(1, all);
+    row.dof = selection.fitted.dof;
+    ++row.draws;
+    if (is_settled(truth.stone, fitted)) {
+        errors.push_back(error_of(truth, fitted));
+    } else {
+        ++row.failed;
+    }
+    return row;
+}
+
+void sum_up(const StudyTruth& truth, const Selection& selection,
+            const std::vector<StudyError>& errors, StudyLimit& row) {
+    const StudyError limit = limit_of(truth, selection.fitted);
+    row.angle_limit = std::sqrt(limit.angle);
+    row.offset_limit = std::sqrt(limit.offset);
+    if (errors.empty()) return;
+    const double n = static_cast<double>(errors.size());
+    StudyError mean;
+    for (const StudyError& e : errors) {
+        mean.angle += e.angle / n;
+        mean.offset += e.offset / n;
+    }
+    row.angle_error = std::sqrt(mean.angle);
+    row.offset_error = std::sqrt(mean.offset);
+    if (!(row.angle_limit > 0)) return;
+    row.ratio = row.angle_error / row.angle_limit;
+    double scatter = 0;
+    for (const StudyError& e : errors) scatter += (e.angle - mean.angle) * (e.angle - mean.angle);
+    // d(sqrt m) = dm / (2 sqrt m)
+    if (n > 1 && mean.angle > 0) {
+        row.ratio_sigma = 0.5 * row.ratio * std::sqrt(scatter / (n - 1) / n) / mean.angle;
+    }
+}
+
+}  // namespace
+
+void study_limits(const Stone& stone, const FitResult& base, const StudyTruth& truth,
+                  StudyBudget& budget, Study& study) {
+    // Soft meets and symmetries are observations too, and those of the true stone cannot be drawn
+    // anew: the limit is studied where they are exact.
+    FitOptions options = study.options.fit;
+    std::vector<Reading> readings = truth.readings;
+    const auto treat_exact = [&](MeetTreatment& meets) {
+        if (meets == MeetTreatment::exact) return;
+        meets = MeetTreatment::exact;
+        study.limit_made_exact = true;
+    };
+    treat_exact(options.meets);
+    for (Reading& reading : readings) {
+        if (!is_relation(reading.kind) || reading.exact || reading.released) continue;
+        reading.exact = true;
+        study.limit_made_exact = true;
+    }
+    const FitResult ideal = study.limit_made_exact ? fit_stone(stone, readings, options) : base;
+    if (!is_sound(stone, ideal)) {
+        study.limit_message =
+            fmt::format("no stone with exact meets and symmetries was found: {}", ideal.message);
+        return;
+    }
+    if (ideal.rank_defect > 0) {
+        study.limit_message =
+            "the readings leave the stone open: there is no limit to hold the error against";
+        return;
+    }
+    const StudyTruth right = truth_of(stone, readings, ideal, true);
+    // The optimum that belongs to the truth: no other start is looked for.
+    options.start = right.stone.solid;
+    Selection now{right.readings, fit_stone(right.stone, right.readings, options)};
+    const int all = count(right.readings);
+    if (all == 0) {
+        study.limit_message = "no reading has an uncertainty";
+        return;
+    }
+
+    // Which readings go first needs no noise, so all selections are made before any draw.
+    std::vector<Selection> selections;
+    bool more = true;
+    for (std::size_t s = 0; s <= k_shares.size() && more && !budget.spent(); ++s) {
+        const int target =
+            s < k_shares.size() ? static_cast<int>(std::lround(k_shares[s] * all)) : 0;
+        more = thin_out(right, options, target, budget, now);
+        const int left = count(now.readings);
+        if (selections.empty() || left < count(selections.back().readings)) {
+            selections.push_back(now);
+        }
+        budget.report(0.5 + 0.2 * double(s) / double(k_shares.size()));
+    }
+    if (!more && !budget.spent()) {
+        study.limit_message = fmt::format("fewer than {} readings leave parts of the stone open",
+                                          count(selections.back().readings));
+    }
+    std::vector<StudyLimit> rows(selections.size());
+    std::vector<std::vector<StudyError>> errors(selections.size());
+    for (int draw = 0; draw < study.options.draws; ++draw) {
+        for (std::size_t s = 0; s < selections.size(); ++s) {
+            if (budget.spent()) continue;
+            rows[s] = measured(right, selections[s], options, all, rows[s], draw,
+                               study.options.seed, errors[s]);
+            budget.report(0.7 + 0.3 * (draw + double(s) / double(selections.size())) /
+                                    study.options.draws);
+        }
+    }
+    for (std::size_t s = 0; s < selections.size(); ++s) {
+        sum_up(right, selections[s], errors[s], rows[s]);
+        if (rows[s].draws == 0) {
+            study.left_out.push_back(
+                fmt::format("limit with {} readings", count(selections[s].readings)));
+        } else {
+            study.limits.push_back(rows[s]);
+        }
+    }
+}
+
+}  // namespace culet

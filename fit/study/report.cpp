@@ -1,0 +1,124 @@
+// A study as JSON and as comma-separated values.
+
+#include <fmt/format.h>
+
+#include "fit/report/json_number.h"
+#include "fit/study/study.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json object_of(const StudySetting& row) {
+    // Without a sound stone there is no error to tell.
+    const auto if_sound = [&](double value) {
+        return row.sound > 0 ? json_number(value) : Json(nullptr);
+    };
+    return {
+        {"sweep", row.sweep},
+        {"setting", row.setting},
+        {"as_asked", row.as_asked},
+        {"fits", row.fits},
+        {"sound", row.sound},
+        {"settled", row.optimum},
+        {"best", row.best < 0 ? Json(nullptr) : Json(row.best)},
+        {"angle_error", if_sound(degrees(row.angle_error))},
+        {"angle_left", row.angle_left < 0 ? Json(nullptr) : json_number(degrees(row.angle_left))},
+        {"offset_error", if_sound(row.offset_error)},
+        {"seconds", row.seconds},
+        {"seconds_low", row.seconds_low},
+        {"seconds_high", row.seconds_high}};
+}
+
+Json object_of(const StudyLimit& row) {
+    const bool measured = row.draws > row.failed;
+    const auto if_measured = [&](double value) {
+        return measured ? json_number(value) : Json(nullptr);
+    };
+    return {
+        {"readings", row.readings},
+        {"share", row.share},
+        {"dof", row.dof},
+        {"draws", row.draws},
+        {"failed", row.failed},
+        {"angle_error", if_measured(degrees(row.angle_error))},
+        {"angle_limit", json_number(degrees(row.angle_limit))},
+        {"ratio", if_measured(row.ratio)},
+        // One draw does not scatter.
+        {"ratio_sigma", row.draws - row.failed > 1 ? if_measured(row.ratio_sigma) : Json(nullptr)},
+        {"offset_error", if_measured(row.offset_error)},
+        {"offset_limit", json_number(row.offset_limit)}};
+}
+
+// Columns by the keys of the first row; null is empty.
+std::string csv(const Json& rows) {
+    if (rows.empty()) return {};
+    std::string text;
+    for (const auto& [key, value] : rows.front().items()) {
+        text += (text.empty() ? "" : ",") + key;
+    }
+    text += "\n";
+    for (const Json& row : rows) {
+        std::string line;
+        bool first = true;
+        for (const auto& [key, value] : row.items()) {
+            if (!first) line += ",";
+            first = false;
+            if (value.is_null()) continue;
+            line += value.is_string() ? value.get<std::string>() : value.dump();
+        }
+        text += line + "\n";
+    }
+    return text;
+}
+
+template <typename Row>
+Json array_of(const std::vector<Row>& rows) {
+    Json array = Json::array();
+    for (const Row& row : rows) array.push_back(object_of(row));
+    return array;
+}
+
+}  // namespace
+
+std::string study_json(const Study& study) {
+    const FitOptions& fit = study.options.fit;
+    Json object;
+    object["schema"] = 1;
+    object["kind"] = "fit";
+    object["name"] = study.stone;
+    object["status"] = name_of(study.status);
+    object["message"] = study.message;
+    object["unit"] = std::string(name_of(study.unit));
+    object["facets"] = study.facets;
+    object["readings"] = study.readings;
+    object["seconds"] = study.seconds;
+    object["options"] = {{"seed", study.options.seed},
+                         {"draws", study.options.draws},
+                         {"budget", study.options.budget_seconds},
+                         {"meets", name_of(fit.meets)},
+                         {"meet_sigma", fit.meet_sigma ? Json(*fit.meet_sigma) : Json("auto")},
+                         {"iterations", fit.iterations},
+                         {"starts", fit.starts},
+                         {"significance", fit.significance}};
+    object["settings"] = array_of(study.settings);
+    object["limits"] = array_of(study.limits);
+    object["limit_made_exact"] = study.limit_made_exact;
+    object["limit_message"] = study.limit_message;
+    object["left_out"] = study.left_out;
+    // A name need not be UTF-8.
+    return object.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string study_time_csv(const Study& study) {
+    return csv(array_of(study.settings));
+}
+
+std::string study_limit_csv(const Study& study) {
+    return csv(array_of(study.limits));
+}
+
+}  // namespace culet

@@ -1,0 +1,185 @@
+// The covariance of stones small enough for dense algebra.
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "fit/model/datum_defect.h"
+#include "fit/solve/null_space.h"
+#include "fit/uncertainty/covariance.h"
+
+namespace culet {
+
+namespace {
+
+// Normal equations square the spread of weights. Nothing that is held is so at less than a weight
+// of 2: beyond this, QR keeps what they lose.
+constexpr double k_most_spread = 1e5;
+// Of motions that nothing sees, so that they count as held.
+constexpr double k_least_of_gauge = 1e3;
+// Of all variances together: what is told of them has three digits.
+constexpr double k_precision = 1e-6;
+
+// Entry by entry of the sparse factor, each times a row of the dense one.
+DenseRows product(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows,
+                  const DenseRows& columns) {
+    DenseRows result = DenseRows::Zero(rows.rows(), columns.cols());
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, i); it; ++it) {
+            result.row(i) += it.value() * columns.row(it.col());
+        }
+    }
+    return result;
+}
+
+// The lower half of seen' seen + (weight along)' (weight along).
+Eigen::MatrixXd lower_normal(const Eigen::MatrixXd& seen, const Eigen::MatrixXd& along,
+                             double weight) {
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(seen.cols(), seen.cols());
+    if (seen.rows() > 0) normal.selfadjointView<Eigen::Lower>().rankUpdate(seen.transpose());
+    if (along.rows() > 0) {
+        normal.selfadjointView<Eigen::Lower>().rankUpdate(along.transpose(), weight * weight);
+    }
+    return normal;
+}
+
+// R^-1 of a QR of rows in the order of their size, with column pivoting: stable row by row whatever
+// the weights (Cox & Higham 1998). Columns: P R^-1, so that (B'B)^-1 = F F'.
+Eigen::MatrixXd inverse_factor(const Eigen::MatrixXd& seen) {
+    std::vector<Eigen::Index> order(std::size_t(seen.rows()));
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = Eigen::Index(i);
+    Eigen::VectorXd size(seen.rows());
+    for (Eigen::Index i = 0; i < seen.rows(); ++i) size(i) = seen.row(i).cwiseAbs().maxCoeff();
+    std::stable_sort(order.begin(), order.end(),
+                     [&](Eigen::Index a, Eigen::Index b) { return size(a) > size(b); });
+    Eigen::MatrixXd sorted(seen.rows(), seen.cols());
+    for (std::size_t i = 0; i < order.size(); ++i) sorted.row(Eigen::Index(i)) = seen.row(order[i]);
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(sorted);
+    const Eigen::Index n = seen.cols();
+    Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(n, n);
+    qr.matrixR().topLeftCorner(n, n).triangularView<Eigen::Upper>().solveInPlace(inverse);
+    return qr.colsPermutation() * inverse;
+}
+
+}  // namespace
+
+// What the hard equations leave free, in a basis of it.
+struct Covariance::FreePart {
+    const DenseRows& basis;
+    DenseRows seen;         // by the rows
+    Eigen::MatrixXd along;  // its part along each motion that nothing sees
+};
+
+void Covariance::find_dense(const Linearised& linear) {
+    const DenseRows basis =
+        dense_free_directions(linear.hard_rows, linear.layout.point(0), linear.layout.extra(0));
+    const Eigen::MatrixXd gauge = datum_defect(linear, rows_);
+    held_.resize(linear.layout.size(), 0);
+    open_.resize(linear.layout.size(), 0);
+    seen_.resize(rows_.rows(), 0);
+    leverages_ = Eigen::VectorXd::Zero(rows_.rows());
+    usable_ = true;
+    if (basis.cols() == 0) return;  // exact readings leave nothing free
+
+    // Along the gauge nothing is seen: it counts as held, and is taken out at the end.
+    const FreePart free{basis, product(rows_, basis),
+                        Eigen::MatrixXd((linear.metric.asDiagonal() * gauge).transpose() * basis)};
+    if (!find_well_held(linear, free)) usable_ = find_loosely_held(linear, free);
+    const auto off_gauge = [&](DenseRows& columns) {
+        if (columns.cols() == 0 || gauge.cols() == 0) return;
+        const Eigen::MatrixXd parts = (linear.metric.asDiagonal() * gauge).transpose() * columns;
+        columns.noalias() -= gauge * parts;
+    };
+    off_gauge(held_);
+    off_gauge(open_);
+    leverages_ = seen_.rowwise().squaredNorm();
+}
+
+// Where readings hold every direction, and none far more tightly than others: Cholesky's factor of
+// the normal equations. False where that cannot be told so.
+bool Covariance::find_well_held(const Linearised& linear, const FreePart& free) {
+    double largest = 0;
+    for (Eigen::Index i = 0; i < rows_.rows(); ++i) {
+        // In the metric no row is longer on directions that are free than on all.
+        double square = 0;
+        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows_, i); it; ++it) {
+            square += it.value() * it.value() / linear.metric(it.col());
+        }
+        largest = std::max(largest, std::sqrt(square));
+    }
+    if (!(largest < k_most_spread)) return false;
+    const double gauge_weight = std::max(k_least_of_gauge, largest);
+    const Eigen::Index size = free.basis.cols();
+    const Eigen::LLT<Eigen::MatrixXd> factor(lower_normal(free.seen, free.along, gauge_weight));
+    if (factor.info() != Eigen::Success) return false;
+    const Eigen::MatrixXd upper = factor.matrixU().solve(Eigen::MatrixXd::Identity(size, size));
+    held_ = free.basis * upper.triangularView<Eigen::Upper>();  // (S^-1) = U^-1 U^-T
+    seen_ = product(rows_, held_);
+    // No direction's variance is larger than all together.
+    const double variances = held_.rowwise().squaredNorm().dot(linear.metric);
+    if (!linear.has_prior && !(variances < 1 / k_determined)) {
+        Eigen::MatrixXd room = Eigen::MatrixXd::Identity(size, size) / k_determined;
+        room.selfadjointView<Eigen::Lower>().rankUpdate(
+            Eigen::MatrixXd(held_.transpose() * linear.metric.cwiseSqrt().asDiagonal()), -1);
+        if (Eigen::LLT<Eigen::MatrixXd>(room).info() != Eigen::Success) return false;
+    }
+    // Every direction is seen once: the squares of all that is seen add up to their number, unless
+    // they are lost in rounding.
+    const double squares =
+        seen_.squaredNorm() +
+        std::pow(gauge_weight, 2) * Eigen::MatrixXd(free.along * upper).squaredNorm();
+    return std::abs(squares - double(size)) < k_precision;
+}
+
+// By QR of what is seen, whitened by the metric so that eigenvalues compare readings with the mesh.
+bool Covariance::find_loosely_held(const Linearised& linear, const FreePart& free) {
+    const Eigen::Index size = free.basis.cols();
+    Eigen::MatrixXd metric = Eigen::MatrixXd::Zero(size, size);
+    metric.selfadjointView<Eigen::Lower>().rankUpdate(
+        Eigen::MatrixXd(free.basis.transpose() * linear.metric.cwiseSqrt().asDiagonal()));
+    const Eigen::LLT<Eigen::MatrixXd> chol(metric);
+    if (chol.info() != Eigen::Success) return false;
+    const auto whitened = [&](const Eigen::MatrixXd& rows) -> Eigen::MatrixXd {
+        if (rows.rows() == 0) return Eigen::MatrixXd(0, size);
+        return chol.matrixU().solve<Eigen::OnTheRight>(rows);
+    };
+    const Eigen::MatrixXd seen = whitened(free.seen);
+    const Eigen::MatrixXd along = whitened(free.along);
+
+    const Eigen::VectorXd norms = seen.rowwise().norm();
+    const double largest = norms.size() > 0 ? norms.maxCoeff() : 0;
+    const double gauge_weight = std::clamp(largest, k_least_of_gauge, k_tight);
+    Eigen::MatrixXd clipped = seen;
+    for (Eigen::Index i = 0; i < norms.size(); ++i) {
+        if (norms(i) > k_tight) clipped.row(i) *= k_tight / norms(i);
+    }
+    Eigen::MatrixXd normal = lower_normal(clipped, along, gauge_weight);
+    const auto unwhitened = [&](const Eigen::MatrixXd& columns) -> DenseRows {
+        return free.basis * Eigen::MatrixXd(chol.matrixU().solve(columns));
+    };
+    Eigen::MatrixXd held_basis = Eigen::MatrixXd::Identity(size, size);
+    const Eigen::MatrixXd shifted = normal - k_determined * Eigen::MatrixXd::Identity(size, size);
+    if (!linear.has_prior && Eigen::LLT<Eigen::MatrixXd>(shifted).info() != Eigen::Success) {
+        normal = Eigen::MatrixXd(normal.selfadjointView<Eigen::Lower>());
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal);
+        Eigen::Index count = 0;
+        while (count < size && eigen.eigenvalues()(count) < k_determined) ++count;
+        open_freedoms_ = int(count);
+        open_ = unwhitened(eigen.eigenvectors().leftCols(count));
+        held_basis = eigen.eigenvectors().rightCols(size - count);
+    }
+    if (held_basis.cols() == 0) {
+        held_.resize(held_.rows(), 0);
+        seen_ = DenseRows::Zero(rows_.rows(), 0);
+        return true;
+    }
+    Eigen::MatrixXd stacked(seen.rows() + along.rows(), held_basis.cols());
+    stacked.topRows(seen.rows()) = seen * held_basis;
+    stacked.bottomRows(along.rows()) = gauge_weight * along * held_basis;
+    const Eigen::MatrixXd factor = inverse_factor(stacked);
+    held_ = unwhitened(held_basis * factor);
+    seen_ = stacked.topRows(seen.rows()) * factor;
+    return true;
+}
+
+}  // namespace culet

@@ -1,0 +1,194 @@
+#include "fit/uncertainty/inconsistent_subset.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "fit/model/linear.h"
+#include "fit/solve/free_meets.h"
+#include "fit/uncertainty/statistics.h"
+
+namespace culet {
+
+namespace {
+
+// Beyond this many equations R and its updates would take minutes.
+constexpr Eigen::Index k_most_equations = 1500;
+constexpr double k_checked = 1e-6;
+constexpr double k_same_part = 1e-6;  // in sigmas
+
+// What remains of a least-squares fit as equations are left out one by one.
+struct Rest {
+    Eigen::VectorXd residuals;
+    Eigen::MatrixXd matrix;
+    double chi2 = 0, dof = 0;
+
+    // The best checked first: what rounding leaves of others is then small beside the pivots
+    // before.
+    void leave_out(std::vector<Eigen::Index> equations) {
+        while (!equations.empty()) {
+            const auto next = std::max_element(
+                equations.begin(), equations.end(),
+                [this](Eigen::Index a, Eigen::Index b) { return matrix(a, a) < matrix(b, b); });
+            leave_out_one(*next);
+            equations.erase(next);
+        }
+    }
+    // What is left without these: chi2 and dof alone, in which the others take no part.
+    Rest sums_without(const std::vector<Eigen::Index>& equations) const {
+        Rest part{residuals(equations), matrix(equations, equations), chi2, dof};
+        std::vector<Eigen::Index> all(equations.size());
+        std::iota(all.begin(), all.end(), 0);
+        part.leave_out(std::move(all));
+        return part;
+    }
+
+private:
+    void leave_out_one(Eigen::Index i) {
+        const double own = matrix(i, i);
+        if (own > k_checked) {
+            const Eigen::VectorXd column = matrix.col(i) / own;
+            chi2 -= residuals(i) * residuals(i) / own;
+            residuals -= column * residuals(i);
+            matrix.noalias() -= own * column * column.transpose();
+            dof -= 1;
+        }
+        residuals(i) = 0;
+        matrix.row(i).setZero();
+        matrix.col(i).setZero();
+    }
+};
+
+}  // namespace
+
+std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::MatrixXd matrix,
+                                      const std::vector<int>& owner, double level) {
+    if (residuals.size() > k_most_equations) return {};
+    Rest rest{residuals, std::move(matrix), residuals.squaredNorm(), 0};
+    rest.dof = rest.matrix.trace();
+    const auto fails = [&](const Rest& r) {
+        return r.dof > 0.5 && chi2_tail(std::max(0.0, r.chi2), r.dof) < level;
+    };
+    if (!fails(rest)) return {};
+    std::map<int, std::vector<Eigen::Index>> equations;
+    for (std::size_t i = 0; i < owner.size(); ++i) {
+        if (owner[i] >= 0) equations[owner[i]].push_back(Eigen::Index(i));
+    }
+    // Those that take the least part in the contradiction go first.
+    std::vector<std::pair<double, int>> order;
+    for (const auto& [reading, mine] : equations) {
+        double part = 0;
+        for (const Eigen::Index i : mine) {
+            const double r = rest.matrix(i, i);
+            if (r > k_checked) part = std::max(part, std::abs(residuals(i)) / std::sqrt(r));
+        }
+        // Readings that only one another check take the same part but for rounding.
+        order.emplace_back(std::round(part / k_same_part), reading);
+    }
+    std::sort(order.begin(), order.end());
+    std::vector<int> left;
+    for (const auto& [part, reading] : order) left.push_back(reading);
+    // By halves of what remains first, then one by one until none can be spared.
+    for (std::size_t chunk = std::max<std::size_t>(1, left.size() / 2);;) {
+        bool spared = false;
+        for (std::size_t at = 0; at < left.size();) {
+            const std::size_t end = std::min(left.size(), at + chunk);
+            std::vector<Eigen::Index> out;
+            for (std::size_t k = at; k < end; ++k) {
+                const std::vector<Eigen::Index>& mine = equations[left[k]];
+                out.insert(out.end(), mine.begin(), mine.end());
+            }
+            if (fails(rest.sums_without(out))) {
+                rest.leave_out(std::move(out));
+                left.erase(left.begin() + std::ptrdiff_t(at), left.begin() + std::ptrdiff_t(end));
+                spared = true;
+            } else {
+                at = end;
+            }
+        }
+        if (chunk == 1 && !spared) break;
+        chunk = std::max<std::size_t>(1, std::min(chunk, left.size()) / 2);
+        if (left.empty()) break;
+    }
+    std::sort(left.begin(), left.end());
+    return left;
+}
+
+std::vector<int> inconsistent_exact_readings(const System& system, const Shape& shape,
+                                             const std::shared_ptr<const Outline>& outline) {
+    const Linearised linear = linearise(system, shape, outline, false);
+    if (!(linear.worst_hard() > k_hard_limit)) return {};
+    const Eigen::Index unknowns = linear.layout.size();
+    // Where nothing more can be done, the equations that miss are those that take part.
+    std::set<int> readings;
+    std::vector<std::size_t> meets;
+    std::map<int, std::vector<std::size_t>> equations;
+    for (std::size_t i = 0; i < linear.hard.size(); ++i) {
+        const int reading = linear.hard[i].reading;
+        if (reading < 0) {
+            meets.push_back(i);
+        } else {
+            equations[reading].push_back(i);
+            // Symmetry is built into the unknowns and never misses itself.
+            if (is_relation(system.readings()[std::size_t(reading)].kind) ||
+                std::abs(linear.hard_residuals(Eigen::Index(i))) > 1e-3 * linear.worst_hard()) {
+                readings.insert(reading);
+            }
+        }
+    }
+    const auto fails = [&](const std::vector<int>& kept) {
+        std::vector<std::size_t> used = meets;
+        for (const int reading : kept) {
+            used.insert(used.end(), equations[reading].begin(), equations[reading].end());
+        }
+        Eigen::MatrixXd columns(unknowns, Eigen::Index(used.size()));
+        Eigen::VectorXd miss(Eigen::Index(used.size()));
+        for (std::size_t k = 0; k < used.size(); ++k) {
+            columns.col(Eigen::Index(k)) =
+                Eigen::VectorXd(linear.hard_rows.row(Eigen::Index(used[k])).transpose());
+            miss(Eigen::Index(k)) = linear.hard_residuals(Eigen::Index(used[k]));
+        }
+        // Misses that some step could mend lie in the range of A; what lies across it cannot be.
+        Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns.transpose());
+        qr.setThreshold(1e-9);
+        const Eigen::VectorXd across = qr.householderQ().transpose() * miss;
+        if (qr.rank() == across.size()) return false;
+        return across.tail(across.size() - qr.rank()).cwiseAbs().maxCoeff() >
+               0.01 * linear.worst_hard() / std::sqrt(double(used.size()));
+    };
+    std::vector<int> left(readings.begin(), readings.end());
+    if (left.empty() || meets.size() > 4000 || !fails(left)) {
+        left.clear();
+        for (const auto& [reading, mine] : equations) {
+            for (const std::size_t i : mine) {
+                if (std::abs(linear.hard_residuals(Eigen::Index(i))) > 1e-3 * linear.worst_hard()) {
+                    left.push_back(reading);
+                    break;
+                }
+            }
+        }
+        return left;
+    }
+    for (std::size_t chunk = std::max<std::size_t>(1, left.size() / 2);;) {
+        bool spared = false;
+        for (std::size_t at = 0; at < left.size();) {
+            const std::size_t end = std::min(left.size(), at + chunk);
+            std::vector<int> fewer = left;
+            fewer.erase(fewer.begin() + std::ptrdiff_t(at), fewer.begin() + std::ptrdiff_t(end));
+            if (!fewer.empty() && fails(fewer)) {
+                left = std::move(fewer);
+                spared = true;
+            } else {
+                at = end;
+            }
+        }
+        if (chunk == 1 && !spared) break;
+        chunk = std::max<std::size_t>(1, std::min(chunk, left.size()) / 2);
+    }
+    return left;
+}
+
+}  // namespace culet

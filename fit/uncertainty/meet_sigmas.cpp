@@ -1,0 +1,181 @@
+#include "fit/uncertainty/meet_sigmas.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fit/solve/kkt_solver.h"
+#include "fit/uncertainty/diagnostics.h"
+#include "fit/uncertainty/inference.h"
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+// Rounding is the least that anything can miss by.
+constexpr double k_least_sigma = 1e-9;
+// The scan: sizes of misses in the scale of the fit, half a power of ten apart.
+constexpr double k_scan_from = 1e-7, k_scan_to = 0.11, k_scan_step = 3.1622776601683795;
+// Another hill, not rounding: a likelihood ratio of e.
+constexpr double k_better = 1;
+// Ends nearer than this in the logarithm of every sigma are one.
+constexpr double k_same_end = 0.05;
+constexpr int k_most_ends = 4;
+
+using Sigmas = std::array<double, 2>;
+
+// Foerstner (1979): each group's uncertainty is the one that its residuals show, sum of squares /
+// redundancy, repeated until it agrees with the one they were weighted by.
+void agree_with_residuals(System& system, Finished& finished, const FitOptions& options,
+                          const Progress& progress) {
+    for (int round = 0; round < 60; ++round) {
+        if (progress && !progress(0.7 + 0.004 * round)) throw Interrupted();
+        const Diagnosis d = diagnose(system, finished.shape, finished.outline, {.full = false});
+        double largest = 0;
+        for (std::size_t g = 0; g < d.group_squares.size(); ++g) {
+            if (!(d.group_redundancy[g] > 0.5)) continue;
+            const double before = system.group_sigmas()[g];
+            const double change =
+                0.5 * std::log(std::max(1e-30, d.group_squares[g]) / d.group_redundancy[g]) -
+                std::log(before);
+            largest = std::max(largest, std::abs(change));
+            system.set_group_sigma(
+                static_cast<int>(g),
+                std::max(k_least_sigma, before * std::exp(std::clamp(change, -2.0, 2.0))));
+        }
+        // One per cent of an uncertainty is more than its estimate is worth. Before that, the
+        // weights move again before the steps would end.
+        const bool optimum = largest < 1e-2;
+        const int steps = finished.iterations;
+        finished = finish(system, finished.shape, optimum ? options.iterations : 3);
+        finished.iterations += steps;
+        if (optimum) return;
+    }
+    const int steps = finished.iterations;
+    finished = finish(system, finished.shape, options.iterations);
+    finished.iterations += steps;
+}
+
+// Twice the negative logarithm of the restricted likelihood, but for a constant, as a function of
+// the sigmas, in the linear model about one shape: log det V + log det A'V^-1 A + r'V^-1 r, the
+// first two of which are the determinant of the saddle system [P A'; A -V].
+class RestrictedLikelihood {
+public:
+    RestrictedLikelihood(const System& system, const Finished& at)
+        : linear_(linearise(system, at.shape, at.outline, false)),
+          stiffness_(linear_.metric / k_unheld_variance) {
+        for (const Equation& e : linear_.soft) {
+            if (e.group >= 0) present_[std::size_t(e.group)] = true;
+        }
+    }
+
+    bool has(std::size_t group) const { return present_[group]; }
+
+    double operator()(const Sigmas& sigmas) {
+        JacobianRows rows = kkt_rows(linear_, true);
+        const Eigen::Index count = linear_.soft_rows.rows(), first = rows.count() - count;
+        Eigen::VectorXd variance = Eigen::VectorXd::Ones(count);
+        double logarithms = 0;
+        for (Eigen::Index i = 0; i < count; ++i) {
+            const Equation& e = linear_.soft[std::size_t(i)];
+            if (e.group < 0) continue;
+            // Rows are over the sigmas of the linear model.
+            variance(i) = std::pow(sigmas[std::size_t(e.group)] / e.sigma, 2);
+            rows.variance[std::size_t(first + i)] = variance(i);
+            logarithms += 2 * std::log(e.sigma);
+        }
+        constexpr double k_none = std::numeric_limits<double>::infinity();
+        if (!solver_.factor(rows, stiffness_)) return k_none;
+        Eigen::VectorXd right = Eigen::VectorXd::Zero(rows.count());
+        right.segment(first, count) = -linear_.soft_residuals;
+        const auto solved = solver_.solve(Eigen::VectorXd::Zero(linear_.layout.size()), right);
+        if (!solved.good) return k_none;
+        const Eigen::VectorXd left = linear_.soft_residuals + linear_.soft_rows * solved.unknowns;
+        return solver_.log_determinant() + logarithms +
+               left.cwiseAbs2().cwiseQuotient(variance).sum() +
+               solved.unknowns.cwiseAbs2().dot(stiffness_);
+    }
+
+private:
+    Linearised linear_;
+    Eigen::VectorXd stiffness_;
+    KktSolver solver_;  // keeps its pattern
+    std::array<bool, 2> present_{};
+};
+
+struct End {
+    Sigmas sigmas;
+    Finished finished;
+    double likelihood = 0;  // twice its negative logarithm
+};
+
+// The likeliest place of a scan: each group alone, then both together.
+Sigmas best_of_scan(RestrictedLikelihood& likelihood, const Sigmas& from, double& least) {
+    Sigmas best = from;
+    const auto try_at = [&](const Sigmas& sigmas) {
+        const double value = likelihood(sigmas);
+        if (!(value < least)) return;
+        least = value;
+        best = sigmas;
+    };
+    for (const auto& [first, second] :
+         {std::pair(true, false), std::pair(false, true), std::pair(true, true)}) {
+        if ((first && !likelihood.has(0)) || (second && !likelihood.has(1))) continue;
+        for (double s = k_scan_from; s < k_scan_to; s *= k_scan_step) {
+            try_at({first ? s : from[0], second ? s : from[1]});
+        }
+    }
+    return best;
+}
+
+// An end where the planes leave no room for a facet is no stone of this mesh.
+bool has_all_facets(const System& system, const Finished& finished) {
+    if (!finished.enclosed) return false;
+    const System::Enclosed enclosed = system.enclosed(finished.shape);
+    return enclosed.closed && enclosed.missing.empty();
+}
+
+bool is_same(const Sigmas& a, const Sigmas& b) {
+    return std::abs(std::log(a[0] / b[0])) < k_same_end &&
+           std::abs(std::log(a[1] / b[1])) < k_same_end;
+}
+
+}  // namespace
+
+int estimate_meet_sigmas(System& system, Finished& finished, const FitOptions& options,
+                         const Progress& progress) {
+    agree_with_residuals(system, finished, options, progress);
+    std::vector<End> ends;
+    ends.push_back({system.group_sigmas(), finished, 0});
+    std::size_t best = 0;
+    int steps = finished.iterations;
+    for (std::size_t at = 0; at < ends.size() && int(ends.size()) < k_most_ends; ++at) {
+        if (!ends[at].finished.outline) break;
+        system.set_group_sigma(0, ends[at].sigmas[0]);
+        system.set_group_sigma(1, ends[at].sigmas[1]);
+        RestrictedLikelihood likelihood(system, ends[at].finished);
+        ends[at].likelihood = likelihood(ends[at].sigmas);
+        if (ends[at].likelihood < ends[best].likelihood) best = at;
+        double least = ends[at].likelihood - 2 * k_better;
+        const Sigmas there = best_of_scan(likelihood, ends[at].sigmas, least);
+        if (is_same(there, ends[at].sigmas)) continue;
+        system.set_group_sigma(0, there[0]);
+        system.set_group_sigma(1, there[1]);
+        End end{there, finish(system, ends[at].finished.shape, options.iterations), 0};
+        agree_with_residuals(system, end.finished, options, progress);
+        steps += end.finished.iterations;
+        end.sigmas = system.group_sigmas();
+        const bool known = std::any_of(ends.begin(), ends.end(), [&](const End& other) {
+            return is_same(other.sigmas, end.sigmas);
+        });
+        if (!known && has_all_facets(system, end.finished)) ends.push_back(std::move(end));
+    }
+    system.set_group_sigma(0, ends[best].sigmas[0]);
+    system.set_group_sigma(1, ends[best].sigmas[1]);
+    finished = std::move(ends[best].finished);
+    finished.iterations = steps;
+    return static_cast<int>(ends.size());
+}
+
+}  // namespace culet

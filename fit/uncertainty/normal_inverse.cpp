@@ -1,0 +1,108 @@
+#include "fit/uncertainty/normal_inverse.h"
+
+#include <vector>
+
+namespace culet {
+
+namespace {
+
+using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using Matrix = Eigen::SparseMatrix<double>;
+
+// A row of more entries than this touches more than a few facets and their corners.
+constexpr Eigen::Index k_long = 90;
+// With more long rows than this, keeping them apart costs more than the fill that they make.
+constexpr std::size_t k_most_long = 48;
+
+std::vector<Eigen::Index> long_rows(const Rows& rows) {
+    std::vector<Eigen::Index> found;
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+        if (rows.innerVector(i).nonZeros() > k_long) found.push_back(i);
+    }
+    if (found.size() > k_most_long) found.clear();
+    return found;
+}
+
+Eigen::MatrixXd dense(const Rows& rows, const std::vector<Eigen::Index>& which) {
+    Eigen::MatrixXd result(Eigen::Index(which.size()), rows.cols());
+    for (std::size_t i = 0; i < which.size(); ++i) {
+        result.row(Eigen::Index(i)) = Eigen::RowVectorXd(rows.row(which[i]));
+    }
+    return result;
+}
+
+// Without the rows that are kept apart.
+Matrix normal_matrix(const NormalEquations& equations, const std::vector<Eigen::Index>& apart) {
+    Eigen::VectorXd counts = Eigen::VectorXd::Ones(equations.rows.rows());
+    for (const Eigen::Index i : apart) counts(i) = 0;
+    Rows counted = counts.asDiagonal() * equations.rows;
+    counted.prune(0.0);
+    const Rows hard = equations.hard_weight * equations.hard_rows;
+    Matrix matrix = Matrix(counted.transpose() * counted) + Matrix(hard.transpose() * hard);
+    Matrix diagonal(matrix.rows(), matrix.cols());
+    diagonal.setIdentity();
+    diagonal.diagonal() = equations.diagonal;
+    return matrix + diagonal;
+}
+
+}  // namespace
+
+bool NormalInverse::compute(const NormalEquations& equations) {
+    const std::vector<Eigen::Index> apart = long_rows(equations.rows);
+    factors_.compute(normal_matrix(equations, apart));
+    if (factors_.info() != Eigen::Success) return false;
+    wide_.resize(equations.diagonal.size(), 0);
+    if (!apart.empty()) {
+        const Eigen::MatrixXd rows = dense(equations.rows, apart);
+        wide_ = factors_.solve(rows.transpose());
+        capacitance_.compute(Eigen::MatrixXd::Identity(rows.rows(), rows.rows()) + rows * wide_);
+    }
+    return true;
+}
+
+NormalInverse::Half NormalInverse::half(const Eigen::SparseVector<double>& f) const {
+    Eigen::VectorXd ordered = factors_.permutationP() * Eigen::VectorXd(f);
+    factors_.matrixL().solveInPlace(ordered);
+    Half half{ordered.sparseView(), {}};  // not zero but up the elimination tree
+    if (wide_.cols() > 0) {
+        const Eigen::VectorXd along = wide_.transpose() * f;
+        half.long_rows = capacitance_.matrixL().solve(along);
+    }
+    return half;
+}
+
+double NormalInverse::product(const Half& f, const Half& g) {
+    return f.short_rows.dot(g.short_rows) - f.long_rows.dot(g.long_rows);
+}
+
+double NormalInverse::quadratic(const Eigen::SparseVector<double>& f) const {
+    const Half own = half(f);
+    return product(own, own);
+}
+
+Eigen::VectorXd NormalInverse::solve(const Eigen::VectorXd& right) const {
+    Eigen::VectorXd solution = factors_.solve(right);
+    if (wide_.cols() > 0) {
+        solution -= wide_ * capacitance_.solve(wide_.transpose() * right);
+    }
+    return solution;
+}
+
+int negative_pivots(const NormalEquations& equations) {
+    const std::vector<Eigen::Index> apart = long_rows(equations.rows);
+    const Eigen::SimplicialLDLT<Matrix> factors(normal_matrix(equations, apart));
+    if (factors.info() != Eigen::Success) return 0;
+    int negative = static_cast<int>((factors.vectorD().array() < 0).count());
+    if (!apart.empty()) {
+        // With borders instead of fill, [A0, D'; D, -1] has as many more negative eigenvalues as
+        // borders; by A0's Schur complement the others are those of -(1 + D A0^-1 D').
+        const Eigen::MatrixXd rows = dense(equations.rows, apart);
+        const Eigen::MatrixXd solved = factors.solve(rows.transpose());
+        const Eigen::LDLT<Eigen::MatrixXd> bordered(
+            Eigen::MatrixXd::Identity(rows.rows(), rows.rows()) + rows * solved);
+        negative -= static_cast<int>((bordered.vectorD().array() < 0).count());
+    }
+    return negative;
+}
+
+}  // namespace culet
