@@ -1,11 +1,8 @@
 #include "fit/find_symmetry.h"
 
-namespace culet {
+#include "fit/findings/symmetry_tests.h"
 
-bool declares_whole_symmetry(const Reading& reading) {
-    if (reading.kind != ReadingKind::rotation && reading.kind != ReadingKind::mirror) return false;
-    return reading.exact || reading.facets.empty();
-}
+namespace culet {
 
 SymmetryReport find_symmetry(const Stone& stone, const std::vector<Reading>& readings,
                              const FitOptions& options, const Progress& progress) {

@@ -17,11 +17,6 @@
 
 namespace culet {
 
-/// Says that the stone has a symmetry, which would only be found again: exact rotations and
-/// mirrors, and those of all facets. One of some facets within a sigma is knowledge like any
-/// reading.
-bool declares_whole_symmetry(const Reading& reading);
-
 /// Fits the stone without readings that declare its symmetry and asks; `options.start` may be the
 /// stone as fitted with them. Throws InputError as `fit_stone` does.
 SymmetryReport find_symmetry(const Stone& stone, const std::vector<Reading>& readings,

@@ -15,6 +15,7 @@
 #include "fit/findings/fitted_parts.h"
 #include "fit/findings/judge.h"
 #include "fit/findings/shape_findings.h"
+#include "fit/findings/symmetry_tests.h"
 #include "fit/findings/tier_findings.h"
 #include "fit/mesh/notes.h"
 #include "fit/mesh/repair.h"

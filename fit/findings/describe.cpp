@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "fit/find_symmetry.h"
 #include "fit/findings/extra_facets.h"
 #include "fit/findings/meet_tests.h"
 #include "fit/findings/own_axis.h"

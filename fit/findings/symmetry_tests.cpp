@@ -339,4 +339,9 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Infer
     return report;
 }
 
+bool declares_whole_symmetry(const Reading& reading) {
+    if (reading.kind != ReadingKind::rotation && reading.kind != ReadingKind::mirror) return false;
+    return reading.exact || reading.facets.empty();
+}
+
 }  // namespace culet

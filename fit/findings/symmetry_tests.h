@@ -1,11 +1,17 @@
 #pragma once
 // The tests behind find_symmetry.h, of one fit. Private to the room.
 
-#include "fit/find_symmetry.h"
+#include "fit/findings/findings.h"
+#include "fit/model/options.h"
 #include "fit/model/system.h"
 #include "fit/uncertainty/inference.h"
 
 namespace culet {
+
+/// Says that the stone has a symmetry, which would only be found again: exact rotations and
+/// mirrors, and those of all facets. One of some facets within a sigma is knowledge like any
+/// reading.
+bool declares_whole_symmetry(const Reading& reading);
 
 /// `system` must hold no reading that declares its symmetry (`declares_whole_symmetry`): that would
 /// be found again.

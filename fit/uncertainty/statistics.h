@@ -4,8 +4,6 @@
 namespace culet {
 
 /// P(X > chi2) for chi-square with (possibly fractional) degrees of freedom; 1 for dof <= 0.
-/// Regularised incomplete gamma by series or continued fraction (Abramowitz & Stegun 6.5.29,
-/// 6.5.31), relative error below 1e-12.
 double chi2_tail(double chi2, double dof);
 
 /// The chi2 whose tail is `level`; 0 for dof <= 0.

@@ -96,4 +96,37 @@ TEST(Rooms, show_no_heavy_library_to_other_rooms) {
     }
 }
 
+// Folders inside a room do not include each other in circles; files that stand in no folder count
+// as one. Of render and compare not yet.
+TEST(Rooms, have_folders_that_include_each_other_one_way) {
+    const fs::path source(CULET_SOURCE_DIR);
+    for (const std::string room : {"stone", "page", "fit", "app"}) {
+        // Of each folder those that it includes, at last also through others.
+        std::map<std::string, std::set<std::string>> seen_from;
+        for (const auto& entry : fs::recursive_directory_iterator(source / room)) {
+            if (!is_source(entry.path())) continue;
+            const std::string own = fs::relative(entry.path(), source).parent_path().string();
+            for (const std::string& header : includes_of(entry.path())) {
+                const std::string other = fs::path(header).parent_path().string();
+                if (header.starts_with(room + "/") && other != own) seen_from[own].insert(other);
+            }
+        }
+        for (bool grows = true; grows;) {
+            grows = false;
+            for (auto& [folder, seen] : seen_from) {
+                const std::set<std::string> before = seen;
+                for (const std::string& next : before) {
+                    const auto further = seen_from.find(next);
+                    if (further == seen_from.end()) continue;
+                    seen.insert(further->second.begin(), further->second.end());
+                }
+                grows = grows || seen.size() > before.size();
+            }
+        }
+        for (const auto& [folder, seen] : seen_from) {
+            EXPECT_EQ(seen.count(folder), 0u) << folder << " includes itself through others";
+        }
+    }
+}
+
 }  // namespace
