@@ -260,7 +260,9 @@ std::vector<Equation> System::reading_equations(const Shape& shape,
                     switch (reading.datum.kind) {
                         case Datum::Kind::up:
                             terms.push_back(
-                                tilt_from_side(f, side_of(shape.normals[f], base.value)));
+                                tilt_from_side(f, reading.side != 0
+                                                      ? reading.side
+                                                      : side_of(shape.normals[f], base.value)));
                             break;
                         case Datum::Kind::facet:
                             terms.push_back(tilt_between(f, reading.datum.facet));
@@ -277,7 +279,7 @@ std::vector<Equation> System::reading_equations(const Shape& shape,
                     }
                 }
                 put(aggregated(reading, std::move(terms), shape), base.value);
-                if (reading.aggregate == Aggregate::single &&
+                if (reading.aggregate == Aggregate::single && reading.side == 0 &&
                     reading.datum.kind == Datum::Kind::up) {
                     all.back().other_value = std::numbers::pi - base.value;
                 }

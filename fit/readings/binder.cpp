@@ -138,13 +138,7 @@ void Binder::set_value(Reading& reading) const {
         fail("sigma is missing (one standard uncertainty), or give exact = true");
     }
     if (w.exact && w.released) fail("cannot be exact and released");
-    // A girdle facet that leans the other way by as little as the instrument may be off.
-    if (reading.kind == ReadingKind::inclination && reading.value > 90 &&
-        reading.value <= 90 + std::min(3 * reading.sigma, k_over_upright_deg)) {
-        note(fmt::format("{:g} degrees count as {:g}: an upright facet, to within its sigma",
-                         reading.value, 180 - reading.value));
-        reading.value = 180 - reading.value;
-    }
+    set_side(reading);
     // A tooth is no angle yet.
     if (kind_word(w.kind)->trade != KindWord::Trade::index) refuse_value(reading);
     if (measure_of(reading.kind) == WrittenUnit::Of::angle) {
@@ -154,18 +148,35 @@ void Binder::set_value(Reading& reading) const {
     }
 }
 
+// Degrees still. From up, what is over 90 degrees looks down: 139 is 41 on the pavilion's side.
+void Binder::set_side(Reading& reading) const {
+    const std::string& side = written_->side;
+    if (side.empty() && !(reading.value > 90)) return;
+    const bool from_up = reading.kind == ReadingKind::inclination && written_->datum.empty();
+    if (!from_up) {
+        if (!side.empty()) fail("side belongs to inclinations that count from up");
+        return;
+    }
+    if (!side.empty() && side != "crown" && side != "pavilion") {
+        fail(fmt::format("side is '{}'; it is crown or pavilion", side));
+    }
+    reading.side = side == "pavilion" || (side.empty() && reading.value > 90) ? -1 : 1;
+    if (reading.value > 90 && reading.value <= 180 && side != "crown") {
+        reading.value = 180 - reading.value;
+    }
+}
+
 // Degrees still.
 void Binder::refuse_value(const Reading& reading) const {
     const double v = reading.value;
     switch (reading.kind) {
-        case ReadingKind::inclination:
-            if (v < 0 || v > 90) {
-                fail(
-                    fmt::format("value {:g} is outside 0..90 degrees{}; pavilion facets count "
-                                "from the horizontal too",
-                                v, meant_inclination(v)));
-            }
+        case ReadingKind::inclination: {
+            // A girdle facet that leans the other way by as little as the instrument may be off.
+            const double over =
+                reading.side == 0 ? 0 : std::min(3 * reading.sigma, k_over_upright_deg);
+            if (v < 0 || v > 90 + over) refuse_inclination(v);
             break;
+        }
         case ReadingKind::azimuth:
             if (v < -360 || v > 360) {
                 fail(fmt::format("value {:g} is outside -360..360 degrees (a turn less: {:g}?)", v,
@@ -195,6 +206,12 @@ void Binder::refuse_value(const Reading& reading) const {
 
 // What an impossible inclination may have been meant to be: the slip that comes near to the
 // facet of the mesh.
+void Binder::refuse_inclination(double v) const {
+    fail(fmt::format("value {:g} is outside 0..90 degrees{}; pavilion facets count from the "
+                     "horizontal too, or from up all the way (over 90)",
+                     v, meant_inclination(v)));
+}
+
 std::string Binder::meant_inclination(double value) const {
     if (written_->of.size() != 1) return {};
     const auto found = facet_of_name_.find(written_->of[0]);

@@ -38,7 +38,10 @@ private:
     [[noreturn]] void fail(const std::string& what) const;
     [[noreturn]] void refuse_kind() const;
     void set_value(Reading& reading) const;
+    void set_side(Reading& reading) const;
     void refuse_value(const Reading& reading) const;
+    [[noreturn]] void refuse_inclination(double v) const;
+    void refuse_side_of_mesh(const Reading& reading, int facet) const;
     std::string meant_inclination(double value) const;
     Vec3 stone_up() const;
     Datum datum(ReadingKind kind) const;

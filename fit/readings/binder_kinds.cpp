@@ -5,12 +5,28 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <set>
 
 #include "fit/readings/binder.h"
 #include "stone/errors.h"
 
 namespace culet {
+
+// A side that the mesh does not show: a slip, or another facet. Meshes made by hand may be off by
+// tens of degrees.
+void Binder::refuse_side_of_mesh(const Reading& reading, int f) const {
+    constexpr double k_far_deg = 45;
+    if (reading.side == 0) return;
+    const Vec3& n = stone_.solid.facets[std::size_t(f)].plane.normal;
+    const double drawn = degrees(std::acos(std::clamp(glm::dot(n, stone_up()), -1.0, 1.0)));
+    const double read = reading.side > 0 ? degrees(reading.value) : 180 - degrees(reading.value);
+    if (std::abs(read - drawn) < k_far_deg) return;
+    if (written_->side.empty()) refuse_inclination(*written_->value);
+    fail(fmt::format("{} is on the {} in the mesh, not on the {}", facet_name(f),
+                     drawn < 90 ? "crown" : "pavilion", written_->side));
+}
 
 std::vector<Reading> Binder::of_one_facet(const Reading& base) const {
     need_names(1, "one facet");
@@ -24,6 +40,7 @@ std::vector<Reading> Binder::of_one_facet(const Reading& base) const {
         fail("names several facets; write one reading for each, a pattern, or mean()");
     }
     const auto check_facet = [&](int f) {
+        refuse_side_of_mesh(base, f);
         if (base.kind != ReadingKind::azimuth) return;
         if (facet_name(f) == stone_.up_facet) {
             fail("the facet that says what is up has no azimuth");

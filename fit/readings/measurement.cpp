@@ -21,7 +21,7 @@ constexpr std::array<const char*, 15> k_kind_names{
 
 WrittenReading reading_of_table(const TomlTable& table) {
     table.refuse_unknown(
-        {"kind", "of", "value", "sigma", "exact", "released", "datum", "id", "note", "rounding"});
+        {"kind", "of", "value", "sigma", "exact", "released", "datum", "side", "id", "note", "rounding"});
     WrittenReading reading;
     reading.file = table.file();
     reading.line = table.line();
@@ -45,6 +45,7 @@ WrittenReading reading_of_table(const TomlTable& table) {
     reading.exact = table.boolean("exact").value_or(false);
     reading.released = table.boolean("released").value_or(false);
     reading.datum = table.text("datum").value_or(std::string());
+    reading.side = table.text("side").value_or(std::string());
     reading.id = table.text("id").value_or(std::string());
     reading.note = table.text("note").value_or(std::string());
     return reading;

@@ -49,6 +49,7 @@ struct WrittenReading {
     std::optional<double> value, sigma, rounding;
     bool exact = false, released = false;
     std::string datum, note;
+    std::string side;  ///< of an inclination: `crown`, `pavilion` or nothing
     std::filesystem::path file;
     long line = 0;
     WrittenUnit value_unit, sigma_unit, rounding_unit;
@@ -64,7 +65,7 @@ std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_fil
                                           const std::vector<std::string>& overrides = {});
 
 /// The rows of a readings.csv: header `kind,of,value,sigma` and any of `exact`, `released`,
-/// `datum`, `id`, `note`, `rounding`, in any order. Fields may be quoted; `#` starts a comment
+/// `datum`, `side`, `id`, `note`, `rounding`, in any order. Fields may be quoted; `#` starts a comment
 /// line. What parts fields is told by the header line: `;`, a tab or `,`. Numbers may have a
 /// decimal comma (between commas only in quotes) and a unit. A row whose kind needs a value and has
 /// none is `skipped`.
@@ -101,6 +102,9 @@ struct Reading {
     double azimuth = 0;  ///< width, table_width, mirror plane's normal; radians
     int order = 0;       ///< rotation
     Datum datum;
+    /// Inclination: 1 the facet looks up (crown), -1 down (pavilion); 0: the reading does not say.
+    /// The value counts from that side, and may be a little over 90 degrees.
+    int side = 0;
     double value = 0;  ///< radians, length, mm3 or carat; 0 for relations
     /// In the same unit; relations: length (meet, coplanar) or radians. 0 of a meet
     /// that is neither exact nor released: estimated from the data.

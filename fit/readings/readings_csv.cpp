@@ -145,9 +145,9 @@ bool truth(const std::filesystem::path& file, long line, const std::string& colu
     throw InputError(file, line, column + " is '" + written + "'; expected true or false");
 }
 
-enum Column { kind, of, value, sigma, exact, released, datum, id, note, rounding, count };
+enum Column { kind, of, value, sigma, exact, released, datum, side, id, note, rounding, count };
 constexpr std::array<const char*, Column::count> k_columns{
-    "kind", "of", "value", "sigma", "exact", "released", "datum", "id", "note", "rounding"};
+    "kind", "of", "value", "sigma", "exact", "released", "datum", "side", "id", "note", "rounding"};
 
 // Where each column stands; -1: nowhere.
 std::array<int, Column::count> columns_of(const CsvRow& header, const std::filesystem::path& file) {
@@ -162,7 +162,7 @@ std::array<int, Column::count> columns_of(const CsvRow& header, const std::files
             throw InputError(file, header.line,
                              "unknown column '" + header.fields[i] +
                                  "'; expected the header kind,of,value,sigma (and exact, released, "
-                                 "datum, id, note, rounding)");
+                                 "datum, side, id, note, rounding)");
         }
         int& place = at[static_cast<std::size_t>(known - k_columns.begin())];
         if (place >= 0) {
@@ -223,6 +223,7 @@ public:
         reading.exact = truth(file_, row.line, "exact", field(Column::exact));
         reading.released = truth(file_, row.line, "released", field(Column::released));
         reading.datum = field(Column::datum);
+        reading.side = field(Column::side);
         reading.id = field(Column::id);
         reading.note = field(Column::note);
         mark_blank(reading);

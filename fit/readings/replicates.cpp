@@ -18,7 +18,7 @@ auto quantity_of(const Reading& r) {
     return std::make_tuple(r.kind, r.aggregate, r.facets, places, r.has_direction, r.direction.x,
                            r.direction.y, r.direction.z,
                            r.kind == ReadingKind::azimuth ? 0 : r.azimuth, r.datum.kind,
-                           r.datum.facet, is_level);
+                           r.datum.facet, r.side, is_level);
 }
 
 }  // namespace

@@ -156,11 +156,17 @@ std::optional<Start> Starts::next() {
 void Starts::find_sides() {
     const Shape& mesh = system_.mesh_shape();
     sides_.assign(mesh.normals.size(), 0);
+    for (const Reading& r : system_.readings()) {
+        // Not where it may stand upright, to within its sigma.
+        if (r.side != 0 && std::numbers::pi / 2 - r.value > 3 * r.sigma) {
+            for (const int f : r.facets) sides_[std::size_t(f)] = r.side;
+        }
+    }
     const std::optional<MeshRoughness> rough = MeshRoughness::of(system_);
     if (!rough) return;
     for (const Reading& r : system_.readings()) {
         if (r.kind != ReadingKind::inclination || r.datum.kind != Datum::Kind::up ||
-            r.aggregate != Aggregate::single) {
+            r.aggregate != Aggregate::single || r.side != 0) {
             continue;
         }
         const int f = r.facets[0];

@@ -39,8 +39,11 @@ protected:
         return bind("kind,of,value,sigma\n" + text);
     }
     std::string complaint(const std::string& text) {
+        return complaint_of("kind,of,value,sigma\n" + text);
+    }
+    std::string complaint_of(const std::string& text) {
         try {
-            rows(text);
+            bind(text);
         } catch (const InputError& error) {
             return error.what();
         }
@@ -128,12 +131,37 @@ TEST_F(Words, UnitsAreReadWhereTheyAgree) {
     EXPECT_NEAR(rows("width,0,6.02mm,0.015mm\n")[0].value, 0.602, 1e-15);
 }
 
-// Upright to within the instrument: 90.2 from the one side is 89.8 from the other.
-TEST_F(Words, GirdleFacetsMayReadALittleOverNinety) {
-    EXPECT_NEAR(rows("inclination,G1,90.2,0.3\n")[0].value, radians(89.8), 1e-14);
-    EXPECT_THAT(notes_, Contains(HasSubstr("90.2 degrees count as 89.8")));
-    EXPECT_THAT(complaint("inclination,G1,90.2,0.01\n"), HasSubstr("outside 0..90"));
-    EXPECT_THAT(complaint("inclination,G1,95,10\n"), HasSubstr("outside 0..90"));
+// From up all the way: 139 degrees is a pavilion facet of 41, and 90.2 on a girdle facet one that
+// leans down by 0.2, however small its sigma.
+TEST_F(Words, InclinationsOverNinetyAreOfThePavilion) {
+    for (const char* sigma : {"0.3", "0.01"}) {
+        const Reading g = rows(std::string("inclination,G1,90.2,") + sigma + "\n")[0];
+        EXPECT_NEAR(g.value, radians(89.8), 1e-14);
+        EXPECT_EQ(g.side, -1);
+    }
+    const Reading p = rows("inclination,P1,139,0.1\n")[0];
+    EXPECT_NEAR(p.value, radians(41), 1e-14);
+    EXPECT_EQ(p.side, -1);
+    EXPECT_EQ(rows("inclination,P1,41,0.1\n")[0].side, 0);
+    // Crown facets are not: a slip.
+    EXPECT_THAT(complaint("inclination,C1,139,0.1\n"), HasSubstr("outside 0..90"));
+    EXPECT_THAT(complaint("inclination,P1,181,0.1\n"), HasSubstr("outside 0..90"));
+}
+
+TEST_F(Words, AReadingMaySayItsSide) {
+    const auto side = [&](const std::string& row) {
+        return bind("kind,of,value,sigma,side\n" + row)[0].side;
+    };
+    EXPECT_EQ(side("inclination,P1,41,0.1,pavilion\n"), -1);
+    EXPECT_EQ(side("inclination,C1,34,0.1,crown\n"), 1);
+    EXPECT_EQ(side("inclination,G1,90.03,0.1,crown\n"), 1);
+    const auto refused = [&](const std::string& row) {
+        return complaint_of("kind,of,value,sigma,side\n" + row);
+    };
+    EXPECT_THAT(refused("inclination,P1,41,0.1,crown\n"),
+                HasSubstr("P1 is on the pavilion in the mesh"));
+    EXPECT_THAT(refused("inclination,P1,41,0.1,below\n"), HasSubstr("crown or pavilion"));
+    EXPECT_THAT(refused("azimuth,P1,41,0.1,crown\n"), HasSubstr("belongs to inclinations"));
 }
 
 TEST_F(Words, OtherUnitsAreRefusedWithWhatToWrite) {
