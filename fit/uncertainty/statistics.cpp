@@ -6,15 +6,24 @@
 
 namespace culet {
 
+namespace {
+
+// Of thousands of degrees of freedom a gamma function on the way is infinite, and the tail is right.
+using Policy = boost::math::policies::policy<
+    boost::math::policies::overflow_error<boost::math::policies::ignore_error>>;
+using ChiSquared = boost::math::chi_squared_distribution<double, Policy>;
+
+}  // namespace
+
 double chi2_tail(double chi2, double dof) {
     if (!(dof > 0) || !(chi2 > 0)) return 1;
     if (std::isinf(chi2)) return 0;
-    return boost::math::cdf(complement(boost::math::chi_squared(dof), chi2));
+    return boost::math::cdf(complement(ChiSquared(dof), chi2));
 }
 
 double chi2_quantile(double level, double dof) {
     if (!(dof > 0)) return 0;
-    return boost::math::quantile(complement(boost::math::chi_squared(dof), level));
+    return boost::math::quantile(complement(ChiSquared(dof), level));
 }
 
 double two_sided_normal_quantile(double level) {
