@@ -29,6 +29,13 @@ std::size_t rows_of(const Json& readings) {
     return rows.size();
 }
 
+/// Of the prior that filled what was not read; empty: none did.
+std::string prior_source(const Json& fit) {
+    const auto prior = fit.find("prior");
+    const std::string source = prior == fit.end() ? "" : text_at(*prior, "source");
+    return source == "none" ? "" : source;
+}
+
 std::string readings_tile(const Json& fit) {
     const Json& readings = array_at(fit, "readings");
     if (readings.empty()) return {};
@@ -42,9 +49,8 @@ std::string readings_tile(const Json& fit) {
     const std::size_t rows = rows_of(readings);
     if (rows < readings.size()) about = fmt::format("from {} rows; {}", rows, about);
     // Beside a prior few are: each is held against its tier instead.
-    const auto prior = fit.find("prior");
-    const std::string source = prior == fit.end() ? "" : text_at(*prior, "source");
-    if (unchecked > 0 && (source.empty() || source == "none")) {
+    const std::string source = prior_source(fit);
+    if (unchecked > 0 && source.empty()) {
         about += fmt::format("; nothing checks {} of them", unchecked);
     }
     return tile("Readings", std::to_string(readings.size()), about, suspects == 0 ? "" : "bad");
@@ -59,9 +65,8 @@ std::set<std::string> open_facets(const Json& fit) {
 std::string facets_tile(const Json& fit) {
     const Json& facets = array_at(fit, "facets");
     if (facets.empty()) return {};
-    const auto prior = fit.find("prior");
-    const std::string source = prior == fit.end() ? "" : text_at(*prior, "source");
-    if (!source.empty() && source != "none") {
+    const std::string source = prior_source(fit);
+    if (!source.empty()) {
         const auto read = std::count_if(facets.begin(), facets.end(), [](const Json& facet) {
             const auto from = facet.find("from_readings");
             return from != facet.end() && number_at(*from, "inclination").value_or(0) > 0.5;

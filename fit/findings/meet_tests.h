@@ -7,7 +7,7 @@
 // out, and (V^-1 U' multipliers) is their estimate. Soft and released meets are tested by the
 // misses that did come out (Wald 1943). All tests together keep the level (Bonferroni); as long as
 // one fails, the worst is let go and the others are tested given that (forward selection, exact in
-// the linear model), so that one bad meet does not flag_blunders its neighbours.
+// the linear model), so that one bad meet does not accuse its neighbours.
 
 #include <vector>
 

@@ -152,9 +152,9 @@ AxisEstimate own_axis(const System& system, const Shape& shape, const std::vecto
                  (weights[t] / sine_squared(shape, parts[t], direction));
         }
         least = least_eigenvector(s);
-        const double retracted = glm::length(least.vector - direction);
+        const double moved = glm::length(least.vector - direction);
         direction = least.vector;
-        if (round > 0 && retracted < 1e-13) break;
+        if (round > 0 && moved < 1e-13) break;
         double pooled = 0, count = 0;
         std::vector<double> squares(parts.size());
         for (std::size_t t = 0; t < parts.size(); ++t) {

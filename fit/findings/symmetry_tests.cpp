@@ -110,7 +110,7 @@ Space space_of(const System& system, const AxisGroup& form, const PolarCoordinat
 }
 
 // Chi-square of the stone nearest to this one that has the group's symmetry: what a part of the
-// form's group leaves free beyond the form's own freedoms is fitted by weighted least squares.
+// form's group leaves free beyond the form's own parameters is fitted by weighted least squares.
 GroupTest test_group(const System& system, const AxisGroup& group,
                      const PolarCoordinates& coordinates, const Space& space, double level) {
     GroupTest test;

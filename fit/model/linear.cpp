@@ -218,4 +218,9 @@ JacobianRows kkt_rows(const Linearised& linear, bool with_soft, double hard_scal
     return rows;
 }
 
+Eigen::Index kkt_row_count(const Linearised& linear, bool with_soft) {
+    return linear.hard_rows.rows() + Eigen::Index(linear.gauge_rows.size()) +
+           (with_soft ? linear.soft_rows.rows() : 0);
+}
+
 }  // namespace culet

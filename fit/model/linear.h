@@ -56,5 +56,7 @@ Linearised linearise(const System& system, const Shape& shape,
 /// What the KKT solver takes: hard equations (times `hard_scale`), then motions that nothing sees,
 /// both exact, then, if asked, what was read, of variance one.
 JacobianRows kkt_rows(const Linearised& linear, bool with_soft, double hard_scale = 1);
+/// How many those are.
+Eigen::Index kkt_row_count(const Linearised& linear, bool with_soft);
 
 }  // namespace culet

@@ -35,6 +35,11 @@ Vec3 projected(const Vec3& v, const KeptDirections& kept) {
 
 }  // namespace
 
+std::array<Vec3, 2> tilt_directions(const Vec3& normal, int count, const Vec3& outward) {
+    if (count == 2) return tangents(normal);
+    return {normal.z * outward - glm::dot(normal, outward) * Vec3{0, 0, 1}, Vec3(0)};
+}
+
 Parameters::Parameters(const Shape& shape, int up_facet, Orbits orbits,
                        const std::vector<bool>& fixed_extras)
     : layout_(layout_of(shape)), orbits_(std::move(orbits)), up_facet_(up_facet) {
@@ -107,13 +112,10 @@ Parameters::TangentBasis Parameters::tangent_basis(const Shape& shape) const {
         slots.count = normal_count_[f];
         const int first = orbits_.empty() ? f : orbits_.facets[f].first;
         const Vec3& n = shape.normals[first];
-        if (slots.count == 2) {
-            const auto [t, u] = tangents(n);
+        if (slots.count > 0) {
+            const auto [t, u] = tilt_directions(
+                n, slots.count, orbits_.empty() ? Vec3(0) : orbits_.kept_by_facet[first].outward);
             slots.along = {t, u, Vec3(0)};
-        } else if (slots.count == 1) {
-            // Within the vertical plane that is kept.
-            const Vec3& outward = orbits_.kept_by_facet[first].outward;
-            slots.along[0] = n.z * outward - glm::dot(n, outward) * Vec3{0, 0, 1};
         }
         if (first == f) continue;
         for (int k = 0; k < slots.count; ++k) {
@@ -159,18 +161,22 @@ Shape Parameters::retracted(const Shape& shape, std::span<const double> step) co
     for (std::size_t e = 0; e < extra_column_.size(); ++e) {
         if (extra_column_[e] >= 0) next.extras[e] += step[extra_column_[e]];
     }
-    if (orbits_.empty()) return next;
+    place_images(next);
+    return next;
+}
+
+void Parameters::place_images(Shape& shape) const {
+    if (orbits_.empty()) return;
     for (int f = 0; f < layout_.facets; ++f) {
         const OrbitMember& m = orbits_.facets[f];
         if (m.first == f) continue;
-        next.normals[f] = m.from_first * next.normals[m.first];
-        next.offsets[f] = next.offsets[m.first];
+        shape.normals[f] = m.from_first * shape.normals[m.first];
+        shape.offsets[f] = shape.offsets[m.first];
     }
     for (int p = 0; p < layout_.points; ++p) {
         const OrbitMember& m = orbits_.points[p];
-        if (m.first != p) next.points[p] = m.from_first * next.points[m.first];
+        if (m.first != p) shape.points[p] = m.from_first * shape.points[m.first];
     }
-    return next;
 }
 
 Shape Parameters::retracted_with_turn(const Shape& shape, std::span<const double> step) const {

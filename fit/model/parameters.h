@@ -14,6 +14,10 @@
 
 namespace culet {
 
+/// In which directions a facet's normal may tilt: any two across it, or the one within the vertical
+/// plane through `outward` that an exact symmetry keeps it in.
+std::array<Vec3, 2> tilt_directions(const Vec3& normal, int count, const Vec3& outward);
+
 class Parameters {
 public:
     /// `fixed_extras` are held where they are. `orbits` may be empty.
@@ -36,10 +40,12 @@ public:
     /// The same, but what the step turns the stone about z as a whole is done as a turn: readings
     /// may say so little of where azimuth begins that steps of many degrees are wanted.
     Shape retracted_with_turn(const Shape& shape, std::span<const double> step) const;
+    /// All facets and points that are images of others back in their places.
+    void place_images(Shape& shape) const;
     /// The nearest shape with the symmetry: the mean of what the motions make of it.
     Shape symmetrised(const Shape& shape) const;
 
-    /// Columns and directions of one facet's or point's freedoms: d(thing) = sum step_k along_k.
+    /// Columns and directions of one facet's or point's parameters: d(thing) = sum step_k along_k.
     struct Slots {
         int column = -1, count = 0;
         std::array<Vec3, 3> along{};

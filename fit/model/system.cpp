@@ -304,14 +304,19 @@ std::vector<int> all_facets(const Shape& shape) {
 
 }  // namespace
 
+std::optional<std::vector<int>> System::exchanged(const Reading& reading,
+                                                  const std::vector<int>& facets) const {
+    const auto& exchange = exchanges_[std::size_t(&reading - readings_.data())];
+    if (!exchange) return std::nullopt;
+    std::vector<int> images;
+    for (int f : facets) images.push_back(exchange->facets[f]);
+    return images;
+}
+
 std::vector<int> System::rotation_partners(const Reading& reading) const {
     const std::vector<int> facets =
         reading.facets.empty() ? all_facets(mesh_shape_) : reading.facets;
-    if (const auto& exchange = exchanges_[std::size_t(&reading - readings_.data())]) {
-        std::vector<int> images;
-        for (int f : facets) images.push_back(exchange->facets[f]);
-        return images;
-    }
+    if (const auto images = exchanged(reading, facets)) return *images;
     const double angle = 2 * std::numbers::pi / reading.order;
     const glm::dmat3 turn = turn_about_z(angle);
     std::vector<int> found = partners(mesh_shape_, facets, [&](const Plane& plane) {
@@ -344,11 +349,7 @@ std::vector<int> System::rotation_partners(const Reading& reading) const {
 std::vector<int> System::mirror_partners(const Reading& reading) const {
     const std::vector<int> facets =
         reading.facets.empty() ? all_facets(mesh_shape_) : reading.facets;
-    if (const auto& exchange = exchanges_[std::size_t(&reading - readings_.data())]) {
-        std::vector<int> images;
-        for (int f : facets) images.push_back(exchange->facets[f]);
-        return images;
-    }
+    if (const auto images = exchanged(reading, facets)) return *images;
     const Vec3 m{std::cos(reading.azimuth), std::sin(reading.azimuth), 0};
     const std::vector<int> found = partners(mesh_shape_, facets, [&](const Plane& plane) {
         return Plane{plane.normal - 2 * glm::dot(m, plane.normal) * m, plane.offset};

@@ -103,9 +103,9 @@ public:
     /// All equations but prior and hinges, for the corners that carry them at this shape.
     std::vector<Equation> equations(const Shape& shape,
                                     const std::shared_ptr<const Outline>& outline) const;
-    /// Of these, what the readings say; `reduced`: but for symmetry that `freedoms` takes care of.
-    /// `meets_hold`: corners lie on their planes, so that the line in which two planes cross is the
-    /// edge, with its direction. On a rough shape that line says nothing.
+    /// Of these, what the readings say; `reduced`: but for symmetry that `parameters` takes care
+    /// of. `meets_hold`: corners lie on their planes, so that the line in which two planes cross is
+    /// the edge, with its direction. On a rough shape that line says nothing.
     std::vector<Equation> reading_equations(const Shape& shape,
                                             const std::shared_ptr<const Outline>& outline,
                                             bool reduced = false, bool meets_hold = true) const;
@@ -177,6 +177,9 @@ private:
     /// half a turn off.
     bool may_be_merged(const std::vector<int>& group, const Replicates& replicates,
                        const Shape& shape) const;
+    /// Where the motion of a symmetry of all facets takes these; nothing where it is not known.
+    std::optional<std::vector<int>> exchanged(const Reading& reading,
+                                              const std::vector<int>& facets) const;
     std::vector<int> rotation_partners(const Reading& reading) const;
     std::vector<int> mirror_partners(const Reading& reading) const;
     void find_exchanges();

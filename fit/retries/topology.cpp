@@ -239,7 +239,7 @@ bool change(Stage& stage, const FitResult& result, int& released,
         return true;
     }
     // One after the other, the worst first: readings of lengths that end where a meet comes apart
-    // flag_blunders its neighbours until it has. Many at once when there are more than rounds.
+    // accuse its neighbours until it has. Many at once when there are more than rounds.
     std::vector<const MeetFinding*> bad;
     for (const MeetFinding& meet : result.meet_findings) {
         if (meet.contradicted && meet.how != "released") bad.push_back(&meet);

@@ -133,7 +133,7 @@ ActiveSetFit fit_active_set(Relaxation& relaxation, const Shape& start,
             }
         }
         if (result.held.size() == before) break;
-        // Planes have three freedoms each.
+        // Planes have three parameters each.
         if (result.held.size() > 3 * relaxation.system().stone().solid.facets.size()) {
             if (come_down) result.held.clear();
             result.is_no_stone = !come_down;

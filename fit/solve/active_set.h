@@ -1,6 +1,6 @@
 #pragma once
 // The last stage where no meet comes apart: Gauss-Newton with hard constraints (Nocedal & Wright
-// 2006, chapter 18) in the freedoms, from a shape that already is nearly right to planes and
+// 2006, chapter 18) in the parameters, from a shape that already is nearly right to planes and
 // symmetry that hold to rounding.
 
 #include "fit/solve/free_meets.h"
@@ -23,7 +23,7 @@ struct ActiveSetOptions {
     /// Ends early, with corners above their neighbours, where chi-square is larger.
     double hopeless = 1e300;
     /// From the end of an earlier fit, the chi-square below which readings that changed a little
-    /// have not changed their meaning: no other turns and leanings are then looked for.
+    /// have not changed their meaning: no other turns and signs are then looked for.
     double agreeable = 0;
 };
 

@@ -115,11 +115,11 @@ CaliperMisfit misfit_at(const std::vector<Caliper>& calipers, const Corners& cor
         CaliperMisfit misfit = misfit_of(calipers, corners, jaws, around);
         if (!std::isfinite(misfit.chi2)) return misfit;
         std::vector<Vec3> places = corners.places;
-        const Eigen::VectorXd retracted = corners.covariance * misfit.forces;
+        const Eigen::VectorXd shifts = corners.covariance * misfit.forces;
         for (std::size_t p = 0; p < places.size(); ++p) {
             if (corners.column[p] < 0) continue;
-            places[p].x += retracted(corners.column[p]);
-            places[p].y += retracted(corners.column[p] + 1);
+            places[p].x += shifts(corners.column[p]);
+            places[p].y += shifts(corners.column[p] + 1);
         }
         std::vector<Jaws> next = jaws_at(calipers, corners, places, angle, false);
         if (next == jaws || (round + 1 == k_most_rounds && misfit.chi2 > before.chi2)) {

@@ -158,9 +158,9 @@ LocalOptimum constrained_newton(Relaxation& relaxation, KktSolver& solver, const
         if (damping > 1) damping = 1e-2;
         return true;
     };
-    const auto ends = [&](bool optimum) {
+    const auto ends = [&](bool by_itself) {
         if (meaning_changes()) return false;
-        result.converged = optimum;
+        result.converged = by_itself;
         return true;
     };
     Eigen::VectorXd forces;
@@ -253,7 +253,7 @@ LocalOptimum constrained_newton(Relaxation& relaxation, KktSolver& solver, const
                 quiet = k_quiet;
             }
             shape = std::move(next);
-            // The exact Hessian near the end: weak freedoms would creep.
+            // The exact Hessian near the end: weak parameters would creep.
             if (length < 1e-2) {
                 forces = s.forces;
                 curved = true;

@@ -1,6 +1,6 @@
 #pragma once
 // Gauss-Newton and Newton steps under hard constraints (Nocedal & Wright 2006, chapter 18) in the
-// freedoms, to the nearest end of one meaning of the readings. Private to the room.
+// parameters, to the nearest end of one meaning of the readings. Private to the room.
 
 #include <vector>
 

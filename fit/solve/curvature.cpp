@@ -1,4 +1,4 @@
-// Second derivatives of the equations, for steps that end fast: without them freedoms that the
+// Second derivatives of the equations, for steps that end fast: without them parameters that the
 // readings hold weakly would creep.
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace culet {
 namespace {
 
 // An edge l = d . (to - from) along the unit vector d = left x right / |left x right|. Where both
-// corners lie on both planes the edge is l d, and its second derivative by two freedoms i, k is
+// corners lie on both planes the edge is l d, and its second derivative by two parameters i, k is
 // d_i . e_k + d_k . e_i - l d_i . d_k, where d_i and e_i are the derivatives of the direction and
 // of the edge.
 template <typename Add>

@@ -28,9 +28,7 @@ Eigen::VectorXd none(const Linearised& linear) {
 
 // What a step is to take off the rows of `kkt_rows`.
 Eigen::VectorXd right_side(const Linearised& linear, bool with_soft) {
-    Eigen::VectorXd right =
-        Eigen::VectorXd::Zero(linear.hard_rows.rows() + Eigen::Index(linear.gauge_rows.size()) +
-                              (with_soft ? linear.soft_rows.rows() : 0));
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(kkt_row_count(linear, with_soft));
     right.head(linear.hard_rows.rows()) = -linear.hard_residuals;
     if (with_soft) right.tail(linear.soft_rows.rows()) = -linear.soft_residuals;
     return right;

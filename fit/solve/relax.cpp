@@ -20,8 +20,8 @@ namespace {
 constexpr double k_enough = 1e-3;
 // In how many rounds corners that have risen above a facet that they did not count for are added.
 constexpr int k_most_rounds = 4;
-// Corners that lie less than this many times the stage's softness below a neighbour facet may rise
-// above it. With 1 instead of 5, two of ten step cuts drawn wrong by 10 % were lost.
+// Corners that lie less than this many times the stage's penalty scale below a neighbour facet may
+// rise above it. With 1 instead of 5, two of ten step cuts drawn wrong by 10 % were lost.
 constexpr double k_near = 5;
 // Of the corpus none was lost with 1e3; with Ceres' own 1e4 one was.
 constexpr double k_first_trust = 1e3;
@@ -38,18 +38,18 @@ public:
     int AmbientSize() const override { return 4; }
     int TangentSize() const override { return tilts_ + 1; }
 
-    bool Plus(const double* x, const double* delta, double* retracted) const override {
+    bool Plus(const double* x, const double* delta, double* moved) const override {
         const Vec3 n{x[0], x[1], x[2]};
-        const auto along = tilts_along(n);
+        const auto along = tilt_directions(n, tilts_, outward_);
         Vec3 to = n;
         for (int k = 0; k < tilts_; ++k) to += delta[k] * along[std::size_t(k)];
         if (tilts_ > 0) to = glm::normalize(to);
-        std::copy_n(data(to), 3, retracted);
-        retracted[3] = x[3] + delta[tilts_];
+        std::copy_n(data(to), 3, moved);
+        moved[3] = x[3] + delta[tilts_];
         return true;
     }
     bool PlusJacobian(const double* x, double* jacobian) const override {
-        const auto along = tilts_along({x[0], x[1], x[2]});
+        const auto along = tilt_directions({x[0], x[1], x[2]}, tilts_, outward_);
         std::fill_n(jacobian, 4 * TangentSize(), 0.0);
         for (int k = 0; k < tilts_; ++k) {
             for (int i = 0; i < 3; ++i) jacobian[i * TangentSize() + k] = along[std::size_t(k)][i];
@@ -62,11 +62,6 @@ public:
     bool MinusJacobian(const double*, double*) const override { return false; }
 
 private:
-    std::array<Vec3, 2> tilts_along(const Vec3& n) const {
-        if (tilts_ == 2) return tangents(n);
-        // Within the vertical plane that is kept.
-        return {n.z * outward_ - glm::dot(n, outward_) * Vec3{0, 0, 1}, Vec3(0)};
-    }
     int tilts_;
     Vec3 outward_;
 };
@@ -78,10 +73,10 @@ public:
     int AmbientSize() const override { return 3; }
     int TangentSize() const override { return slots_.count; }
 
-    bool Plus(const double* x, const double* delta, double* retracted) const override {
+    bool Plus(const double* x, const double* delta, double* moved) const override {
         Vec3 to{x[0], x[1], x[2]};
         for (int k = 0; k < slots_.count; ++k) to += delta[k] * slots_.along[std::size_t(k)];
-        std::copy_n(data(to), 3, retracted);
+        std::copy_n(data(to), 3, moved);
         return true;
     }
     bool PlusJacobian(const double*, double* jacobian) const override {
@@ -147,19 +142,13 @@ public:
 
     void PrepareForEvaluation(bool, bool is_new) override {
         if (!is_new) return;
-        const Orbits& orbits = parameters_.orbits();
+        // Blocks of images do not move: they follow the first of their orbit.
         for (std::size_t f = 0; f < planes_.size(); ++f) {
-            const std::size_t first = orbits.empty() ? f : std::size_t(orbits.facets[f].first);
-            const auto& plane = planes_[first];
-            const Vec3 n{plane[0], plane[1], plane[2]};
-            shape_.normals[f] = first == f ? n : orbits.facets[f].from_first * n;
-            shape_.offsets[f] = plane[3];
+            shape_.normals[f] = {planes_[f][0], planes_[f][1], planes_[f][2]};
+            shape_.offsets[f] = planes_[f][3];
         }
-        for (std::size_t p = 0; p < points_.size(); ++p) {
-            const std::size_t first = orbits.empty() ? p : std::size_t(orbits.points[p].first);
-            shape_.points[p] =
-                first == p ? points_[p] : orbits.points[p].from_first * points_[first];
-        }
+        shape_.points = points_;
+        parameters_.place_images(shape_);
         shape_.extras = extras_;
     }
 

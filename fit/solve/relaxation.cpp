@@ -26,8 +26,28 @@ constexpr double k_level = 1e-7;
 // by symmetry or on a level facet.
 constexpr double k_no_force = 1e-3;
 
-// Lengths are rounded off over this many times the softness of the stage, or the kink still shows.
+// Lengths are rounded off over this many times the stage's penalty scale, or the kink still shows.
 constexpr double k_round = 3;
+
+// Formula less value as a stage has it. Lengths have a kink at zero: sqrt(l^2 + s^2) on both sides,
+// so that what is shorter than s is all the same to the stage, and has no direction to be held to.
+Quantity misfit_of(const Equation& e, const Shape& shape, const PenaltyScale& penalty) {
+    Quantity q = e.formula(shape);
+    if (e.has_kink && penalty.incidence > 0) {
+        const double s = k_round * penalty.incidence, round = std::hypot(q.value, s);
+        for (Quantity::Slope& slope : q.slopes) slope.slope *= q.value / round;
+        q.value = round - std::hypot(e.value, s);
+    } else {
+        q.value -= e.value;
+    }
+    return q;
+}
+
+// 0: it holds exactly.
+double variance_of(const Equation& e, const PenaltyScale& penalty) {
+    return e.exact ? penalty.incidence * penalty.incidence
+                   : e.sigma * e.sigma + penalty.readings * penalty.readings;
+}
 
 double off_level(const Shape& shape, const SharedContact& tie) {
     return glm::dot(tie.direction, shape.points[tie.one] - shape.points[tie.other]);
@@ -180,6 +200,12 @@ double Relaxation::height(const Shape& shape, int facet, int point) const {
     return glm::dot(shape.normals[facet], shape.points[point]) - shape.offsets[facet];
 }
 
+double Relaxation::incidence_variance(std::size_t incidence, const PenaltyScale& penalty) const {
+    const double own =
+        system_.incidence_sigma(system_.incidences()[std::size_t(incidences_[incidence])]);
+    return (own * own + penalty.incidence * penalty.incidence) / incidence_images_[incidence];
+}
+
 Relaxation::Counts Relaxation::counts() const {
     Counts counts;
     for (int i : incidences_) {
@@ -270,31 +296,18 @@ StepLinearisation Relaxation::linearisation(const Shape& shape, const PenaltySca
         const Incidence& incidence = system_.incidences()[incidences_[i]];
         const double residual = height(shape, incidence.facet, incidence.point);
         incident(incidence.facet, incidence.point);
-        const double own = system_.incidence_sigma(incidence);
         if (incidence.how == MeetTreatment::soft) {
+            const double own = system_.incidence_sigma(incidence);
             linearisation.chi2 += incidence_images_[i] * residual * residual / (own * own);
         }
-        close(residual, (own * own + soft2) / incidence_images_[i]);
+        close(residual, incidence_variance(i, penalty));
     }
     if (penalty.with_readings) {
         for (const Equation& e : equations_) {
-            const Quantity q = e.formula(shape);
-            double residual = q.value - e.value;
-            if (e.has_kink && penalty.incidence > 0) {
-                // sqrt(l^2 + s^2) on both sides: what is shorter than s is all the same to the
-                // stage, and has no direction to be held to.
-                const double round = std::hypot(q.value, k_round * penalty.incidence);
-                Quantity rounded;
-                rounded.add(q, q.value / round);
-                row.quantity(rounded);
-                residual = round - std::hypot(e.value, k_round * penalty.incidence);
-            } else {
-                row.quantity(q);
-            }
-            if (!e.exact)
-                linearisation.chi2 += residual * residual / (e.sigma * e.sigma) + e.scatter;
-            close(residual,
-                  e.exact ? soft2 : e.sigma * e.sigma + penalty.readings * penalty.readings);
+            const Quantity q = misfit_of(e, shape, penalty);
+            row.quantity(q);
+            if (!e.exact) linearisation.chi2 += q.value * q.value / (e.sigma * e.sigma) + e.scatter;
+            close(q.value, variance_of(e, penalty));
         }
     }
     const auto counts = [&](int hinge, bool is_above) {
@@ -362,32 +375,16 @@ StepLinearisation Relaxation::linearisation(const Shape& shape, const PenaltySca
 
 std::vector<Relaxation::Residual> Relaxation::residuals(const PenaltyScale& penalty) const {
     std::vector<Residual> all;
-    const double soft2 = penalty.incidence * penalty.incidence;
     for (std::size_t i = 0; i < incidences_.size(); ++i) {
         const Incidence& incidence = system_.incidences()[std::size_t(incidences_[i])];
-        const double own = system_.incidence_sigma(incidence);
         all.push_back({culet::height(incidence.facet, Corner{incidence.point}),
-                       std::sqrt((own * own + soft2) / incidence_images_[i]), false});
+                       std::sqrt(incidence_variance(i, penalty)), false});
     }
     for (const Equation& e : equations_) {
         if (!penalty.with_readings) break;
-        const double sigma = e.exact ? penalty.incidence : std::hypot(e.sigma, penalty.readings);
-        // sqrt(l^2 + s^2) on both sides: what is shorter than s is all the same to the stage, and
-        // has no direction to be held to.
-        const double s = e.has_kink ? k_round * penalty.incidence : 0;
-        const double value = s > 0 ? std::hypot(e.value, s) : e.value;
-        all.push_back({[formula = e.formula, s, value](const Shape& shape) {
-                           Quantity q = formula(shape);
-                           if (s > 0) {
-                               const double round = std::hypot(q.value, s);
-                               for (Quantity::Slope& slope : q.slopes)
-                                   slope.slope *= q.value / round;
-                               q.value = round;
-                           }
-                           q.value -= value;
-                           return q;
-                       },
-                       sigma, !e.exact && e.role == Equation::Role::reading});
+        all.push_back({[&e, &penalty](const Shape& shape) { return misfit_of(e, shape, penalty); },
+                       std::sqrt(variance_of(e, penalty)),
+                       !e.exact && e.role == Equation::Role::reading});
     }
     for (const SharedContact& tie : shared_contacts_) {
         all.push_back({extent(Corner{tie.one}, Corner{tie.other}, tie.direction),
@@ -424,17 +421,14 @@ Relaxation::Missed Relaxation::missed(const Shape& shape, const PenaltyScale& pe
         missed.residuals(row) = residual;
         if (is_hard && !(std::abs(residual) <= missed.worst)) missed.worst = std::abs(residual);
     };
-    const double soft2 = penalty.incidence * penalty.incidence;
     for (std::size_t i = 0; i < incidences_.size(); ++i, ++row) {
         const Incidence& incidence = system_.incidences()[incidences_[i]];
-        const double own = system_.incidence_sigma(incidence);
-        const double variance = (own * own + soft2) / incidence_images_[i];
+        const double variance = incidence_variance(i, penalty);
         if (variance < sharp) put(height(shape, incidence.facet, incidence.point), variance == 0);
     }
     for (std::size_t i = 0; i < readings; ++i, ++row) {
         const Equation& e = equations_[i];
-        const double variance =
-            e.exact ? soft2 : e.sigma * e.sigma + penalty.readings * penalty.readings;
+        const double variance = variance_of(e, penalty);
         if (variance < sharp) put(e.formula(shape).value - e.value, variance == 0);
     }
     for (const ActiveCorner& h : holding) {

@@ -1,6 +1,6 @@
 #pragma once
 // The equations of a fit for the solver: incidences and hinges in closed form, readings by their
-// formulas, each as one row in the freedoms. Private to the room: shows Eigen.
+// formulas, each as one row in the parameters. Private to the room: shows Eigen.
 
 #include <map>
 #include <memory>
@@ -62,7 +62,7 @@ public:
     const Parameters& parameters() const { return parameters_; }
 
     /// Chooses what the readings mean at this shape: which corners the caliper's jaws touch, which
-    /// way upright facets lean. Later sheets keep to it, so that they are smooth.
+    /// way upright facets lean. Later linearisations keep to it, so that they are smooth.
     /// `meets_hold`: of `System::reading_equations`.
     /// Where a jaw would change between two corners for ever, it rests on both: at the bottom of
     /// a kink the two are held level.
@@ -72,11 +72,11 @@ public:
     /// jaw with the one that is touched.
     void share_level_corners(const Shape& shape);
     /// Each tied corner carries a part of its jaw's force, and together no more than all of it:
-    /// else the jaw would rather rest on some of them only. At an end, where what ties miss by is
-    /// their force.
+    /// else the jaw would rather rest on some of them only. At an end, where what shared contacts
+    /// miss by is their force.
     bool contacts_hold(const Shape& shape) const;
     /// Of another way there: which corners the jaws touched on it says nothing of this one; or of
-    /// the end of a way, whose ties are these.
+    /// the end of a way, whose shared contacts are these.
     void forget_contacts(std::vector<SharedContact> but = {}) {
         shared_contacts_ = std::move(but);
         left_.clear();
@@ -86,8 +86,9 @@ public:
     /// Rows are of incidences, readings, corners that are held, and last of hinges that count: a
     /// hinge that says nothing would fill the factors all the same. A corner that is held has a row
     /// where it would rise, and none where nothing pulls it up.
-    /// `pressed`: hinges whose rows count instead of those that are positive here. A step that
-    /// stops corners before they rise above a facet has to know which will (semismooth Newton).
+    /// `active_hinges`: hinges whose rows count instead of those that are positive here. A step
+    /// that stops corners before they rise above a facet has to know which will (semismooth
+    /// Newton).
     StepLinearisation linearisation(const Shape& shape, const PenaltyScale& penalty,
                                     const std::vector<ActiveCorner>& held = {},
                                     const std::vector<int>* active_hinges = nullptr);
@@ -97,12 +98,14 @@ public:
         double sigma = 1;
         bool is_reading = false;
     };
+    /// They look at this relaxation and `penalty` as long as they are asked.
     std::vector<Residual> residuals(const PenaltyScale& penalty) const;
     /// That of a corner above a neighbour facet: as `above` names them.
     Residual hinge(const ActiveCorner& corner, const PenaltyScale& penalty) const;
 
     /// By how much hard equations are missed, corners that share a jaw, and readings of no more
-    /// variance than `sharp`: in the rows of a sheet that holds these corners, zero in others.
+    /// variance than `sharp`: in the rows of a linearisation that holds these corners, zero in
+    /// others.
     struct Missed {
         Eigen::VectorXd residuals;
         double worst = 0;  ///< of the hard ones
@@ -128,9 +131,9 @@ public:
     /// What the true stone is expected to leave of such a stage's merit, but for its priors.
     double expected_misfit(const PenaltyScale& penalty) const;
     Eigen::VectorXd metric() const;
-    /// Rows of `sheet` that may as well mean another value, and by how much more that is: of facets
-    /// within this sine of upright. However often a facet was read, it leans one way: readings of
-    /// the same facet that would turn to the same side are one.
+    /// Rows of `linearisation` that may as well mean another value, and by how much more that is:
+    /// of facets within this sine of upright. However often a facet was read, it leans one way:
+    /// readings of the same facet that would turn to the same side are one.
     struct Folded {
         struct Turn {
             int row = -1;
@@ -140,8 +143,8 @@ public:
         std::vector<Turn> turns;
     };
     std::vector<Folded> folded(const Shape& shape, double within) const;
-    /// Rows of `sheet` that say how wide the stone is along level directions, where nothing else
-    /// says how it stands about up; none where something does.
+    /// Rows of `linearisation` that say how wide the stone is along level directions, where nothing
+    /// else says how it stands about up; none where something does.
     struct Caliper {
         int row = -1;
         Vec3 direction{0, 0, 0};
@@ -156,6 +159,8 @@ public:
 
 private:
     double height(const Shape& shape, int facet, int point) const;
+    /// Of one of `incidences_`; 0: it holds exactly.
+    double incidence_variance(std::size_t incidence, const PenaltyScale& penalty) const;
     const std::vector<int>& corners_between_jaws(const Equation& caliper) const;
     int hinge_of(const ActiveCorner& held) const;
     bool binds(const Shape& shape, const ActiveCorner& held) const;
@@ -167,8 +172,8 @@ private:
     std::vector<double> incidence_images_, hinge_images_;
     std::vector<int> points_;                       // all of them
     std::vector<Equation> equations_;               // of the readings, as chosen
-    std::size_t most_rows_ = 0, most_entries_ = 0;  // of the sheets so far
-    bool begins_ = true;                            // nothing chosen since ties were forgotten
+    std::size_t most_rows_ = 0, most_entries_ = 0;  // of the linearisations so far
+    bool begins_ = true;                            // nothing chosen since contacts were forgotten
     std::vector<SharedContact> shared_contacts_;
     // Of each reading and jaw, the corners that it has left.
     std::map<std::pair<int, int>, std::vector<int>> left_;

@@ -7,7 +7,7 @@ namespace culet {
 
 namespace {
 
-// Variance of equations whose bend is repaired within a step: exact ones, corners that are held,
+// Variance of equations whose bend is mended within a step: exact ones, corners that are held,
 // and readings sharper than rounding.
 constexpr double k_all_but_exact = 1e-15;
 

@@ -13,9 +13,9 @@ struct Correction {
     double precision = 1e-3;  ///< of each step: what it leaves, the next one takes
 };
 
-/// `sheet`: whose rows `solver` has factored; readings sharper than rounding are corrected too.
-/// Returns the shape after the last step that halved what was missed, and whether the factors lead
-/// there no more.
+/// `linearisation`: whose rows `solver` has factored; readings sharper than rounding are corrected
+/// too. Returns the shape after the last step that halved what was missed, and whether the factors
+/// lead there no more.
 struct Corrected {
     Shape shape;
     bool stalls = false;

@@ -17,7 +17,7 @@ constexpr double k_damping = 1e-6;
 constexpr double k_precision = 1e-4;
 // Of chi-square; less is not worth another round.
 constexpr double k_least_gain = 0.01;
-// A step this long in one of the freedoms is no longer linear.
+// A step this long in one of the parameters is no longer linear.
 constexpr double k_longest = 0.5;
 constexpr Correction k_back{.most = 6, .met = 1e-10, .precision = k_precision};
 // Chains begin at each facet; of more than so many at those whose first turn costs least.

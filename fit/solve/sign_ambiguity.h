@@ -11,7 +11,7 @@ namespace culet {
 
 /// Sine: facets that may lean either way at the end of a search.
 inline constexpr double k_nearly_upright = 0.1;
-/// Several leanings that promise to be better are tried there: what is promised is linear.
+/// Several choices of sign that promise to be better are tried there: what is promised is linear.
 inline constexpr std::size_t k_most_leanings = 4;
 
 /// By how much the merit changes when the readings of some facets are taken the other way follows
@@ -26,9 +26,9 @@ std::vector<Shape> better_signs(Relaxation& relaxation, KktSolver& solver, const
                                 const PenaltyScale& penalty, double within, std::size_t most,
                                 const std::vector<int>& sides = {});
 
-/// What is added to the values of a sheet's rows when some facets are taken the other way: the
-/// `most` best such sets of facets that gain, the best first. `pulls` are the rows' residuals over
-/// their variances at the optimum of the factored equations.
+/// What is added to the values of a linearisation's rows when some facets are taken the other way:
+/// the `most` best such sets of facets that gain, the best first. `pulls` are the rows' residuals
+/// over their variances at the optimum of the factored equations.
 std::vector<Eigen::VectorXd> better_sign_choices(const std::vector<Relaxation::Folded>& folded,
                                                  const KktSolver& solver,
                                                  const Eigen::VectorXd& pulls, std::size_t most);

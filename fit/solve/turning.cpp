@@ -32,7 +32,7 @@ constexpr double k_damping = 1e-6, k_precision = 1e-11;
 // Of the corners' places, from which the turn is taken that the loose calipers leave: sigmas a
 // hundred times their own.
 constexpr double k_place_precision = 1e-7;
-// A step this long in one of the freedoms is no longer linear.
+// A step this long in one of the parameters is no longer linear.
 constexpr double k_longest = 0.5;
 // More calipers than this say nothing new of the turn: so many of them are asked.
 constexpr std::size_t k_most_calipers = 48;
@@ -77,7 +77,7 @@ std::vector<Caliper> evenly_chosen(const std::vector<Caliper>& calipers) {
     return some;
 }
 
-// slope . (the corner's place), as a functional of the freedoms.
+// slope . (the corner's place), as a functional of the parameters.
 void add_along(Eigen::VectorXd& functional, const Parameters::TangentBasis& tangent_basis,
                int point, const Vec3& slope) {
     const Parameters::Slots& slots = tangent_basis.points[std::size_t(point)];
@@ -86,7 +86,7 @@ void add_along(Eigen::VectorXd& functional, const Parameters::TangentBasis& tang
     }
 }
 
-// How far all corners together turn about up and move, as functionals of the freedoms.
+// How far all corners together turn about up and move, as functionals of the parameters.
 struct Motions {
     Eigen::VectorXd turn;
     std::array<Eigen::VectorXd, 2> shift;  // in the mean
@@ -166,12 +166,11 @@ public:
     // Where the rows' values are more by `shift`; none where no small step leads there.
     std::optional<Left> left_by(const Eigen::VectorXd& shift) const {
         const Eigen::VectorXd right = shift - rows_.residuals();
-        const auto retracted =
-            solver_.solve(Eigen::VectorXd::Zero(turn_.size()), right, k_precision);
-        if (!retracted.good) return std::nullopt;
-        const double along = turn_.dot(retracted.unknowns);
-        Left left{retracted.unknowns - turned_ * (along / of_turn_),
-                  along * along / of_turn_ - right.dot(retracted.forces), retracted.forces};
+        const auto solved = solver_.solve(Eigen::VectorXd::Zero(turn_.size()), right, k_precision);
+        if (!solved.good) return std::nullopt;
+        const double along = turn_.dot(solved.unknowns);
+        Left left{solved.unknowns - turned_ * (along / of_turn_),
+                  along * along / of_turn_ - right.dot(solved.forces), solved.forces};
         if (!(left.step.cwiseAbs().maxCoeff() < k_longest)) return std::nullopt;
         return left;
     }

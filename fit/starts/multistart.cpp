@@ -111,7 +111,7 @@ Multistart fit_from_starts(const System& system, const FitOptions& options,
                            const Progress& progress) {
     const Parameters parameters = system.parameters();
     Relaxation relaxation(system, parameters);
-    // Free directions: freedoms less hard equations, less shifts (and a turn) that nothing sees.
+    // Free directions: parameters less hard equations, less shifts (and a turn) that nothing sees.
     const Relaxation::Counts counts = relaxation.counts();
     const int counted = counts.soft, hard = counts.hard;
     const int shifts = parameters.orbits().empty() ? 3 : 1;

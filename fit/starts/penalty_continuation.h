@@ -1,7 +1,8 @@
 #pragma once
-// The early stages: graded least squares (Levenberg 1944, Marquardt 1963) from a rough start.
-// Incidences, exact readings and the readings themselves begin soft and are tightened stage by
-// stage, so that a bad start can still change its mind; hinges keep the stone convex on the way.
+// The early stages: penalty continuation by least squares (Levenberg 1944, Marquardt 1963) from a
+// rough start. Incidences, exact readings and the readings themselves begin soft and are tightened
+// stage by stage, so that a bad start can still change its mind; hinges keep the stone convex on
+// the way.
 
 #include <string>
 #include <vector>
@@ -28,7 +29,7 @@ Screened screen(Relaxation& relaxation, const Start& start, const Progress& prog
 
 struct Continued {
     Shape shape;
-    int steps = 0;    ///< the approach's, too
+    int steps = 0;    ///< of the screening, too
     double work = 0;  ///< multiplications of its own factorisations, about
 };
 

@@ -11,7 +11,7 @@ namespace culet {
 Candidate finish_from(const System& system, const Shape& shape, int iterations);
 
 /// Likewise from the end of an earlier fit to readings most of which are the same: where they agree
-/// well, they mean what they meant then, and no other turns and leanings are looked for.
+/// well, they mean what they meant then, and no other turns and signs are looked for.
 Candidate refit_from(const System& system, const Shape& shape, int iterations);
 
 /// The shape of a solid with the mesh's facets, such as an earlier result: upright, in the fit's

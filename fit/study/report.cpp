@@ -23,7 +23,7 @@ Json object_of(const StudySetting& row) {
         {"as_asked", row.as_asked},
         {"fits", row.fits},
         {"sound", row.sound},
-        {"settled", row.optimum},
+        {"settled", row.settled},
         {"best", row.best < 0 ? Json(nullptr) : Json(row.best)},
         {"angle_error", if_sound(degrees(row.angle_error))},
         {"angle_left", row.angle_left < 0 ? Json(nullptr) : json_number(degrees(row.angle_left))},

@@ -32,7 +32,7 @@ struct StudySetting {
     bool as_asked = false;  ///< the stone file's own setting
     int fits = 0;           ///< draws done
     int sound = 0;          ///< closed, convex where it must be, every facet there
-    int optimum = 0;        ///< and the search had ended by itself
+    int settled = 0;        ///< and the search had ended by itself
     /// And as good as the best known: chi-square within max(4, 5 %) of that of the fit from the
     /// mesh as it is.
     int best = 0;

@@ -35,7 +35,7 @@ struct Way {
 
 struct Outcome {
     double seconds = 0, chi2 = 0;
-    bool sound = false, optimum = false;
+    bool sound = false, settled = false;
     StudyError error;
     FitResult fitted;
 };
@@ -144,7 +144,7 @@ Outcome outcome_of(const Way& way, const Stone& stone, const StudyTruth& truth,
     const FitResult& fitted = outcome.fitted;
     outcome.chi2 = fitted.chi2;
     outcome.sound = is_sound(stone, fitted);
-    outcome.optimum = is_settled(stone, fitted);
+    outcome.settled = is_settled(stone, fitted);
     if (outcome.sound) outcome.error = error_of(truth, fitted);
     return outcome;
 }
@@ -158,8 +158,8 @@ void note(const Outcome& outcome, const Outcome& asked, const StudyTruth& end, W
         way.errors.push_back(outcome.error);
         way.left += error_of(end, outcome.fitted).angle;
     }
-    if (outcome.optimum) ++way.row.optimum;
-    if (way.same_equations && outcome.optimum &&
+    if (outcome.settled) ++way.row.settled;
+    if (way.same_equations && outcome.settled &&
         outcome.chi2 <= asked.chi2 + std::max(4.0, 0.05 * asked.chi2)) {
         ++way.row.best;
     }

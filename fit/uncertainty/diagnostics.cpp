@@ -160,7 +160,7 @@ void residuals_only(const System& system, const Linearised& linear,
     for (std::size_t i = 0; i < linear.hard.size(); ++i) {
         note(linear.hard[i].reading, linear.hard_residuals(Eigen::Index(i)));
     }
-    // Bounds by counting: no more redundancy than readings, no fewer open freedoms than unknowns
+    // Bounds by counting: no more redundancy than readings, no fewer open parameters than unknowns
     // that outnumber all equations.
     diagnosis.dof = double(counted.size());
     const Eigen::Index equations = Eigen::Index(counted.size()) + linear.hard_rows.rows() +

@@ -1,6 +1,6 @@
 #pragma once
 // How far a fit can be trusted: covariance under hard constraints, redundancy, outlier tests after
-// Baarda (1968), and which freedoms no reading holds.
+// Baarda (1968), and which parameters no reading holds.
 
 #include <memory>
 #include <string>
@@ -14,7 +14,7 @@ namespace culet {
 
 class Covariance;
 
-/// Standard uncertainties of one facet's freedoms and area, radians and half diameters.
+/// Standard uncertainties of one facet's parameters and area, radians and half diameters.
 struct FacetSigma {
     double inclination = 0, azimuth = 0, offset = 0, area = 0;
     /// Of the first three: what part the readings have in them (FittedFacet).

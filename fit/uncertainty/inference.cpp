@@ -16,11 +16,6 @@ constexpr double k_hard_scale = 30;
 // Of variances: what is told of them has three digits.
 constexpr double k_precision = 1e-6;
 
-Eigen::Index equations_of(const Linearised& linear, bool with_soft) {
-    return linear.hard_rows.rows() + Eigen::Index(linear.gauge_rows.size()) +
-           (with_soft ? linear.soft_rows.rows() : 0);
-}
-
 }  // namespace
 
 Inference::Inference(const System& system, const Shape& shape,
@@ -30,7 +25,7 @@ Inference::Inference(const System& system, const Shape& shape,
     usable_ =
         solver_.factor(kkt_rows(linear_, true, k_hard_scale), linear_.metric / k_unheld_variance);
     if (!usable_) return;
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(equations_of(linear_, true));
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(kkt_row_count(linear_, true));
     right.tail(linear_.soft_rows.rows()) = -linear_.soft_residuals;
     const auto solved = solver_.solve(Eigen::VectorXd::Zero(linear_.layout.size()), right);
     usable_ = solved.good;
@@ -54,9 +49,8 @@ Eigen::MatrixXd Inference::reach(const Eigen::MatrixXd& rows) const {
     if (!solver.factor(kkt_rows(linear_, false, k_hard_scale), linear_.metric))
         return Eigen::MatrixXd();
     // All digits: what is left of motions that equations forbid is told from those that they allow.
-    const Eigen::MatrixXd retracted =
-        solver.solve_all(rows.transpose(), Eigen::MatrixXd()).unknowns;
-    const Eigen::MatrixXd product = rows * retracted;
+    const Eigen::MatrixXd moved = solver.solve_all(rows.transpose(), Eigen::MatrixXd()).unknowns;
+    const Eigen::MatrixXd product = rows * moved;
     return 0.5 * (product + product.transpose());
 }
 
@@ -81,7 +75,8 @@ std::vector<double> Inference::sigmas(const std::vector<Quantity>& quantities) c
 }
 
 Eigen::MatrixXd Inference::multiplier_covariance(const Eigen::MatrixXd& combinations) const {
-    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(equations_of(linear_, true), combinations.cols());
+    Eigen::MatrixXd right =
+        Eigen::MatrixXd::Zero(kkt_row_count(linear_, true), combinations.cols());
     right.topRows(combinations.rows()) = k_hard_scale * combinations;
     // The lower right block of the inverse is minus the covariance.
     const Eigen::MatrixXd solved =

@@ -46,11 +46,11 @@ void agree_with_residuals(System& system, Finished& finished, const FitOptions& 
         }
         // One per cent of an uncertainty is more than its estimate is worth. Before that, the
         // weights move again before the steps would end.
-        const bool optimum = largest < 1e-2;
+        const bool agrees = largest < 1e-2;
         const int steps = finished.iterations;
-        finished = finish(system, finished.shape, optimum ? options.iterations : 3);
+        finished = finish(system, finished.shape, agrees ? options.iterations : 3);
         finished.iterations += steps;
-        if (optimum) return;
+        if (agrees) return;
     }
     const int steps = finished.iterations;
     finished = finish(system, finished.shape, options.iterations);

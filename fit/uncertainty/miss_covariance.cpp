@@ -11,7 +11,7 @@ namespace {
 
 using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-// Beyond so many freedoms the cube of their number is the larger effort.
+// Beyond so many parameters the cube of their number is the larger effort.
 constexpr Eigen::Index k_most_dense = 1000;
 // Weights of readings, in the metric. Squared and beside what nothing holds they leave half of a
 // number's digits.

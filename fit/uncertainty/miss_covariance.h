@@ -6,8 +6,8 @@
 // it, misses of conditions G have the covariance G Z (Z' H Z)^-1 Z' G'. Its inverse is the
 // covariance of the conditions' multipliers while they hold (`Inference::multiplier_covariance`):
 // the lower right block of the inverse of [H G'; G 0] is -(G H^-1 G')^-1. Planes that meet leave
-// their corners to follow from them, so that Z is sparse, and dense algebra in the planes' freedoms
-// alone is many times as fast as a solution for each condition.
+// their corners to follow from them, so that Z is sparse, and dense algebra in the planes'
+// parameters alone is many times as fast as a solution for each condition.
 
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>

@@ -15,6 +15,7 @@
 
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "stone/upper_median.h"
 #include "tests/bench/fit_corpus.h"
 
 namespace culet::bench {
@@ -45,13 +46,6 @@ struct Group {
     int fits = 0, found = 0, broken = 0, found_before = 0;
     std::vector<double> ms, ms_before;
 };
-
-double median(std::vector<double> values) {
-    if (values.empty()) return 0;
-    const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 // Prints what each group came to, beside what it came to before, and names the fits that were lost
 // and gained. How many were lost.
@@ -90,8 +84,8 @@ int compare(const Json& now, const Json& before) {
         const bool known = !g.ms_before.empty();
         fmt::print("{:<36} {:>9} {:>9} {:>7} {:>9.1f} {:>9}\n", name,
                    fmt::format("{}/{}", g.found, g.fits),
-                   known ? fmt::format("{}", g.found_before) : "", g.broken, median(g.ms),
-                   known ? fmt::format("{:.1f}", median(g.ms_before)) : "");
+                   known ? fmt::format("{}", g.found_before) : "", g.broken, upper_median(g.ms),
+                   known ? fmt::format("{:.1f}", upper_median(g.ms_before)) : "");
     }
     fmt::print("CPU in all: {:.1f} s", total / 1e3);
     if (total_before > 0) {

@@ -13,6 +13,7 @@
 #include <map>
 
 #include "stone/output_file.h"
+#include "stone/upper_median.h"
 #include "tests/bench/bench_table.h"
 #include "tests/bench/fit_trials.h"
 
@@ -29,13 +30,6 @@ struct Class {
 const std::vector<Class> k_classes{{TruthKind::round, true}, {TruthKind::round, false},
                                    {TruthKind::step, true},  {TruthKind::step, false},
                                    {TruthKind::pear, false}, {TruthKind::trillion, false}};
-
-double median(std::vector<double> values) {
-    if (values.empty()) return std::nan("");
-    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2),
-                     values.end());
-    return values[values.size() / 2];
-}
 
 // Which of the stones and errors to go through.
 struct Chosen {
@@ -85,7 +79,7 @@ void success_table(BenchTables& tables, const std::string& name, const std::stri
         }
         std::vector<std::string> values;
         for (int g : good) values.push_back(fmt::format("{}/{}", g, chosen.seeds));
-        for (const auto& t : times) values.push_back(fmt::format("{:.1f}", median(t)));
+        for (const auto& t : times) values.push_back(fmt::format("{:.1f}", upper_median(t)));
         tables.line(c.name(), values);
     }
 }
@@ -136,7 +130,7 @@ void kick_table(BenchTables& tables, unsigned kicks, bool verbose) {
         tables.line(stones.name,
                     {fmt::format("{}", stones.truths[0].stone.solid.facets.size()),
                      fmt::format("{}/{}", good, count), fmt::format("{}/{}", valid, count),
-                     fmt::format("{}", broken), fmt::format("{:.1f}", median(times))});
+                     fmt::format("{}", broken), fmt::format("{:.1f}", upper_median(times))});
     }
 }
 
@@ -172,9 +166,9 @@ void time_table(BenchTables& tables, const Chosen& chosen, unsigned large) {
             }
         }
         tables.line(name, {fmt::format("{}", facets), fmt::format("{}", readings_count),
-                           fmt::format("{:g} %", 100 * noise), fmt::format("{:.1f}", median(times)),
-                           fmt::format("{:g}", figure),
-                           fmt::format("{:.1f}", median(times_with_findings)), status});
+                           fmt::format("{:g} %", 100 * noise),
+                           fmt::format("{:.1f}", upper_median(times)), fmt::format("{:g}", figure),
+                           fmt::format("{:.1f}", upper_median(times_with_findings)), status});
     };
     for (const Class& c : k_classes) {
         const auto make = [&](unsigned seed) { return make_truth(c.kind, c.symmetric, seed); };
@@ -223,9 +217,9 @@ void refit_table(BenchTables& tables, const Chosen& chosen) {
         }
         tables.line(c.name(), {fmt::format("{}", count),
                                fmt::format("{:.1f}", *std::min_element(times.begin(), times.end())),
-                               fmt::format("{:.1f}", median(times)),
+                               fmt::format("{:.1f}", upper_median(times)),
                                fmt::format("{:.1f}", *std::max_element(times.begin(), times.end())),
-                               fmt::format("{:.1f}", median(times_with_findings)),
+                               fmt::format("{:.1f}", upper_median(times_with_findings)),
                                fmt::format("{}/{}", same, chosen.seeds)});
     }
 }

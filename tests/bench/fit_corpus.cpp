@@ -5,17 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
-#include <map>
 #include <memory>
 #include <random>
-#include <sstream>
 
 #include "stone/checks.h"
-#include "stone/errors.h"
 #include "stone/half_edges.h"
-#include "stone/solid.h"
+#include "tests/scanned_solid.h"
 
 namespace culet::bench {
 
@@ -57,30 +53,9 @@ struct Shape {
     bool symmetric;
 };
 
-// As the scanner's file has it; it holds the table down: half a turn about x puts it up.
 Stone scanned_stone(const std::string& path) {
-    std::ifstream file(path);
-    std::vector<std::string> lines;
-    for (std::string line; std::getline(file, line);) {
-        const std::size_t first = line.find_first_not_of(" \t\r");
-        if (first != std::string::npos && line[first] != '#') lines.push_back(line);
-    }
-    std::size_t vertices = 0, facets = 0;
-    if (!lines.empty()) std::istringstream(lines[0]) >> vertices >> facets;
-    if (facets < 4 || lines.size() < 1 + vertices + 2 * facets) {
-        throw InputError(path, "is not a polyhedron of a scanner: vertices and facets are missing");
-    }
-    std::vector<NamedPlane> planes;
-    for (std::size_t i = 0; i < facets; ++i) {
-        int index = 0, sides = 0;
-        double a = 0, b = 0, c = 0, d = 0;
-        std::istringstream(lines[1 + vertices + 2 * i]) >> index >> sides >> a >> b >> c >> d;
-        const Vec3 normal(a, -b, -c);
-        planes.push_back(
-            {fmt::format("f{}", i), {glm::normalize(normal), -d / glm::length(normal)}});
-    }
     Stone stone;
-    stone.solid = intersect_half_spaces(planes).solid;
+    stone.solid = scanned_solid(path);
     const auto level = std::max_element(
         stone.solid.facets.begin(), stone.solid.facets.end(),
         [](const Facet& a, const Facet& b) { return a.plane.normal.z < b.plane.normal.z; });

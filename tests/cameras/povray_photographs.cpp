@@ -26,6 +26,7 @@
 #include "stone/output_file.h"
 #include "stone/units.h"
 #include "tests/compare/simulated_photo.h"
+#include "tests/scanned_solid.h"
 
 namespace {
 
@@ -34,28 +35,6 @@ namespace fs = std::filesystem;
 
 const fs::path k_panoramas = "/usr/share/blender/datafiles/studiolights/world";
 const fs::path k_scan = fs::path(CULET_SHARED_DATA) / "scans/1_GIA/polyhedron.dat";
-
-/// The scanner's planes; it holds the stone table down: half a turn about x puts it up.
-Solid scanned_diamond() {
-    std::ifstream file(k_scan);
-    std::vector<std::string> lines;
-    for (std::string line; std::getline(file, line);) {
-        const std::size_t first = line.find_first_not_of(" \t\r");
-        if (first != std::string::npos && line[first] != '#') lines.push_back(line);
-    }
-    std::size_t vertices = 0, facets = 0;
-    std::istringstream(lines.at(0)) >> vertices >> facets;
-    std::vector<NamedPlane> planes;
-    for (std::size_t i = 0; i < facets; ++i) {
-        int index = 0, sides = 0;
-        double a = 0, b = 0, c = 0, d = 0;
-        std::istringstream(lines.at(1 + vertices + 2 * i)) >> index >> sides >> a >> b >> c >> d;
-        const Vec3 normal(a, -b, -c);
-        planes.push_back(
-            {fmt::format("f{}", i), {glm::normalize(normal), -d / glm::length(normal)}});
-    }
-    return intersect_half_spaces(planes).solid;
-}
 
 struct Sitter {
     std::string name;
@@ -105,7 +84,7 @@ int main(int argc, char** argv) {
     std::vector<Sitter> sitters;
     for (const char* cut : {"round-brilliant", "step", "oval"})
         sitters.push_back({cut, make_cut(cut)});
-    if (fs::exists(k_scan)) sitters.push_back({"scanned-diamond", scanned_diamond()});
+    if (fs::exists(k_scan)) sitters.push_back({"scanned-diamond", scanned_solid(k_scan)});
     std::vector<fs::path> skies{""};
     for (const char* sky : {"studio.exr", "interior.exr"})
         if (fs::exists(k_panoramas / sky)) skies.push_back(k_panoramas / sky);
