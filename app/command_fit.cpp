@@ -8,7 +8,6 @@
 #include "app/options.h"
 #include "app/terminal.h"
 #include "fit/fit.h"
-#include "fit/mesh/repair.h"
 #include "fit/findings/summary.h"
 #include "page/drawing.h"
 #include "page/fit_paint.h"
@@ -61,27 +60,22 @@ int run_fit(const FitCommand& command) {
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
     for (const std::string& detail : file.details) say(detail, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
-    const auto written = read_readings(command.stone, command.common.set);
-    const Repaired mesh = repaired(file.stone, written);
-    file.stone = mesh.stone;
-    std::vector<std::string> notes = mesh.notes;
-    const auto readings = bind_readings(written, file.stone, &notes);
+    const FitInput input =
+        fit_input(file.stone, read_readings(command.stone, command.common.set));
     FitOptions options = read_fit_options(command.stone, command.common.set);
     if (command.iterations > 0) options.iterations = command.iterations;
     if (command.starts > 0) options.starts = command.starts;
     options.find_symmetry = options.find_symmetry || command.find_symmetry;
     options.allow_topology = options.allow_topology || command.allow_topology;
-    if (!command.from.empty()) options.start = earlier_fit(command.from, file.stone.solid);
+    if (!command.from.empty()) options.start = earlier_fit(command.from, input.stone.solid);
 
-    FitResult result = [&] {
+    const FitResult result = [&] {
         try {
-            return fit_stone(file.stone, readings, options,
-                             progress_line("fit", command.common.quiet));
+            return fit_stone(input, options, progress_line("fit", command.common.quiet));
         } catch (const InputError& error) {
             throw InputError(file.mesh_file, error.what());
         }
     }();
-    result.notes.insert(result.notes.begin(), notes.begin(), notes.end());
     write_solid(result.solid, command.output);
     const std::string report = fit_report(result);
     if (!command.report.empty()) write_text(command.report, report);

@@ -12,7 +12,6 @@
 #include "compare/rendered_photo.h"
 #include "compare/report.h"
 #include "fit/fit.h"
-#include "fit/mesh/repair.h"
 #include "render/exposure.h"
 #include "render/image_io.h"
 #include "render/render.h"
@@ -87,8 +86,7 @@ Job read_job(const fs::path& file, const std::vector<std::string>& overrides) {
 // What the files of a job hold: all that can be wrong with them is found before any output.
 struct JobInput {
     StoneFile file;
-    std::vector<std::string> notes;
-    std::vector<Reading> readings;
+    FitInput fit;
     FitOptions fit_options;
     Scene scene;
     Photo photo, picture;
@@ -101,11 +99,8 @@ JobInput read_input(const Job& job, const CommonOptions& common) {
         StoneFile& file = input.file = read_stone(job.stone);
         if (!job.scene.empty()) require_material(file, job.stone);
         if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
-        const auto written = read_readings(job.stone);
-        const Repaired mesh = repaired(file.stone, written);
-        file.stone = mesh.stone;
-        input.notes = mesh.notes;
-        input.readings = bind_readings(written, file.stone, &input.notes);
+        input.fit = fit_input(file.stone, read_readings(job.stone));
+        file.stone = input.fit.stone;
         input.fit_options = read_fit_options(job.stone);
     }
     if (!job.scene.empty()) {
@@ -154,9 +149,7 @@ void draw(const Job& job, const JobInput& input, JobResult& made, bool quiet) {
 JobResult make(const Job& job, JobInput& input, bool quiet) {
     JobResult made;
     if (!job.stone.empty()) {
-        made.fit = fit_stone(input.file.stone, input.readings, input.fit_options,
-                             progress_line("fitting", quiet));
-        made.fit->notes.insert(made.fit->notes.begin(), input.notes.begin(), input.notes.end());
+        made.fit = fit_stone(input.fit, input.fit_options, progress_line("fitting", quiet));
         say(fmt::format("fit: {}: {}", name_of(made.fit->status), made.fit->message), quiet);
         input.scene.stone.solid = made.fit->solid;
     }

@@ -10,7 +10,6 @@
 #include "app/options.h"
 #include "app/study_scene.h"
 #include "app/terminal.h"
-#include "fit/mesh/repair.h"
 #include "fit/study/study.h"
 #include "page/study_page.h"
 #include "stone/errors.h"
@@ -56,13 +55,10 @@ int run_study(const StudyCommand& command) {
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
     for (const std::string& detail : file.details) say(detail, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
-    const auto written = read_readings(command.input, command.common.set);
-    const Repaired mesh = repaired(file.stone, written);
-    file.stone = mesh.stone;
-    std::vector<std::string> notes = mesh.notes;
-    const auto readings = bind_readings(written, file.stone, &notes);
-    for (const std::string& note : notes) say(note, command.common.quiet);
-    if (readings.empty()) {
+    const FitInput input =
+        fit_input(file.stone, read_readings(command.input, command.common.set));
+    for (const std::string& note : input.notes) say(note, command.common.quiet);
+    if (input.readings.empty()) {
         throw InputError(command.input, "has no readings: there is nothing to study");
     }
     StudyOptions options;
@@ -79,7 +75,7 @@ int run_study(const StudyCommand& command) {
 
     const Study study = [&] {
         try {
-            return study_fit(file.stone, readings, options,
+            return study_fit(input.stone, input.readings, options,
                              progress_line("study", command.common.quiet));
         } catch (const InputError& error) {
             throw InputError(file.mesh_file, error.what());

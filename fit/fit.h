@@ -12,9 +12,24 @@
 
 namespace culet {
 
+/// A mesh and the readings that are bound to it.
+struct FitInput {
+    Stone stone;
+    std::vector<Reading> readings;
+    std::vector<std::string> notes;  ///< what was done to the mesh, and what was taken for what
+};
+
+/// Repairs the mesh as it was drawn and binds the readings to it. Throws InputError, with file and
+/// line, as `bind_readings` does.
+FitInput fit_input(const Stone& drawn, const std::vector<WrittenReading>& written);
+
 /// Fits the stone to its readings. The result keeps the mesh's facet names and its pose, but for
 /// one turn: an up direction within 20 degrees of a coordinate axis comes to lie on it exactly.
 /// Throws InputError when the mesh is not a closed solid or a relation cannot be found on it.
+FitResult fit_stone(const FitInput& input, const FitOptions& options = {},
+                    const Progress& progress = {});
+
+/// The same for a mesh that needs no repair, and readings bound to it.
 FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
                     const FitOptions& options = {}, const Progress& progress = {});
 

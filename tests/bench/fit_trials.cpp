@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "fit/mesh/repair.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
 #include "tests/bench/cpu_time.h"
@@ -14,8 +13,7 @@ Trial fit_mesh(const Stone& mesh, const std::vector<WrittenReading>& readings,
     Trial trial;
     const double start = clocks().cpu;
     try {
-        const Stone stone = repaired(mesh).stone;
-        trial.result = fit_stone(stone, bind_readings(readings, stone), options);
+        trial.result = fit_stone(fit_input(mesh, readings), options);
     } catch (const InputError& error) {
         trial.refusal = error.what();
     }

@@ -1,5 +1,5 @@
 // Edges and facets that the readings deny or leave open, by name.
-#include "fit/retries/topology.h"
+#include "fit/hypotheses/topology.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "fit/retries/topology.h"
+#include "fit/hypotheses/topology.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "fit/retries/unread_size.h"
+#include "fit/hypotheses/unread_size.h"
 
 #include <algorithm>
 

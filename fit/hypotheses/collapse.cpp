@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "fit/retries/topology.h"
+#include "fit/hypotheses/topology.h"
 #include "stone/checks.h"
 #include "stone/surface_edges.h"
 

@@ -1,0 +1,135 @@
+#include "fit/attempt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "fit/find_symmetry.h"
+#include "fit/findings/assess.h"
+#include "fit/findings/describe.h"
+#include "fit/findings/fitted_parts.h"
+#include "fit/findings/judge.h"
+#include "fit/findings/shape_findings.h"
+#include "fit/findings/symmetry_tests.h"
+#include "fit/hypotheses/angle_blunders.h"
+#include "fit/mesh/notes.h"
+#include "fit/model/system.h"
+#include "fit/starts/multistart.h"
+#include "fit/starts/refit.h"
+#include "fit/starts/robust.h"
+#include "fit/uncertainty/diagnostics.h"
+#include "fit/uncertainty/meet_sigmas.h"
+#include "fit/uncertainty/statistics.h"
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+// A gross error: beyond this the equations' bend matters. Of suspects only: next to corners that
+// are held, readings that nothing checks have residuals that say nothing.
+bool needs_robust_view(const Diagnosis& diagnosis) {
+    return std::any_of(diagnosis.suspects.begin(), diagnosis.suspects.end(), [&](int reading) {
+        return std::abs(diagnosis.readings[std::size_t(reading)].normalized) > 8;
+    });
+}
+
+Diagnosis diagnosis_of(const System& system, const Candidate& best, const FitOptions& options) {
+    const Finished& finished = best.finished;
+    Diagnosis plain = diagnose(system, finished.shape, finished.outline,
+                               {.significance = options.significance,
+                                .binding = best.binding,
+                                .held = conditions_of(finished.shape, best.held)});
+    if (!needs_robust_view(plain) || options.loss != Loss::none) return plain;
+    // A gross error bends the whole stone: look for it from a fit that it does not pull.
+    System reweighted = system;
+    Candidate robust = best;
+    reweight(reweighted, robust, Loss::cauchy, options.iterations);
+    if (!robust.sound || !robust.finished.outline) return plain;
+    return diagnose(system, finished.shape, finished.outline,
+                    {.significance = options.significance,
+                     .binding = best.binding,
+                     .seen_from = &robust.finished});
+}
+
+// From an earlier result, where it leads to an end; else from the starts.
+Multistart search(const System& system, const FitOptions& options, const Progress& progress) {
+    if (const auto shape = options.start ? shape_of(system, *options.start) : std::nullopt) {
+        Multistart again;
+        again.best = refit_from(system, *shape, options.iterations);
+        if (again.best.is_an_end()) return again;
+    }
+    return fit_from_starts(system, options, progress);
+}
+
+void fill_in_search(const System& system, const Multistart& multistart, FitResult& result) {
+    const Candidate& best = multistart.best;
+    result.starts = multistart.starts;
+    result.start = best.start;
+    result.iterations = best.finished.iterations;
+    result.vanishing_edges = edges_kept_open(system, best.held);
+    result.vanishing_chi2 = best.cost_of_holding;
+    for (std::string note : {other_turn(system), other_size(system)}) {
+        if (!note.empty()) result.notes.push_back(std::move(note));
+    }
+}
+
+void fill_in_statistics(const Diagnosis& diagnosis, FitResult& result) {
+    const double significance = result.options.significance;
+    result.chi2 = diagnosis.chi2;
+    result.dof = diagnosis.dof;
+    result.chi2_p = chi2_tail(diagnosis.chi2, diagnosis.dof);
+    result.chi2_limit = chi2_quantile(significance, diagnosis.dof);
+    result.suspect_limit = diagnosis.suspect_limit;
+    result.undetermined = diagnosis.undetermined;
+    result.rank_defect = diagnosis.rank_defect;
+}
+
+void tell(const Progress& progress, double done) {
+    if (progress && !progress(done)) throw Interrupted();
+}
+
+}  // namespace
+
+Attempt attempt(const Problem& problem, const Progress& progress) {
+    Attempt made;
+    FitResult& result = made.result;
+    FitOptions& options = result.options = problem.options;
+    if (problem.read_in_full && !options.prior.always) options.prior.source = Prior::Source::none;
+    result.unit = problem.stone.unit;
+    System system(problem.stone, problem.readings, options);
+    made.mesh_turn = system.mesh_turn();
+    made.far_from_mesh = angles_far_from_mesh(system);
+
+    Multistart multistart = search(system, options, progress);
+    made.work = multistart.work;
+    Candidate& best = multistart.best;
+    const std::vector<double> weights =
+        options.loss == Loss::none ? std::vector<double>()
+                                   : reweight(system, best, options.loss, options.iterations);
+    fill_in_search(system, multistart, result);
+    tell(progress, 0.7);
+    if (system.has_estimated_groups()) {
+        result.meets.ends = estimate_meet_sigmas(system, best.finished, options, progress);
+    }
+    tell(progress, 0.95);
+
+    const Finished& finished = best.finished;
+    const Diagnosis diagnosis = diagnosis_of(system, best, options);
+    const System::Pose pose = system.pose_of(finished.shape);
+    fill_in_statistics(diagnosis, result);
+    fill_in(system, problem.readings, finished.shape, diagnosis, pose, weights, result);
+    assess(system, finished, diagnosis, result);
+    describe_findings(system, finished, best.held, diagnosis, pose, result);
+    if (options.find_symmetry && std::any_of(problem.readings.begin(), problem.readings.end(),
+                                             declares_whole_symmetry)) {
+        FitOptions from_here = problem.options;
+        from_here.start = result.solid;
+        from_here.allow_topology = false;
+        result.symmetry = find_symmetry(problem.stone, problem.readings, from_here, progress);
+    }
+    judge(system, finished, diagnosis, result);
+    return made;
+}
+
+}  // namespace culet

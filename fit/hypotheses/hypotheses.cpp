@@ -1,0 +1,49 @@
+#include "fit/hypotheses/hypotheses.h"
+
+#include "fit/hypotheses/angle_blunders.h"
+#include "fit/hypotheses/leave_one_out.h"
+#include "fit/hypotheses/turned_azimuths.h"
+
+namespace culet {
+
+namespace {
+
+// By counting, the readings held it all; here they do not.
+std::optional<Problem> with_prior(const Problem& given, const Attempt& first) {
+    const FitStatus status = first.result.status;
+    if (!given.read_in_full || given.options.prior.source == Prior::Source::none ||
+        given.options.prior.always ||
+        (status != FitStatus::undetermined && status != FitStatus::not_converged)) {
+        return std::nullopt;
+    }
+    Problem changed = given;
+    changed.read_in_full = false;
+    return changed;
+}
+
+Verdict take_with_prior(const Problem&, const Attempt&, const Problem&, FitResult again) {
+    return {std::move(again), std::nullopt};
+}
+
+constexpr Hypothesis k_hypotheses[] = {
+    {"the readings leave parts of the stone open", with_prior, take_with_prior},
+    {"all azimuths count from another mark", azimuths_turned_back, judge_turned_azimuths},
+    {"angles far off the mesh are wrong", without_far_angles, judge_far_angles},
+    {"the first suspect is wrong", without_first_suspect, judge_first_suspect},
+};
+
+}  // namespace
+
+std::span<const Hypothesis> hypotheses() {
+    return k_hypotheses;
+}
+
+Problem with_few_starts(Problem problem, const Attempt& first) {
+    constexpr int k_starts_without = 2;
+    constexpr double k_dear = 2e9;
+    problem.options.starts =
+        std::min(problem.options.starts, first.work > k_dear ? 1 : k_starts_without);
+    return problem;
+}
+
+}  // namespace culet

@@ -1,0 +1,93 @@
+#include "fit/hypotheses/preparations.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+
+#include "fit/findings/first_check.h"
+#include "fit/findings/fitted_parts.h"
+#include "fit/hypotheses/unread_size.h"
+#include "fit/mesh/repair.h"
+#include "fit/readings/level_facets.h"
+
+namespace culet {
+
+namespace {
+
+using PutBack = std::function<void(FitResult&)>;
+// Changes the problem where it applies, and says how its result becomes that of the problem before.
+using Preparation = std::optional<PutBack> (*)(Problem&);
+
+// Readings that hold the stone check each other, and better.
+std::optional<PutBack> leave_doubted_out(Problem& problem) {
+    if (!problem.options.first_check || problem.read_in_full) return std::nullopt;
+    problem.options.first_check = false;
+    const bool is_design = problem.options.prior.source == Prior::Source::catalogue;
+    std::vector<Doubt> doubts = first_check(problem.stone, problem.readings, is_design);
+    if (doubts.empty()) return std::nullopt;
+    std::vector<std::size_t> doubted;
+    for (const Doubt& d : doubts) doubted.push_back(d.reading);
+    std::sort(doubted.begin(), doubted.end());
+    std::vector<Reading> all = problem.readings;
+    problem.readings = without(all, doubted);
+    return [all = std::move(all), doubts = std::move(doubts)](FitResult& result) {
+        put_back_doubted(all, doubts, result);
+    };
+}
+
+std::optional<PutBack> leave_level_azimuths_out(Problem& problem) {
+    std::vector<std::size_t> left_out = meaningless_azimuths(problem.readings);
+    if (left_out.empty()) return std::nullopt;
+    std::vector<Reading> all = problem.readings;
+    problem.readings = without(all, left_out);
+    return [all = std::move(all), left_out = std::move(left_out)](FitResult& result) {
+        put_left_out(all, left_out, result);
+    };
+}
+
+std::optional<PutBack> take_size_of_mesh(Problem& problem) {
+    if (says_size(problem.readings)) return std::nullopt;
+    problem.readings.push_back(size_of_mesh(problem.stone));
+    return [size = problem.readings.back()](FitResult& result) { take_back_size(size, result); };
+}
+
+std::optional<PutBack> mirror_mesh(Problem& problem) {
+    std::optional<Stone> mirrored = mirrored_to_azimuths(problem.stone, problem.readings);
+    if (!mirrored) return std::nullopt;
+    problem.stone = std::move(*mirrored);
+    problem.mirrored = true;
+    return [](FitResult& result) {
+        const std::string note =
+            "by the azimuths read, the mesh is the mirror image of the stone: it was mirrored";
+        result.notes.insert(result.notes.begin(), note);
+        result.message += "; " + note;
+    };
+}
+
+constexpr Preparation k_preparations[] = {leave_doubted_out, leave_level_azimuths_out,
+                                          take_size_of_mesh, mirror_mesh};
+
+}  // namespace
+
+std::vector<Reading> without(const std::vector<Reading>& readings,
+                             const std::vector<std::size_t>& left_out) {
+    std::vector<Reading> others;
+    for (std::size_t i = 0; i < readings.size(); ++i) {
+        if (!std::binary_search(left_out.begin(), left_out.end(), i)) {
+            others.push_back(readings[i]);
+        }
+    }
+    return others;
+}
+
+Prepared prepared(Problem problem) {
+    Prepared result{std::move(problem), {}};
+    for (const Preparation prepare : k_preparations) {
+        if (auto put_back = prepare(result.problem)) {
+            result.put_back.insert(result.put_back.begin(), std::move(*put_back));
+        }
+    }
+    return result;
+}
+
+}  // namespace culet
