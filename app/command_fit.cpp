@@ -7,8 +7,8 @@
 #include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/terminal.h"
-#include "fit/fit.h"
 #include "fit/findings/summary.h"
+#include "fit/fit.h"
 #include "page/drawing.h"
 #include "page/fit_paint.h"
 #include "stone/errors.h"
@@ -60,8 +60,7 @@ int run_fit(const FitCommand& command) {
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
     for (const std::string& detail : file.details) say(detail, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
-    const FitInput input =
-        fit_input(file.stone, read_readings(command.stone, command.common.set));
+    const FitInput input = fit_input(file.stone, read_readings(command.stone, command.common.set));
     FitOptions options = read_fit_options(command.stone, command.common.set);
     if (command.iterations > 0) options.iterations = command.iterations;
     if (command.starts > 0) options.starts = command.starts;
@@ -88,8 +87,9 @@ int run_fit(const FitCommand& command) {
         prefix.clear();
     }
     say(fmt::format("{} facets, {} corners, planar to {:.1e} {}, {} steps, {:.2f} s",
-                    result.solid.facets.size(), result.solid.vertices.size(), result.planarity_max,
-                    name_of(result.unit), result.iterations, result.seconds),
+                    result.solid.facets.size(), result.solid.vertices.size(),
+                    result.checks.planarity_max, name_of(result.unit), result.log.iterations,
+                    result.log.seconds),
         !command.common.verbose);
     return result.usable() ? exit_good : exit_untrusted;
 }

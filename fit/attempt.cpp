@@ -64,25 +64,25 @@ Multistart search(const System& system, const FitOptions& options, const Progres
 
 void fill_in_search(const System& system, const Multistart& multistart, FitResult& result) {
     const Candidate& best = multistart.best;
-    result.starts = multistart.starts;
-    result.start = best.start;
-    result.iterations = best.finished.iterations;
-    result.vanishing_edges = edges_kept_open(system, best.held);
-    result.vanishing_chi2 = best.cost_of_holding;
+    result.log.starts = multistart.starts;
+    result.log.start = best.start;
+    result.log.iterations = best.finished.iterations;
+    result.findings.vanishing_edges = edges_kept_open(system, best.held);
+    result.findings.vanishing_chi2 = best.cost_of_holding;
     for (std::string note : {other_turn(system), other_size(system)}) {
-        if (!note.empty()) result.notes.push_back(std::move(note));
+        if (!note.empty()) result.log.notes.push_back(std::move(note));
     }
 }
 
 void fill_in_statistics(const Diagnosis& diagnosis, FitResult& result) {
-    const double significance = result.options.significance;
-    result.chi2 = diagnosis.chi2;
-    result.dof = diagnosis.dof;
-    result.chi2_p = chi2_tail(diagnosis.chi2, diagnosis.dof);
-    result.chi2_limit = chi2_quantile(significance, diagnosis.dof);
-    result.suspect_limit = diagnosis.suspect_limit;
-    result.undetermined = diagnosis.undetermined;
-    result.rank_defect = diagnosis.rank_defect;
+    const double significance = result.log.options.significance;
+    result.statistics.chi2 = diagnosis.chi2;
+    result.statistics.dof = diagnosis.dof;
+    result.statistics.chi2_p = chi2_tail(diagnosis.chi2, diagnosis.dof);
+    result.statistics.chi2_limit = chi2_quantile(significance, diagnosis.dof);
+    result.statistics.suspect_limit = diagnosis.suspect_limit;
+    result.findings.undetermined = diagnosis.undetermined;
+    result.statistics.rank_defect = diagnosis.rank_defect;
 }
 
 void tell(const Progress& progress, double done) {
@@ -94,7 +94,7 @@ void tell(const Progress& progress, double done) {
 Attempt attempt(const Problem& problem, const Progress& progress) {
     Attempt made;
     FitResult& result = made.result;
-    FitOptions& options = result.options = problem.options;
+    FitOptions& options = result.log.options = problem.options;
     if (problem.read_in_full && !options.prior.always) options.prior.source = Prior::Source::none;
     result.unit = problem.stone.unit;
     System system(problem.stone, problem.readings, options);
@@ -110,7 +110,8 @@ Attempt attempt(const Problem& problem, const Progress& progress) {
     fill_in_search(system, multistart, result);
     tell(progress, 0.7);
     if (system.has_estimated_groups()) {
-        result.meets.ends = estimate_meet_sigmas(system, best.finished, options, progress);
+        result.statistics.meets.ends =
+            estimate_meet_sigmas(system, best.finished, options, progress);
     }
     tell(progress, 0.95);
 
@@ -121,12 +122,13 @@ Attempt attempt(const Problem& problem, const Progress& progress) {
     fill_in(system, problem.readings, finished.shape, diagnosis, pose, weights, result);
     assess(system, finished, diagnosis, result);
     describe_findings(system, finished, best.held, diagnosis, pose, result);
-    if (options.find_symmetry && std::any_of(problem.readings.begin(), problem.readings.end(),
-                                             declares_whole_symmetry)) {
+    if (options.find_symmetry &&
+        std::any_of(problem.readings.begin(), problem.readings.end(), declares_whole_symmetry)) {
         FitOptions from_here = problem.options;
         from_here.start = result.solid;
         from_here.allow_topology = false;
-        result.symmetry = find_symmetry(problem.stone, problem.readings, from_here, progress);
+        result.findings.symmetry =
+            find_symmetry(problem.stone, problem.readings, from_here, progress);
     }
     judge(system, finished, diagnosis, result);
     return made;

@@ -13,7 +13,7 @@ SymmetryReport find_symmetry(const Stone& stone, const std::vector<Reading>& rea
     FitOptions asking = options;
     asking.find_symmetry = true;
     asking.findings = true;
-    return fit_stone(stone, free, asking, progress).symmetry.value_or(SymmetryReport());
+    return fit_stone(stone, free, asking, progress).findings.symmetry.value_or(SymmetryReport());
 }
 
 }  // namespace culet

@@ -84,7 +84,7 @@ FitInput fit_input(const Stone& drawn, const std::vector<WrittenReading>& writte
 
 FitResult fit_stone(const FitInput& input, const FitOptions& options, const Progress& progress) {
     FitResult result = fit_stone(input.stone, input.readings, options, progress);
-    result.notes.insert(result.notes.begin(), input.notes.begin(), input.notes.end());
+    result.log.notes.insert(result.log.notes.begin(), input.notes.begin(), input.notes.end());
     return result;
 }
 
@@ -98,12 +98,13 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     given.read_in_full = !asks || readings_hold_all(stone, readings, options);
     FitResult result = solved(given, hypotheses(), progress);
     const bool is_design = options.prior.source == Prior::Source::catalogue;
-    result.named_tiers = tier_findings(stone, readings, result.suspects, is_design);
+    result.findings.named_tiers =
+        tier_findings(stone, readings, result.findings.suspects, is_design);
     // As they were asked for; the prior as it was used.
-    const Prior used = result.options.prior;
-    result.options = options;
-    result.options.prior = used;
-    result.seconds =
+    const Prior used = result.log.options.prior;
+    result.log.options = options;
+    result.log.options.prior = used;
+    result.log.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (progress) progress(1);
     return result;

@@ -34,22 +34,23 @@ Proposal proposal_of(const System& system, const Suspicion& suspicion) {
 void assess(const System& system, const Finished& finished, const Diagnosis& diagnosis,
             FitResult& result) {
     for (const Suspicion& s : diagnosis.suspicions) {
-        result.proposals.push_back(proposal_of(system, s));
+        result.findings.proposals.push_back(proposal_of(system, s));
     }
     for (const int r : diagnosis.disagreeing) {
-        result.disagreeing.push_back(system.readings()[std::size_t(r)].id);
+        result.findings.disagreeing.push_back(system.readings()[std::size_t(r)].id);
     }
     if (!diagnosis.covariance || !finished.outline) return;
     const Covariance& covariance = *diagnosis.covariance;
     const RowWriter writer(finished.shape);
     for (const CutQuantity& q : cut_quantities(system, finished.shape, finished.outline)) {
         const FunctionRow row = writer.function(q.quantity);
-        result.proportions.push_back({q.name, q.unit, q.factor * q.quantity.value,
-                                      q.factor * std::sqrt(covariance.total_variance(row))});
+        result.findings.proportions.push_back(
+            {q.name, q.unit, q.factor * q.quantity.value,
+             q.factor * std::sqrt(covariance.total_variance(row))});
     }
-    result.undetermined_words =
+    result.findings.undetermined_words =
         describe_open_freedoms(system, finished.shape, covariance, diagnosis.undetermined);
-    result.help = next_readings(system, finished.shape, finished.outline, covariance);
+    result.findings.help = next_readings(system, finished.shape, finished.outline, covariance);
 }
 
 }  // namespace culet

@@ -71,8 +71,9 @@ void flag_blunders(const std::vector<Reading>& readings, const std::vector<Blund
         proposals.push_back(std::move(proposal));
         ids.push_back(r.id);
     }
-    result.suspects.insert(result.suspects.begin(), ids.begin(), ids.end());
-    result.proposals.insert(result.proposals.begin(), proposals.begin(), proposals.end());
+    result.findings.suspects.insert(result.findings.suspects.begin(), ids.begin(), ids.end());
+    result.findings.proposals.insert(result.findings.proposals.begin(), proposals.begin(),
+                                     proposals.end());
     const std::string left_out =
         fmt::format("reading{} {} cannot belong to the others and {} left out",
                     blunders.size() == 1 ? "" : "s", text, blunders.size() == 1 ? "is" : "are");
@@ -80,7 +81,7 @@ void flag_blunders(const std::vector<Reading>& readings, const std::vector<Blund
                          ? left_out
                          : left_out + "; without: " + result.message;
     if (result.status != FitStatus::not_converged) result.status = FitStatus::contradictory;
-    result.notes.push_back(left_out);
+    result.log.notes.push_back(left_out);
 }
 
 }  // namespace culet

@@ -84,7 +84,7 @@ void describe_axis(const System& system, const Shape& shape, const System::Pose&
             squares += d * d;
         }
         tier.rms_own_axis = std::sqrt(squares / std::max(1.0, count - 1));
-        result.tiers.push_back(std::move(tier));
+        result.findings.tiers.push_back(std::move(tier));
     }
     if (axis.known) {
         // Directions go outside as normals of planes do.
@@ -96,13 +96,13 @@ void describe_axis(const System& system, const Shape& shape, const System::Pose&
                                std::sin(pose.turn) * inside.x + std::cos(pose.turn) * inside.y, 0})
                 : 0;
     }
-    result.own_axis = std::move(axis);
+    result.findings.own_axis = std::move(axis);
 }
 
 void describe_meets(const System& system, const Shape& shape, const Inference& inference,
                     FitResult& result) {
     MeetTestOptions options;
-    options.significance = result.options.significance;
+    options.significance = result.log.options.significance;
     // When a few wrong readings explain the contradiction, they are the simpler story; when they
     // leave it, they are none.
     double explained = 0, largest = 0;
@@ -111,11 +111,12 @@ void describe_meets(const System& system, const Shape& shape, const Inference& i
         explained += r.normalized * r.normalized;
         largest = std::max(largest, r.normalized * r.normalized);
     }
-    if (result.suspects.size() <= 3 && result.chi2 - explained < result.chi2_limit) {
+    if (result.findings.suspects.size() <= 3 &&
+        result.statistics.chi2 - explained < result.statistics.chi2_limit) {
         options.least_chi2 = largest;
     }
-    result.meet_findings = test_meets(system, shape, inference, options);
-    for (MeetFinding& meet : result.meet_findings) {
+    result.findings.meets = test_meets(system, shape, inference, options);
+    for (MeetFinding& meet : result.findings.meets) {
         meet.miss *= system.scale();
         meet.sigma *= system.scale();
         const std::string planes = list_of(meet.facets);
@@ -135,25 +136,25 @@ void describe_meets(const System& system, const Shape& shape, const Inference& i
 
 void describe_shape(const System& system, const Finished& finished, const Diagnosis& diagnosis,
                     const Inference& inference, FitResult& result) {
-    result.shape_findings = find_open_shape(system, finished, diagnosis, inference);
+    result.findings.shapes = find_open_shape(system, finished, diagnosis, inference);
     // A facet that is shut at no loss may as well be there.
-    const bool denied =
-        result.vanishing_edges.empty() ||
-        chi2_tail(result.vanishing_chi2, static_cast<double>(result.vanishing_edges.size())) <
-            result.options.significance;
-    result.vanishing_edges.clear();
-    for (const ShapeFinding& finding : result.shape_findings) {
+    const bool denied = result.findings.vanishing_edges.empty() ||
+                        chi2_tail(result.findings.vanishing_chi2,
+                                  static_cast<double>(result.findings.vanishing_edges.size())) <
+                            result.log.options.significance;
+    result.findings.vanishing_edges.clear();
+    for (const ShapeFinding& finding : result.findings.shapes) {
         if (finding.kind != ShapeFinding::Kind::edge_vanishes) continue;
-        result.vanishing_edges.push_back(finding.facets[0] + "/" + finding.facets[1]);
+        result.findings.vanishing_edges.push_back(finding.facets[0] + "/" + finding.facets[1]);
     }
-    for (ShapeFinding& finding : result.shape_findings) {
+    for (ShapeFinding& finding : result.findings.shapes) {
         if (denied || finding.kind != ShapeFinding::Kind::facet_vanishes) continue;
         finding.kind = ShapeFinding::Kind::facet_open;
         finding.value = 0;
         const int facet = find_facet(system.stone().solid, finding.facets[0]);
         finding.sigma = diagnosis.facets[static_cast<std::size_t>(facet)].area;
     }
-    for (ShapeFinding& finding : result.shape_findings) {
+    for (ShapeFinding& finding : result.findings.shapes) {
         const std::string first = finding.facets[0];
         const std::string ends =
             finding.facets.size() > 2 ? " (between " + list_of(finding.facets, 2) + ")" : "";
@@ -198,26 +199,26 @@ void describe_shape(const System& system, const Finished& finished, const Diagno
 void describe_extra_facets(const System& system, const Finished& finished,
                            const Diagnosis& diagnosis, const Inference& inference,
                            FitResult& result) {
-    const double significance = result.options.significance;
-    result.extra_facets =
+    const double significance = result.log.options.significance;
+    result.findings.extra_facets =
         suspect_extra_facets(system, finished, inference.linear(), diagnosis, significance);
     // Where a reading stands out, or a facet is found, each reading of a quantity speaks for
     // itself.
     const bool stands_out = std::any_of(
         diagnosis.readings.begin(), diagnosis.readings.end(),
         [&](const ReadingCheck& c) { return std::abs(c.normalized) > diagnosis.suspect_limit; });
-    if (system.has_replicates() && (stands_out || !result.extra_facets.empty())) {
+    if (system.has_replicates() && (stands_out || !result.findings.extra_facets.empty())) {
         System apart = system;
         apart.keep_replicates_apart();
         const Linearised linear = linearise(apart, finished.shape, finished.outline, false);
         Diagnosis again = diagnosis;
         again.covariance = std::make_shared<const Covariance>(linear);
         if (again.covariance->usable()) {
-            result.extra_facets =
+            result.findings.extra_facets =
                 suspect_extra_facets(apart, finished, linear, again, significance);
         }
     }
-    for (ExtraFacet& facet : result.extra_facets) {
+    for (ExtraFacet& facet : result.findings.extra_facets) {
         facet.depth *= system.scale();
         facet.sigma *= system.scale();
         const std::string place = fmt::format(
@@ -256,7 +257,7 @@ std::vector<Equation> conditions_of(const Shape& shape, const std::vector<Active
 void describe_findings(const System& system, const Finished& finished,
                        const std::vector<ActiveCorner>& held, const Diagnosis& diagnosis,
                        const System::Pose& pose, FitResult& result) {
-    if (!result.options.findings || !finished.outline) return;
+    if (!result.log.options.findings || !finished.outline) return;
     const Inference inference(system, finished.shape, finished.outline,
                               conditions_of(finished.shape, held));
     describe_axis(system, finished.shape, pose, inference.usable() ? &inference : nullptr, result);
@@ -267,8 +268,9 @@ void describe_findings(const System& system, const Finished& finished,
     const bool declared =
         std::any_of(system.readings().begin(), system.readings().end(), declares_whole_symmetry);
     // Declared symmetry would only be found again: `fit_stone` asks a fit without it.
-    if (result.options.find_symmetry && !declared) {
-        result.symmetry = symmetry_of(system, finished.shape, inference, result.options);
+    if (result.log.options.find_symmetry && !declared) {
+        result.findings.symmetry =
+            symmetry_of(system, finished.shape, inference, result.log.options);
     }
 }
 

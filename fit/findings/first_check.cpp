@@ -164,14 +164,16 @@ void put_back_doubted(const std::vector<Reading>& readings, const std::vector<Do
         proposals.push_back({r.id, is_angle(r.kind), d.expected, d.sigma, d.slip, d.corrected, {}});
         if (std::find(words.begin(), words.end(), d.what) == words.end()) words.push_back(d.what);
     }
-    result.suspects.insert(result.suspects.begin(), suspects.begin(), suspects.end());
-    result.proposals.insert(result.proposals.begin(), proposals.begin(), proposals.end());
+    result.findings.suspects.insert(result.findings.suspects.begin(), suspects.begin(),
+                                    suspects.end());
+    result.findings.proposals.insert(result.findings.proposals.begin(), proposals.begin(),
+                                     proposals.end());
     const bool was_good = result.status == FitStatus::converged;
     const std::string before = result.message;
     result.message.clear();
     for (const std::string& line : words) {
         result.message += (result.message.empty() ? "" : "; ") + line;
-        result.doubts.push_back(line);
+        result.findings.doubts.push_back(line);
     }
     result.message +=
         words.size() == 1 ? "; the fit does without it" : "; the fit does without them";

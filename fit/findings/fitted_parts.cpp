@@ -25,16 +25,18 @@ void describe_meets(const System& system, const Shape& shape, FitResult& result)
                                                       shape.offsets[incidence.facet]);
         squares += miss * miss;
         ++count;
-        result.meets.miss_max = std::max(result.meets.miss_max, miss);
+        result.statistics.meets.miss_max = std::max(result.statistics.meets.miss_max, miss);
     }
     for (int h : how) {
-        ++(h == 0 ? result.meets.exact : h == 1 ? result.meets.soft : result.meets.released);
+        ++(h == 0   ? result.statistics.meets.exact
+           : h == 1 ? result.statistics.meets.soft
+                    : result.statistics.meets.released);
     }
-    if (count > 0) result.meets.miss_rms = std::sqrt(squares / count);
+    if (count > 0) result.statistics.meets.miss_rms = std::sqrt(squares / count);
     if (system.has_common_meets()) {
-        result.meets.sigma = system.group_sigmas()[0] * system.scale();
-        result.meets.girdle_sigma = system.group_sigmas()[1] * system.scale();
-        result.meets.estimated = !result.options.meet_sigma;
+        result.statistics.meets.sigma = system.group_sigmas()[0] * system.scale();
+        result.statistics.meets.girdle_sigma = system.group_sigmas()[1] * system.scale();
+        result.statistics.meets.estimated = !result.log.options.meet_sigma;
     }
 }
 
@@ -104,7 +106,7 @@ void fill_in_readings(const System& system, const std::vector<Reading>& as_read,
         result.readings.push_back(std::move(fitted));
     }
     for (int s : diagnosis.suspects) {
-        result.suspects.push_back(system.readings()[std::size_t(s)].id);
+        result.findings.suspects.push_back(system.readings()[std::size_t(s)].id);
     }
 }
 
@@ -125,16 +127,16 @@ FittedReading as_taken(const Reading& reading) {
 void fill_in(const System& system, const std::vector<Reading>& as_read, const Shape& shape,
              const Diagnosis& diagnosis, const System::Pose& pose,
              const std::vector<double>& weights, FitResult& result) {
-    result.missing_facets = make_solid(system, shape, pose, result);
-    result.planarity_max = planarity(result.solid);
-    result.closed = is_closed(result.solid);
-    result.convex = is_convex(result.solid);
+    result.checks.missing_facets = make_solid(system, shape, pose, result);
+    result.checks.planarity_max = planarity(result.solid);
+    result.checks.closed = is_closed(result.solid);
+    result.checks.convex = is_convex(result.solid);
     result.azimuth_zero = system.azimuth_zero(pose);
     describe_meets(system, shape, result);
     if (system.has_prior()) {
         const PriorSigmas& s = system.prior_sigmas();
-        result.prior = {result.options.prior.source, s[0], s[1], s[2] * system.scale(),
-                        s[3] * system.scale()};
+        result.statistics.prior = {result.log.options.prior.source, s[0], s[1],
+                                   s[2] * system.scale(), s[3] * system.scale()};
     }
     fill_in_facets(system, shape, diagnosis, pose, result);
     fill_in_readings(system, as_read, diagnosis, weights, result);
@@ -153,11 +155,11 @@ void put_left_out(const std::vector<Reading>& readings, const std::vector<std::s
         ids += (ids.empty() ? "" : ", ") + r.id;
         if (!r.of.empty()) ids += fmt::format(" (of {})", r.of.front());
     }
-    result.notes.push_back(
+    result.log.notes.push_back(
         fmt::format("azimuth {} left out: the facet lies level within its uncertainty, and a level "
                     "facet has no azimuth",
                     ids));
-    result.message += "; " + result.notes.back();
+    result.message += "; " + result.log.notes.back();
 }
 
 }  // namespace culet

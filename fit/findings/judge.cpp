@@ -31,19 +31,20 @@ std::string names(const std::vector<std::string>& list) {
 // Who is to blame, as far as one can tell.
 std::string contradiction(const FitResult& result) {
     std::string text;
-    if (!result.extra_facets.empty() && result.extra_facets.front().or_wrong.empty()) {
-        text = "; " + result.extra_facets.front().what;
-    } else if (!result.suspects.empty()) {
-        text = "; look at " + names(result.suspects);
-        const Proposal& first = result.proposals.front();
+    if (!result.findings.extra_facets.empty() &&
+        result.findings.extra_facets.front().or_wrong.empty()) {
+        text = "; " + result.findings.extra_facets.front().what;
+    } else if (!result.findings.suspects.empty()) {
+        text = "; look at " + names(result.findings.suspects);
+        const Proposal& first = result.findings.proposals.front();
         if (!first.slip.empty()) {
             text += fmt::format(" ({}: {:g}?)", first.slip,
                                 first.in_radians ? degrees(first.corrected) : first.corrected);
         } else if (!first.alternatives.empty()) {
             text += " (or at " + names(first.alternatives) + " instead)";
         }
-    } else if (!result.disagreeing.empty()) {
-        text = "; the fewest that cannot hold together: " + names(result.disagreeing);
+    } else if (!result.findings.disagreeing.empty()) {
+        text = "; the fewest that cannot hold together: " + names(result.findings.disagreeing);
     }
     return text;
 }
@@ -107,27 +108,28 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
     const auto end = [&](FitStatus status, std::string message) {
         result.status = status;
         result.message = std::move(message);
-        if (!result.vanishing_edges.empty() && status != FitStatus::not_converged) {
+        if (!result.findings.vanishing_edges.empty() && status != FitStatus::not_converged) {
             result.message += fmt::format("; the readings want edge {} to have no length",
-                                          names(result.vanishing_edges));
+                                          names(result.findings.vanishing_edges));
         }
-        for (const std::string& note : result.notes) result.message += "; " + note;
+        for (const std::string& note : result.log.notes) result.message += "; " + note;
         if (!diagnosis.analysed) {
             result.message +=
                 "; the stone is too large for uncertainties and suspects: none are given";
         }
     };
     if (!broken.empty()) {
-        return end(FitStatus::contradictory,
-                   fmt::format("exact readings contradict each other: {}",
-                               names(result.disagreeing.empty() ? broken : result.disagreeing)));
+        return end(FitStatus::contradictory, fmt::format("exact readings contradict each other: {}",
+                                                         names(result.findings.disagreeing.empty()
+                                                                   ? broken
+                                                                   : result.findings.disagreeing)));
     }
-    if (!result.missing_facets.empty()) {
+    if (!result.checks.missing_facets.empty()) {
         return end(FitStatus::not_converged,
                    fmt::format("the fitted planes leave no room for facet {}",
-                               names(result.missing_facets)));
+                               names(result.checks.missing_facets)));
     }
-    for (const ShapeFinding& f : result.shape_findings) {
+    for (const ShapeFinding& f : result.findings.shapes) {
         if (f.kind == ShapeFinding::Kind::facet_vanishes) {
             return end(FitStatus::not_converged,
                        f.what + "; leave it out of the mesh, or allow the topology to change");
@@ -138,13 +140,14 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
                    "the facets and meets could not be brought together" + in_the_way(result.solid));
     }
     // Under the hypothesis that an edge has a length at all, chi-square with one freedom for each.
-    if (!result.vanishing_edges.empty() &&
-        chi2_tail(result.vanishing_chi2, double(result.vanishing_edges.size())) <
-            result.options.significance) {
-        return end(FitStatus::not_converged,
-                   fmt::format("the readings want edge {} to have no length, and agree with the "
-                               "mesh's facets only at a loss (chi2 {:.1f} more)",
-                               names(result.vanishing_edges), result.vanishing_chi2));
+    if (!result.findings.vanishing_edges.empty() &&
+        chi2_tail(result.findings.vanishing_chi2, double(result.findings.vanishing_edges.size())) <
+            result.log.options.significance) {
+        return end(
+            FitStatus::not_converged,
+            fmt::format("the readings want edge {} to have no length, and agree with the "
+                        "mesh's facets only at a loss (chi2 {:.1f} more)",
+                        names(result.findings.vanishing_edges), result.findings.vanishing_chi2));
     }
     if (!system.stone().convex) {
         const std::vector<Fault> faults =
@@ -154,22 +157,23 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
                        "the fitted stone is not sound: " + faults.front().what);
         }
     }
-    if (!result.closed || (!result.convex && system.stone().convex)) {
+    if (!result.checks.closed || (!result.checks.convex && system.stone().convex)) {
         const std::vector<Fault> faults = find_faults(
             result.solid, {.planarity = k_planarity, .must_be_convex = system.stone().convex});
-        return end(FitStatus::not_converged,
-                   fmt::format("the fitted stone is not {}{}", result.closed ? "convex" : "closed",
-                               faults.empty() ? "" : ": " + faults.front().what));
+        return end(
+            FitStatus::not_converged,
+            fmt::format("the fitted stone is not {}{}", result.checks.closed ? "convex" : "closed",
+                        faults.empty() ? "" : ": " + faults.front().what));
     }
-    if (result.planarity_max >
+    if (result.checks.planarity_max >
         std::max(k_planarity * diameter(result.solid), coordinate_rounding(result.solid))) {
         return end(FitStatus::not_converged,
                    fmt::format("corners lie up to {:.2g} {} off their facets' planes",
-                               result.planarity_max, name_of(result.unit)));
+                               result.checks.planarity_max, name_of(result.unit)));
     }
     // Before the steps: next to an edge that has no length they creep.
-    for (const ShapeFinding& f : result.shape_findings) {
-        if (f.kind == ShapeFinding::Kind::edge_vanishes && f.p < result.options.significance) {
+    for (const ShapeFinding& f : result.findings.shapes) {
+        if (f.kind == ShapeFinding::Kind::edge_vanishes && f.p < result.log.options.significance) {
             return end(FitStatus::contradictory, f.what + "; allow the topology to change");
         }
     }
@@ -184,34 +188,36 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
                               finished.iterations)
                 : fmt::format("the fit does not settle ({} steps): {}", finished.iterations, edge));
     }
-    if (result.dof > 0 && result.chi2_p < result.options.significance) {
-        return end(FitStatus::contradictory,
-                   fmt::format("the readings do not agree within their uncertainties (chi-square "
-                               "{:.1f}, {:.1f} expected, at most {:.1f} at the {:g} level){}",
-                               result.chi2, result.dof, result.chi2_limit,
-                               result.options.significance, contradiction(result)));
+    if (result.statistics.dof > 0 && result.statistics.chi2_p < result.log.options.significance) {
+        return end(
+            FitStatus::contradictory,
+            fmt::format("the readings do not agree within their uncertainties (chi-square "
+                        "{:.1f}, {:.1f} expected, at most {:.1f} at the {:g} level){}",
+                        result.statistics.chi2, result.statistics.dof, result.statistics.chi2_limit,
+                        result.log.options.significance, contradiction(result)));
     }
-    if (!result.suspects.empty()) {
+    if (!result.findings.suspects.empty()) {
         return end(FitStatus::contradictory,
                    "readings that cannot belong to the others" + contradiction(result));
     }
-    if (!result.extra_facets.empty()) {
-        return end(FitStatus::contradictory, result.extra_facets.front().what);
+    if (!result.findings.extra_facets.empty()) {
+        return end(FitStatus::contradictory, result.findings.extra_facets.front().what);
     }
-    if (result.rank_defect > 0) {
+    if (result.statistics.rank_defect > 0) {
         std::set<std::string> facets;
-        for (const Undetermined& u : result.undetermined) facets.insert(u.facet);
+        for (const Undetermined& u : result.findings.undetermined) facets.insert(u.facet);
         return end(
             FitStatus::undetermined,
             fmt::format("too little was read to fix the whole stone: {} of its {} facets {} as in "
                         "the mesh{}; {}",
                         facets.size(), result.facets.size(), facets.size() == 1 ? "is" : "are",
                         facets.empty() ? "" : " (" + names({facets.begin(), facets.end()}) + ")",
-                        result.help.empty() ? "a prior would fill it in ([fit] prior = \"mesh\")"
-                                            : "next, " + bench_words(result.help[0])));
+                        result.findings.help.empty()
+                            ? "a prior would fill it in ([fit] prior = \"mesh\")"
+                            : "next, " + bench_words(result.findings.help[0])));
     }
     end(FitStatus::converged, fmt::format("the readings agree (chi-square {:.1f}, {:.0f} expected)",
-                                          result.chi2, result.dof));
+                                          result.statistics.chi2, result.statistics.dof));
 }
 
 }  // namespace culet

@@ -67,50 +67,70 @@ struct PriorReport {
     double tier_angle = 0, facet_angle = 0, tier_offset = 0, facet_offset = 0;  ///< estimated
 };
 
-struct FitResult {
-    FitStatus status = FitStatus::not_converged;
-    std::string message;  ///< why, in one line
-    Solid solid;          ///< in the stone's unit
-    LengthUnit unit = LengthUnit::mm;
-    std::vector<FittedFacet> facets;  ///< in the mesh's order
-    std::vector<FittedReading> readings;
-    std::vector<Undetermined> undetermined;
+/// What the fitted solid is, held against what a stone must be.
+struct SolidChecks {
+    double planarity_max = 0;  ///< a corner's largest distance from a facet of its own
+    bool closed = false, convex = false;
+    std::vector<std::string> missing_facets;  ///< of the mesh, that the planes leave no room for
+};
+
+/// How well the readings agree, all together.
+struct FitStatistics {
+    double chi2 = 0, dof = 0, chi2_limit = 0, chi2_p = 1;
+    double suspect_limit = 0;  ///< of |normalized|
+    int rank_defect = 0;       ///< parameters of the shape that nothing fixes
+    MeetReport meets;
+    PriorReport prior;
+};
+
+/// What was found out about the readings and the stone.
+struct FitFindings {
     std::vector<std::string> suspects;  ///< ids, the worst first
     std::vector<Proposal> proposals;    ///< for the suspects
     /// Readings left out because they are far off what their like say, a line each (first_check.h).
     std::vector<std::string> doubts;
     /// The smallest set of readings that cannot hold together, where there is a contradiction.
     std::vector<std::string> disagreeing;
+    std::vector<Undetermined> undetermined;
     std::vector<std::string> undetermined_words;  ///< what nothing fixes, one sentence each
     std::vector<NextReading> help;                ///< the best further readings, the best first
-    std::vector<FittedProportion> proportions;
-    std::vector<std::string> missing_facets;
     /// Edges that the readings want to have no length, as `A/B`: they are kept at a hair's.
     std::vector<std::string> vanishing_edges;
     double vanishing_chi2 = 0;  ///< what keeping them costs
-    int starts = 0;             ///< tried
-    std::string start;          ///< that the result came from
-    /// What was done to the mesh before it could be fitted: turned round, scaled, ...
-    std::vector<std::string> notes;
-    MeetReport meets;
-    PriorReport prior;
+    std::vector<FittedProportion> proportions;
     OwnAxis own_axis;
     std::vector<Tier> tiers;
     std::vector<NamedTierFinding> named_tiers;
-    std::vector<MeetFinding> meet_findings;
-    std::vector<ShapeFinding> shape_findings;
+    std::vector<MeetFinding> meets;
+    std::vector<ShapeFinding> shapes;
     std::vector<ExtraFacet> extra_facets;
     std::optional<SymmetryReport> symmetry;  ///< when it was looked for
-    std::vector<std::string> changes;        ///< of the topology, in their order
-    double planarity_max = 0;
-    bool closed = false, convex = false;
-    double chi2 = 0, dof = 0, chi2_limit = 0, chi2_p = 1;
-    double suspect_limit = 0;  ///< of |normalized|
-    double azimuth_zero = 0;   ///< where in the solid's frame the readings' azimuths begin; radians
-    int rank_defect = 0;
+};
+
+/// How the result came about.
+struct FitLog {
+    FitOptions options;  ///< as asked for; the prior as it was used
+    int starts = 0;      ///< tried
+    std::string start;   ///< that the result came from
+    /// What was done to the mesh before it could be fitted: turned round, scaled, ...
+    std::vector<std::string> notes;
+    std::vector<std::string> changes;  ///< of the topology, in their order
     int iterations = 0;
     double seconds = 0;
-    FitOptions options;
+};
+
+struct FitResult {
+    FitStatus status = FitStatus::not_converged;
+    std::string message;  ///< why, in one line
+    Solid solid;          ///< in `unit`
+    LengthUnit unit = LengthUnit::mm;
+    double azimuth_zero = 0;  ///< where in the solid's frame the readings' azimuths begin; radians
+    SolidChecks checks;
+    std::vector<FittedFacet> facets;      ///< in the mesh's order
+    std::vector<FittedReading> readings;  ///< in their order
+    FitStatistics statistics;
+    FitFindings findings;
+    FitLog log;
 
     /// Good enough to go on with.
     bool usable() const { return status == FitStatus::converged; }

@@ -38,7 +38,7 @@ double direction_sigma(const FittedFacet& facet) {
 }
 
 bool is_open(const FitResult& result, const std::string& facet) {
-    return std::any_of(result.undetermined.begin(), result.undetermined.end(),
+    return std::any_of(result.findings.undetermined.begin(), result.findings.undetermined.end(),
                        [&](const Undetermined& u) { return u.facet == facet; });
 }
 
@@ -48,7 +48,7 @@ std::size_t doubted_more(const FitResult& result) {
         std::count_if(result.readings.begin(), result.readings.end(),
                       [](const FittedReading& r) { return r.suspect && !r.left_out.empty(); });
     return std::size_t(
-        std::max<std::ptrdiff_t>(0, left_out - std::ptrdiff_t(result.doubts.size())));
+        std::max<std::ptrdiff_t>(0, left_out - std::ptrdiff_t(result.findings.doubts.size())));
 }
 
 std::string verdict(const FitResult& result) {
@@ -57,21 +57,24 @@ std::string verdict(const FitResult& result) {
             return fmt::format(
                 "The readings agree with this stone: chi-square {:.1f}, where {:.1f} is expected "
                 "and up to {:.1f} no surprise.",
-                result.chi2, result.dof, result.chi2_limit);
+                result.statistics.chi2, result.statistics.dof, result.statistics.chi2_limit);
         case FitStatus::contradictory:
-            if (!result.doubts.empty()) {
-                const bool agrees = result.dof <= 0 || result.chi2 <= result.chi2_limit;
+            if (!result.findings.doubts.empty()) {
+                const bool agrees = result.statistics.dof <= 0 ||
+                                    result.statistics.chi2 <= result.statistics.chi2_limit;
                 return fmt::format(
-                    "{} left out; {}.", result.doubts.size() == 1 ? "It is" : "They are",
-                    agrees && result.suspects.size() <= result.doubts.size() + doubted_more(result)
+                    "{} left out; {}.", result.findings.doubts.size() == 1 ? "It is" : "They are",
+                    agrees && result.findings.suspects.size() <=
+                                  result.findings.doubts.size() + doubted_more(result)
                         ? "the other readings agree with this stone"
                         : "even so the others do not agree");
             }
-            if (result.dof > 0 && result.chi2 > result.chi2_limit) {
+            if (result.statistics.dof > 0 &&
+                result.statistics.chi2 > result.statistics.chi2_limit) {
                 return fmt::format(
                     "The readings contradict each other: chi-square {:.1f}, where {:.1f} is "
                     "expected and up to {:.1f} no surprise.",
-                    result.chi2, result.dof, result.chi2_limit);
+                    result.statistics.chi2, result.statistics.dof, result.statistics.chi2_limit);
             }
             return fmt::format("The readings contradict each other: {}.", result.message);
         case FitStatus::undetermined:
@@ -111,9 +114,10 @@ std::string sentence_of(std::string text) {
 }
 
 const Proposal* proposal_for(const FitResult& result, const std::string& id) {
-    const auto found = std::find_if(result.proposals.begin(), result.proposals.end(),
-                                    [&](const Proposal& p) { return p.id == id; });
-    return found == result.proposals.end() ? nullptr : &*found;
+    const auto found =
+        std::find_if(result.findings.proposals.begin(), result.findings.proposals.end(),
+                     [&](const Proposal& p) { return p.id == id; });
+    return found == result.findings.proposals.end() ? nullptr : &*found;
 }
 
 std::string words_of(const FittedReading& r, const Proposal* proposal) {
@@ -139,7 +143,7 @@ std::string words_of(const FittedReading& r, const Proposal* proposal) {
 }
 
 bool was_doubted(const FitResult& result, const std::string& id) {
-    return !result.doubts.empty() &&
+    return !result.findings.doubts.empty() &&
            std::any_of(result.readings.begin(), result.readings.end(), [&](const FittedReading& r) {
                return r.id == id && r.suspect && !r.left_out.empty();
            });
@@ -147,7 +151,7 @@ bool was_doubted(const FitResult& result, const std::string& id) {
 
 std::string doubtful(const FitResult& result) {
     std::vector<std::string> words;
-    for (const std::string& id : result.suspects) {
+    for (const std::string& id : result.findings.suspects) {
         if (was_doubted(result, id)) continue;  // said before
         const auto found = std::find_if(result.readings.begin(), result.readings.end(),
                                         [&](const FittedReading& r) { return r.id == id; });
@@ -159,7 +163,7 @@ std::string doubtful(const FitResult& result) {
 
 std::string unchecked(const FitResult& result) {
     // Beside a prior few are: each is held against its tier instead.
-    if (result.prior.source != Prior::Source::none) return {};
+    if (result.statistics.prior.source != Prior::Source::none) return {};
     std::vector<std::string> ids;
     for (const FittedReading& r : result.readings) {
         if (!r.exact && !is_relation(r.kind) && r.left_out.empty() && r.redundancy < 0.01) {
@@ -174,7 +178,7 @@ std::string unchecked(const FitResult& result) {
 std::string rank_defect(const FitResult& result) {
     std::vector<std::string> order;
     std::map<std::string, std::vector<std::string>> parameters;
-    for (const Undetermined& u : result.undetermined) {
+    for (const Undetermined& u : result.findings.undetermined) {
         if (parameters[u.facet].empty()) order.push_back(u.facet);
         parameters[u.facet].push_back(u.freedom);
     }
@@ -197,14 +201,14 @@ void add_some(const std::vector<std::string>& found, std::vector<std::string>& s
 
 // Only where no single reading explains the contradiction.
 std::string disagreeing(const FitResult& result) {
-    if (result.disagreeing.empty() || !result.suspects.empty()) return {};
+    if (result.findings.disagreeing.empty() || !result.findings.suspects.empty()) return {};
     return fmt::format("The fewest readings that cannot hold together: {}.",
-                       list_of(result.disagreeing));
+                       list_of(result.findings.disagreeing));
 }
 
 // The table need not lie square to the stone: angles from it then differ around the stone.
 std::string own_axis(const FitResult& result) {
-    const OwnAxis& axis = result.own_axis;
+    const OwnAxis& axis = result.findings.own_axis;
     const double sigma = std::hypot(axis.sigma, axis.scatter_sigma);
     if (!axis.known || !(axis.tilt > 4 * sigma)) return {};
     return fmt::format(
@@ -215,9 +219,10 @@ std::string own_axis(const FitResult& result) {
 
 std::string calipers(const FitResult& result) {
     const auto value = [&](const char* name) {
-        const auto found = std::find_if(result.proportions.begin(), result.proportions.end(),
-                                        [&](const FittedProportion& p) { return p.name == name; });
-        return found == result.proportions.end() ? 0.0 : found->value;
+        const auto found =
+            std::find_if(result.findings.proportions.begin(), result.findings.proportions.end(),
+                         [&](const FittedProportion& p) { return p.name == name; });
+        return found == result.findings.proportions.end() ? 0.0 : found->value;
     };
     const double least = value("caliper min"), most = value("caliper max");
     if (!(least > 0)) return {};
@@ -231,8 +236,8 @@ std::string calipers(const FitResult& result) {
 }
 
 std::string next_reading(const FitResult& result) {
-    if (result.help.empty()) return {};
-    const NextReading& best = result.help.front();
+    if (result.findings.help.empty()) return {};
+    const NextReading& best = result.findings.help.front();
     // A tenth of the variance is five per cent of the uncertainty: less is not worth the work.
     if (!best.closes && best.reduces < 0.1) return {};
     return fmt::format("What would help most: {} ({}).", bench_words(best),
@@ -244,7 +249,7 @@ std::string next_reading(const FitResult& result) {
 
 // Which facets rest on readings, and what is supposed of the others.
 std::string supposed(const FitResult& result) {
-    const PriorReport& prior = result.prior;
+    const PriorReport& prior = result.statistics.prior;
     if (prior.source == Prior::Source::none) return {};
     int read = 0;
     for (const FittedFacet& f : result.facets) read += f.read_inclination > 0.5;
@@ -259,7 +264,7 @@ std::string supposed(const FitResult& result) {
 
 std::vector<std::string> bad_meets(const FitResult& result) {
     std::vector<std::string> advice;
-    for (const MeetFinding& meet : result.meet_findings) {
+    for (const MeetFinding& meet : result.findings.meets) {
         if (meet.contradicted && !meet.advice.empty()) advice.push_back(meet.advice);
     }
     return advice;
@@ -268,13 +273,13 @@ std::vector<std::string> bad_meets(const FitResult& result) {
 // Open edges are common and follow from the sigmas; what the readings deny is news.
 std::vector<std::string> denied_shape(const FitResult& result) {
     std::vector<std::string> found;
-    for (const ShapeFinding& finding : result.shape_findings) {
+    for (const ShapeFinding& finding : result.findings.shapes) {
         if (finding.kind == ShapeFinding::Kind::edge_vanishes ||
             finding.kind == ShapeFinding::Kind::facet_vanishes) {
             found.push_back(finding.what);
         }
     }
-    for (const ExtraFacet& facet : result.extra_facets) found.push_back(facet.what);
+    for (const ExtraFacet& facet : result.findings.extra_facets) found.push_back(facet.what);
     return found;
 }
 
@@ -283,21 +288,21 @@ std::vector<std::string> denied_shape(const FitResult& result) {
 std::vector<std::string> fit_summary(const FitResult& result) {
     std::vector<std::string> sentences;
     // As they are: they begin with a file's name.
-    for (const std::string& doubt : result.doubts) sentences.push_back(doubt + ".");
+    for (const std::string& doubt : result.findings.doubts) sentences.push_back(doubt + ".");
     const std::size_t verdict_at = sentences.size();
     sentences.push_back(verdict(result));
     const auto add = [&](std::string sentence) {
         if (!sentence.empty()) sentences.push_back(std::move(sentence));
     };
     const bool stands = result.status != FitStatus::not_converged;
-    for (const std::string& note : result.notes) {
+    for (const std::string& note : result.log.notes) {
         // The verdict may have said so already.
         if (sentences[verdict_at].find(note) == std::string::npos) add(sentence_of(note));
     }
-    for (const std::string& change : result.changes) add(sentence_of("changed: " + change));
+    for (const std::string& change : result.log.changes) add(sentence_of("changed: " + change));
     if (stands) add(calipers(result));
     if (stands) {
-        for (const NamedTierFinding& tier : result.named_tiers) {
+        for (const NamedTierFinding& tier : result.findings.named_tiers) {
             for (const std::string& what : tier.what) add(sentence_of(what));
         }
         add(supposed(result));
@@ -307,14 +312,15 @@ std::vector<std::string> fit_summary(const FitResult& result) {
     add(disagreeing(result));
     add_some(bad_meets(result), sentences);
     add_some(denied_shape(result), sentences);
-    if (result.undetermined_words.empty()) {
+    if (result.findings.undetermined_words.empty()) {
         add(rank_defect(result));
     } else {
-        add_some(result.undetermined_words, sentences);
+        add_some(result.findings.undetermined_words, sentences);
     }
     if (stands) add(unchecked(result));
     if (stands) add(own_axis(result));
-    if (result.symmetry) add(sentence_of("symmetry: " + result.symmetry->message));
+    if (result.findings.symmetry)
+        add(sentence_of("symmetry: " + result.findings.symmetry->message));
     if (stands) add(next_reading(result));
     return sentences;
 }

@@ -71,9 +71,10 @@ bool may_be_bent(const FitResult& result, const std::vector<Reading>& readings,
     if (far.empty()) return false;
     if (result.status == FitStatus::not_converged) return true;
     if (result.status != FitStatus::contradictory) return false;
-    if (result.suspects.size() != 1) return true;
-    return std::none_of(far.begin(), far.end(),
-                        [&](std::size_t i) { return readings[i].id == result.suspects.front(); });
+    if (result.findings.suspects.size() != 1) return true;
+    return std::none_of(far.begin(), far.end(), [&](std::size_t i) {
+        return readings[i].id == result.findings.suspects.front();
+    });
 }
 
 // Which of them the result of a fit without them contradicts beyond its suspect limit, and by five
@@ -87,8 +88,8 @@ std::vector<std::size_t> contradicted_angles(const FitResult& without,
         const double apart = readings[i].kind == ReadingKind::azimuth
                                  ? std::abs(wrapped(e.value - readings[i].value))
                                  : std::abs(e.value - readings[i].value);
-        const double limit =
-            std::max(4.0, without.suspect_limit) * std::hypot(e.sigma, readings[i].sigma);
+        const double limit = std::max(4.0, without.statistics.suspect_limit) *
+                             std::hypot(e.sigma, readings[i].sigma);
         if (apart > std::max(limit, radians(k_still_deg))) {
             wrong.push_back(i);
         }
@@ -153,13 +154,15 @@ Verdict judge_far_angles(const Problem& given, const Attempt& first, const Probl
     const std::vector<std::size_t> left_out = missing_from(changed.readings, given.readings);
     if (left_out.empty()) {
         // All are back, and the fit went on from where it ended without them.
-        if (any_will_do || again.chi2 < first.result.chi2) return {std::move(again), std::nullopt};
+        if (any_will_do || again.statistics.chi2 < first.result.statistics.chi2)
+            return {std::move(again), std::nullopt};
         return {};
     }
     const std::vector<std::size_t> wrong = contradicted_angles(again, given.readings, left_out);
     if (wrong.size() == left_out.size()) {
         // What explains a contradiction takes most of chi-square with it.
-        if (!any_will_do && !(again.chi2 < 0.5 * first.result.chi2)) return {};
+        if (!any_will_do && !(again.statistics.chi2 < 0.5 * first.result.statistics.chi2))
+            return {};
         put_back_blunders(given.readings, left_out, again);
         return {std::move(again), std::nullopt};
     }

@@ -17,10 +17,10 @@ constexpr double k_part_left = 0.01;
 
 // Index of the first suspect, where it is a reading that may be wrong.
 std::optional<std::size_t> first_suspect(const Problem& given, const FitResult& result) {
-    if (result.suspects.empty()) return std::nullopt;
+    if (result.findings.suspects.empty()) return std::nullopt;
     const auto wrong =
         std::find_if(given.readings.begin(), given.readings.end(),
-                     [&](const Reading& r) { return r.id == result.suspects.front(); });
+                     [&](const Reading& r) { return r.id == result.findings.suspects.front(); });
     if (wrong == given.readings.end() || is_relation(wrong->kind) || wrong->exact) {
         return std::nullopt;
     }
@@ -43,7 +43,7 @@ std::optional<Problem> without_first_suspect(const Problem& given, const Attempt
 Verdict judge_first_suspect(const Problem& given, const Attempt& first, const Problem& changed,
                             FitResult again) {
     if (again.status == FitStatus::not_converged ||
-        !(again.chi2 < k_part_left * first.result.chi2)) {
+        !(again.statistics.chi2 < k_part_left * first.result.statistics.chi2)) {
         return {};
     }
     const std::size_t at = *first_suspect(given, first.result);
@@ -55,12 +55,13 @@ Verdict judge_first_suspect(const Problem& given, const Attempt& first, const Pr
     const double sigma =
         changed.readings[at].sigma * std::sqrt(std::max(0.0, 1 - fitted->redundancy));
     if (!(std::abs(fitted->fitted - wrong.value) >
-          again.suspect_limit * std::hypot(sigma, wrong.sigma))) {
+          again.statistics.suspect_limit * std::hypot(sigma, wrong.sigma))) {
         return {};
     }
-    again.dof -= fitted->redundancy;
-    again.chi2_p = chi2_tail(again.chi2, again.dof);
-    again.chi2_limit = chi2_quantile(again.options.significance, again.dof);
+    again.statistics.dof -= fitted->redundancy;
+    again.statistics.chi2_p = chi2_tail(again.statistics.chi2, again.statistics.dof);
+    again.statistics.chi2_limit =
+        chi2_quantile(again.log.options.significance, again.statistics.dof);
     flag_blunders(given.readings, {{at, fitted->fitted, sigma}}, again);
     return {std::move(again), std::nullopt};
 }

@@ -59,7 +59,7 @@ std::optional<PutBack> mirror_mesh(Problem& problem) {
     return [](FitResult& result) {
         const std::string note =
             "by the azimuths read, the mesh is the mirror image of the stone: it was mirrored";
-        result.notes.insert(result.notes.begin(), note);
+        result.log.notes.insert(result.log.notes.begin(), note);
         result.message += "; " + note;
     };
 }

@@ -180,7 +180,7 @@ void list_edges(const Solid& before, const Solid& after, std::vector<std::string
 // One round of changes that `result` asks for. False when it asks for none that can be made.
 bool change(Stage& stage, const FitResult& result, int& released,
             std::vector<std::string>& changes) {
-    if (!result.missing_facets.empty() && result.closed) {
+    if (!result.checks.missing_facets.empty() && result.checks.closed) {
         return change_solid(stage, result.solid, changes);
     }
     const Solid& solid = stage.stone.solid;
@@ -189,7 +189,7 @@ bool change(Stage& stage, const FitResult& result, int& released,
     std::set<int> touched;
     std::vector<std::string> said;
     const HalfEdges edges = half_edges(solid);
-    for (const ShapeFinding& finding : result.shape_findings) {
+    for (const ShapeFinding& finding : result.findings.shapes) {
         if (finding.kind == ShapeFinding::Kind::facet_vanishes) {
             const std::vector<int>& loop =
                 solid.facets[std::size_t(find_facet(solid, finding.facets[0]))].corners;
@@ -220,7 +220,7 @@ bool change(Stage& stage, const FitResult& result, int& released,
                 if (touched.count(e.from) > 0 || touched.count(e.to) > 0) continue;
                 touched.insert({e.from, e.to});
                 collapsing.emplace_back(e.from, e.to);
-                const bool flip = finding.p < result.options.significance;
+                const bool flip = finding.p < result.log.options.significance;
                 if (flip) flips.push_back(&finding);
                 said.push_back(fmt::format("edge {}|{} {}: {}", a, b,
                                            flip ? "let go" : "drawn together", finding.what));
@@ -241,7 +241,7 @@ bool change(Stage& stage, const FitResult& result, int& released,
     // One after the other, the worst first: readings of lengths that end where a meet comes apart
     // accuse its neighbours until it has. Many at once when there are more than rounds.
     std::vector<const MeetFinding*> bad;
-    for (const MeetFinding& meet : result.meet_findings) {
+    for (const MeetFinding& meet : result.findings.meets) {
         if (meet.contradicted && meet.how != "released") bad.push_back(&meet);
     }
     std::stable_sort(bad.begin(), bad.end(), [](const MeetFinding* a, const MeetFinding* b) {
@@ -325,7 +325,7 @@ void put_readings_back(const std::vector<Reading>& first, const Stage& stage, Fi
         r.fitted = r.residual = r.normalized = r.redundancy = k_none;
     }
     result.readings = std::move(all);
-    std::erase_if(result.suspects, [&](const std::string& id) {
+    std::erase_if(result.findings.suspects, [&](const std::string& id) {
         return std::none_of(first.begin(), first.end(),
                             [&](const Reading& r) { return r.id == id; });
     });
@@ -335,9 +335,9 @@ void put_readings_back(const std::vector<Reading>& first, const Stage& stage, Fi
 // agree with, then one where the steps came to an end.
 bool is_better(const FitResult& a, const FitResult& b) {
     const auto rank = [](const FitResult& r) {
-        return std::tuple(!r.closed || !r.missing_facets.empty(),
-                          !(r.chi2_p > r.options.significance),
-                          r.status == FitStatus::not_converged, -r.chi2_p);
+        return std::tuple(!r.checks.closed || !r.checks.missing_facets.empty(),
+                          !(r.statistics.chi2_p > r.log.options.significance),
+                          r.status == FitStatus::not_converged, -r.statistics.chi2_p);
     };
     return rank(a) < rank(b);
 }
@@ -364,7 +364,7 @@ FitResult fit_with_changes(const Stone& stone, const std::vector<Reading>& readi
                 std::vector<std::string> said = changes;
                 if (!let_go(other, edge, released + 1, said)) continue;
                 FitResult tried = fit(other.stone, other.readings);
-                if (!(tried.chi2_p > options.significance) ||
+                if (!(tried.statistics.chi2_p > options.significance) ||
                     tried.status == FitStatus::not_converged ||
                     (!chosen_changes.empty() && !is_better(tried, chosen_result))) {
                     continue;
@@ -387,13 +387,13 @@ FitResult fit_with_changes(const Stone& stone, const std::vector<Reading>& readi
         best_stage = stage;
         best_changes = changes;
     }
-    best.changes = std::move(best_changes);
-    best.options = options;
-    if (best.changes.empty()) return best;
-    list_edges(stone.solid, best.solid, best.changes);
+    best.log.changes = std::move(best_changes);
+    best.log.options = options;
+    if (best.log.changes.empty()) return best;
+    list_edges(stone.solid, best.solid, best.log.changes);
     put_readings_back(readings, best_stage, best);
-    best.message += fmt::format("; the topology was changed ({} change{})", best.changes.size(),
-                                best.changes.size() == 1 ? "" : "s");
+    best.message += fmt::format("; the topology was changed ({} change{})", best.log.changes.size(),
+                                best.log.changes.size() == 1 ? "" : "s");
     return best;
 }
 

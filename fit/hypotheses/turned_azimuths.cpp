@@ -47,7 +47,7 @@ std::optional<Problem> azimuths_turned_back(const Problem& given, const Attempt&
 Verdict judge_turned_azimuths(const Problem& given, const Attempt& first, const Problem&,
                               FitResult again) {
     if (again.status == FitStatus::not_converged ||
-        !(again.chi2 < k_part_left * first.result.chi2)) {
+        !(again.statistics.chi2 < k_part_left * first.result.statistics.chi2)) {
         return {};
     }
     const double mark_deg = marks_deg(first);
@@ -62,7 +62,7 @@ Verdict judge_turned_azimuths(const Problem& given, const Attempt& first, const 
         "all azimuths read count from {:g} degrees beside the mesh, and the widths do not: the fit "
         "took {:g} degrees off each of them",
         std::abs(mark_deg), mark_deg);
-    again.notes.insert(again.notes.begin(), why);
+    again.log.notes.insert(again.log.notes.begin(), why);
     again.message = again.status == FitStatus::converged ? why : why + "; " + again.message;
     again.status = FitStatus::contradictory;
     return {std::move(again), std::nullopt};

@@ -33,10 +33,10 @@ Reading size_of_mesh(const Stone& stone) {
 void take_back_size(const Reading& size, FitResult& result) {
     const auto is_size = [&](const std::string& id) { return id == size.id; };
     std::erase_if(result.readings, [&](const FittedReading& r) { return is_size(r.id); });
-    std::erase_if(result.disagreeing, is_size);
-    ++result.rank_defect;
-    result.undetermined_words.insert(result.undetermined_words.begin(),
-                                     "nothing measured fixes the size of the stone");
+    std::erase_if(result.findings.disagreeing, is_size);
+    ++result.statistics.rank_defect;
+    result.findings.undetermined_words.insert(result.findings.undetermined_words.begin(),
+                                              "nothing measured fixes the size of the stone");
     const std::string why =
         "no length was read, and the size of the stone is the mesh's; read a width or the depth";
     const bool was_good =

@@ -13,16 +13,16 @@ using Json = nlohmann::ordered_json;
 
 void report_assessment(const FitResult& result, Json& report) {
     Json proportions = Json::array();
-    for (const FittedProportion& p : result.proportions) {
+    for (const FittedProportion& p : result.findings.proportions) {
         proportions.push_back({{"name", p.name},
                                {"value", json_number(p.value)},
                                {"sigma", json_number(p.sigma)},
                                {"unit", p.unit}});
     }
     report["proportions"] = proportions;
-    report["disagreeing"] = result.disagreeing;
+    report["disagreeing"] = result.findings.disagreeing;
     Json proposals = Json::array();
-    for (const Proposal& p : result.proposals) {
+    for (const Proposal& p : result.findings.proposals) {
         const double unit = p.in_radians ? degrees(1) : 1;
         Json one = {{"id", p.id},
                     {"estimate", json_number(unit * p.estimate)},
@@ -35,9 +35,9 @@ void report_assessment(const FitResult& result, Json& report) {
         proposals.push_back(std::move(one));
     }
     report["proposals"] = proposals;
-    report["undetermined_words"] = result.undetermined_words;
+    report["undetermined_words"] = result.findings.undetermined_words;
     Json help = Json::array();
-    for (const NextReading& h : result.help) {
+    for (const NextReading& h : result.findings.help) {
         const double unit = is_angle(h.kind) ? degrees(1) : 1;
         help.push_back({{"kind", name_of(h.kind)},
                         {"of", h.of},
@@ -46,8 +46,8 @@ void report_assessment(const FitResult& result, Json& report) {
                         {"closes", h.closes}});
     }
     report["help"] = help;
-    report["options"]["loss"] = name_of(result.options.loss);
-    if (result.options.loss == Loss::none) return;
+    report["options"]["loss"] = name_of(result.log.options.loss);
+    if (result.log.options.loss == Loss::none) return;
     for (std::size_t r = 0; r < result.readings.size(); ++r) {
         report["readings"][r]["weight"] = json_number(result.readings[r].weight);
     }

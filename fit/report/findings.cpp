@@ -56,15 +56,15 @@ Json symmetry_of(const SymmetryReport& symmetry) {
 }  // namespace
 
 void add_findings(const FitResult& result, Json& report) {
-    if (!result.options.findings) return;
+    if (!result.log.options.findings) return;
     Json& facets = report["facets"];
     for (std::size_t f = 0; f < result.facets.size(); ++f) {
         facets[f]["inclination_own_axis"] =
             json_number(degrees(result.facets[f].inclination_own_axis));
     }
-    report["own_axis"] = axis_of(result.own_axis);
+    report["own_axis"] = axis_of(result.findings.own_axis);
     Json tiers = Json::array();
-    for (const Tier& tier : result.tiers) {
+    for (const Tier& tier : result.findings.tiers) {
         Json names = Json::array();
         for (int f : tier.facets) names.push_back(result.facets[std::size_t(f)].name);
         tiers.push_back({{"name", tier.name},
@@ -77,7 +77,7 @@ void add_findings(const FitResult& result, Json& report) {
     }
     report["tiers"] = tiers;
     Json meets = Json::array(), proposals = Json::array();
-    for (const MeetFinding& meet : result.meet_findings) {
+    for (const MeetFinding& meet : result.findings.meets) {
         meets.push_back({{"facets", meet.facets},
                          {"how", meet.how},
                          {"miss", json_number(meet.miss)},
@@ -93,7 +93,7 @@ void add_findings(const FitResult& result, Json& report) {
     report["meets"]["list"] = meets;
     report["meets"]["proposals"] = proposals;
     Json shape = Json::array();
-    for (const ShapeFinding& finding : result.shape_findings) {
+    for (const ShapeFinding& finding : result.findings.shapes) {
         const double unit = finding.kind == ShapeFinding::Kind::same_plane ? degrees(1) : 1;
         shape.push_back({{"kind", name_of(finding.kind)},
                          {"facets", finding.facets},
@@ -104,7 +104,7 @@ void add_findings(const FitResult& result, Json& report) {
     }
     report["shape"] = shape;
     Json extra = Json::array();
-    for (const ExtraFacet& facet : result.extra_facets) {
+    for (const ExtraFacet& facet : result.findings.extra_facets) {
         extra.push_back({{"at", facet.at},
                          {"depth", json_number(facet.depth)},
                          {"sigma", json_number(facet.sigma)},
@@ -115,8 +115,8 @@ void add_findings(const FitResult& result, Json& report) {
         if (!facet.or_wrong.empty()) extra.back()["or_wrong"] = facet.or_wrong;
     }
     report["extra_facets"] = extra;
-    report["changes"] = result.changes;
-    if (result.symmetry) report["symmetry"] = symmetry_of(*result.symmetry);
+    report["changes"] = result.log.changes;
+    if (result.findings.symmetry) report["symmetry"] = symmetry_of(*result.findings.symmetry);
 }
 
 }  // namespace culet

@@ -31,7 +31,7 @@ Json prior_json(const PriorReport& prior) {
 
 Json tier_angles(const FitResult& result) {
     Json tiers = Json::array();
-    for (const NamedTierFinding& tier : result.named_tiers) {
+    for (const NamedTierFinding& tier : result.findings.named_tiers) {
         Json odd = Json::array();
         for (const OddFacets& o : tier.odd) {
             odd.push_back({{"facets", o.facets},
@@ -116,46 +116,47 @@ std::string fit_report(const FitResult& result) {
     }
     report["readings"] = readings;
     Json undetermined = Json::array();
-    for (const Undetermined& u : result.undetermined) {
+    for (const Undetermined& u : result.findings.undetermined) {
         undetermined.push_back({{"facet", u.facet}, {"freedom", u.freedom}});
     }
     report["undetermined"] = undetermined;
-    report["undetermined_freedoms"] = result.rank_defect;
-    report["doubts"] = result.doubts;
-    report["suspects"] = result.suspects;
-    report["suspect_limit"] = result.suspect_limit;
-    report["missing_facets"] = result.missing_facets;
-    report["vanishing_edges"] = result.vanishing_edges;
-    report["starts"] = result.starts;
-    report["start"] = result.start;
-    report["notes"] = result.notes;
-    report["meets"] = {{"exact", result.meets.exact},
-                       {"soft", result.meets.soft},
-                       {"released", result.meets.released},
-                       {"sigma", result.meets.sigma},
-                       {"girdle_sigma", result.meets.girdle_sigma},
-                       {"sigma_estimated", result.meets.estimated},
-                       {"sigma_ends", result.meets.ends},
-                       {"miss_rms", result.meets.miss_rms},
-                       {"miss_max", result.meets.miss_max}};
-    report["prior"] = prior_json(result.prior);
+    report["undetermined_freedoms"] = result.statistics.rank_defect;
+    report["doubts"] = result.findings.doubts;
+    report["suspects"] = result.findings.suspects;
+    report["suspect_limit"] = result.statistics.suspect_limit;
+    report["missing_facets"] = result.checks.missing_facets;
+    report["vanishing_edges"] = result.findings.vanishing_edges;
+    report["starts"] = result.log.starts;
+    report["start"] = result.log.start;
+    report["notes"] = result.log.notes;
+    report["meets"] = {{"exact", result.statistics.meets.exact},
+                       {"soft", result.statistics.meets.soft},
+                       {"released", result.statistics.meets.released},
+                       {"sigma", result.statistics.meets.sigma},
+                       {"girdle_sigma", result.statistics.meets.girdle_sigma},
+                       {"sigma_estimated", result.statistics.meets.estimated},
+                       {"sigma_ends", result.statistics.meets.ends},
+                       {"miss_rms", result.statistics.meets.miss_rms},
+                       {"miss_max", result.statistics.meets.miss_max}};
+    report["prior"] = prior_json(result.statistics.prior);
     report["tier_angles"] = tier_angles(result);
     add_findings(result, report);
-    report["planarity_max"] = result.planarity_max;
-    report["closed"] = result.closed;
-    report["convex"] = result.convex;
-    report["chi2"] = json_number(result.chi2);
-    report["dof"] = json_number(result.dof);
-    report["chi2_limit"] = json_number(result.chi2_limit);
-    report["chi2_p"] = json_number(result.chi2_p);
+    report["planarity_max"] = result.checks.planarity_max;
+    report["closed"] = result.checks.closed;
+    report["convex"] = result.checks.convex;
+    report["chi2"] = json_number(result.statistics.chi2);
+    report["dof"] = json_number(result.statistics.dof);
+    report["chi2_limit"] = json_number(result.statistics.chi2_limit);
+    report["chi2_p"] = json_number(result.statistics.chi2_p);
     report["azimuth_zero"] = degrees(result.azimuth_zero);
-    report["iterations"] = result.iterations;
-    report["seconds"] = result.seconds;
+    report["iterations"] = result.log.iterations;
+    report["seconds"] = result.log.seconds;
     report["options"] = {
-        {"meets", name_of(result.options.meets)},
-        {"meet_sigma", result.options.meet_sigma ? Json(*result.options.meet_sigma) : Json("auto")},
-        {"iterations", result.options.iterations},
-        {"significance", result.options.significance}};
+        {"meets", name_of(result.log.options.meets)},
+        {"meet_sigma",
+         result.log.options.meet_sigma ? Json(*result.log.options.meet_sigma) : Json("auto")},
+        {"iterations", result.log.options.iterations},
+        {"significance", result.log.options.significance}};
     report_assessment(result, report);
     return report.dump(1) + "\n";
 }

@@ -73,7 +73,7 @@ bool thin_out(const StudyTruth& truth, const FitOptions& options, int target,
             if (out.empty()) return false;
             Selection next{without(selection.readings, out), {}};
             next.fitted = fit_stone(truth.stone, next.readings, options);
-            if (!is_sound(truth.stone, next.fitted) || next.fitted.rank_defect > 0) {
+            if (!is_sound(truth.stone, next.fitted) || next.fitted.statistics.rank_defect > 0) {
                 continue;
             }
             selection = std::move(next);
@@ -98,7 +98,7 @@ StudyLimit measured(const StudyTruth& truth, const Selection& selection, const F
     const FitResult fitted = fit_stone(truth.stone, kept, options);
     row.readings = count(selection.readings);
     row.share = double(row.readings) / std::max(1, all);
-    row.dof = selection.fitted.dof;
+    row.dof = selection.fitted.statistics.dof;
     ++row.draws;
     if (is_settled(truth.stone, fitted)) {
         errors.push_back(error_of(truth, fitted));
@@ -157,7 +157,7 @@ void study_limits(const Stone& stone, const FitResult& base, const StudyTruth& t
             fmt::format("no stone with exact meets and symmetries was found: {}", ideal.message);
         return;
     }
-    if (ideal.rank_defect > 0) {
+    if (ideal.statistics.rank_defect > 0) {
         study.limit_message =
             "the readings leave the stone open: there is no limit to hold the error against";
         return;

@@ -142,7 +142,7 @@ Outcome outcome_of(const Way& way, const Stone& stone, const StudyTruth& truth,
     outcome.fitted = fit_stone(start, readings, way.options);
     outcome.seconds = processor_seconds() - begin;
     const FitResult& fitted = outcome.fitted;
-    outcome.chi2 = fitted.chi2;
+    outcome.chi2 = fitted.statistics.chi2;
     outcome.sound = is_sound(stone, fitted);
     outcome.settled = is_settled(stone, fitted);
     if (outcome.sound) outcome.error = error_of(truth, fitted);

@@ -148,7 +148,8 @@ StudyError limit_of(const StudyTruth& truth, const FitResult& fitted) {
 }
 
 bool is_sound(const Stone& stone, const FitResult& fitted) {
-    return fitted.closed && (fitted.convex || !stone.convex) && fitted.missing_facets.empty();
+    return fitted.checks.closed && (fitted.checks.convex || !stone.convex) &&
+           fitted.checks.missing_facets.empty();
 }
 
 bool is_settled(const Stone& stone, const FitResult& fitted) {

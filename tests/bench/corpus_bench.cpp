@@ -36,8 +36,8 @@ Json report_of(const CorpusFit& one) {
                 {"status", trial.refusal.empty() ? name_of(trial.result.status) : trial.refusal}};
     // To a thousandth: what rounding does to the last digits is no change.
     report["chi2"] =
-        trial.refusal.empty() ? Json(std::round(1e3 * trial.result.chi2) / 1e3) : Json();
-    report["reference_chi2"] = std::round(1e3 * one.reference().result.chi2) / 1e3;
+        trial.refusal.empty() ? Json(std::round(1e3 * trial.result.statistics.chi2) / 1e3) : Json();
+    report["reference_chi2"] = std::round(1e3 * one.reference().result.statistics.chi2) / 1e3;
     report["ms"] = std::round(1e4 * trial.cpu) / 10;
     return report;
 }

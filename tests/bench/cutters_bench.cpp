@@ -53,9 +53,9 @@ FitResult fit_evening(const Evening& evening) {
 
 bool names_first(const FitResult& result, const std::vector<Reading>& readings,
                  const std::vector<long>& lines) {
-    if (result.suspects.empty()) return false;
+    if (result.findings.suspects.empty()) return false;
     const auto first = std::find_if(readings.begin(), readings.end(), [&](const Reading& r) {
-        return r.id == result.suspects.front();
+        return r.id == result.findings.suspects.front();
     });
     return first != readings.end() &&
            std::find(lines.begin(), lines.end(), first->line) != lines.end();
@@ -90,12 +90,13 @@ void count(const Evening& evening, bool verbose, Tally& tally) {
     const bool named = names_first(result, readings, evening.wrong_lines);
     tally.named_first += named;
     const bool is_clean = evening.wrong_lines.empty();
-    tally.alarms += is_clean && !result.suspects.empty();
-    const bool sound = result.closed && result.convex && result.missing_facets.empty();
+    tally.alarms += is_clean && !result.findings.suspects.empty();
+    const bool sound =
+        result.checks.closed && result.checks.convex && result.checks.missing_facets.empty();
     tally.sound += sound;
-    tally.seconds += result.seconds;
-    tally.longest = std::max(tally.longest, result.seconds);
-    if (verbose && ((is_clean ? !result.suspects.empty() : !named) || !sound)) {
+    tally.seconds += result.log.seconds;
+    tally.longest = std::max(tally.longest, result.log.seconds);
+    if (verbose && ((is_clean ? !result.findings.suspects.empty() : !named) || !sound)) {
         fmt::print("    line {}: {} {}\n", is_clean ? 0 : evening.wrong_lines[0],
                    name_of(result.status), result.message);
     }
@@ -105,7 +106,7 @@ void count(const Evening& evening, bool verbose, Tally& tally) {
         tally.steep_named +=
             std::all_of(evening.steep.begin(), evening.steep.end(), [&](const std::string& name) {
                 return std::any_of(
-                    result.named_tiers.begin(), result.named_tiers.end(),
+                    result.findings.named_tiers.begin(), result.findings.named_tiers.end(),
                     [&](const NamedTierFinding& tier) {
                         return std::any_of(
                             tier.odd.begin(), tier.odd.end(), [&](const OddFacets& o) {

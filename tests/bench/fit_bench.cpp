@@ -72,8 +72,9 @@ void success_table(BenchTables& tables, const std::string& name, const std::stri
                     std::cerr << fmt::format(
                         "{} seed {} at {}: {} chi2 {:.1f} (reference {:.1f} dof {:.0f}) {} {} {}\n",
                         c.name(), seed, parts[p], is_valid(truth.stone, trial.result),
-                        trial.result.chi2, reference.result.chi2, reference.result.dof,
-                        trial.result.message, trial.refusal, reference.result.message);
+                        trial.result.statistics.chi2, reference.result.statistics.chi2,
+                        reference.result.statistics.dof, trial.result.message, trial.refusal,
+                        reference.result.message);
                 }
             }
         }
@@ -162,7 +163,8 @@ void time_table(BenchTables& tables, const Chosen& chosen, unsigned large) {
             status = trial.refusal.empty() ? name_of(trial.result.status) : trial.refusal;
             if (chosen.verbose) {
                 std::cerr << fmt::format("{} {} seed {}: {:.1f} ms, {}, chi-square {:.1f}\n", name,
-                                         facets, seed, times.back(), status, trial.result.chi2);
+                                         facets, seed, times.back(), status,
+                                         trial.result.statistics.chi2);
             }
         }
         tables.line(name, {fmt::format("{}", facets), fmt::format("{}", readings_count),
@@ -212,8 +214,8 @@ void refit_table(BenchTables& tables, const Chosen& chosen) {
             const Trial fresh = fit_mesh(truth.stone, readings, without_findings());
             times.push_back(1e3 * trial.cpu);
             count = readings.size();
-            same += trial.result.start == "earlier result" &&
-                    trial.result.chi2 < fresh.result.chi2 + 0.1;
+            same += trial.result.log.start == "earlier result" &&
+                    trial.result.statistics.chi2 < fresh.result.statistics.chi2 + 0.1;
         }
         tables.line(c.name(), {fmt::format("{}", count),
                                fmt::format("{:.1f}", *std::min_element(times.begin(), times.end())),

@@ -77,10 +77,11 @@ void report_coverage(const Sample& which, int stones, int repetitions) {
             const Clocks before = clocks();
             const FitResult result = fit(truth, written);
             cpu.push_back(clocks().cpu - before.cpu);
-            unsound += !result.closed || !result.convex;
-            alarms += !result.suspects.empty() || result.status == FitStatus::contradictory;
-            tilt.chi2 += result.chi2;
-            tilt.dof += result.dof;
+            unsound += !result.checks.closed || !result.checks.convex;
+            alarms +=
+                !result.findings.suspects.empty() || result.status == FitStatus::contradictory;
+            tilt.chi2 += result.statistics.chi2;
+            tilt.dof += result.statistics.dof;
             for (std::size_t f = 0; f < result.facets.size(); ++f) {
                 const FittedFacet &mine = result.facets[f], &best = limit.facets[f];
                 if (mine.name == truth.stone.up_facet) continue;
@@ -92,10 +93,11 @@ void report_coverage(const Sample& which, int stones, int repetitions) {
                 }
                 turn.add(folded(mine.azimuth - azimuth(n)), mine.sigma_azimuth, best.sigma_azimuth);
             }
-            for (std::size_t p = 0; p < result.proportions.size(); ++p) {
-                if (p >= limit.proportions.size()) break;
-                proportion.add(result.proportions[p].value - limit.proportions[p].value,
-                               result.proportions[p].sigma, limit.proportions[p].sigma);
+            for (std::size_t p = 0; p < result.findings.proportions.size(); ++p) {
+                if (p >= limit.findings.proportions.size()) break;
+                proportion.add(
+                    result.findings.proportions[p].value - limit.findings.proportions[p].value,
+                    result.findings.proportions[p].sigma, limit.findings.proportions[p].sigma);
             }
         }
     }
@@ -153,14 +155,15 @@ void report_detection(const Sample& which, int repetitions, double size) {
         plant(written, a);
         const FitResult result = fit(truth, written);
         const auto names = [&](const FitResult& r, std::size_t which_one) {
-            return std::find(r.suspects.begin(), r.suspects.end(), r.readings[which_one].id) !=
-                   r.suspects.end();
+            return std::find(r.findings.suspects.begin(), r.findings.suspects.end(),
+                             r.readings[which_one].id) != r.findings.suspects.end();
         };
         ++one.tried;
         one.seen += result.status == FitStatus::contradictory;
         one.named += names(result, a);
-        one.named_first += !result.suspects.empty() && result.suspects[0] == result.readings[a].id;
-        for (const Proposal& p : result.proposals) {
+        one.named_first += !result.findings.suspects.empty() &&
+                           result.findings.suspects[0] == result.readings[a].id;
+        for (const Proposal& p : result.findings.proposals) {
             one.alternative += std::find(p.alternatives.begin(), p.alternatives.end(),
                                          result.readings[a].id) != p.alternatives.end();
         }

@@ -33,7 +33,9 @@ bool is_valid(const Stone& declared, const FitResult& result) {
 
 bool succeeds(const Stone& declared, const Trial& trial, const Trial& reference) {
     return trial.refusal.empty() && is_valid(declared, trial.result) &&
-           trial.result.chi2 < reference.result.chi2 + std::max(4.0, 0.05 * reference.result.chi2);
+           trial.result.statistics.chi2 <
+               reference.result.statistics.chi2 +
+                   std::max(4.0, 0.05 * reference.result.statistics.chi2);
 }
 
 }  // namespace culet::bench

@@ -37,7 +37,7 @@ FitResult fit_from_truth(const Solid& truth, const std::vector<Reading>& reading
 }
 
 const FittedProportion* find(const FitResult& result, const std::string& name) {
-    for (const FittedProportion& p : result.proportions) {
+    for (const FittedProportion& p : result.findings.proportions) {
         if (p.name == name) return &p;
     }
     return nullptr;
@@ -68,7 +68,7 @@ TEST(Proportions, OfABrilliantAreThoseItWasMadeFrom) {
     EXPECT_NEAR(find(result, "volume")->value, volume(truth), 1e-5);
     EXPECT_NEAR(find(result, "weight")->value, volume(truth) * 3.5 / 200, 1e-6);
     EXPECT_NEAR(find(result, "length/width")->value, 1, 1e-6);
-    for (const FittedProportion& p : result.proportions) EXPECT_GT(p.sigma, 0) << p.name;
+    for (const FittedProportion& p : result.findings.proportions) EXPECT_GT(p.sigma, 0) << p.name;
 }
 
 // Derivatives of every proportion against central differences, on a stone without symmetry.
@@ -138,7 +138,7 @@ TEST(Snooping, RarelyCriesWolf) {
     const std::vector<Reading> clean = full_readings(truth);
     int alarms = 0;
     for (unsigned seed = 100; seed < 140; ++seed) {
-        alarms += !fit_from_truth(truth, noisy(clean, seed)).suspects.empty();
+        alarms += !fit_from_truth(truth, noisy(clean, seed)).findings.suspects.empty();
     }
     EXPECT_LE(alarms, 2);
 }
@@ -203,12 +203,12 @@ TEST(Slips, OfAReadingAreNamedWithTheirCorrection) {
     readings[c3].value = radians(43.5);  // for 34.5
     const FitResult result = fit_stone(stone_of(truth), readings);
     EXPECT_EQ(result.status, FitStatus::contradictory);
-    ASSERT_THAT(result.suspects, ::testing::SizeIs(1)) << result.message;
-    EXPECT_EQ(result.suspects[0], readings[c3].id);
-    ASSERT_EQ(result.proposals.size(), 1u);
-    EXPECT_THAT(result.proposals[0].slip, HasSubstr("swapped"));
-    EXPECT_NEAR(degrees(result.proposals[0].corrected), 34.5, 1e-9);
-    EXPECT_NEAR(degrees(result.proposals[0].estimate), 34.5, 0.5);
+    ASSERT_THAT(result.findings.suspects, ::testing::SizeIs(1)) << result.message;
+    EXPECT_EQ(result.findings.suspects[0], readings[c3].id);
+    ASSERT_EQ(result.findings.proposals.size(), 1u);
+    EXPECT_THAT(result.findings.proposals[0].slip, HasSubstr("swapped"));
+    EXPECT_NEAR(degrees(result.findings.proposals[0].corrected), 34.5, 1e-9);
+    EXPECT_NEAR(degrees(result.findings.proposals[0].estimate), 34.5, 0.5);
     EXPECT_THAT(result.message, HasSubstr("34.5"));
 }
 
@@ -246,7 +246,8 @@ TEST(Disagreement, OfExactReadingsNamesTheFewest) {
     const FitResult result =
         fit_stone(stone_of(box), {exact("X+", 88), exact("Y+", 87), deep, turn});
     EXPECT_EQ(result.status, FitStatus::contradictory) << result.message;
-    EXPECT_THAT(result.disagreeing, UnorderedElementsAre("X+", "Y+", "turn")) << result.message;
+    EXPECT_THAT(result.findings.disagreeing, UnorderedElementsAre("X+", "Y+", "turn"))
+        << result.message;
 }
 
 // Three equal depths and one that differs by 8 sigma: it is named, and the fewest that disagree are
@@ -260,9 +261,9 @@ TEST(Disagreement, OfReadingsOfOneQuantityIsBetweenTwo) {
     readings[2].value += 0.08;
     const FitResult result = fit_stone(stone_of(cube()), readings);
     EXPECT_EQ(result.status, FitStatus::contradictory);
-    EXPECT_THAT(result.suspects, ::testing::ElementsAre("d2"));
-    EXPECT_THAT(result.disagreeing, Contains("d2"));
-    EXPECT_EQ(result.disagreeing.size(), 2u);
+    EXPECT_THAT(result.findings.suspects, ::testing::ElementsAre("d2"));
+    EXPECT_THAT(result.findings.disagreeing, Contains("d2"));
+    EXPECT_EQ(result.findings.disagreeing.size(), 2u);
 }
 
 // Two readings of one quantity: neither can be told to be the wrong one.
@@ -273,9 +274,9 @@ TEST(Disagreement, OfTwoNamesBoth) {
     readings[1].value += 0.1;
     const FitResult result = fit_stone(stone_of(cube()), readings);
     EXPECT_EQ(result.status, FitStatus::contradictory);
-    EXPECT_THAT(result.disagreeing, UnorderedElementsAre("a", "b"));
-    ASSERT_EQ(result.proposals.size(), 1u);
-    EXPECT_EQ(result.proposals[0].alternatives.size(), 1u);
+    EXPECT_THAT(result.findings.disagreeing, UnorderedElementsAre("a", "b"));
+    ASSERT_EQ(result.findings.proposals.size(), 1u);
+    EXPECT_EQ(result.findings.proposals[0].alternatives.size(), 1u);
 }
 
 TEST(Undetermined, IsSaidInWords) {
@@ -290,11 +291,11 @@ TEST(Undetermined, IsSaidInWords) {
     }
     const FitResult result = fit_stone(stone_of(truth), readings);
     EXPECT_EQ(result.status, FitStatus::undetermined);
-    EXPECT_FALSE(result.undetermined_words.empty());
-    for (const std::string& s : result.undetermined_words) {
+    EXPECT_FALSE(result.findings.undetermined_words.empty());
+    for (const std::string& s : result.findings.undetermined_words) {
         EXPECT_THAT(s, HasSubstr("nothing measured fixes the ")) << s;
     }
-    EXPECT_FALSE(result.help.empty());
+    EXPECT_FALSE(result.findings.help.empty());
     EXPECT_THAT(result.message, HasSubstr("next, measure "));
 }
 
@@ -307,8 +308,8 @@ TEST(Help, KeepsItsPromise) {
     readings.push_back(width(box, 90, 0.01));
     for (std::size_t i = 0; i < readings.size(); ++i) readings[i].id = fmt::format("r{}", i);
     const FitResult before = fit_stone(stone_of(box), readings);
-    ASSERT_FALSE(before.help.empty());
-    const NextReading& help = before.help[0];
+    ASSERT_FALSE(before.findings.help.empty());
+    const NextReading& help = before.findings.help[0];
     EXPECT_TRUE(help.closes) << name_of(help.kind);
     Reading added = help.kind == ReadingKind::depth ? depth(box, help.sigma)
                                                     : reading(help.kind, {}, 2, help.sigma);
@@ -323,7 +324,7 @@ TEST(Help, KeepsItsPromise) {
     added.id = "added";
     readings.push_back(added);
     const FitResult after = fit_stone(stone_of(box), readings);
-    EXPECT_EQ(after.rank_defect, before.rank_defect - 1);
+    EXPECT_EQ(after.statistics.rank_defect, before.statistics.rank_defect - 1);
 }
 
 // Widrow & Kollar: without noise all of step^2/12 is common, from half a step on next to nothing;
@@ -407,13 +408,13 @@ TEST(Refit, EndsWhereAFreshFitEnds) {
     options.start = first.solid;
     const FitResult again = fit_stone(mesh, readings, options), fresh = fit_stone(mesh, readings);
     EXPECT_EQ(again.status, fresh.status) << again.message;
-    EXPECT_NEAR(again.chi2, fresh.chi2, 1e-4);
+    EXPECT_NEAR(again.statistics.chi2, fresh.statistics.chi2, 1e-4);
     for (std::size_t f = 0; f < truth.facets.size(); ++f) {
         EXPECT_NEAR(again.facets[f].inclination, fresh.facets[f].inclination, 1e-6);
     }
     // A start of another stone is no start.
     options.start = cube();
-    EXPECT_NEAR(fit_stone(mesh, readings, options).chi2, fresh.chi2, 1e-4);
+    EXPECT_NEAR(fit_stone(mesh, readings, options).statistics.chi2, fresh.statistics.chi2, 1e-4);
 }
 
 class HardNumbers : public ::testing::Test {
@@ -431,7 +432,7 @@ protected:
 TEST_F(HardNumbers, TinyUncertaintiesOfAllReadings) {
     std::vector<Reading> readings = box_readings(1e-12);
     const FitResult result = fit_stone(stone_of(box_), readings);
-    EXPECT_EQ(result.rank_defect, 0) << result.message;
+    EXPECT_EQ(result.statistics.rank_defect, 0) << result.message;
     EXPECT_NEAR(volume(result.solid), 8, 1e-9);
     EXPECT_LT(find(result, "volume")->sigma, 1e-9);
 }
@@ -439,7 +440,7 @@ TEST_F(HardNumbers, TinyUncertaintiesOfAllReadings) {
 TEST_F(HardNumbers, HugeUncertaintiesLeaveEverythingOpen) {
     const FitResult result = fit_stone(stone_of(box_), box_readings(1e12));
     EXPECT_EQ(result.status, FitStatus::undetermined) << result.message;
-    EXPECT_EQ(result.rank_defect, 12);
+    EXPECT_EQ(result.statistics.rank_defect, 12);
 }
 
 TEST_F(HardNumbers, OneTinyAmongOrdinaryOnesDecides) {
@@ -476,10 +477,10 @@ TEST_F(HardNumbers, OneReadingAndNone) {
         if (count == 1) readings.push_back(depth(box_, 0.01));
         const FitResult result = fit_stone(stone_of(box_), readings);
         EXPECT_EQ(result.status, FitStatus::undetermined);
-        EXPECT_EQ(result.rank_defect, 12 - int(count));
-        EXPECT_FALSE(result.undetermined_words.empty());
-        EXPECT_FALSE(result.help.empty());
-        EXPECT_TRUE(result.help[0].closes);
+        EXPECT_EQ(result.statistics.rank_defect, 12 - int(count));
+        EXPECT_FALSE(result.findings.undetermined_words.empty());
+        EXPECT_FALSE(result.findings.help.empty());
+        EXPECT_TRUE(result.findings.help[0].closes);
     }
 }
 

@@ -87,8 +87,8 @@ TEST(ClosingSides, LetAStoneOfManyGirdleFacetsBeFoundFromAShakenMesh) {
     const Trial reference = fit_mesh(aimed_at_zero(truth.stone), readings);
     const Trial trial = fit_mesh(aimed_at_zero(noisy_mesh(truth.stone, 0.01, 6)), readings);
     EXPECT_TRUE(succeeds(truth.stone, trial, reference))
-        << trial.result.chi2 << " against " << reference.result.chi2 << "; " << trial.result.message
-        << trial.refusal;
+        << trial.result.statistics.chi2 << " against " << reference.result.statistics.chi2 << "; "
+        << trial.result.message << trial.refusal;
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ std::vector<Reading> readings_of(const Solid& mesh, const Solid& truth, unsigned
 
 std::vector<std::string> places(const FitResult& result) {
     std::vector<std::string> all;
-    for (const ExtraFacet& f : result.extra_facets) {
+    for (const ExtraFacet& f : result.findings.extra_facets) {
         all.push_back("");
         for (const std::string& name : f.at) all.back() += " " + name;
         all.back() += " ";
@@ -53,8 +53,8 @@ TEST(ExtraFacets, ABrutedCuletIsSuspected) {
     for (unsigned seed = 1; seed <= 4; ++seed) {
         const Solid truth = with_extra(mesh, {0, 0, -1}, 0.06);
         const FitResult result = fit_stone(stone_of(mesh), readings_of(mesh, truth, seed));
-        ASSERT_FALSE(result.extra_facets.empty()) << seed << " " << result.message;
-        const ExtraFacet& first = result.extra_facets.front();
+        ASSERT_FALSE(result.findings.extra_facets.empty()) << seed << " " << result.message;
+        const ExtraFacet& first = result.findings.extra_facets.front();
         EXPECT_THAT(first.at, Contains("P1"));
         EXPECT_NEAR(first.depth, 0.06, 5 * first.sigma);
         EXPECT_LT(first.sigma, 0.02);
@@ -69,7 +69,8 @@ TEST(ExtraFacets, OneOnACornerOfTheGirdleIsSuspected) {
     for (const double inclination_deg : {60.0, 75.0, 90.0}) {
         const Solid truth = with_extra(mesh, direction(inclination_deg, 0), 0.05);
         const FitResult result = fit_stone(stone_of(mesh), readings_of(mesh, truth, 7));
-        ASSERT_FALSE(result.extra_facets.empty()) << inclination_deg << " " << result.message;
+        ASSERT_FALSE(result.findings.extra_facets.empty())
+            << inclination_deg << " " << result.message;
         EXPECT_THAT(places(result).front(),
                     testing::AnyOf(testing::HasSubstr(" C1 "), testing::HasSubstr(" G1 "),
                                    testing::HasSubstr(" G16 ")))
@@ -83,7 +84,7 @@ TEST(ExtraFacets, ACleanStoneHasNone) {
     int alarms = 0;
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const FitResult result = fit_stone(stone_of(mesh), readings_of(mesh, mesh, seed));
-        alarms += result.extra_facets.empty() ? 0 : 1;
+        alarms += result.findings.extra_facets.empty() ? 0 : 1;
     }
     EXPECT_EQ(alarms, 0);
 }
@@ -98,7 +99,7 @@ TEST(ExtraFacets, AWrongReadingIsNotTakenForOne) {
             break;
         }
         const FitResult result = fit_stone(stone_of(mesh), readings);
-        EXPECT_FALSE(result.suspects.empty()) << id_kind;
+        EXPECT_FALSE(result.findings.suspects.empty()) << id_kind;
         EXPECT_THAT(places(result), IsEmpty()) << id_kind;
     }
 }

@@ -261,9 +261,9 @@ TEST(FindSymmetry, AgreesWithASymmetricFit) {
     const FitResult six = fit_stone(stone_of(truth), symmetric);
     ASSERT_EQ(six.status, FitStatus::converged) << six.message;
     const GroupTest& test = group(report, "C6");
-    EXPECT_NEAR(six.dof - free.dof, test.conditions, 1e-6);
+    EXPECT_NEAR(six.statistics.dof - free.statistics.dof, test.conditions, 1e-6);
     EXPECT_EQ(test.tested, test.conditions);
-    EXPECT_NEAR(six.chi2 - free.chi2, test.chi2, 0.02 * test.chi2);
+    EXPECT_NEAR(six.statistics.chi2 - free.statistics.chi2, test.chi2, 0.02 * test.chi2);
 }
 
 TEST(FindSymmetry, OfAStepCut) {

@@ -124,12 +124,13 @@ TEST_F(FirstCheck, a_fit_goes_on_without_the_doubted_reading_and_lists_it_first)
     const FitResult result = fit_stone(evening.design, readings, options);
     EXPECT_EQ(result.status, FitStatus::contradictory);
     ASSERT_EQ(result.readings.size(), readings.size());
-    ASSERT_FALSE(result.suspects.empty());
+    ASSERT_FALSE(result.findings.suspects.empty());
     const auto wrong = std::find_if(readings.begin(), readings.end(), [&](const Reading& r) {
         return r.line == evening.wrong_lines[0];
     });
-    EXPECT_EQ(result.suspects[0], wrong->id);
-    EXPECT_TRUE(result.closed && result.convex && result.missing_facets.empty());
+    EXPECT_EQ(result.findings.suspects[0], wrong->id);
+    EXPECT_TRUE(result.checks.closed && result.checks.convex &&
+                result.checks.missing_facets.empty());
 }
 
 TEST_F(FirstCheck, two_steep_mains_are_told_in_one_sentence) {

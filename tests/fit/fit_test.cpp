@@ -19,9 +19,9 @@ namespace {
 using namespace test;
 
 void expect_sound(const FitResult& result) {
-    EXPECT_TRUE(result.closed);
-    EXPECT_TRUE(result.convex);
-    EXPECT_LT(result.planarity_max, 1e-12 * diameter(result.solid));
+    EXPECT_TRUE(result.checks.closed);
+    EXPECT_TRUE(result.checks.convex);
+    EXPECT_LT(result.checks.planarity_max, 1e-12 * diameter(result.solid));
     EXPECT_THAT(find_faults(result.solid), ::testing::IsEmpty());
 }
 
@@ -44,7 +44,7 @@ TEST(Fit, RecoversAShakenBrilliant) {
     for (const double noise : {0.01, 0.1, 0.2}) {
         const FitResult result = fit_stone(stone_of(shaken(truth, noise, 3)), readings);
         EXPECT_EQ(result.status, FitStatus::converged) << noise << ": " << result.message;
-        EXPECT_LT(result.chi2, 1e-6) << noise;
+        EXPECT_LT(result.statistics.chi2, 1e-6) << noise;
         expect_sound(result);
         for (std::size_t f = 0; f < truth.facets.size(); ++f) {
             EXPECT_NEAR(area(result.solid, result.solid.facets[f]), area(truth, truth.facets[f]),
@@ -71,8 +71,8 @@ TEST(Fit, ChiSquareIsRightOnAverage) {
     for (unsigned seed = 1; seed <= fits; ++seed) {
         const FitResult result = fit_stone(stone_of(truth), noisy(readings, seed));
         EXPECT_EQ(result.status, FitStatus::converged) << seed << ": " << result.message;
-        ratio += result.chi2 / result.dof / fits;
-        dof = result.dof;
+        ratio += result.statistics.chi2 / result.statistics.dof / fits;
+        dof = result.statistics.dof;
     }
     // Edges, angles and one depth; 128 + 6 freedoms (Steinitz: edges + 6) less 3 shifts and the
     // table's two tilts, which are the frame.
@@ -112,9 +112,9 @@ TEST(Fit, FindsABlunderAndNamesIt) {
     readings[20].value += 20 * readings[20].sigma;
     const FitResult result = fit_stone(stone_of(truth), readings);
     EXPECT_EQ(result.status, FitStatus::contradictory);
-    EXPECT_THAT(result.suspects, ::testing::Contains(readings[20].id));
+    EXPECT_THAT(result.findings.suspects, ::testing::Contains(readings[20].id));
     EXPECT_TRUE(result.readings[20].suspect);
-    EXPECT_LE(result.suspects.size(), 3u);
+    EXPECT_LE(result.findings.suspects.size(), 3u);
 }
 
 // Planes of a brilliant turned by N(0, 0.3 degrees) about their facets' middles: no stone with
@@ -157,15 +157,16 @@ TEST(Fit, EstimatesHowSoftMeetsMiss) {
     FitOptions options;
     options.meets = MeetTreatment::soft;
     const FitResult result = fit_stone(stone_of(design), readings, options);
-    EXPECT_TRUE(result.meets.estimated);
+    EXPECT_TRUE(result.statistics.meets.estimated);
     SCOPED_TRACE(fmt::format("{}: miss {:.3g}, sigma {:.3g} girdle {:.3g} chi2 {:.3g} dof {:.3g}",
-                             result.message, miss, result.meets.sigma, result.meets.girdle_sigma,
-                             result.chi2, result.dof));
-    EXPECT_GT(result.meets.sigma, 0.3 * miss);
-    EXPECT_LT(result.meets.sigma, 1.5 * miss);
-    EXPECT_TRUE(result.closed && result.convex) << result.message;
+                             result.message, miss, result.statistics.meets.sigma,
+                             result.statistics.meets.girdle_sigma, result.statistics.chi2,
+                             result.statistics.dof));
+    EXPECT_GT(result.statistics.meets.sigma, 0.3 * miss);
+    EXPECT_LT(result.statistics.meets.sigma, 1.5 * miss);
+    EXPECT_TRUE(result.checks.closed && result.checks.convex) << result.message;
     EXPECT_EQ(result.solid.facets.size(), design.facets.size());
-    EXPECT_LT(result.planarity_max, 1e-9 * diameter(result.solid));
+    EXPECT_LT(result.checks.planarity_max, 1e-9 * diameter(result.solid));
     const FitResult again = fit_stone(stone_of(design), readings, options);
     ASSERT_EQ(again.solid.vertices.size(), result.solid.vertices.size());
     for (std::size_t v = 0; v < again.solid.vertices.size(); ++v) {
@@ -236,7 +237,7 @@ TEST_F(BoxReadings, EachKindReachesItsValue) {
         EXPECT_NEAR(result.readings[0].fitted, r.value, 1e-3 * r.sigma + 1e-9) << name_of(r.kind);
         EXPECT_EQ(result.status, FitStatus::undetermined)
             << name_of(r.kind) << ": " << result.message;
-        EXPECT_TRUE(result.closed && result.convex) << name_of(r.kind);
+        EXPECT_TRUE(result.checks.closed && result.checks.convex) << name_of(r.kind);
     }
 }
 
@@ -249,7 +250,7 @@ TEST_F(BoxReadings, ExactRotationMakesAllSidesAlike) {
         EXPECT_NEAR(result.facets[k].inclination, result.facets[1].inclination, 1e-12);
         EXPECT_NEAR(result.facets[k].area, result.facets[1].area, 1e-11);
     }
-    EXPECT_LT(result.planarity_max, 1e-12);
+    EXPECT_LT(result.checks.planarity_max, 1e-12);
 }
 
 TEST_F(BoxReadings, ExactMirrorMakesPairsAlike) {
@@ -267,18 +268,18 @@ TEST_F(BoxReadings, NoReadingsAtAllLeaveTheMeshAndSaySo) {
     const FitResult result = fit({});
     EXPECT_EQ(result.status, FitStatus::undetermined) << result.message;
     // 12 edges + 6, less 3 shifts, the table's two tilts and the turn about up.
-    EXPECT_EQ(result.rank_defect, 12 + 6 - 6);
+    EXPECT_EQ(result.statistics.rank_defect, 12 + 6 - 6);
     EXPECT_NEAR(volume(result.solid), 8, 1e-6);
 }
 
 TEST_F(BoxReadings, OneReadingTakesOneFreedom) {
-    EXPECT_EQ(fit({depth(box_, 0.01)}).rank_defect, 11);
+    EXPECT_EQ(fit({depth(box_, 0.01)}).statistics.rank_defect, 11);
 }
 
 TEST_F(BoxReadings, TheSameReadingTwiceIsNoContradiction) {
     const FitResult result = fit({depth(box_, 0.01), depth(box_, 0.01)});
-    EXPECT_EQ(result.rank_defect, 11);
-    EXPECT_NEAR(result.dof, 1, 1e-6);
+    EXPECT_EQ(result.statistics.rank_defect, 11);
+    EXPECT_NEAR(result.statistics.dof, 1, 1e-6);
     Reading r = exact(ReadingKind::depth, {}, 2.2);
     EXPECT_EQ(fit({r, r}).status, FitStatus::undetermined);
 }
@@ -322,7 +323,7 @@ TEST(Fit, AFacetThatWantsToVanishIsNamed) {
     const FitResult result = fit_stone(stone_of(solid), readings);
     EXPECT_NE(result.status, FitStatus::converged);
     EXPECT_FALSE(result.message.empty());
-    EXPECT_TRUE(result.closed);
+    EXPECT_TRUE(result.checks.closed);
 }
 
 TEST(Fit, RefusesAMeshThatIsNoSolid) {
@@ -373,9 +374,9 @@ TEST(Fit, ALargeStoneHasUncertaintiesToo) {
     EXPECT_NEAR(result.readings[0].residual, 0.04, 1e-4);
     EXPECT_NEAR(result.readings[1].residual, -0.04, 1e-4);
     EXPECT_NEAR(result.readings[0].redundancy, 0.5, 1e-3);
-    EXPECT_NEAR(result.dof, 1, 2e-3);
+    EXPECT_NEAR(result.statistics.dof, 1, 2e-3);
     // Edges + 6, less shifts, the table's tilts, the turn about up, and the depth.
-    EXPECT_EQ(result.rank_defect, edge_count(solid) - 1);
+    EXPECT_EQ(result.statistics.rank_defect, edge_count(solid) - 1);
     for (const FittedFacet& f : result.facets) EXPECT_GT(f.sigma_offset, 0) << f.name;
 }
 

@@ -52,11 +52,12 @@ TEST_F(GrossReadings, AWeightInGramsIsNamedAndNotTheGirdle) {
     readings_.push_back(weight);
     const FitResult result = fitted();
     EXPECT_EQ(result.status, FitStatus::contradictory) << result.message;
-    EXPECT_THAT(result.suspects, ElementsAre("scale"));
-    ASSERT_FALSE(result.proposals.empty());
-    EXPECT_EQ(result.proposals[0].slip, "grams for carats");
-    EXPECT_NEAR(result.proposals[0].corrected, carats, 1e-9);
-    EXPECT_NEAR(result.proposals[0].estimate, carats, 5 * result.proposals[0].sigma);
+    EXPECT_THAT(result.findings.suspects, ElementsAre("scale"));
+    ASSERT_FALSE(result.findings.proposals.empty());
+    EXPECT_EQ(result.findings.proposals[0].slip, "grams for carats");
+    EXPECT_NEAR(result.findings.proposals[0].corrected, carats, 1e-9);
+    EXPECT_NEAR(result.findings.proposals[0].estimate, carats,
+                5 * result.findings.proposals[0].sigma);
     EXPECT_THAT(result.message, HasSubstr("scale (weight"));
     EXPECT_THAT(find_faults(result.solid), ::testing::IsEmpty());
     ASSERT_EQ(result.readings.size(), readings_.size());
@@ -72,10 +73,10 @@ TEST_F(GrossReadings, OneInclinationWithSwappedDigitsIsAccusedAlone) {
     wrong.value = 10 * (int(meant) % 10) + int(meant) / 10;
     const FitResult result = fitted();
     EXPECT_EQ(result.status, FitStatus::contradictory) << result.message;
-    EXPECT_THAT(result.suspects, ElementsAre(wrong.id));
-    ASSERT_FALSE(result.proposals.empty());
-    EXPECT_EQ(result.proposals[0].slip, "two digits swapped");
-    EXPECT_NEAR(degrees(result.proposals[0].corrected), meant, 1e-9);
+    EXPECT_THAT(result.findings.suspects, ElementsAre(wrong.id));
+    ASSERT_FALSE(result.findings.proposals.empty());
+    EXPECT_EQ(result.findings.proposals[0].slip, "two digits swapped");
+    EXPECT_NEAR(degrees(result.findings.proposals[0].corrected), meant, 1e-9);
 }
 
 TEST_F(GrossReadings, AzimuthsThatCountFromElsewhereThanTheMeshAreSaidToBe) {
@@ -92,7 +93,7 @@ TEST_F(GrossReadings, AzimuthsThatCountFromElsewhereThanTheMeshAreSaidToBe) {
     std::erase_if(readings_, [](const WrittenReading& r) { return r.kind == "width"; });
     const FitResult result = fitted();
     EXPECT_EQ(result.status, FitStatus::converged) << result.message;
-    EXPECT_THAT(result.notes, ::testing::Contains(HasSubstr("turned by -90 degrees")));
+    EXPECT_THAT(result.log.notes, ::testing::Contains(HasSubstr("turned by -90 degrees")));
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ TEST(LevelFacets, TheAzimuthOfANearlyLevelOneIsLeftOutAndSaid) {
     EXPECT_THAT(result.message, HasSubstr("a level facet has no azimuth"));
     // Everything else as if it had never been read.
     EXPECT_EQ(result.status, without.status);
-    EXPECT_DOUBLE_EQ(result.chi2, without.chi2);
+    EXPECT_DOUBLE_EQ(result.statistics.chi2, without.statistics.chi2);
 }
 
 TEST(LevelFacets, AnAzimuthThatMeansSomethingCounts) {

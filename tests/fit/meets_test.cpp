@@ -56,7 +56,7 @@ std::vector<std::string> sorted(std::vector<std::string> names) {
 }
 
 const MeetFinding& meet_of(const FitResult& result, const std::vector<std::string>& names) {
-    for (const MeetFinding& m : result.meet_findings) {
+    for (const MeetFinding& m : result.findings.meets) {
         if (sorted(m.facets) == sorted(names)) return m;
     }
     throw std::runtime_error("no such meet");
@@ -72,8 +72,8 @@ TEST(Meets, OfASoundStoneAreNotAccused) {
     int accused = 0, count = 0;
     for (unsigned seed = 1; seed <= 10; ++seed) {
         const FitResult result = fit_stone(stone_of(truth), noisy(readings, seed));
-        EXPECT_EQ(result.meet_findings.size(), 57u);
-        for (const MeetFinding& m : result.meet_findings) {
+        EXPECT_EQ(result.findings.meets.size(), 57u);
+        for (const MeetFinding& m : result.findings.meets) {
             accused += m.contradicted ? 1 : 0;
             p_sum += m.p;
             ++count;
@@ -114,7 +114,7 @@ TEST(Meets, AReleasedCuletComesApart) {
     readings.push_back(meet);
     const FitResult result = fit_stone(stone_of(design), readings);
     EXPECT_EQ(result.status, FitStatus::converged) << result.message;
-    EXPECT_TRUE(result.closed && result.convex);
+    EXPECT_TRUE(result.checks.closed && result.checks.convex);
     EXPECT_THAT(find_faults(result.solid), ::testing::IsEmpty());
     EXPECT_EQ(result.solid.facets.size(), design.facets.size());
     EXPECT_EQ(result.solid.vertices.size(), truth.vertices.size());
@@ -137,10 +137,10 @@ TEST(Meets, AContradictedCuletComesApartWhereThatIsAllowed) {
     EXPECT_EQ(result.status, FitStatus::converged) << result.message;
     EXPECT_EQ(result.solid.vertices.size(), truth.vertices.size());
     EXPECT_THAT(find_faults(result.solid), ::testing::IsEmpty());
-    EXPECT_THAT(result.changes,
+    EXPECT_THAT(result.log.changes,
                 ::testing::Contains(::testing::AllOf(::testing::HasSubstr("came apart"),
                                                      ::testing::HasSubstr("P1, P8, P7"))));
-    EXPECT_THAT(result.changes, ::testing::Contains(::testing::HasSubstr("edges new")));
+    EXPECT_THAT(result.log.changes, ::testing::Contains(::testing::HasSubstr("edges new")));
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ Stone standing(Solid solid) {
 }
 
 const MeetFinding& point_of(const FitResult& result, const std::string& facet) {
-    for (const MeetFinding& m : result.meet_findings) {
+    for (const MeetFinding& m : result.findings.meets) {
         if (m.facets.size() > 8 &&
             std::find(m.facets.begin(), m.facets.end(), facet) != m.facets.end()) {
             return m;
@@ -125,8 +125,8 @@ TEST(NearMeets, ABrioletteOf304Facets) {
         fit_stone(standing(mesh), noisy(plane_readings(mesh, truth, 0.03, 0.001), 2));
     EXPECT_EQ(result.solid.facets.size(), 304u);
     EXPECT_THAT(find_faults(result.solid), ::testing::IsEmpty());
-    ASSERT_TRUE(result.own_axis.known);
-    EXPECT_LT(result.own_axis.tilt, 4 * result.own_axis.sigma);
+    ASSERT_TRUE(result.findings.own_axis.known);
+    EXPECT_LT(result.findings.own_axis.tilt, 4 * result.findings.own_axis.sigma);
     EXPECT_FALSE(point_of(result, "R1F1").contradicted);
     EXPECT_FALSE(point_of(result, "R19F1").contradicted);
 }

@@ -69,7 +69,7 @@ Solid levelled(Solid solid) {
 }
 
 const Tier& tier(const FitResult& result, const std::string& name) {
-    for (const Tier& t : result.tiers) {
+    for (const Tier& t : result.findings.tiers) {
         if (t.name == name) return t;
     }
     throw std::runtime_error("no tier " + name);
@@ -82,16 +82,17 @@ TEST(OwnAxis, ATiltedTableDoesNotSpreadThePavilion) {
     ASSERT_EQ(truth.facets.size(), 73u);
     const FitResult result = fit_stone(stone_of(truth), noisy(readings_of(truth, 0.02, 0.002), 3));
     ASSERT_EQ(result.status, FitStatus::converged) << result.message;
-    ASSERT_TRUE(result.own_axis.known);
-    EXPECT_EQ(result.own_axis.basis, "tiers");
+    ASSERT_TRUE(result.findings.own_axis.known);
+    EXPECT_EQ(result.findings.own_axis.basis, "tiers");
     const Tier& pavilion = tier(result, "P*");
     // Facets at steps of 45 degrees from the lean: 2 * 0.8 * cos(15) of the largest spread.
     EXPECT_NEAR(degrees(pavilion.spread), 2 * 0.8 * std::cos(radians(15)), 0.1);
     EXPECT_LT(degrees(pavilion.spread_own_axis), 0.1);
     EXPECT_NEAR(degrees(pavilion.mean_own_axis), 40.8, 0.02);
     // Within four of its own standard uncertainties, which are small.
-    EXPECT_LT(degrees(result.own_axis.sigma), 0.02);
-    EXPECT_NEAR(degrees(result.own_axis.tilt), 0.8, 4 * degrees(result.own_axis.sigma));
+    EXPECT_LT(degrees(result.findings.own_axis.sigma), 0.02);
+    EXPECT_NEAR(degrees(result.findings.own_axis.tilt), 0.8,
+                4 * degrees(result.findings.own_axis.sigma));
     const int p1 = find_facet(truth, "P1");
     EXPECT_NEAR(degrees(result.facets[std::size_t(p1)].inclination_own_axis), 40.8, 0.08);
 }
@@ -100,9 +101,9 @@ TEST(OwnAxis, ATiltedTableDoesNotSpreadThePavilion) {
 TEST(OwnAxis, OfAPerfectStoneIsUp) {
     const Solid truth = brilliant();
     const FitResult result = fit_stone(stone_of(truth), readings_of(truth, 0.1, 0.01));
-    ASSERT_TRUE(result.own_axis.known);
-    EXPECT_LT(result.own_axis.tilt, 1e-7);
-    EXPECT_NEAR(result.own_axis.direction.z, 1, 1e-12);
+    ASSERT_TRUE(result.findings.own_axis.known);
+    EXPECT_LT(result.findings.own_axis.tilt, 1e-7);
+    EXPECT_NEAR(result.findings.own_axis.direction.z, 1, 1e-12);
     EXPECT_LT(degrees(tier(result, "C*").spread_own_axis), 1e-6);
     EXPECT_NEAR(degrees(tier(result, "C*").mean_own_axis), 34.5, 1e-6);
 }
@@ -116,9 +117,9 @@ TEST(OwnAxis, SigmaIsHonest) {
     for (unsigned seed = 1; seed <= stones; ++seed) {
         const FitResult result =
             fit_stone(stone_of(truth), noisy(readings_of(truth, 0.1, 0.01), seed));
-        ASSERT_TRUE(result.own_axis.known);
-        squares += result.own_axis.tilt * result.own_axis.tilt /
-                   (2 * result.own_axis.sigma * result.own_axis.sigma) / stones;
+        ASSERT_TRUE(result.findings.own_axis.known);
+        squares += result.findings.own_axis.tilt * result.findings.own_axis.tilt /
+                   (2 * result.findings.own_axis.sigma * result.findings.own_axis.sigma) / stones;
     }
     EXPECT_NEAR(std::sqrt(squares), 1, 4 * 0.14);
 }
@@ -128,8 +129,8 @@ TEST(OwnAxis, OfAStepCut) {
     const Solid truth = make_cut("step");
     Stone stone = stone_of(truth);
     const FitResult result = fit_stone(stone, readings_of(truth, 0.05, 0.005));
-    ASSERT_TRUE(result.own_axis.known) << result.own_axis.basis;
-    EXPECT_LT(result.own_axis.tilt, 1e-6);
+    ASSERT_TRUE(result.findings.own_axis.known) << result.findings.own_axis.basis;
+    EXPECT_LT(result.findings.own_axis.tilt, 1e-6);
 }
 
 // A stone without like facets and without a girdle has none, and that is said.
@@ -145,8 +146,8 @@ TEST(OwnAxis, OfAnIrregularStoneIsNotKnown) {
     }
     const Solid truth = enclosed(planes);
     const FitResult result = fit_stone(stone_of(truth), readings_of(truth, 0.1, 0.01));
-    EXPECT_FALSE(result.own_axis.known);
-    EXPECT_THAT(result.own_axis.basis, ::testing::HasSubstr("neither"));
+    EXPECT_FALSE(result.findings.own_axis.known);
+    EXPECT_THAT(result.findings.own_axis.basis, ::testing::HasSubstr("neither"));
 }
 
 }  // namespace

@@ -34,9 +34,10 @@ TEST_P(PriorOfCut, an_evening_of_readings_gives_a_whole_stone) {
         const FitResult result =
             fit_stone(evening.design, bind_readings(evening.rows, evening.design), with_prior());
         EXPECT_EQ(result.status, FitStatus::converged) << result.message;
-        EXPECT_TRUE(result.closed && result.convex && result.missing_facets.empty());
-        EXPECT_EQ(result.prior.source, Prior::Source::catalogue);
-        EXPECT_EQ(result.rank_defect, 0);
+        EXPECT_TRUE(result.checks.closed && result.checks.convex &&
+                    result.checks.missing_facets.empty());
+        EXPECT_EQ(result.statistics.prior.source, Prior::Source::catalogue);
+        EXPECT_EQ(result.statistics.rank_defect, 0);
     }
 }
 
@@ -75,9 +76,9 @@ TEST(Prior, is_left_out_where_the_readings_hold_the_stone) {
     const std::vector<Reading> readings = bind_readings(rows, truth.stone);
     const FitResult with = fit_stone(truth.stone, readings, options);
     const FitResult without = fit_stone(truth.stone, readings, FitOptions());
-    EXPECT_EQ(with.prior.source, Prior::Source::none);
+    EXPECT_EQ(with.statistics.prior.source, Prior::Source::none);
     EXPECT_EQ(with.status, without.status);
-    EXPECT_DOUBLE_EQ(with.chi2, without.chi2);
+    EXPECT_DOUBLE_EQ(with.statistics.chi2, without.statistics.chi2);
     for (const FittedFacet& facet : with.facets) EXPECT_EQ(facet.read_inclination, 1);
 }
 
@@ -122,7 +123,7 @@ TEST(Prior, soft_symmetry_of_few_readings_ends) {
         const FitResult result =
             fit_stone(evening.design, bind_readings(evening.rows, evening.design), with_prior());
         EXPECT_NE(result.status, FitStatus::not_converged) << result.message;
-        EXPECT_TRUE(result.closed && result.convex);
+        EXPECT_TRUE(result.checks.closed && result.checks.convex);
     }
 }
 

@@ -111,7 +111,7 @@ TEST_F(Form, FilledInAsExpectedIsExplainedByTheMesh) {
     stone.up_facet = "T";
     const auto readings = bind_readings(read(filled_in(readings_form(stone, true).csv)), stone);
     const FitResult result = fit_stone(stone, readings);
-    EXPECT_TRUE(result.suspects.empty());
+    EXPECT_TRUE(result.findings.suspects.empty());
     for (const FittedReading& r : result.readings) {
         EXPECT_LT(std::abs(r.residual), 0.1 * r.sigma) << r.id;
     }

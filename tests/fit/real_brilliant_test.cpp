@@ -143,11 +143,11 @@ Scan* RealBrilliant::scan_ = nullptr;
 
 void RealBrilliant::expect_is_a_stone_that_could_be_cut() const {
     EXPECT_EQ(result_->status, FitStatus::converged) << result_->message;
-    EXPECT_TRUE(result_->closed);
-    EXPECT_TRUE(result_->convex);
-    EXPECT_LT(result_->planarity_max, 1e-9 * diameter(result_->solid));
+    EXPECT_TRUE(result_->checks.closed);
+    EXPECT_TRUE(result_->checks.convex);
+    EXPECT_LT(result_->checks.planarity_max, 1e-9 * diameter(result_->solid));
     EXPECT_EQ(result_->solid.facets.size(), stone_->stone.solid.facets.size());
-    EXPECT_THAT(result_->missing_facets, ::testing::IsEmpty());
+    EXPECT_THAT(result_->checks.missing_facets, ::testing::IsEmpty());
     EXPECT_THAT(find_faults(result_->solid), ::testing::IsEmpty());
     EXPECT_EQ(polished().size(), 57u);
 }
@@ -201,9 +201,9 @@ void RealBrilliant::expect_areas_are_as_good_as_the_report_says() const {
 // The scan's own planes miss the common points of table corners by 4.0 um, of star tips by 2.3, of
 // the culet by 1.2 and of the lower halves' tips by 1.3 (root of squares over redundancy).
 void RealBrilliant::expect_estimates_how_meets_miss() const {
-    EXPECT_TRUE(result_->meets.estimated);
-    EXPECT_GT(result_->meets.sigma, 0.0012);
-    EXPECT_LT(result_->meets.sigma, 0.0045);
+    EXPECT_TRUE(result_->statistics.meets.estimated);
+    EXPECT_GT(result_->statistics.meets.sigma, 0.0012);
+    EXPECT_LT(result_->statistics.meets.sigma, 0.0045);
 }
 
 TEST_F(RealBrilliant, ContradictsExactMeets) {
@@ -211,9 +211,9 @@ TEST_F(RealBrilliant, ContradictsExactMeets) {
     exact.meets = MeetTreatment::exact;
     const FitResult result = fit_stone(stone_->stone, *readings_, exact);
     EXPECT_EQ(result.status, FitStatus::contradictory) << result.message;
-    EXPECT_GT(result.chi2, 5 * result.chi2_limit);
-    EXPECT_FALSE(result.suspects.empty());
-    EXPECT_LT(result.planarity_max, 1e-12 * diameter(result.solid));
+    EXPECT_GT(result.statistics.chi2, 5 * result.statistics.chi2_limit);
+    EXPECT_FALSE(result.findings.suspects.empty());
+    EXPECT_LT(result.checks.planarity_max, 1e-12 * diameter(result.solid));
 }
 
 // One test, because the fit behind it takes seconds.

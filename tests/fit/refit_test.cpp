@@ -85,11 +85,12 @@ TEST(Refit, JawsRestWhereTheyRested) {
                                        [](const WrittenReading& r) { return r.kind == "edge"; });
         *edge->value += 0.5 * *edge->sigma;
         const FitResult again = refitted(f, f.readings);
-        EXPECT_EQ(again.start, "earlier result");
-        few += again.iterations <= 2;
+        EXPECT_EQ(again.log.start, "earlier result");
+        few += again.log.iterations <= 2;
         // Facets that lean the other way and gain less are not looked for.
-        EXPECT_LT(again.chi2,
-                  fit_mesh(f.truth.stone, f.readings, without_findings()).result.chi2 + 2);
+        EXPECT_LT(
+            again.statistics.chi2,
+            fit_mesh(f.truth.stone, f.readings, without_findings()).result.statistics.chi2 + 2);
     }
     EXPECT_GT(shared_contacts, k_stones);
     // Where the edited reading takes a jaw off one of two corners, it takes a step more.
@@ -108,8 +109,8 @@ TEST(Refit, AJawThatIsPulledAwayLetsGo) {
         Stone start = f.truth.stone;
         start.solid = f.result.solid;
         const FitResult fresh = fit_mesh(start, f.readings, without_findings()).result;
-        EXPECT_EQ(again.start, "earlier result");
-        EXPECT_LT(again.chi2, fresh.chi2 + 1);
+        EXPECT_EQ(again.log.start, "earlier result");
+        EXPECT_LT(again.statistics.chi2, fresh.statistics.chi2 + 1);
     }
 }
 

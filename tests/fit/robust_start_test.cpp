@@ -25,8 +25,8 @@ void expect_found(const Truth& truth, const Stone& mesh, const std::string& what
     const Trial reference = fit_mesh(truth.stone, readings);
     const Trial trial = fit_mesh(mesh, readings);
     EXPECT_TRUE(succeeds(truth.stone, trial, reference))
-        << what << ": chi2 " << trial.result.chi2 << " against " << reference.result.chi2 << "; "
-        << trial.result.message << trial.refusal;
+        << what << ": chi2 " << trial.result.statistics.chi2 << " against "
+        << reference.result.statistics.chi2 << "; " << trial.result.message << trial.refusal;
 }
 
 TEST(RobustStart, FromNoiseOfAFifthOfTheDiameter) {
@@ -68,7 +68,7 @@ TEST(RobustStart, OfTurnsThatOnlyCalipersFeelTheBestIsFound) {
         const Trial reference = fit_mesh(truth.stone, readings);
         const Trial trial = fit_mesh(noisy_mesh(truth.stone, noise, 77 * seed + 5), readings);
         EXPECT_TRUE(is_valid(truth.stone, trial.result)) << seed;
-        EXPECT_LT(trial.result.chi2, reference.result.chi2 + 0.1) << seed;
+        EXPECT_LT(trial.result.statistics.chi2, reference.result.statistics.chi2 + 0.1) << seed;
     }
 }
 
@@ -82,7 +82,7 @@ TEST(RobustStart, LeaningsThatGainTogetherOnlyAreFound) {
     const Trial trial = fit_mesh(noisy_mesh(truth.stone, 0.1, 77 * 81 + 5), readings);
     EXPECT_TRUE(is_valid(truth.stone, trial.result));
     // Turns, and with them other corners for jaws, that gain less than 1 are not looked for.
-    EXPECT_LT(trial.result.chi2, reference.result.chi2 + 1);
+    EXPECT_LT(trial.result.statistics.chi2, reference.result.statistics.chi2 + 1);
 }
 
 // A stone of which searches have missed the better end, and the mesh from which they did.
@@ -102,7 +102,8 @@ void expect_no_worse_than_from_the_truth(const Lost& lost, double by_at_most) {
                                                 : wrongly_drawn(truth.stone, 0.2, mesh),
                                  readings);
     EXPECT_TRUE(is_valid(truth.stone, trial.result)) << lost.seed;
-    EXPECT_LT(trial.result.chi2, reference.result.chi2 + by_at_most) << lost.seed;
+    EXPECT_LT(trial.result.statistics.chi2, reference.result.statistics.chi2 + by_at_most)
+        << lost.seed;
 }
 
 // Girdle facets that lean the other way and a turn of the stone between its calipers: either alone
@@ -239,6 +240,16 @@ TEST(Mending, WeldsPrivateCorners) {
     expect_found(truth, split, "private corners");
 }
 
+// Who fits need not repair the mesh first, and reads in the result what was done to it.
+TEST(Mending, IsDoneByTheFit) {
+    const Truth truth = make_truth(TruthKind::round, false, 7);
+    Stone inside_out = truth.stone;
+    for (Facet& f : inside_out.solid.facets) std::reverse(f.corners.begin(), f.corners.end());
+    const FitResult result = fit_stone(fit_input(inside_out, read_by_instruments(truth, 17)));
+    EXPECT_EQ(result.status, FitStatus::converged) << result.message;
+    EXPECT_THAT(result.log.notes, ::testing::Contains(::testing::HasSubstr("inside out")));
+}
+
 TEST(Mending, TurnsASurfaceRound) {
     const Truth truth = make_truth(TruthKind::round, false, 7);
     Stone inside_out = truth.stone;
@@ -301,7 +312,7 @@ TEST(RobustStart, FromAnEarlierResultUnderExactSymmetry) {
                                          [](const WrittenReading& r) { return r.kind == "edge"; });
         *edited->value += 0.01;
         const Trial again = fit_mesh(mesh, readings, options);
-        EXPECT_EQ(again.result.start, "earlier result");
+        EXPECT_EQ(again.result.log.start, "earlier result");
         // The same end as without the earlier result.
         EXPECT_TRUE(succeeds(truth.stone, again, fit_mesh(mesh, readings))) << again.result.message;
     }

@@ -26,9 +26,9 @@ FittedFacet facet(const std::string& name, double sigma_deg) {
 FitResult result() {
     FitResult r;
     r.status = FitStatus::converged;
-    r.chi2 = 48.9;
-    r.dof = 94;
-    r.chi2_limit = 142.1;
+    r.statistics.chi2 = 48.9;
+    r.statistics.dof = 94;
+    r.statistics.chi2_limit = 142.1;
     r.facets = {facet("P1", 0.1), facet("P2", 0.3), facet("P3", 0.2)};
     FittedReading reading;
     reading.id = "r0";
@@ -53,7 +53,7 @@ TEST(Summary, names_the_least_sure_facets) {
 TEST(Summary, says_what_the_others_say_of_a_suspect) {
     FitResult r = result();
     r.status = FitStatus::contradictory;
-    r.suspects = {"r0"};
+    r.findings.suspects = {"r0"};
     EXPECT_THAT(
         fit_summary(r),
         Contains(HasSubstr(
@@ -62,36 +62,37 @@ TEST(Summary, says_what_the_others_say_of_a_suspect) {
 
 TEST(Summary, names_the_slip_that_would_explain_a_suspect) {
     FitResult r = result();
-    r.suspects = {"r0"};
-    r.proposals = {{"r0", true, radians(34.41), radians(0.1), "digits swapped", radians(34.4), {}}};
+    r.findings.suspects = {"r0"};
+    r.findings.proposals = {
+        {"r0", true, radians(34.41), radians(0.1), "digits swapped", radians(34.4), {}}};
     EXPECT_THAT(fit_summary(r),
                 Contains(HasSubstr("the others say 34.41 +- 0.1 (digits swapped: 34.4?)")));
 }
 
 TEST(Summary, names_a_set_only_where_no_single_reading_explains) {
     FitResult r = result();
-    r.disagreeing = {"a", "b", "c"};
+    r.findings.disagreeing = {"a", "b", "c"};
     EXPECT_THAT(fit_summary(r),
                 Contains("The fewest readings that cannot hold together: a, b, c."));
-    r.suspects = {"r0"};
+    r.findings.suspects = {"r0"};
     EXPECT_THAT(fit_summary(r), Not(Contains(HasSubstr("cannot hold together"))));
 }
 
 TEST(Summary, tells_what_was_found_out) {
     FitResult r = result();
-    r.undetermined_words = {"nothing measured fixes the azimuth of star S3"};
-    r.help = {{ReadingKind::azimuth, {"S3"}, 0.1, 0.02, true}, {}};
-    r.changes = {"edges gone: A|B"};
-    r.own_axis.known = true;
-    r.own_axis.tilt = radians(0.8);
-    r.own_axis.sigma = radians(0.04);
-    r.own_axis.azimuth = radians(120);
+    r.findings.undetermined_words = {"nothing measured fixes the azimuth of star S3"};
+    r.findings.help = {{ReadingKind::azimuth, {"S3"}, 0.1, 0.02, true}, {}};
+    r.log.changes = {"edges gone: A|B"};
+    r.findings.own_axis.known = true;
+    r.findings.own_axis.tilt = radians(0.8);
+    r.findings.own_axis.sigma = radians(0.04);
+    r.findings.own_axis.azimuth = radians(120);
     MeetFinding meet;
     meet.contradicted = true;
     meet.advice = "meet of P1..P8: planes miss by 20 um: release it";
-    r.meet_findings = {meet, {}};
-    r.symmetry.emplace();
-    r.symmetry->message = "C8v is supported";
+    r.findings.meets = {meet, {}};
+    r.findings.symmetry.emplace();
+    r.findings.symmetry->message = "C8v is supported";
     const auto lines = fit_summary(r);
     for (const char* words :
          {"Nothing measured fixes the azimuth of star S3.", "Changed: edges gone: A|B.",
@@ -103,8 +104,8 @@ TEST(Summary, tells_what_was_found_out) {
         lines, Contains("What would help most: read the azimuth (the index) of S3 (it would settle "
                         "something that is open)."));
     // A tilt that its uncertainty explains is none; a reading that brings little is not asked for.
-    r.own_axis.sigma = radians(0.4);
-    r.help[0].closes = false;
+    r.findings.own_axis.sigma = radians(0.4);
+    r.findings.help[0].closes = false;
     for (const std::string& line : fit_summary(r)) {
         EXPECT_THAT(line, Not(HasSubstr("leans")));
         EXPECT_THAT(line, Not(HasSubstr("help most")));
@@ -116,7 +117,7 @@ TEST(Summary, says_what_is_open_and_what_nothing_checks) {
     r.status = FitStatus::undetermined;
     r.message = "2 freedoms";
     r.readings[0].redundancy = 0;
-    r.undetermined = {{"P3", "azimuth"}, {"P3", "offset"}, {"P1", "offset"}};
+    r.findings.undetermined = {{"P3", "azimuth"}, {"P3", "offset"}, {"P1", "offset"}};
     const auto lines = fit_summary(r);
     EXPECT_THAT(lines, Contains("Nothing measured fixes the azimuth and offset of P3, the offset "
                                 "of P1."));
@@ -135,7 +136,7 @@ TEST(Summary, survives_what_is_not_known) {
     FitResult r = result();
     for (FittedFacet& f : r.facets) f.sigma_inclination = f.sigma_azimuth = std::nan("");
     r.readings[0].redundancy = std::nan("");
-    r.suspects = {"gone"};
+    r.findings.suspects = {"gone"};
     for (const std::string& line : fit_summary(r)) EXPECT_THAT(line, Not(HasSubstr("nan")));
 }
 

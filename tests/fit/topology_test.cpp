@@ -49,7 +49,7 @@ std::vector<Reading> roof_readings(const Solid& mesh, const Solid& truth, double
 }
 
 const ShapeFinding* finding(const FitResult& result, ShapeFinding::Kind kind) {
-    for (const ShapeFinding& f : result.shape_findings) {
+    for (const ShapeFinding& f : result.findings.shapes) {
         if (f.kind == kind) return &f;
     }
     return nullptr;
@@ -78,11 +78,11 @@ TEST(Topology, ARidgeThatWantsToLieAcrossIsNamed) {
     EXPECT_THAT(result.message,
                 ::testing::AnyOf(::testing::HasSubstr("N|S"), ::testing::HasSubstr("S|N"),
                                  ::testing::HasSubstr("N/S"), ::testing::HasSubstr("S/N")));
-    EXPECT_TRUE(result.closed && result.convex);
+    EXPECT_TRUE(result.checks.closed && result.checks.convex);
     // The ridge of the mesh shrinks as the other grows: by simple geometry its length is
     // 2 (along - across) of the truth.
     EXPECT_NEAR(edge->value, -0.2, 0.05);
-    EXPECT_TRUE(result.changes.empty());
+    EXPECT_TRUE(result.log.changes.empty());
 }
 
 TEST(Topology, ARidgeIsTurnedWhereThatIsAllowed) {
@@ -99,12 +99,12 @@ TEST(Topology, ARidgeIsTurnedWhereThatIsAllowed) {
         if (all) {
             EXPECT_EQ(result.status, FitStatus::converged) << result.message;
         }
-        EXPECT_GT(result.chi2_p, 0.001);
+        EXPECT_GT(result.statistics.chi2_p, 0.001);
         EXPECT_TRUE(has_edge(result.solid, "E", "W"));
         EXPECT_FALSE(has_edge(result.solid, "N", "S"));
         EXPECT_THAT(find_faults(result.solid), ::testing::IsEmpty());
-        EXPECT_THAT(result.changes, ::testing::Contains("edges gone: N|S"));
-        EXPECT_THAT(result.changes, ::testing::Contains("edges new: E|W"));
+        EXPECT_THAT(result.log.changes, ::testing::Contains("edges gone: N|S"));
+        EXPECT_THAT(result.log.changes, ::testing::Contains("edges new: E|W"));
         EXPECT_EQ(result.readings.size(), readings.size());
         EXPECT_NEAR(width_along(result.solid, {0, 0, 1}), width_along(truth, {0, 0, 1}), 0.02);
     }
@@ -161,7 +161,7 @@ TEST(Topology, AFacetWithoutRoomIsNamedAndGoesWhereThatIsAllowed) {
     const FitResult result = fit_stone(stone_of(mesh), readings);
     EXPECT_NE(result.status, FitStatus::converged) << result.message;
     EXPECT_THAT(result.message, ::testing::HasSubstr("bevel"));
-    EXPECT_TRUE(result.closed);
+    EXPECT_TRUE(result.checks.closed);
     FitOptions options;
     options.allow_topology = true;
     const FitResult changed = fit_stone(stone_of(mesh), readings, options);
@@ -169,9 +169,9 @@ TEST(Topology, AFacetWithoutRoomIsNamedAndGoesWhereThatIsAllowed) {
     EXPECT_LT(find_facet(changed.solid, "bevel"), 0);
     EXPECT_EQ(changed.solid.facets.size(), 6u);
     EXPECT_THAT(find_faults(changed.solid), ::testing::IsEmpty());
-    EXPECT_THAT(changed.changes,
+    EXPECT_THAT(changed.log.changes,
                 ::testing::Contains("facets gone, the readings leave no room for them: bevel"));
-    EXPECT_THAT(changed.changes, ::testing::Contains(::testing::HasSubstr("no longer apply")));
+    EXPECT_THAT(changed.log.changes, ::testing::Contains(::testing::HasSubstr("no longer apply")));
     EXPECT_EQ(changed.readings.size(), readings.size());
     EXPECT_TRUE(std::isnan(changed.readings.back().fitted));
 }
@@ -213,7 +213,7 @@ TEST(Topology, ASoundStoneHasNothingToSay) {
     const Solid truth = brilliant();
     const FitResult result =
         fit_stone(stone_of(truth), noisy(plane_readings(truth, truth, 0.05, 0.005), 4));
-    for (const ShapeFinding& f : result.shape_findings) ADD_FAILURE() << f.what;
+    for (const ShapeFinding& f : result.findings.shapes) ADD_FAILURE() << f.what;
 }
 
 /// A prism of seven sides, two of which stand four degrees apart.

@@ -43,7 +43,7 @@ TEST(Unread, AGirdleStaysUpright) {
     options.meets = MeetTreatment::released;
     options.prior.source = Prior::Source::mesh;
     const FitResult result = fit_stone(mesh, test::noisy(readings, 5), options);
-    EXPECT_EQ(result.prior.source, Prior::Source::mesh) << result.message;
+    EXPECT_EQ(result.statistics.prior.source, Prior::Source::mesh) << result.message;
     int girdle = 0;
     for (const FittedFacet& f : result.facets) {
         if (f.name[0] != 'G') continue;
@@ -60,10 +60,10 @@ TEST(Unread, AllLengthsOfAPearLeaveItsSizeAsInTheMesh) {
     const FitResult result = fit_mesh(mesh, angles_of(truth, 3)).result;
     EXPECT_EQ(result.status, FitStatus::undetermined) << result.message;
     EXPECT_THAT(result.message, HasSubstr("no length was read"));
-    EXPECT_THAT(result.undetermined_words,
+    EXPECT_THAT(result.findings.undetermined_words,
                 Contains("nothing measured fixes the size of the stone"));
-    EXPECT_TRUE(result.closed);
-    EXPECT_TRUE(result.convex);
+    EXPECT_TRUE(result.checks.closed);
+    EXPECT_TRUE(result.checks.convex);
     EXPECT_NEAR(width_along(result.solid, {0, 0, 1}) / width_along(truth.stone.solid, {0, 0, 1}), 1,
                 0.1);
     for (const FittedReading& r : result.readings) EXPECT_NE(r.kind, ReadingKind::depth);
@@ -82,8 +82,8 @@ TEST(Unread, ThatAzimuthsCountFromElsewhereIsSaidOnce) {
     const FitResult result = fit_mesh(mesh, readings).result;
     EXPECT_EQ(result.status, FitStatus::contradictory) << result.message;
     EXPECT_THAT(result.message, HasSubstr("all azimuths read count from 90 degrees beside"));
-    EXPECT_THAT(result.suspects, IsEmpty());
-    EXPECT_LT(result.chi2, result.chi2_limit);
+    EXPECT_THAT(result.findings.suspects, IsEmpty());
+    EXPECT_LT(result.statistics.chi2, result.statistics.chi2_limit);
     // As it was read, and fitted in the same count.
     for (const FittedReading& r : result.readings) {
         if (r.kind != ReadingKind::azimuth) continue;

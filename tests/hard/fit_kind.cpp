@@ -122,7 +122,7 @@ int not_numbers(const FitResult& result) {
         bad += !(r.redundancy >= -1e-9 && r.redundancy <= 1 + 1e-9);
     }
     for (const Vec3& v : result.solid.vertices) bad += !std::isfinite(v.x + v.y + v.z);
-    bad += !std::isfinite(result.chi2 + result.dof);
+    bad += !std::isfinite(result.statistics.chi2 + result.statistics.dof);
     bad += !nlohmann::json::accept(fit_report(result));
     return bad;
 }
@@ -175,7 +175,7 @@ Subject fit_subject(const HardCase&, const HardPoint&, const TomlTable& paramete
         const FitResult& r = c->result();
         auto faults = find_faults(r.solid, {.planarity = 1e-9});
         std::erase_if(faults, [](const Fault& f) { return f.kind == FaultKind::repeated_plane; });
-        return Measured{double(faults.size()) + !r.closed + !r.convex, std::nan(""),
+        return Measured{double(faults.size()) + !r.checks.closed + !r.checks.convex, std::nan(""),
                         faults.empty() ? r.message : faults.front().what};
     };
     is["planar"] = [c] {
@@ -226,7 +226,8 @@ Subject fit_subject(const HardCase&, const HardPoint&, const TomlTable& paramete
             mallopt(M_PERTURB, 0);
             if (before) {
                 apart += now.solid.vertices != before->solid.vertices;
-                apart += now.iterations != before->iterations || now.chi2 != before->chi2;
+                apart += now.log.iterations != before->log.iterations ||
+                         now.statistics.chi2 != before->statistics.chi2;
             }
             before = std::move(now);
         }
