@@ -1,5 +1,7 @@
 #include "fit/hypotheses/hypotheses.h"
 
+#include <algorithm>
+
 #include "fit/hypotheses/angle_blunders.h"
 #include "fit/hypotheses/leave_one_out.h"
 #include "fit/hypotheses/turned_azimuths.h"

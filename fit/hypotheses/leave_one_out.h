@@ -9,7 +9,8 @@ namespace culet {
 /// relations and exact readings.
 std::optional<Problem> without_first_suspect(const Problem& given, const Attempt& first);
 
-/// Holds if then there is a stone, chi-square falls to a hundredth, and the others deny the reading.
+/// Holds if then there is a stone, chi-square falls to a hundredth, and the others deny the
+/// reading.
 Verdict judge_first_suspect(const Problem& given, const Attempt& first, const Problem& changed,
                             FitResult again);
 

@@ -1,7 +1,6 @@
 #include "fit/hypotheses/preparations.h"
 
 #include <algorithm>
-#include <iterator>
 #include <optional>
 
 #include "fit/findings/first_check.h"

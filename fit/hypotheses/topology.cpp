@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <set>
 
+#include "fit/hypotheses/topology_stage.h"
 #include "stone/checks.h"
 #include "stone/half_edges.h"
 
@@ -15,143 +15,9 @@ namespace culet {
 
 namespace {
 
-std::string list_of(const std::vector<std::string>& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text;
-}
-
 // Of the diameter; and how many are tried.
 constexpr double k_doubtful = 0.1;
 constexpr std::size_t k_most_doubtful = 6;
-
-// A stone on its way, and which of the first readings still apply.
-struct Stage {
-    Stone stone;
-    std::vector<Reading> readings;
-    std::vector<int> origin;  // index among the first readings; -1: added on the way
-};
-
-bool share_edge(const Solid& solid, int a, int b) {
-    const std::vector<int>& other = solid.facets[std::size_t(b)].corners;
-    int shared = 0;
-    for (int c : solid.facets[std::size_t(a)].corners) {
-        shared += std::find(other.begin(), other.end(), c) != other.end() ? 1 : 0;
-    }
-    return shared >= 2;
-}
-
-// The same reading on the changed solid; nothing when what it is of is gone.
-std::optional<Reading> carried_over(const Reading& reading, const Solid& before,
-                                    const Solid& after) {
-    Reading r = reading;
-    const auto facet = [&](int f) {
-        return f < 0 ? f : find_facet(after, before.facets[std::size_t(f)].name);
-    };
-    std::vector<int> kept;
-    const bool in_pairs = r.kind == ReadingKind::dihedral || r.kind == ReadingKind::edge ||
-                          (r.kind == ReadingKind::mirror && !r.has_direction);
-    const std::size_t stride = in_pairs ? 2 : 1;
-    for (std::size_t i = 0; i + stride <= r.facets.size(); i += stride) {
-        std::vector<int> term;
-        for (std::size_t k = 0; k < stride; ++k) term.push_back(facet(r.facets[i + k]));
-        if (std::any_of(term.begin(), term.end(), [](int f) { return f < 0; })) continue;
-        if (r.kind == ReadingKind::edge && !share_edge(after, term[0], term[1])) continue;
-        kept.insert(kept.end(), term.begin(), term.end());
-    }
-    const bool all = kept.size() == r.facets.size();
-    // What many facets share in is of those that are left; what names single ones is of all.
-    const bool shared = r.kind == ReadingKind::meet || r.kind == ReadingKind::parallel ||
-                        r.kind == ReadingKind::coplanar;
-    const std::size_t least = r.kind == ReadingKind::meet ? 3 : 2;
-    if (!all && !(shared && kept.size() >= least)) return std::nullopt;
-    r.facets = kept;
-    if (r.datum.facet >= 0 && (r.datum.facet = facet(r.datum.facet)) < 0) return std::nullopt;
-    for (Place& place : r.places) {
-        // Corners have no names that would outlive a change.
-        if (place.vertex >= 0) return std::nullopt;
-        if (place.facet >= 0 && (place.facet = facet(place.facet)) < 0) return std::nullopt;
-        if (place.other_facet >= 0) {
-            place.other_facet = facet(place.other_facet);
-            if (place.other_facet < 0 || !share_edge(after, place.facet, place.other_facet)) {
-                return std::nullopt;
-            }
-        }
-    }
-    return r;
-}
-
-// Whether a changed stage may be fitted; then it becomes the stage.
-bool change_solid(Stage& stage, Solid solid, std::vector<std::string>& changes) {
-    if (solid.facets.empty()) return false;
-    Stage next;
-    next.stone = stage.stone;
-    next.stone.solid = std::move(solid);
-    if (!stage.stone.up_facet.empty() && find_facet(next.stone.solid, stage.stone.up_facet) < 0) {
-        return false;
-    }
-    std::vector<std::string> dropped;
-    for (std::size_t i = 0; i < stage.readings.size(); ++i) {
-        auto reading = carried_over(stage.readings[i], stage.stone.solid, next.stone.solid);
-        // A meet that was let go may have become nothing to let go.
-        if (reading && reading->released) {
-            bool meets = false;
-            const HalfEdges edges = half_edges(next.stone.solid);
-            for (const std::vector<int>& there : edges.facets_of_vertex) {
-                meets = meets ||
-                        std::all_of(reading->facets.begin(), reading->facets.end(), [&](int f) {
-                            return std::find(there.begin(), there.end(), f) != there.end();
-                        });
-            }
-            if (!meets) reading.reset();
-        }
-        if (!reading) {
-            if (stage.origin[i] >= 0) dropped.push_back(stage.readings[i].id);
-            continue;
-        }
-        next.readings.push_back(std::move(*reading));
-        next.origin.push_back(stage.origin[i]);
-    }
-    std::vector<std::string> gone;
-    for (const Facet& facet : stage.stone.solid.facets) {
-        if (find_facet(next.stone.solid, facet.name) < 0) gone.push_back(facet.name);
-    }
-    if (!gone.empty()) {
-        changes.push_back("facets gone, the readings leave no room for them: " + list_of(gone));
-    }
-    if (!dropped.empty()) {
-        changes.push_back("readings that no longer apply: " + list_of(dropped));
-    }
-    stage = std::move(next);
-    return true;
-}
-
-Reading released_meet(const Stage& stage, const std::vector<std::string>& names, int number) {
-    Reading r;
-    r.id = fmt::format("released-meet-{}", number);
-    r.kind = ReadingKind::meet;
-    r.released = true;
-    for (const std::string& name : names) {
-        r.facets.push_back(find_facet(stage.stone.solid, name));
-        r.of.push_back(name);
-    }
-    return r;
-}
-
-// All facets round the corner that these share.
-std::vector<std::string> corner_of(const Solid& solid, const std::vector<std::string>& names) {
-    const HalfEdges edges = half_edges(solid);
-    for (const std::vector<int>& there : edges.facets_of_vertex) {
-        std::vector<std::string> here;
-        for (int f : there) here.push_back(solid.facets[std::size_t(f)].name);
-        if (std::all_of(names.begin(), names.end(), [&](const std::string& n) {
-                return std::find(here.begin(), here.end(), n) != here.end();
-            })) {
-            return here;
-        }
-    }
-    return {};
-}
 
 std::set<std::pair<std::string, std::string>> edges_of(const Solid& solid) {
     std::set<std::pair<std::string, std::string>> names;
@@ -178,7 +44,7 @@ void list_edges(const Solid& before, const Solid& after, std::vector<std::string
 }
 
 // One round of changes that `result` asks for. False when it asks for none that can be made.
-bool change(Stage& stage, const FitResult& result, int& released,
+bool change(TopologyStage& stage, const FitResult& result, int& released,
             std::vector<std::string>& changes) {
     if (!result.checks.missing_facets.empty() && result.checks.closed) {
         return change_solid(stage, result.solid, changes);
@@ -259,7 +125,8 @@ bool change(Stage& stage, const FitResult& result, int& released,
 
 // The shortest edges of the fitted stone, which may lie the other way round in the real one: a
 // contradiction need not drive an edge to zero when lengths were read that end at its corners.
-std::vector<std::pair<int, int>> doubtful_edges(const Stage& stage, const FitResult& result) {
+std::vector<std::pair<int, int>> doubtful_edges(const TopologyStage& stage,
+                                                const FitResult& result) {
     const Solid &mesh = stage.stone.solid, &fitted = result.solid;
     std::vector<std::pair<double, std::pair<int, int>>> edges;
     if (mesh.vertices.size() != fitted.vertices.size()) return {};
@@ -277,7 +144,7 @@ std::vector<std::pair<int, int>> doubtful_edges(const Stage& stage, const FitRes
 }
 
 // The stage with one edge let go.
-bool let_go(Stage& stage, const std::pair<int, int>& edge, int number,
+bool let_go(TopologyStage& stage, const std::pair<int, int>& edge, int number,
             std::vector<std::string>& changes) {
     std::vector<std::string> names, sides;
     const HalfEdges edges = half_edges(stage.stone.solid);
@@ -304,7 +171,8 @@ bool let_go(Stage& stage, const std::pair<int, int>& edge, int number,
 }
 
 // The result with every reading of the user in its place.
-void put_readings_back(const std::vector<Reading>& first, const Stage& stage, FitResult& result) {
+void put_readings_back(const std::vector<Reading>& first, const TopologyStage& stage,
+                       FitResult& result) {
     std::vector<FittedReading> all(first.size());
     std::vector<bool> there(first.size(), false);
     for (std::size_t i = 0; i < stage.origin.size() && i < result.readings.size(); ++i) {
@@ -346,21 +214,21 @@ bool is_better(const FitResult& a, const FitResult& b) {
 
 FitResult fit_with_changes(const Stone& stone, const std::vector<Reading>& readings,
                            const FitOptions& options, FitResult first, const FitAgain& fit) {
-    Stage stage{stone, readings, {}};
+    TopologyStage stage{stone, readings, {}};
     for (std::size_t i = 0; i < readings.size(); ++i) stage.origin.push_back(int(i));
     FitResult best = first, last = std::move(first);
-    Stage best_stage = stage;
+    TopologyStage best_stage = stage;
     std::vector<std::string> changes, best_changes;
     int released = 0;
     for (int round = 0; round < k_most_rounds; ++round) {
         if (change(stage, last, released, changes)) {
             last = fit(stage.stone, stage.readings);
         } else if (last.status == FitStatus::contradictory && round == 0) {
-            Stage chosen;
+            TopologyStage chosen;
             FitResult chosen_result;
             std::vector<std::string> chosen_changes;
             for (const auto& edge : doubtful_edges(stage, last)) {
-                Stage other = stage;
+                TopologyStage other = stage;
                 std::vector<std::string> said = changes;
                 if (!let_go(other, edge, released + 1, said)) continue;
                 FitResult tried = fit(other.stone, other.readings);

@@ -165,6 +165,7 @@ public:
     int first_extra(int reading) const { return first_extra_[static_cast<std::size_t>(reading)]; }
 
 private:
+    class ReadingEquations;
     void bring_upright();
     /// By how much the mesh is too small for the lengths that were read.
     double scale_of_readings(const Vec3& up) const;

@@ -207,9 +207,10 @@ void Binder::refuse_value(const Reading& reading) const {
 // What an impossible inclination may have been meant to be: the slip that comes near to the
 // facet of the mesh.
 void Binder::refuse_inclination(double v) const {
-    fail(fmt::format("value {:g} is outside 0..90 degrees{}; pavilion facets count from the "
-                     "horizontal too, or from up all the way (over 90)",
-                     v, meant_inclination(v)));
+    fail(
+        fmt::format("value {:g} is outside 0..90 degrees{}; pavilion facets count from the "
+                    "horizontal too, or from up all the way (over 90)",
+                    v, meant_inclination(v)));
 }
 
 std::string Binder::meant_inclination(double value) const {

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <set>
 
 #include "fit/readings/binder.h"

@@ -20,8 +20,8 @@ constexpr std::array<const char*, 15> k_kind_names{
     "meet",        "parallel", "coplanar",    "rotation", "mirror"};
 
 WrittenReading reading_of_table(const TomlTable& table) {
-    table.refuse_unknown(
-        {"kind", "of", "value", "sigma", "exact", "released", "datum", "side", "id", "note", "rounding"});
+    table.refuse_unknown({"kind", "of", "value", "sigma", "exact", "released", "datum", "side",
+                          "id", "note", "rounding"});
     WrittenReading reading;
     reading.file = table.file();
     reading.line = table.line();

@@ -65,10 +65,10 @@ std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_fil
                                           const std::vector<std::string>& overrides = {});
 
 /// The rows of a readings.csv: header `kind,of,value,sigma` and any of `exact`, `released`,
-/// `datum`, `side`, `id`, `note`, `rounding`, in any order. Fields may be quoted; `#` starts a comment
-/// line. What parts fields is told by the header line: `;`, a tab or `,`. Numbers may have a
-/// decimal comma (between commas only in quotes) and a unit. A row whose kind needs a value and has
-/// none is `skipped`.
+/// `datum`, `side`, `id`, `note`, `rounding`, in any order. Fields may be quoted; `#` starts a
+/// comment line. What parts fields is told by the header line: `;`, a tab or `,`. Numbers may have
+/// a decimal comma (between commas only in quotes) and a unit. A row whose kind needs a value and
+/// has none is `skipped`.
 std::vector<WrittenReading> read_readings_csv(const std::filesystem::path& file);
 
 /// Several facets may share one reading through mean(), min() and max(); each() of them is a

@@ -1,12 +1,12 @@
 #include "fit/starts/multistart.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <tuple>
 
 #include "fit/starts/penalty_continuation.h"
+#include "fit/starts/search_policy.h"
 #include "fit/uncertainty/diagnostics.h"
 #include "fit/uncertainty/statistics.h"
 
@@ -14,19 +14,6 @@ namespace culet {
 
 namespace {
 
-// What holding edges at no length may cost in chi-square before another start is asked.
-constexpr double k_cheap = 1;
-// Starts in a row that gave nothing better; good: the best agrees, or the mesh was drawn with care.
-constexpr int k_patience = 6, k_patience_good = 2;
-// Starts in a row from the first that gave nothing like a stone: the readings are no stone's.
-constexpr int k_patience_without_stone = 5;
-// Starts times facets that are tried, but no fewer starts than these.
-constexpr int k_most_facets = 4500, k_least_starts = 4;
-// Of all starts together (KktSolver::work), and at least so many starts: those of readings that
-// fit no stone take ten times as many steps each as others. The less while none gave a stone. All
-// starts of 105 facets and noise of 20 % take up to 1e9, half a second.
-constexpr double k_most_work = 1.5e10, k_most_work_in_vain = 7e9;
-constexpr int k_least_starts_in_vain = 2;
 // The chi-square test by counting: the least redundancy that there can be decides what is accepted
 // at once, and only in between is it counted out.
 bool agrees(const System& system, const Candidate& candidate, int free, int counted,
@@ -45,10 +32,10 @@ bool agrees(const System& system, const Candidate& candidate, int free, int coun
 // A stone whose last steps creep is still the better one where it agrees better by more than
 // chi-square's own noise: so at an edge that the readings want to have no length.
 auto rank(const Candidate& c, double handicap = 0) {
-    constexpr double k_part = 1.05, k_noise = 4;
     const double chi2 = c.finished.chi2 + handicap;
-    return std::make_tuple(!c.sound, !(c.finished.worst_hard < k_hard_limit),
-                           c.finished.converged ? chi2 : k_part * chi2 + k_noise);
+    return std::make_tuple(
+        !c.sound, !(c.finished.worst_hard < k_hard_limit),
+        c.finished.converged ? chi2 : k_search.creeping_part * chi2 + k_search.creeping_noise);
 }
 
 // The starts as the first stages leave them.
@@ -124,12 +111,13 @@ Multistart fit_from_starts(const System& system, const FitOptions& options,
     double& work = result.work;
     // Each costs a large stone as much as all of them a small one.
     const int facets = static_cast<int>(system.stone().solid.facets.size());
-    const int most = std::min(options.starts, std::max(k_least_starts, k_most_facets / facets));
+    const int most =
+        std::min(options.starts, std::max(k_search.least_starts, k_search.most_facets / facets));
     const auto may_go_on = [&] {
         const bool found = result.best.sound;
         return result.starts < most &&
-               (work < (found ? k_most_work : k_most_work_in_vain) ||
-                result.starts < (found ? k_least_starts : k_least_starts_in_vain));
+               (work < (found ? k_search.most_work : k_search.most_work_in_vain) ||
+                result.starts < (found ? k_search.least_starts : k_search.least_starts_in_vain));
     };
     while (may_go_on()) {
         const double begin = 0.7 * result.starts / (result.starts + 1.0);
@@ -156,7 +144,7 @@ Multistart fit_from_starts(const System& system, const FitOptions& options,
         // An optimum that agrees but poorly, or that lies where an edge has no length, may be a
         // lesser one: others get a chance.
         const bool accept =
-            candidate.agrees && candidate.cost_of_holding < k_cheap &&
+            candidate.agrees && candidate.cost_of_holding < k_search.cheap_holding &&
             (system.has_estimated_groups() ||
              chi2_tail(chi2, std::max(1, counted - free + candidate.binding)) > k_agrees_well);
         // Starts from who meets whom are alike: of a bad mesh all of the first may miss the same
@@ -175,9 +163,10 @@ Multistart fit_from_starts(const System& system, const FitOptions& options,
         // Readings that contradict each other do so from every start.
         const bool tired =
             result.best.sound && result.best.finished.converged &&
-            fruitless >=
-                (result.best.agrees || approaches.mesh_is_good() ? k_patience_good : k_patience);
-        if (without_stone == result.starts && without_stone >= k_patience_without_stone) break;
+            fruitless >= (result.best.agrees || approaches.mesh_is_good() ? k_search.patience_good
+                                                                          : k_search.patience);
+        if (without_stone == result.starts && without_stone >= k_search.patience_without_stone)
+            break;
         // Ending twice where it ended before is no accident, if nothing better was seen.
         if (accept || tired || (again && result.best.finished.chi2 > chi2 - k_same_chi2)) break;
     }

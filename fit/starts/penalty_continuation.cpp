@@ -1,41 +1,20 @@
 #include "fit/starts/penalty_continuation.h"
 
-#include <algorithm>
-#include <array>
-
 #include "fit/solve/relax.h"
 #include "fit/solve/sign_ambiguity.h"
-#include "stone/errors.h"
+#include "fit/starts/search_policy.h"
 
 namespace culet {
 
 namespace {
 
-constexpr int k_most_steps = 40;
-// As long as incidences are this soft, facets within this sine of upright may turn out to look the
-// other way.
-constexpr double k_leaning_until = 0.005, k_may_lean = 0.6;
-// Measured, in multiplications: a step of a stage, for each number that is varied.
-constexpr double k_work_of_a_row = 7000;
-
-struct Stage {
-    double incidence, readings;
-};
-// Of the half diameter. From the schedule that brought 20 of 20 rough meshes home in trials.
-constexpr std::array<Stage, 6> k_stages{
-    {{0.1, 0.05}, {0.03, 0.02}, {0.01, 0.005}, {0.003, 0.0}, {0.001, 0.0}, {0.0003, 0.0}}};
-
-// The best of a stage trades misfit for nearness to the mesh: of a rough mesh about this part of
-// what the priors leave. It only decides which starts are finished first.
-constexpr double k_traded = 0.2;
-// A good start takes fewer to find its place in the first stage.
-constexpr int k_first_steps = 15;
+using Stage = SearchPolicy::Stage;
 
 PenaltyScale penalty_of(const Stage& stage, bool with_readings) {
     PenaltyScale s;
     s.incidence = stage.incidence;
     s.readings = stage.readings;
-    s.hinge = stage.incidence / 5;
+    s.hinge = stage.incidence / k_search.hinge_stiffness;
     s.with_readings = with_readings;
     return s;
 }
@@ -50,7 +29,7 @@ struct StageRunner {
 
     struct Kind {
         bool with_readings = false, keep = false;
-        int most_steps = k_most_steps;
+        int most_steps = k_search.most_steps;
     };
     void once(Shape& shape, const Stage& stage, Kind kind, double fraction) {
         relaxation.choose(shape, false);
@@ -58,17 +37,17 @@ struct StageRunner {
         shape = relax(relaxation, shape, penalty_of(stage, kind.with_readings),
                       {.keep_normals = kind.keep, .most_steps = kind.most_steps}, progress,
                       fraction, steps);
-        work += k_work_of_a_row * (steps - before) * relaxation.parameters().size();
+        work += k_search.work_of_a_row * (steps - before) * relaxation.parameters().size();
     }
     void stage(Shape& shape, const Stage& stage, double fraction) {
         once(shape, stage, {.with_readings = true}, fraction);
         resolve_signs(shape, stage, fraction);
     }
     void resolve_signs(Shape& shape, const Stage& stage, double fraction) {
-        if (stage.incidence <= k_leaning_until) return;
+        if (stage.incidence <= k_search.leaning_until) return;
         for (int round = 0; round < 3; ++round) {
             const std::vector<Shape> others = better_signs(
-                relaxation, solver, shape, penalty_of(stage, true), k_may_lean, 1, sides);
+                relaxation, solver, shape, penalty_of(stage, true), k_search.may_lean, 1, sides);
             if (others.empty()) break;
             shape = relaxation.parameters().symmetrised(others.front());
             once(shape, stage, {.with_readings = true}, fraction);
@@ -93,18 +72,19 @@ Screened screen(Relaxation& relaxation, const Start& start, const Progress& prog
         looking_as(relaxation.system(), std::move(result.shape), start.sides));
     if (keep) run.once(result.shape, {0.03, 0.02}, {.with_readings = true, .keep = true}, 0.1);
     const auto judge = [&] {
-        const PenaltyScale penalty = penalty_of(k_stages[result.stages], true);
+        const PenaltyScale penalty = penalty_of(k_search.stages[result.stages], true);
         const StepLinearisation linearisation = relaxation.linearisation(result.shape, penalty);
         result.misfit = linearisation.merit - linearisation.prior;
-        result.is_plausible =
-            result.misfit <= relaxation.expected_misfit(penalty) + k_traded * linearisation.prior;
+        result.is_plausible = result.misfit <= relaxation.expected_misfit(penalty) +
+                                                   k_search.traded * linearisation.prior;
     };
-    run.once(result.shape, k_stages[0], {.with_readings = true, .most_steps = k_first_steps}, 0.2);
+    run.once(result.shape, k_search.stages[0],
+             {.with_readings = true, .most_steps = k_search.first_steps}, 0.2);
     judge();
     if (result.is_plausible) {
-        run.resolve_signs(result.shape, k_stages[0], 0.25);
+        run.resolve_signs(result.shape, k_search.stages[0], 0.25);
         ++result.stages;
-        run.stage(result.shape, k_stages[1], 0.3);
+        run.stage(result.shape, k_search.stages[1], 0.3);
         judge();
         ++result.stages;
     }
@@ -119,8 +99,8 @@ Continued continue_penalties(Relaxation& relaxation, const Screened& rough,
     result.shape = rough.shape;
     relaxation.forget_contacts();
     StageRunner run{relaxation, progress, rough.sides};
-    for (std::size_t i = rough.stages; i < k_stages.size(); ++i) {
-        run.stage(result.shape, k_stages[i], 0.2 + 0.1 * double(i));
+    for (std::size_t i = rough.stages; i < k_search.stages.size(); ++i) {
+        run.stage(result.shape, k_search.stages[i], 0.2 + 0.1 * double(i));
     }
     result.steps = rough.steps + run.steps;
     result.work = (run.work + run.solver.work());

@@ -8,7 +8,8 @@ namespace culet {
 
 namespace {
 
-// Of thousands of degrees of freedom a gamma function on the way is infinite, and the tail is right.
+// Of thousands of degrees of freedom a gamma function on the way is infinite, and the tail is
+// right.
 using Policy = boost::math::policies::policy<
     boost::math::policies::overflow_error<boost::math::policies::ignore_error>>;
 using ChiSquared = boost::math::chi_squared_distribution<double, Policy>;
