@@ -12,7 +12,8 @@ namespace culet {
 
 namespace {
 
-constexpr int k_most_meanings = 8;
+// Rounds: each finds another meaning, or corners to hold.
+constexpr int k_most_meanings = 8, k_most_holding = 8;
 // No other meanings are looked for once that took so many multiplications (of a thousand facets,
 // one end of which takes some 15 s).
 constexpr double k_most_work = 1.5e10;
@@ -35,112 +36,127 @@ bool is_same_place(const Shape& one, const Shape& other) {
     return true;
 }
 
-}  // namespace
+// The best of what the readings may mean near one end: each meaning has an end of its own.
+class Meanings {
+public:
+    Meanings(Relaxation& relaxation, KktSolver& solver, const ActiveSetOptions& options)
+        : relaxation_(relaxation), solver_(solver), options_(options) {
+        penalty_.with_priors = false;
+    }
 
-ActiveSetFit fit_active_set(Relaxation& relaxation, const Shape& start,
-                            const ActiveSetOptions& options) {
-    const int iterations = options.iterations;
-    ActiveSetFit result;
-    KktSolver solver;
-    const bool goes_on = options.agreeable > 0;
-    LocalOptimum optimum = constrained_newton(
-        relaxation, solver, start, {},
-        {.iterations = iterations, .near_an_end = goes_on, .contacts_shared = goes_on});
-    PenaltyScale penalty;
-    penalty.with_priors = false;
-    // What the readings may as well mean: each meaning has an end of its own. The best of those
-    // that are hardly worse is kept: another may be found from there.
-    std::optional<LocalOptimum> beside;
+    LocalOptimum best(LocalOptimum optimum) {
+        optimum_ = std::move(optimum);
+        for (int round = 0; round < k_most_meanings && !(optimum_.chi2 < options_.agreeable) &&
+                            solver_.work() < k_most_work;
+             ++round) {
+            beside_.reset();
+            relaxation_.forget_contacts(optimum_.shared_contacts);
+            const std::vector<Shape> sign_choices = better_signs(
+                relaxation_, solver_, optimum_.shape, penalty_, k_nearly_upright, k_most_leanings);
+            if (std::any_of(sign_choices.begin(), sign_choices.end(),
+                            [&](const Shape& other) { return gains_from(other, false); })) {
+                continue;
+            }
+            if (turns_better(optimum_.shape)) continue;
+            if (!beside_ || !turns_better(beside_->shape)) break;
+        }
+        return std::move(optimum_);
+    }
+
+private:
     // `with_turn`: what the mesh says against how they stand counts, too.
-    const auto gains_from = [&](const Shape& another, bool with_turn) {
+    bool gains_from(const Shape& another, bool with_turn) {
         const auto off = [&](const Shape& shape) {
-            return with_turn ? turn_off_the_mesh(relaxation, shape) : 0;
+            return with_turn ? turn_off_the_mesh(relaxation_, shape) : 0;
         };
-        const double off_now = off(optimum.shape);
-        const double goal = optimum.chi2 + off_now - off(another);
-        LocalOptimum other = constrained_newton(relaxation, solver, another, {},
-                                                {.iterations = iterations, .goal = goal});
-        other.iterations += optimum.iterations;
-        if (is_same_place(other.shape, optimum.shape)) return false;
-        if (!(other.chi2 + off(other.shape) < optimum.chi2 + off_now - k_gain)) {
-            if (other.converged && other.chi2 < optimum.chi2 + k_hardly_worse &&
-                !(beside && beside->chi2 < other.chi2)) {
-                beside = std::move(other);
+        const double off_now = off(optimum_.shape);
+        const double goal = optimum_.chi2 + off_now - off(another);
+        LocalOptimum other = constrained_newton(relaxation_, solver_, another, {},
+                                                {.iterations = options_.iterations, .goal = goal});
+        other.iterations += optimum_.iterations;
+        if (is_same_place(other.shape, optimum_.shape)) return false;
+        if (!(other.chi2 + off(other.shape) < optimum_.chi2 + off_now - k_gain)) {
+            if (other.converged && other.chi2 < optimum_.chi2 + k_hardly_worse &&
+                !(beside_ && beside_->chi2 < other.chi2)) {
+                beside_ = std::move(other);
             }
             return false;
         }
-        optimum = std::move(other);
+        optimum_ = std::move(other);
         return true;
-    };
-    const auto turns_better = [&](const Shape& from) {
-        const auto turned = turned_better(relaxation, solver, from, penalty);
-        return turned && gains_from(*turned, true);
-    };
-    for (int round = 0; round < k_most_meanings && !(optimum.chi2 < options.agreeable) &&
-                        solver.work() < k_most_work;
-         ++round) {
-        beside.reset();
-        relaxation.forget_contacts(optimum.shared_contacts);
-        const std::vector<Shape> sign_choices = better_signs(
-            relaxation, solver, optimum.shape, penalty, k_nearly_upright, k_most_leanings);
-        if (std::any_of(sign_choices.begin(), sign_choices.end(),
-                        [&](const Shape& other) { return gains_from(other, false); })) {
-            continue;
-        }
-        if (turns_better(optimum.shape)) continue;
-        if (!beside || !turns_better(beside->shape)) break;
     }
-    bring_to_meet(relaxation, {}, optimum);
-    const double free_chi2 = optimum.chi2;
-    // Penalties let corners stand a hair above their neighbours. Those are held just below from now
-    // on: an active set that only grows, since a corner that readings push out will be pushed
-    // again.
+    bool turns_better(const Shape& from) {
+        const auto turned = turned_better(relaxation_, solver_, from, penalty_);
+        return turned && gains_from(*turned, true);
+    }
+
+    Relaxation& relaxation_;
+    KktSolver& solver_;
+    const ActiveSetOptions& options_;
+    PenaltyScale penalty_;
+    LocalOptimum optimum_;
+    // The best of those that are hardly worse: another may be found from there.
+    std::optional<LocalOptimum> beside_;
+};
+
+bool is_among(const std::vector<ActiveCorner>& all, const ActiveCorner& corner) {
+    return std::find(all.begin(), all.end(), corner) != all.end();
+}
+
+// Corners above a neighbour facet, and those of edges that have come down to nothing: these would
+// turn over if they could, unless drawn so (in rounding, beside others that are held).
+std::vector<ActiveCorner> corners_to_hold(const Relaxation& relaxation, const Shape& shape) {
+    std::vector<ActiveCorner> above = relaxation.above(shape);
+    const std::vector<ActiveCorner> nearly = relaxation.above(shape, k_no_length);
+    if (nearly.size() == above.size()) return above;
+    const std::vector<ActiveCorner> drawn =
+        relaxation.above(relaxation.system().mesh_shape(), k_drawn);
+    for (const ActiveCorner& h : nearly) {
+        if (!is_among(drawn, h) && !is_among(above, h)) above.push_back(h);
+    }
+    return above;
+}
+
+// An edge that would turn over shows at both its ends: one of them is enough, most often; the other
+// where no more is found. False: nothing new.
+bool hold_more(const Relaxation& relaxation, const std::vector<ActiveCorner>& above,
+               std::vector<ActiveCorner>& held) {
+    const std::size_t before = held.size();
+    for (const ActiveCorner& h : above) {
+        const bool known = std::any_of(held.begin(), held.end(), [&](const ActiveCorner& other) {
+            return other == h || relaxation.are_ends_of_one_edge(other, h);
+        });
+        if (!known) held.push_back(h);
+    }
+    if (held.size() > before) return true;
+    for (const ActiveCorner& h : above) {
+        if (!is_among(held, h)) held.push_back(h);
+    }
+    return held.size() > before;
+}
+
+// Penalties let corners stand a hair above their neighbours. Those are held just below from now on:
+// an active set that only grows, since a corner that readings push out will be pushed again.
+void hold_corners(Relaxation& relaxation, KktSolver& solver, const ActiveSetOptions& options,
+                  LocalOptimum& optimum, ActiveSetFit& result) {
     // A few steps a round, or it leads nowhere.
-    int left = iterations;
-    for (int round = 0; round < 8 && left > 0 && optimum.chi2 < options.hopeless; ++round) {
+    int left = options.iterations;
+    for (int round = 0; round < k_most_holding && left > 0 && optimum.chi2 < options.hopeless;
+         ++round) {
         // What does not meet will not with more corners held.
         if (optimum.worst_hard > k_all_but_met) break;
-        const std::size_t before = result.held.size();
-        std::vector<ActiveCorner> above = relaxation.above(optimum.shape);
-        // An edge that has come down to nothing would turn over if it could, unless drawn so: in
-        // rounding, beside others that are held.
-        const bool come_down = round == 0 && above.empty();
-        const std::vector<ActiveCorner> nearly = relaxation.above(optimum.shape, k_no_length);
-        if (nearly.size() > above.size()) {
-            const std::vector<ActiveCorner> drawn =
-                relaxation.above(relaxation.system().mesh_shape(), k_drawn);
-            const auto holds = [](const std::vector<ActiveCorner>& all, const ActiveCorner& h) {
-                return std::find(all.begin(), all.end(), h) != all.end();
-            };
-            for (const ActiveCorner& h : nearly) {
-                if (!holds(drawn, h) && !holds(above, h)) above.push_back(h);
-            }
-        }
-        for (const ActiveCorner& h : above) {
-            // An edge that would turn over shows at both its ends: one of them is enough, most
-            // often.
-            const bool known =
-                std::any_of(result.held.begin(), result.held.end(), [&](const ActiveCorner& other) {
-                    return other == h || relaxation.are_ends_of_one_edge(other, h);
-                });
-            if (!known) result.held.push_back(h);
-        }
-        if (result.held.size() == before) {
-            for (const ActiveCorner& h : above) {
-                if (std::find(result.held.begin(), result.held.end(), h) == result.held.end()) {
-                    result.held.push_back(h);
-                }
-            }
-        }
-        if (result.held.size() == before) break;
+        const bool come_down = round == 0 && relaxation.above(optimum.shape).empty();
+        const std::vector<ActiveCorner> above = corners_to_hold(relaxation, optimum.shape);
+        if (!hold_more(relaxation, above, result.held)) break;
         // Planes have three parameters each.
         if (result.held.size() > 3 * relaxation.system().stone().solid.facets.size()) {
             if (come_down) result.held.clear();
             result.is_no_stone = !come_down;
             break;
         }
-        LocalOptimum next = constrained_newton(relaxation, solver, optimum.shape, result.held,
-                                               {.iterations = left, .near_an_end = goes_on});
+        LocalOptimum next =
+            constrained_newton(relaxation, solver, optimum.shape, result.held,
+                               {.iterations = left, .near_an_end = options.agreeable > 0});
         bring_to_meet(relaxation, result.held, next);
         left -= next.iterations;
         next.iterations += optimum.iterations;
@@ -150,6 +166,22 @@ ActiveSetFit fit_active_set(Relaxation& relaxation, const Shape& start,
         }
         optimum = std::move(next);
     }
+}
+
+}  // namespace
+
+ActiveSetFit fit_active_set(Relaxation& relaxation, const Shape& start,
+                            const ActiveSetOptions& options) {
+    ActiveSetFit result;
+    KktSolver solver;
+    const bool goes_on = options.agreeable > 0;
+    LocalOptimum optimum = constrained_newton(
+        relaxation, solver, start, {},
+        {.iterations = options.iterations, .near_an_end = goes_on, .contacts_shared = goes_on});
+    optimum = Meanings(relaxation, solver, options).best(std::move(optimum));
+    bring_to_meet(relaxation, {}, optimum);
+    const double free_chi2 = optimum.chi2;
+    hold_corners(relaxation, solver, options, optimum, result);
     result.cost_of_holding = result.held.empty() ? 0 : std::max(0.0, optimum.chi2 - free_chi2);
     result.finished.shape = std::move(optimum.shape);
     result.finished.outline = relaxation.system().mesh_outline();

@@ -11,6 +11,11 @@ namespace culet {
 
 /// Meets that miss by more, all together, do not meet.
 inline constexpr double k_all_but_met = 1e-6;
+/// Of what meets to rounding: each residual is a sum of four products of numbers up to one.
+inline constexpr double k_met = 1e-15;
+/// Exact equations that are nearly one (of corners held where planes are nearly parallel) are
+/// factored with this variance, where that can be done.
+inline constexpr double k_least_close = 1e-11;
 
 struct LocalOptimum {
     Shape shape;
@@ -36,6 +41,9 @@ struct NewtonOptions {
 LocalOptimum constrained_newton(Relaxation& relaxation, KktSolver& solver, const Shape& start,
                                 const std::vector<ActiveCorner>& held,
                                 const NewtonOptions& options);
+/// Fills in the chi-square of an end, and what is left of its hard equations.
+void look_at_end(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
+                 LocalOptimum& optimum);
 /// Onto the hard equations by smallest steps, until rounding is all that is left.
 void bring_to_meet(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
                    LocalOptimum& optimum);
