@@ -74,7 +74,7 @@ int explain_plan(const RenderOptions& options) {
     require_writable(options.stats);
     const ScenePlan plan =
         plan_to_explain(scene_of(options), progress_line("planning", options.common.quiet));
-    if (options.stats != "-") fmt::print("{}", explain(plan));
+    if (options.stats != "-") print_lines(explain(plan));
     if (!options.stats.empty()) write_text(options.stats, plan_json(plan));
     return exit_good;
 }

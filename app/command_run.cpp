@@ -234,7 +234,7 @@ int run_job(const RunOptions& options) {
     if (made.rendered) put_pictures(made, folder);
     if (made.comparison) write_text(folder / "scores.json", report.scores_json);
     write_report(report, folder / "report.html");
-    fmt::print("{}\n", (folder / "report.html").string());
+    print_lines((folder / "report.html").string());
     const bool trusted =
         (!made.fit || made.fit->usable()) && (!made.comparison || made.comparison->usable());
     return trusted ? exit_good : exit_untrusted;

@@ -55,8 +55,7 @@ int run_study(const StudyCommand& command) {
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
     for (const std::string& detail : file.details) say(detail, !command.common.verbose);
     if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
-    const FitInput input =
-        fit_input(file.stone, read_readings(command.input, command.common.set));
+    const FitInput input = fit_input(file.stone, read_readings(command.input, command.common.set));
     for (const std::string& note : input.notes) say(note, command.common.quiet);
     if (input.readings.empty()) {
         throw InputError(command.input, "has no readings: there is nothing to study");
@@ -93,7 +92,7 @@ int run_study(const StudyCommand& command) {
                                        command.input, command.out, options.seed, options.draws,
                                        options.budget_seconds)}));
     if (!command.json.empty()) write_text(command.json, json);
-    if (command.json != "-") fmt::print("{}", study_table(json));
+    if (command.json != "-") print_lines(study_table(json));
     say(fmt::format("{}: {}", name_of(study.status), study.message), command.common.quiet);
     if (!study.limit_message.empty()) {
         say(fmt::format("limit: {}", study.limit_message), command.common.quiet);

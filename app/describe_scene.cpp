@@ -24,12 +24,13 @@ Description describe_scene_file(const DescribeOptions& options) {
                         {"size", {camera.width, camera.height}}};
     const Lights& lights = scene.lights;
     object["lights"] = {{"environment", lights.environment != nullptr},
-                        {"constant", lights.constant},
-                        {"spheres", lights.spheres.size()},
-                        {"lobes", lights.lobes.size()},
-                        {"hemispheres", lights.hemispheres.size()},
-                        {"caps", lights.caps.size()},
-                        {"planes", lights.planes.size()}};
+                        {"constant", lights.constant}};
+    std::string counts;
+    for_each_light_type([&]<class L>() {
+        const std::size_t count = count_lights<L>(lights);
+        object["lights"][L::k_names] = count;
+        counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", count, L::k_names);
+    });
     const EyeOptics& optics = camera.optics;
     if (camera.cone) object["camera"]["cone"] = degrees(*camera.cone);
     if (optics.analyzer) object["camera"]["analyzer"] = degrees(*optics.analyzer);
@@ -41,12 +42,11 @@ Description describe_scene_file(const DescribeOptions& options) {
     about.lines.push_back(fmt::format("{}: scene, {} x {} pixels, stone \"{}\"",
                                       options.file.string(), camera.width, camera.height,
                                       scene.stone.name));
-    about.lines.push_back(
-        fmt::format("lights: {}{} spheres, {} lobes, {} hemispheres, {} caps, {} planes",
-                    lights.environment ? "an environment, "
-                                       : (lights.constant > 0 ? "a constant environment, " : ""),
-                    lights.spheres.size(), lights.lobes.size(), lights.hemispheres.size(),
-                    lights.caps.size(), lights.planes.size()));
+    about.lines.push_back(fmt::format("lights: {}{}",
+                                      lights.environment
+                                          ? "an environment, "
+                                          : (lights.constant > 0 ? "a constant environment, " : ""),
+                                      counts));
     if (optics.analyzer) {
         about.lines.push_back(
             fmt::format("seen through an analyser at {:g} degrees{}{}", degrees(*optics.analyzer),

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -91,6 +92,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     culet::catch_interrupts();
+    // A file beyond the limit of its size is a failed write, said in a line, not a death.
+    std::signal(SIGXFSZ, SIG_IGN);
     try {
         return run(argc, argv);
     } catch (const culet::InputError& error) {

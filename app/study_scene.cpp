@@ -40,7 +40,7 @@ int study_scene_file(const StudySceneOptions& options) {
     write_text(folder / "report.html",
                scene_study_page({json, study.name, CULET_VERSION, command, study_pictures(study)}));
     if (!options.json.empty()) write_text(options.json, json);
-    if (options.json != "-") fmt::print("{}", scene_study_table(json));
+    if (options.json != "-") print_lines(scene_study_table(json));
     const bool quiet = options.common.quiet;
     say(fmt::format("pictures of {} x {} pixels; the reference itself may be off by {:.2g} of the "
                     "mean",

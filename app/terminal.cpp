@@ -80,6 +80,14 @@ Progress progress_line(std::string what, bool quiet) {
     };
 }
 
+void print_lines(std::string_view text) {
+    while (!text.empty()) {
+        const std::size_t end = text.find('\n');
+        fmt::print("{}\n", for_terminal(text.substr(0, end)));
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    }
+}
+
 void say(const std::string& line, bool quiet) {
     if (!quiet) fmt::print(stderr, "{}\n", for_terminal(line));
 }

@@ -2,6 +2,7 @@
 // What a person at a terminal sees while culet works. All of it goes to stderr.
 
 #include <string>
+#include <string_view>
 
 #include "stone/progress.h"
 
@@ -18,6 +19,9 @@ Progress progress_line(std::string what, bool quiet);
 /// What it says after so many seconds: how much is done and how long the rest will take at that
 /// pace; for the time being, how long it has taken.
 std::string progress_text(double fraction, double seconds);
+
+/// Lines for people on stdout; foreign text in them is made safe (for_terminal).
+void print_lines(std::string_view text);
 
 /// One line for people, unless `quiet`; foreign text in it is made safe (for_terminal).
 void say(const std::string& line, bool quiet);

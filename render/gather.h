@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "render/light_field.h"
 #include "render/path.h"
 #include "render/scene.h"
 

@@ -178,11 +178,74 @@ std::shared_ptr<const EnvironmentMap> read_environment(const TomlTable& table,
     return map;
 }
 
+// One source of each type; the pointer says which.
+SphereLight source_of(const TomlTable& t, const SphereLight*) {
+    t.refuse_unknown(with_polarisation_keys({"center", "radius", "radiance"}));
+    return {point_in(t, "center"), positive_in(t, "radius"), radiance_in(t, std::nullopt)};
+}
+
+LobeLight source_of(const TomlTable& t, const LobeLight*) {
+    t.refuse_unknown(with_polarisation_keys({"direction", "exponent", "radiance"}));
+    const double exponent = t.number("exponent").value_or(1);
+    if (exponent < 0)
+        t.fail("exponent", fmt::format("exponent must not be negative, found {}", exponent));
+    const Vec3 direction = direction_in(t, "direction");
+    return {direction, exponent, radiance_in(t, direction)};
+}
+
+HemisphereLight source_of(const TomlTable& t, const HemisphereLight*) {
+    t.refuse_unknown(with_polarisation_keys({"direction", "radiance"}));
+    const Vec3 direction = direction_in(t, "direction");
+    return {direction, radiance_in(t, direction)};
+}
+
+CapLight source_of(const TomlTable& t, const CapLight*) {
+    t.refuse_unknown(with_polarisation_keys({"direction", "half_angle", "from", "to", "radiance"}));
+    if (t.has("half_angle") == t.has("to"))
+        t.fail("", "a cap needs half_angle, or a band from .. to, in degrees");
+    const double from = t.number("from").value_or(0);
+    const double to = t.has("to") ? *t.number("to") : *t.number("half_angle");
+    if (!(from >= 0 && from < to && to <= 180)) {
+        t.fail(t.has("to") ? "to" : "half_angle",
+               fmt::format("a cap's angles are 0 <= from < to <= 180 degrees, found {} to {}", from,
+                           to));
+    }
+    const Vec3 direction = direction_in(t, "direction");
+    return {direction, radians(from), radians(to), radiance_in(t, direction)};
+}
+
+PlaneLight source_of(const TomlTable& t, const PlaneLight*) {
+    t.refuse_unknown(with_polarisation_keys({"point", "normal", "u", "v", "radiance"}));
+    PlaneLight plane;
+    plane.point = point_in(t, "point");
+    plane.normal = direction_in(t, "normal");
+    plane.u = t.vector("u");
+    plane.v = t.vector("v");
+    plane.radiance = radiance_in(t, plane.normal);
+    if (plane.u.has_value() != plane.v.has_value())
+        t.fail("", "a plane has both half-extents u and v, or none");
+    if (plane.u && !(glm::length(glm::cross(*plane.u, *plane.v)) >
+                     1e-12 * glm::length(*plane.u) * glm::length(*plane.v))) {
+        t.fail("u", "u and v must span the plane");
+    }
+    for (auto [key, extent] : {std::pair{"u", &plane.u}, std::pair{"v", &plane.v}}) {
+        if (!*extent) continue;
+        const double out = glm::dot(**extent, plane.normal);
+        if (std::abs(out) > k_in_plane * glm::length(**extent)) {
+            t.fail(key,
+                   fmt::format("{} must lie in the plane, at right angles to its normal", key));
+        }
+        **extent -= out * plane.normal;
+    }
+    return plane;
+}
+
 }  // namespace
 
 Lights lights_of(const TomlTable& table, std::vector<std::string>& notes) {
-    table.refuse_unknown(with_view_keys(with_polarisation_keys(
-        {"environment", "constant", "sphere", "lobe", "hemisphere", "cap", "plane"})));
+    std::vector<std::string_view> keys{"environment", "constant"};
+    for_each_light_type([&]<class L>() { keys.push_back(L::k_name); });
+    table.refuse_unknown(with_view_keys(with_polarisation_keys(std::move(keys))));
     Lights lights;
     const auto preset = table.text("preset");
     const bool is_view = preset && is_view_preset(*preset);
@@ -200,67 +263,12 @@ Lights lights_of(const TomlTable& table, std::vector<std::string>& notes) {
         lights.constant = checked_radiance(table, "constant", *constant);
     }
     lights.polarisation = polarisation_in(table, std::nullopt);
-    for (const TomlTable& t : table.tables("sphere")) {
-        t.refuse_unknown(with_polarisation_keys({"center", "radius", "radiance"}));
-        lights.spheres.push_back(
-            {point_in(t, "center"), positive_in(t, "radius"), radiance_in(t, std::nullopt)});
-    }
-    for (const TomlTable& t : table.tables("lobe")) {
-        t.refuse_unknown(with_polarisation_keys({"direction", "exponent", "radiance"}));
-        const double exponent = t.number("exponent").value_or(1);
-        if (exponent < 0)
-            t.fail("exponent", fmt::format("exponent must not be negative, found {}", exponent));
-        const Vec3 direction = direction_in(t, "direction");
-        lights.lobes.push_back({direction, exponent, radiance_in(t, direction)});
-    }
-    for (const TomlTable& t : table.tables("hemisphere")) {
-        t.refuse_unknown(with_polarisation_keys({"direction", "radiance"}));
-        const Vec3 direction = direction_in(t, "direction");
-        lights.hemispheres.push_back({direction, radiance_in(t, direction)});
-    }
-    for (const TomlTable& t : table.tables("cap")) {
-        t.refuse_unknown(
-            with_polarisation_keys({"direction", "half_angle", "from", "to", "radiance"}));
-        if (t.has("half_angle") == t.has("to"))
-            t.fail("", "a cap needs half_angle, or a band from .. to, in degrees");
-        const double from = t.number("from").value_or(0);
-        const double to = t.has("to") ? *t.number("to") : *t.number("half_angle");
-        if (!(from >= 0 && from < to && to <= 180)) {
-            t.fail(t.has("to") ? "to" : "half_angle",
-                   fmt::format("a cap's angles are 0 <= from < to <= 180 degrees, found {} to {}",
-                               from, to));
+    for_each_light_type([&]<class L>() {
+        for (const TomlTable& t : table.tables(L::k_name)) {
+            lights.sources.push_back(source_of(t, static_cast<const L*>(nullptr)));
         }
-        const Vec3 direction = direction_in(t, "direction");
-        lights.caps.push_back({direction, radians(from), radians(to), radiance_in(t, direction)});
-    }
-    for (const TomlTable& t : table.tables("plane")) {
-        t.refuse_unknown(with_polarisation_keys({"point", "normal", "u", "v", "radiance"}));
-        PlaneLight plane;
-        plane.point = point_in(t, "point");
-        plane.normal = direction_in(t, "normal");
-        plane.u = t.vector("u");
-        plane.v = t.vector("v");
-        plane.radiance = radiance_in(t, plane.normal);
-        if (plane.u.has_value() != plane.v.has_value())
-            t.fail("", "a plane has both half-extents u and v, or none");
-        if (plane.u && !(glm::length(glm::cross(*plane.u, *plane.v)) >
-                         1e-12 * glm::length(*plane.u) * glm::length(*plane.v))) {
-            t.fail("u", "u and v must span the plane");
-        }
-        for (auto [key, extent] : {std::pair{"u", &plane.u}, std::pair{"v", &plane.v}}) {
-            if (!*extent) continue;
-            const double out = glm::dot(**extent, plane.normal);
-            if (std::abs(out) > k_in_plane * glm::length(**extent)) {
-                t.fail(key,
-                       fmt::format("{} must lie in the plane, at right angles to its normal", key));
-            }
-            **extent -= out * plane.normal;
-        }
-        lights.planes.push_back(plane);
-    }
-    const bool dark = !lights.environment && lights.constant == 0 && lights.spheres.empty() &&
-                      lights.lobes.empty() && lights.hemispheres.empty() && lights.caps.empty() &&
-                      lights.planes.empty();
+    });
+    const bool dark = !lights.environment && lights.constant == 0 && lights.sources.empty();
     if (dark && !table.has("constant") && !is_view)
         table.fail("", "the scene is dark: [light] names no light");
     return lights;

@@ -23,17 +23,17 @@ CapLight band(const Vec3& axis, double from_deg, double to_deg, LightColour colo
 // The hood of a viewer, round the hole for the eye.
 Lights reflector(const Vec3& axis, double hole_deg) {
     Lights lights;
-    lights.caps.push_back(band(axis, hole_deg, 80, {Rgb{1.0, 0.25, 0.3}}));
+    lights.sources.push_back(band(axis, hole_deg, 80, {Rgb{1.0, 0.25, 0.3}}));
     return lights;
 }
 
 Lights jeweller() {
     Lights lights;
     lights.constant = 0.05;
-    lights.caps.push_back(band(k_up, 12, 40, {0.7}));
-    lights.caps.push_back(band({1, 0.3, 0.6}, 0, 18, {3.0}));
-    lights.caps.push_back(band({-0.6, 1, 0.9}, 0, 10, {2.0}));
-    lights.hemispheres.push_back({k_up, {0.12}});
+    lights.sources.push_back(band(k_up, 12, 40, {0.7}));
+    lights.sources.push_back(band({1, 0.3, 0.6}, 0, 18, {3.0}));
+    lights.sources.push_back(band({-0.6, 1, 0.9}, 0, 10, {2.0}));
+    lights.sources.push_back(HemisphereLight{k_up, {0.12}});
     return lights;
 }
 
@@ -42,40 +42,40 @@ Lights daylight() {
     lights.constant = 0.04;
     const Vec3 sun{1, 0.4, 1.1};
     // From the head to the trees; paler where the sun is.
-    lights.caps.push_back(band(k_up, 15, 75, {Rgb{0.33, 0.37, 0.43}}));
-    lights.lobes.push_back({glm::normalize(sun), 6, {Rgb{1.3, 1.25, 1.15}}});
-    lights.caps.push_back(band(sun, 0, 2.5, {Rgb{60, 56, 50}}));
+    lights.sources.push_back(band(k_up, 15, 75, {Rgb{0.33, 0.37, 0.43}}));
+    lights.sources.push_back(LobeLight{glm::normalize(sun), 6, {Rgb{1.3, 1.25, 1.15}}});
+    lights.sources.push_back(band(sun, 0, 2.5, {Rgb{60, 56, 50}}));
     return lights;
 }
 
 Lights lightbox() {
     Lights lights;
-    lights.hemispheres.push_back({-k_up, {0.9}});
-    lights.caps.push_back(band(k_up, 10, 38, {0.9}));
-    lights.caps.push_back(band(k_up, 52, 90, {0.6}));
+    lights.sources.push_back(HemisphereLight{-k_up, {0.9}});
+    lights.sources.push_back(band(k_up, 10, 38, {0.9}));
+    lights.sources.push_back(band(k_up, 52, 90, {0.6}));
     for (const double side : {-1.0, 1.0})
-        lights.caps.push_back(band({side, 0.2, 0.45}, 0, 20, {2.0}));
+        lights.sources.push_back(band({side, 0.2, 0.45}, 0, 20, {2.0}));
     return lights;
 }
 
 Lights darkfield() {
     Lights lights;
     lights.constant = 0.02;
-    lights.caps.push_back(band(-k_up, 35, 75, {1.0}));
+    lights.sources.push_back(band(-k_up, 35, 75, {1.0}));
     return lights;
 }
 
 Lights aset() {
     Lights lights;
-    lights.caps.push_back(band(k_up, 0, 15, {Rgb{0.1, 0.2, 1.0}}));
-    lights.caps.push_back(band(k_up, 15, 45, {Rgb{1.0, 0.1, 0.1}}));
-    lights.caps.push_back(band(k_up, 45, 90, {Rgb{0.1, 0.8, 0.1}}));
+    lights.sources.push_back(band(k_up, 0, 15, {Rgb{0.1, 0.2, 1.0}}));
+    lights.sources.push_back(band(k_up, 15, 45, {Rgb{1.0, 0.1, 0.1}}));
+    lights.sources.push_back(band(k_up, 45, 90, {Rgb{0.1, 0.8, 0.1}}));
     return lights;
 }
 
 Lights idealscope() {
     Lights lights = reflector(k_up, k_eye_deg);
-    lights.hemispheres.push_back({-k_up, {1.0}});
+    lights.sources.push_back(HemisphereLight{-k_up, {1.0}});
     return lights;
 }
 

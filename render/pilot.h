@@ -1,6 +1,7 @@
 #pragma once
 // A glance at the scene before it is rendered: how bright it is, and how many wavelengths it needs.
 
+#include "render/light_field.h"
 #include "render/path.h"
 #include "render/plan.h"
 

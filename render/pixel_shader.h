@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "render/light_field.h"
 #include "render/path.h"
 #include "render/plan.h"
 #include "render/sampling.h"

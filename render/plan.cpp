@@ -53,14 +53,7 @@ LightNeeds needs_of(const LightColour& light) {
 
 LightNeeds needs_of(const Lights& lights) {
     LightNeeds most = lights.environment ? LightNeeds::three_for_rgb : LightNeeds::one_wavelength;
-    const auto take = [&most](const auto& list) {
-        for (const auto& light : list) most = std::max(most, needs_of(light.radiance));
-    };
-    take(lights.spheres);
-    take(lights.lobes);
-    take(lights.hemispheres);
-    take(lights.caps);
-    take(lights.planes);
+    for (const Light& light : lights.sources) most = std::max(most, needs_of(colour_of(light)));
     return most;
 }
 

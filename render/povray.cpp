@@ -185,30 +185,35 @@ private:
         Rgb radiance{};
     };
 
+    // Of a distant light: its share of the radiance from each direction, as a function.
+    static std::string cosine(const Vec3& d) {
+        return fmt::format("({})*x + ({})*y + ({})*z", d.x, d.z, d.y);
+    }
+    static std::string shape(const LobeLight& lobe) {
+        return fmt::format("pow(max({}, 0), {})", cosine(lobe.direction), lobe.exponent);
+    }
+    static std::string shape(const HemisphereLight& half) {
+        return fmt::format("select(-({}), 1, 0)", cosine(half.direction));
+    }
+    static std::string shape(const CapLight& cap) {
+        const std::string at = cosine(cap.direction);
+        const std::string beyond =
+            cap.from <= 0 ? "1" : fmt::format("select(({}) - ({}), 0, 1)", std::cos(cap.from), at);
+        if (cap.to >= std::numbers::pi) return beyond;
+        return fmt::format("select(({}) - ({}), {}, 0)", std::cos(cap.to), at, beyond);
+    }
+
     void distant_lights() {
         const Lights& lights = scene_.lights;
         std::vector<Term> terms;
-        const auto cosine = [](const Vec3& d) {
-            return fmt::format("({})*x + ({})*y + ({})*z", d.x, d.z, d.y);
-        };
-        for (const LobeLight& lobe : lights.lobes) {
-            terms.push_back(
-                {fmt::format("pow(max({}, 0), {})", cosine(lobe.direction), lobe.exponent),
-                 rgb_of(lobe.radiance)});
-        }
-        for (const HemisphereLight& half : lights.hemispheres) {
-            terms.push_back({fmt::format("select(-({}), 1, 0)", cosine(half.direction)),
-                             rgb_of(half.radiance)});
-        }
-        for (const CapLight& cap : lights.caps) {
-            const std::string at = cosine(cap.direction);
-            const std::string beyond =
-                cap.from <= 0 ? "1"
-                              : fmt::format("select(({}) - ({}), 0, 1)", std::cos(cap.from), at);
-            terms.push_back({cap.to >= std::numbers::pi ? beyond
-                                                        : fmt::format("select(({}) - ({}), {}, 0)",
-                                                                      std::cos(cap.to), at, beyond),
-                             rgb_of(cap.radiance)});
+        for (const Light& light : lights.sources) {
+            std::visit(
+                [&](const auto& l) {
+                    if constexpr (!std::decay_t<decltype(l)>::k_is_near) {
+                        terms.push_back({shape(l), rgb_of(l.radiance)});
+                    }
+                },
+                light);
         }
         if (terms.empty()) {
             line("background {{ rgb {} }}", lights.constant);
@@ -257,17 +262,24 @@ private:
     }
 
     void near_lights() {
-        for (const SphereLight& sphere : scene_.lights.spheres) {
-            // Seen from within a body POV-Ray 3.7 reflects nothing inside a second one: a dome
-            // round the camera is turned inside out, so that the camera is outside.
-            const bool inside = glm::length(scene_.camera.position - sphere.center) < sphere.radius;
-            line("sphere {{ {}, {} {}{} }}", vector_text(scale_ * sphere.center),
-                 scale_ * sphere.radius, glowing(sphere.radiance), inside ? " inverse" : "");
+        for (const Light& light : scene_.lights.sources) {
+            std::visit(
+                [&](const auto& l) {
+                    if constexpr (std::decay_t<decltype(l)>::k_is_near) near_light(l);
+                },
+                light);
         }
-        for (const PlaneLight& plane : scene_.lights.planes) near_plane(plane);
     }
 
-    void near_plane(const PlaneLight& plane) {
+    void near_light(const SphereLight& sphere) {
+        // Seen from within a body POV-Ray 3.7 reflects nothing inside a second one: a dome round
+        // the camera is turned inside out, so that the camera is outside.
+        const bool inside = glm::length(scene_.camera.position - sphere.center) < sphere.radius;
+        line("sphere {{ {}, {} {}{} }}", vector_text(scale_ * sphere.center),
+             scale_ * sphere.radius, glowing(sphere.radiance), inside ? " inverse" : "");
+    }
+
+    void near_light(const PlaneLight& plane) {
         const double of_camera = height(plane, scene_.camera.position);
         double lowest = of_camera, highest = of_camera;
         for (const Vec3& corner : scene_.stone.solid.vertices) {

@@ -8,6 +8,7 @@
 
 #include "render/crystal_paths.h"
 #include "render/eye_optics.h"
+#include "render/light_field.h"
 #include "render/light_paths.h"
 #include "render/scene_checks.h"
 #include "stone/errors.h"

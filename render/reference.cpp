@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "render/film.h"
+#include "render/light_field.h"
 #include "render/listener.h"
 #include "render/pilot.h"
 #include "render/pixel_shader.h"

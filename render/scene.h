@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "render/colour.h"
+#include "render/lights.h"
 #include "stone/stone.h"
 
 namespace culet {
@@ -82,117 +82,6 @@ private:
     std::array<double, 2> middle_;
     Vec3 right_, down_,
         forward_;  // right_ and down_ span one pixel at unit distance (or in length, or in sine)
-};
-
-/// Light that vibrates along one direction, as behind a polariser.
-struct LinearPolarisation {
-    Vec3 vibration{1, 0, 0};  ///< unit
-    /// Normal of the polariser's sheet: rays at an angle to it vibrate along `vibration` turned
-    /// with the normal into the ray. None: along the projection of `vibration`.
-    std::optional<Vec3> normal;
-    double degree = 1;  ///< 0..1 of the radiance; the rest is unpolarised
-    /// Unit vibration of a ray that travels along or against the unit `direction`.
-    Vec3 of_ray(const Vec3& direction) const;
-};
-
-/// What a light sends out: a number (D65 white), a colour, or an illuminant by name ("D65", "A").
-/// The radiance is that behind the polariser, if there is one.
-struct LightColour {
-    std::variant<double, Rgb, std::string> value = 1.0;
-    std::optional<LinearPolarisation> polarisation = {};
-};
-
-/// Radiance from all directions as a lat-long map. Frame (docs/rendering.md): the
-/// top row +z, the middle column +x, azimuth growing to the left as seen from inside.
-struct EnvironmentMap {
-    int width = 0, height = 0;
-    std::vector<float> rgb;
-    /// Bilinear look-up at the centre-sampled texels; wraps in azimuth, clamps at the poles.
-    Rgb at(const Vec3& direction) const;
-};
-
-/// Shines outwards, and inwards on what stands inside it (a dome).
-struct SphereLight {
-    Vec3 center;
-    double radius = 1;
-    LightColour radiance;
-};
-struct LobeLight {
-    Vec3 direction;
-    double exponent = 1;
-    LightColour radiance;
-};
-struct HemisphereLight {
-    Vec3 direction;
-    LightColour radiance;
-};
-/// Directions whose angle to `direction` is in [from, to).
-struct CapLight {
-    Vec3 direction;
-    double from = 0, to = 0.0047;
-    LightColour radiance;
-};
-/// Emits on the side of its normal; from the other side it is not there. `u`, `v` empty: infinite;
-/// else the half-extents as vectors in it.
-struct PlaneLight {
-    Vec3 point, normal;
-    std::optional<Vec3> u, v;
-    LightColour radiance;
-};
-
-struct Lights {
-    std::shared_ptr<const EnvironmentMap> environment;  ///< or
-    double constant = 0;                                ///< radiance from everywhere
-    std::optional<LinearPolarisation> polarisation;     ///< of these two
-    std::vector<SphereLight> spheres;
-    std::vector<LobeLight> lobes;
-    std::vector<HemisphereLight> hemispheres;
-    std::vector<CapLight> caps;
-    std::vector<PlaneLight> planes;
-};
-
-/// Radiance at each node.
-std::vector<double> radiance_of(const LightColour& colour, const WavelengthSet& wavelengths);
-/// A cap is where the cosine of the angle to its direction is in (to, from].
-struct CapCosines {
-    double from = 2, to = -2;
-};
-CapCosines cosines_of(const CapLight& cap);
-
-struct PathEnd;  // path.h
-
-/// True when any light is polarised.
-bool polarised(const Lights& lights);
-
-/// The lights made ready for one set of wavelengths. Near lights (spheres, planes) hide the distant
-/// ones behind them; the nearest wins. Distant ones add up.
-class LightField {
-public:
-    LightField(const Lights& lights, const WavelengthSet& wavelengths);
-    ~LightField();
-    LightField(LightField&&) noexcept;
-
-    /// Adds `weight` times the radiance that arrives along a ray (from `origin` looking along the
-    /// unit `direction`) at node `first` .. `first + count - 1` to `radiance[0 .. count - 1]`.
-    /// Returns the light's name for people: "environment", "sphere 0", ...
-    void add_radiance(const Vec3& origin, const Vec3& direction, double weight, int first,
-                      int count, double* radiance) const;
-    /// The Stokes parameters that reach the eye through the two waves of a path's end, times its
-    /// transmission, are added to `stokes[k * stride + node]`, k = 0..3.
-    void add_stokes(const PathEnd& end, int first, int count, double* stokes, int stride) const;
-    /// The same of light that reaches the eye directly, at all `nodes`.
-    void add_direct_stokes(const EyeRay& ray, const EyeFrame& frame, int nodes,
-                           double* stokes) const;
-    /// How far along the ray the nearest near light is: it hides what lies behind it. Infinite when
-    /// there is none.
-    double nearest_distance(const Vec3& origin, const Vec3& direction) const;
-    std::string name_at(const Vec3& origin, const Vec3& direction) const;
-    /// Largest radiance of any light at any node, for bounds.
-    double max_radiance() const;
-
-private:
-    struct Ready;
-    std::unique_ptr<Ready> ready_;
 };
 
 enum class Effects : std::uint8_t {

@@ -74,7 +74,7 @@ void apply_view_preset(std::string_view name, const TomlTable& table, Scene& sce
         if (!camera.optics.analyzer) camera.optics.analyzer = polarizer + std::numbers::pi / 2;
         if (name == "conoscope" && !camera.cone) camera.cone = radians(k_cone_deg);
     }
-    scene.lights.hemispheres.push_back(light);
+    scene.lights.sources.push_back(light);
 }
 
 }  // namespace culet

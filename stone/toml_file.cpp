@@ -11,6 +11,7 @@
 #include "stone/errors.h"
 #include "stone/output_file.h"
 #include "stone/toml_advice.h"
+#include "stone/toml_keys.h"
 
 namespace culet {
 
@@ -92,6 +93,10 @@ std::vector<std::string> split(std::string_view text, char at) {
     return parts;
 }
 
+// Tables within tables are taken apart by recursion; toml++ bounds values in values (256) but not
+// the parts of dotted keys.
+constexpr std::size_t k_most_key_parts = 16;
+
 void apply_override(toml::table& root, const std::string& setting) {
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos || equals == 0) {
@@ -107,6 +112,10 @@ void apply_override(toml::table& root, const std::string& setting) {
         value.insert_or_assign("value", value_text);
     }
     const std::vector<std::string> path = split(setting.substr(0, equals), '.');
+    if (path.size() > k_most_key_parts) {
+        throw InputError(
+            fmt::format("--set {}: more than {} parts between dots", setting, k_most_key_parts));
+    }
     toml::node* at = &root;
     for (std::size_t i = 0; i < path.size(); ++i) {
         const bool last = i + 1 == path.size();
@@ -155,6 +164,12 @@ std::string_view line_of_text(std::string_view text, long number) {
 
 toml::table parsed(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
     const std::string text = read_text(file, k_limit_bytes);
+    if (const long line = line_of_deep_key(text, k_most_key_parts)) {
+        throw InputError(file, line,
+                         fmt::format("a key has more than {} parts between dots: no key of culet "
+                                     "has more than a few",
+                                     k_most_key_parts));
+    }
     toml::table root;
     try {
         root = toml::parse(text, file.string());

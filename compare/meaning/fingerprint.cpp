@@ -30,6 +30,14 @@ void add_colour(Fingerprint& print, const LightColour& colour) {
     }
 }
 
+struct AddPart {
+    Fingerprint& print;
+    void point(const Vec3& p) const { print.add(p); }
+    void direction(const Vec3& d) const { print.add(d); }
+    void extent(const std::optional<Vec3>& e) const { print.add(e.value_or(Vec3(0))); }
+    void number(double v) const { print.add(v); }
+};
+
 void add_lights(Fingerprint& print, const Lights& lights) {
     print.add(lights.constant);
     if (lights.environment) {
@@ -37,37 +45,14 @@ void add_lights(Fingerprint& print, const Lights& lights) {
         print.add(lights.environment->rgb);
     }
     if (lights.polarisation) add_colour(print, {0.0, lights.polarisation});
-    for (const SphereLight& l : lights.spheres) {
-        print.add("sphere");
-        print.add(l.center);
-        print.add(l.radius);
-        add_colour(print, l.radiance);
-    }
-    for (const LobeLight& l : lights.lobes) {
-        print.add("lobe");
-        print.add(l.direction);
-        print.add(l.exponent);
-        add_colour(print, l.radiance);
-    }
-    for (const HemisphereLight& l : lights.hemispheres) {
-        print.add("hemisphere");
-        print.add(l.direction);
-        add_colour(print, l.radiance);
-    }
-    for (const CapLight& l : lights.caps) {
-        print.add("cap");
-        print.add(l.direction);
-        print.add(l.from);
-        print.add(l.to);
-        add_colour(print, l.radiance);
-    }
-    for (const PlaneLight& l : lights.planes) {
-        print.add("plane");
-        print.add(l.point);
-        print.add(l.normal);
-        print.add(l.u.value_or(Vec3(0)));
-        print.add(l.v.value_or(Vec3(0)));
-        add_colour(print, l.radiance);
+    for (const Light& light : lights.sources) {
+        std::visit(
+            [&](const auto& l) {
+                print.add(l.k_name);
+                l.each_part(l, AddPart{print});
+                add_colour(print, l.radiance);
+            },
+            light);
     }
 }
 

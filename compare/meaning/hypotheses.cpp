@@ -61,38 +61,29 @@ double mean_index(const Material& material) {
     return sum / (material.optic == OpticCharacter::uniaxial ? 3 : rays);
 }
 
+struct TurnPart {
+    const glm::dmat3& by;
+    const Vec3& about;
+    void point(Vec3& p) const { p = about + by * (p - about); }
+    void direction(Vec3& d) const { d = by * d; }
+    void extent(std::optional<Vec3>& e) const {
+        if (e) *e = by * *e;
+    }
+    void number(double&) const {}
+};
+
 }  // namespace
 
 Lights turned_lights(const Lights& lights, const glm::dmat3& by, const Vec3& about) {
     Lights result = lights;
-    const auto point = [&](const Vec3& p) { return about + by * (p - about); };
     if (lights.environment) {
         result.environment =
             std::make_shared<const EnvironmentMap>(turned_map(*lights.environment, by));
     }
     if (result.polarisation) turn(*result.polarisation, by);
-    for (SphereLight& light : result.spheres) {
-        light.center = point(light.center);
-        turn(light.radiance, by);
-    }
-    for (LobeLight& light : result.lobes) {
-        light.direction = by * light.direction;
-        turn(light.radiance, by);
-    }
-    for (HemisphereLight& light : result.hemispheres) {
-        light.direction = by * light.direction;
-        turn(light.radiance, by);
-    }
-    for (CapLight& light : result.caps) {
-        light.direction = by * light.direction;
-        turn(light.radiance, by);
-    }
-    for (PlaneLight& light : result.planes) {
-        light.point = point(light.point);
-        light.normal = by * light.normal;
-        if (light.u) light.u = by * *light.u;
-        if (light.v) light.v = by * *light.v;
-        turn(light.radiance, by);
+    for (Light& light : result.sources) {
+        std::visit([&](auto& l) { l.each_part(l, TurnPart{by, about}); }, light);
+        turn(colour_of(light), by);
     }
     return result;
 }
@@ -112,9 +103,7 @@ Stone turned_stone(const Stone& stone, const glm::dmat3& by, const Vec3& about) 
 }
 
 bool same_light_from_everywhere(const Lights& lights) {
-    return !lights.environment && !lights.polarisation && lights.spheres.empty() &&
-           lights.lobes.empty() && lights.hemispheres.empty() && lights.caps.empty() &&
-           lights.planes.empty();
+    return !lights.environment && !lights.polarisation && lights.sources.empty();
 }
 
 Material with_index_changed(const Material& material, double by) {

@@ -44,41 +44,44 @@ ShadedLights::Polarised polarised_as(const std::optional<LinearPolarisation>& li
 
 }  // namespace
 
-ShadedLights::ShadedLights(const Lights& lights, const WavelengthSet& colours, int first, int count,
-                           const Vec3& middle, std::shared_ptr<const EnvironmentPyramid> pyramid)
-    : nodes(count), environment(std::move(pyramid)) {
-    const auto number = [](double v) { return static_cast<float>(v); };
-    surroundings = polarised_as(lights.polarisation);
-    constant.assign(static_cast<std::size_t>(count), number(lights.constant));
-    for (const LobeLight& light : lights.lobes) {
+// Adds a source of each type to the lights that are shaded.
+struct ShadedLights::Adder {
+    ShadedLights& to;
+    const WavelengthSet& colours;
+    int first, count;
+    const Vec3& middle;
+
+    static float number(double v) { return static_cast<float>(v); }
+    std::vector<float> radiance(const LightColour& colour) const {
+        return spectrum(colour, colours, first, count);
+    }
+
+    void operator()(const LobeLight& light) const {
         const Vec3& d = light.direction;
         const bool whole = light.exponent == std::floor(light.exponent) &&
                            light.exponent <= k_multiplied_out && light.exponent >= 0;
-        lobes.push_back({number(d.x), number(d.y), number(d.z), number(light.exponent),
-                         whole ? static_cast<int>(light.exponent) : -1,
-                         spectrum(light.radiance, colours, first, count),
-                         polarised_as(light.radiance.polarisation)});
+        to.lobes.push_back({number(d.x), number(d.y), number(d.z), number(light.exponent),
+                            whole ? static_cast<int>(light.exponent) : -1, radiance(light.radiance),
+                            polarised_as(light.radiance.polarisation)});
     }
-    for (const HemisphereLight& light : lights.hemispheres) {
+    void operator()(const HemisphereLight& light) const {
         const Vec3& d = light.direction;
-        caps.push_back({number(d.x), number(d.y), number(d.z), disc(0), disc(2),
-                        spectrum(light.radiance, colours, first, count),
-                        polarised_as(light.radiance.polarisation)});
+        to.caps.push_back({number(d.x), number(d.y), number(d.z), disc(0), disc(2),
+                           radiance(light.radiance), polarised_as(light.radiance.polarisation)});
     }
-    for (const CapLight& light : lights.caps) {
+    void operator()(const CapLight& light) const {
         const Vec3& d = light.direction;
         const CapCosines cosines = cosines_of(light);
-        caps.push_back({number(d.x), number(d.y), number(d.z), disc(cosines.to), disc(cosines.from),
-                        spectrum(light.radiance, colours, first, count),
-                        polarised_as(light.radiance.polarisation)});
-    }
-    for (const SphereLight& light : lights.spheres) {
-        const Vec3 c = light.center - middle;
-        spheres.push_back({number(c.x), number(c.y), number(c.z), number(light.radius),
-                           spectrum(light.radiance, colours, first, count),
+        to.caps.push_back({number(d.x), number(d.y), number(d.z), disc(cosines.to),
+                           disc(cosines.from), radiance(light.radiance),
                            polarised_as(light.radiance.polarisation)});
     }
-    for (const PlaneLight& light : lights.planes) {
+    void operator()(const SphereLight& light) const {
+        const Vec3 c = light.center - middle;
+        to.spheres.push_back({number(c.x), number(c.y), number(c.z), number(light.radius),
+                              radiance(light.radiance), polarised_as(light.radiance.polarisation)});
+    }
+    void operator()(const PlaneLight& light) const {
         Plane plane{};
         const Vec3 point = light.point - middle;
         plane.x = number(light.normal.x);
@@ -99,14 +102,25 @@ ShadedLights::ShadedLights(const Lights& lights, const WavelengthSet& colours, i
             plane.t[3] = number(-glm::dot(t, point));
         }
         plane.polarised = polarised_as(light.radiance.polarisation);
-        plane.radiance = spectrum(light.radiance, colours, first, count);
-        planes.push_back(std::move(plane));
+        plane.radiance = radiance(light.radiance);
+        to.planes.push_back(std::move(plane));
     }
-    any_edge = environment || !caps.empty() || !spheres.empty() || !planes.empty();
+};
+
+ShadedLights::ShadedLights(const Lights& lights, const WavelengthSet& colours, int first, int count,
+                           const Vec3& middle, std::shared_ptr<const EnvironmentPyramid> pyramid)
+    : nodes(count), environment(std::move(pyramid)) {
+    surroundings = polarised_as(lights.polarisation);
+    constant.assign(static_cast<std::size_t>(count), static_cast<float>(lights.constant));
+    for (const Light& light : lights.sources) {
+        std::visit(Adder{*this, colours, first, count, middle}, light);
+        any_edge = any_edge || has_edge(light);
+    }
+    any_edge = any_edge || environment;
     // Of the map's texels.
     for (int i = first; environment && i < first + count; ++i) {
-        red.push_back(number(colours.primaries()[0][static_cast<std::size_t>(i)]));
-        blue.push_back(number(colours.primaries()[2][static_cast<std::size_t>(i)]));
+        red.push_back(static_cast<float>(colours.primaries()[0][static_cast<std::size_t>(i)]));
+        blue.push_back(static_cast<float>(colours.primaries()[2][static_cast<std::size_t>(i)]));
     }
 }
 

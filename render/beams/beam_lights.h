@@ -67,6 +67,9 @@ struct ShadedLights {
     std::shared_ptr<const EnvironmentPyramid> environment;
     /// Of each node: what red and blue add to green.
     std::vector<float> red, blue;
+
+private:
+    struct Adder;
 };
 
 }  // namespace culet

@@ -13,6 +13,7 @@
 
 #include "render/beams/beam_renderer.h"
 #include "render/eye_optics.h"
+#include "render/light_field.h"
 #include "render/pilot.h"
 #include "render/pixel_shader.h"
 #include "render/plan/a_priori.h"
@@ -346,7 +347,8 @@ std::string refused_by_beams(const Scene& scene, const Plan& plan) {
     if (scene.camera.cone) return "beams draw points of the stone, a conoscope shows directions";
     if (scene.settings.filter != PixelFilter::box || scene.settings.filter_radius != 0.5)
         return "beams average over the pixel's square: say filter = \"box\"";
-    if (scene.lights.spheres.size() + scene.lights.planes.size() > k_most_near_lights)
+    if (std::count_if(scene.lights.sources.begin(), scene.lights.sources.end(), is_near) >
+        k_most_near_lights)
         return fmt::format("beams take at most {} near lights", k_most_near_lights);
     return {};
 }

@@ -19,9 +19,7 @@ double wavelength(int probe) {
 }  // namespace
 
 bool same_light_everywhere(const Lights& lights) {
-    return !lights.environment && lights.spheres.empty() && lights.lobes.empty() &&
-           lights.hemispheres.empty() && lights.caps.empty() && lights.planes.empty() &&
-           !lights.polarisation;
+    return !lights.environment && lights.sources.empty() && !lights.polarisation;
 }
 
 IndexSpans index_spans(const Scene& scene) {

@@ -62,7 +62,7 @@ CapLight rim(const Vec3& direction, double angle, double width, const LightColou
 }
 
 // The four sides, each as wide as is asked for.
-void add_rims(const PlaneLight& plane, double width, std::vector<PlaneLight>& rims) {
+void add_rims(const PlaneLight& plane, double width, std::vector<Light>& rims) {
     if (!plane.u || !plane.v) return;
     const Vec3 u = *plane.u, v = *plane.v;
     const double along_u = glm::length(u), along_v = glm::length(v);
@@ -122,43 +122,52 @@ std::vector<double> mean_spectra(const Scene& scene, const StonePixels& pixels,
 // A map is left as it is.
 Lights bright_lights(const Lights& lights, double least) {
     const WavelengthSet colours(even_wavelengths(k_node_counts[0]));
-    const auto dim = [&](const auto& light) {
-        const std::vector<double> radiance = radiance_of(light.radiance, colours);
+    const auto dim = [&](const Light& light) {
+        const std::vector<double> radiance = radiance_of(colour_of(light), colours);
         return *std::max_element(radiance.begin(), radiance.end()) < least;
     };
     Lights bright = lights;
     bright.constant = 0;
-    std::erase_if(bright.spheres, dim);
-    std::erase_if(bright.lobes, dim);
-    std::erase_if(bright.hemispheres, dim);
-    std::erase_if(bright.caps, dim);
-    std::erase_if(bright.planes, dim);
+    std::erase_if(bright.sources, dim);
     return bright;
 }
+
+// Adds the rims of a source, `width` wide as seen from the stone.
+struct RimAdder {
+    std::vector<Light>& rims;
+    const Vec3& stone;
+    double width;
+
+    void operator()(const CapLight& cap) const {
+        rims.push_back(rim(cap.direction, cap.to, width, cap.radiance));
+        if (cap.from > 0) rims.push_back(rim(cap.direction, cap.from, width, cap.radiance));
+    }
+    void operator()(const HemisphereLight& half) const {
+        rims.push_back(rim(half.direction, std::numbers::pi / 2, width, half.radiance));
+    }
+    void operator()(const PlaneLight& plane) const {
+        add_rims(plane, width * glm::length(plane.point - stone), rims);
+    }
+    void operator()(SphereLight sphere) const {
+        sphere.radius += width * glm::length(sphere.center - stone);
+        // Whose widened ball would swallow the stone is no small light.
+        if (sphere.radius < glm::length(sphere.center - stone)) rims.push_back(sphere);
+    }
+    void operator()(LobeLight lobe) const {
+        // cos^e falls to a third within about 1 / sqrt(e / 2).
+        const double angle = std::sqrt(2 / std::max(lobe.exponent, 1.0));
+        lobe.exponent = 2 / ((angle + width) * (angle + width));
+        rims.push_back(lobe);
+    }
+};
 
 }  // namespace
 
 Lights light_rims(const Lights& all, const Vec3& stone, double width, double least) {
     const Lights lights = bright_lights(all, least);
     Lights rims;
-    for (const CapLight& cap : lights.caps) {
-        rims.caps.push_back(rim(cap.direction, cap.to, width, cap.radiance));
-        if (cap.from > 0) rims.caps.push_back(rim(cap.direction, cap.from, width, cap.radiance));
-    }
-    for (const HemisphereLight& half : lights.hemispheres)
-        rims.caps.push_back(rim(half.direction, std::numbers::pi / 2, width, half.radiance));
-    for (const PlaneLight& plane : lights.planes)
-        add_rims(plane, width * glm::length(plane.point - stone), rims.planes);
-    for (SphereLight sphere : lights.spheres) {
-        sphere.radius += width * glm::length(sphere.center - stone);
-        // Whose widened ball would swallow the stone is no small light.
-        if (sphere.radius < glm::length(sphere.center - stone)) rims.spheres.push_back(sphere);
-    }
-    for (LobeLight lobe : lights.lobes) {
-        // cos^e falls to a third within about 1 / sqrt(e / 2).
-        const double angle = std::sqrt(2 / std::max(lobe.exponent, 1.0));
-        lobe.exponent = 2 / ((angle + width) * (angle + width));
-        rims.lobes.push_back(lobe);
+    for (const Light& light : lights.sources) {
+        std::visit(RimAdder{rims.sources, stone, width}, light);
     }
     if (lights.environment) rims.environment = brightest_of(*lights.environment, least);
     return rims;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "render/eye_optics.h"
+#include "render/light_field.h"
 #include "render/listener.h"
 #include "render/pixel_shader.h"
 #include "render/plan/price.h"

@@ -36,8 +36,7 @@ int nodes_for(int rays) {
 }
 
 bool hard_edged(const Lights& lights) {
-    return !lights.spheres.empty() || !lights.hemispheres.empty() || !lights.caps.empty() ||
-           !lights.planes.empty();
+    return std::any_of(lights.sources.begin(), lights.sources.end(), has_edge);
 }
 
 }  // namespace

@@ -32,12 +32,9 @@ bool is_coloured(const LightColour& light) {
 
 // Lights whose spectra are made for the wavelengths at hand.
 bool coloured(const Lights& lights) {
-    const auto any = [](const auto& list) {
-        return std::any_of(list.begin(), list.end(),
-                           [](const auto& light) { return is_coloured(light.radiance); });
-    };
-    return lights.environment || any(lights.spheres) || any(lights.lobes) ||
-           any(lights.hemispheres) || any(lights.caps) || any(lights.planes);
+    return lights.environment ||
+           std::any_of(lights.sources.begin(), lights.sources.end(),
+                       [](const Light& light) { return is_coloured(colour_of(light)); });
 }
 
 std::array<std::vector<Rgb>, 2> colours_of(const TwoDrawings& drawn) {

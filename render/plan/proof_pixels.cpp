@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/light_field.h"
 #include "render/plan/contrast.h"
 #include "render/plan/light_edge_scan.h"
 #include "render/plan/planner.h"

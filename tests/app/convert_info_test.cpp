@@ -1,6 +1,7 @@
 // culet convert and culet info as a user runs them: exit codes, streams, files.
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -165,6 +166,21 @@ TEST_F(ConvertInfo, SceneGoesToPovray) {
     expect_one_error_line(
         run_culet({"convert", file("scene.toml"), file("a.pov"), "--set", "camera.analyzer=0"}));
     EXPECT_FALSE(std::filesystem::exists(file("a.pov")));
+}
+
+// A file beyond the limit of its size (SIGXFSZ) is a failed write: a line, exit code 2, and nothing
+// left, not even a file under a temporary name.
+TEST_F(ConvertInfo, AFileThatMayNotGrowIsRefusedInALine) {
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+    rlimit little = before;
+    little.rlim_cur = 1024;
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &little), 0);
+    const ProgramRun run = run_culet({"convert", k_design, file("large.obj"), "-q"});
+    ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+    expect_one_error_line(run);
+    EXPECT_NE(run.err.find("cannot be written"), std::string::npos) << run.err;
+    EXPECT_TRUE(std::filesystem::is_empty(folder_.path()));
 }
 
 TEST_F(ConvertInfo, HelpHasExamples) {

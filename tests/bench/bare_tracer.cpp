@@ -16,16 +16,15 @@ class BareTracer {
 public:
     BareTracer(const Scene& scene, int depth, double cut)
         : body_(scene.stone.solid),
-          lights_(scene.lights),
+          constant_(scene.lights.constant),
           n_(scene.stone.material.index[0].at(scene.settings.wavelengths_nm.at(0))),
           depth_(std::min(depth, k_longest - 1)),
           cut_(cut) {
-        for (const LobeLight& lobe : lights_.lobes)
-            lobes_.push_back(std::get<double>(lobe.radiance.value));
-        for (const CapLight& cap : lights_.caps) {
-            caps_.push_back(std::get<double>(cap.radiance.value));
-            cosines_.push_back(cosines_of(cap));
-        }
+        for (const LobeLight& lobe : lights_of_type<LobeLight>(scene.lights))
+            lobes_.push_back(
+                {lobe.direction, lobe.exponent, std::get<double>(lobe.radiance.value)});
+        for (const CapLight& cap : lights_of_type<CapLight>(scene.lights))
+            caps_.push_back({cap.direction, cosines_of(cap), std::get<double>(cap.radiance.value)});
     }
 
     double radiance(const Vec3& eye, Vec3 direction) {
@@ -72,22 +71,56 @@ private:
         return (1.5 - 0.5 * glm::dot(v, v)) * v;
     }
     double light(const Vec3& direction) const {
+        double sum = constant_;
+        for (const Lobe& lobe : lobes_) {
+            const double cosine = glm::dot(direction, lobe.direction);
+            if (cosine > 0) sum += lobe.radiance * std::pow(cosine, lobe.exponent);
+        }
+        for (const Cap& cap : caps_) {
+            const double cosine = glm::dot(direction, cap.direction);
+            if (cosine <= cap.cosines.from && cosine > cap.cosines.to) sum += cap.radiance;
+        }
+        return sum;
+    }
+
+    long long rays = 0;
+
+private:
+    static double reflected(double e1, double e2, double q1, double q2) {
+        const double s = (q1 - q2) / (q1 + q2), p = (e2 * q1 - e1 * q2) / (e2 * q1 + e1 * q2);
+        return 0.5 * (s * s + p * p);
+    }
+    static Vec3 mirrored(const Vec3& direction, const Vec3& n) {
+        const Vec3 v = direction - 2 * glm::dot(direction, n) * n;
+        return (1.5 - 0.5 * glm::dot(v, v)) * v;
+    }
+    double light(const Vec3& direction) const {
         double sum = lights_.constant;
         for (std::size_t i = 0; i < lobes_.size(); ++i) {
-            const double cosine = glm::dot(direction, lights_.lobes[i].direction);
-            if (cosine > 0) sum += lobes_[i] * std::pow(cosine, lights_.lobes[i].exponent);
+            const double cosine = glm::dot(direction, nth_light<LobeLight>(lights_, i).direction);
+            if (cosine > 0)
+                sum += lobes_[i] * std::pow(cosine, nth_light<LobeLight>(lights_, i).exponent);
         }
         for (std::size_t i = 0; i < caps_.size(); ++i) {
-            const double cosine = glm::dot(direction, lights_.caps[i].direction);
+            const double cosine = glm::dot(direction, nth_light<CapLight>(lights_, i).direction);
             if (cosine <= cosines_[i].from && cosine > cosines_[i].to) sum += caps_[i];
         }
         return sum;
     }
 
     ConvexBody body_;
-    const Lights& lights_;
-    std::vector<double> lobes_, caps_;
-    std::vector<CapCosines> cosines_;
+    struct Lobe {
+        Vec3 direction;
+        double exponent, radiance;
+    };
+    struct Cap {
+        Vec3 direction;
+        CapCosines cosines;
+        double radiance;
+    };
+    double constant_;
+    std::vector<Lobe> lobes_;
+    std::vector<Cap> caps_;
     double n_;
     int depth_;
     double cut_;

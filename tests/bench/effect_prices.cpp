@@ -83,7 +83,7 @@ std::vector<Price> prices_of(int pixels) {
     const Scene coloured = scene("garnet_almandine", k_three, {E::absorption});
     const Scene near = changed(plain, [](Scene& s) {
         const double size = diameter(s.stone.solid);
-        s.lights.spheres.push_back({{2 * size, 0, 2 * size}, 0.5 * size, {2.0}});
+        s.lights.sources.push_back(SphereLight{{2 * size, 0, 2 * size}, 0.5 * size, {2.0}});
     });
     return {
         {"dispersion", "3 wavelengths, one way", "3 ways", clear,
@@ -123,9 +123,11 @@ std::vector<Price> prices_of(int pixels) {
         {"light_edges", "three lobes", "three discs", plain,
          changed(plain,
                  [](Scene& s) {
-                     for (const LobeLight& lobe : s.lights.lobes)
-                         s.lights.caps.push_back({lobe.direction, 0, 0.4, lobe.radiance});
-                     s.lights.lobes.clear();
+                     for (Light& light : s.lights.sources) {
+                         if (const auto* lobe = std::get_if<LobeLight>(&light))
+                             light = CapLight{Vec3(lobe->direction), 0, 0.4,
+                                              LightColour(lobe->radiance)};
+                     }
                  })},
         {"environment_filter", "constant light", "a map of 512 x 256",
          changed(clear,

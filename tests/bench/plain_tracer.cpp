@@ -379,10 +379,10 @@ HWY_EXPORT(DrawPlainly);
 
 PlainTracer::PlainTracer(const Scene& scene) : prepared_(std::make_unique<Prepared>()) {
     const Lights& lights = scene.lights;
-    if (lights.environment || !lights.spheres.empty() || !lights.hemispheres.empty() ||
-        !lights.caps.empty() || !lights.planes.empty() || polarised(lights) ||
-        scene.camera.aperture_radius > 0 || scene.settings.wavelengths_nm.empty() ||
-        scene.settings.depth < 1 || scene.settings.depth > 64)
+    if (lights.environment || count_lights<LobeLight>(lights) < lights.sources.size() ||
+        polarised(lights) || scene.camera.aperture_radius > 0 ||
+        scene.settings.wavelengths_nm.empty() || scene.settings.depth < 1 ||
+        scene.settings.depth > 64)
         throw InputError("the plain tracer takes lobes, a pinhole, a wavelength and a depth <= 64");
     Prepared& p = *prepared_;
     const FacetNet net(scene.stone.solid);
@@ -406,12 +406,13 @@ PlainTracer::PlainTracer(const Scene& scene) : prepared_(std::make_unique<Prepar
             p.neighbours.push_back(static_cast<std::uint16_t>(edge.beyond));
     }
     p.constant = number(lights.constant);
-    for (const LobeLight& lobe : lights.lobes) {
+    for (const LobeLight& lobe : lights_of_type<LobeLight>(lights)) {
         if (lobe.exponent != std::floor(lobe.exponent) || lobe.exponent > 1024)
             throw InputError("the plain tracer takes whole exponents of lobes");
         const Vec3& d = lobe.direction;
-        p.lobes.push_back({number(d.x), number(d.y), number(d.z), static_cast<int>(lobe.exponent),
-                           number(std::get<double>(lobe.radiance.value))});
+        p.sources.push_back(LobeLight{number(d.x), number(d.y), number(d.z),
+                                      static_cast<int>(lobe.exponent),
+                                      number(std::get<double>(lobe.radiance.value))});
     }
     const double nm = scene.settings.wavelengths_nm.front();
     p.n = number(scene.stone.material.index[0].at(nm) / scene.immersion);

@@ -24,8 +24,8 @@ PlaneLight window(const Vec3& point, double half_width, double half_height) {
 Lights two_windows(double size) {
     Lights lights;
     lights.constant = 0.05;
-    lights.planes.push_back(window(size * Vec3{12, 3, 12}, 3 * size, 5 * size));
-    lights.planes.push_back(window(size * Vec3{-9, -7, 14}, 2 * size, 3 * size));
+    lights.sources.push_back(window(size * Vec3{12, 3, 12}, 3 * size, 5 * size));
+    lights.sources.push_back(window(size * Vec3{-9, -7, 14}, 2 * size, 3 * size));
     return lights;
 }
 
@@ -33,10 +33,10 @@ Lights two_windows(double size) {
 Lights bare_sun() {
     const Vec3 up{0, 0, 1};
     Lights lights;
-    lights.hemispheres.push_back({up, {Rgb{0.45, 0.5, 0.6}}});
-    lights.lobes.push_back({up, 2, {Rgb{0.25, 0.4, 0.8}}});
-    lights.caps.push_back(
-        {glm::normalize(Vec3{1, 0.4, 1.1}), 0, radians(0.27), {Rgb{9000, 8600, 7900}}});
+    lights.sources.push_back(HemisphereLight{up, {Rgb{0.45, 0.5, 0.6}}});
+    lights.sources.push_back(LobeLight{up, 2, {Rgb{0.25, 0.4, 0.8}}});
+    lights.sources.push_back(
+        CapLight{glm::normalize(Vec3{1, 0.4, 1.1}), 0, radians(0.27), {Rgb{9000, 8600, 7900}}});
     lights.constant = 0.08;
     return lights;
 }
@@ -50,7 +50,8 @@ Lights light_named(const std::string& name, double size) {
         // One tungsten lamp over a grey room.
         Lights lights;
         lights.constant = 0.2;
-        lights.caps.push_back({glm::normalize(Vec3{0.4, 0.2, 1}), 0, 0.35, {std::string("A")}});
+        lights.sources.push_back(
+            CapLight{glm::normalize(Vec3{0.4, 0.2, 1}), 0, 0.35, {std::string("A")}});
         return lights;
     }
     return *light_preset(name);

@@ -162,9 +162,12 @@ PosePhotograph pose_photograph(const PhotographSettings& settings, int seed, Fau
     scene.lights = synthetic::named_lights(light);
     if (fault == Fault::other_side) {
         // The stone lies on its table: what lit the crown lights the pavilion.
-        for (auto& cap : scene.lights.caps) cap.direction.z = -cap.direction.z;
-        for (auto& lobe : scene.lights.lobes) lobe.direction.z = -lobe.direction.z;
-        for (auto& half : scene.lights.hemispheres) half.direction.z = -half.direction.z;
+        for (CapLight& cap : lights_of_type<CapLight>(scene.lights))
+            cap.direction.z = -cap.direction.z;
+        for (LobeLight& lobe : lights_of_type<LobeLight>(scene.lights))
+            lobe.direction.z = -lobe.direction.z;
+        for (HemisphereLight& half : lights_of_type<HemisphereLight>(scene.lights))
+            half.direction.z = -half.direction.z;
     }
     scene.settings.engine = "beams";
     scene.settings.samples = 16;

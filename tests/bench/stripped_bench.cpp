@@ -58,9 +58,9 @@ Scene scene_of(const Case& which) {
         settings.cut_weight = k_cut;
     }
     if (which.caps) {
-        scene.lights.lobes.clear();
-        scene.lights.caps.push_back({{0, 0, 1}, 0.2, 0.7, {3.0}});
-        scene.lights.caps.push_back({{0.8, 0, 0.6}, 0, 0.5, {2.0}});
+        scene.lights.sources.clear();
+        scene.lights.sources.push_back(CapLight{{0, 0, 1}, 0.2, 0.7, {3.0}});
+        scene.lights.sources.push_back(CapLight{{0.8, 0, 0.6}, 0, 0.5, {2.0}});
     }
     return scene;
 }

@@ -64,11 +64,12 @@ Scene turned(Scene scene, const Turn& turn) {
     Camera& camera = scene.camera;
     for (Vec3* v : {&camera.position, &camera.look_at, &camera.up}) *v = turn(*v);
     Lights& lights = scene.lights;
-    for (SphereLight& l : lights.spheres) l.center = turn(l.center);
-    for (LobeLight& l : lights.lobes) l.direction = turn(l.direction);
-    for (HemisphereLight& l : lights.hemispheres) l.direction = turn(l.direction);
-    for (CapLight& l : lights.caps) l.direction = turn(l.direction);
-    for (PlaneLight& l : lights.planes) {
+    for (SphereLight& l : lights_of_type<SphereLight>(lights)) l.center = turn(l.center);
+    for (LobeLight& l : lights_of_type<LobeLight>(lights)) l.direction = turn(l.direction);
+    for (HemisphereLight& l : lights_of_type<HemisphereLight>(lights))
+        l.direction = turn(l.direction);
+    for (CapLight& l : lights_of_type<CapLight>(lights)) l.direction = turn(l.direction);
+    for (PlaneLight& l : lights_of_type<PlaneLight>(lights)) {
         l.point = turn(l.point);
         l.normal = turn(l.normal);
         if (l.u) l.u = turn(*l.u);
@@ -84,11 +85,11 @@ Scene scaled(Scene scene, double factor) {
     scene.camera.aperture_radius *= factor;
     scene.camera.focus_distance *= factor;
     if (scene.camera.orthographic_width) *scene.camera.orthographic_width *= factor;
-    for (SphereLight& l : scene.lights.spheres) {
+    for (SphereLight& l : lights_of_type<SphereLight>(scene.lights)) {
         l.center *= factor;
         l.radius *= factor;
     }
-    for (PlaneLight& l : scene.lights.planes) {
+    for (PlaneLight& l : lights_of_type<PlaneLight>(scene.lights)) {
         l.point *= factor;
         if (l.u) *l.u *= factor;
         if (l.v) *l.v *= factor;

@@ -42,8 +42,8 @@ Scene small_scene(const std::string& material) {
 
 void add_lobes(Scene& scene) {
     scene.lights.constant = 0.2;
-    scene.lights.lobes.push_back({{0.6, 0, 0.8}, 8, {2.0}});
-    scene.lights.lobes.push_back({{-0.8, 0, 0.6}, 8, {1.0}});
+    scene.lights.sources.push_back(LobeLight{{0.6, 0, 0.8}, 8, {2.0}});
+    scene.lights.sources.push_back(LobeLight{{-0.8, 0, 0.6}, 8, {1.0}});
 }
 
 std::set<std::string> effects_on(const ScenePlan& plan) {
@@ -568,7 +568,7 @@ TEST(Explain, measures_what_the_scene_switches_off) {
 // absorbed; else interference near the optic axis changes something.
 TEST(Explain, bounds_what_interference_would_change) {
     Scene even = gallery_scene("zircon-doubling.toml");
-    even.lights.lobes.clear();
+    even.lights.sources.clear();
     EXPECT_EQ(plan_scene(even).item("coherence").bound, 0);
     const ScenePlan plan = plan_scene(gallery_scene("zircon-doubling.toml"));
     const PlanItem& line = plan.item("coherence");

@@ -179,7 +179,7 @@ TEST(Povray, says_what_it_leaves_out) {
     scene.stone.material = catalogue_material("quartz");
     EXPECT_TRUE(noted(povray_scene(scene), "double refraction"));
     EXPECT_TRUE(noted(povray_scene(scene), "dispersion"));
-    scene.lights.caps.push_back({{0, 0, 1}, 0, 1, {std::string("A")}});
+    scene.lights.sources.push_back(CapLight{{0, 0, 1}, 0, 1, {std::string("A")}});
     EXPECT_TRUE(noted(povray_scene(scene), "illuminant A"));
     // Every note is also in the file.
     const PovrayScene written = povray_scene(scene);
@@ -213,15 +213,15 @@ TEST(Povray, refuses_what_has_no_picture_there) {
 
 TEST(Povray, plane_lights_are_left_out_behind_and_clear_from_behind) {
     Scene scene = stone_scene();
-    scene.lights.planes.push_back({{0, 0, 20}, {0, 0, 1}, {}, {}, {1.0}});
+    scene.lights.sources.push_back(PlaneLight{{0, 0, 20}, {0, 0, 1}, {}, {}, {1.0}});
     EXPECT_TRUE(holds(povray_scene(scene).text, "not there"));
-    scene.lights.planes[0] = {{0, 0, 20}, {0, 0, -1}, {}, {}, {1.0}};
+    nth_light<PlaneLight>(scene.lights, 0) = {{0, 0, 20}, {0, 0, -1}, {}, {}, {1.0}};
     EXPECT_FALSE(holds(povray_scene(scene).text, "interior_texture"));
     EXPECT_FALSE(noted(povray_scene(scene), "back"));
     // Between camera and stone, turned to the one and to the other.
-    scene.lights.planes[0] = {{0, 0, 3}, {0, 0, -1}, {}, {}, {1.0}};
+    nth_light<PlaneLight>(scene.lights, 0) = {{0, 0, 3}, {0, 0, -1}, {}, {}, {1.0}};
     EXPECT_THROW(povray_scene(scene), InputError);
-    scene.lights.planes[0] = {{0, 0, 3}, {0, 0, 1}, {}, {}, {1.0}};
+    nth_light<PlaneLight>(scene.lights, 0) = {{0, 0, 3}, {0, 0, 1}, {}, {}, {1.0}};
     EXPECT_TRUE(holds(povray_scene(scene).text, "interior_texture"));
     EXPECT_TRUE(noted(povray_scene(scene), "back"));
 }
@@ -268,10 +268,12 @@ constexpr double k_same_picture = 1e-3;
 TEST_F(PovrayPictures, coloured_distant_lights) {
     Scene scene = stone_scene();
     scene.lights.constant = 0.05;
-    scene.lights.hemispheres.push_back({glm::normalize(Vec3{0.2, 0.1, 1}), {Rgb{0.3, 0.2, 0.1}}});
-    scene.lights.lobes.push_back({glm::normalize(Vec3{-1, 0.5, 0.3}), 2.5, {Rgb{0.1, 0.3, 0.5}}});
-    scene.lights.caps.push_back({{0, 0, 1}, 0.2, 0.9, {Rgb{0.5, 0.1, 0.3}}});
-    scene.lights.caps.push_back({{1, 0, 0}, 0, 0.5, {0.1}});
+    scene.lights.sources.push_back(
+        HemisphereLight{glm::normalize(Vec3{0.2, 0.1, 1}), {Rgb{0.3, 0.2, 0.1}}});
+    scene.lights.sources.push_back(
+        LobeLight{glm::normalize(Vec3{-1, 0.5, 0.3}), 2.5, {Rgb{0.1, 0.3, 0.5}}});
+    scene.lights.sources.push_back(CapLight{{0, 0, 1}, 0.2, 0.9, {Rgb{0.5, 0.1, 0.3}}});
+    scene.lights.sources.push_back(CapLight{{1, 0, 0}, 0, 0.5, {0.1}});
     EXPECT_LT(rmse(scene), k_same_picture);
 }
 
@@ -281,14 +283,14 @@ TEST_F(PovrayPictures, absorption_in_a_dome_with_near_lights) {
     scene.stone.material.absorption_per_mm[0] = Spectrum(0.35);
     scene.camera.orthographic_width = 3.4;
     scene.camera.width = 80;
-    scene.lights.spheres.push_back({{0, 0, 0}, 40, {0.4}});
-    scene.lights.spheres.push_back({{-6, 5, 3}, 2.5, {1.0}});
-    scene.lights.planes.push_back({{0, 0, -5}, {0, 0, 1}, {}, {}, {0.2}});
-    scene.lights.planes.push_back({{8, 1, 9},
-                                   glm::normalize(Vec3{-8, -1, -9}),
-                                   glm::normalize(Vec3{1, -8, 0}) * 3.0,
-                                   glm::normalize(Vec3{72, 9, -65}) * 2.0,
-                                   {0.9}});
+    scene.lights.sources.push_back(SphereLight{{0, 0, 0}, 40, {0.4}});
+    scene.lights.sources.push_back(SphereLight{{-6, 5, 3}, 2.5, {1.0}});
+    scene.lights.sources.push_back(PlaneLight{{0, 0, -5}, {0, 0, 1}, {}, {}, {0.2}});
+    scene.lights.sources.push_back(PlaneLight{{8, 1, 9},
+                                              glm::normalize(Vec3{-8, -1, -9}),
+                                              glm::normalize(Vec3{1, -8, 0}) * 3.0,
+                                              glm::normalize(Vec3{72, 9, -65}) * 2.0,
+                                              {0.9}});
     EXPECT_LT(rmse(scene), k_same_picture);
 }
 

@@ -153,31 +153,31 @@ TEST(Proof, looks_at_a_false_sun_in_a_later_picture) {
 
 TEST(LightRims, of_a_cap_lie_on_both_sides_of_its_edges) {
     Lights lights;
-    lights.caps.push_back({{0, 0, 1}, 0.3, 0.5, {2.0}});
-    lights.caps.push_back({{0, 0, 1}, 0, 0.02, {9.0}});
+    lights.sources.push_back(CapLight{{0, 0, 1}, 0.3, 0.5, {2.0}});
+    lights.sources.push_back(CapLight{{0, 0, 1}, 0, 0.02, {9.0}});
     const Lights rims = light_rims(lights, k_middle, 0.05, 0);
-    ASSERT_EQ(rims.caps.size(), 3u);
-    EXPECT_DOUBLE_EQ(rims.caps[0].from, 0.45);
-    EXPECT_DOUBLE_EQ(rims.caps[0].to, 0.55);
-    EXPECT_DOUBLE_EQ(rims.caps[1].from, 0.25);
-    EXPECT_DOUBLE_EQ(rims.caps[1].to, 0.35);
+    ASSERT_EQ(count_lights<CapLight>(rims), 3u);
+    EXPECT_DOUBLE_EQ(nth_light<CapLight>(rims, 0).from, 0.45);
+    EXPECT_DOUBLE_EQ(nth_light<CapLight>(rims, 0).to, 0.55);
+    EXPECT_DOUBLE_EQ(nth_light<CapLight>(rims, 1).from, 0.25);
+    EXPECT_DOUBLE_EQ(nth_light<CapLight>(rims, 1).to, 0.35);
     // A light smaller than its rim is all rim.
-    EXPECT_EQ(rims.caps[2].from, 0);
-    EXPECT_DOUBLE_EQ(rims.caps[2].to, 0.07);
-    EXPECT_EQ(std::get<double>(rims.caps[2].radiance.value), 9.0);
+    EXPECT_EQ(nth_light<CapLight>(rims, 2).from, 0);
+    EXPECT_DOUBLE_EQ(nth_light<CapLight>(rims, 2).to, 0.07);
+    EXPECT_EQ(std::get<double>(nth_light<CapLight>(rims, 2).radiance.value), 9.0);
 }
 
 TEST(LightRims, of_dim_lights_are_left_out) {
     Lights lights;
-    lights.hemispheres.push_back({{0, 1, 0}, {1.0}});
-    lights.caps.push_back({{0, 0, 1}, 0, 0.02, {9.0}});
-    lights.caps.push_back({{0, 0, 1}, 0, 0.3, {4.9}});
+    lights.sources.push_back(HemisphereLight{{0, 1, 0}, {1.0}});
+    lights.sources.push_back(CapLight{{0, 0, 1}, 0, 0.02, {9.0}});
+    lights.sources.push_back(CapLight{{0, 0, 1}, 0, 0.3, {4.9}});
     // Bright at one wavelength is bright.
-    lights.spheres.push_back({{0, 0, 50}, 1, {Rgb{0.0, 0.0, 20.0}}});
+    lights.sources.push_back(SphereLight{{0, 0, 50}, 1, {Rgb{0.0, 0.0, 20.0}}});
     const Lights rims = light_rims(lights, k_middle, 0.05, 5);
-    ASSERT_EQ(rims.caps.size(), 1u);
-    EXPECT_EQ(std::get<double>(rims.caps[0].radiance.value), 9.0);
-    EXPECT_EQ(rims.spheres.size(), 1u);
+    ASSERT_EQ(count_lights<CapLight>(rims), 1u);
+    EXPECT_EQ(std::get<double>(nth_light<CapLight>(rims, 0).radiance.value), 9.0);
+    EXPECT_EQ(count_lights<SphereLight>(rims), 1u);
     auto map = std::make_shared<EnvironmentMap>();
     map->width = map->height = 2;
     map->rgb = {1, 2, 6, 1, 2, 4, 0, 0, 0, 5, 5, 5};
@@ -189,39 +189,40 @@ TEST(LightRims, of_dim_lights_are_left_out) {
 TEST(LightRims, of_a_hemisphere_lie_about_its_horizon) {
     Lights lights;
     lights.constant = 1;
-    lights.hemispheres.push_back({{0, 1, 0}, {1.0}});
+    lights.sources.push_back(HemisphereLight{{0, 1, 0}, {1.0}});
     const Lights rims = light_rims(lights, k_middle, 0.1, 0);
     EXPECT_EQ(rims.constant, 0) << "it has no edge";
-    ASSERT_EQ(rims.caps.size(), 1u);
-    EXPECT_DOUBLE_EQ(rims.caps[0].from, std::numbers::pi / 2 - 0.1);
-    EXPECT_DOUBLE_EQ(rims.caps[0].to, std::numbers::pi / 2 + 0.1);
+    ASSERT_EQ(count_lights<CapLight>(rims), 1u);
+    EXPECT_DOUBLE_EQ(nth_light<CapLight>(rims, 0).from, std::numbers::pi / 2 - 0.1);
+    EXPECT_DOUBLE_EQ(nth_light<CapLight>(rims, 0).to, std::numbers::pi / 2 + 0.1);
 }
 
 TEST(LightRims, of_a_window_are_its_four_sides) {
     Lights lights;
-    lights.planes.push_back({{0, 0, 10}, {0, 0, -1}, Vec3{2, 0, 0}, Vec3{0, 3, 0}, {1.0}});
+    lights.sources.push_back(
+        PlaneLight{{0, 0, 10}, {0, 0, -1}, Vec3{2, 0, 0}, Vec3{0, 3, 0}, {1.0}});
     const Lights rims = light_rims(lights, k_middle, 0.05, 0);
-    ASSERT_EQ(rims.planes.size(), 4u);
+    ASSERT_EQ(count_lights<PlaneLight>(rims), 4u);
     // 0.05 at distance 10; the sides meet at the corners.
-    EXPECT_NEAR(rims.planes[0].point.x, -2, 1e-12);
-    EXPECT_NEAR(rims.planes[0].u->x, 0.5, 1e-12);
-    EXPECT_NEAR(rims.planes[0].v->y, 3.5, 1e-12);
-    EXPECT_NEAR(rims.planes[1].point.y, -3, 1e-12);
-    EXPECT_NEAR(rims.planes[1].u->x, 2.5, 1e-12);
-    EXPECT_NEAR(rims.planes[1].v->y, 0.5, 1e-12);
+    EXPECT_NEAR(nth_light<PlaneLight>(rims, 0).point.x, -2, 1e-12);
+    EXPECT_NEAR(nth_light<PlaneLight>(rims, 0).u->x, 0.5, 1e-12);
+    EXPECT_NEAR(nth_light<PlaneLight>(rims, 0).v->y, 3.5, 1e-12);
+    EXPECT_NEAR(nth_light<PlaneLight>(rims, 1).point.y, -3, 1e-12);
+    EXPECT_NEAR(nth_light<PlaneLight>(rims, 1).u->x, 2.5, 1e-12);
+    EXPECT_NEAR(nth_light<PlaneLight>(rims, 1).v->y, 0.5, 1e-12);
 }
 
 // An infinite plane has no side, and a ball that is as near as it is wide no rim that would not
 // hold the stone.
 TEST(LightRims, of_endless_planes_and_of_balls_about_the_stone_are_left_out) {
     Lights lights;
-    lights.planes.push_back({{0, 0, 10}, {0, 0, -1}, {}, {}, {1.0}});
-    lights.spheres.push_back({{0, 0, 5}, 4.9, {1.0}});
-    lights.spheres.push_back({{0, 0, 50}, 1, {1.0}});
+    lights.sources.push_back(PlaneLight{{0, 0, 10}, {0, 0, -1}, {}, {}, {1.0}});
+    lights.sources.push_back(SphereLight{{0, 0, 5}, 4.9, {1.0}});
+    lights.sources.push_back(SphereLight{{0, 0, 50}, 1, {1.0}});
     const Lights rims = light_rims(lights, k_middle, 0.05, 0);
-    EXPECT_TRUE(rims.planes.empty());
-    ASSERT_EQ(rims.spheres.size(), 1u);
-    EXPECT_DOUBLE_EQ(rims.spheres[0].radius, 3.5);
+    EXPECT_TRUE(count_lights<PlaneLight>(rims) == 0);
+    ASSERT_EQ(count_lights<SphereLight>(rims), 1u);
+    EXPECT_DOUBLE_EQ(nth_light<SphereLight>(rims, 0).radius, 3.5);
 }
 
 TEST(LightRims, of_a_map_keep_its_brightest_texel) {

@@ -57,11 +57,11 @@ TEST(RayTrees, radiance_and_remainder_equal_fifty_digit_arithmetic) {
         lobe.direction = glm::normalize(vector_of(oracle["lobe"]["direction"]));
         lobe.exponent = oracle["lobe"]["exponent"].get<double>();
         lobe.radiance.value = oracle["lobe"]["radiance"].get<double>();
-        scene.lights.lobes.push_back(lobe);
+        scene.lights.sources.push_back(lobe);
         HemisphereLight half;
         half.direction = glm::normalize(vector_of(oracle["hemisphere"]["direction"]));
         half.radiance.value = oracle["hemisphere"]["radiance"].get<double>();
-        scene.lights.hemispheres.push_back(half);
+        scene.lights.sources.push_back(half);
         scene.settings.tolerance = 0;
         scene.settings.depth = item["depth"].get<int>();
         scene.settings.wavelengths_nm = {589.3};

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "render/image_io.h"
+#include "render/light_field.h"
 #include "render/light_presets.h"
 #include "render/scene_checks.h"
 #include "render/scene_io.h"
@@ -183,14 +184,14 @@ TEST_F(SceneStones, half_extents_lie_in_their_plane) {
     EXPECT_NE(refusal(head + "u = [1, 0, 0]\nv = [2, 0, 0]\n").find("span"), std::string::npos);
     EXPECT_NE(refusal(head + "u = [1, 0, 0]\n").find("both"), std::string::npos);
     const Lights lights = read(head + "u = [2, 0, 0.001]\nv = [0, 1, 0]\n").lights;
-    EXPECT_EQ(*lights.planes[0].u, (Vec3{2, 0, 0}));
+    EXPECT_EQ(*nth_light<PlaneLight>(lights, 0).u, (Vec3{2, 0, 0}));
 }
 
 TEST(Lights, a_dome_shines_on_what_stands_inside) {
     Lights lights;
     lights.constant = 0.1;
-    lights.spheres.push_back({{0, 0, 0}, 10, {2.0}});
-    lights.spheres.push_back({{0, 0, 5}, 1, {3.0}});
+    lights.sources.push_back(SphereLight{{0, 0, 0}, 10, {2.0}});
+    lights.sources.push_back(SphereLight{{0, 0, 5}, 1, {3.0}});
     const LightField field(lights, WavelengthSet({550}));
     const auto seen = [&](const Vec3& origin, const Vec3& direction) {
         double radiance = 0;
@@ -212,8 +213,8 @@ TEST(Lights, no_ray_is_brighter_than_the_bound) {
     for (int i = 0; i < 96; ++i) map->rgb.push_back(static_cast<float>((i * 37) % 19) / 19.0f);
     Lights lights;
     lights.environment = map;
-    lights.lobes.push_back({{0, 0, 1}, 2, {Rgb{1, 0, 0.2}}});
-    lights.hemispheres.push_back({{1, 0, 0}, {std::string("A")}});
+    lights.sources.push_back(LobeLight{{0, 0, 1}, 2, {Rgb{1, 0, 0.2}}});
+    lights.sources.push_back(HemisphereLight{{1, 0, 0}, {std::string("A")}});
     for (const int count : {1, 2, 3, 5, 15}) {
         std::vector<double> nm;
         for (int i = 0; i < count; ++i) nm.push_back(430 + 60.0 * i / std::max(1, count - 1) * 4);

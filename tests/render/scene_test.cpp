@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "render/light_field.h"
 #include "render/probe.h"
 #include "render/render.h"
 #include "render/scene_io.h"
@@ -101,24 +102,25 @@ TEST(Lights, each_kind_shines_where_it_should) {
         return radiance;
     };
     Lights lights;
-    lights.lobes.push_back({{0, 0, 1}, 2, {3.0}});
+    lights.sources.push_back(LobeLight{{0, 0, 1}, 2, {3.0}});
     EXPECT_NEAR(seen(lights, {0, 0, 0}, {0, 1, 1}), 1.5, 1e-12);
     EXPECT_EQ(seen(lights, {0, 0, 0}, {0, 0, -1}), 0);
     lights = {};
-    lights.hemispheres.push_back({{0, 0, 1}, {2.0}});
+    lights.sources.push_back(HemisphereLight{{0, 0, 1}, {2.0}});
     EXPECT_EQ(seen(lights, {0, 0, 0}, {1, 0, 0.01}), 2);
     EXPECT_EQ(seen(lights, {0, 0, 0}, {1, 0, -0.01}), 0);
     lights = {};
-    lights.caps.push_back({{0, 0, 1}, radians(15), radians(45), {1.0}});
+    lights.sources.push_back(CapLight{{0, 0, 1}, radians(15), radians(45), {1.0}});
     EXPECT_EQ(seen(lights, {0, 0, 0}, {0, std::tan(radians(14.9)), 1}), 0);
     EXPECT_EQ(seen(lights, {0, 0, 0}, {0, std::tan(radians(15.1)), 1}), 1);
     EXPECT_EQ(seen(lights, {0, 0, 0}, {0, std::tan(radians(45.1)), 1}), 0);
     lights = {};
     lights.constant = 0.1;
-    lights.spheres.push_back({{0, 0, 10}, 1, {5.0}});
+    lights.sources.push_back(SphereLight{{0, 0, 10}, 1, {5.0}});
     EXPECT_EQ(seen(lights, {0, 0, 0}, {0, 0, 1}), 5) << "a near light hides what is behind it";
     EXPECT_EQ(seen(lights, {0, 0, 0}, {0, 0.2, 1}), 0.1);
-    lights.planes.push_back({{0, 0, 5}, {0, 0, -1}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, {7.0}});
+    lights.sources.push_back(
+        PlaneLight{{0, 0, 5}, {0, 0, -1}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, {7.0}});
     EXPECT_EQ(seen(lights, {0, 0, 0}, {0, 0, 1}), 7) << "the nearest near light wins";
     EXPECT_EQ(seen(lights, {0, 0, 8}, {0, 0, -1}), 0.1) << "a plane is not there from behind";
     EXPECT_EQ(seen(lights, {1.5, 0, 0}, {0, 0, 1}), 0.1) << "beside its half-extent";
@@ -148,7 +150,7 @@ TEST(Render, constant_light_of_one_gives_exactly_what_paths_bring_home) {
 TEST(Render, same_bytes_for_any_number_of_threads) {
     Scene scene = scene_with("corundum");
     scene.lights.constant = 0;
-    scene.lights.lobes.push_back({glm::normalize(Vec3{1, 1, 1}), 3, {Rgb{1, 2, 0.5}}});
+    scene.lights.sources.push_back(LobeLight{glm::normalize(Vec3{1, 1, 1}), 3, {Rgb{1, 2, 0.5}}});
     scene.settings.depth = 0;
     scene.settings.tolerance = 0.02;
     scene.settings.threads = 1;
@@ -162,7 +164,7 @@ TEST(Render, same_bytes_for_any_number_of_threads) {
 TEST(Render, splitting_at_random_agrees_with_following_both_waves) {
     Scene scene = scene_with("calcite");
     scene.lights.constant = 0;
-    scene.lights.hemispheres.push_back({glm::normalize(Vec3{1, 0.3, 1}), {1.0}});
+    scene.lights.sources.push_back(HemisphereLight{glm::normalize(Vec3{1, 0.3, 1}), {1.0}});
     scene.settings.wavelengths_nm = {589.3};
     scene.settings.depth = 7;
     const double exact = render(scene).stats.mean_radiance;
@@ -318,8 +320,8 @@ wavelengths = [650, 450]
     EXPECT_EQ(scene.settings.depth, 5);
     EXPECT_EQ(scene.camera.height, 20);
     EXPECT_EQ(scene.settings.wavelengths_nm, (std::vector<double>{450, 650}));
-    EXPECT_EQ(scene.lights.spheres.size(), 1u);
-    EXPECT_EQ(scene.lights.lobes[0].direction, (Vec3{0, 0, 1}));
+    EXPECT_EQ(count_lights<SphereLight>(scene.lights), 1u);
+    EXPECT_EQ(nth_light<LobeLight>(scene.lights, 0).direction, (Vec3{0, 0, 1}));
     EXPECT_TRUE(scene.settings.effects[0]);
     EXPECT_FALSE(scene.settings.effects[1]);
 }

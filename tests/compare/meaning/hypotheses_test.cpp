@@ -36,15 +36,15 @@ Scene lit_scene() {
     scene.settings.samples = 1;
     scene.settings.wavelengths_nm = {550};
     scene.settings.effects_auto = false;
-    scene.lights.caps.push_back({glm::normalize(Vec3{1, 0.5, 0.3}), 0, 0.4, {2.0}});
-    scene.lights.spheres.push_back({Vec3{5, -6, 8}, 2, {3.0}});
+    scene.lights.sources.push_back(CapLight{glm::normalize(Vec3{1, 0.5, 0.3}), 0, 0.4, {2.0}});
+    scene.lights.sources.push_back(SphereLight{Vec3{5, -6, 8}, 2, {3.0}});
     PlaneLight plane;
     plane.point = {0, 0, -6};
     plane.normal = {0, 0, 1};
     plane.u = Vec3{2, 0, 0};
     plane.v = Vec3{0, 3, 0};
     plane.radiance = {1.0};
-    scene.lights.planes.push_back(plane);
+    scene.lights.sources.push_back(plane);
     return scene;
 }
 

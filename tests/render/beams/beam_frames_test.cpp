@@ -77,7 +77,7 @@ TEST(Frames, with_lights_that_call_for_other_wavelengths_are_those_of_a_fresh_re
     frames.draw();
     Scene changed = scene;
     changed.lights = {};
-    changed.lights.lobes.push_back({{0, 0, 1}, 3, {"A", {}}});
+    changed.lights.sources.push_back(LobeLight{{0, 0, 1}, 3, {"A", {}}});
     changed.lights.environment = smooth_environment();
     frames.light_with(changed.lights);
     EXPECT_EQ(frames.draw().picture.rgb, FrameRenderer(changed).draw().picture.rgb);
@@ -93,7 +93,7 @@ TEST(Frames, of_all_changed_at_once_and_taken_away_are_those_of_a_fresh_renderer
     changed.camera.width = 130;
     changed.settings.engine = "preview";
     changed.lights = {};
-    changed.lights.lobes.push_back({{0, 0, 1}, 3, {"A", {}}});
+    changed.lights.sources.push_back(LobeLight{{0, 0, 1}, 3, {"A", {}}});
     frames.show(changed);
     EXPECT_EQ(frames.draw().picture.rgb, FrameRenderer(changed).draw().picture.rgb);
     // A smaller picture, which is left where it is, and back to the first's size.
@@ -215,7 +215,7 @@ TEST(Averages, are_within_50_dB_of_256_samples_in_smooth_light) {
         scene.camera.width = scene.camera.height = 200;
         look(scene, {0.21, 0.34, 1}, i == 0 ? 12 : 15, i == 0 ? 1.05 : 1.5);
         smooth_lights()[1].make(scene);
-        scene.lights.lobes.pop_back();
+        scene.lights.sources.pop_back();
         const RenderResult beams = with_engine(scene, "beams", 16),
                            exact = with_engine(scene, "reference", 256);
         const Difference d = difference(beams.picture, exact.picture);
@@ -272,7 +272,7 @@ TEST(Averages, of_a_sun_many_pixels_wide_are_parts_of_a_circle) {
     Scene scene = plain_scene(slab(1));
     scene.lights = {};
     const Vec3 sun = glm::normalize(Vec3{0.3, 0.2, 1});
-    scene.lights.caps.push_back({sun, 0.0, k_radius, {1.0, {}}});
+    scene.lights.sources.push_back(CapLight{sun, 0.0, k_radius, {1.0, {}}});
     scene.camera.width = scene.camera.height = k_pixels;
     scene.camera.position = 10.0 * sun;
     scene.camera.look_at = 20.0 * sun;
@@ -319,7 +319,7 @@ TEST(Refusals, are_one_line_that_says_what_to_do) {
          {"17 spheres",
           [](Scene& s) {
               for (int i = 0; i < 17; ++i)
-                  s.lights.spheres.push_back({{5, 5, 5.0 + 3 * i}, 1, {1.0, {}}});
+                  s.lights.sources.push_back(SphereLight{{5, 5, 5.0 + 3 * i}, 1, {1.0, {}}});
           }}},
         {"inside",
          {"camera inside",
@@ -373,7 +373,7 @@ TEST(Refusals, sixteen_near_lights_are_not_too_many) {
     Scene scene = brilliant_scene();
     scene.lights = {};
     for (int i = 0; i < 16; ++i)
-        scene.lights.spheres.push_back({{5, 5, 5.0 + 3 * i}, 1, {1.0, {}}});
+        scene.lights.sources.push_back(SphereLight{{5, 5, 5.0 + 3 * i}, 1, {1.0, {}}});
     EXPECT_EQ(refusal(scene), "");
 }
 
@@ -385,7 +385,8 @@ TEST(Refusals, of_a_frame_leave_the_renderer_as_it_was) {
     inside.position = {0, 0, 0.01};
     EXPECT_THROW(frames.look_from(inside), InputError);
     Lights many = scene.lights;
-    for (int i = 0; i < 17; ++i) many.spheres.push_back({{5, 5, 5.0 + 3 * i}, 1, {1.0, {}}});
+    for (int i = 0; i < 17; ++i)
+        many.sources.push_back(SphereLight{{5, 5, 5.0 + 3 * i}, 1, {1.0, {}}});
     EXPECT_THROW(frames.light_with(many), InputError);
     EXPECT_EQ(frames.draw().picture.rgb, before.rgb);
 }

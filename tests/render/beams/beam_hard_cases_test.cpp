@@ -160,7 +160,7 @@ TEST(HardCases, beams_of_near_views_do_not_overlap) {
 TEST(HardCases, a_lobe_of_exponent_0_shines_from_one_side) {
     Scene scene = brilliant_scene();
     scene.lights = {};
-    scene.lights.lobes.push_back({glm::normalize(Vec3{0.2, 0.3, 1}), 0, {2.0, {}}});
+    scene.lights.sources.push_back(LobeLight{glm::normalize(Vec3{0.2, 0.3, 1}), 0, {2.0, {}}});
     const Difference d = difference(with_engine(scene, "beams", 1).picture,
                                     with_engine(scene, "reference", 1).picture);
     EXPECT_LE(d.off, 3) << d;
@@ -171,7 +171,8 @@ TEST(HardCases, a_light_before_the_stone_is_not_counted_as_the_stone) {
     for (const int samples : {1, 16}) {
         Scene scene = brilliant_scene();
         const Vec3 to_eye = glm::normalize(scene.camera.position);
-        scene.lights.spheres.push_back({2.5 * to_eye + Vec3{0.4, 0.3, 0}, 0.25, {0.7, {}}});
+        scene.lights.sources.push_back(
+            SphereLight{2.5 * to_eye + Vec3{0.4, 0.3, 0}, 0.25, {0.7, {}}});
         const RenderResult beams = with_engine(scene, "beams", samples),
                            reference = with_engine(scene, "reference", samples == 1 ? 1 : 64);
         const double most = samples == 1 ? 2e-3 : 1e-2;
@@ -284,7 +285,7 @@ TEST(HardCases, a_sun_smaller_than_a_pixel_keeps_its_light) {
     scene.settings.depth = 3;
     scene.lights = {};
     // A pixel is 0.024 wide; the sun's diameter is 0.0094, and it stands behind the camera.
-    scene.lights.caps.push_back({{0, 0, 1}, 0, 0.0047, {1e4, {}}});
+    scene.lights.sources.push_back(CapLight{{0, 0, 1}, 0, 0.0047, {1e4, {}}});
     const RenderResult beams = with_engine(scene, "beams", 16);
     const RenderResult exact = with_engine(scene, "reference", 1024);
     double seen = 0, expected = 0;
@@ -311,7 +312,7 @@ TEST(HardCases, a_beam_followed_by_one_ray_shows_the_sun_where_it_is) {
     scene.settings.tolerance = 0.05;
     scene.settings.cut_weight = 1e-9;
     scene.lights = {};
-    scene.lights.caps.push_back({{0, 0, 1}, 0, sun, {1e4, {}}});
+    scene.lights.sources.push_back(CapLight{{0, 0, 1}, 0, sun, {1e4, {}}});
     const double f = 7 / std::tan(scene.camera.fov / 2), radius = f * std::tan(sun);
     const double R = std::pow((n - 1) / (n + 1), 2);
     const double expected = 1e4 * 2 * R / (1 + R) * std::numbers::pi * radius * radius;
@@ -334,7 +335,7 @@ TEST(HardCases, a_lamp_smaller_than_a_pixel_keeps_its_light) {
     scene.camera.fov = 0.9;
     scene.settings.depth = 3;
     scene.lights = {};
-    scene.lights.spheres.push_back({{1, 1, 9}, 0.02, {1e4, {}}});
+    scene.lights.sources.push_back(SphereLight{{1, 1, 9}, 0.02, {1e4, {}}});
     const RenderResult beams = with_engine(scene, "beams", 16),
                        exact = with_engine(scene, "reference", 4096);
     double seen = 0, expected = 0;

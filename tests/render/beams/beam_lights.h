@@ -39,16 +39,21 @@ inline std::vector<NamedChange> smooth_lights() {
         {"lobe, whole exponents",
          [dark](Scene& s) {
              dark(s);
-             s.lights.lobes.push_back({glm::normalize(Vec3{0.2, 0.3, 1}), 1, {2.0, {}}});
-             s.lights.lobes.push_back({glm::normalize(Vec3{-0.5, 0.1, 0.6}), 7, {3.0, {}}});
-             s.lights.lobes.push_back({glm::normalize(Vec3{0, -0.5, 0.3}), 64, {5.0, {}}});
+             s.lights.sources.push_back(LobeLight{glm::normalize(Vec3{0.2, 0.3, 1}), 1, {2.0, {}}});
+             s.lights.sources.push_back(
+                 LobeLight{glm::normalize(Vec3{-0.5, 0.1, 0.6}), 7, {3.0, {}}});
+             s.lights.sources.push_back(
+                 LobeLight{glm::normalize(Vec3{0, -0.5, 0.3}), 64, {5.0, {}}});
          }},
         {"lobe, fractional exponents",
          [dark](Scene& s) {
              dark(s);
-             s.lights.lobes.push_back({glm::normalize(Vec3{0.2, 0.3, 1}), 0.5, {2.0, {}}});
-             s.lights.lobes.push_back({glm::normalize(Vec3{-0.5, 0.1, 0.6}), 7.3, {3.0, {}}});
-             s.lights.lobes.push_back({glm::normalize(Vec3{0, -0.5, 0.3}), 120, {5.0, {}}});
+             s.lights.sources.push_back(
+                 LobeLight{glm::normalize(Vec3{0.2, 0.3, 1}), 0.5, {2.0, {}}});
+             s.lights.sources.push_back(
+                 LobeLight{glm::normalize(Vec3{-0.5, 0.1, 0.6}), 7.3, {3.0, {}}});
+             s.lights.sources.push_back(
+                 LobeLight{glm::normalize(Vec3{0, -0.5, 0.3}), 120, {5.0, {}}});
          }},
     };
 }
@@ -59,49 +64,55 @@ inline std::vector<NamedChange> edged_lights() {
         {"hemisphere",
          [dark](Scene& s) {
              dark(s);
-             s.lights.hemispheres.push_back({glm::normalize(Vec3{0.1, 0.2, 1}), {1.5, {}}});
+             s.lights.sources.push_back(
+                 HemisphereLight{glm::normalize(Vec3{0.1, 0.2, 1}), {1.5, {}}});
          }},
         {"cap with a hole",
          [dark](Scene& s) {
              dark(s);
-             s.lights.caps.push_back({glm::normalize(Vec3{0.1, 0.2, 1}), 0.3, 0.9, {2.0, {}}});
-             s.lights.caps.push_back({glm::normalize(Vec3{-1, 0.2, 0.4}), 0.0, 0.35, {4.0, {}}});
+             s.lights.sources.push_back(
+                 CapLight{glm::normalize(Vec3{0.1, 0.2, 1}), 0.3, 0.9, {2.0, {}}});
+             s.lights.sources.push_back(
+                 CapLight{glm::normalize(Vec3{-1, 0.2, 0.4}), 0.0, 0.35, {4.0, {}}});
          }},
         {"spheres, one before another",
          [dark](Scene& s) {
              dark(s);
              s.lights.constant = 0.2;
-             s.lights.spheres.push_back({{4, 2, 6}, 2, {3.0, {}}});
-             s.lights.spheres.push_back({{-3, 1, 3}, 1, {5.0, {}}});
-             s.lights.spheres.push_back({{0.5, 0.4, -4}, 1.5, {2.0, {}}});
-             s.lights.spheres.push_back({{3, 1.6, 4}, 0.4, {0.5, {}}});
+             s.lights.sources.push_back(SphereLight{{4, 2, 6}, 2, {3.0, {}}});
+             s.lights.sources.push_back(SphereLight{{-3, 1, 3}, 1, {5.0, {}}});
+             s.lights.sources.push_back(SphereLight{{0.5, 0.4, -4}, 1.5, {2.0, {}}});
+             s.lights.sources.push_back(SphereLight{{3, 1.6, 4}, 0.4, {0.5, {}}});
          }},
         {"dome around everything",
          [dark](Scene& s) {
              dark(s);
-             s.lights.spheres.push_back({{1, 0, 2}, 60, {1.2, {}}});
-             s.lights.spheres.push_back({{4, 2, 6}, 2, {3.0, {}}});
+             s.lights.sources.push_back(SphereLight{{1, 0, 2}, 60, {1.2, {}}});
+             s.lights.sources.push_back(SphereLight{{4, 2, 6}, 2, {3.0, {}}});
          }},
         {"planes, bounded and not",
          [dark](Scene& s) {
              dark(s);
              s.lights.constant = 0.1;
-             s.lights.planes.push_back(
-                 {{0, 0, 9}, {0, 0, -1}, Vec3{3, 0, 0}, Vec3{0.4, 2, 0}, {3.0, {}}});
-             s.lights.planes.push_back(
-                 {{-6, 0, 0}, {1, 0, 0}, Vec3{0, 2, 0}, Vec3{0, 0, 2}, {2.0, {}}});
-             s.lights.planes.push_back({{0, 0, -8}, {0, 0, 1}, {}, {}, {0.6, {}}});
+             s.lights.sources.push_back(
+                 PlaneLight{{0, 0, 9}, {0, 0, -1}, Vec3{3, 0, 0}, Vec3{0.4, 2, 0}, {3.0, {}}});
+             s.lights.sources.push_back(
+                 PlaneLight{{-6, 0, 0}, {1, 0, 0}, Vec3{0, 2, 0}, Vec3{0, 0, 2}, {2.0, {}}});
+             s.lights.sources.push_back(PlaneLight{{0, 0, -8}, {0, 0, 1}, {}, {}, {0.6, {}}});
          }},
         {"everything at once",
          [dark](Scene& s) {
              dark(s);
              s.lights.constant = 0.1;
-             s.lights.lobes.push_back({glm::normalize(Vec3{0.2, 0.3, 1}), 3.5, {1.0, {}}});
-             s.lights.hemispheres.push_back({glm::normalize(Vec3{0.1, 0.2, 1}), {0.3, {}}});
-             s.lights.caps.push_back({glm::normalize(Vec3{-1, 0.2, 0.4}), 0.1, 0.35, {4.0, {}}});
-             s.lights.spheres.push_back({{4, 2, 6}, 2, {3.0, {}}});
-             s.lights.planes.push_back(
-                 {{0, 0, 9}, {0, 0, -1}, Vec3{3, 0, 0}, Vec3{0.4, 2, 0}, {3.0, {}}});
+             s.lights.sources.push_back(
+                 LobeLight{glm::normalize(Vec3{0.2, 0.3, 1}), 3.5, {1.0, {}}});
+             s.lights.sources.push_back(
+                 HemisphereLight{glm::normalize(Vec3{0.1, 0.2, 1}), {0.3, {}}});
+             s.lights.sources.push_back(
+                 CapLight{glm::normalize(Vec3{-1, 0.2, 0.4}), 0.1, 0.35, {4.0, {}}});
+             s.lights.sources.push_back(SphereLight{{4, 2, 6}, 2, {3.0, {}}});
+             s.lights.sources.push_back(
+                 PlaneLight{{0, 0, 9}, {0, 0, -1}, Vec3{3, 0, 0}, Vec3{0.4, 2, 0}, {3.0, {}}});
          }},
     };
 }
