@@ -410,9 +410,8 @@ PlainTracer::PlainTracer(const Scene& scene) : prepared_(std::make_unique<Prepar
         if (lobe.exponent != std::floor(lobe.exponent) || lobe.exponent > 1024)
             throw InputError("the plain tracer takes whole exponents of lobes");
         const Vec3& d = lobe.direction;
-        p.sources.push_back(LobeLight{number(d.x), number(d.y), number(d.z),
-                                      static_cast<int>(lobe.exponent),
-                                      number(std::get<double>(lobe.radiance.value))});
+        p.lobes.push_back({number(d.x), number(d.y), number(d.z), static_cast<int>(lobe.exponent),
+                           number(std::get<double>(lobe.radiance.value))});
     }
     const double nm = scene.settings.wavelengths_nm.front();
     p.n = number(scene.stone.material.index[0].at(nm) / scene.immersion);
