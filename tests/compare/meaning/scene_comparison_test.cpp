@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <set>
 
 #include "compare/meaning/calibrate.h"
 #include "compare/meaning/cropped_camera.h"
@@ -192,6 +193,60 @@ TEST(Calibrate, for_several_cameras_is_that_for_each) {
         EXPECT_EQ(calibration_json(one), calibration_json(calibration));
     }
     EXPECT_NE(both[0].draws[0].scores, both[1].draws[0].scores);
+}
+
+// Changes the n-th part of a light.
+struct ChangePart {
+    int n;
+    bool changed = false;
+    void point(Vec3& p) {
+        change([&] { p.x += 1; });
+    }
+    void direction(Vec3& d) {
+        change([&] { d.y += 1; });
+    }
+    void extent(std::optional<Vec3>& e) {
+        change([&] { e = e.value_or(Vec3(0)) + Vec3(1); });
+    }
+    void number(double& v) {
+        change([&] { v += 1; });
+    }
+    template <class Change>
+    void change(Change&& make) {
+        if (n-- != 0) return;
+        make();
+        changed = true;
+    }
+};
+
+// Of every type in the list, so that a new one is held to it, too: a part that it does not name in
+// `each_part` would let a calibration of another light pass for its own.
+TEST(Fingerprint, tells_lights_apart_by_every_part_of_every_type) {
+    const auto print = [](const Light& light) {
+        Scene scene = small_scene();
+        scene.lights.sources = {light};
+        Fingerprint fingerprint;
+        fingerprint.add(scene);
+        return fingerprint.hex();
+    };
+    for_each_light_type([&]<class L>() {
+        SCOPED_TRACE(L::k_name);
+        const L light{};
+        std::set<std::string> prints{print(light)};
+        std::size_t parts = 1;
+        for (;; ++parts) {
+            L other = light;
+            ChangePart change{int(parts) - 1};
+            other.each_part(other, change);
+            if (!change.changed) break;
+            prints.insert(print(other));
+        }
+        EXPECT_GT(parts, 1u);
+        EXPECT_EQ(prints.size(), parts);
+        L coloured = light;
+        coloured.radiance.value = 7.0;
+        EXPECT_TRUE(prints.insert(print(coloured)).second);
+    });
 }
 
 TEST(Fingerprint, tells_scenes_apart_by_each_of_their_parts) {
