@@ -25,6 +25,14 @@ public:
         if (!progress_(parts_ > 0 ? done / parts_ : 0)) stop_ = true;
         return !stopped();
     }
+    /// Within a part that may take long.
+    bool still_goes_on() {
+        if (!progress_) return true;
+        if (stopped()) return false;
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (!stopped() && !progress_(parts_ > 0 ? done_ / parts_ : 0)) stop_ = true;
+        return !stopped();
+    }
     bool stopped() const { return stop_; }
 
 private:

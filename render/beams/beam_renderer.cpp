@@ -231,6 +231,7 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
     int trees = 0;
     WorkMeter* const meter = scene.settings.meter.get();
     Listener listener(progress, static_cast<double>(views.size()) * static_cast<double>(strips));
+    options.goes_on = [&listener] { return listener.still_goes_on(); };
     for (std::size_t v = 0; v < views.size(); ++v) {
         SortedBeams* beams = work.beams.data() + v * bands;
         std::vector<StripSums> sums(static_cast<std::size_t>(strips));

@@ -33,6 +33,8 @@ struct LeavingBeam {
 struct PartedLimits {
     int depth = 8;  ///< at most 200
     double cut_weight = 1e-3;
+    /// Asked every few thousand beams; false: no more are followed.
+    std::function<bool()> goes_on = {};
 };
 
 class PartedBeams {
@@ -77,6 +79,7 @@ private:
     ScreenPoint reference_;
     const Sink* sink_ = nullptr;
     long long beams_ = 0;
+    bool stopped_ = false;
     double remainder_ = 0, absorbed_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 // Beams to pixels: one strip of rows at a time.
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -70,6 +71,8 @@ struct PaintOptions {
     int depth = 8;  ///< as the beams' limits
     double cut_weight = 0;
     double share = 1;  ///< of the picture: one of several points of the pupil
+    /// Asked now and then where beams part in two at every face.
+    std::function<bool()> goes_on = {};
 };
 
 /// One thread's tools.

@@ -66,7 +66,8 @@ void StripPainter::paint_leaving(const LeavingBeam& beam, const ScreenPoint* cor
 
 // Cell by cell of every front facet.
 void StripPainter::paint_parted(const std::vector<FrontFacet>& fronts, const ShadingPass& pass) {
-    PartedBeams beams(stone_.net, pass.parted->band, {options_.depth, options_.cut_weight},
+    PartedBeams beams(stone_.net, pass.parted->band,
+                      {options_.depth, options_.cut_weight, options_.goes_on},
                       pass.parted->response);
     const PartedBeams::Sink sink = [&](const LeavingBeam& beam, const ScreenPoint* corners,
                                        std::size_t count) {
