@@ -158,6 +158,7 @@ public:
     std::vector<SymmetricEntry> curvature(const Shape& shape, const Eigen::VectorXd& forces) const;
 
 private:
+    class Assembly;
     double height(const Shape& shape, int facet, int point) const;
     /// Of one of `incidences_`; 0: it holds exactly.
     double incidence_variance(std::size_t incidence, const PenaltyScale& penalty) const;
