@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <set>
+#include <utility>
 
 namespace culet {
 
