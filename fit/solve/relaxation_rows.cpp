@@ -124,10 +124,10 @@ void Relaxation::Assembly::add_held_corners(const std::vector<ActiveCorner>& hel
 
 void Relaxation::Assembly::add_shared_contacts() {
     const double soft2 = penalty_.incidence * penalty_.incidence;
-    for (const SharedContact& tie : of_.shared_contacts_) {
-        row_.point(tie.one, tie.direction);
-        row_.point(tie.other, -tie.direction);
-        close(off_level(shape_, tie), k_tie_sigma * k_tie_sigma + soft2);
+    for (const SharedContact& contact : of_.shared_contacts_) {
+        row_.point(contact.one, contact.direction);
+        row_.point(contact.other, -contact.direction);
+        close(off_level(shape_, contact), k_contact_sigma * k_contact_sigma + soft2);
     }
 }
 
@@ -197,9 +197,9 @@ std::vector<Relaxation::Residual> Relaxation::residuals(const PenaltyScale& pena
                        std::sqrt(variance_of(e, penalty)),
                        !e.exact && e.role == Equation::Role::reading});
     }
-    for (const SharedContact& tie : shared_contacts_) {
-        all.push_back({extent(Corner{tie.one}, Corner{tie.other}, tie.direction),
-                       std::hypot(k_tie_sigma, penalty.incidence), false});
+    for (const SharedContact& contact : shared_contacts_) {
+        all.push_back({extent(Corner{contact.one}, Corner{contact.other}, contact.direction),
+                       std::hypot(k_contact_sigma, penalty.incidence), false});
     }
     for (const int p : points_) {
         if (!penalty.with_priors) break;
@@ -246,8 +246,8 @@ Relaxation::Missed Relaxation::missed(const Shape& shape, const PenaltyScale& pe
         put(height(shape, h.facet, h.point) + k_hold_below, true);
         ++row;
     }
-    for (const SharedContact& tie : shared_contacts_) {
-        put(off_level(shape, tie), false);
+    for (const SharedContact& contact : shared_contacts_) {
+        put(off_level(shape, contact), false);
         ++row;
     }
     return missed;
