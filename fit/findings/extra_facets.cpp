@@ -236,7 +236,7 @@ std::vector<ExtraFacet> suspect_extra_facets(const System& system, const Finishe
             if (is_news(facet, found)) found.push_back(std::move(facet));
         }
         if (outlier >= 0 && (!is_rival || outlier_gain > plane.gain - k_alternative)) {
-            restricted.set_aside(outlier);
+            restricted.leave_out(outlier);
         } else {
             restricted.add(restricted.seen(plane.signature));
         }
