@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
 #include <set>
+
+#include "fit/findings/plan_view.h"
 
 namespace culet {
 
@@ -25,19 +26,16 @@ Quantity ratio(const Quantity& above, const Quantity& below) {
 class Cut {
 public:
     Cut(const System& system, const Shape& shape, const Outline& outline)
-        : system_(system), shape_(shape), outline_(outline) {
-        for (const Corner& c : outline.corners) places_.push_back(place_of(shape, c));
-        std::set<int> used;
-        for (const std::vector<int>& loop : outline.loops) used.insert(loop.begin(), loop.end());
-        corners_.assign(used.begin(), used.end());
+        : system_(system), shape_(shape), outline_(outline), plan_(shape, outline) {
         find_table();
-        find_hull();
     }
 
+    const PlanView& plan() const { return plan_; }
     int table() const { return table_; }
+    const std::vector<int>& table_corners() const { return outline_.loops[std::size_t(table_)]; }
 
     Quantity height_of(int corner) const {
-        Quantity q{places_[std::size_t(corner)].z, {}};
+        Quantity q{plan_.place(corner).z, {}};
         add_corner(q, shape_, outline_.corners[std::size_t(corner)], {0, 0, 1});
         return q;
     }
@@ -58,133 +56,11 @@ public:
     }
 
     int extreme(double sign) const {
-        return *std::max_element(corners_.begin(), corners_.end(), [&](int a, int b) {
-            return sign * places_[std::size_t(a)].z < sign * places_[std::size_t(b)].z;
+        const std::vector<int>& corners = plan_.corners();
+        return *std::max_element(corners.begin(), corners.end(), [&](int a, int b) {
+            return sign * plan_.place(a).z < sign * plan_.place(b).z;
         });
     }
-
-    Quantity perimeter() const {
-        Quantity q;
-        for (std::size_t i = 0; i < hull_.size(); ++i) {
-            q.add(plan_distance(hull_[i], hull_[(i + 1) % hull_.size()]), 1);
-        }
-        return q;
-    }
-
-    Quantity plan_distance(int a, int b) const {
-        const Vec3 d = flat(places_[std::size_t(b)] - places_[std::size_t(a)]);
-        const double length = glm::length(d);
-        Quantity q{length, {}};
-        if (!(length > 0)) return q;
-        put(q, b, d / length);
-        put(q, a, -d / length);
-        return q;
-    }
-
-    // The two corners of the hull that lie furthest apart.
-    Quantity widest() const {
-        int from = hull_[0], to = hull_[1];
-        double most = 0;
-        for (std::size_t i = 0; i < hull_.size(); ++i) {
-            for (std::size_t j = i + 1; j < hull_.size(); ++j) {
-                const double apart = glm::length(
-                    flat(places_[std::size_t(hull_[j])] - places_[std::size_t(hull_[i])]));
-                // Of equal ones, to rounding, the first.
-                if (apart <= most * (1 + 1e-12)) continue;
-                most = apart;
-                from = hull_[i];
-                to = hull_[j];
-            }
-        }
-        return plan_distance(from, to);
-    }
-
-    // The hull edge whose opposite jaw stands nearest.
-    struct Jaws {
-        int from = -1, to = -1, opposite = -1;
-        double width = 1e300;
-    };
-    Jaws narrowest() const {
-        Jaws best;
-        for (std::size_t i = 0; i < hull_.size(); ++i) {
-            Jaws jaws{hull_[i], hull_[(i + 1) % hull_.size()], -1, 0};
-            const Vec3 e = along(jaws), inward{-e.y, e.x, 0};
-            for (const int c : hull_) {
-                const double away =
-                    glm::dot(inward, places_[std::size_t(c)] - places_[std::size_t(jaws.from)]);
-                if (away > jaws.width || jaws.opposite < 0) {
-                    jaws.width = away;
-                    jaws.opposite = c;
-                }
-            }
-            if (jaws.width < best.width) best = jaws;
-        }
-        return best;
-    }
-
-    Quantity width(const Jaws& jaws) const {
-        const Vec3 e = along(jaws), inward{-e.y, e.x, 0};
-        const Vec3 off =
-            flat(places_[std::size_t(jaws.opposite)] - places_[std::size_t(jaws.from)]);
-        const double t = glm::dot(off, e) / edge_length(jaws);
-        Quantity q{glm::dot(inward, off), {}};
-        put(q, jaws.opposite, inward);
-        put(q, jaws.from, -(1 - t) * inward);
-        put(q, jaws.to, -t * inward);
-        return q;
-    }
-
-    // Extent of corners along the jaws (`across` false) or from jaw to jaw; the directions turn
-    // with the edge that one jaw lies on.
-    Quantity extent(const Jaws& jaws, const std::vector<int>& corners, bool across) const {
-        const Vec3 e = along(jaws), inward{-e.y, e.x, 0};
-        const Vec3 direction = across ? inward : e;
-        const auto order = [&](int a, int b) {
-            return glm::dot(direction, places_[std::size_t(a)]) <
-                   glm::dot(direction, places_[std::size_t(b)]);
-        };
-        const int high = *std::max_element(corners.begin(), corners.end(), order),
-                  low = *std::min_element(corners.begin(), corners.end(), order);
-        const Vec3 between = flat(places_[std::size_t(high)] - places_[std::size_t(low)]);
-        Quantity q{glm::dot(direction, between), {}};
-        put(q, high, direction);
-        put(q, low, -direction);
-        // d(e) = inward (inward . d(to - from)) / length; d(inward) = -e times the same.
-        const double turn = across ? -glm::dot(e, between) : glm::dot(inward, between);
-        const Vec3 slope = inward * (turn / edge_length(jaws));
-        put(q, jaws.to, slope);
-        put(q, jaws.from, -slope);
-        return q;
-    }
-
-    // Mean distance of opposite corners of the table.
-    Quantity table_across() const {
-        const std::vector<int>& loop = outline_.loops[std::size_t(table_)];
-        const std::size_t count = loop.size();
-        Quantity q;
-        if (count % 2 == 0) {
-            for (std::size_t i = 0; i < count / 2; ++i) {
-                q.add(plan_distance(loop[i], loop[i + count / 2]), 2 / double(count));
-            }
-            return q;
-        }
-        // An odd table's corners face the middle of edges: twice the mean distance from the middle.
-        Vec3 middle(0);
-        for (const int c : loop) middle += places_[std::size_t(c)] / double(count);
-        Vec3 mean_slope(0);
-        for (const int c : loop) {
-            const Vec3 d = flat(places_[std::size_t(c)] - middle);
-            const double length = glm::length(d);
-            q.value += 2 * length / double(count);
-            if (!(length > 0)) continue;
-            put(q, c, 2.0 / double(count) * d / length);
-            mean_slope += 2.0 / double(count) * d / length;
-        }
-        for (const int c : loop) put(q, c, -mean_slope / double(count));
-        return q;
-    }
-    const std::vector<int>& table_corners() const { return outline_.loops[std::size_t(table_)]; }
-    const std::vector<int>& hull() const { return hull_; }
 
     // Corners where the girdle (or, without one, the other side) meets this side.
     std::set<int> rim(bool crown) const {
@@ -261,18 +137,6 @@ public:
     }
 
 private:
-    static Vec3 flat(const Vec3& v) { return {v.x, v.y, 0}; }
-    void put(Quantity& q, int corner, const Vec3& slope) const {
-        add_corner(q, shape_, outline_.corners[std::size_t(corner)], slope);
-    }
-    double edge_length(const Jaws& jaws) const {
-        return glm::length(flat(places_[std::size_t(jaws.to)] - places_[std::size_t(jaws.from)]));
-    }
-    Vec3 along(const Jaws& jaws) const {
-        return flat(places_[std::size_t(jaws.to)] - places_[std::size_t(jaws.from)]) /
-               edge_length(jaws);
-    }
-
     void find_table() {
         const int up = system_.up_facet();
         if (up >= 0 && outline_.loops[std::size_t(up)].size() >= 3) {
@@ -293,39 +157,10 @@ private:
         }
     }
 
-    // Andrew's monotone chain in plan, counter-clockwise; corners less than rounding apart count as
-    // one.
-    void find_hull() {
-        std::vector<int> order = corners_;
-        const auto at = [&](int c) { return places_[std::size_t(c)]; };
-        std::sort(order.begin(), order.end(), [&](int a, int b) {
-            return std::make_pair(at(a).x, at(a).y) < std::make_pair(at(b).x, at(b).y);
-        });
-        const auto left = [&](int a, int b, int c) {
-            const Vec3 u = at(b) - at(a), v = at(c) - at(a);
-            return u.x * v.y - u.y * v.x > 1e-12;
-        };
-        std::vector<int> chain;
-        for (int pass = 0; pass < 2; ++pass) {
-            const std::size_t begin = chain.size();
-            for (const int c : order) {
-                while (chain.size() >= begin + 2 &&
-                       !left(chain[chain.size() - 2], chain.back(), c)) {
-                    chain.pop_back();
-                }
-                chain.push_back(c);
-            }
-            chain.pop_back();
-            std::reverse(order.begin(), order.end());
-        }
-        hull_ = std::move(chain);
-    }
-
     const System& system_;
     const Shape& shape_;
     const Outline& outline_;
-    std::vector<Vec3> places_;
-    std::vector<int> corners_, hull_;
+    PlanView plan_;
     int table_ = -1;
 };
 
@@ -335,16 +170,17 @@ std::vector<CutQuantity> cut_quantities(const System& system, const Shape& shape
                                         const std::shared_ptr<const Outline>& outline) {
     std::vector<CutQuantity> all;
     const Cut cut(system, shape, *outline);
-    if (cut.hull().size() < 3) return all;
+    const PlanView& plan = cut.plan();
+    if (plan.hull().size() < 3) return all;
     const std::string unit(name_of(system.stone().unit));
     const auto put = [&](const char* name, const std::string& in, const Quantity& q,
                          double factor) {
         all.push_back({name, in, q, factor});
     };
-    const Cut::Jaws jaws = cut.narrowest();
-    const Quantity width = cut.width(jaws), length = cut.extent(jaws, cut.hull(), false);
+    const PlanView::Jaws jaws = plan.narrowest();
+    const Quantity width = plan.width(jaws), length = plan.extent(jaws, plan.hull(), false);
     Quantity diameter;
-    diameter.add(cut.perimeter(), 1 / std::numbers::pi);
+    diameter.add(plan.perimeter(), 1 / std::numbers::pi);
     const bool round =
         length.value < k_round * width.value && diameter.value < k_round * width.value;
     const Quantity& across = round ? diameter : width;
@@ -352,7 +188,7 @@ std::vector<CutQuantity> cut_quantities(const System& system, const Shape& shape
     put("width", unit, width, system.scale());
     put("length", unit, length, system.scale());
     put("caliper min", unit, width, system.scale());
-    put("caliper max", unit, cut.widest(), system.scale());
+    put("caliper max", unit, plan.widest(), system.scale());
     put("caliper mean", unit, diameter, system.scale());
     put("length/width", "", ratio(length, width), 1);
     const Quantity top = cut.top(), bottom = cut.height_of(cut.extreme(-1));
@@ -362,7 +198,9 @@ std::vector<CutQuantity> cut_quantities(const System& system, const Shape& shape
     put("total depth", "%", ratio(depth, across), 100);
     if (cut.table() >= 0) {
         put("table", "%",
-            ratio(round ? cut.table_across() : cut.extent(jaws, cut.table_corners(), true), across),
+            ratio(round ? plan.mean_across(cut.table_corners())
+                        : plan.extent(jaws, cut.table_corners(), true),
+                  across),
             100);
     }
     const std::set<int> upper = cut.rim(true), lower = cut.rim(false);

@@ -128,6 +128,79 @@ void try_direction(const ErrorSignatures& signatures, const RestrictedResiduals&
     }
 }
 
+Explanation best_plane(const ErrorSignatures& signatures, const RestrictedResiduals& restricted,
+                       const std::vector<Candidate>& candidates, double least) {
+    Explanation best;
+    for (const Candidate& candidate : candidates) {
+        for (const Vec3& direction : candidate.directions) {
+            try_direction(signatures, restricted, candidate, direction, least, best);
+        }
+    }
+    return best;
+}
+
+// The one that lowers chi-square most by its own error, when that beats `least`; or -1.
+Index largest_outlier(const RestrictedResiduals& restricted, double least) {
+    Index largest = -1;
+    for (Index i = 0; i < restricted.size(); ++i) {
+        if (restricted.gain_of(i) > least &&
+            (largest < 0 || restricted.gain_of(i) > restricted.gain_of(largest))) {
+            largest = i;
+        }
+    }
+    return largest;
+}
+
+// Falls of chi-square that count.
+struct Thresholds {
+    double plane = 0, outlier = 0;  // significant at the level, shared out among all of a kind
+    double handicap = 0;            // of a plane beside an outlier: there are more to choose from
+};
+Thresholds thresholds_of(const std::vector<Candidate>& candidates, const Linearised& linear,
+                         const Diagnosis& diagnosis, double significance) {
+    double planes = 0, equations = 0;
+    for (const Candidate& c : candidates) planes += double(c.directions.size());
+    for (const Equation& e : linear.soft) equations += e.is_counted() ? e.readings() : 0;
+    // One-sided, and two-sided.
+    const double z = two_sided_normal_quantile(2 * significance / std::max(1.0, planes));
+    return {z * z, diagnosis.suspect_limit * diagnosis.suspect_limit,
+            2 * std::log(std::max(1.0, planes / (2 * std::max(1.0, equations))))};
+}
+
+// The plane for people, with the readings that it explains by more than their sigma.
+ExtraFacet described(const System& system, const Linearised& linear,
+                     const RestrictedResiduals& restricted, const Explanation& plane) {
+    const auto reading_id = [&](Index i) {
+        return system.readings()[std::size_t(linear.soft[std::size_t(i)].reading)].id;
+    };
+    ExtraFacet facet;
+    Index strongest = -1;
+    for (const auto& [i, s] : plane.signature) {
+        if (!(std::abs(s) > 1) || !(s * restricted.values()(i) < 0)) continue;
+        facet.shown_by.push_back(reading_id(i));
+        if (strongest < 0 || restricted.gain_of(i) > restricted.gain_of(strongest)) strongest = i;
+    }
+    if (strongest >= 0 && restricted.gain_of(strongest) > plane.gain - k_alternative) {
+        facet.or_wrong = reading_id(strongest);
+    }
+    for (const int f : plane.candidate->facets) {
+        facet.at.push_back(system.stone().solid.facets[std::size_t(f)].name);
+    }
+    facet.depth = plane.depth;
+    facet.sigma = plane.sigma;
+    facet.chi2 = plane.gain;
+    facet.p = 0.5 * std::erfc(std::sqrt(0.5 * plane.gain));
+    return facet;
+}
+
+// Worth saying: one reading alone may as well be wrong, unless the plane is easily overlooked; and
+// what is left at a place once a facet there is taken out says nothing new.
+bool is_news(const ExtraFacet& facet, const std::vector<ExtraFacet>& found) {
+    const bool known = std::any_of(found.begin(), found.end(),
+                                   [&](const ExtraFacet& f) { return f.at == facet.at; });
+    return !known && (facet.or_wrong.empty() || facet.depth < k_overlooked);
+}
+
 }  // namespace
 
 std::vector<ExtraFacet> suspect_extra_facets(const System& system, const Finished& finished,
@@ -139,74 +212,33 @@ std::vector<ExtraFacet> suspect_extra_facets(const System& system, const Finishe
     if (diagnosis.throughout) return found;
     const ErrorSignatures signatures(system, finished.shape, *finished.outline, linear);
     RestrictedResiduals restricted(linear, *diagnosis.covariance);
-    std::vector<Candidate> candidates = candidates_of(system, finished.shape);
-    double planes = 0, equations = 0;
-    for (const Candidate& c : candidates) planes += double(c.directions.size());
-    for (const Equation& e : linear.soft) equations += e.is_counted() ? e.readings() : 0;
-    // One-sided, and two-sided.
-    const double z = two_sided_normal_quantile(2 * significance / std::max(1.0, planes));
-    const double enough = z * z, enough_single = diagnosis.suspect_limit * diagnosis.suspect_limit;
-    const double handicap = 2 * std::log(std::max(1.0, planes / (2 * std::max(1.0, equations))));
+    const std::vector<Candidate> candidates = candidates_of(system, finished.shape);
+    const Thresholds least = thresholds_of(candidates, linear, diagnosis, significance);
     double taken = 0, most = 0;
     const auto agrees = [&](double left) {
         return chi2_tail(left, std::max(1.0, diagnosis.dof - taken)) >= significance;
     };
     for (int round = 0; round < k_most_rounds; ++round) {
-        Index single = -1;
-        for (Index i = 0; i < restricted.size(); ++i) {
-            if (restricted.gain_of(i) > enough_single &&
-                (single < 0 || restricted.gain_of(i) > restricted.gain_of(single))) {
-                single = i;
-            }
-        }
-        Explanation best;
-        for (const Candidate& candidate : candidates) {
-            for (const Vec3& direction : candidate.directions) {
-                try_direction(signatures, restricted, candidate, direction, enough, best);
-            }
-        }
-        if (best.candidate == nullptr && single < 0) break;
-        const double gain_of_single = single < 0 ? 0 : restricted.gain_of(single);
+        const Index outlier = largest_outlier(restricted, least.outlier);
+        const Explanation plane = best_plane(signatures, restricted, candidates, least.plane);
+        if (plane.candidate == nullptr && outlier < 0) break;
+        const double outlier_gain = outlier < 0 ? 0 : restricted.gain_of(outlier);
         // What is left must agree: where many readings contradict each other anything looks better.
         // Each explanation is the best there is, and the next ones bring no more.
-        most = std::max({most, best.gain, gain_of_single});
+        most = std::max({most, plane.gain, outlier_gain});
         if (!agrees(restricted.values().squaredNorm() - (k_most_rounds - round) * most)) return {};
         // As good as one wrong reading: both are said, and the reading is believed.
-        const bool is_rival =
-            best.candidate != nullptr && best.gain - handicap > gain_of_single - k_alternative;
+        const bool is_rival = plane.candidate != nullptr &&
+                              plane.gain - least.handicap > outlier_gain - k_alternative;
         ++taken;
-        ExtraFacet facet;
         if (is_rival) {
-            Index strongest = -1;
-            for (const auto& [i, s] : best.signature) {
-                if (!(std::abs(s) > 1) || !(s * restricted.values()(i) < 0)) continue;
-                const int reading = linear.soft[std::size_t(i)].reading;
-                facet.shown_by.push_back(system.readings()[std::size_t(reading)].id);
-                if (strongest < 0 || restricted.gain_of(i) > restricted.gain_of(strongest))
-                    strongest = i;
-            }
-            if (strongest >= 0 && restricted.gain_of(strongest) > best.gain - k_alternative) {
-                facet.or_wrong =
-                    system.readings()[std::size_t(linear.soft[std::size_t(strongest)].reading)].id;
-            }
-            for (const int f : best.candidate->facets) {
-                facet.at.push_back(system.stone().solid.facets[std::size_t(f)].name);
-            }
-            facet.depth = best.depth;
-            facet.sigma = best.sigma;
-            facet.chi2 = best.gain;
-            facet.p = 0.5 * std::erfc(std::sqrt(0.5 * best.gain));
+            ExtraFacet facet = described(system, linear, restricted, plane);
+            if (is_news(facet, found)) found.push_back(std::move(facet));
         }
-        // What is left at a place once a facet there is taken out says nothing new.
-        const bool known = std::any_of(found.begin(), found.end(),
-                                       [&](const ExtraFacet& f) { return f.at == facet.at; });
-        if (is_rival && !known && (facet.or_wrong.empty() || facet.depth < k_overlooked)) {
-            found.push_back(std::move(facet));
-        }
-        if (single >= 0 && (!is_rival || gain_of_single > best.gain - k_alternative)) {
-            restricted.set_aside(single);
+        if (outlier >= 0 && (!is_rival || outlier_gain > plane.gain - k_alternative)) {
+            restricted.leave_out(outlier);
         } else {
-            restricted.add(restricted.seen(best.signature));
+            restricted.add(restricted.seen(plane.signature));
         }
     }
     if (!agrees(restricted.values().squaredNorm())) return {};

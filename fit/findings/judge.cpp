@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <set>
 
 #include "fit/findings/bench_words.h"
@@ -93,10 +94,13 @@ std::string in_the_way(const Solid& solid) {
     return text;
 }
 
-}  // namespace
+struct Verdict {
+    FitStatus status = FitStatus::converged;
+    std::string message;
+};
 
-void judge(const System& system, const Finished& finished, const Diagnosis& diagnosis,
-           FitResult& result) {
+std::optional<Verdict> exact_contradiction(const System& system, const Diagnosis& diagnosis,
+                                           const FitResult& result) {
     std::vector<std::string> broken;
     for (std::size_t r = 0; r < system.readings().size(); ++r) {
         const Reading& reading = system.readings()[r];
@@ -105,119 +109,155 @@ void judge(const System& system, const Finished& finished, const Diagnosis& diag
             broken.push_back(reading.id);
         }
     }
-    const auto end = [&](FitStatus status, std::string message) {
-        result.status = status;
-        result.message = std::move(message);
-        if (!result.findings.vanishing_edges.empty() && status != FitStatus::not_converged) {
-            result.message += fmt::format("; the readings want edge {} to have no length",
-                                          names(result.findings.vanishing_edges));
-        }
-        for (const std::string& note : result.log.notes) result.message += "; " + note;
-        if (!diagnosis.analysed) {
-            result.message +=
-                "; the stone is too large for uncertainties and suspects: none are given";
-        }
-    };
-    if (!broken.empty()) {
-        return end(FitStatus::contradictory, fmt::format("exact readings contradict each other: {}",
+    if (broken.empty()) return {};
+    return Verdict{FitStatus::contradictory, fmt::format("exact readings contradict each other: {}",
                                                          names(result.findings.disagreeing.empty()
                                                                    ? broken
-                                                                   : result.findings.disagreeing)));
-    }
+                                                                   : result.findings.disagreeing))};
+}
+
+// No stone has the mesh's facets, edges and meets and these readings.
+std::optional<Verdict> denied_topology(const Finished& finished, const FitResult& result) {
+    const FitFindings& findings = result.findings;
     if (!result.checks.missing_facets.empty()) {
-        return end(FitStatus::not_converged,
-                   fmt::format("the fitted planes leave no room for facet {}",
-                               names(result.checks.missing_facets)));
+        return Verdict{FitStatus::not_converged,
+                       fmt::format("the fitted planes leave no room for facet {}",
+                                   names(result.checks.missing_facets))};
     }
-    for (const ShapeFinding& f : result.findings.shapes) {
+    for (const ShapeFinding& f : findings.shapes) {
         if (f.kind == ShapeFinding::Kind::facet_vanishes) {
-            return end(FitStatus::not_converged,
-                       f.what + "; leave it out of the mesh, or allow the topology to change");
+            return Verdict{FitStatus::not_converged,
+                           f.what + "; leave it out of the mesh, or allow the topology to change"};
         }
     }
     if (finished.worst_hard > k_hard_limit) {
-        return end(FitStatus::not_converged,
-                   "the facets and meets could not be brought together" + in_the_way(result.solid));
+        return Verdict{
+            FitStatus::not_converged,
+            "the facets and meets could not be brought together" + in_the_way(result.solid)};
     }
     // Under the hypothesis that an edge has a length at all, chi-square with one freedom for each.
-    if (!result.findings.vanishing_edges.empty() &&
-        chi2_tail(result.findings.vanishing_chi2, double(result.findings.vanishing_edges.size())) <
+    if (!findings.vanishing_edges.empty() &&
+        chi2_tail(findings.vanishing_chi2, double(findings.vanishing_edges.size())) <
             result.log.options.significance) {
-        return end(
+        return Verdict{
             FitStatus::not_converged,
             fmt::format("the readings want edge {} to have no length, and agree with the "
                         "mesh's facets only at a loss (chi2 {:.1f} more)",
-                        names(result.findings.vanishing_edges), result.findings.vanishing_chi2));
+                        names(findings.vanishing_edges), findings.vanishing_chi2)};
     }
+    return {};
+}
+
+std::optional<Verdict> unsound_solid(const System& system, const FitResult& result) {
     if (!system.stone().convex) {
         const std::vector<Fault> faults =
             find_faults(result.solid, {.planarity = k_planarity, .must_be_convex = false});
         if (!faults.empty()) {
-            return end(FitStatus::not_converged,
-                       "the fitted stone is not sound: " + faults.front().what);
+            return Verdict{FitStatus::not_converged,
+                           "the fitted stone is not sound: " + faults.front().what};
         }
     }
     if (!result.checks.closed || (!result.checks.convex && system.stone().convex)) {
         const std::vector<Fault> faults = find_faults(
             result.solid, {.planarity = k_planarity, .must_be_convex = system.stone().convex});
-        return end(
+        return Verdict{
             FitStatus::not_converged,
             fmt::format("the fitted stone is not {}{}", result.checks.closed ? "convex" : "closed",
-                        faults.empty() ? "" : ": " + faults.front().what));
+                        faults.empty() ? "" : ": " + faults.front().what)};
     }
     if (result.checks.planarity_max >
         std::max(k_planarity * diameter(result.solid), coordinate_rounding(result.solid))) {
-        return end(FitStatus::not_converged,
-                   fmt::format("corners lie up to {:.2g} {} off their facets' planes",
-                               result.checks.planarity_max, name_of(result.unit)));
+        return Verdict{FitStatus::not_converged,
+                       fmt::format("corners lie up to {:.2g} {} off their facets' planes",
+                                   result.checks.planarity_max, name_of(result.unit))};
     }
+    return {};
+}
+
+std::optional<Verdict> unsettled(const System& system, const Finished& finished,
+                                 const FitResult& result) {
     // Before the steps: next to an edge that has no length they creep.
     for (const ShapeFinding& f : result.findings.shapes) {
         if (f.kind == ShapeFinding::Kind::edge_vanishes && f.p < result.log.options.significance) {
-            return end(FitStatus::contradictory, f.what + "; allow the topology to change");
+            return Verdict{FitStatus::contradictory, f.what + "; allow the topology to change"};
         }
     }
-    if (!finished.converged) {
-        const std::string edge = shortest_edge(system, finished.shape, result.unit);
-        return end(
-            FitStatus::not_converged,
-            edge.empty()
-                ? fmt::format("the fit does not settle ({} steps): some part of the stone is "
-                              "hardly held by the readings; look at the suspects, read more, "
-                              "or give [fit] a prior",
-                              finished.iterations)
-                : fmt::format("the fit does not settle ({} steps): {}", finished.iterations, edge));
-    }
-    if (result.statistics.dof > 0 && result.statistics.chi2_p < result.log.options.significance) {
-        return end(
+    if (finished.converged) return {};
+    const std::string edge = shortest_edge(system, finished.shape, result.unit);
+    return Verdict{
+        FitStatus::not_converged,
+        edge.empty()
+            ? fmt::format("the fit does not settle ({} steps): some part of the stone is "
+                          "hardly held by the readings; look at the suspects, read more, "
+                          "or give [fit] a prior",
+                          finished.iterations)
+            : fmt::format("the fit does not settle ({} steps): {}", finished.iterations, edge)};
+}
+
+std::optional<Verdict> disagreement(const FitResult& result) {
+    const FitStatistics& statistics = result.statistics;
+    if (statistics.dof > 0 && statistics.chi2_p < result.log.options.significance) {
+        return Verdict{
             FitStatus::contradictory,
             fmt::format("the readings do not agree within their uncertainties (chi-square "
                         "{:.1f}, {:.1f} expected, at most {:.1f} at the {:g} level){}",
-                        result.statistics.chi2, result.statistics.dof, result.statistics.chi2_limit,
-                        result.log.options.significance, contradiction(result)));
+                        statistics.chi2, statistics.dof, statistics.chi2_limit,
+                        result.log.options.significance, contradiction(result))};
     }
     if (!result.findings.suspects.empty()) {
-        return end(FitStatus::contradictory,
-                   "readings that cannot belong to the others" + contradiction(result));
+        return Verdict{FitStatus::contradictory,
+                       "readings that cannot belong to the others" + contradiction(result)};
     }
     if (!result.findings.extra_facets.empty()) {
-        return end(FitStatus::contradictory, result.findings.extra_facets.front().what);
+        return Verdict{FitStatus::contradictory, result.findings.extra_facets.front().what};
     }
-    if (result.statistics.rank_defect > 0) {
-        std::set<std::string> facets;
-        for (const Undetermined& u : result.findings.undetermined) facets.insert(u.facet);
-        return end(
-            FitStatus::undetermined,
-            fmt::format("too little was read to fix the whole stone: {} of its {} facets {} as in "
-                        "the mesh{}; {}",
-                        facets.size(), result.facets.size(), facets.size() == 1 ? "is" : "are",
-                        facets.empty() ? "" : " (" + names({facets.begin(), facets.end()}) + ")",
-                        result.findings.help.empty()
-                            ? "a prior would fill it in ([fit] prior = \"mesh\")"
-                            : "next, " + bench_words(result.findings.help[0])));
+    return {};
+}
+
+std::optional<Verdict> undetermined(const FitResult& result) {
+    if (result.statistics.rank_defect <= 0) return {};
+    std::set<std::string> facets;
+    for (const Undetermined& u : result.findings.undetermined) facets.insert(u.facet);
+    return Verdict{
+        FitStatus::undetermined,
+        fmt::format("too little was read to fix the whole stone: {} of its {} facets {} as in "
+                    "the mesh{}; {}",
+                    facets.size(), result.facets.size(), facets.size() == 1 ? "is" : "are",
+                    facets.empty() ? "" : " (" + names({facets.begin(), facets.end()}) + ")",
+                    result.findings.help.empty()
+                        ? "a prior would fill it in ([fit] prior = \"mesh\")"
+                        : "next, " + bench_words(result.findings.help[0]))};
+}
+
+// The gravest first: what comes later means nothing where an earlier one holds.
+Verdict verdict_on(const System& system, const Finished& finished, const Diagnosis& diagnosis,
+                   const FitResult& result) {
+    if (auto verdict = exact_contradiction(system, diagnosis, result)) return *verdict;
+    if (auto verdict = denied_topology(finished, result)) return *verdict;
+    if (auto verdict = unsound_solid(system, result)) return *verdict;
+    if (auto verdict = unsettled(system, finished, result)) return *verdict;
+    if (auto verdict = disagreement(result)) return *verdict;
+    if (auto verdict = undetermined(result)) return *verdict;
+    return {FitStatus::converged,
+            fmt::format("the readings agree (chi-square {:.1f}, {:.0f} expected)",
+                        result.statistics.chi2, result.statistics.dof)};
+}
+
+}  // namespace
+
+void judge(const System& system, const Finished& finished, const Diagnosis& diagnosis,
+           FitResult& result) {
+    const Verdict verdict = verdict_on(system, finished, diagnosis, result);
+    result.status = verdict.status;
+    result.message = verdict.message;
+    if (!result.findings.vanishing_edges.empty() && verdict.status != FitStatus::not_converged) {
+        result.message += fmt::format("; the readings want edge {} to have no length",
+                                      names(result.findings.vanishing_edges));
     }
-    end(FitStatus::converged, fmt::format("the readings agree (chi-square {:.1f}, {:.0f} expected)",
-                                          result.statistics.chi2, result.statistics.dof));
+    for (const std::string& note : result.log.notes) result.message += "; " + note;
+    if (!diagnosis.analysed) {
+        result.message += "; the stone is too large for uncertainties and suspects: none are given";
+    }
 }
 
 }  // namespace culet

@@ -12,6 +12,10 @@ namespace culet {
 
 namespace {
 
+// A miss is tested when the readings tell it to better than half of the half diameter, and is free
+// to be at all when other exact conditions leave it more than rounding. Variances.
+constexpr double k_told = 0.25, k_free = 1e-18;
+
 // One meet: which incidences, and the directions in which its planes can miss each other.
 struct Meet {
     int point = -1;
@@ -19,7 +23,8 @@ struct Meet {
     std::vector<int> facets;
     std::vector<Eigen::Index> equations;  // exact: among the hard ones
     Eigen::MatrixXd together, apart;      // facets x 3 and x (facets - 3): [Q U] is orthogonal
-    Eigen::Index first = 0;               // of its columns among all of its kind
+    bool has_score = false;               // exact, and not held by its images: has multipliers
+    Eigen::Index first = 0;               // of its columns among all that have
 };
 
 // Planes N x = d have a common point when U'd = 0 with U spanning null(N').
@@ -70,21 +75,16 @@ std::vector<Meet> meets_of(const System& system, const Shape& shape, const Infer
         // Partly exact: tested by what came out, like a soft one.
         if (meet.how == MeetTreatment::exact) meet.how = MeetTreatment::soft;
     }
+    const std::vector<bool> held = held_by_images(system);
+    Eigen::Index columns = 0;
+    for (Meet& meet : meets) {
+        meet.has_score =
+            meet.how == MeetTreatment::exact && (held.empty() || !held[std::size_t(meet.point)]);
+        if (!meet.has_score) continue;
+        meet.first = columns;
+        columns += meet.apart.cols();
+    }
     return meets;
-}
-
-// What `x` and its covariance become when the directions [first, first + count) are let go.
-void let_go(Eigen::VectorXd& x, Eigen::MatrixXd& v, Eigen::Index first, Eigen::Index count) {
-    const Eigen::MatrixXd own = v.block(first, first, count, count);
-    const Eigen::MatrixXd inverse = own.completeOrthogonalDecomposition().pseudoInverse();
-    const Eigen::MatrixXd across = v.middleCols(first, count) * inverse;
-    const Eigen::VectorXd gone = x.segment(first, count);
-    const Eigen::MatrixXd rows = v.middleRows(first, count);
-    x -= across * gone;
-    v -= across * rows;
-    x.segment(first, count).setZero();
-    v.middleRows(first, count).setZero();
-    v.middleCols(first, count).setZero();
 }
 
 // What the readings pull exact meets apart with, and its covariance.
@@ -92,12 +92,11 @@ struct ExactMeets {
     Eigen::VectorXd pulls;
     Eigen::MatrixXd covariance;
 };
-ExactMeets exact_meets(const std::vector<Meet>& meets, Eigen::Index columns,
-                       const Inference& inference) {
+ExactMeets exact_meets(const std::vector<Meet>& meets, const Inference& inference) {
     const Eigen::Index hard = Eigen::Index(inference.linear().hard.size());
     std::vector<Eigen::Triplet<double>> apart, together;
     std::vector<bool> is_kept(std::size_t(hard), true);
-    Eigen::Index kept = 0;
+    Eigen::Index columns = 0, kept = 0;
     const auto put = [](const Meet& meet, const Eigen::MatrixXd& ways, Eigen::Index first,
                         std::vector<Eigen::Triplet<double>>& to) {
         for (Eigen::Index i = 0; i < ways.rows(); ++i) {
@@ -107,8 +106,10 @@ ExactMeets exact_meets(const std::vector<Meet>& meets, Eigen::Index columns,
         }
     };
     for (const Meet& meet : meets) {
+        if (!meet.has_score) continue;
         put(meet, meet.apart, meet.first, apart);
         put(meet, meet.together, kept, together);
+        columns += meet.apart.cols();
         kept += meet.together.cols();
         for (const Eigen::Index i : meet.equations) is_kept[std::size_t(i)] = false;
     }
@@ -129,6 +130,23 @@ ExactMeets exact_meets(const std::vector<Meet>& meets, Eigen::Index columns,
     return result;
 }
 
+// What is left of them when one meet is let go: given that its planes may miss each other.
+void let_go(ExactMeets& exact, const Meet& meet) {
+    Eigen::VectorXd& x = exact.pulls;
+    Eigen::MatrixXd& v = exact.covariance;
+    const Eigen::Index first = meet.first, count = meet.apart.cols();
+    const Eigen::MatrixXd own = v.block(first, first, count, count);
+    const Eigen::MatrixXd inverse = own.completeOrthogonalDecomposition().pseudoInverse();
+    const Eigen::MatrixXd across = v.middleCols(first, count) * inverse;
+    const Eigen::VectorXd gone = x.segment(first, count);
+    const Eigen::MatrixXd rows = v.middleRows(first, count);
+    x -= across * gone;
+    v -= across * rows;
+    x.segment(first, count).setZero();
+    v.middleRows(first, count).setZero();
+    v.middleCols(first, count).setZero();
+}
+
 // Estimated miss of the plane that is furthest off, and its sigma, from misses along U.
 void set_miss(MeetFinding& finding, const Meet& meet, const Eigen::VectorXd& along,
               const Eigen::MatrixXd& covariance) {
@@ -142,135 +160,139 @@ void set_miss(MeetFinding& finding, const Meet& meet, const Eigen::VectorXd& alo
                                      : std::sqrt(std::max(0.0, variance));
 }
 
+// V^-1 is the covariance of misses: v in [1 / told, 1 / free].
+QuadraticTest score_test(const ExactMeets& exact, const Meet& meet) {
+    const Eigen::Index k = meet.apart.cols();
+    return quadratic_test(exact.pulls.segment(meet.first, k),
+                          exact.covariance.block(meet.first, meet.first, k, k), 1 / k_told,
+                          1 / k_free);
+}
+
+void set_score(const ExactMeets& exact, const Meet& meet, const QuadraticTest& test,
+               MeetFinding& finding) {
+    const Eigen::Index k = meet.apart.cols();
+    const Eigen::MatrixXd covariance = (exact.covariance.block(meet.first, meet.first, k, k) +
+                                        1e-12 * Eigen::MatrixXd::Identity(k, k))
+                                           .inverse();
+    set_miss(finding, meet, covariance * exact.pulls.segment(meet.first, k), covariance);
+    finding.chi2 = test.statistic;
+    finding.p = test.p;
+}
+
+// Every exact meet by itself; then forward selection among them.
+void test_exact_meets(const std::vector<Meet>& meets, ExactMeets exact, double level,
+                      double least_chi2, std::vector<MeetFinding>& findings) {
+    for (std::size_t m = 0; m < meets.size(); ++m) {
+        if (!meets[m].has_score) continue;
+        const QuadraticTest test = score_test(exact, meets[m]);
+        set_score(exact, meets[m], test, findings[m]);
+        findings[m].tested = test.tested;
+    }
+    std::vector<bool> gone(meets.size(), false);
+    for (;;) {
+        std::size_t worst = meets.size();
+        QuadraticTest strongest;
+        strongest.p = level;
+        for (std::size_t m = 0; m < meets.size(); ++m) {
+            if (!meets[m].has_score || gone[m]) continue;
+            const QuadraticTest test = score_test(exact, meets[m]);
+            // Of several beyond the reach of p the larger statistic.
+            if (test.p < level &&
+                (test.p < strongest.p || (test.p == 0 && test.statistic > strongest.statistic))) {
+                strongest = test;
+                worst = m;
+            }
+        }
+        if (worst == meets.size() || strongest.statistic <= least_chi2) break;
+        set_score(exact, meets[worst], strongest, findings[worst]);
+        findings[worst].contradicted = true;
+        gone[worst] = true;
+        let_go(exact, meets[worst]);
+    }
+}
+
+// How far each plane passes a fixed place: the point's own motion drops out of U'.
+std::vector<Quantity> heights_of(const Shape& shape, const Meet& meet) {
+    const Vec3 at = shape.points[std::size_t(meet.point)];
+    std::vector<Quantity> heights;
+    for (const int f : meet.facets) {
+        Quantity q;
+        q.value = glm::dot(shape.normals[std::size_t(f)], at) - shape.offsets[std::size_t(f)];
+        q.add(Quantity::By::normal, f, at);
+        q.add(Quantity::By::offset, f, -1.0);
+        heights.push_back(std::move(q));
+    }
+    return heights;
+}
+
+Eigen::VectorXd sigmas_of(const System& system, const Meet& meet) {
+    Eigen::VectorXd sigma(Eigen::Index(meet.facets.size()));
+    for (std::size_t i = 0; i < meet.facets.size(); ++i) {
+        for (const Incidence& incidence : system.incidences()) {
+            if (incidence.point != meet.point || incidence.facet != meet.facets[i]) continue;
+            sigma(Eigen::Index(i)) = incidence.sigma > 0
+                                         ? incidence.sigma
+                                         : system.group_sigmas()[system.is_girdle(meet.facets[i])];
+        }
+    }
+    return sigma;
+}
+
+// A soft or released meet, by the misses that came out.
+void test_misses(const System& system, const Shape& shape, const Inference& inference,
+                 const Meet& meet, double level, MeetFinding& finding) {
+    const std::vector<Quantity> heights = heights_of(shape, meet);
+    Eigen::VectorXd offsets(Eigen::Index(heights.size()));
+    for (std::size_t i = 0; i < heights.size(); ++i) offsets(Eigen::Index(i)) = heights[i].value;
+    const Eigen::MatrixXd& u = meet.apart;
+    const Eigen::VectorXd along = u.transpose() * offsets;
+    const Eigen::MatrixXd covariance =
+        u.transpose() * inference.covariance(inference.rows_of(heights)) * u;
+    const QuadraticTest test = quadratic_test(along, covariance, k_free, k_told);
+    finding.chi2 = test.statistic;
+    finding.tested = test.tested;
+    finding.p = test.p;
+    set_miss(finding, meet, along, covariance);
+    if (meet.how != MeetTreatment::soft) return;
+    // A soft meet is contradicted when its misses are too large for the sigma that it was given:
+    // residuals against their own covariance, sigma^2 - what the fit knows.
+    const Eigen::VectorXd sigma = sigmas_of(system, meet);
+    const Eigen::MatrixXd left =
+        u.transpose() * Eigen::MatrixXd(sigma.cwiseAbs2().asDiagonal()) * u - covariance;
+    const double size = sigma.squaredNorm() / double(sigma.size());
+    const QuadraticTest soft = quadratic_test(along, left, 1e-4 * size, 1e300);
+    finding.contradicted = soft.tested > 0 && soft.p < level;
+    if (finding.contradicted) {
+        finding.chi2 = soft.statistic;
+        finding.p = soft.p;
+    }
+}
+
+MeetFinding untested(const System& system, const Meet& meet) {
+    MeetFinding finding;
+    for (const int f : meet.facets) {
+        finding.facets.push_back(system.stone().solid.facets[std::size_t(f)].name);
+    }
+    finding.how = name_of(meet.how);
+    finding.conditions = static_cast<int>(meet.apart.cols());
+    return finding;
+}
+
 }  // namespace
 
 std::vector<MeetFinding> test_meets(const System& system, const Shape& shape,
                                     const Inference& inference, const MeetTestOptions& options) {
-    std::vector<Meet> meets = meets_of(system, shape, inference);
-    Eigen::Index exact_columns = 0, all_columns = 0;
-    const std::vector<bool> held = held_by_images(system);
-    const auto is_tested = [&](const Meet& meet) {
-        return meet.how == MeetTreatment::exact && (held.empty() || !held[std::size_t(meet.point)]);
-    };
-    for (Meet& meet : meets) {
-        all_columns += meet.apart.cols();
-        if (!is_tested(meet)) continue;
-        meet.first = exact_columns;
-        exact_columns += meet.apart.cols();
-    }
-    if (all_columns > k_most_tested) return {};
-    std::vector<MeetFinding> findings(meets.size());
-    for (std::size_t m = 0; m < meets.size(); ++m) {
-        MeetFinding& finding = findings[m];
-        for (int f : meets[m].facets) {
-            finding.facets.push_back(system.stone().solid.facets[std::size_t(f)].name);
-        }
-        finding.how = meets[m].how == MeetTreatment::exact  ? "exact"
-                      : meets[m].how == MeetTreatment::soft ? "soft"
-                                                            : "released";
-        finding.conditions = static_cast<int>(meets[m].apart.cols());
-    }
-    // A miss is tested when the readings tell it to better than half of the half diameter, and is
-    // free to be at all when other exact conditions leave it more than rounding.
-    constexpr double k_told = 0.25, k_free = 1e-18;
-
-    // Exact meets. V^-1 is the covariance of misses: v in [1 / told, 1 / free].
-    std::vector<Meet> tested;
-    for (const Meet& meet : meets) {
-        if (is_tested(meet)) tested.push_back(meet);
-    }
-    const ExactMeets exact = exact_meets(tested, exact_columns, inference);
-    Eigen::MatrixXd v = exact.covariance;
-    Eigen::VectorXd x = exact.pulls;
+    const std::vector<Meet> meets = meets_of(system, shape, inference);
+    Eigen::Index conditions = 0;
+    for (const Meet& meet : meets) conditions += meet.apart.cols();
+    if (conditions > k_most_tested) return {};
     const double level = options.significance / std::max<double>(1, double(meets.size()));
-    std::vector<bool> gone(meets.size(), false);
-    for (bool first_round = true;; first_round = false) {
-        std::size_t worst = meets.size();
-        double least_p = level, most = 0;
-        for (std::size_t m = 0; m < meets.size(); ++m) {
-            if (!is_tested(meets[m]) || gone[m]) continue;
-            const Eigen::Index k = meets[m].apart.cols();
-            const Eigen::MatrixXd own = v.block(meets[m].first, meets[m].first, k, k);
-            const Eigen::VectorXd pull = x.segment(meets[m].first, k);
-            const QuadraticTest test = quadratic_test(pull, own, 1 / k_told, 1 / k_free);
-            MeetFinding& finding = findings[m];
-            if (first_round) {
-                finding.chi2 = test.statistic;
-                finding.tested = test.tested;
-                finding.p = test.p;
-                const Eigen::MatrixXd covariance =
-                    (own + 1e-12 * Eigen::MatrixXd::Identity(k, k)).inverse();
-                set_miss(finding, meets[m], covariance * pull, covariance);
-            }
-            // Of several beyond the reach of p the larger statistic.
-            if (test.p < level && (test.p < least_p || (test.p == 0 && test.statistic > most))) {
-                least_p = test.p;
-                most = test.statistic;
-                worst = m;
-            }
-        }
-        if (worst == meets.size() || most <= options.least_chi2) break;
-        MeetFinding& finding = findings[worst];
-        const Eigen::Index k = meets[worst].apart.cols();
-        const Eigen::MatrixXd covariance = (v.block(meets[worst].first, meets[worst].first, k, k) +
-                                            1e-12 * Eigen::MatrixXd::Identity(k, k))
-                                               .inverse();
-        set_miss(finding, meets[worst], covariance * x.segment(meets[worst].first, k), covariance);
-        finding.contradicted = true;
-        finding.chi2 = most;
-        finding.p = least_p;
-        gone[worst] = true;
-        let_go(x, v, meets[worst].first, k);
-    }
-
-    // The others, by the misses that came out.
+    std::vector<MeetFinding> findings;
+    for (const Meet& meet : meets) findings.push_back(untested(system, meet));
+    test_exact_meets(meets, exact_meets(meets, inference), level, options.least_chi2, findings);
     for (std::size_t m = 0; m < meets.size(); ++m) {
-        const Meet& meet = meets[m];
-        if (meet.how == MeetTreatment::exact) continue;
-        const Vec3 at = shape.points[std::size_t(meet.point)];
-        std::vector<Quantity> heights;
-        Eigen::VectorXd offsets(Eigen::Index(meet.facets.size()));
-        for (std::size_t i = 0; i < meet.facets.size(); ++i) {
-            const int f = meet.facets[i];
-            // How far the plane passes a fixed place: the point's own motion drops out of U'.
-            Quantity q;
-            q.value = glm::dot(shape.normals[std::size_t(f)], at) - shape.offsets[std::size_t(f)];
-            q.add(Quantity::By::normal, f, at);
-            q.add(Quantity::By::offset, f, -1.0);
-            offsets(Eigen::Index(i)) = q.value;
-            heights.push_back(std::move(q));
-        }
-        const Eigen::MatrixXd u = meet.apart;
-        const Eigen::VectorXd along = u.transpose() * offsets;
-        const Eigen::MatrixXd covariance =
-            u.transpose() * inference.covariance(inference.rows_of(heights)) * u;
-        MeetFinding& finding = findings[m];
-        const QuadraticTest test = quadratic_test(along, covariance, k_free, k_told);
-        finding.chi2 = test.statistic;
-        finding.tested = test.tested;
-        finding.p = test.p;
-        set_miss(finding, meet, along, covariance);
-        if (meet.how != MeetTreatment::soft) continue;
-        // A soft meet is contradicted when its misses are too large for the sigma that it was
-        // given: residuals against their own covariance, sigma^2 - what the fit knows.
-        Eigen::VectorXd sigma(offsets.size());
-        for (std::size_t i = 0; i < meet.facets.size(); ++i) {
-            for (const Incidence& incidence : system.incidences()) {
-                if (incidence.point != meet.point || incidence.facet != meet.facets[i]) continue;
-                sigma(Eigen::Index(i)) =
-                    incidence.sigma > 0 ? incidence.sigma
-                                        : system.group_sigmas()[system.is_girdle(meet.facets[i])];
-            }
-        }
-        const Eigen::MatrixXd left =
-            u.transpose() * Eigen::MatrixXd(sigma.cwiseAbs2().asDiagonal()) * u - covariance;
-        const double size = sigma.squaredNorm() / double(sigma.size());
-        const QuadraticTest soft = quadratic_test(along, left, 1e-4 * size, 1e300);
-        finding.contradicted = soft.tested > 0 && soft.p < level;
-        if (finding.contradicted) {
-            finding.chi2 = soft.statistic;
-            finding.p = soft.p;
-        }
+        if (meets[m].how == MeetTreatment::exact) continue;
+        test_misses(system, shape, inference, meets[m], level, findings[m]);
     }
     return findings;
 }

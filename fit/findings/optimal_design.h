@@ -12,9 +12,8 @@ namespace culet {
 
 /// The best few, each of another tier or kind, best first. A reading of sigma s of a quantity c
 /// takes |C c|^2 / (s^2 + c'Cc) off the total variance of all facets' tilts (radians) and offsets
-/// (half diameters), where C holds the mesh's own trust for what is open. Candidates are every
-/// inclination, azimuth, edge length and dihedral, widths all around, depth, table widths, heights
-/// over the table and weight (or volume); each with the median sigma of the readings like it.
+/// (half diameters), where C holds the mesh's own trust for what is open. The
+/// candidates: candidate_readings.h.
 std::vector<NextReading> next_readings(const System& system, const Shape& shape,
                                        const std::shared_ptr<const Outline>& outline,
                                        const Covariance& covariance);

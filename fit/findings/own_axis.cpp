@@ -1,13 +1,13 @@
 #include "fit/findings/own_axis.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
 
+#include "fit/findings/tier_letters.h"
 #include "fit/model/eigenvector.h"
 
 namespace culet {
@@ -22,13 +22,7 @@ constexpr double k_least_gap = 1e-3;
 
 std::string tier_name(const System& system, const std::vector<int>& facets) {
     const auto name = [&](int f) { return system.stone().solid.facets[f].name; };
-    const auto letters = [&](int f) {
-        std::string text = name(f);
-        while (!text.empty() && std::isdigit(static_cast<unsigned char>(text.back()))) {
-            text.pop_back();
-        }
-        return text;
-    };
+    const auto letters = [&](int f) { return tier_letters(name(f)); };
     const std::string first = letters(facets.front());
     const bool alike = !first.empty() && std::all_of(facets.begin(), facets.end(), [&](int f) {
         return letters(f) == first && name(f) != first;
@@ -49,11 +43,16 @@ struct Scatter {
     bool about_mean = true;
 };
 
-glm::dmat3 scatter_of(const Shape& shape, const Scatter& tier) {
+Vec3 centre_of(const Shape& shape, const Scatter& tier) {
     Vec3 mean(0);
     if (tier.about_mean) {
         for (int f : tier.facets) mean += shape.normals[f] / double(tier.facets.size());
     }
+    return mean;
+}
+
+glm::dmat3 scatter_of(const Shape& shape, const Scatter& tier) {
+    const Vec3 mean = centre_of(shape, tier);
     glm::dmat3 s(0.0);
     for (int f : tier.facets) {
         const Vec3 d = shape.normals[f] - mean;
@@ -73,6 +72,95 @@ double sine_squared(const Shape& shape, const Scatter& tier, const Vec3& axis) {
 
 double quadratic(const glm::dmat3& s, const Vec3& v) {
     return glm::dot(v, s * v);
+}
+
+double trace_of(const glm::dmat3& s) {
+    return s[0][0] + s[1][1] + s[2][2];
+}
+
+// The least direction of scatter is told from the next.
+bool has_axis(const Shape& shape, const std::vector<Scatter>& parts) {
+    glm::dmat3 s(0.0);
+    for (const Scatter& part : parts) s += scatter_of(shape, part);
+    // The second least eigenvalue over the sum: by the trace of the pseudo-inverse.
+    const double total = trace_of(s), inverse = trace_of(least_eigenvector(s).pseudo_inverse);
+    return total > 0 && inverse > 0 && 1 / inverse > k_least_gap * total;
+}
+
+Scatter girdle_scatter(const System& system, const Shape& shape) {
+    Scatter girdle{{}, false};
+    for (std::size_t f = 0; f < shape.normals.size(); ++f) {
+        if (system.is_girdle(static_cast<int>(f))) girdle.facets.push_back(static_cast<int>(f));
+    }
+    return girdle;
+}
+
+// Least squares with each tier weighted by one over its variance about the axis.
+struct WeightedAxis {
+    std::vector<double> weights;  // one for each tier
+    Vec3 direction{0, 0, 1};
+    LeastEigenvector least;
+};
+
+// How much the tiers' inclinations scatter about an axis sets their weights. The floor of a
+// variance is what the readings know of it: equal facets of a design would otherwise get weights
+// without bound.
+std::vector<double> weights_about(const Vec3& axis, const Shape& shape,
+                                  const std::vector<Scatter>& parts) {
+    double pooled = 0, count = 0;
+    std::vector<double> squares(parts.size());
+    for (std::size_t t = 0; t < parts.size(); ++t) {
+        squares[t] =
+            quadratic(scatter_of(shape, parts[t]), axis) / sine_squared(shape, parts[t], axis);
+        pooled += squares[t];
+        count += double(parts[t].facets.size());
+    }
+    // Half a tier's worth of the common variance steadies small tiers; a millionth of a degree,
+    // perfect ones.
+    pooled /= std::max(1.0, count - double(parts.size()) - 2);
+    std::vector<double> weights(parts.size());
+    for (std::size_t t = 0; t < parts.size(); ++t) {
+        const double n = double(parts[t].facets.size());
+        weights[t] = 1 / ((squares[t] + 0.5 * pooled) / (n - 0.5) + 1e-16);
+    }
+    return weights;
+}
+
+// Iteratively reweighted least squares.
+WeightedAxis weighted_axis(const Shape& shape, const std::vector<Scatter>& parts) {
+    WeightedAxis axis;
+    axis.weights.assign(parts.size(), 1);
+    for (int round = 0; round < 30; ++round) {
+        glm::dmat3 s(0.0);
+        for (std::size_t t = 0; t < parts.size(); ++t) {
+            s += scatter_of(shape, parts[t]) *
+                 (axis.weights[t] / sine_squared(shape, parts[t], axis.direction));
+        }
+        axis.least = least_eigenvector(s);
+        const double moved = glm::length(axis.least.vector - axis.direction);
+        axis.direction = axis.least.vector;
+        if (round > 0 && moved < 1e-13) break;
+        axis.weights = weights_about(axis.direction, shape, parts);
+    }
+    return axis;
+}
+
+// The axis' component along a direction normal to it, as a function of the facets' normals.
+Quantity component_of(const WeightedAxis& axis, const Shape& shape,
+                      const std::vector<Scatter>& parts, const Vec3& along) {
+    const Vec3 back = axis.least.pseudo_inverse * along;
+    Quantity q;
+    for (std::size_t t = 0; t < parts.size(); ++t) {
+        const double w = axis.weights[t] / sine_squared(shape, parts[t], axis.direction);
+        const Vec3 mean = centre_of(shape, parts[t]);
+        for (int f : parts[t].facets) {
+            // d(a) = -(S - l)^+ dS a; the means' own motion drops out.
+            const Vec3 d = shape.normals[f] - mean;
+            q.add(Quantity::By::normal, f,
+                  -w * (back * glm::dot(d, axis.direction) + axis.direction * glm::dot(d, back)));
+        }
+    }
+    return q;
 }
 
 }  // namespace
@@ -116,90 +204,25 @@ AxisEstimate own_axis(const System& system, const Shape& shape, const std::vecto
     axis.sigma = axis.scatter_sigma = std::numeric_limits<double>::infinity();
     std::vector<Scatter> parts;
     for (const Tier& tier : tiers) parts.push_back({tier.facets, true});
-    const auto spread_enough = [&](const std::vector<Scatter>& list) {
-        glm::dmat3 s(0.0);
-        for (const Scatter& part : list) s += scatter_of(shape, part);
-        // The second least eigenvalue over the sum: by the trace of the pseudo-inverse.
-        const LeastEigenvector least = least_eigenvector(s);
-        const double total = s[0][0] + s[1][1] + s[2][2];
-        const double inverse =
-            least.pseudo_inverse[0][0] + least.pseudo_inverse[1][1] + least.pseudo_inverse[2][2];
-        return total > 0 && inverse > 0 && 1 / inverse > k_least_gap * total;
-    };
     axis.basis = "tiers";
-    if (parts.empty() || !spread_enough(parts)) {
-        Scatter girdle{{}, false};
-        for (std::size_t f = 0; f < shape.normals.size(); ++f) {
-            if (system.is_girdle(static_cast<int>(f))) girdle.facets.push_back(static_cast<int>(f));
-        }
-        parts = {girdle};
+    if (parts.empty() || !has_axis(shape, parts)) {
+        parts = {girdle_scatter(system, shape)};
         axis.basis = "girdle";
-        if (girdle.facets.size() < 3 || !spread_enough(parts)) {
+        if (parts[0].facets.size() < 3 || !has_axis(shape, parts)) {
             axis.basis = "neither tiers of like facets nor a girdle that could tell it";
             return estimate;
         }
     }
-
-    // The floor of a tier's variance is what the readings know of it: equal facets of a design
-    // would otherwise get weights without bound.
-    std::vector<double> weights(parts.size(), 1);
-    Vec3 direction{0, 0, 1};
-    LeastEigenvector least;
-    for (int round = 0; round < 30; ++round) {
-        glm::dmat3 s(0.0);
-        for (std::size_t t = 0; t < parts.size(); ++t) {
-            s += scatter_of(shape, parts[t]) *
-                 (weights[t] / sine_squared(shape, parts[t], direction));
-        }
-        least = least_eigenvector(s);
-        const double moved = glm::length(least.vector - direction);
-        direction = least.vector;
-        if (round > 0 && moved < 1e-13) break;
-        double pooled = 0, count = 0;
-        std::vector<double> squares(parts.size());
-        for (std::size_t t = 0; t < parts.size(); ++t) {
-            squares[t] = quadratic(scatter_of(shape, parts[t]), direction) /
-                         sine_squared(shape, parts[t], direction);
-            pooled += squares[t];
-            count += double(parts[t].facets.size());
-        }
-        // Half a tier's worth of the common variance steadies small tiers; a millionth of a
-        // degree, perfect ones.
-        pooled /= std::max(1.0, count - double(parts.size()) - 2);
-        for (std::size_t t = 0; t < parts.size(); ++t) {
-            const double n = double(parts[t].facets.size());
-            weights[t] = 1 / ((squares[t] + 0.5 * pooled) / (n - 0.5) + 1e-16);
-        }
-    }
+    const WeightedAxis weighted = weighted_axis(shape, parts);
     axis.known = true;
-    axis.direction = direction;
-    axis.tilt = std::atan2(std::hypot(direction.x, direction.y), direction.z);
-    axis.azimuth = azimuth(Vec3{direction.x, direction.y, 0});
-
+    axis.direction = weighted.direction;
+    axis.tilt = std::atan2(std::hypot(axis.direction.x, axis.direction.y), axis.direction.z);
+    axis.azimuth = azimuth(Vec3{axis.direction.x, axis.direction.y, 0});
     // With weights of 1 / variance the matrix is the information on the axis.
-    const double trace =
-        least.pseudo_inverse[0][0] + least.pseudo_inverse[1][1] + least.pseudo_inverse[2][2];
-    axis.scatter_sigma = std::sqrt(0.5 * trace);
-    estimate.directions = tangents(direction);
+    axis.scatter_sigma = std::sqrt(0.5 * trace_of(weighted.least.pseudo_inverse));
+    estimate.directions = tangents(axis.direction);
     for (const Vec3& e : estimate.directions) {
-        const Vec3 back = least.pseudo_inverse * e;
-        Quantity q;
-        for (std::size_t t = 0; t < parts.size(); ++t) {
-            const double w = weights[t] / sine_squared(shape, parts[t], direction);
-            Vec3 mean(0);
-            if (parts[t].about_mean) {
-                for (int f : parts[t].facets) {
-                    mean += shape.normals[f] / double(parts[t].facets.size());
-                }
-            }
-            for (int f : parts[t].facets) {
-                // d(a) = -(S - l)^+ dS a; the means' own motion drops out.
-                const Vec3 d = shape.normals[f] - mean;
-                q.add(Quantity::By::normal, f,
-                      -w * (back * glm::dot(d, direction) + direction * glm::dot(d, back)));
-            }
-        }
-        estimate.across.push_back(std::move(q));
+        estimate.across.push_back(component_of(weighted, shape, parts, e));
     }
     if (inference) {
         const Eigen::MatrixXd cov = inference->covariance(inference->rows_of(estimate.across));

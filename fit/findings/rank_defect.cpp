@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "fit/findings/tier_letters.h"
 #include "fit/model/facet_functions.h"
 
 namespace culet {
@@ -17,15 +18,10 @@ namespace {
 // what the mesh is trusted for.
 constexpr double k_moves = 0.02;
 
-std::string tier_of(const std::string& name) {
-    const std::size_t last = name.find_last_not_of("0123456789");
-    return last == std::string::npos ? std::string() : name.substr(0, last + 1);
-}
-
 // Names in a row as a run: C1 to C8.
 std::string listed(const std::vector<std::string>& names) {
     const auto number = [&](const std::string& name) -> long {
-        const std::string digits = name.substr(tier_of(name).size());
+        const std::string digits = name.substr(tier_letters(name).size());
         return digits.empty() || digits.size() > 9 ? -1 : std::stol(digits);
     };
     std::string text;
@@ -34,7 +30,7 @@ std::string listed(const std::vector<std::string>& names) {
         std::size_t end = i + 1;
         while (end < names.size() && number(names[i]) >= 0 &&
                number(names[end]) == number(names[i]) + long(end - i) &&
-               tier_of(names[end]) == tier_of(names[i])) {
+               tier_letters(names[end]) == tier_letters(names[i])) {
             ++end;
         }
         if (written == 6) return text + fmt::format(" and {} more", names.size() - i);
@@ -58,7 +54,7 @@ std::vector<std::string> describe_open_freedoms(const System& system, const Shap
     std::map<std::string, int> facet_of, tier_size;
     for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
         facet_of.emplace(mesh.facets[f].name, int(f));
-        ++tier_size[tier_of(mesh.facets[f].name)];
+        ++tier_size[tier_letters(mesh.facets[f].name)];
     }
     const auto role = [&](int f, bool several) -> std::string {
         const Vec3& n = shape.normals[std::size_t(f)];
@@ -73,7 +69,7 @@ std::vector<std::string> describe_open_freedoms(const System& system, const Shap
     std::vector<std::pair<std::string, std::string>> order;
     std::map<std::pair<std::string, std::string>, std::vector<std::string>> groups;
     for (const Undetermined& u : undetermined) {
-        const auto key = std::make_pair(tier_of(u.facet), u.freedom);
+        const auto key = std::make_pair(tier_letters(u.facet), u.freedom);
         if (groups[key].empty()) order.push_back(key);
         groups[key].push_back(u.facet);
     }

@@ -10,6 +10,18 @@
 
 namespace culet {
 
+const char* name_of(MeetTreatment treatment) {
+    switch (treatment) {
+        case MeetTreatment::exact:
+            return "exact";
+        case MeetTreatment::soft:
+            return "soft";
+        case MeetTreatment::released:
+            return "released";
+    }
+    return "exact";
+}
+
 const char* name_of(Loss loss) {
     switch (loss) {
         case Loss::none:

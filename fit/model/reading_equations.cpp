@@ -6,6 +6,8 @@
 #include <iterator>
 #include <numbers>
 
+#include "fit/model/inclination_side.h"
+#include "fit/model/outline_corners.h"
 #include "fit/model/symmetry_contrasts.h"
 #include "fit/model/system.h"
 
@@ -16,61 +18,12 @@ namespace {
 // Of an edge's length: planes whose sine is less are told apart by less than the edge's ends are.
 constexpr double k_nearly_one_plane = 0.3;
 
-std::vector<Corner> corners_of(const Outline& outline, int facet) {
-    std::vector<Corner> corners;
-    for (int c : outline.loops[facet]) corners.push_back(outline.corners[c]);
-    return corners;
-}
-
-// The two ends of the edge that two loops share, or nothing.
-std::vector<Corner> shared_edge(const Outline& outline, int a, int b) {
-    const std::vector<int>&loop = outline.loops[a], &other = outline.loops[b];
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-        const int from = loop[i], to = loop[(i + 1) % loop.size()];
-        for (std::size_t k = 0; k < other.size(); ++k) {
-            if (other[k] == to && other[(k + 1) % other.size()] == from) {
-                return {outline.corners[from], outline.corners[to]};
-            }
-        }
-    }
-    return {};
-}
-
 // The line in which two planes cross turns round where they pass through one plane, the line
 // through two corners where these pass each other. Lengths go by the one that is farther from
 // turning: a facet that turns by an angle moves corners by about as many half diameters.
 bool is_nearly_one_plane(const Shape& shape, int a, int b, const Corner& from, const Corner& to) {
     const double sine = glm::length(glm::cross(shape.normals[a], shape.normals[b]));
     return sine < k_nearly_one_plane * glm::length(place_of(shape, to) - place_of(shape, from));
-}
-
-Corner farthest(const Shape& shape, const std::vector<Corner>& corners, const Vec3& direction) {
-    Corner best = corners.front();
-    double most = -1e300;
-    for (const Corner& c : corners) {
-        const double along = glm::dot(direction, place_of(shape, c));
-        if (along > most) {
-            most = along;
-            best = c;
-        }
-    }
-    return best;
-}
-
-bool is_nearly_upright(const Vec3& normal) {
-    return std::abs(normal.z) < std::sin(radians(5));
-}
-
-// Whether an inclination counts from above or from below. A reading of a nearly upright facet does
-// not say on which side of upright it is: the nearer one is meant.
-int side_of(const Vec3& normal, double inclination_read) {
-    const int side = normal.z < 0 ? -1 : 1;
-    const double from_up = std::atan2(std::hypot(normal.x, normal.y), side * normal.z);
-    const double from_down = std::numbers::pi - from_up;
-    return is_nearly_upright(normal) &&
-                   std::abs(from_down - inclination_read) < std::abs(from_up - inclination_read)
-               ? -side
-               : side;
 }
 
 // Formulas of one reading's terms under its aggregate.
@@ -88,26 +41,6 @@ Formula aggregated(const Reading& reading, std::vector<Formula> terms, const Sha
 }
 
 }  // namespace
-
-bool System::may_be_merged(const std::vector<int>& group, const Replicates& replicates,
-                           const Shape& shape) const {
-    const Reading& first = readings_[std::size_t(group.front())];
-    if (first.kind == ReadingKind::azimuth) {
-        // Further off, some would be wrapped to the other side.
-        constexpr double k_most = 3;
-        const int datum = first.datum.kind == Datum::Kind::facet ? first.datum.facet : -1;
-        const double error = azimuth_error(first.facets[0], datum, replicates.value)(shape).value;
-        return std::all_of(replicates.all.begin(), replicates.all.end(),
-                           [&](const Replicate& r) { return std::abs(error - r.off) < k_most; });
-    }
-    if (first.kind != ReadingKind::inclination || first.datum.kind != Datum::Kind::up) return true;
-    return std::all_of(group.begin(), group.end(), [&](int r) {
-        return std::all_of(first.facets.begin(), first.facets.end(), [&](int f) {
-            const Vec3& n = shape.normals[std::size_t(f)];
-            return side_of(n, readings_[std::size_t(r)].value) == side_of(n, replicates.value);
-        });
-    });
-}
 
 std::vector<Corner> System::corners_between_jaws(const Reading& reading,
                                                  const Outline& outline) const {
@@ -387,20 +320,12 @@ void System::ReadingEquations::pair(const Reading& reading, int f, int g) {
 std::vector<Equation> System::reading_equations(const Shape& shape,
                                                 const std::shared_ptr<const Outline>& outline,
                                                 bool reduced, bool meets_hold) const {
-    std::vector<std::optional<Replicates>> replicates(readings_.size());  // with the first of them
-    std::vector<bool> is_merged(readings_.size(), false);
-    for (const std::vector<int>& group : replicated_) {
-        const std::size_t first = std::size_t(group.front());
-        Replicates own = merged(readings_, group, unit_of(readings_[first]));
-        if (!may_be_merged(group, own, shape)) continue;
-        replicates[first] = std::move(own);
-        for (std::size_t k = 1; k < group.size(); ++k) is_merged[std::size_t(group[k])] = true;
-    }
+    MergedReadings merged = merged_readings(shape);
     ReadingEquations equations(*this, shape, outline, meets_hold);
     for (std::size_t r = 0; r < readings_.size(); ++r) {
-        if (is_merged[r]) continue;
+        if (merged.is_merged[r]) continue;
         if (reduced && first_extra_[r] >= 0 && fixed_extras_[first_extra_[r]]) continue;
-        equations.add(int(r), std::move(replicates[r]));
+        equations.add(int(r), std::move(merged.replicates[r]));
     }
     std::vector<Equation> all = equations.take(), expected = expected_equations();
     std::move(expected.begin(), expected.end(), std::back_inserter(all));

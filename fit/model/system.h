@@ -178,6 +178,11 @@ private:
     /// half a turn off.
     bool may_be_merged(const std::vector<int>& group, const Replicates& replicates,
                        const Shape& shape) const;
+    struct MergedReadings {
+        std::vector<std::optional<Replicates>> replicates;  ///< with the first of each group
+        std::vector<bool> is_merged;                        ///< into the first
+    };
+    MergedReadings merged_readings(const Shape& shape) const;
     /// Where the motion of a symmetry of all facets takes these; nothing where it is not known.
     std::optional<std::vector<int>> exchanged(const Reading& reading,
                                               const std::vector<int>& facets) const;

@@ -13,7 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// JSON has no infinity and no NaN.
 bool in_degrees(ReadingKind kind) {
     return is_angle(kind) || kind == ReadingKind::parallel || kind == ReadingKind::rotation ||
            kind == ReadingKind::mirror;
@@ -52,53 +51,33 @@ Json tier_angles(const FitResult& result) {
     return tiers;
 }
 
-}  // namespace
-
-const char* name_of(MeetTreatment treatment) {
-    switch (treatment) {
-        case MeetTreatment::exact:
-            return "exact";
-        case MeetTreatment::soft:
-            return "soft";
-        case MeetTreatment::released:
-            return "released";
+Json facets_json(const std::vector<FittedFacet>& facets) {
+    Json json = Json::array();
+    for (const FittedFacet& f : facets) {
+        const Vec3& n = f.plane.normal;
+        json.push_back({{"name", f.name},
+                        {"normal", {n.x, n.y, n.z}},
+                        {"offset", f.plane.offset},
+                        {"inclination", degrees(f.inclination)},
+                        {"azimuth", degrees(f.azimuth)},
+                        {"sigma_inclination", json_number(degrees(f.sigma_inclination))},
+                        {"sigma_azimuth", json_number(degrees(f.sigma_azimuth))},
+                        {"sigma_offset", json_number(f.sigma_offset)},
+                        {"from_readings",
+                         {{"inclination", json_number(f.read_inclination)},
+                          {"azimuth", json_number(f.read_azimuth)},
+                          {"offset", json_number(f.read_offset)}}},
+                        {"area", f.area},
+                        {"sigma_area", json_number(f.sigma_area)}});
     }
-    return "exact";
+    return json;
 }
 
-std::string fit_report(const FitResult& result) {
-    Json report;
-    report["schema"] = 1;
-    report["status"] = name_of(result.status);
-    report["message"] = result.message;
-    report["summary"] = fit_summary(result);
-    report["unit"] = std::string(name_of(result.unit));
-    Json facets = Json::array();
-    for (const FittedFacet& f : result.facets) {
-        const Vec3& n = f.plane.normal;
-        facets.push_back({{"name", f.name},
-                          {"normal", {n.x, n.y, n.z}},
-                          {"offset", f.plane.offset},
-                          {"inclination", degrees(f.inclination)},
-                          {"azimuth", degrees(f.azimuth)},
-                          {"sigma_inclination", json_number(degrees(f.sigma_inclination))},
-                          {"sigma_azimuth", json_number(degrees(f.sigma_azimuth))},
-                          {"sigma_offset", json_number(f.sigma_offset)},
-                          {"from_readings",
-                           {{"inclination", json_number(f.read_inclination)},
-                            {"azimuth", json_number(f.read_azimuth)},
-                            {"offset", json_number(f.read_offset)}}},
-                          {"area", f.area},
-                          {"sigma_area", json_number(f.sigma_area)}});
-    }
-    report["facets"] = facets;
-    Json areas = Json::object();
-    for (const FittedFacet& f : result.facets) areas[f.name] = f.area;
-    report["areas"] = areas;
-    Json readings = Json::array();
-    for (const FittedReading& r : result.readings) {
+Json readings_json(const std::vector<FittedReading>& readings) {
+    Json json = Json::array();
+    for (const FittedReading& r : readings) {
         const double unit = in_degrees(r.kind) ? degrees(1) : 1;
-        readings.push_back(
+        json.push_back(
             {{"id", r.id},
              {"kind", name_of(r.kind)},
              {"of", r.of},
@@ -111,15 +90,54 @@ std::string fit_report(const FitResult& result) {
              {"redundancy", json_number(r.redundancy)},
              {"detectable", r.detectable > 0 ? json_number(unit * r.detectable) : Json(nullptr)},
              {"suspect", r.suspect}});
-        if (!r.left_out.empty()) readings.back()["left_out"] = r.left_out;
-        if (r.rounding > 0) readings.back()["rounding"] = json_number(unit * r.rounding);
+        if (!r.left_out.empty()) json.back()["left_out"] = r.left_out;
+        if (r.rounding > 0) json.back()["rounding"] = json_number(unit * r.rounding);
     }
-    report["readings"] = readings;
-    Json undetermined = Json::array();
-    for (const Undetermined& u : result.findings.undetermined) {
-        undetermined.push_back({{"facet", u.facet}, {"freedom", u.freedom}});
+    return json;
+}
+
+Json undetermined_json(const std::vector<Undetermined>& undetermined) {
+    Json json = Json::array();
+    for (const Undetermined& u : undetermined) {
+        json.push_back({{"facet", u.facet}, {"freedom", u.freedom}});
     }
-    report["undetermined"] = undetermined;
+    return json;
+}
+
+Json meets_json(const MeetReport& meets) {
+    return {{"exact", meets.exact},
+            {"soft", meets.soft},
+            {"released", meets.released},
+            {"sigma", meets.sigma},
+            {"girdle_sigma", meets.girdle_sigma},
+            {"sigma_estimated", meets.estimated},
+            {"sigma_ends", meets.ends},
+            {"miss_rms", meets.miss_rms},
+            {"miss_max", meets.miss_max}};
+}
+
+Json options_json(const FitOptions& options) {
+    return {{"meets", name_of(options.meets)},
+            {"meet_sigma", options.meet_sigma ? Json(*options.meet_sigma) : Json("auto")},
+            {"iterations", options.iterations},
+            {"significance", options.significance}};
+}
+
+}  // namespace
+
+std::string fit_report(const FitResult& result) {
+    Json report;
+    report["schema"] = 1;
+    report["status"] = name_of(result.status);
+    report["message"] = result.message;
+    report["summary"] = fit_summary(result);
+    report["unit"] = std::string(name_of(result.unit));
+    report["facets"] = facets_json(result.facets);
+    Json areas = Json::object();
+    for (const FittedFacet& f : result.facets) areas[f.name] = f.area;
+    report["areas"] = areas;
+    report["readings"] = readings_json(result.readings);
+    report["undetermined"] = undetermined_json(result.findings.undetermined);
     report["undetermined_freedoms"] = result.statistics.rank_defect;
     report["doubts"] = result.findings.doubts;
     report["suspects"] = result.findings.suspects;
@@ -129,15 +147,7 @@ std::string fit_report(const FitResult& result) {
     report["starts"] = result.log.starts;
     report["start"] = result.log.start;
     report["notes"] = result.log.notes;
-    report["meets"] = {{"exact", result.statistics.meets.exact},
-                       {"soft", result.statistics.meets.soft},
-                       {"released", result.statistics.meets.released},
-                       {"sigma", result.statistics.meets.sigma},
-                       {"girdle_sigma", result.statistics.meets.girdle_sigma},
-                       {"sigma_estimated", result.statistics.meets.estimated},
-                       {"sigma_ends", result.statistics.meets.ends},
-                       {"miss_rms", result.statistics.meets.miss_rms},
-                       {"miss_max", result.statistics.meets.miss_max}};
+    report["meets"] = meets_json(result.statistics.meets);
     report["prior"] = prior_json(result.statistics.prior);
     report["tier_angles"] = tier_angles(result);
     add_findings(result, report);
@@ -151,12 +161,7 @@ std::string fit_report(const FitResult& result) {
     report["azimuth_zero"] = degrees(result.azimuth_zero);
     report["iterations"] = result.log.iterations;
     report["seconds"] = result.log.seconds;
-    report["options"] = {
-        {"meets", name_of(result.log.options.meets)},
-        {"meet_sigma",
-         result.log.options.meet_sigma ? Json(*result.log.options.meet_sigma) : Json("auto")},
-        {"iterations", result.log.options.iterations},
-        {"significance", result.log.options.significance}};
+    report["options"] = options_json(result.log.options);
     report_assessment(result, report);
     return report.dump(1) + "\n";
 }

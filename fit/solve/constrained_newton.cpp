@@ -137,7 +137,7 @@ private:
     std::vector<int> active_hinges_;
     double length_before_ = 0;  ///< of the step before in this meaning, where there was one
     /// The readings were asked what they mean here. At a kink (a caliper's jaw that touches two
-    /// corners at once) they would change their mind for ever; `choose` ties the two.
+    /// corners at once) they would change their mind for ever; `choose` lets the jaw rest on both.
     bool asked_ = false;
     double least_ = KktSolver::k_least_variance;
     bool may_be_close_ = true;

@@ -14,8 +14,9 @@ namespace {
 // their way in each step; those that no reading holds do not move.
 constexpr double k_first_damping = 1e-2;
 constexpr double k_least_damping = 1e-6;
-// Steps in a row that gain no more, at the end: this part of chi-square, a ten-thousandth of a
-// sigma. Parameters that the readings all but leave open would creep for ever.
+// So many steps in a row that gain no more, at the end: this part of chi-square, a ten-thousandth
+// of a sigma. Parameters that the readings all but leave open would creep for ever.
+constexpr int k_quiet_steps = 2;
 constexpr double k_no_gain = 1e-8;
 
 std::span<const double> steps(const Eigen::VectorXd& step) {
@@ -54,93 +55,115 @@ Shape onto_constraints(const System& system, Shape shape,
     return shape;
 }
 
+std::shared_ptr<const Outline> outline_of(const System& system, const Shape& shape) {
+    System::Enclosed enclosed = system.enclosed(shape);
+    return enclosed.closed ? enclosed.outline : nullptr;
+}
+
+// Second-order correction: back onto the curved constraints with the same factors. Hard equations
+// stand between points and planes, so the corners' outline does not matter.
+Shape corrected(const System& system, Shape shape, const std::shared_ptr<const Outline>& outline,
+                const KktSolver& solver) {
+    double off_before = 1e300;
+    for (int k = 0; k < 6; ++k) {
+        const Linearised off = linearise(system, shape, outline, false);
+        const double worst = off.worst_hard();
+        if (worst < 1e-13 || !(worst < 0.7 * off_before)) break;
+        off_before = worst;
+        Eigen::VectorXd back = right_side(off, true);
+        back.tail(off.soft_rows.rows()).setZero();
+        shape = retracted(shape, steps(solver.solve(none(off), back).unknowns));
+    }
+    return shape;
+}
+
+// The hard equations first: their size is the size of what they leave undone.
+double exact_penalty(const Linearised& linear) {
+    return linear.merit() + 1e6 * linear.hard_residuals.lpNorm<1>();
+}
+
+// Damped Gauss-Newton steps (Levenberg and Marquardt's) under hard equations.
+class DampedGaussNewton {
+public:
+    DampedGaussNewton(const System& system, Shape shape, std::shared_ptr<const Outline> outline)
+        : system_(system),
+          shape_(std::move(shape)),
+          outline_(std::move(outline)),
+          linear_(linearise(system, shape_, outline_, false)) {}
+
+    const Shape& shape() const { return shape_; }
+    const std::shared_ptr<const Outline>& outline() const { return outline_; }
+
+    enum class State { goes_on, settled, failed };
+    State step() {
+        KktSolver solver;
+        if (!solver.factor(kkt_rows(linear_, true), damping_ * linear_.metric))
+            return State::failed;
+        const auto s = solver.solve(none(linear_), right_side(linear_, true));
+        if (!s.good) return State::failed;
+        Eigen::VectorXd step = s.unknowns;
+        const double length = step.cwiseAbs().maxCoeff();
+        // Half a unit is half the stone's radius: no linearisation holds so far.
+        if (length > 0.2) step *= 0.2 / length;
+        if (accept(corrected(system_, retracted(shape_, steps(step)), outline_, solver), length)) {
+            damping_ = std::max(k_least_damping, damping_ / 5);
+            return quiet_ >= k_quiet_steps ? State::settled : State::goes_on;
+        }
+        // Nothing more to gain at the size of rounding.
+        if (length < 1e-9) return State::settled;
+        damping_ *= 10;
+        // Widths pass from corner to corner with a kink; at its bottom no step is better.
+        return damping_ > 1e8 ? State::settled : State::goes_on;
+    }
+
+private:
+    // Goes to a shape that is no worse and encloses a stone; `length` is of the step to it.
+    bool accept(Shape next, double length) {
+        const std::shared_ptr<const Outline> next_outline = outline_of(system_, next);
+        if (!next_outline) return false;
+        Linearised there = linearise(system_, next, next_outline, false);
+        const double before = exact_penalty(linear_), after = exact_penalty(there);
+        if (!std::isfinite(after) || !(after <= before * (1 + 1e-12) + 1e-9)) return false;
+        quiet_ = before - after < k_no_gain * (1 + before) || length < 1e-12 ? quiet_ + 1 : 0;
+        shape_ = std::move(next);
+        outline_ = next_outline;
+        linear_ = std::move(there);
+        return true;
+    }
+
+    const System& system_;
+    Shape shape_;
+    std::shared_ptr<const Outline> outline_;
+    Linearised linear_;
+    double damping_ = k_first_damping;
+    int quiet_ = 0;
+};
+
 }  // namespace
 
 Finished finish(const System& system, const Shape& start, int iterations) {
     Finished result;
-    const auto outline_of = [&](const Shape& shape) -> std::shared_ptr<const Outline> {
-        System::Enclosed enclosed = system.enclosed(shape);
-        return enclosed.closed ? enclosed.outline : nullptr;
-    };
-    Shape shape = start;
-    std::shared_ptr<const Outline> outline = outline_of(shape);
-    if (!outline) {
+    const std::shared_ptr<const Outline> first_outline = outline_of(system, start);
+    if (!first_outline) {
         result.shape = start;
         result.outline = system.mesh_outline();
         result.enclosed = false;
         return result;
     }
-    Linearised linear = linearise(system, shape, outline, false);
-    double damping = k_first_damping;
-    int quiet = 0;
+    DampedGaussNewton search(system, start, first_outline);
     for (int i = 0; i < iterations; ++i) {
         result.iterations = i + 1;
-        KktSolver solver;
-        if (!solver.factor(kkt_rows(linear, true), damping * linear.metric)) break;
-        const auto s = solver.solve(none(linear), right_side(linear, true));
-        if (!s.good) break;
-        Eigen::VectorXd step = s.unknowns;
-        const double length = step.cwiseAbs().maxCoeff();
-        // Half a unit is half the stone's radius: no linearisation holds so far.
-        if (length > 0.2) step *= 0.2 / length;
-
-        Shape next = retracted(shape, steps(step));
-        // Second-order correction: back onto the curved constraints with the same factors. Hard
-        // equations stand between points and planes, so the corners' outline does not matter.
-        double off_before = 1e300;
-        for (int k = 0; k < 6; ++k) {
-            const Linearised off = linearise(system, next, outline, false);
-            const double worst = off.worst_hard();
-            if (worst < 1e-13 || !(worst < 0.7 * off_before)) break;
-            off_before = worst;
-            Eigen::VectorXd back = right_side(off, true);
-            back.tail(off.soft_rows.rows()).setZero();
-            next = retracted(next, steps(solver.solve(none(linear), back).unknowns));
-        }
-        const std::shared_ptr<const Outline> next_outline = outline_of(next);
-        bool better = false;
-        if (next_outline) {
-            Linearised there = linearise(system, next, next_outline, false);
-            // The hard equations first: their size is the size of what they leave undone.
-            const double hard_before = linear.hard_residuals.lpNorm<1>(),
-                         hard_after = there.hard_residuals.lpNorm<1>();
-            const double merit_before = linear.merit() + 1e6 * hard_before,
-                         merit_after = there.merit() + 1e6 * hard_after;
-            better = std::isfinite(merit_after) && merit_after <= merit_before * (1 + 1e-12) + 1e-9;
-            if (better) {
-                const double gain = merit_before - merit_after;
-                quiet = gain < k_no_gain * (1 + merit_before) || length < 1e-12 ? quiet + 1 : 0;
-                shape = next;
-                outline = next_outline;
-                linear = std::move(there);
-                damping = std::max(k_least_damping, damping / 5);
-            }
-        }
-        if (!better) {
-            // Nothing more to gain at the size of rounding.
-            if (length < 1e-9) {
-                result.converged = true;
-                break;
-            }
-            damping *= 10;
-            if (damping > 1e8) {
-                // Widths pass from corner to corner with a kink; at its bottom no step is better.
-                result.converged = true;
-                break;
-            }
-        }
-        if (quiet >= 2) {
-            result.converged = true;
-            break;
-        }
+        const DampedGaussNewton::State state = search.step();
+        result.converged = state == DampedGaussNewton::State::settled;
+        if (state != DampedGaussNewton::State::goes_on) break;
     }
-    shape = onto_constraints(system, std::move(shape), outline, 10);
-    result.outline = outline_of(shape);
+    Shape shape = onto_constraints(system, search.shape(), search.outline(), 10);
+    result.outline = outline_of(system, shape);
     if (!result.outline) {
-        result.outline = outline;
+        result.outline = search.outline();
         result.enclosed = false;
     }
-    linear = linearise(system, shape, result.outline, false);
+    const Linearised linear = linearise(system, shape, result.outline, false);
     result.chi2 = linear.chi2();
     result.worst_hard = linear.worst_hard();
     result.shape = std::move(shape);

@@ -14,8 +14,8 @@ namespace {
 
 // Level at the end of an earlier fit, in half diameters: as exactly as a turn can be found.
 constexpr double k_level = 1e-7;
-// Of the force of a reading that is off by its sigma: with less a tie holds nothing, be it level
-// by symmetry or on a level facet.
+// Of the force of a reading that is off by its sigma: with less a shared contact holds nothing, be
+// it level by symmetry or on a level facet.
 constexpr double k_no_force = 1e-3;
 
 // One pair of facet and point of each orbit, and how many go with it.
@@ -141,14 +141,15 @@ void Relaxation::share_level_corners(const Shape& shape) {
 
 bool Relaxation::contacts_hold(const Shape& shape) const {
     std::map<std::pair<int, int>, double> shared;
-    for (const SharedContact& tie : shared_contacts_) {
-        const Equation& e = equations_[std::size_t(tie.equation)];
+    for (const SharedContact& contact : shared_contacts_) {
+        const Equation& e = equations_[std::size_t(contact.equation)];
         const double pull = (e.formula(shape).value - e.value) / (e.sigma * e.sigma);
-        const double force = off_level(shape, tie) / (k_tie_sigma * k_tie_sigma);
+        const double force = off_level(shape, contact) / (k_contact_sigma * k_contact_sigma);
         if (std::abs(force) * e.sigma < k_no_force) continue;
-        const int touched = e.touched[std::size_t(tie.jaw)].point;
-        const double share = (tie.jaw == 0) == (touched == tie.one) ? -force / pull : force / pull;
-        double& all = shared[{tie.equation, tie.jaw}];
+        const int touched = e.touched[std::size_t(contact.jaw)].point;
+        const double share =
+            (contact.jaw == 0) == (touched == contact.one) ? -force / pull : force / pull;
+        double& all = shared[{contact.equation, contact.jaw}];
         all += share;
         if (!(pull > 0) || !(share > 0) || !(all < 1)) return false;
     }

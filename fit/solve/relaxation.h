@@ -71,9 +71,9 @@ public:
     /// At the end of an earlier fit jaws already rest on corners that are level: each shares its
     /// jaw with the one that is touched.
     void share_level_corners(const Shape& shape);
-    /// Each tied corner carries a part of its jaw's force, and together no more than all of it:
-    /// else the jaw would rather rest on some of them only. At an end, where what shared contacts
-    /// miss by is their force.
+    /// Each corner of a shared contact carries a part of its jaw's force, and together no more than
+    /// all of it: else the jaw would rather rest on some of them only. At an end, where what shared
+    /// contacts miss by is their force.
     bool contacts_hold(const Shape& shape) const;
     /// Of another way there: which corners the jaws touched on it says nothing of this one; or of
     /// the end of a way, whose shared contacts are these.
@@ -158,6 +158,7 @@ public:
     std::vector<SymmetricEntry> curvature(const Shape& shape, const Eigen::VectorXd& forces) const;
 
 private:
+    class Assembly;
     double height(const Shape& shape, int facet, int point) const;
     /// Of one of `incidences_`; 0: it holds exactly.
     double incidence_variance(std::size_t incidence, const PenaltyScale& penalty) const;

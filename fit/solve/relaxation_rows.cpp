@@ -9,111 +9,178 @@
 
 namespace culet {
 
+namespace {
+
+// How far a plane passes a point.
+void write_incidence(const Shape& shape, int facet, int point, Parameters::Row& row) {
+    row.normal(facet, shape.points[point]);
+    row.offset(facet, -1);
+    row.point(point, shape.normals[facet]);
+}
+
+}  // namespace
+
+// The equations of a stage at one shape, kind by kind, in the order of their rows.
+class Relaxation::Assembly {
+public:
+    Assembly(const Relaxation& of, const Shape& shape, const PenaltyScale& penalty,
+             const std::vector<int>* active_hinges)
+        : of_(of),
+          shape_(shape),
+          penalty_(penalty),
+          active_hinges_(active_hinges),
+          tangent_basis_(of.parameters_.tangent_basis(shape)),
+          row_(tangent_basis_, of.parameters_.size()) {
+        sum_.rows.reserve(of.most_rows_, of.most_entries_);
+        sum_.prior_stiffness = Eigen::VectorXd::Zero(of.parameters_.size());
+        sum_.prior_gradient = Eigen::VectorXd::Zero(of.parameters_.size());
+    }
+
+    void add_incidences();
+    void add_readings();
+    void add_held_corners(const std::vector<ActiveCorner>& held);
+    void add_shared_contacts();
+    void add_hinges();
+    void add_priors();
+    StepLinearisation take();
+
+private:
+    void count_hard(double residual) {
+        sum_.hard_sum += std::abs(residual);
+        sum_.hard_worst = std::max(sum_.hard_worst, std::abs(residual));
+    }
+    void close(double residual, double variance);
+    bool is_active(int hinge, bool is_above);
+
+    const Relaxation& of_;
+    const Shape& shape_;
+    const PenaltyScale& penalty_;
+    const std::vector<int>* active_hinges_;
+    Parameters::TangentBasis tangent_basis_;
+    Parameters::Row row_;
+    std::vector<int> held_hinges_;
+    StepLinearisation sum_;
+};
+
+void Relaxation::Assembly::close(double residual, double variance) {
+    row_.close(sum_.rows, residual, variance);
+    if (!std::isfinite(residual)) sum_.finite = false;
+    if (variance > 0) {
+        sum_.merit += residual * residual / variance;
+    } else {
+        count_hard(residual);
+    }
+}
+
+void Relaxation::Assembly::add_incidences() {
+    for (std::size_t i = 0; i < of_.incidences_.size(); ++i) {
+        const Incidence& incidence = of_.system_.incidences()[of_.incidences_[i]];
+        const double residual = of_.height(shape_, incidence.facet, incidence.point);
+        write_incidence(shape_, incidence.facet, incidence.point, row_);
+        if (incidence.how == MeetTreatment::soft) {
+            const double own = of_.system_.incidence_sigma(incidence);
+            sum_.chi2 += of_.incidence_images_[i] * residual * residual / (own * own);
+        }
+        close(residual, of_.incidence_variance(i, penalty_));
+    }
+}
+
+void Relaxation::Assembly::add_readings() {
+    if (!penalty_.with_readings) return;
+    for (const Equation& e : of_.equations_) {
+        const Quantity q = misfit_of(e, shape_, penalty_);
+        row_.quantity(q);
+        if (!e.exact) sum_.chi2 += q.value * q.value / (e.sigma * e.sigma) + e.scatter;
+        close(q.value, variance_of(e, penalty_));
+    }
+}
+
+// Notes a hinge that is above, and tells whether it has a row.
+bool Relaxation::Assembly::is_active(int hinge, bool is_above) {
+    if (is_above) sum_.above.push_back(hinge);
+    return active_hinges_
+               ? std::binary_search(active_hinges_->begin(), active_hinges_->end(), hinge)
+               : is_above;
+}
+
+// Hard but for what an edge's other end asks: squares of such weight would forbid every step that
+// bends.
+void Relaxation::Assembly::add_held_corners(const std::vector<ActiveCorner>& held) {
+    sum_.first_holding = sum_.rows.count();
+    for (const ActiveCorner& h : held) {
+        held_hinges_.push_back(of_.hinge_of(h));
+        const double residual = of_.height(shape_, h.facet, h.point) + k_hold_below;
+        if (!std::isfinite(residual)) sum_.finite = false;
+        count_hard(std::max(0.0, residual));
+        // What holds it brings it to its level; whether it still should, the force there tells.
+        if (!is_active(held_hinges_.back(), residual > -k_at_level)) continue;
+        write_incidence(shape_, h.facet, h.point, row_);
+        row_.close(sum_.rows, residual, k_hold_sigma * k_hold_sigma);
+        sum_.holding.push_back(h);
+        sum_.holding_hinge.push_back(held_hinges_.back());
+    }
+    std::sort(held_hinges_.begin(), held_hinges_.end());
+}
+
+void Relaxation::Assembly::add_shared_contacts() {
+    const double soft2 = penalty_.incidence * penalty_.incidence;
+    for (const SharedContact& contact : of_.shared_contacts_) {
+        row_.point(contact.one, contact.direction);
+        row_.point(contact.other, -contact.direction);
+        close(off_level(shape_, contact), k_contact_sigma * k_contact_sigma + soft2);
+    }
+}
+
+// But those of held corners.
+void Relaxation::Assembly::add_hinges() {
+    for (int i = 0; i < static_cast<int>(of_.hinges_.size()); ++i) {
+        const auto& [f, p] = of_.hinges_[std::size_t(i)];
+        const double residual = of_.height(shape_, f, p);
+        const double variance = penalty_.hinge * penalty_.hinge / of_.hinge_images_[std::size_t(i)];
+        if (!std::isfinite(residual)) sum_.finite = false;
+        if (std::binary_search(held_hinges_.begin(), held_hinges_.end(), i)) continue;
+        if (residual > 0) sum_.merit += residual * residual / variance;
+        if (!is_active(i, residual > 0)) continue;
+        write_incidence(shape_, f, p, row_);
+        row_.close(sum_.rows, residual, variance);
+    }
+}
+
+void Relaxation::Assembly::add_priors() {
+    if (!penalty_.with_priors) return;
+    const Shape& mesh = of_.system_.mesh_shape();
+    const double stiffness = 1 / (penalty_.mesh_sigma * penalty_.mesh_sigma);
+    for (int p = 0; p < static_cast<int>(shape_.points.size()); ++p) {
+        const Parameters::Slots& slots = tangent_basis_.points[p];
+        const Vec3 off = (shape_.points[p] - mesh.points[p]) * stiffness;
+        sum_.prior += glm::dot(off, shape_.points[p] - mesh.points[p]);
+        for (int k = 0; k < slots.count; ++k) {
+            sum_.prior_stiffness(slots.column + k) += stiffness;
+            sum_.prior_gradient(slots.column + k) += glm::dot(slots.along[std::size_t(k)], off);
+        }
+    }
+}
+
+StepLinearisation Relaxation::Assembly::take() {
+    std::sort(sum_.above.begin(), sum_.above.end());
+    sum_.merit += sum_.prior;
+    if (!std::isfinite(sum_.merit)) sum_.finite = false;
+    return std::move(sum_);
+}
+
 StepLinearisation Relaxation::linearisation(const Shape& shape, const PenaltyScale& penalty,
                                             const std::vector<ActiveCorner>& held,
                                             const std::vector<int>* active_hinges) {
-    StepLinearisation linearisation;
-    linearisation.rows.reserve(most_rows_, most_entries_);
-    const Parameters::TangentBasis tangent_basis = parameters_.tangent_basis(shape);
-    const int size = parameters_.size();
-    Parameters::Row row(tangent_basis, size);
-    const auto incident = [&](int f, int p) {
-        row.normal(f, shape.points[p]);
-        row.offset(f, -1);
-        row.point(p, shape.normals[f]);
-    };
-    const auto count_hard = [&](double residual) {
-        linearisation.hard_sum += std::abs(residual);
-        linearisation.hard_worst = std::max(linearisation.hard_worst, std::abs(residual));
-    };
-    const auto close = [&](double residual, double variance) {
-        row.close(linearisation.rows, residual, variance);
-        if (!std::isfinite(residual)) linearisation.finite = false;
-        if (variance > 0) {
-            linearisation.merit += residual * residual / variance;
-        } else {
-            count_hard(residual);
-        }
-    };
-    const double soft2 = penalty.incidence * penalty.incidence;
-    for (std::size_t i = 0; i < incidences_.size(); ++i) {
-        const Incidence& incidence = system_.incidences()[incidences_[i]];
-        const double residual = height(shape, incidence.facet, incidence.point);
-        incident(incidence.facet, incidence.point);
-        if (incidence.how == MeetTreatment::soft) {
-            const double own = system_.incidence_sigma(incidence);
-            linearisation.chi2 += incidence_images_[i] * residual * residual / (own * own);
-        }
-        close(residual, incidence_variance(i, penalty));
-    }
-    if (penalty.with_readings) {
-        for (const Equation& e : equations_) {
-            const Quantity q = misfit_of(e, shape, penalty);
-            row.quantity(q);
-            if (!e.exact) linearisation.chi2 += q.value * q.value / (e.sigma * e.sigma) + e.scatter;
-            close(q.value, variance_of(e, penalty));
-        }
-    }
-    const auto counts = [&](int hinge, bool is_above) {
-        if (is_above) linearisation.above.push_back(hinge);
-        return active_hinges
-                   ? std::binary_search(active_hinges->begin(), active_hinges->end(), hinge)
-                   : is_above;
-    };
-    // Hard but for what an edge's other end asks: squares of such weight would forbid every step
-    // that bends.
-    std::vector<int> held_hinges;
-    linearisation.first_holding = linearisation.rows.count();
-    for (const ActiveCorner& h : held) {
-        held_hinges.push_back(hinge_of(h));
-        const double residual = height(shape, h.facet, h.point) + k_hold_below;
-        if (!std::isfinite(residual)) linearisation.finite = false;
-        count_hard(std::max(0.0, residual));
-        // What holds it brings it to its level; whether it still should, the force there tells.
-        if (!counts(held_hinges.back(), residual > -k_at_level)) continue;
-        incident(h.facet, h.point);
-        row.close(linearisation.rows, residual, k_hold_sigma * k_hold_sigma);
-        linearisation.holding.push_back(h);
-        linearisation.holding_hinge.push_back(held_hinges.back());
-    }
-    std::sort(held_hinges.begin(), held_hinges.end());
-    for (const SharedContact& tie : shared_contacts_) {
-        row.point(tie.one, tie.direction);
-        row.point(tie.other, -tie.direction);
-        close(off_level(shape, tie), k_tie_sigma * k_tie_sigma + soft2);
-    }
-    for (int i = 0; i < static_cast<int>(hinges_.size()); ++i) {
-        const auto& [f, p] = hinges_[std::size_t(i)];
-        const double residual = height(shape, f, p);
-        const double variance = penalty.hinge * penalty.hinge / hinge_images_[std::size_t(i)];
-        if (!std::isfinite(residual)) linearisation.finite = false;
-        if (std::binary_search(held_hinges.begin(), held_hinges.end(), i)) continue;
-        if (residual > 0) linearisation.merit += residual * residual / variance;
-        if (!counts(i, residual > 0)) continue;
-        incident(f, p);
-        row.close(linearisation.rows, residual, variance);
-    }
-    std::sort(linearisation.above.begin(), linearisation.above.end());
+    Assembly assembly(*this, shape, penalty, active_hinges);
+    assembly.add_incidences();
+    assembly.add_readings();
+    assembly.add_held_corners(held);
+    assembly.add_shared_contacts();
+    assembly.add_hinges();
+    assembly.add_priors();
+    StepLinearisation linearisation = assembly.take();
     most_rows_ = std::max(most_rows_, linearisation.rows.residual.size());
     most_entries_ = std::max(most_entries_, linearisation.rows.column.size());
-    linearisation.prior_stiffness = Eigen::VectorXd::Zero(size);
-    linearisation.prior_gradient = Eigen::VectorXd::Zero(size);
-    if (penalty.with_priors) {
-        const Shape& mesh = system_.mesh_shape();
-        const double stiffness = 1 / (penalty.mesh_sigma * penalty.mesh_sigma);
-        for (int p = 0; p < static_cast<int>(shape.points.size()); ++p) {
-            const Parameters::Slots& slots = tangent_basis.points[p];
-            const Vec3 off = (shape.points[p] - mesh.points[p]) * stiffness;
-            linearisation.prior += glm::dot(off, shape.points[p] - mesh.points[p]);
-            for (int k = 0; k < slots.count; ++k) {
-                linearisation.prior_stiffness(slots.column + k) += stiffness;
-                linearisation.prior_gradient(slots.column + k) +=
-                    glm::dot(slots.along[std::size_t(k)], off);
-            }
-        }
-    }
-    linearisation.merit += linearisation.prior;
-    if (!std::isfinite(linearisation.merit)) linearisation.finite = false;
     return linearisation;
 }
 
@@ -130,9 +197,9 @@ std::vector<Relaxation::Residual> Relaxation::residuals(const PenaltyScale& pena
                        std::sqrt(variance_of(e, penalty)),
                        !e.exact && e.role == Equation::Role::reading});
     }
-    for (const SharedContact& tie : shared_contacts_) {
-        all.push_back({extent(Corner{tie.one}, Corner{tie.other}, tie.direction),
-                       std::hypot(k_tie_sigma, penalty.incidence), false});
+    for (const SharedContact& contact : shared_contacts_) {
+        all.push_back({extent(Corner{contact.one}, Corner{contact.other}, contact.direction),
+                       std::hypot(k_contact_sigma, penalty.incidence), false});
     }
     for (const int p : points_) {
         if (!penalty.with_priors) break;
@@ -179,8 +246,8 @@ Relaxation::Missed Relaxation::missed(const Shape& shape, const PenaltyScale& pe
         put(height(shape, h.facet, h.point) + k_hold_below, true);
         ++row;
     }
-    for (const SharedContact& tie : shared_contacts_) {
-        put(off_level(shape, tie), false);
+    for (const SharedContact& contact : shared_contacts_) {
+        put(off_level(shape, contact), false);
         ++row;
     }
     return missed;
@@ -199,9 +266,7 @@ StepLinearisation Relaxation::hard_linearisation(const Shape& shape,
         linearisation.hard_worst = std::max(linearisation.hard_worst, std::abs(residual));
     };
     const auto incident = [&](int f, int p, double below, double variance) {
-        row.normal(f, shape.points[p]);
-        row.offset(f, -1);
-        row.point(p, shape.normals[f]);
+        write_incidence(shape, f, p, row);
         close(height(shape, f, p) + below, variance);
     };
     for (int i : incidences_) {

@@ -17,7 +17,7 @@ inline constexpr double k_hold_sigma = 1e-8;
 // Held corners this near to their level lie at it.
 inline constexpr double k_at_level = 0.1 * k_hold_below;
 // Corners that share a caliper's jaw are level to this part of the half diameter.
-inline constexpr double k_tie_sigma = 1e-6;
+inline constexpr double k_contact_sigma = 1e-6;
 // Lengths are rounded off over this many times the stage's penalty scale, or the kink still shows.
 inline constexpr double k_round = 3;
 
@@ -41,8 +41,8 @@ inline double variance_of(const Equation& e, const PenaltyScale& penalty) {
                    : e.sigma * e.sigma + penalty.readings * penalty.readings;
 }
 
-inline double off_level(const Shape& shape, const SharedContact& tie) {
-    return glm::dot(tie.direction, shape.points[tie.one] - shape.points[tie.other]);
+inline double off_level(const Shape& shape, const SharedContact& contact) {
+    return glm::dot(contact.direction, shape.points[contact.one] - shape.points[contact.other]);
 }
 
 }  // namespace culet

@@ -45,10 +45,10 @@ Eigen::VectorXd RestrictedResiduals::seen(const Signature& signature) const {
     for (const auto& [i, value] : signature) s(i) = value;
     Eigen::VectorXd result = s - covariance_.fitted_part(s);
     if (columns_.cols() == 0) return result;
-    // R s less what the readings set aside would take up.
-    Eigen::VectorXd at(Index(aside_.size()));
-    for (std::size_t k = 0; k < aside_.size(); ++k) at(Index(k)) = result(aside_[k]);
-    return result - aside_part_ * at;
+    // R s less what the readings left out would take up.
+    Eigen::VectorXd at(Index(left_out_.size()));
+    for (std::size_t k = 0; k < left_out_.size(); ++k) at(Index(k)) = result(left_out_[k]);
+    return result - left_out_part_ * at;
 }
 
 double RestrictedResiduals::seen_square(const Signature& signature) const {
@@ -58,7 +58,7 @@ double RestrictedResiduals::seen_square(const Signature& signature) const {
     Eigen::RowVectorXd at = Eigen::RowVectorXd::Zero(columns_.cols()), taken = at;
     for (const auto& [i, value] : signature) {
         at += value * columns_.row(i);
-        taken += value * aside_part_.row(i);
+        taken += value * left_out_part_.row(i);
     }
     return square - at.dot(taken);
 }
@@ -68,7 +68,7 @@ void RestrictedResiduals::add(const Eigen::VectorXd& change) {
     most_.clear();
 }
 
-void RestrictedResiduals::set_aside(Index i) {
+void RestrictedResiduals::leave_out(Index i) {
     const double own = redundancy_(i);
     const Eigen::VectorXd column = seen({{i, 1.0}}) / own;
     values_ -= column * values_(i);
@@ -78,15 +78,15 @@ void RestrictedResiduals::set_aside(Index i) {
     Eigen::VectorXd whole = Eigen::VectorXd::Zero(count_);
     whole(i) = 1;
     whole -= covariance_.fitted_part(whole);
-    aside_.push_back(i);
-    Eigen::MatrixXd columns(count_, Index(aside_.size()));
+    left_out_.push_back(i);
+    Eigen::MatrixXd columns(count_, Index(left_out_.size()));
     columns << columns_, whole;
     columns_ = std::move(columns);
     block_.resize(columns_.cols(), columns_.cols());
-    for (std::size_t k = 0; k < aside_.size(); ++k) {
-        block_.row(Index(k)) = columns_.row(aside_[k]);
+    for (std::size_t k = 0; k < left_out_.size(); ++k) {
+        block_.row(Index(k)) = columns_.row(left_out_[k]);
     }
-    aside_part_ = block_.ldlt().solve(columns_.transpose()).transpose();
+    left_out_part_ = block_.ldlt().solve(columns_.transpose()).transpose();
     most_.clear();
 }
 
@@ -107,7 +107,7 @@ double RestrictedResiduals::find_most_of(const std::vector<Index>& equations) co
         for (Index b = 0; b <= a; ++b) {
             const Index j = equations[std::size_t(b)];
             double entry = (i == j ? 1 : 0) - leverage(i, j);
-            if (columns_.cols() > 0) entry -= aside_part_.row(i).dot(columns_.row(j));
+            if (columns_.cols() > 0) entry -= left_out_part_.row(i).dot(columns_.row(j));
             block(a, b) = entry + (i == j ? k_no_redundancy : 0);
         }
     }

@@ -36,7 +36,7 @@ public:
     /// An explanation: R s.
     void add(const Eigen::VectorXd& change);
     /// An equation counts no more.
-    void set_aside(Index i);
+    void leave_out(Index i);
 
 private:
     double leverage(Index i, Index j) const;
@@ -45,8 +45,8 @@ private:
     const Covariance& covariance_;
     Index count_;
     Eigen::VectorXd counted_, values_, redundancy_;
-    std::vector<Index> aside_;
-    Eigen::MatrixXd columns_ = Eigen::MatrixXd(count_, 0), block_, aside_part_;
+    std::vector<Index> left_out_;
+    Eigen::MatrixXd columns_ = Eigen::MatrixXd(count_, 0), block_, left_out_part_;
     mutable std::map<std::vector<Index>, double> most_;  // of what is left now
     mutable Eigen::MatrixXd hat_;  // what is known of it: NaN is not; empty when it would be large
 };

@@ -27,7 +27,7 @@ public:
         return columns_.emplace(i, given_.column(i)).first->second;
     }
 
-    // Residuals and redundancies once the set is set aside.
+    // Residuals and redundancies once the set is left out.
     struct State {
         std::vector<Index> set;
         Eigen::VectorXd values, redundancy, errors, error_variance;
@@ -64,7 +64,7 @@ public:
         return state;
     }
 
-    // The part of R's column that is left when the state's set is set aside.
+    // The part of R's column that is left when the state's set is left out.
     Eigen::VectorXd column_without(const State& state, Index i) {
         Eigen::VectorXd result = column(i);
         const Index count = Index(state.set.size());

@@ -18,7 +18,7 @@ struct Residuals {
 
 struct Outlier {
     Eigen::Index equation = -1;
-    /// The error in units of sigma that explains the residuals, with the other outliers set aside,
+    /// The error in units of sigma that explains the residuals, with the other outliers left out,
     /// and its own standard uncertainty.
     double error = 0, error_sigma = 0;
     /// Equations that would explain them nearly as well (likelihood ratio below e^1.5): what cannot
@@ -28,12 +28,12 @@ struct Outlier {
 
 struct Outliers {
     std::vector<Outlier> found;
-    /// More than a tenth of the rest stood out still when the first eight were set aside, or forty
+    /// More than a tenth of the rest stood out still when the first eight were left out, or forty
     /// were not enough: no few readings explain it, and the search ended there.
     bool throughout = false;
 };
 
-/// The set of equations that, set aside, leaves nothing standing out: grown by the best one or the
+/// The set of equations that, left out, leaves nothing standing out: grown by the best one or the
 /// best two at a time (two errors may hide each other), pruned and exchanged until no change makes
 /// it better. An equation enters when chi2 drops by more than `limit`^2, two together when it drops
 /// by more than `pair_limit`. The gravest first. Equations whose redundancy is below 1e-4 cannot be

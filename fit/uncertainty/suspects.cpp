@@ -1,0 +1,120 @@
+#include "fit/uncertainty/suspects.h"
+
+#include <algorithm>
+
+#include "fit/uncertainty/covariance.h"
+#include "fit/uncertainty/inconsistent_subset.h"
+#include "fit/uncertainty/observations.h"
+#include "fit/uncertainty/snooping.h"
+#include "fit/uncertainty/statistics.h"
+
+namespace culet {
+
+namespace {
+
+// More observations than this are not searched for the smallest set that disagrees: it takes the
+// whole hat matrix.
+constexpr Eigen::Index k_most_searched = 1500;
+
+// They look at what they are made of as long as columns are asked.
+Residuals residuals_of(const std::vector<Observation>& observations, const Linearised& linear,
+                       const Covariance& covariance) {
+    const Eigen::Index count = static_cast<Eigen::Index>(observations.size());
+    // At the optimum the residuals are R times the errors; elsewhere what a step would take away
+    // comes off first.
+    const Eigen::VectorXd taken = covariance.fitted_part(linear.soft_residuals);
+    Residuals residuals;
+    residuals.values.resize(count);
+    residuals.redundancy.resize(count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        const Observation& o = observations[std::size_t(i)];
+        residuals.values(i) = o.residual(linear) - o.part * taken(o.equation);
+        residuals.redundancy(i) = 1 - o.leverage(covariance);
+    }
+    residuals.column = [&observations, &covariance, count](Eigen::Index i) {
+        const Observation& one = observations[std::size_t(i)];
+        const Eigen::VectorXd all = covariance.leverage_column(one.equation);
+        Eigen::VectorXd column(count);
+        for (Eigen::Index k = 0; k < count; ++k) {
+            const Observation& other = observations[std::size_t(k)];
+            column(k) = -one.part * other.part * all(other.equation);
+        }
+        column(i) = 1 - one.leverage(covariance);
+        return column;
+    };
+    return residuals;
+}
+
+void name_suspects(const System& system, const std::vector<Observation>& observations,
+                   const Outliers& outliers, Diagnosis& diagnosis) {
+    const auto reading_of = [&](Eigen::Index i) { return observations[std::size_t(i)].reading; };
+    for (const Outlier& outlier : outliers.found) {
+        const int reading = reading_of(outlier.equation);
+        if (reading < 0 || diagnosis.readings[std::size_t(reading)].suspect) continue;
+        diagnosis.readings[std::size_t(reading)].suspect = true;
+        diagnosis.suspects.push_back(reading);
+        const Reading& named = system.readings()[std::size_t(reading)];
+        const double unit =
+            observations[std::size_t(outlier.equation)].sigma * system.unit_of(named);
+        Suspicion suspicion{
+            reading, named.value - outlier.error * unit, outlier.error_sigma * unit, {}};
+        for (const Eigen::Index other : outlier.alternatives) {
+            const int alternative = reading_of(other);
+            if (alternative >= 0 && alternative != reading) {
+                suspicion.alternatives.push_back(alternative);
+            }
+        }
+        diagnosis.suspicions.push_back(std::move(suspicion));
+    }
+}
+
+void snoop(const System& system, const Linearised& linear, const Covariance& covariance,
+           double significance, Diagnosis& diagnosis) {
+    const std::vector<Observation> observations = observations_of(linear);
+    const Eigen::Index count = static_cast<Eigen::Index>(observations.size());
+    const Residuals residuals = residuals_of(observations, linear, covariance);
+    const double pairs = std::max(1.0, 0.5 * double(count) * double(count - 1));
+    const Outliers outliers =
+        find_outliers(residuals, diagnosis.suspect_limit, chi2_quantile(significance / pairs, 2),
+                      std::max<std::size_t>(3, observations.size() / 10));
+    diagnosis.throughout = outliers.throughout;
+    name_suspects(system, observations, outliers, diagnosis);
+    if (!(chi2_tail(diagnosis.chi2, diagnosis.dof) < significance) || count > k_most_searched) {
+        return;
+    }
+    Eigen::MatrixXd matrix(count, count);
+    std::vector<int> owner;
+    for (Eigen::Index i = 0; i < count; ++i) {
+        matrix.col(i) = residuals.column(i);
+        owner.push_back(observations[std::size_t(i)].reading);
+    }
+    diagnosis.disagreeing =
+        disagreeing_readings(residuals.values, std::move(matrix), owner, significance);
+}
+
+}  // namespace
+
+void find_suspects(const System& system, const Shape& shape,
+                   const std::shared_ptr<const Outline>& outline, const Linearised& linear,
+                   const DiagnosisOptions& options, Diagnosis& diagnosis) {
+    if (options.seen_from) {
+        const Linearised there =
+            linearise(system, options.seen_from->shape, options.seen_from->outline, false);
+        const Covariance from_there(there);
+        snoop(system, there, from_there.usable() ? from_there : *diagnosis.covariance,
+              options.significance, diagnosis);
+        return;
+    }
+    snoop(system, linear, *diagnosis.covariance, options.significance, diagnosis);
+    if (diagnosis.suspects.empty() || options.held.empty()) return;
+    // What holds a corner bends readings beside it that hardly anything else checks.
+    const Linearised there = linearise(system, shape, outline, false, options.held);
+    const Covariance from_there(there);
+    if (!from_there.usable()) return;
+    for (ReadingCheck& c : diagnosis.readings) c.suspect = false;
+    diagnosis.suspects.clear();
+    diagnosis.suspicions.clear();
+    snoop(system, there, from_there, options.significance, diagnosis);
+}
+
+}  // namespace culet
