@@ -45,7 +45,7 @@ std::string contradiction(const FitResult& result) {
             text += " (or at " + names(first.alternatives) + " instead)";
         }
     } else if (!result.findings.disagreeing.empty()) {
-        text = "; the fewest that cannot hold together: " + names(result.findings.disagreeing);
+        text = "; readings that cannot hold together: " + names(result.findings.disagreeing);
     }
     return text;
 }

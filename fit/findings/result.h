@@ -89,7 +89,7 @@ struct FitFindings {
     std::vector<Proposal> proposals;    ///< for the suspects
     /// Readings left out because they are far off what their like say, a line each (first_check.h).
     std::vector<std::string> doubts;
-    /// The smallest set of readings that cannot hold together, where there is a contradiction.
+    /// Readings that cannot hold together, though without any one of them the others can.
     std::vector<std::string> disagreeing;
     std::vector<Undetermined> undetermined;
     std::vector<std::string> undetermined_words;  ///< what nothing fixes, one sentence each

@@ -202,8 +202,9 @@ void add_some(const std::vector<std::string>& found, std::vector<std::string>& s
 // Only where no single reading explains the contradiction.
 std::string disagreeing(const FitResult& result) {
     if (result.findings.disagreeing.empty() || !result.findings.suspects.empty()) return {};
-    return fmt::format("The fewest readings that cannot hold together: {}.",
-                       list_of(result.findings.disagreeing));
+    return fmt::format(
+        "Readings that cannot hold together, though without any one of them the others can: {}.",
+        list_of(result.findings.disagreeing));
 }
 
 // The table need not lie square to the stone: angles from it then differ around the stone.

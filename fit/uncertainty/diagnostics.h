@@ -41,7 +41,7 @@ struct Diagnosis {
     std::vector<ReadingCheck> readings;
     std::vector<int> suspects;          ///< indices of readings, the gravest first
     std::vector<Suspicion> suspicions;  ///< one each
-    /// The smallest set of readings that cannot hold together, where chi2 fails or exact readings
+    /// An irreducible set of readings that cannot hold together, where chi2 fails or exact readings
     /// contradict each other.
     std::vector<int> disagreeing;
     /// False when the equations could not be factored: uncertainties, redundancies and normalized

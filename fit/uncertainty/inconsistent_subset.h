@@ -1,5 +1,6 @@
 #pragma once
-// The smallest set of readings that cannot hold together. Private to the room: shows Eigen.
+// An irreducible set of readings that cannot hold together: without any one of them the rest can.
+// Private to the room: shows Eigen.
 
 #include <Eigen/Dense>
 #include <vector>

@@ -12,7 +12,7 @@ namespace culet {
 
 namespace {
 
-// More observations than this are not searched for the smallest set that disagrees: it takes the
+// More observations than this are not searched for an irreducible set that disagrees: it takes the
 // whole hat matrix.
 constexpr Eigen::Index k_most_searched = 1500;
 

@@ -6,7 +6,7 @@
 
 namespace culet {
 
-/// Baarda's data snooping (snooping.h), and where chi-square fails the smallest set of readings
+/// Baarda's data snooping (snooping.h), and where chi-square fails an irreducible set of readings
 /// that disagrees. Fills `suspects`, `suspicions`, `throughout` and `disagreeing` of a diagnosis
 /// that holds its covariance, chi-square and limit; `linear` is of the end of the fit.
 void find_suspects(const System& system, const Shape& shape,

@@ -72,8 +72,8 @@ TEST(Summary, names_the_slip_that_would_explain_a_suspect) {
 TEST(Summary, names_a_set_only_where_no_single_reading_explains) {
     FitResult r = result();
     r.findings.disagreeing = {"a", "b", "c"};
-    EXPECT_THAT(fit_summary(r),
-                Contains("The fewest readings that cannot hold together: a, b, c."));
+    EXPECT_THAT(fit_summary(r), Contains("Readings that cannot hold together, though without any "
+                                         "one of them the others can: a, b, c."));
     r.findings.suspects = {"r0"};
     EXPECT_THAT(fit_summary(r), Not(Contains(HasSubstr("cannot hold together"))));
 }
