@@ -20,11 +20,13 @@ public:
           n_(scene.stone.material.index[0].at(scene.settings.wavelengths_nm.at(0))),
           depth_(std::min(depth, k_longest - 1)),
           cut_(cut) {
-        for (const LobeLight& lobe : lights_of_type<LobeLight>(scene.lights))
+        for (const LobeLight& lobe : lights_of_type<LobeLight>(scene.lights)) {
             lobes_.push_back(
                 {lobe.direction, lobe.exponent, std::get<double>(lobe.radiance.value)});
-        for (const CapLight& cap : lights_of_type<CapLight>(scene.lights))
+        }
+        for (const CapLight& cap : lights_of_type<CapLight>(scene.lights)) {
             caps_.push_back({cap.direction, cosines_of(cap), std::get<double>(cap.radiance.value)});
+        }
     }
 
     double radiance(const Vec3& eye, Vec3 direction) {
@@ -79,31 +81,6 @@ private:
         for (const Cap& cap : caps_) {
             const double cosine = glm::dot(direction, cap.direction);
             if (cosine <= cap.cosines.from && cosine > cap.cosines.to) sum += cap.radiance;
-        }
-        return sum;
-    }
-
-    long long rays = 0;
-
-private:
-    static double reflected(double e1, double e2, double q1, double q2) {
-        const double s = (q1 - q2) / (q1 + q2), p = (e2 * q1 - e1 * q2) / (e2 * q1 + e1 * q2);
-        return 0.5 * (s * s + p * p);
-    }
-    static Vec3 mirrored(const Vec3& direction, const Vec3& n) {
-        const Vec3 v = direction - 2 * glm::dot(direction, n) * n;
-        return (1.5 - 0.5 * glm::dot(v, v)) * v;
-    }
-    double light(const Vec3& direction) const {
-        double sum = lights_.constant;
-        for (std::size_t i = 0; i < lobes_.size(); ++i) {
-            const double cosine = glm::dot(direction, nth_light<LobeLight>(lights_, i).direction);
-            if (cosine > 0)
-                sum += lobes_[i] * std::pow(cosine, nth_light<LobeLight>(lights_, i).exponent);
-        }
-        for (std::size_t i = 0; i < caps_.size(); ++i) {
-            const double cosine = glm::dot(direction, nth_light<CapLight>(lights_, i).direction);
-            if (cosine <= cosines_[i].from && cosine > cosines_[i].to) sum += caps_[i];
         }
         return sum;
     }
