@@ -3,7 +3,6 @@
 #include <chrono>
 
 #include "fit/attempt.h"
-#include "fit/findings/first_check.h"
 #include "fit/findings/tier_findings.h"
 #include "fit/hypotheses/hypotheses.h"
 #include "fit/hypotheses/preparations.h"

@@ -28,10 +28,14 @@ Verdict take_with_prior(const Problem&, const Attempt&, const Problem&, FitResul
 }
 
 constexpr Hypothesis k_hypotheses[] = {
-    {"the readings leave parts of the stone open", with_prior, take_with_prior},
-    {"all azimuths count from another mark", azimuths_turned_back, judge_turned_azimuths},
-    {"angles far off the mesh are wrong", without_far_angles, judge_far_angles},
-    {"the first suspect is wrong", without_first_suspect, judge_first_suspect},
+    // The readings leave parts of the stone open.
+    {with_prior, take_with_prior},
+    // All azimuths count from another mark.
+    {azimuths_turned_back, judge_turned_azimuths},
+    // Angles far off the mesh are wrong.
+    {without_far_angles, judge_far_angles},
+    // The first suspect is wrong.
+    {without_first_suspect, judge_first_suspect},
 };
 
 }  // namespace

@@ -16,7 +16,6 @@ struct Verdict {
 };
 
 struct Hypothesis {
-    const char* name;
     /// The problem as it would be; nothing where the hypothesis does not apply.
     std::optional<Problem> (*changed)(const Problem& given, const Attempt& first);
     Verdict (*judged)(const Problem& given, const Attempt& first, const Problem& changed,

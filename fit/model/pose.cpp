@@ -5,19 +5,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "fit/model/upright_turn.h"
+
 namespace culet {
-
-namespace {
-
-Vec3 times(const std::array<Vec3, 3>& rows, const Vec3& v) {
-    return {glm::dot(rows[0], v), glm::dot(rows[1], v), glm::dot(rows[2], v)};
-}
-
-Vec3 times_transposed(const std::array<Vec3, 3>& rows, const Vec3& v) {
-    return v.x * rows[0] + v.y * rows[1] + v.z * rows[2];
-}
-
-}  // namespace
 
 Quantity System::turn_of(const Shape& shape) const {
     Quantity turn;

@@ -21,14 +21,6 @@ namespace culet {
 
 namespace {
 
-Vec3 times(const std::array<Vec3, 3>& rows, const Vec3& v) {
-    return {glm::dot(rows[0], v), glm::dot(rows[1], v), glm::dot(rows[2], v)};
-}
-
-Vec3 times_transposed(const std::array<Vec3, 3>& rows, const Vec3& v) {
-    return v.x * rows[0] + v.y * rows[1] + v.z * rows[2];
-}
-
 // A stone is drawn standing on an axis of its file; within this of one, the tilt is a slip of hand.
 constexpr double k_snap = 20;
 // Facets within this of upright are the girdle's; no crown or pavilion facet comes near.
