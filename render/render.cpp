@@ -6,6 +6,8 @@
 
 #include "render/beams/beam_picture.h"
 #include "render/plan/paced_drawing.h"
+#include <cstdlib>
+#include "render/plan/ladder.h"
 #include "render/plan/planner.h"
 #include "render/plan/proven_drawing.h"
 #include "render/reference.h"
@@ -124,7 +126,7 @@ RenderResult render(const Scene& scene, const Progress& progress, const PictureS
     if (planned && progress) counted.settings.meter = std::make_shared<WorkMeter>();
     const Progress told =
         counted.settings.meter ? counted_by(progress, counted.settings.meter) : progress;
-    RenderResult result = planned ? drawn_as_planned(counted, told) : drawn(scene, progress);
+    RenderResult result = planned ? (std::getenv("LADDER") ? drawn_by_ladder(counted, told) : drawn_as_planned(counted, told)) : drawn(scene, progress);
     forget_meter(result.stats);
     RenderStats& stats = result.stats;
     const double tolerance = scene.settings.tolerance;
