@@ -16,11 +16,11 @@ const PlanItem& ScenePlan::item(const std::string& name) const {
 }
 
 ScenePlan plan_scene(const Scene& scene, const Progress& progress) {
-    return Planner(scene, progress).run();
+    return Planner(scene, progress).run_to_explain(false);
 }
 
 ScenePlan plan_to_explain(const Scene& scene, const Progress& progress) {
-    ScenePlan plan = Planner(scene, progress).run(true);
+    ScenePlan plan = Planner(scene, progress).run_to_explain(true);
     for (PlanItem& line : plan.items) {
         if (line.name == name_of(Effects::birefringence) && line.on && tried_as_one_wave(scene))
             line.why +=

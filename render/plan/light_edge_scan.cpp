@@ -9,7 +9,7 @@
 
 #include "render/beams/beam_picture.h"
 #include "render/plan/a_priori.h"
-#include "render/plan/planner.h"
+#include "render/plan/wavelengths.h"
 #include "stone/solid.h"
 
 namespace culet {

@@ -4,8 +4,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "render/colour_error.h"
+#include "render/beams/beam_picture.h"
 #include "render/plan/a_priori.h"
+#include "render/plan/ladder_steps.h"
+#include "render/plan/resolutions.h"
 
 namespace culet {
 
@@ -13,19 +15,17 @@ namespace {
 
 // Wavelengths that pilots of effects are drawn at: three carry any colour of light.
 const std::vector<double> k_pilot_nm{450, 550, 610};
-constexpr int k_least_pixels = 96, k_most_pixels = 400;
-// Of stones whose light paths do not branch: their rays cost little.
-constexpr int k_least_plain_pixels = 96;
-// That tell how noisy the truth is; they are others than the pilots'.
-constexpr int k_proof_pixels = 64;
-// Of the picture's price that a plan may cost, and what it may cost in any case.
-constexpr double k_planning_share = 0.04, k_planning_ns = 1.5e6;
-constexpr int k_more_cuts = 3;
-// Trees that branch: far below the noise of a pixel's few rays, and half as dear as following
-// paths of a tenth of these weights. Pictures that are held against each other should differ by
-// what is looked at rather than by chance; the finished one may leave more to it.
-constexpr double k_split_weight = 0.1, k_gambled_weight = 0.01, k_picture_split_weight = 0.6,
-                 k_picture_gambled_weight = 0.04, k_fine_tolerance = 0.02;
+// The pilots', and others that tell how noisy the truth is.
+constexpr int k_pilot_pixels = 96, k_proof_pixels = 64;
+// Trees that branch gamble: pictures that are held against each other should differ by what is
+// looked at rather than by chance, so at weights far below the noise of a pixel's few rays.
+constexpr double k_gambled_weight = 0.01, k_split_weight = 0.1;
+// Pilots of a depth that the scene names are held against such as go on to here.
+constexpr double k_deep_cut = 0.01;
+// Faces that light meets, and rays of all pilots in a pixel, about: what weighing effects costs.
+constexpr double k_usual_events = 8, k_usual_rays_of_pilots = 160;
+// Rays that the guess of a picture's time by the reference is for.
+constexpr int k_usual_rays = 16;
 
 }  // namespace
 
@@ -64,61 +64,90 @@ bool tried_as_one_wave(const Scene& scene) {
            !plan.stokes && scene.stone.convex;
 }
 
-void Planner::look() {
-    if (looked_) return;
-    looked_ = true;
-    const auto start = std::chrono::steady_clock::now();
-    say_what_is_known();
-    plan_.tolerance = tolerance_;
-    if (tolerance_ > 0) pixels_ = stone_pixels(scene_, k_least_plain_pixels + k_proof_pixels);
+ScenePlan Planner::run() {
+    begin();
     if (!pixels_.at.empty()) {
-        choose_pixels();
-        drop_what_changes_nothing();
-    }
-    seconds_looking_ =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-ScenePlan Planner::run(bool everything) {
-    look();
-    const auto start = std::chrono::steady_clock::now();
-    if (pixels_.at.empty()) {
-        settle_without_pilot();
-    } else {
-        choose_cut();
-        choose_effects();
-        if (branches_ && scene_.stone.convex && !on(Effects::birefringence)) {
-            // Without the split there is one way through the stone, which is cut and not gambled
-            // on.
-            branches_ = false;
-            const PathWork whole = whole_;
-            choose_cut();
-            whole_ = whole;
+        if (costs_less_than_pilots()) {
+            for (PlanItem& line : plan_.items) {
+                if (line.on) line.matters = line.matters_delta_e = k_unknown;
+            }
+        } else {
+            weigh_effects();
         }
-        choose_wavelengths();
-        choose_engine_and_samples();
-        bound_depth();
-        estimate_times();
     }
     finish();
-    plan_.bound = spent_ + plan_.bound_of_depth;
-    if (everything) measure_what_the_scene_forbids();
-    for (const PlanItem& line : plan_.items) {
-        // Whether waves interfere is a matter of the light, which the scene settles.
-        if (line.name != name_of(Effects::coherence)) plan_.bound_delta_e += line.bound_delta_e;
-    }
-    plan_.seconds_planning =
-        seconds_looking_ +
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return std::move(plan_);
+}
+
+ScenePlan Planner::run_to_explain(bool everything) {
+    begin();
+    if (!pixels_.at.empty()) weigh_effects();
+    finish();
+    if (everything) measure_what_the_scene_forbids();
+    return std::move(plan_);
+}
+
+void Planner::begin() {
+    plan_.tolerance = tolerance_;
+    say_what_is_known();
+    find_pixels();
+    if (pixels_.at.empty()) {
+        settle_without_pilot();
+        return;
+    }
+    plan_.pixels = pixels_.in_picture;
+    plan_.pilot_pixels = static_cast<int>(pixels_.at.size());
+    drop_what_changes_nothing();
 }
 
 void Planner::finish() {
     for (int e = 0; e < k_effect_count; ++e)
         plan_.settings.effects[static_cast<std::size_t>(e)] =
             plan_.items[static_cast<std::size_t>(e)].on;
-    plan_.reference.effects = plan_.settings.effects;
-    add_resolutions();
+    if (!pixels_.at.empty()) {
+        bound_depth();
+        choose_first_picture();
+        estimate_times();
+    }
+    set_resolutions(plan_, scene_, user_);
+    plan_.bound = spent_ + plan_.bound_of_depth;
+    for (const PlanItem& line : plan_.items) {
+        // Whether waves interfere is a matter of the light, which the scene settles.
+        if (line.name != name_of(Effects::coherence)) plan_.bound_delta_e += line.bound_delta_e;
+    }
+    plan_.seconds_planning =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+// Pilots of paths of so many faces, about.
+bool Planner::costs_less_than_pilots() {
+    if (branches_ || !user_.effects_auto || on(Effects::aperture) || user_.depth > 0 ||
+        leave_ == Leave::surely)
+        return leave_ == Leave::surely;
+    PathWork ray;
+    ray.rays = 1;
+    ray.events = k_usual_events;
+    const double pilots =
+        k_usual_rays_of_pilots * static_cast<double>(pixels_.at.size()) * price_ns(ray);
+    for (int e = 0; e < k_effect_count; ++e)
+        plan_.settings.effects[static_cast<std::size_t>(e)] =
+            plan_.items[static_cast<std::size_t>(e)].on;
+    const Step first = LadderSteps(scene_, plan_, *prover_, progress_).first();
+    return drawn_by_beams(first.settings) && first.price_ns <= pilots;
+}
+
+void Planner::weigh_effects() {
+    first_ = draw(at_pilot_wavelengths(with_effects(false)), k_pilot_rays);
+    work_ = whole_ = work_of(at_pilot_wavelengths(with_effects(false)), first_, k_pilot_rays);
+    choose_effects();
+    // Without the split there is one way through the stone.
+    if (!on(Effects::birefringence)) branches_ = !scene_.stone.convex;
+    try_without_dispersion();
+    plan_.mean_radiance = first_.mean;
+    plan_.events_per_ray = work_.events / std::max(work_.rays, 1e-9);
+    // What this machine's nanosecond is worth.
+    const double priced = static_cast<double>(pixels_.at.size()) * k_pilot_rays * price_ns(whole_);
+    if (priced > 0 && first_.seconds > 0) machine_ = 1e9 * first_.seconds / priced;
 }
 
 Scene Planner::with_effects(bool dispersion, std::optional<Effects> without) const {
@@ -142,29 +171,19 @@ Scene Planner::at_pilot_wavelengths(Scene scene) const {
     return scene;
 }
 
-PathLimits Planner::limits(double cut) const {
+PathLimits Planner::limits() const {
     PathLimits limits;
     limits.seed = user_.seed;
     limits.depth = user_.depth > 0 ? user_.depth : k_deepest;
-    limits.cut_weight = branches_ ? std::max(cut, k_gambled_weight) : cut;
-    limits.split_weight = std::max(k_split_weight, cut);
+    limits.cut_weight = branches_ ? k_gambled_weight : k_pilot_cut * tolerance_;
+    limits.split_weight = k_split_weight;
     limits.roulette = branches_;
     limits.alike = true;
     return limits;
 }
 
-PathLimits Planner::limits_of_picture() const {
-    PathLimits limits = this->limits(cut_);
-    // Of many rays each may leave more to chance: so it comes to little noise soonest.
-    if (branches_ && tolerance_ >= k_fine_tolerance) {
-        limits.cut_weight = k_picture_gambled_weight;
-        limits.split_weight = k_picture_split_weight;
-    }
-    return limits;
-}
-
 PilotDrawing Planner::draw(const Scene& scene, int samples) const {
-    return draw_pilot(scene, pixels_, limits(cut_), samples, k_node_counts[1], progress_);
+    return draw_pilot(scene, pixels_, limits(), samples, k_node_counts[1], progress_);
 }
 
 PathWork Planner::work_of(const Scene& scene, const PilotDrawing& drawing, int samples) const {
@@ -192,43 +211,15 @@ void Planner::settle_without_pilot() {
     plan_.bound_of_sampling = k_unknown;
 }
 
-// As many pixels as the picture's price allows.
-void Planner::choose_pixels() {
-    StonePixels all = std::move(pixels_);
-    const int least = branches_ ? k_least_pixels : k_least_plain_pixels;
-    pixels_ = all.stretch(0, static_cast<std::size_t>(least));
-    const Scene scene = at_glance_wavelengths(with_effects(false));
-    const double mean_guess = std::max(tolerance_ * 0.1, 1e-4);
-    glance_ = draw_pilot(scene, pixels_, limits(mean_guess), 1, k_node_counts[1], progress_);
-    const PathWork work = glance_work_ = work_of(scene, glance_, 1);
-    const bool spectral = on(Effects::dispersion) && user_.wavelengths_nm.empty();
-    const double bands = spectral ? 4 : 1;
-    BeamWork beams;
-    beams.pixels = pixels_.in_picture;
-    beams.bands = bands;
-    beams.events_per_ray = work.events / std::max(work.rays, 1.0);
-    beams.parted = work.general;
-    beams.tolerance = 0.3 * tolerance_;
-    const double by_paths = pixels_.in_picture * 16 * bands * price_ns(work);
-    const double picture = std::min(by_paths, price_ns(beams));
-    // Rays of one pilot pixel: of the cuts and effects, of the wavelengths.
-    const double spectra =
-        0.5 * (k_spectral_rays + k_other_spectral_rays) * finest_of_pilot(tolerance_);
-    const double rays = 6 * k_pilot_rays + (spectral ? spectra : k_pilot_rays);
-    const double pixel_ns = rays * std::max(price_ns(work), 1.0);
-    const double affordable = std::max(k_planning_share * picture, k_planning_ns) / pixel_ns;
-    const int wanted =
-        static_cast<int>(std::clamp(affordable, double(least), double(k_most_pixels)));
-    if (wanted > least) {
-        all = stone_pixels(scene_, wanted + k_proof_pixels);
-        pixels_ = all.stretch(0, static_cast<std::size_t>(wanted));
-    }
-    pilot_ns_ = pixel_ns * static_cast<double>(pixels_.at.size());
+void Planner::find_pixels() {
+    if (!(tolerance_ > 0)) return;
+    const StonePixels all = stone_pixels(scene_, k_pilot_pixels + k_proof_pixels);
+    pixels_ = all.stretch(0, k_pilot_pixels);
+    if (pixels_.at.empty() || prover_) return;
     // A stone of few pixels is proven at all of them.
-    std::size_t first = pixels_.at.size();
-    if (all.at.size() < first + k_proof_pixels) first = 0;
-    if (!prover_)
-        prover_.emplace(scene_, all.stretch(first, k_proof_pixels), tolerance_, progress_);
+    const bool few = all.at.size() < k_pilot_pixels + k_proof_pixels;
+    prover_.emplace(scene_, all.stretch(few ? 0 : k_pilot_pixels, k_proof_pixels), tolerance_,
+                    progress_);
 }
 
 // What is known beforehand needs no pilot.
@@ -254,7 +245,8 @@ void Planner::drop_what_changes_nothing() {
 void Planner::bound_depth() {
     if (user_.depth == 0) return;
     const Scene scene = at_pilot_wavelengths(with_effects(false));
-    PathLimits deep = limits(std::min(cut_, 0.01 * tolerance_));
+    PathLimits deep = limits();
+    if (!branches_) deep.cut_weight = k_deep_cut * tolerance_;
     PathLimits shallow = deep;
     deep.depth = k_deepest;
     const auto at = [&](const PathLimits& how) {
@@ -266,67 +258,33 @@ void Planner::bound_depth() {
     const double known =
         whole.mean > 0 ? cut_short.remainder * whole.brightest / whole.mean : error.bound();
     plan_.bound_of_depth = branches_ ? error.bound() : std::min(error.bound(), known);
-    cut_delta_e_ += error.bound_delta_e();
 }
 
-// The largest weight that may be let go.
-void Planner::choose_cut() {
-    const Scene scene = at_pilot_wavelengths(with_effects(false));
-    double cut = coarsest_cut();
-    if (branches_) {
-        // Nothing is cut: small paths gamble, and that makes noise and no bias.
-        cut_ = 0;
-        first_ = draw(scene, k_pilot_rays);
-        work_ = whole_ = work_of(scene, first_, k_pilot_rays);
-        return;
-    }
-    // Down by factors of three, until the next step changes little and the remainder of the steps
-    // beyond is small by the brightest light, or is beyond rounding.
-    const auto at = [&](double weight) {
-        return draw_pilot(scene, pixels_, limits(weight), k_pilot_rays, k_node_counts[1],
-                          progress_);
-    };
-    cuts_.clear();
-    PilotDrawing coarse = at(cut);
-    for (;;) {
-        PilotDrawing fine = at(cut / k_cut_step);
-        const ColourError error = colour_error(coarse.rgb, fine.rgb);
-        // What further steps bring: each about a third of the one before.
-        const double bound = 1.5 * error.bound();
-        // Beforehand: what is cut at a path's end is less than the cut, and sees at most the
-        // brightest light.
-        const double known = fine.mean > 0 ? cut * fine.brightest / fine.mean : bound;
-        for (CutChoice& coarser : cuts_) {
-            coarser.error += error.radiance;
-            coarser.bound += error.bound();
-            coarser.bound_delta_e += error.bound_delta_e();
-        }
-        cuts_.push_back({cut, std::min(1.5 * error.radiance, known), std::min(bound, known),
-                         1.5 * error.bound_delta_e()});
-        if (bound <= k_share_of_cut * tolerance_ || cut < 1e-8) {
-            first_ = std::move(fine);
-            work_ = whole_ = work_of(scene, coarse, k_pilot_rays);
-            first_.seconds = coarse.seconds;
-            break;
-        }
-        coarse = std::move(fine);
-        cut /= k_cut_step;
-    }
-    take(cuts_.back());
-    // Finer ones, should a picture show that the pilot's few pixels missed what matters.
-    for (int more = 0; more < k_more_cuts; ++more) {
-        CutChoice finer = cuts_.back();
-        for (double* part : {&finer.weight, &finer.error, &finer.bound, &finer.bound_delta_e})
-            *part /= k_cut_step;
-        cuts_.push_back(finer);
-    }
+void Planner::choose_first_picture() {
+    const Step first = LadderSteps(scene_, plan_, *prover_, progress_).first();
+    plan_.settings = first.settings;
+    plan_.engine_why = first.why;
+    plan_.seconds = first.price_ns;
 }
 
-void Planner::take(const CutChoice& choice) {
-    cut_ = choice.weight;
-    cut_error_ = choice.error;
-    cut_bound_ = choice.bound;
-    cut_delta_e_ = choice.bound_delta_e;
+// By counts of faces met.
+void Planner::estimate_times() {
+    const double seconds = 1e-9 * machine_;
+    plan_.seconds *= seconds;
+    const int rays_of_all = std::max(plan_.settings.samples, k_usual_rays);
+    plan_.seconds_everything = seconds * pixels_.in_picture * rays_of_all * price_ns(whole_) *
+                               (on(Effects::dispersion) ? 4 : 1);
+    for (PlanItem& line : plan_.items) {
+        // So far they hold prices of the pilot with and without.
+        const double with = line.seconds_with, without = line.seconds_without;
+        line.seconds_with = line.seconds_without = plan_.seconds;
+        if (!(with > 0 && without > 0)) continue;
+        if (line.on) {
+            line.seconds_without = plan_.seconds * without / with;
+        } else {
+            line.seconds_with = plan_.seconds * with / without;
+        }
+    }
 }
 
 }  // namespace culet

@@ -6,12 +6,22 @@
 #include "render/colour_error.h"
 #include "render/plan/a_priori.h"
 #include "render/plan/planner.h"
+#include "render/plan/wavelengths.h"
 
 namespace culet {
 
 namespace {
 
+// Errors of causes of their own add up as squares do: of the tolerance, what all effects that are
+// left out are likely off by; and what goes where an effect costs next to nothing.
+constexpr double k_share_of_effects = 0.25, k_share_of_cheap = 0.05;
+// Rays in each pixel of a pilot; behind a lens.
+constexpr int k_lens_rays = 16;
 constexpr std::size_t k_coherence_pixels = 16;
+// Dispersion is looked at with so many wavelengths, in two drawings of half the pixels by other
+// rays: squares that lie on a grid, and others that do not.
+constexpr int k_spectral_nodes = 15;
+constexpr int k_spectral_rays = 4, k_other_spectral_rays = 5;
 
 // "Garnet (almandine), coloured" is "garnet" in a sentence.
 std::string spoken(const Material& material) {
@@ -143,8 +153,8 @@ void Planner::bound_coherence() {
     StonePixels few;
     const std::size_t step = std::max<std::size_t>(1, pixels_.at.size() / k_coherence_pixels);
     for (std::size_t i = 0; i < pixels_.at.size(); i += step) few.at.push_back(pixels_.at[i]);
-    const PilotDrawing powers = draw_pilot(apart, few, limits(cut_), k_pilot_rays),
-                       waves_met = draw_pilot(together, few, limits(cut_), k_pilot_rays);
+    const PilotDrawing powers = draw_pilot(apart, few, limits(), k_pilot_rays),
+                       waves_met = draw_pilot(together, few, limits(), k_pilot_rays);
     const ColourError error = colour_error(powers.rgb, waves_met.rgb);
     line.seconds_without = price_ns(work_of(apart, powers, k_pilot_rays));
     line.seconds_with = price_ns(work_of(together, waves_met, k_pilot_rays)) *
@@ -227,6 +237,45 @@ void Planner::choose_effects() {
         item(Effects::pleochroism).why = "nothing is absorbed";
     }
     bound_coherence();
+}
+
+// Colours of single rays are far stronger than those of a pixel: only what two drawings have in
+// common counts. How colours spread, one wave shows as well as two, whose trees are far dearer.
+void Planner::try_without_dispersion() {
+    if (!on(Effects::dispersion)) return;
+    PlanItem& line = item(Effects::dispersion);
+    const auto spectral = [&](bool dispersion) {
+        Scene scene = with_effects(dispersion);
+        if (on(Effects::birefringence) && !on(Effects::coherence) && scene.stone.convex) {
+            for (Effects effect : {Effects::birefringence, Effects::pleochroism})
+                scene.settings.effects[static_cast<std::size_t>(effect)] = false;
+        }
+        if (user_.wavelengths_nm.empty())
+            scene.settings.wavelengths_nm = even_wavelengths(k_spectral_nodes);
+        PathLimits how = limits();
+        how.roulette = make_plan(scene).splits || !scene.stone.convex;
+        if (!how.roulette) how.cut_weight = k_pilot_cut * tolerance_;
+        const StonePixels half = pixels_.stretch(0, (pixels_.at.size() + 1) / 2);
+        const auto drawn = [&](int rays) {
+            return draw_pilot(scene, half, how, rays, k_node_counts[1], progress_).rgb;
+        };
+        return std::array{drawn(k_spectral_rays), drawn(k_other_spectral_rays)};
+    };
+    const ColourError gone = error_in_common(spectral(false), spectral(true));
+    line.matters = gone.radiance;
+    line.matters_delta_e = gone.delta_e;
+    line.seconds_with = 2;
+    line.seconds_without = 1;
+    if (!user_.effects_auto ||
+        !may_go(gone.bound(), gone.radiance + gone.radiance_spread, k_share_of_effects)) {
+        line.why += fmt::format("; without it the picture is off by {:.2g}", gone.radiance);
+        return;
+    }
+    line.on = false;
+    line.bound = gone.bound();
+    line.bound_delta_e = gone.bound_delta_e();
+    line.why = fmt::format("bound {:.2g} under tolerance {:g}", gone.bound(), tolerance_);
+    leave_out(gone.bound(), gone.radiance);
 }
 
 }  // namespace culet

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "render/colour_error.h"
-#include "render/plan/planner.h"
+#include "render/plan/wavelengths.h"
 
 namespace culet {
 

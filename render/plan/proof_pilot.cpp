@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "render/colour_error.h"
-#include "render/plan/planner.h"
+#include "render/plan/wavelengths.h"
 
 namespace culet {
 

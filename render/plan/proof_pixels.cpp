@@ -6,7 +6,7 @@
 #include "render/light_field.h"
 #include "render/plan/contrast.h"
 #include "render/plan/light_edge_scan.h"
-#include "render/plan/planner.h"
+#include "render/plan/wavelengths.h"
 
 namespace culet {
 

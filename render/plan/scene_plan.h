@@ -1,6 +1,6 @@
 #pragma once
-// Only what a scene calls for: the settings that reach its tolerance at the least cost, what they
-// leave out, and what that may cost in accuracy.
+// Only what a scene calls for: which effects it needs, with which settings drawing begins, and what
+// leaving out the rest may cost in accuracy.
 //
 // Errors are means over the stone's pixels of the mean absolute difference of R, G and B to the
 // picture with everything on, relative to the mean radiance of that picture. Bounds are those of
@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "render/plan/beam_proposal.h"
 #include "render/scene.h"
 #include "stone/progress.h"
 
@@ -40,8 +39,8 @@ struct PlanItem {
 
 struct ScenePlan {
     double tolerance = 0;  ///< that was asked for
-    /// The scene's settings with every open choice made: a scene with these draws the same picture.
-    /// Their tolerance is what beams need to keep the one that was asked for.
+    /// The scene's settings with every open choice made: of the first picture, or of the one that
+    /// was kept, which a scene with these draws again. Their tolerance is that of the beams.
     RenderSettings settings;
     std::vector<PlanItem> items;  ///< the effects in the order of `Effects`, then the rest
     std::string engine_why;
@@ -53,12 +52,10 @@ struct ScenePlan {
     double seconds = 0;             ///< estimated processor time of the picture
     double seconds_everything = 0;  ///< the same with everything on, by the reference
     double seconds_planning = 0;    ///< that this plan took
-    RenderSettings reference;       ///< what the reference would need, where beams do not hold
-    double price_ns = 0, reference_ns = 0;  ///< of the picture, and by that (plan/price.h)
-    std::optional<BeamProposal> beams;      ///< what else beams could do, where they are proposed
-    ProposedBeams proposed;                 ///< of these
-    double mean_radiance = 0;               ///< of the stone, as the pilot sees it
-    int pilot_pixels = 0;                   ///< 0: nothing was open, or tolerance 0: no pilot
+    double mean_radiance = 0;       ///< of the stone, as the pilot sees it
+    double events_per_ray = 1;      ///< faces that light meets
+    double pixels = 0;              ///< of the stone, estimated
+    int pilot_pixels = 0;           ///< 0: nothing was open, or tolerance 0: no pilot
 
     const PlanItem& item(const std::string& name) const;
 };
@@ -68,13 +65,6 @@ ScenePlan plan_scene(const Scene& scene, const Progress& progress = {});
 /// The same plan for people who want to know: what effects would bring that the scene switches off
 /// is measured too, and is part of the bound.
 ScenePlan plan_to_explain(const Scene& scene, const Progress& progress = {});
-
-/// Of the reference, with so many rays a pixel.
-RenderSettings with_rays(const RenderSettings& settings, int rays, bool wavelengths_are_open);
-
-/// How many rays a pixel, where `rays` were off by `off` and may be by `room`: what the mean of N
-/// is off by falls about as N^-0.7.
-int rays_to_reach(double room, int rays, double off);
 
 /// The plan for people, one line an item.
 std::string explain(const ScenePlan& plan);

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "render/colour_error.h"
-#include "render/plan/planner.h"
+#include "render/plan/wavelengths.h"
 
 namespace culet {
 
@@ -70,7 +70,7 @@ Verification verify(const Scene& scene, const RenderResult& result, int pixels) 
     plan.settings = scene.settings;
     if (result.stats.plan) plan = *result.stats.plan;
     plan.settings.wavelengths_nm = result.stats.wavelengths_nm;
-    const int samples = std::clamp(4 * plan.reference.samples, k_verified_samples, 256);
+    const int samples = std::clamp(4 * plan.settings.samples, k_verified_samples, 256);
     const Truth truth = draw_truth(scene, plan, pixels, samples);
     Verification found = hold_against(truth, result.picture);
     found.bound = result.stats.error_bound;

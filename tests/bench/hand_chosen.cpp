@@ -7,6 +7,7 @@
 
 #include "render/beams/beam_picture.h"
 #include "render/plan/planner.h"
+#include "render/plan/wavelengths.h"
 #include "stone/errors.h"
 #include "tests/bench/cpu_time.h"
 

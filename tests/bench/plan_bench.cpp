@@ -14,6 +14,7 @@
 #include "render/colour_error.h"
 #include "render/image_io.h"
 #include "render/plan/planner.h"
+#include "render/plan/wavelengths.h"
 #include "render/plan/verify.h"
 #include "render/reference.h"
 #include "stone/errors.h"

@@ -17,6 +17,7 @@
 #include "render/plan/contrast.h"
 #include "render/plan/light_edge_scan.h"
 #include "render/plan/planner.h"
+#include "render/plan/wavelengths.h"
 #include "render/plan/proof_pilot.h"
 #include "render/plan/proof_pixels.h"
 #include "render/plan/verify.h"
@@ -431,22 +432,6 @@ TEST(ProofPilot, is_not_for_trees_that_gamble) {
     prover.prove(dark, 0.1, 1e9);
     EXPECT_GT(prover.sample(1000).truth.size(), 0u);
     EXPECT_EQ(prover.pixels_for(1e12), 0u);
-}
-
-// A diamond in a light box at a fine tolerance: beams take a tenth longer with polarisation, and
-// much longer where all else must be finer for what it would be off by. At a coarse one it goes.
-TEST(Plan, keeps_an_effect_that_it_would_cost_more_to_leave_out) {
-    Scene scene = plan_scene_of("diamond", "round-brilliant", "lightbox", 200).scene;
-    scene.settings.tolerance = 0.03;
-    const PlanItem kept = plan_scene(scene).item("polarization");
-    EXPECT_TRUE(kept.on) << kept.why;
-    EXPECT_NE(kept.why.find("would save less than it costs"), std::string::npos) << kept.why;
-    EXPECT_EQ(kept.bound, 0) << "nothing is left out";
-    EXPECT_GT(kept.matters, 0);
-    scene.settings.tolerance = 0.3;
-    const PlanItem gone = plan_scene(scene).item("polarization");
-    EXPECT_FALSE(gone.on) << gone.why;
-    EXPECT_GT(gone.bound, 0);
 }
 
 }  // namespace

@@ -1,0 +1,60 @@
+#pragma once
+// The steps of the ladder: with which settings drawing begins, and how it goes on where a picture
+// was not near enough.
+
+#include <string>
+
+#include "render/plan/proof.h"
+#include "render/plan/scene_plan.h"
+#include "render/render.h"
+
+namespace culet {
+
+class ProofPilot;
+
+struct Step {
+    RenderSettings settings;
+    double price_ns = 0;  ///< about (price.h)
+    std::string why;
+};
+
+class LadderSteps {
+public:
+    /// `scene`: one window, with the settings that its file has; `plan`: with the effects that are
+    /// to be drawn. All must outlive it.
+    LadderSteps(const Scene& scene, const ScenePlan& plan, Prover& prover,
+                const Progress& progress);
+
+    /// The coarsest beams, where the scene can be drawn by them; else the reference with as few
+    /// rays as may do.
+    Step first() const;
+    /// With rays for what the truth shows of their noise.
+    Step by_reference(const Proof* proof) const;
+    Step more_rays(const Step& step, const Proof& proof) const;
+    /// What the picture is off by has causes that the pixels of its proof tell apart: wavelengths,
+    /// cut paths, and the rest, which is that of borders. Each is made so much finer that it is
+    /// likely small enough. `again`: finer beams were drawn before, and were not near enough
+    /// either: then all of it is.
+    Step finer_beams(const Step& step, const Proof& proof, bool again) const;
+    /// About, of a picture by beams that was drawn.
+    double price_of(const RenderStats& stats) const;
+    /// What a picture is off by, as far as the truth's noise lets it be seen.
+    static double seen(const Proof& proof);
+
+private:
+    Scene with_effects() const;
+    bool wavelengths_are_open() const;
+    Step first_beams() const;
+    double finer_wavelengths(Step& step, ProofPilot& pilot, bool again) const;
+    double finer_cut(Step& step, ProofPilot& pilot) const;
+    double finer_borders(Step& step, double off_by) const;
+
+    const Scene& scene_;
+    const ScenePlan& plan_;
+    Prover& prover_;
+    const Progress& progress_;
+    Plan setup_;    // of the effects to be drawn
+    bool doubles_;  // trees of light paths do
+};
+
+}  // namespace culet
