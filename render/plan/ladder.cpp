@@ -139,7 +139,8 @@ void Ladder::climb(const ScenePlan& plan, Prover& prover, const LadderSteps& ste
         const Proof proof =
             held_against_truth(result, prover, step.price_ns,
                                std::max(k_least_proof_ns, share * step.price_ns), error_before);
-        so_far.near_enough = proof.bound <= tolerance;
+        const bool blind = beams && steps.may_miss_the_sun(step.settings);
+        so_far.near_enough = proof.bound <= tolerance && !blind;
         std::optional<Step> other;
         if (!so_far.near_enough) {
             so_far.misjudged = misjudged(proof, prover, step.settings, so_far);
@@ -147,6 +148,7 @@ void Ladder::climb(const ScenePlan& plan, Prover& prover, const LadderSteps& ste
                 other = next(steps, step, proof, drawing > 1);
         }
         error_before = proof.error();
+        if (blind) prover.look_elsewhere();
         stats.error_bound = proof.bound + plan.bound_of_depth;
         stats.checked_pixels = proof.pixels;
         if (beams) stats.engine_error = proof.bound;

@@ -30,6 +30,8 @@ constexpr double k_price_of_borders = 0.4, k_price_of_cut = 0.25, k_price_of_par
 // and more are by their number to this power (diamond, spinel, cubic zirconia, glasses, YAG in four
 // lights).
 constexpr double k_colours_apart = 0.3, k_colours_power = 0.9;
+// The same of a sun, whose images hardly any pixel shows; and what these may bring.
+constexpr double k_sun_apart = 0.8, k_share_of_sun = 0.2;
 // Of the truth's noise, what an error must be to be seen in it.
 constexpr double k_seen_in_noise = 0.5;
 // Crystals' beams are cut, and not gambled on: at 0.009 that left 0.047 of the light, and others in
@@ -108,7 +110,10 @@ Step LadderSteps::first_beams() const {
     const double tolerance = user.tolerance;
     Step step{with_effects().settings, 0, {}};
     RenderSettings& settings = step.settings;
-    settings.engine = user.engine == "beams" || setup_.splits ? "beams" : "preview";
+    // A preview has one colour a region: of a map that is seldom near enough.
+    const bool preview = user.engine == "preview" ||
+                         (user.engine == "auto" && !setup_.splits && !scene_.lights.environment);
+    settings.engine = preview ? "preview" : "beams";
     settings.tolerance = k_coarsest;
     settings.cut_weight = std::min(0.3, tolerance);
     if (setup_.splits && settings.crystal_beams != CrystalBeams::merged) {
@@ -190,14 +195,27 @@ Step LadderSteps::more_rays(const Step& step, const Proof& proof) const {
     return more;
 }
 
+bool LadderSteps::too_few(int wavelengths) const {
+    if (!wavelengths_are_open() || !setup_.on(Effects::dispersion)) return false;
+    const IndexSpans spans = index_spans(scene_);
+    const bool sun = prover_.sees_sun();
+    const double apart = (sun ? k_sun_apart : k_colours_apart) *
+                         exit_deviation(spans.dispersion, spans.mean) *
+                         std::pow(3.0 / wavelengths, k_colours_power);
+    return wavelengths < k_wavelength_counts.back() &&
+           apart > (sun ? k_share_of_sun : k_share_of_wavelengths) * scene_.settings.tolerance;
+}
+
+bool LadderSteps::may_miss_the_sun(const RenderSettings& settings) const {
+    if (!prover_.sees_sun()) return false;
+    return (settings.engine == "preview" && scene_.settings.engine == "auto") ||
+           too_few(static_cast<int>(settings.wavelengths_nm.size()));
+}
+
 // What they bring in the picture as it is.
 double LadderSteps::finer_wavelengths(Step& step, ProofPilot& pilot, bool again) const {
     if (!wavelengths_are_open()) return 0;
     const double allowed = k_share_of_wavelengths * scene_.settings.tolerance;
-    const IndexSpans spans = index_spans(scene_);
-    const double apart = setup_.on(Effects::dispersion)
-                             ? k_colours_apart * exit_deviation(spans.dispersion, spans.mean)
-                             : 0;
     std::vector<double>& nm = step.settings.wavelengths_nm;
     const int before = static_cast<int>(nm.size());
     double brought = -1;
@@ -211,7 +229,7 @@ double LadderSteps::finer_wavelengths(Step& step, ProofPilot& pilot, bool again)
         if (again && count == before) continue;
         // What is less than the truth's noise is not seen: there colours apart tell.
         const bool small = error <= std::max(allowed, k_seen_in_noise * pilot.noise());
-        if ((small || again) && apart * std::pow(3.0 / count, k_colours_power) <= allowed) break;
+        if ((small || again) && !too_few(count)) break;
     }
     step.price_ns *= static_cast<double>(nm.size()) / before;
     return brought;

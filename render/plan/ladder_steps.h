@@ -38,6 +38,9 @@ public:
     Step finer_beams(const Step& step, const Proof& proof, bool again) const;
     /// About, of a picture by beams that was drawn.
     double price_of(const RenderStats& stats) const;
+    /// A sun's images in a few pixels are so coarse in this picture that those looked at may all
+    /// miss them: a preview's regions lie beside those that show it, and few wavelengths lack some.
+    bool may_miss_the_sun(const RenderSettings& settings) const;
     /// What a picture is off by, as far as the truth's noise lets it be seen.
     static double seen(const Proof& proof);
 
@@ -45,6 +48,8 @@ private:
     Scene with_effects() const;
     bool wavelengths_are_open() const;
     Step first_beams() const;
+    // Wavelengths leave a path in ways so far apart that so many are known to be too few.
+    bool too_few(int wavelengths) const;
     double finer_wavelengths(Step& step, ProofPilot& pilot, bool again) const;
     double finer_cut(Step& step, ProofPilot& pilot) const;
     double finer_borders(Step& step, double off_by) const;

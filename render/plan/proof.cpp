@@ -319,6 +319,14 @@ void Prover::choose(const Picture& picture, FrameRenderer* frames) {
     if (chosen_.sun) nodes_ = k_node_counts.back();
 }
 
+void Prover::look_elsewhere() {
+    chosen_ = {};
+    for (Level& level : levels_) {
+        level.rgb.clear();
+        level.halves = level.radiance = level.cut = 0;
+    }
+}
+
 Proof Prover::prove(const Picture& picture, double room, double most_ns, FrameRenderer* frames) {
     if (chosen_.pixels.at.empty()) choose(picture, frames);
     // What was drawn to judge other pictures judges this one.

@@ -83,6 +83,10 @@ public:
     /// to chance: their trees are dear, and no cut is to blame for what they are off by.
     std::size_t pixels_for(double ns) const;
     const Scene& scene() const { return scene_; }
+    /// Another picture has more to tell of where to look: pixels are chosen anew, and drawn.
+    void look_elsewhere();
+    /// A light is so bright that its image in a few pixels counts. After `prove`.
+    bool sees_sun() const { return chosen_.sun; }
 
     /// A picture must not have this square of rays in its pixels: the truth has such a grid.
     static bool takes_grid(int side);
