@@ -83,7 +83,7 @@ int explain_plan(const RenderOptions& options) {
 void say_how_near(const RenderStats& stats, bool quiet) {
     if (std::isnan(stats.error_bound)) {
         say(fmt::format(
-                "a rough picture, nobody knows how near: one that is proven takes more than "
+                "a rough picture, nobody knows how near: one that is checked takes more than "
                 "about {} s; --tolerance 0.2 draws it",
                 k_usual_seconds),
             quiet);

@@ -169,7 +169,7 @@ void SceneStudier::try_out(const StudyCandidate& candidate) {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count());
     StudiedRender render;
     if (candidate.automatic) {
-        // All that `render` does: the plan, its pictures, and their proof.
+        // All that `render` does: the plan, its pictures, and their check.
         render.checked_cpu = times.cpu.front();
     }
     render.id = static_cast<int>(study_.renders.size());

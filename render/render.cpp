@@ -40,16 +40,16 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
     std::vector<Try> tries{{false, Planner::Leave::likely}, {false, Planner::Leave::surely}};
     if (tried_as_one_wave(scene)) tries.insert(tries.begin(), {true, Planner::Leave::likely});
     Ladder ladder(scene, progress);
-    std::optional<Prover> prover;
+    std::optional<ErrorEstimator> estimator;
     std::vector<std::string> tried;
     double seconds_before = 0;
     RenderResult result;
     for (const Try& now : tries) {
         Planner planner(scene, progress, now.one_wave, now.leave);
-        planner.give_prover(std::move(prover));
+        planner.give_estimator(std::move(estimator));
         const ScenePlan plan = planner.run();
-        prover = planner.take_prover();
-        if (!prover) {
+        estimator = planner.take_estimator();
+        if (!estimator) {
             Scene settled = scene;
             settled.settings = plan.settings;
             result = drawn(settled, progress);
@@ -57,7 +57,7 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
             result.stats.plan = plan;
             break;
         }
-        LadderPicture picture = ladder.draw(plan, *prover);
+        LadderPicture picture = ladder.draw(plan, *estimator);
         result = std::move(picture.result);
         result.stats.seconds_setup += seconds_before;
         if (picture.near_enough) bound_by_picture(result);
@@ -106,7 +106,7 @@ RenderResult render(const Scene& scene, const Progress& progress, const PictureS
         stats.notes.push_back(fmt::format("the error bound {:.3g} is over the tolerance {:.3g}",
                                           stats.error_bound, tolerance));
     }
-    // Of a proven picture the bound says it all.
+    // Of a checked picture the bound says it all.
     if (!planned && tolerance > 0 && stats.standard_error > tolerance) {
         stats.notes.push_back(
             fmt::format("paths chosen at random leave a standard error of {:.3g} a pixel, over the "

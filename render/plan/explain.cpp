@@ -25,7 +25,7 @@ ScenePlan plan_to_explain(const Scene& scene, const Progress& progress) {
         if (line.name == name_of(Effects::birefringence) && line.on && tried_as_one_wave(scene))
             line.why +=
                 ", which a few rays overrate: the picture is first drawn as one wave, and "
-                "kept if that is proven";
+                "kept if the check agrees";
     }
     return plan;
 }

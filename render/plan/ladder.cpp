@@ -6,7 +6,7 @@
 #include <chrono>
 
 #include "render/beams/beam_picture.h"
-#include "render/plan/proof_pilot.h"
+#include "render/plan/cause_pilot.h"
 #include "render/plan/resolutions.h"
 #include "render/reference.h"
 #include "render/work_meter.h"
@@ -26,11 +26,11 @@ constexpr int k_more_grids = 2;
 // Of the tolerance, or of what a picture is off by, what effects that were left out may be off by
 // before they come back.
 constexpr double k_misjudged = 0.7;
-// The next step of a proof may take this share of the picture's price before a finer one is drawn,
+// The next step of a check may take this share of the picture's price before a finer one is drawn,
 // which takes longer. After the reference there is no other way.
-constexpr double k_proof_share = 1.5, k_last_proof_share = 6, k_least_proof_ns = 3e7;
-// About what proofs take of the pictures' prices.
-constexpr double k_usual_proof = 0.7;
+constexpr double k_check_share = 1.5, k_last_check_share = 6, k_least_check_ns = 3e7;
+// About what checks take of the pictures' prices.
+constexpr double k_usual_check = 0.7;
 // Paths at so many times what is left are not begun.
 constexpr double k_surely_over = 1.3;
 
@@ -58,7 +58,7 @@ double seconds_of(const RenderStats& stats) {
     return stats.seconds_setup + stats.seconds_build + stats.seconds_shade + stats.seconds_check;
 }
 
-// Beams are held against the truth by the prover, not by their own check.
+// Beams are held against the truth by the estimator, not by their own check.
 RenderResult Ladder::draw_with(const RenderSettings& settings) {
     drawn_.settings = settings;
     if (!drawn_by_beams(settings)) return render_with_reference(drawn_, progress_);
@@ -72,61 +72,62 @@ RenderResult Ladder::draw_with(const RenderSettings& settings) {
     return frames_->take();
 }
 
-Proof Ladder::held_against_truth(const RenderResult& result, Prover& prover, double price,
-                                 double most_ns, double error_before) {
+ErrorEstimate Ladder::held_against_truth(const RenderResult& result, ErrorEstimator& estimator,
+                                         double price, double most_ns, double error_before) {
     const double tolerance = scene_.settings.tolerance;
     FrameRenderer* frames = frames_ ? &*frames_ : nullptr;
-    Proof proof = prover.prove(result.picture, tolerance, most_ns, frames);
+    ErrorEstimate estimate = estimator.estimate(result.picture, tolerance, most_ns, frames);
     for (int more = 0; more < k_more_grids && error_before > 0; ++more) {
-        if (proof.bound <= tolerance || proof.error() <= k_no_better * error_before) break;
-        const bool cheap = prover.more_ns() <= k_cheap_suspicion * price;
-        if (proof.noise < (cheap ? k_suspect_cheaply : k_suspect) * proof.difference) break;
-        prover.take_more();
-        proof = prover.prove(result.picture, tolerance, most_ns, frames);
+        if (estimate.bound <= tolerance || estimate.error() <= k_no_better * error_before) break;
+        const bool cheap = estimator.more_ns() <= k_cheap_suspicion * price;
+        if (estimate.noise < (cheap ? k_suspect_cheaply : k_suspect) * estimate.difference) break;
+        estimator.take_more();
+        estimate = estimator.estimate(result.picture, tolerance, most_ns, frames);
     }
-    return proof;
+    return estimate;
 }
 
-// What was left out is known once the truth's own rays have shown it at the pixels of the proof.
-bool Ladder::misjudged(const Proof& proof, const Prover& prover, const RenderSettings& settings,
-                       SoFar& so_far) const {
+// What was left out is known once the truth's own rays have shown it at the pixels of the check.
+bool Ladder::misjudged(const ErrorEstimate& estimate, const ErrorEstimator& estimator,
+                       const RenderSettings& settings, SoFar& so_far) const {
     const double tolerance = scene_.settings.tolerance;
-    if (proof.pixels > so_far.pixels_without) {
-        so_far.pixels_without = proof.pixels;
-        ProofPilot pilot(prover.scene(), settings,
-                         prover.sample(static_cast<std::size_t>(proof.pixels)), progress_);
+    if (estimate.pixels > so_far.pixels_without) {
+        so_far.pixels_without = estimate.pixels;
+        CausePilot pilot(estimator.scene(), settings,
+                         estimator.sample(static_cast<std::size_t>(estimate.pixels)), progress_);
         so_far.off_without = pilot.without_effects();
     }
-    return so_far.off_without > k_misjudged * std::min(tolerance, LadderSteps::seen(proof));
+    return so_far.off_without > k_misjudged * std::min(tolerance, LadderSteps::seen(estimate));
 }
 
-std::optional<Step> Ladder::next(const LadderSteps& steps, const Step& step, const Proof& proof,
-                                 bool again) const {
+std::optional<Step> Ladder::next(const LadderSteps& steps, const Step& step,
+                                 const ErrorEstimate& estimate, bool again) const {
     const RenderSettings& user = scene_.settings;
     if (!drawn_by_beams(step.settings)) {
         if (user.samples > 0 || step.settings.samples >= k_most_rays) return std::nullopt;
-        Step more = steps.more_rays(step, proof);
+        Step more = steps.more_rays(step, estimate);
         more.why = fmt::format("{} rays a pixel were off by {:.2g}: drawn with more",
-                               step.settings.samples, proof.bound);
+                               step.settings.samples, estimate.bound);
         return more;
     }
-    Step finer = steps.finer_beams(step, proof, again);
+    Step finer = steps.finer_beams(step, estimate, again);
     if (user.engine != "auto") return finer;
-    Step reference = steps.by_reference(&proof);
+    Step reference = steps.by_reference(&estimate);
     if (finer.price_ns <= reference.price_ns) return finer;
     reference.why = fmt::format("beams came to within {:.2g} only: drawn by the reference instead",
-                                proof.bound);
+                                estimate.bound);
     return reference;
 }
 
-void Ladder::climb(const ScenePlan& plan, Prover& prover, const LadderSteps& steps, SoFar& so_far) {
+void Ladder::climb(const ScenePlan& plan, ErrorEstimator& estimator, const LadderSteps& steps,
+                   SoFar& so_far) {
     const double tolerance = scene_.settings.tolerance;
     WorkMeter* const meter = scene_.settings.meter.get();
     Step step = steps.first();
     double seconds_before = plan.seconds_planning, error_before = 0;
     for (int drawing = 1;; ++drawing) {
         const bool beams = drawn_by_beams(step.settings);
-        if (meter != nullptr) meter->expect_more((1 + k_usual_proof) * step.price_ns);
+        if (meter != nullptr) meter->expect_more((1 + k_usual_check) * step.price_ns);
         // What paths take is known well; what beams take they find out.
         if (is_paced(scene_.settings) && !beams && step.price_ns > k_surely_over * meter->left())
             throw OverAllowance();
@@ -135,30 +136,30 @@ void Ladder::climb(const ScenePlan& plan, Prover& prover, const LadderSteps& ste
         if (beams) step.price_ns = steps.price_of(stats);
         const auto start = Clock::now();
         const double share =
-            beams && drawing < k_most_drawings ? k_proof_share : k_last_proof_share;
-        const Proof proof =
-            held_against_truth(result, prover, step.price_ns,
-                               std::max(k_least_proof_ns, share * step.price_ns), error_before);
+            beams && drawing < k_most_drawings ? k_check_share : k_last_check_share;
+        const ErrorEstimate estimate =
+            held_against_truth(result, estimator, step.price_ns,
+                               std::max(k_least_check_ns, share * step.price_ns), error_before);
         const bool blind = beams && steps.may_miss_the_sun(step.settings);
-        so_far.near_enough = proof.bound <= tolerance && !blind;
+        so_far.near_enough = estimate.bound <= tolerance && !blind;
         std::optional<Step> other;
         if (!so_far.near_enough) {
-            so_far.misjudged = misjudged(proof, prover, step.settings, so_far);
+            so_far.misjudged = misjudged(estimate, estimator, step.settings, so_far);
             if (!so_far.misjudged && drawing < k_most_drawings)
-                other = next(steps, step, proof, drawing > 1);
+                other = next(steps, step, estimate, drawing > 1);
         }
-        error_before = proof.error();
-        if (blind) prover.look_elsewhere();
-        stats.error_bound = proof.bound + plan.bound_of_depth;
-        stats.checked_pixels = proof.pixels;
-        if (beams) stats.engine_error = proof.bound;
+        error_before = estimate.error();
+        if (blind) estimator.look_elsewhere();
+        stats.error_bound = estimate.bound + plan.bound_of_depth;
+        stats.checked_pixels = estimate.pixels;
+        if (beams) stats.engine_error = estimate.bound;
         stats.seconds_check = seconds_since(start);
         stats.seconds_setup += seconds_before;
         seconds_before = seconds_of(stats);
         if (!so_far.best || stats.error_bound < so_far.best->stats.error_bound) {
             so_far.best = std::move(result);
             so_far.settings = step.settings;
-            so_far.bound_delta_e = proof.bound_delta_e;
+            so_far.bound_delta_e = estimate.bound_delta_e;
         }
         if (!other) break;
         step = std::move(*other);
@@ -167,12 +168,12 @@ void Ladder::climb(const ScenePlan& plan, Prover& prover, const LadderSteps& ste
     so_far.best->stats.seconds_setup += seconds_before - seconds_of(so_far.best->stats);
 }
 
-LadderPicture Ladder::draw(ScenePlan plan, Prover& prover) {
+LadderPicture Ladder::draw(ScenePlan plan, ErrorEstimator& estimator) {
     Scene window = scene_;
     if (window.camera.optics.two_windows) window.camera.width /= 2;
     SoFar so_far;
     try {
-        climb(plan, prover, LadderSteps(window, plan, prover, progress_), so_far);
+        climb(plan, estimator, LadderSteps(window, plan, estimator, progress_), so_far);
     } catch (const OverAllowance&) {
         if (!so_far.best) throw;
         so_far.misjudged = false;

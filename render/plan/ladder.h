@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "render/plan/error_estimate.h"
 #include "render/plan/ladder_steps.h"
-#include "render/plan/proof.h"
 #include "render/plan/scene_plan.h"
 #include "render/render.h"
 
@@ -30,7 +30,7 @@ public:
     /// The nearest of the pictures drawn, with the effects of the plan, of which there are some at
     /// most, or those that the scene's meter allows. Throws Interrupted, and OverAllowance where it
     /// allows none.
-    LadderPicture draw(ScenePlan plan, Prover& prover);
+    LadderPicture draw(ScenePlan plan, ErrorEstimator& estimator);
 
 private:
     struct SoFar {
@@ -42,14 +42,15 @@ private:
         int pixels_without = 0;  // at which the truth was drawn without what the plan left out
         double off_without = 0;
     };
-    void climb(const ScenePlan& plan, Prover& prover, const LadderSteps& steps, SoFar& so_far);
+    void climb(const ScenePlan& plan, ErrorEstimator& estimator, const LadderSteps& steps,
+               SoFar& so_far);
     RenderResult draw_with(const RenderSettings& settings);
-    Proof held_against_truth(const RenderResult& result, Prover& prover, double price,
-                             double most_ns, double error_before);
-    bool misjudged(const Proof& proof, const Prover& prover, const RenderSettings& settings,
-                   SoFar& so_far) const;
-    std::optional<Step> next(const LadderSteps& steps, const Step& step, const Proof& proof,
-                             bool again) const;
+    ErrorEstimate held_against_truth(const RenderResult& result, ErrorEstimator& estimator,
+                                     double price, double most_ns, double error_before);
+    bool misjudged(const ErrorEstimate& estimate, const ErrorEstimator& estimator,
+                   const RenderSettings& settings, SoFar& so_far) const;
+    std::optional<Step> next(const LadderSteps& steps, const Step& step,
+                             const ErrorEstimate& estimate, bool again) const;
 
     const Scene& scene_;
     Scene drawn_;

@@ -7,7 +7,7 @@
 
 #include "render/beams/beam_picture.h"
 #include "render/plan/a_priori.h"
-#include "render/plan/proof_pilot.h"
+#include "render/plan/cause_pilot.h"
 #include "render/plan/wavelengths.h"
 
 namespace culet {
@@ -43,7 +43,7 @@ constexpr double k_crystal_cut = 0.009, k_crystal_remainder = 0.047, k_crystal_p
 constexpr double k_fine_tolerance = 0.02, k_gambled = 0.04, k_fine_gambled = 0.01, k_split = 0.6,
                  k_fine_split = 0.1;
 constexpr int k_most_side = 40, k_pupil_points = 16, k_most_pupil_points = 256;
-// Pixels of the proof that tell causes apart.
+// Pixels of the estimate that tell causes apart.
 constexpr std::size_t k_pixelsof_causes = 192;
 
 // With which the rays of a pixel take turns.
@@ -58,17 +58,17 @@ int rays_to_reach(double room, int rays, double off) {
     const double wanted = rays * std::pow(off / room, 1 / k_power);
     int side =
         std::clamp(static_cast<int>(std::ceil(std::sqrt(std::min(wanted, 1e6)))), 1, k_most_side);
-    while (Prover::takes_grid(side)) ++side;
+    while (ErrorEstimator::takes_grid(side)) ++side;
     return side * side;
 }
 
 }  // namespace
 
-LadderSteps::LadderSteps(const Scene& scene, const ScenePlan& plan, Prover& prover,
+LadderSteps::LadderSteps(const Scene& scene, const ScenePlan& plan, ErrorEstimator& estimator,
                          const Progress& progress)
     : scene_(scene),
       plan_(plan),
-      prover_(prover),
+      estimator_(estimator),
       progress_(progress),
       setup_(make_plan(with_effects())),
       doubles_(setup_.splits || !scene.stone.convex) {}
@@ -84,10 +84,10 @@ bool LadderSteps::wavelengths_are_open() const {
     return scene_.settings.wavelengths_nm.empty() && chose_spectrum(scene_, setup_);
 }
 
-double LadderSteps::seen(const Proof& proof) {
+double LadderSteps::seen(const ErrorEstimate& estimate) {
     // Noise that is all that is seen hides what the picture is off by.
     constexpr double k_hidden = 0.5;
-    return std::max(proof.error(), k_hidden * proof.difference);
+    return std::max(estimate.error(), k_hidden * estimate.difference);
 }
 
 Step LadderSteps::first() const {
@@ -147,7 +147,7 @@ Step LadderSteps::first_beams() const {
     return step;
 }
 
-Step LadderSteps::by_reference(const Proof* proof) const {
+Step LadderSteps::by_reference(const ErrorEstimate* estimate) const {
     const RenderSettings& user = scene_.settings;
     const double tolerance = user.tolerance;
     Step step{with_effects().settings, 0, {}};
@@ -156,11 +156,12 @@ Step LadderSteps::by_reference(const Proof* proof) const {
     const bool fine = tolerance < k_fine_tolerance;
     settings.cut_weight = !doubles_ ? k_coarsest * tolerance : fine ? k_fine_gambled : k_gambled;
     settings.split_weight = doubles_ && !fine ? k_split : k_fine_split;
-    // The proof has seen more of what few rays are off by.
-    const double noise = std::max(proof != nullptr ? proof->noise : prover_.noise_of_16(), 1e-9);
+    // The estimate has seen more of what few rays are off by.
+    const double noise =
+        std::max(estimate != nullptr ? estimate->noise : estimator_.noise_of_16(), 1e-9);
     if (user.samples == 0)
         settings.samples =
-            rays_to_reach(k_aim * tolerance, proof != nullptr ? proof->samples : 16, noise);
+            rays_to_reach(k_aim * tolerance, estimate != nullptr ? estimate->samples : 16, noise);
     // With dispersion the rays of a pixel take turns with the wavelengths: many of both are needed
     // anyway, and each ray at one wavelength tells as much as another.
     const bool dispersed = (setup_.on(Effects::dispersion) || setup_.on(Effects::coherence)) &&
@@ -171,17 +172,17 @@ Step LadderSteps::by_reference(const Proof* proof) const {
     if (dispersed)
         settings.wavelength_turns =
             turns_for(settings.samples, static_cast<int>(settings.wavelengths_nm.size()));
-    step.price_ns = plan_.pixels * settings.samples * prover_.pixel_ns() / prover_.samples();
+    step.price_ns = plan_.pixels * settings.samples * estimator_.pixel_ns() / estimator_.samples();
     step.why = "beams would take longer";
     return step;
 }
 
-Step LadderSteps::more_rays(const Step& step, const Proof& proof) const {
+Step LadderSteps::more_rays(const Step& step, const ErrorEstimate& estimate) const {
     const int rays = step.settings.samples;
     Step more = step;
-    more.settings.samples = std::max(
-        rays_to_reach(k_aim * scene_.settings.tolerance, rays, proof.error() + 2 * proof.spread),
-        rays_to_reach(1, rays, 1.3));
+    more.settings.samples = std::max(rays_to_reach(k_aim * scene_.settings.tolerance, rays,
+                                                   estimate.error() + 2 * estimate.spread),
+                                     rays_to_reach(1, rays, 1.3));
     if (step.settings.wavelength_turns > 1) {
         // More rays carry more of the wavelengths that they take turns with.
         std::vector<double>& nm = more.settings.wavelengths_nm;
@@ -198,7 +199,7 @@ Step LadderSteps::more_rays(const Step& step, const Proof& proof) const {
 bool LadderSteps::too_few(int wavelengths) const {
     if (!wavelengths_are_open() || !setup_.on(Effects::dispersion)) return false;
     const IndexSpans spans = index_spans(scene_);
-    const bool sun = prover_.sees_sun();
+    const bool sun = estimator_.sees_sun();
     const double apart = (sun ? k_sun_apart : k_colours_apart) *
                          exit_deviation(spans.dispersion, spans.mean) *
                          std::pow(3.0 / wavelengths, k_colours_power);
@@ -207,13 +208,13 @@ bool LadderSteps::too_few(int wavelengths) const {
 }
 
 bool LadderSteps::may_miss_the_sun(const RenderSettings& settings) const {
-    if (!prover_.sees_sun()) return false;
+    if (!estimator_.sees_sun()) return false;
     return (settings.engine == "preview" && scene_.settings.engine == "auto") ||
            too_few(static_cast<int>(settings.wavelengths_nm.size()));
 }
 
 // What they bring in the picture as it is.
-double LadderSteps::finer_wavelengths(Step& step, ProofPilot& pilot, bool again) const {
+double LadderSteps::finer_wavelengths(Step& step, CausePilot& pilot, bool again) const {
     if (!wavelengths_are_open()) return 0;
     const double allowed = k_share_of_wavelengths * scene_.settings.tolerance;
     std::vector<double>& nm = step.settings.wavelengths_nm;
@@ -235,7 +236,7 @@ double LadderSteps::finer_wavelengths(Step& step, ProofPilot& pilot, bool again)
     return brought;
 }
 
-double LadderSteps::finer_cut(Step& step, ProofPilot& pilot) const {
+double LadderSteps::finer_cut(Step& step, CausePilot& pilot) const {
     RenderSettings& settings = step.settings;
     const double before = *settings.cut_weight, tolerance = scene_.settings.tolerance;
     double brought = -1;
@@ -271,12 +272,12 @@ double LadderSteps::finer_borders(Step& step, double off_by) const {
     return price * std::pow(factor, -k_price_of_borders);
 }
 
-Step LadderSteps::finer_beams(const Step& step, const Proof& proof, bool again) const {
-    const double aim = k_aim * scene_.settings.tolerance, off_by = seen(proof);
+Step LadderSteps::finer_beams(const Step& step, const ErrorEstimate& estimate, bool again) const {
+    const double aim = k_aim * scene_.settings.tolerance, off_by = seen(estimate);
     Step finer = step;
-    ProofPilot pilot(
-        prover_.scene(), step.settings,
-        prover_.sample(std::min(static_cast<std::size_t>(proof.pixels), k_pixelsof_causes)),
+    CausePilot pilot(
+        estimator_.scene(), step.settings,
+        estimator_.sample(std::min(static_cast<std::size_t>(estimate.pixels), k_pixelsof_causes)),
         progress_);
     const double of_wavelengths = finer_wavelengths(finer, pilot, again);
     double of_cut = 0;
@@ -295,7 +296,7 @@ Step LadderSteps::finer_beams(const Step& step, const Proof& proof, bool again) 
                       finer.settings.cut_weight == step.settings.cut_weight;
     if (of_borders > aim || same || again) finer.price_ns *= finer_borders(finer, of_borders);
     finer.why = fmt::format("{} came to within {:.2g} only: drawn with finer beams",
-                            step.settings.engine, proof.bound);
+                            step.settings.engine, estimate.bound);
     return finer;
 }
 

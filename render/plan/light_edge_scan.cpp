@@ -30,7 +30,7 @@ struct Closer {
 };
 const std::vector<Closer> k_closer{{512, 8}, {96, 29}};
 const std::vector<double> k_few_nm{460, 560}, k_one_nm{550};
-// Paths below this weight are left to the proof's even choice; where there is a sun, those that
+// Paths below this weight are left to the estimate's even choice; where there is a sun, those that
 // show less than is bright of it, but not such as would take too long to find.
 constexpr double k_cut_weight = 0.01, k_least_cut_weight = 1e-4;
 // Where light leaves at 60 degrees from a facet's normal, refraction has widened what rays leave

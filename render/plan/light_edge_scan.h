@@ -1,5 +1,5 @@
 #pragma once
-// Where in the picture the edge of a bright light may be seen at some wavelength: what a proof of
+// Where in the picture the edge of a bright light may be seen at some wavelength: what a check of
 // few pixels must not miss.
 //
 // A small bright light is seen in few pixels, and at each wavelength in others: a picture of few

@@ -16,7 +16,7 @@ namespace {
 // Wavelengths that pilots of effects are drawn at: three carry any colour of light.
 const std::vector<double> k_pilot_nm{450, 550, 610};
 // The pilots', and others that tell how noisy the truth is.
-constexpr int k_pilot_pixels = 96, k_proof_pixels = 64;
+constexpr int k_pilot_pixels = 96, k_check_pixels = 64;
 // Trees that branch gamble: pictures that are held against each other should differ by what is
 // looked at rather than by chance, so at weights far below the noise of a pixel's few rays.
 constexpr double k_gambled_weight = 0.01, k_split_weight = 0.1;
@@ -132,7 +132,7 @@ bool Planner::costs_less_than_pilots() {
     for (int e = 0; e < k_effect_count; ++e)
         plan_.settings.effects[static_cast<std::size_t>(e)] =
             plan_.items[static_cast<std::size_t>(e)].on;
-    const Step first = LadderSteps(scene_, plan_, *prover_, progress_).first();
+    const Step first = LadderSteps(scene_, plan_, *estimator_, progress_).first();
     return drawn_by_beams(first.settings) && first.price_ns <= pilots;
 }
 
@@ -213,13 +213,13 @@ void Planner::settle_without_pilot() {
 
 void Planner::find_pixels() {
     if (!(tolerance_ > 0)) return;
-    const StonePixels all = stone_pixels(scene_, k_pilot_pixels + k_proof_pixels);
+    const StonePixels all = stone_pixels(scene_, k_pilot_pixels + k_check_pixels);
     pixels_ = all.stretch(0, k_pilot_pixels);
-    if (pixels_.at.empty() || prover_) return;
-    // A stone of few pixels is proven at all of them.
-    const bool few = all.at.size() < k_pilot_pixels + k_proof_pixels;
-    prover_.emplace(scene_, all.stretch(few ? 0 : k_pilot_pixels, k_proof_pixels), tolerance_,
-                    progress_);
+    if (pixels_.at.empty() || estimator_) return;
+    // A stone of few pixels is checked at all of them.
+    const bool few = all.at.size() < k_pilot_pixels + k_check_pixels;
+    estimator_.emplace(scene_, all.stretch(few ? 0 : k_pilot_pixels, k_check_pixels), tolerance_,
+                       progress_);
 }
 
 // What is known beforehand needs no pilot.
@@ -261,7 +261,7 @@ void Planner::bound_depth() {
 }
 
 void Planner::choose_first_picture() {
-    const Step first = LadderSteps(scene_, plan_, *prover_, progress_).first();
+    const Step first = LadderSteps(scene_, plan_, *estimator_, progress_).first();
     plan_.settings = first.settings;
     plan_.engine_why = first.why;
     plan_.seconds = first.price_ns;

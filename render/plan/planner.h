@@ -10,9 +10,9 @@
 
 #include "render/colour_error.h"
 #include "render/plan.h"
+#include "render/plan/error_estimate.h"
 #include "render/plan/pilot_picture.h"
 #include "render/plan/price.h"
-#include "render/plan/proof.h"
 #include "render/plan/scene_plan.h"
 
 namespace culet {
@@ -45,9 +45,11 @@ public:
     ScenePlan run_to_explain(bool everything);
 
     /// Holds pictures against the truth; none where there was no pilot. After `run`.
-    std::optional<Prover> take_prover() { return std::move(prover_); }
+    std::optional<ErrorEstimator> take_estimator() { return std::move(estimator_); }
     /// Before all else: of the same scene, whose drawings count.
-    void give_prover(std::optional<Prover> prover) { prover_ = std::move(prover); }
+    void give_estimator(std::optional<ErrorEstimator> estimator) {
+        estimator_ = std::move(estimator);
+    }
 
 private:
     PlanItem& item(Effects effect) { return plan_.items[static_cast<std::size_t>(effect)]; }
@@ -89,14 +91,14 @@ private:
     bool one_wave_;
     Leave leave_;
     ScenePlan plan_;
-    StonePixels pixels_;            // of the pilots
-    std::optional<Prover> prover_;  // of others
-    bool branches_ = false;         // trees of light paths double
-    double spent_ = 0;              // of the tolerance, by bounds
-    double left_out_ = 0;           // what effects that are left out are likely off by
-    PilotDrawing first_;            // with the effects that are on, without dispersion
-    PathWork work_, whole_;         // of one of its eye rays; the same with everything on
-    double machine_ = 1;            // nanoseconds of this one over those of price.h
+    StonePixels pixels_;                       // of the pilots
+    std::optional<ErrorEstimator> estimator_;  // of others
+    bool branches_ = false;                    // trees of light paths double
+    double spent_ = 0;                         // of the tolerance, by bounds
+    double left_out_ = 0;                      // what effects that are left out are likely off by
+    PilotDrawing first_;                       // with the effects that are on, without dispersion
+    PathWork work_, whole_;  // of one of its eye rays; the same with everything on
+    double machine_ = 1;     // nanoseconds of this one over those of price.h
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

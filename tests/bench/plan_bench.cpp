@@ -14,8 +14,8 @@
 #include "render/colour_error.h"
 #include "render/image_io.h"
 #include "render/plan/planner.h"
-#include "render/plan/wavelengths.h"
 #include "render/plan/verify.h"
+#include "render/plan/wavelengths.h"
 #include "render/reference.h"
 #include "stone/errors.h"
 #include "tests/bench/cpu_time.h"
@@ -167,7 +167,7 @@ int run(const Options& options) {
             scene.settings.tolerance = tolerance;
             RenderResult drawn;
             const Clocks took = quickest([&] { drawn = render(scene); }, 1, 0);
-            // Where nothing was drawn twice, what was not drawing is planning and proof.
+            // Where nothing was drawn twice, what was not drawing is planning and estimate.
             const double planned = drawn.stats.plan->seconds_planning;
             const Verification found = hold_against(truth, drawn.picture);
             const HandChosen* best = cheapest_within(by_hand, tolerance);

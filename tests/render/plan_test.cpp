@@ -12,9 +12,9 @@
 #include <set>
 
 #include "render/colour_error.h"
+#include "render/plan/error_estimate.h"
 #include "render/plan/planner.h"
 #include "render/plan/wavelengths.h"
-#include "render/plan/proof.h"
 #include "render/render.h"
 #include "render/scene_io.h"
 #include "stone/cuts/cuts.h"
@@ -292,7 +292,7 @@ TEST(Plan, weighs_no_effects_where_that_would_cost_more_than_the_picture) {
     EXPECT_FALSE(std::isnan(plan_scene(scene).item("polarization").matters));
 }
 
-TEST(Plan, pictures_and_proofs_are_the_same_on_any_number_of_threads) {
+TEST(Plan, pictures_and_checks_are_the_same_on_any_number_of_threads) {
     for (const char* material : {"diamond", "quartz"}) {
         Scene scene = small_scene(material);
         add_lobes(scene);
@@ -309,30 +309,30 @@ TEST(Plan, pictures_and_proofs_are_the_same_on_any_number_of_threads) {
 }
 
 // In even light every true pixel is 1.
-TEST(Proof, finds_what_a_picture_is_off_by) {
+TEST(ErrorEstimate, finds_what_a_picture_is_off_by) {
     const Scene scene = small_scene("diamond");
     Picture picture;
     picture.width = scene.camera.width;
     picture.height = scene.camera.height;
     picture.rgb.assign(3 * picture.pixels(), 1.1f);
     const Progress progress;
-    Prover prover(scene, stone_pixels(scene, 64), 0.05, progress);
-    const Proof off = prover.prove(picture, 0.05, 1e9);
+    ErrorEstimator estimator(scene, stone_pixels(scene, 64), 0.05, progress);
+    const ErrorEstimate off = estimator.estimate(picture, 0.05, 1e9);
     // The truth leaves out less than a hundredth of the tolerance a path.
     EXPECT_NEAR(off.difference, 0.1, 0.005);
     EXPECT_GE(off.bound, 0.1);
     EXPECT_LE(off.bound, 0.11);
     for (float& v : picture.rgb) v = 1;
-    const Proof right = prover.prove(picture, 0.05, 1e9);
+    const ErrorEstimate right = estimator.estimate(picture, 0.05, 1e9);
     EXPECT_LE(right.bound, 0.01);
     // A pixel of no number is as wrong as can be.
     picture.rgb.assign(3 * picture.pixels(), std::nanf(""));
-    EXPECT_GT(prover.prove(picture, 0.05, 1e9).bound, 1e6);
+    EXPECT_GT(estimator.estimate(picture, 0.05, 1e9).bound, 1e6);
 }
 
 // Where every other pixel is black, those beside which the picture changes are chosen: the mean
 // counts them for no more than they are.
-TEST(Proof, counts_pixels_that_it_chooses_more_often_for_less) {
+TEST(ErrorEstimate, counts_pixels_that_it_chooses_more_often_for_less) {
     Scene scene = small_scene("diamond");
     scene.settings.tolerance = 0;
     scene.settings.depth = 8;
@@ -349,11 +349,11 @@ TEST(Proof, counts_pixels_that_it_chooses_more_often_for_less) {
         sum += left;
         ++count;
     }
-    Prover prover(scene, stone_pixels(scene, 64), 0.05, progress);
-    const Proof proof = prover.prove(picture, 0, 1e12);
-    EXPECT_NEAR(proof.difference, sum / count, 3 * proof.spread + 0.05);
-    EXPECT_LT(proof.spread, 0.2);
-    EXPECT_GE(proof.bound, sum / count);
+    ErrorEstimator estimator(scene, stone_pixels(scene, 64), 0.05, progress);
+    const ErrorEstimate estimate = estimator.estimate(picture, 0, 1e12);
+    EXPECT_NEAR(estimate.difference, sum / count, 3 * estimate.spread + 0.05);
+    EXPECT_LT(estimate.spread, 0.2);
+    EXPECT_GE(estimate.bound, sum / count);
 }
 
 // What a spectrum that is 0 up to a wavelength and 1 beyond it shows, against wavelengths 1 nm

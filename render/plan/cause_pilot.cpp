@@ -1,4 +1,4 @@
-#include "render/plan/proof_pilot.h"
+#include "render/plan/cause_pilot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,18 +8,18 @@
 
 namespace culet {
 
-ProofPilot::ProofPilot(const Scene& scene, const RenderSettings& drawn, ProofSample sample,
+CausePilot::CausePilot(const Scene& scene, const RenderSettings& drawn, CheckedSample sample,
                        const Progress& progress)
     : scene_(scene), without_(scene), sample_(std::move(sample)), progress_(progress) {
     without_.settings.effects_auto = false;
     without_.settings.effects = drawn.effects;
 }
 
-std::vector<Rgb> ProofPilot::draw(const Scene& scene, const PathLimits& limits) const {
+std::vector<Rgb> CausePilot::draw(const Scene& scene, const PathLimits& limits) const {
     return draw_pilot(scene, sample_.pixels, limits, sample_.rays, sample_.nodes, progress_).rgb;
 }
 
-double ProofPilot::between(const std::vector<Rgb>& some, const std::vector<Rgb>& others) const {
+double CausePilot::between(const std::vector<Rgb>& some, const std::vector<Rgb>& others) const {
     double errors = 0, sizes = 0;
     for (std::size_t i = 0; i < sample_.truth.size(); ++i) {
         errors += sample_.counts[i] * apart(some[i], others[i]);
@@ -29,11 +29,11 @@ double ProofPilot::between(const std::vector<Rgb>& some, const std::vector<Rgb>&
 }
 
 // Fewer effects and wavelengths have other noise.
-double ProofPilot::beyond_noise(double difference) const {
+double CausePilot::beyond_noise(double difference) const {
     return std::sqrt(std::max(0.0, difference * difference - sample_.noise * sample_.noise));
 }
 
-const std::vector<Rgb>& ProofPilot::with_drawn_effects() {
+const std::vector<Rgb>& CausePilot::with_drawn_effects() {
     if (seen_) return *seen_;
     const Plan of_truth = make_plan(scene_, sample_.nodes),
                left = make_plan(without_, sample_.nodes);
@@ -46,18 +46,18 @@ const std::vector<Rgb>& ProofPilot::with_drawn_effects() {
     return *seen_;
 }
 
-double ProofPilot::without_effects() {
+double CausePilot::without_effects() {
     return beyond_noise(between(with_drawn_effects(), sample_.truth));
 }
 
-double ProofPilot::at_cut(double weight) {
+double CausePilot::at_cut(double weight) {
     const std::vector<Rgb>& whole = with_drawn_effects();
     PathLimits limits = sample_.limits;
     limits.cut_weight = std::max(limits.cut_weight, weight);
     return between(draw(without_, limits), whole);
 }
 
-double ProofPilot::at_wavelengths(const std::vector<double>& nm) {
+double CausePilot::at_wavelengths(const std::vector<double>& nm) {
     const std::vector<Rgb>& whole = with_drawn_effects();
     Scene few = without_;
     few.settings.wavelengths_nm = nm;

@@ -1,4 +1,4 @@
-#include "render/plan/proof_pixels.h"
+#include "render/plan/check_pixels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,9 +37,9 @@ double brightest_light(const Scene& scene) {
 
 // More often where the picture changes beside a pixel. With the root of that change: pixels of
 // little contrast are off as well, because a picture may lack what is there.
-ProofPixels choose_proof_pixels(const Scene& scene, const Picture& picture, const StonePixels& some,
+CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, const StonePixels& some,
                                 const Progress& progress, FrameRenderer* frames) {
-    ProofPixels chosen;
+    CheckPixels chosen;
     chosen.pixels.in_picture = some.in_picture;
     chosen.first = k_first_pixels;
     const Contrast contrast =

@@ -11,7 +11,7 @@ namespace culet {
 
 class FrameRenderer;
 
-struct ProofPixels {
+struct CheckPixels {
     StonePixels pixels;          ///< in the order in which they are drawn
     std::vector<double> counts;  ///< of each, 1 in the mean (Hansen & Hurwitz 1943)
     bool all = false;            ///< each pixel of the stone once
@@ -24,7 +24,7 @@ struct ProofPixels {
 /// picture tells of none. More often where the picture changes beside a pixel, and where a bright
 /// light may be seen at another wavelength. `frames`: that drew it, if any (light_edge_scan.h).
 /// Throws Interrupted.
-ProofPixels choose_proof_pixels(const Scene& scene, const Picture& picture, const StonePixels& some,
+CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, const StonePixels& some,
                                 const Progress& progress, FrameRenderer* frames);
 
 /// Those that the stone fills by half at least and that have more than this share of the picture's

@@ -1,17 +1,17 @@
 #pragma once
-// What a picture's choices are off by, each alone: the truth's own rays at pixels of its proof,
+// What a picture's choices are off by, each alone: the truth's own rays at pixels of its check,
 // drawn once more with that choice. A pilot of even pixels may miss the few that bring most; these
 // were chosen where pictures are off.
 
-#include "render/plan/proof.h"
+#include "render/plan/error_estimate.h"
 
 namespace culet {
 
-class ProofPilot {
+class CausePilot {
 public:
     /// `scene`: with everything on; `drawn`: the settings of a picture. Scene and progress must
     /// outlive it. Nothing is drawn yet.
-    ProofPilot(const Scene& scene, const RenderSettings& drawn, ProofSample sample,
+    CausePilot(const Scene& scene, const RenderSettings& drawn, CheckedSample sample,
                const Progress& progress);
 
     /// The effects that the picture leaves out.
@@ -36,7 +36,7 @@ private:
 
     const Scene& scene_;
     Scene without_;  // effects that the picture leaves out
-    ProofSample sample_;
+    CheckedSample sample_;
     const Progress& progress_;
     std::optional<std::vector<Rgb>> seen_;  // without these effects
 };

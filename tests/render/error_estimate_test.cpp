@@ -1,7 +1,7 @@
-// Is a proof's bound what it says where a picture is off in few pixels? Expectations: every pixel
-// of the stone, drawn by the reference, and the lights' own geometry.
+// Is an estimate's bound what it says where a picture is off in few pixels? Expectations: every
+// pixel of the stone, drawn by the reference, and the lights' own geometry.
 
-#include "render/plan/proof.h"
+#include "render/plan/error_estimate.h"
 
 #include <gtest/gtest.h>
 
@@ -14,13 +14,13 @@
 
 #include "render/colour_error.h"
 #include "render/light_presets.h"
+#include "render/plan/cause_pilot.h"
+#include "render/plan/check_pixels.h"
 #include "render/plan/contrast.h"
 #include "render/plan/light_edge_scan.h"
 #include "render/plan/planner.h"
-#include "render/plan/wavelengths.h"
-#include "render/plan/proof_pilot.h"
-#include "render/plan/proof_pixels.h"
 #include "render/plan/verify.h"
+#include "render/plan/wavelengths.h"
 #include "render/render.h"
 #include "tests/bench/plan_scenes.h"
 
@@ -126,17 +126,17 @@ TEST(OutstandingPixels, have_more_than_a_share_of_the_light_and_than_30_means) {
     EXPECT_EQ(outstanding_pixels(picture, 1, 1e-3, 10), (Pixels{{7, 30}})) << "beside the stone";
 }
 
-// A sun where none is, in a picture that comes after the one by which the proof's pixels were
+// A sun where none is, in a picture that comes after the one by which the estimate's pixels were
 // chosen: one pixel of 2000 that brings half of all light.
-TEST(Proof, looks_at_a_false_sun_in_a_later_picture) {
+TEST(ErrorEstimate, looks_at_a_false_sun_in_a_later_picture) {
     Scene scene = plan_scene_of("spinel", "princess", "daylight", 64).scene;
     scene.settings.tolerance = 0.1;
     Picture picture = render(scene).picture;
     scene.settings.effects_auto = true;
     const StonePixels all = all_stone_pixels(scene);
     const Progress none;
-    Prover prover(scene, all, 0.1, none);
-    const Proof right = prover.prove(picture, 0.1, 1e12);
+    ErrorEstimator estimator(scene, all, 0.1, none);
+    const ErrorEstimate right = estimator.estimate(picture, 0.1, 1e12);
     EXPECT_LE(right.bound, 0.1);
     double light = 0;
     for (const auto& [x, y] : all.at) light += mean_of(picture.pixel(x, y));
@@ -144,7 +144,7 @@ TEST(Proof, looks_at_a_false_sun_in_a_later_picture) {
         Picture wrong = picture;
         light_up(wrong, x, y, static_cast<float>(light / 2));
         const double error = 0.5 - mean_of(picture.pixel(x, y)) / light;
-        const Proof found = prover.prove(wrong, 0.1, 1e12);
+        const ErrorEstimate found = estimator.estimate(wrong, 0.1, 1e12);
         // What it says of the others is right to within its own spread.
         EXPECT_NEAR(found.difference, error + right.difference,
                     3 * (right.spread + found.spread) + 0.1 * error)
@@ -241,17 +241,17 @@ TEST(LightRims, of_a_map_keep_its_brightest_texel) {
     EXPECT_EQ(rims.environment->rgb[3 * (17 * 64 + 24) + 1], 0.5f);
 }
 
-struct ProvenScene {
+struct CheckedScene {
     const char *material, *cut, *light;
     double tolerance;
     std::string name;
 };
-class BoundOverAllPixels : public testing::TestWithParam<ProvenScene> {};
+class BoundOverAllPixels : public testing::TestWithParam<CheckedScene> {};
 
 // Every pixel of the stone. The truth's few rays make what is measured larger, if anything, and so
 // their noise is taken off as of independent quantities (`hold_against`).
 TEST_P(BoundOverAllPixels, is_not_below_what_is_measured) {
-    const ProvenScene& which = GetParam();
+    const CheckedScene& which = GetParam();
     Scene scene = plan_scene_of(which.material, which.cut, which.light, 100).scene;
     scene.settings.tolerance = which.tolerance;
     const RenderResult result = render(scene);
@@ -269,10 +269,10 @@ TEST_P(BoundOverAllPixels, is_not_below_what_is_measured) {
 // its bound, all of them less.
 INSTANTIATE_TEST_SUITE_P(
     Scenes, BoundOverAllPixels,
-    testing::Values(ProvenScene{"spinel", "trillion", "lightbox", 0.03, "spinel_in_a_light_box"},
-                    ProvenScene{"fluorite", "oval", "lightbox", 0.1, "fluorite_in_a_light_box"},
-                    ProvenScene{"cubic_zirconia", "oval", "daylight", 0.1, "zirconia_in_the_sun"}),
-    [](const testing::TestParamInfo<ProvenScene>& which) { return which.param.name; });
+    testing::Values(CheckedScene{"spinel", "trillion", "lightbox", 0.03, "spinel_in_a_light_box"},
+                    CheckedScene{"fluorite", "oval", "lightbox", 0.1, "fluorite_in_a_light_box"},
+                    CheckedScene{"cubic_zirconia", "oval", "daylight", 0.1, "zirconia_in_the_sun"}),
+    [](const testing::TestParamInfo<CheckedScene>& which) { return which.param.name; });
 
 // Cubic zirconia in the sun at three wavelengths: the sun's other images are where pixels are off
 // by more than ten times the mean.
@@ -311,7 +311,7 @@ TEST(LightEdgeScan, finds_the_sun_on_paths_of_little_weight) {
 // Next to total reflection the sun's images of 29 wavelengths part in strontium titanate: what such
 // a picture is off by, a truth of the same wavelengths does not show. The pixels that may see the
 // sun, by themselves, may not be off by more than all of them are said to be.
-TEST(Proof, knows_of_the_sun_between_the_pictures_wavelengths) {
+TEST(ErrorEstimate, knows_of_the_sun_between_the_pictures_wavelengths) {
     Scene scene = plan_scene_of("strontium_titanate", "round-brilliant", "daylight", 200).scene;
     scene.settings.tolerance = 0.1;
     const RenderResult result = render(scene);
@@ -338,7 +338,7 @@ TEST(Proof, knows_of_the_sun_between_the_pictures_wavelengths) {
 // The sun's colours leave an almandine side by side, over 150 pixels of 57 000 and a thousand times
 // as bright as the rest: more light than all else. A pilot of even pixels does not see them, and
 // without dispersion they are not there.
-TEST(Proof, says_what_was_left_out_where_the_pilot_missed_it) {
+TEST(ErrorEstimate, says_what_was_left_out_where_the_pilot_missed_it) {
     Scene scene = plan_scene_of("garnet_almandine", "round-brilliant", "daylight", 400).scene;
     scene.settings.tolerance = 0.1;
     scene.settings.effects_auto = true;
@@ -361,16 +361,16 @@ TEST(Proof, says_what_was_left_out_where_the_pilot_missed_it) {
     EXPECT_GT(most, 50 * sum / static_cast<double>(pixels));
 }
 
-// A pilot at the proof's pixels against all pixels of the stone, drawn with the same choice by the
-// very rays: means of few pixels are off by three of their standard errors at most, which the
-// spread of so many proofs' pixels tells.
-TEST(ProofPilot, finds_what_single_choices_are_off_by) {
+// A pilot at the estimate's pixels against all pixels of the stone, drawn with the same choice by
+// the very rays: means of few pixels are off by three of their standard errors at most, which the
+// spread of so many checks' pixels tells.
+TEST(CausePilot, finds_what_single_choices_are_off_by) {
     const Progress quiet;
     Scene scene = plan_scene_of("diamond", "princess", "lamp", 100).scene;
     scene.settings.tolerance = 0.1;
     scene.settings.effects_auto = true;
     const StonePixels all = all_stone_pixels(scene);
-    Prover prover(scene, all, scene.settings.tolerance, quiet);
+    ErrorEstimator estimator(scene, all, scene.settings.tolerance, quiet);
     RenderSettings drawn = scene.settings;
     drawn.effects_auto = false;
     drawn.effects.fill(true);
@@ -382,22 +382,22 @@ TEST(ProofPilot, finds_what_single_choices_are_off_by) {
     const Picture picture = FrameRenderer(preview).draw().picture;
     // A bound that is asked to be a little smaller each time takes more pixels.
     double bound = 1e9;
-    while (prover.sample(100000).truth.size() < 192)
-        bound = prover.prove(picture, 0.95 * bound, 1e10).bound;
-    const ProofSample some = prover.sample(100000);
+    while (estimator.sample(100000).truth.size() < 192)
+        bound = estimator.estimate(picture, 0.95 * bound, 1e10).bound;
+    const CheckedSample some = estimator.sample(100000);
     ASSERT_GE(some.truth.size(), 192u);
-    EXPECT_EQ(prover.sample(50).truth.size(), 50u);
-    ProofPilot pilot(prover.scene(), drawn, some, quiet);
+    EXPECT_EQ(estimator.sample(50).truth.size(), 50u);
+    CausePilot pilot(estimator.scene(), drawn, some, quiet);
 
     // The same of every pixel, each once.
-    ProofSample whole = some;
+    CheckedSample whole = some;
     whole.pixels = all;
     whole.counts.assign(all.at.size(), 1.0);
-    Scene turns = prover.scene();
+    Scene turns = estimator.scene();
     turns.settings.wavelength_turns = turns_for(some.rays, some.nodes);
     whole.truth = draw_pilot(turns, all, some.limits, some.rays, some.nodes).rgb;
     whole.noise = some.noise;
-    ProofPilot truth(prover.scene(), drawn, whole, quiet);
+    CausePilot truth(estimator.scene(), drawn, whole, quiet);
     const double spread = 3 / std::sqrt(static_cast<double>(some.truth.size()));
     const auto near = [spread](double found, double expected, double noise) {
         // Glints make single pixels differ by about twice their mean.
@@ -414,24 +414,24 @@ TEST(ProofPilot, finds_what_single_choices_are_off_by) {
     EXPECT_EQ(pilot.at_wavelengths(even_wavelengths(pilot.wavelengths())), 0);
     drawn.effects.fill(true);
     drawn.effects[static_cast<std::size_t>(Effects::coherence)] = false;
-    EXPECT_EQ(ProofPilot(prover.scene(), drawn, some, quiet).without_effects(), 0)
+    EXPECT_EQ(CausePilot(estimator.scene(), drawn, some, quiet).without_effects(), 0)
         << "nothing is left out";
 }
 
 // A crystal's paths are left to chance: no cut is to blame, and no pilot is drawn for it.
-TEST(ProofPilot, is_not_for_trees_that_gamble) {
+TEST(CausePilot, is_not_for_trees_that_gamble) {
     const Progress quiet;
     Scene scene = plan_scene_of("peridot", "step", "smooth", 40).scene;
     scene.settings.tolerance = 0.1;
     scene.settings.effects_auto = true;
-    Prover prover(scene, all_stone_pixels(scene), 0.1, quiet);
-    EXPECT_EQ(prover.pixels_for(1e12), 0u) << "nothing is drawn yet";
+    ErrorEstimator estimator(scene, all_stone_pixels(scene), 0.1, quiet);
+    EXPECT_EQ(estimator.pixels_for(1e12), 0u) << "nothing is drawn yet";
     Picture dark;
     dark.width = dark.height = 40;
     dark.rgb.assign(3 * dark.pixels(), 0.0f);
-    prover.prove(dark, 0.1, 1e9);
-    EXPECT_GT(prover.sample(1000).truth.size(), 0u);
-    EXPECT_EQ(prover.pixels_for(1e12), 0u);
+    estimator.estimate(dark, 0.1, 1e9);
+    EXPECT_GT(estimator.sample(1000).truth.size(), 0u);
+    EXPECT_EQ(estimator.pixels_for(1e12), 0u);
 }
 
 }  // namespace

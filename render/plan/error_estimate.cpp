@@ -1,4 +1,4 @@
-#include "render/plan/proof.h"
+#include "render/plan/error_estimate.h"
 
 #include <algorithm>
 #include <array>
@@ -17,12 +17,13 @@ constexpr double k_standard_errors = 3;
 constexpr std::size_t k_step = 4;  // times as many pixels at the next look, at most
 // Sides of the truth's grids, one after the other. Grids of different sides are off independently.
 constexpr std::array k_sides{4, 5, 7, 11, 15, 22, 32, 46};
-// Of a picture whose error, less a standard error, is this share of what it may be, no proof is
+// Of a picture whose error, less a standard error, is this share of what it may be, no estimate is
 // sought any further; less two, where that costs no more than this share of what it may. Few pixels
 // that are off by much are often met too often.
 constexpr double k_hopeless = 0.97, k_doubtful_share = 0.25;
 // Noise that is more than this share of the difference hides what the picture is off by; finding it
-// out may cost so many times as much as usual, because no other picture could be proven, either.
+// out may cost so many times as much as usual, because no other picture could be shown to be near
+// enough, either.
 constexpr double k_noisy = 0.5, k_noisy_price = 12;
 // What the mean of N rays is off by falls about as N^-0.6; and of what a bound may be, what it
 // should be by that to be sought.
@@ -41,11 +42,12 @@ constexpr double k_fine_tolerance = 0.02;
 
 }  // namespace
 
-double Proof::error() const {
+double ErrorEstimate::error() const {
     return std::sqrt(std::max(0.0, difference * difference - noise * noise));
 }
 
-Prover::Prover(const Scene& scene, StonePixels some, double tolerance, const Progress& progress)
+ErrorEstimator::ErrorEstimator(const Scene& scene, StonePixels some, double tolerance,
+                               const Progress& progress)
     : scene_(scene),
       some_(std::move(some)),
       nodes_(k_node_counts[tolerance < k_fine_tolerance ? 3 : 2]),
@@ -70,45 +72,45 @@ Prover::Prover(const Scene& scene, StonePixels some, double tolerance, const Pro
 }
 
 // No grid that the scene asks for, whose picture would share the truth's rays.
-int Prover::grid(std::size_t level) const {
+int ErrorEstimator::grid(std::size_t level) const {
     int side = k_sides[level];
     if (side * side == scene_.settings.samples) side += level == 0 ? 2 : 1;
     return side * side;
 }
 
-bool Prover::takes_grid(int side) {
+bool ErrorEstimator::takes_grid(int side) {
     return std::find(k_sides.begin(), k_sides.end(), side) != k_sides.end();
 }
 
-int Prover::samples() const {
+int ErrorEstimator::samples() const {
     int sum = 0;
     for (const Level& level : levels_) sum += level.samples;
     return sum;
 }
 
-void Prover::take(int wanted) {
+void ErrorEstimator::take(int wanted) {
     while (samples() < wanted && levels_.size() < k_sides.size()) take_more();
 }
 
-void Prover::take_more() {
+void ErrorEstimator::take_more() {
     if (levels_.size() == k_sides.size()) return;
     Level more;
     more.samples = grid(levels_.size());
     levels_.push_back(more);
 }
 
-double Prover::more_ns() const {
+double ErrorEstimator::more_ns() const {
     if (levels_.size() == k_sides.size() || !(rays_drawn_ > 0))
         return std::numeric_limits<double>::infinity();
     return static_cast<double>(levels_.front().rgb.size()) * grid(levels_.size()) *
            price_ns(work_) / rays_drawn_;
 }
 
-double Prover::pixel_ns() const {
+double ErrorEstimator::pixel_ns() const {
     return rays_drawn_ > 0 ? price_ns(work_) * samples() / rays_drawn_ : 0;
 }
 
-PilotDrawing Prover::draw(const StonePixels& pixels, int samples) {
+PilotDrawing ErrorEstimator::draw(const StonePixels& pixels, int samples) {
     Scene scene = scene_;
     scene.settings.wavelength_turns = turns_for(samples, nodes_);
     PilotDrawing drawing = draw_pilot(scene, pixels, limits_, samples, nodes_, *progress_);
@@ -118,7 +120,7 @@ PilotDrawing Prover::draw(const StonePixels& pixels, int samples) {
     return drawing;
 }
 
-double Prover::noise_of_16() {
+double ErrorEstimator::noise_of_16() {
     const PilotDrawing drawing = draw(some_.stretch(0, k_noise_pixels), levels_[0].samples);
     double squares = 0, sum = 0;
     for (double halves : drawing.halves_apart) {
@@ -132,7 +134,7 @@ double Prover::noise_of_16() {
     return (1 + 1.5 * spread) * drawing.few_rays / k_halves_over_noise;
 }
 
-void Prover::draw_up_to(std::size_t count) {
+void ErrorEstimator::draw_up_to(std::size_t count) {
     count = std::min(count, chosen_.pixels.at.size());
     for (Level& level : levels_) {
         if (level.rgb.size() >= count) continue;
@@ -157,7 +159,7 @@ void Prover::draw_up_to(std::size_t count) {
     }
 }
 
-void Prover::find_outstanding(const Picture& picture) {
+void ErrorEstimator::find_outstanding(const Picture& picture) {
     of_picture_.clear();
     if (!chosen_.bright || chosen_.all) return;
     for (const auto& at :
@@ -169,7 +171,7 @@ void Prover::find_outstanding(const Picture& picture) {
     }
 }
 
-Rgb Prover::truth(std::vector<Rgb> Level::*of, std::size_t pixel) const {
+Rgb ErrorEstimator::truth(std::vector<Rgb> Level::*of, std::size_t pixel) const {
     Rgb sum{};
     for (const Level& level : levels_) {
         for (std::size_t c = 0; c < 3; ++c) sum[c] += level.samples * (level.*of)[pixel][c];
@@ -179,14 +181,14 @@ Rgb Prover::truth(std::vector<Rgb> Level::*of, std::size_t pixel) const {
     return sum;
 }
 
-double Prover::noise_of(const Level& level) const {
+double ErrorEstimator::noise_of(const Level& level) const {
     return level.halves / level.radiance / k_halves_over_noise;
 }
 
-ProofSample Prover::sample(std::size_t pixels) const {
+CheckedSample ErrorEstimator::sample(std::size_t pixels) const {
     const Level& level = levels_.front();
     const std::size_t count = std::min(pixels, level.rgb.size());
-    ProofSample sample;
+    CheckedSample sample;
     sample.pixels = chosen_.pixels.stretch(0, count);
     sample.counts.assign(chosen_.counts.begin(), chosen_.counts.begin() + static_cast<long>(count));
     sample.truth.assign(level.rgb.begin(), level.rgb.begin() + static_cast<long>(count));
@@ -197,19 +199,19 @@ ProofSample Prover::sample(std::size_t pixels) const {
     return sample;
 }
 
-std::size_t Prover::pixels_for(double ns) const {
+std::size_t ErrorEstimator::pixels_for(double ns) const {
     if (limits_.roulette || !(rays_drawn_ > 0)) return 0;
     const double pixels = ns * rays_drawn_ / (levels_.front().samples * price_ns(work_));
     return static_cast<std::size_t>(
         std::min(pixels, static_cast<double>(levels_.front().rgb.size())));
 }
 
-Proof Prover::look(const Picture& picture, std::size_t wanted) {
+ErrorEstimate ErrorEstimator::look(const Picture& picture, std::size_t wanted) {
     draw_up_to(wanted);
     const std::size_t count = std::min(wanted, chosen_.pixels.at.size());
-    Proof proof;
-    proof.pixels = static_cast<int>(count);
-    proof.samples = samples();
+    ErrorEstimate estimate;
+    estimate.pixels = static_cast<int>(count);
+    estimate.samples = samples();
     std::vector<Rgb> seen, true_pixels;
     std::vector<double> errors_of;
     double errors = 0, squares = 0, sizes = 0;
@@ -238,19 +240,19 @@ Proof Prover::look(const Picture& picture, std::size_t wanted) {
         surely += counts * error_of(picture.pixel(at.first, at.second), there);
         sizes += counts * mean_of(there);
     }
-    if (!(sizes > 0)) return proof;
-    proof.difference = (errors + surely) / sizes;
+    if (!(sizes > 0)) return estimate;
+    estimate.difference = (errors + surely) / sizes;
     if (!chosen_.all && count > 1) {
         const double mean = errors / pixels,
                      deviation = std::sqrt(std::max(0.0, squares - errors * mean) / (pixels - 1));
-        proof.spread = deviation * std::sqrt(pixels) / sizes;
+        estimate.spread = deviation * std::sqrt(pixels) / sizes;
         if (deviation > 0) {
             double cubes = 0;
             for (const double error : errors_of) {
                 cubes += std::pow((error - mean) / deviation, 3) / pixels;
             }
             constexpr double t = k_standard_errors;
-            proof.skewness = std::max(0.0, cubes) * (1 + 2 * t * t) / 6 * deviation / sizes;
+            estimate.skewness = std::max(0.0, cubes) * (1 + 2 * t * t) / 6 * deviation / sizes;
         }
     }
     double noise = 0, cut = 0;
@@ -259,15 +261,16 @@ Proof Prover::look(const Picture& picture, std::size_t wanted) {
         noise += std::pow(share * noise_of(level), 2);
         cut += share * level.cut / static_cast<double>(level.rgb.size());
     }
-    proof.noise = std::sqrt(noise);
+    estimate.noise = std::sqrt(noise);
     // What the truth itself has cut counts as light of the mean radiance.
-    proof.bound = proof.difference + k_standard_errors * proof.spread + proof.skewness + cut;
-    proof.bound_delta_e = colour_error(seen, true_pixels).bound_delta_e();
-    return proof;
+    estimate.bound =
+        estimate.difference + k_standard_errors * estimate.spread + estimate.skewness + cut;
+    estimate.bound_delta_e = colour_error(seen, true_pixels).bound_delta_e();
+    return estimate;
 }
 
 // Of so many pixels and grids, those that are not drawn yet.
-double Prover::rays_for(std::size_t pixels, std::size_t levels) const {
+double ErrorEstimator::rays_for(std::size_t pixels, std::size_t levels) const {
     double rays = 0;
     for (std::size_t l = 0; l < levels; ++l) {
         const bool there = l < levels_.size();
@@ -281,24 +284,25 @@ double Prover::rays_for(std::size_t pixels, std::size_t levels) const {
 // The cheapest way to look that is likely to end it, were the picture better than what was found by
 // so many of its standard errors: more pixels narrow the standard error, more rays lessen the
 // noise.
-std::optional<Prover::Look> Prover::next_look(const Proof& proof, double room,
-                                              double standard_errors) const {
-    const double error = std::max(0.0, proof.error() - standard_errors * proof.spread);
+std::optional<ErrorEstimator::Look> ErrorEstimator::next_look(const ErrorEstimate& estimate,
+                                                              double room,
+                                                              double standard_errors) const {
+    const double error = std::max(0.0, estimate.error() - standard_errors * estimate.spread);
     std::optional<Look> best;
     const double rays_before = samples();
     double rays = rays_before;
     for (std::size_t levels = levels_.size();; ++levels) {
-        const double noise = proof.noise * std::pow(rays_before / rays, k_noise_power),
+        const double noise = estimate.noise * std::pow(rays_before / rays, k_noise_power),
                      difference = std::hypot(error, noise);
-        for (std::size_t pixels = static_cast<std::size_t>(proof.pixels);;) {
-            const double spread = proof.spread * (difference / proof.difference) *
-                                  std::sqrt(proof.pixels / static_cast<double>(pixels));
-            const double skewness = proof.skewness * (difference / proof.difference) *
-                                    (proof.pixels / static_cast<double>(pixels));
+        for (std::size_t pixels = static_cast<std::size_t>(estimate.pixels);;) {
+            const double spread = estimate.spread * (difference / estimate.difference) *
+                                  std::sqrt(estimate.pixels / static_cast<double>(pixels));
+            const double skewness = estimate.skewness * (difference / estimate.difference) *
+                                    (estimate.pixels / static_cast<double>(pixels));
             if (difference + k_standard_errors * spread + skewness <= k_likely_room * room) {
                 const double drawn = rays_for(pixels, levels);
                 // What is there already was not enough.
-                if (drawn > 0 || pixels != static_cast<std::size_t>(proof.pixels)) {
+                if (drawn > 0 || pixels != static_cast<std::size_t>(estimate.pixels)) {
                     if (!best || drawn < best->rays) best = Look{pixels, levels, drawn};
                     break;
                 }
@@ -312,14 +316,14 @@ std::optional<Prover::Look> Prover::next_look(const Proof& proof, double room,
     return best;
 }
 
-void Prover::choose(const Picture& picture, FrameRenderer* frames) {
-    chosen_ = choose_proof_pixels(scene_, picture, some_, *progress_, frames);
+void ErrorEstimator::choose(const Picture& picture, FrameRenderer* frames) {
+    chosen_ = choose_check_pixels(scene_, picture, some_, *progress_, frames);
     // A small light has an image at each wavelength. Where these part, few wavelengths bring too
     // much or too little of it, and a truth of the picture's own would not tell.
     if (chosen_.sun) nodes_ = k_node_counts.back();
 }
 
-void Prover::look_elsewhere() {
+void ErrorEstimator::look_elsewhere() {
     chosen_ = {};
     for (Level& level : levels_) {
         level.rgb.clear();
@@ -327,31 +331,32 @@ void Prover::look_elsewhere() {
     }
 }
 
-Proof Prover::prove(const Picture& picture, double room, double most_ns, FrameRenderer* frames) {
+ErrorEstimate ErrorEstimator::estimate(const Picture& picture, double room, double most_ns,
+                                       FrameRenderer* frames) {
     if (chosen_.pixels.at.empty()) choose(picture, frames);
     // What was drawn to judge other pictures judges this one.
     std::size_t known = chosen_.pixels.at.size();
     for (const Level& level : levels_) known = std::min(known, level.rgb.size());
     find_outstanding(picture);
-    Proof proof = look(picture, std::max(chosen_.first, known));
-    for (int more = 1; more < k_looks && proof.bound > room; ++more) {
+    ErrorEstimate estimate = look(picture, std::max(chosen_.first, known));
+    for (int more = 1; more < k_looks && estimate.bound > room; ++more) {
         // As long as the noise is what is seen, the picture cannot be blamed.
-        const bool noisy = proof.noise > k_noisy * proof.difference;
-        const bool doubtful = !noisy && proof.error() - proof.spread > k_hopeless * room;
-        if (doubtful && proof.error() - 2 * proof.spread > k_hopeless * room) break;
-        const std::optional<Look> next = next_look(proof, room, doubtful ? 2 : 1);
+        const bool noisy = estimate.noise > k_noisy * estimate.difference;
+        const bool doubtful = !noisy && estimate.error() - estimate.spread > k_hopeless * room;
+        if (doubtful && estimate.error() - 2 * estimate.spread > k_hopeless * room) break;
+        const std::optional<Look> next = next_look(estimate, room, doubtful ? 2 : 1);
         if (!next) break;
         // On the way there it may be found out to be hopeless, or that a pixel that is off by much
         // is rarer than it seemed: what counts is the price of the next step.
         const std::size_t wanted =
-            std::min(next->pixels, k_step * static_cast<std::size_t>(proof.pixels));
+            std::min(next->pixels, k_step * static_cast<std::size_t>(estimate.pixels));
         const double ray_ns = rays_drawn_ > 0 ? price_ns(work_) / rays_drawn_ : 0;
         const double share = noisy ? k_noisy_price : doubtful ? k_doubtful_share : 1;
         if (rays_for(wanted, next->levels) * ray_ns > share * most_ns) break;
         while (levels_.size() < next->levels) take_more();
-        proof = look(picture, wanted);
+        estimate = look(picture, wanted);
     }
-    return proof;
+    return estimate;
 }
 
 }  // namespace culet

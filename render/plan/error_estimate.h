@@ -22,13 +22,13 @@
 
 #include "render/path.h"
 #include "render/picture.h"
+#include "render/plan/check_pixels.h"
 #include "render/plan/pilot_picture.h"
 #include "render/plan/price.h"
-#include "render/plan/proof_pixels.h"
 
 namespace culet {
 
-struct Proof {
+struct ErrorEstimate {
     int pixels = 0, samples = 0;
     double difference = 0;  ///< mean over them, with the noise of the truth's rays
     double spread = 0;      ///< its standard error
@@ -40,8 +40,8 @@ struct Proof {
     double error() const;
 };
 
-/// Pixels of a proof, as the truth's fewest rays show them.
-struct ProofSample {
+/// Pixels of a check, as the truth's fewest rays show them.
+struct CheckedSample {
     StonePixels pixels;
     std::vector<double> counts;  ///< of each, 1 in the mean
     std::vector<Rgb> truth;
@@ -50,14 +50,15 @@ struct ProofSample {
     double noise = 0;         ///< about what these rays are off by
 };
 
-class Prover {
+class ErrorEstimator {
 public:
     static constexpr int k_looks = 5;
 
     /// `scene`: one window, with the effects that pictures are held against; `tolerance`: that is
     /// to be decided; `some`: pixels of the stone. Nothing is drawn yet. `progress` must outlive
     /// it.
-    Prover(const Scene& scene, StonePixels some, double tolerance, const Progress& progress);
+    ErrorEstimator(const Scene& scene, StonePixels some, double tolerance,
+                   const Progress& progress);
 
     /// What 16 rays of the truth are off by, as some pixels show it, which are drawn for it.
     double noise_of_16();
@@ -74,18 +75,18 @@ public:
     /// Looks at more and more pixels, or with more rays, until the bound fits into `room`, or the
     /// picture is certainly too far off, or the next step would be worth more than `most_ns`.
     /// `frames`: that drew it, if any (light_edge_scan.h).
-    Proof prove(const Picture& picture, double room, double most_ns,
-                FrameRenderer* frames = nullptr);
+    ErrorEstimate estimate(const Picture& picture, double room, double most_ns,
+                           FrameRenderer* frames = nullptr);
 
-    /// The truth at the first `pixels` of the last proof, and how it was drawn.
-    ProofSample sample(std::size_t pixels) const;
+    /// The truth at the first `pixels` of the last estimate, and how it was drawn.
+    CheckedSample sample(std::size_t pixels) const;
     /// How many of these can be drawn once more for so much (price.h). 0 where small paths are left
     /// to chance: their trees are dear, and no cut is to blame for what they are off by.
     std::size_t pixels_for(double ns) const;
     const Scene& scene() const { return scene_; }
     /// Another picture has more to tell of where to look: pixels are chosen anew, and drawn.
     void look_elsewhere();
-    /// A light is so bright that its image in a few pixels counts. After `prove`.
+    /// A light is so bright that its image in a few pixels counts. After `estimate`.
     bool sees_sun() const { return chosen_.sun; }
 
     /// A picture must not have this square of rays in its pixels: the truth has such a grid.
@@ -105,21 +106,22 @@ private:
     Rgb truth(std::vector<Rgb> Level::*of, std::size_t pixel) const;
     void find_outstanding(const Picture& picture);
     double noise_of(const Level& level) const;
-    Proof look(const Picture& picture, std::size_t wanted);
+    ErrorEstimate look(const Picture& picture, std::size_t wanted);
     // How many pixels and grids, and how many rays that draws.
     struct Look {
         std::size_t pixels = 0, levels = 0;
         double rays = 0;
     };
     double rays_for(std::size_t pixels, std::size_t levels) const;
-    std::optional<Look> next_look(const Proof& proof, double room, double standard_errors) const;
+    std::optional<Look> next_look(const ErrorEstimate& estimate, double room,
+                                  double standard_errors) const;
 
     Scene scene_;
     StonePixels some_;
     PathLimits limits_;
     int nodes_;
     const Progress* progress_;
-    ProofPixels chosen_;
+    CheckPixels chosen_;
     StonePixels outstanding_;                                // of all pictures so far
     std::map<std::pair<int, int>, std::size_t> of_picture_;  // the picture's, and which of those
     std::vector<Level> levels_;
