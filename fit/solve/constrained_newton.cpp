@@ -135,6 +135,7 @@ private:
     Eigen::VectorXd forces_;  ///< of the equations, for their curvature
     std::vector<SymmetricEntry> bends_;
     std::vector<int> active_hinges_;
+    std::vector<std::vector<int>> pressed_;  ///< the sets that rounds of this step began with
     double length_before_ = 0;  ///< of the step before in this meaning, where there was one
     /// The readings were asked what they mean here. At a kink (a caliper's jaw that touches two
     /// corners at once) they would change their mind for ever; `choose` lets the jaw rest on both.
@@ -255,7 +256,11 @@ Newton::Outcome Newton::try_shape(const KktSolver::Solution& solution, Step& mad
     }
     // Newton's step, and the sums' own rounding.
     made.idle = curved_ && made.length < k_short && after - before < k_no_gain * (1 + before);
-    if (there.above == active_hinges_) return Outcome::refused;
+    // Hinges that were pressed before in this step would lead there again.
+    if (std::find(pressed_.begin(), pressed_.end(), there.above) != pressed_.end()) {
+        return Outcome::refused;
+    }
+    pressed_.push_back(there.above);
     active_hinges_ = std::move(there.above);
     here_ = linearised(shape_, &active_hinges_);
     return Outcome::again;
@@ -267,6 +272,7 @@ Newton::Outcome Newton::round(bool is_last, Step& made) {
     const auto s = solver_.solve(none_, -here_.rows.residuals(), step_precision(here_.rows));
     if (!s.good) return Outcome::refused;
     if (releases(s) && !is_last) {
+        pressed_.push_back(active_hinges_);
         here_ = linearised(shape_, &active_hinges_);
         return Outcome::again;
     }
@@ -278,6 +284,7 @@ Newton::Outcome Newton::round(bool is_last, Step& made) {
 Newton::Step Newton::step() {
     Step made;
     active_hinges_ = here_.above;
+    pressed_ = {active_hinges_};
     for (int k = 1; k <= k_most_rounds; ++k) {
         if (round(k == k_most_rounds, made) != Outcome::again) break;
     }
