@@ -46,6 +46,8 @@ constexpr double k_little = 0.05;
 // Half a unit is half the stone's radius: no linearisation holds so far.
 constexpr double k_longest = 0.2;
 
+// Of a long step the first ones take little each; what they leave would count against the step.
+constexpr int k_most_corrections = 12;
 // What a correction leaves, the next one takes.
 constexpr double k_correction_precision = 1e-3;
 
@@ -239,7 +241,8 @@ Newton::Outcome Newton::try_shape(const KktSolver::Solution& solution, Step& mad
     Corrected corrected =
         onto_hard_equations(relaxation_, solver_, here_, penalty_,
                             relaxation_.parameters().retracted_with_turn(shape_, steps(step)),
-                            {.met = made.length < k_near ? k_met : k_far_from_met,
+                            {.most = k_most_corrections,
+                             .met = made.length < k_near ? k_met : k_far_from_met,
                              .precision = k_correction_precision});
     if (corrected.stalls && may_be_close_) least_ = k_least_close;
     StepLinearisation there = linearised(corrected.shape);
