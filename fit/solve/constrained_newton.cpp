@@ -46,6 +46,8 @@ constexpr double k_little = 0.05;
 // Half a unit is half the stone's radius: no linearisation holds so far.
 constexpr double k_longest = 0.2;
 
+// Of a long step the first ones take little each; what they leave would count against the step.
+constexpr int k_most_corrections = 12;
 // What a correction leaves, the next one takes.
 constexpr double k_correction_precision = 1e-3;
 
@@ -135,6 +137,7 @@ private:
     Eigen::VectorXd forces_;  ///< of the equations, for their curvature
     std::vector<SymmetricEntry> bends_;
     std::vector<int> active_hinges_;
+    std::vector<std::vector<int>> pressed_;  ///< the sets that rounds of this step began with
     double length_before_ = 0;  ///< of the step before in this meaning, where there was one
     /// The readings were asked what they mean here. At a kink (a caliper's jaw that touches two
     /// corners at once) they would change their mind for ever; `choose` lets the jaw rest on both.
@@ -238,7 +241,8 @@ Newton::Outcome Newton::try_shape(const KktSolver::Solution& solution, Step& mad
     Corrected corrected =
         onto_hard_equations(relaxation_, solver_, here_, penalty_,
                             relaxation_.parameters().retracted_with_turn(shape_, steps(step)),
-                            {.met = made.length < k_near ? k_met : k_far_from_met,
+                            {.most = k_most_corrections,
+                             .met = made.length < k_near ? k_met : k_far_from_met,
                              .precision = k_correction_precision});
     if (corrected.stalls && may_be_close_) least_ = k_least_close;
     StepLinearisation there = linearised(corrected.shape);
@@ -255,7 +259,11 @@ Newton::Outcome Newton::try_shape(const KktSolver::Solution& solution, Step& mad
     }
     // Newton's step, and the sums' own rounding.
     made.idle = curved_ && made.length < k_short && after - before < k_no_gain * (1 + before);
-    if (there.above == active_hinges_) return Outcome::refused;
+    // Hinges that were pressed before in this step would lead there again.
+    if (std::find(pressed_.begin(), pressed_.end(), there.above) != pressed_.end()) {
+        return Outcome::refused;
+    }
+    pressed_.push_back(there.above);
     active_hinges_ = std::move(there.above);
     here_ = linearised(shape_, &active_hinges_);
     return Outcome::again;
@@ -267,6 +275,7 @@ Newton::Outcome Newton::round(bool is_last, Step& made) {
     const auto s = solver_.solve(none_, -here_.rows.residuals(), step_precision(here_.rows));
     if (!s.good) return Outcome::refused;
     if (releases(s) && !is_last) {
+        pressed_.push_back(active_hinges_);
         here_ = linearised(shape_, &active_hinges_);
         return Outcome::again;
     }
@@ -278,6 +287,7 @@ Newton::Outcome Newton::round(bool is_last, Step& made) {
 Newton::Step Newton::step() {
     Step made;
     active_hinges_ = here_.above;
+    pressed_ = {active_hinges_};
     for (int k = 1; k <= k_most_rounds; ++k) {
         if (round(k == k_most_rounds, made) != Outcome::again) break;
     }
