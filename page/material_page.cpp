@@ -60,14 +60,12 @@ std::string material_page(const std::string& text, const std::string& version) {
     const Json json = parsed_object<Json>(text, "the list of materials");
     std::vector<View> rows;
     for (const Json& material : array_at(json, "materials")) rows.push_back(row_of(material));
-    // More than a screenful scrolls under its heading.
-    const bool tall = rows.size() > 24;
     return html_page(
         "Materials",
         filled(templates::materials, {{"version", version},
                                       {"path_mm", decimals(number_at(json, "light_path_mm"), 1)},
                                       {"width_mm", significant(number_at(json, "width_mm"))},
-                                      {"tall", tall},
+                                      {"tall", is_tall(rows)},
                                       {"rows", rows}}),
         text);
 }

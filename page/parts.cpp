@@ -64,6 +64,10 @@ std::string short_list(const std::vector<std::string>& items) {
     return filled(templates::short_list, {{"shown", first}, {"folded", rest}, {"more", more}});
 }
 
+bool is_tall(const std::vector<View>& rows) {
+    return rows.size() > 24;
+}
+
 std::string table(const std::string& caption, const std::string& head, const std::string& body) {
     // More than a screenful scrolls under its heading.
     const bool tall = std::count(body.begin(), body.end(), '\n') > 24;

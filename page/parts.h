@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "page/colour_maps.h"
+#include "page/template.h"
 
 namespace culet {
 
@@ -36,6 +37,9 @@ std::string short_list(const std::vector<std::string>& items);
 
 /// `<div class="scroll">` around a table, so that a narrow screen scrolls the table, not the page.
 std::string table(const std::string& caption, const std::string& head, const std::string& body);
+
+/// More rows than fill a screen: a table of them scrolls under its heading.
+bool is_tall(const std::vector<View>& rows);
 
 /// A bar with ticks: from, middle, to.
 std::string colour_bar(ColourMap map, const std::string& what, const std::string& from,
