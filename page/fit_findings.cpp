@@ -35,7 +35,7 @@ std::string list_at(const Json& object, const char* key) {
 }
 
 std::string cell(const std::string& text) {
-    return "<td class=\"n\">" + text + "</td>";
+    return "<td class=\"n\">" + escaped(text) + "</td>";
 }
 
 std::string angle_at(const Json& object, const char* key) {
@@ -135,7 +135,7 @@ std::string symmetry_tables(const Json& fit) {
         tiers +=
             fmt::format("<tr><th scope=\"row\">{}</th>{}{}{}{}</tr>\n", escaped(text_at(t, "tier")),
                         cell(angle_at(t, "deviation")), cell(angle_at(t, "sigma")),
-                        cell(angle_at(t, "at_most")), cell(escaped(text_at(t, "worst"))));
+                        cell(angle_at(t, "at_most")), cell(text_at(t, "worst")));
     }
     std::string body =
         "<p>" + escaped(as_sentence(typeset(text_at(*symmetry, "message")))) + "</p>\n";

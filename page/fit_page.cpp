@@ -37,14 +37,15 @@ std::string fit_figures(const Json& fit, const std::string& unit) {
     std::string rows;
     const auto row = [&](const char* name, const std::string& value) {
         if (value.empty() || value == "–") return;
-        rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", name, value);
+        rows +=
+            fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", name, escaped(value));
     };
     const auto yes_no = [&](const char* key) {
         return !fit.contains(key) ? "" : true_at(fit, key) ? "yes" : "no";
     };
     std::string status = text_at(fit, "status");
     std::replace(status.begin(), status.end(), '_', ' ');
-    row("status", escaped(status));
+    row("status", status);
     row("χ² of the readings", significant(number_at(fit, "chi2")));
     row("χ² to be expected (degrees of freedom)", whole(number_at(fit, "dof")));
     row("χ² that is no surprise yet", significant(number_at(fit, "chi2_limit")));

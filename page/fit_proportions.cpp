@@ -26,7 +26,7 @@ const Json* named(const Json& proportions, const std::string& name) {
 }
 
 std::string shown(const Json& p) {
-    return quantity(number_at(p, "value"), number_at(p, "sigma"), text_at(p, "unit"));
+    return escaped(quantity(number_at(p, "value"), number_at(p, "sigma"), text_at(p, "unit")));
 }
 
 std::string row(const std::string& name, const std::string& about, const std::string& value) {
