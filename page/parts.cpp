@@ -68,6 +68,11 @@ bool is_tall(const std::vector<View>& rows) {
     return rows.size() > 24;
 }
 
+View table_view(const std::vector<View>& rows) {
+    if (rows.empty()) return false;
+    return {{"tall", is_tall(rows)}, {"rows", rows}};
+}
+
 std::string table(const std::string& caption, const std::string& head, const std::string& body) {
     // More than a screenful scrolls under its heading.
     const bool tall = std::count(body.begin(), body.end(), '\n') > 24;

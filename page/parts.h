@@ -41,6 +41,9 @@ std::string table(const std::string& caption, const std::string& head, const std
 /// More rows than fill a screen: a table of them scrolls under its heading.
 bool is_tall(const std::vector<View>& rows);
 
+/// `rows` and `tall`, for a table that is left out when it has no rows.
+View table_view(const std::vector<View>& rows);
+
 /// A bar with ticks: from, middle, to.
 std::string colour_bar(ColourMap map, const std::string& what, const std::string& from,
                        const std::string& middle, const std::string& to);
