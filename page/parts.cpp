@@ -42,23 +42,23 @@ std::string folded_section(const std::string& id, const std::string& heading,
 std::string tile(const std::string& name, const std::string& value, const std::string& about,
                  const char* style) {
     return filled(templates::tile,
-                  {{"name", name}, {"value_html", value}, {"about", about}, {"style", style}});
+                  {{"name", name}, {"value", value}, {"about", about}, {"style", style}});
 }
 
 std::string verdict_card(const char* style, const char* symbol, const std::string& word,
-                         const std::string& body) {
+                         const std::string& sentences) {
     return filled(templates::verdict_card,
-                  {{"style", style}, {"symbol", symbol}, {"word", word}, {"body_html", body}});
+                  {{"style", style}, {"symbol", symbol}, {"word", word}, {"sentences", sentences}});
 }
 
-std::string short_list(const std::vector<std::string>& items) {
+std::string short_list(const std::vector<ListItem>& items) {
     // Ten lines are read; with two more nothing would be won by folding them.
     constexpr std::size_t k_shown = 8, k_unfolded = 10;
     if (items.empty()) return {};
     const std::size_t shown = items.size() <= k_unfolded ? items.size() : k_shown;
     std::vector<View> first, rest;
     for (std::size_t i = 0; i < items.size(); ++i) {
-        (i < shown ? first : rest).push_back({{"item_html", items[i]}});
+        (i < shown ? first : rest).push_back({{"lead", items[i].lead}, {"text", items[i].text}});
     }
     const std::string more = rest.empty() ? "" : std::to_string(rest.size());
     return filled(templates::short_list, {{"shown", first}, {"folded", rest}, {"more", more}});
