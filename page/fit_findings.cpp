@@ -1,7 +1,5 @@
 #include "page/fit_findings.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
