@@ -107,7 +107,7 @@ std::string headline_section(const Report& report, const FitView& fitted) {
                 "shapes and places.</p>\n";
         }
         body += verdict_card(shown_verdict.style, shown_verdict.symbol, shown_verdict.word,
-                             "<p>" + escaped(as_sentence(c.reason)) + "</p>");
+                             as_sentence(c.reason));
     }
     body += fit_card(fitted);
     std::string tiles;

@@ -9,6 +9,7 @@
 #include "page/fit_page.h"
 #include "page/html.h"
 #include "page/parts.h"
+#include "page/templates.h"
 #include "stone/units.h"
 
 namespace culet {
@@ -27,69 +28,60 @@ Angles angles_of(const Vec3& normal) {
     return {degrees(std::atan2(level, std::abs(normal.z))), azimuth};
 }
 
-std::string change_row(const Solid& before, const Facet& old_facet, const Solid& after,
-                       const Facet& new_facet) {
+View figures_of(double from, double to, double change, int places) {
+    const std::string text = decimals(change, places);
+    const bool grows = change > 0 && text.find_first_of("123456789") != std::string::npos;
+    return {{"known", true},
+            {"before", decimals(from, places)},
+            {"after", decimals(to, places)},
+            {"change", (grows ? "+" : "") + text}};
+}
+
+View change_row(const Solid& before, const Facet& old_facet, const Solid& after,
+                const Facet& new_facet) {
     const Angles a = angles_of(old_facet.plane.normal), b = angles_of(new_facet.plane.normal);
     const double old_area = area(before, old_facet), new_area = area(after, new_facet);
     // A level facet has no azimuth; a turn is the short way round.
     const bool level = std::min(a.inclination_deg, b.inclination_deg) < 0.05;
     const double turn = std::remainder(b.azimuth_deg - a.azimuth_deg, 360.0);
-    const auto three = [](double from, double to, double change, int places) {
-        const std::string text = decimals(change, places);
-        const bool grows = change > 0 && text.find_first_of("123456789") != std::string::npos;
-        return fmt::format(
-            "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n strong\">{}{}</td>",
-            decimals(from, places), decimals(to, places), grows ? "+" : "", text);
-    };
-    const std::string no_azimuth =
-        "<td class=\"n\">–</td><td class=\"n\">–</td><td class=\"n\">–</td>";
-    return fmt::format(
-        "<tr><th scope=\"row\">{}</th>{}{}{}</tr>\n", escaped(new_facet.name),
-        three(a.inclination_deg, b.inclination_deg, b.inclination_deg - a.inclination_deg, 2),
-        level ? no_azimuth : three(a.azimuth_deg, b.azimuth_deg, turn, 2),
-        three(old_area, new_area, new_area - old_area, 3));
+    const View none{{"known", false}, {"before", "–"}, {"after", "–"}, {"change", "–"}};
+    const std::vector<View> figures{
+        figures_of(a.inclination_deg, b.inclination_deg, b.inclination_deg - a.inclination_deg, 2),
+        level ? none : figures_of(a.azimuth_deg, b.azimuth_deg, turn, 2),
+        figures_of(old_area, new_area, new_area - old_area, 3)};
+    return {{"name", new_facet.name}, {"figures", figures}};
 }
 
 }  // namespace
 
 std::string changes_table(const Solid& before, const Solid& after, const std::string& length_unit) {
-    std::string rows;
-    double squares = 0, worst = 0, count = 0;
+    std::vector<View> rows;
+    double squares = 0, worst = 0;
     std::string worst_name;
     for (const Facet& facet : after.facets) {
         const int old_index = find_facet(before, facet.name);
         if (old_index < 0) continue;
         const Facet& old_facet = before.facets[static_cast<std::size_t>(old_index)];
-        rows += change_row(before, old_facet, after, facet);
+        rows.push_back(change_row(before, old_facet, after, facet));
         const double tilt = std::abs(angles_of(facet.plane.normal).inclination_deg -
                                      angles_of(old_facet.plane.normal).inclination_deg);
         squares += tilt * tilt;
-        ++count;
         if (tilt > worst) {
             worst = tilt;
             worst_name = facet.name;
         }
     }
-    if (count == 0) return {};
-    std::string body = fmt::format(
-        "<p>Inclinations differ by {}° (root mean square of {:.0f} facets), at most by {}°{}. "
-        "Volume {} → {} {}³.</p>\n",
-        decimals(std::sqrt(squares / count), 2), count, decimals(worst, 2),
-        worst_name.empty() ? "" : " at " + escaped(worst_name), significant(volume(before), 5),
-        significant(volume(after), 5), escaped(length_unit));
-    return body + table("Each facet before and after",
-                        fmt::format("<th scope=\"col\">Facet</th>"
-                                    "<th scope=\"col\" class=\"n\">Inclination, °</th>"
-                                    "<th scope=\"col\" class=\"n\">fitted</th>"
-                                    "<th scope=\"col\" class=\"n\">change</th>"
-                                    "<th scope=\"col\" class=\"n\">Azimuth, °</th>"
-                                    "<th scope=\"col\" class=\"n\">fitted</th>"
-                                    "<th scope=\"col\" class=\"n\">change</th>"
-                                    "<th scope=\"col\" class=\"n\">Area, {}²</th>"
-                                    "<th scope=\"col\" class=\"n\">fitted</th>"
-                                    "<th scope=\"col\" class=\"n\">change</th>",
-                                    escaped(length_unit)),
-                        rows);
+    if (rows.empty()) return {};
+    const double mean = std::sqrt(squares / static_cast<double>(rows.size()));
+    return filled(templates::fit_changes, {{"mean", decimals(mean, 2)},
+                                           {"count", std::to_string(rows.size())},
+                                           {"worst", decimals(worst, 2)},
+                                           {"worst_name", worst_name},
+                                           {"volume_before", significant(volume(before), 5)},
+                                           {"volume_after", significant(volume(after), 5)},
+                                           {"unit", length_unit},
+                                           {"tall", is_tall(rows)},
+                                           {"rows", rows}});
 }
 
 std::string change_drawings(const Solid& start, const Solid& fitted) {

@@ -1,8 +1,6 @@
 // What the reader of a fit should look at: suspects, what stands out, what is open, what to read
 // next.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -13,6 +11,7 @@
 #include "page/parts.h"
 #include "page/quantity.h"
 #include "page/reading_words.h"
+#include "page/templates.h"
 
 namespace culet {
 
@@ -20,24 +19,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-std::string part(const std::string& heading, const std::vector<std::string>& sentences) {
-    std::vector<std::string> items;
-    for (const std::string& sentence : sentences) items.push_back(escaped(sentence));
-    const std::string list = short_list(items);
-    return list.empty() ? "" : "<h3>" + heading + "</h3>\n" + list;
-}
-
-std::string suspects_part(const Json& fit) {
-    std::vector<std::string> items;
-    for (const SuspectLine& line : suspect_lines(fit)) {
-        items.push_back(fmt::format("<b>{}.</b> {}", escaped(line.what), escaped(line.remedy)));
-    }
-    const std::string list = short_list(items);
-    return list.empty() ? "" : "<h3>Suspect readings</h3>\n" + list;
+std::vector<ListItem> suspects_of_fit(const Json& fit) {
+    std::vector<ListItem> items;
+    for (const SuspectLine& line : suspect_lines(fit)) items.push_back({line.what, line.remedy});
+    return items;
 }
 
 // Only where no single reading explains the contradiction.
-std::string disagreeing_part(const Json& fit) {
+std::vector<std::string> disagreeing(const Json& fit) {
     std::vector<std::string> sentences;
     if (!array_at(fit, "suspects").empty()) return {};
     for (const Json& id : array_at(fit, "disagreeing")) {
@@ -54,8 +43,7 @@ std::string disagreeing_part(const Json& fit) {
         }
         sentences.push_back(line);
     }
-    return part("Readings that cannot hold together: one is wrong, or its ± is too small",
-                sentences);
+    return sentences;
 }
 
 std::vector<std::string> denied(const Json& fit) {
@@ -89,12 +77,26 @@ std::vector<std::string> next_readings(const Json& fit) {
 
 std::string fit_look_section(const FitView& view) {
     const Json fit = parsed_object<Json>(view.fit_json, "the fit report for the page");
-    const std::string suspects = suspects_part(fit) + disagreeing_part(fit);
-    const std::string body = suspects + part("What stands out", tier_sentences(fit)) +
-                             part("Where mesh and readings disagree", denied(fit)) +
-                             part("Left open by the readings", open_sentences(fit)) +
-                             part("What to read next", next_readings(fit));
-    return section("look", suspects.empty() ? "What was found" : "Look at this first", body);
+    std::vector<View> parts;
+    const auto add_items = [&](const char* heading, const std::vector<ListItem>& items) {
+        if (items.empty()) return;
+        parts.push_back({{"heading", heading}, {"list_html", short_list(items)}});
+    };
+    const auto add = [&](const char* heading, const std::vector<std::string>& sentences) {
+        std::vector<ListItem> items;
+        for (const std::string& sentence : sentences) items.push_back({"", sentence});
+        add_items(heading, items);
+    };
+    add_items("Suspect readings", suspects_of_fit(fit));
+    add("Readings that cannot hold together: one is wrong, or its ± is too small",
+        disagreeing(fit));
+    const bool suspected = !parts.empty();
+    add("What stands out", tier_sentences(fit));
+    add("Where mesh and readings disagree", denied(fit));
+    add("Left open by the readings", open_sentences(fit));
+    add("What to read next", next_readings(fit));
+    if (parts.empty()) return {};
+    return filled(templates::fit_look, {{"suspected", suspected}, {"parts", parts}});
 }
 
 }  // namespace culet

@@ -1,7 +1,5 @@
 #include "page/fit_page.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "page/drawing.h"
@@ -12,6 +10,7 @@
 #include "page/html.h"
 #include "page/parts.h"
 #include "page/quantity.h"
+#include "page/templates.h"
 
 namespace culet {
 
@@ -21,30 +20,26 @@ using Json = nlohmann::json;
 
 /// All that the fit says in sentences.
 std::string fit_words(const Json& fit) {
-    std::vector<std::string> sentences;
+    std::vector<View> sentences;
     for (const Json& sentence : array_at(fit, "summary")) {
-        if (sentence.is_string())
-            sentences.push_back(escaped(typeset(sentence.get<std::string>())));
+        if (sentence.is_string()) sentences.push_back(typeset(sentence.get<std::string>()));
     }
-    std::string list;
-    for (const std::string& sentence : sentences) list += "<li>" + sentence + "</li>\n";
-    if (list.empty()) return {};
-    return folded(fmt::format("The fit in its own words, {} sentences", sentences.size()),
-                  "<ul>" + list + "</ul>\n");
+    if (sentences.empty()) return {};
+    return filled(templates::fit_words,
+                  {{"count", std::to_string(sentences.size())}, {"sentences", sentences}});
 }
 
 std::string fit_figures(const Json& fit, const std::string& unit) {
-    std::string rows;
+    std::vector<View> rows;
     const auto row = [&](const char* name, const std::string& value) {
-        if (value.empty() || value == "–") return;
-        rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", name, value);
+        if (!value.empty() && value != "–") rows.push_back({{"name", name}, {"value", value}});
     };
     const auto yes_no = [&](const char* key) {
         return !fit.contains(key) ? "" : true_at(fit, key) ? "yes" : "no";
     };
     std::string status = text_at(fit, "status");
     std::replace(status.begin(), status.end(), '_', ' ');
-    row("status", escaped(status));
+    row("status", status);
     row("χ² of the readings", significant(number_at(fit, "chi2")));
     row("χ² to be expected (degrees of freedom)", whole(number_at(fit, "dof")));
     row("χ² that is no surprise yet", significant(number_at(fit, "chi2_limit")));
@@ -56,10 +51,7 @@ std::string fit_figures(const Json& fit, const std::string& unit) {
                                                   : significant(planarity, 2) + unit_suffix(unit));
     row("steps of the search", whole(number_at(fit, "iterations")));
     row("seconds", significant(number_at(fit, "seconds"), 2));
-    if (rows.empty()) return {};
-    return folded("Figures of the search",
-                  table("Figures of the search",
-                        "<th scope=\"col\">Figure</th><th scope=\"col\">Value</th>", rows));
+    return rows.empty() ? "" : filled(templates::fit_figures, {{"rows", rows}});
 }
 
 std::string painted(const FitView& view, FitColour colour) {
@@ -75,18 +67,15 @@ std::string painted(const FitView& view, FitColour colour) {
 }  // namespace
 
 std::string stone_views(const Solid& solid, const std::vector<FacetPaint>& paint) {
-    std::string views;
+    std::vector<View> views;
     for (const ViewSide side : {ViewSide::crown, ViewSide::pavilion, ViewSide::girdle}) {
         const std::string svg = draw_facets_svg(solid, side, paint);
         if (svg.empty()) continue;
-        views +=
-            fmt::format("<figure{}>{}<figcaption>{}</figcaption></figure>\n",
-                        side == ViewSide::girdle ? " class=\"wide\"" : "", svg, caption_of(side));
+        views.push_back({{"wide", side == ViewSide::girdle},
+                         {"drawing_svg", svg},
+                         {"caption", caption_of(side)}});
     }
-    if (views.empty()) return {};
-    return "<div class=\"drawings\"><div class=\"stones\">\n" + views +
-           "</div>\n<p class=\"facet-line\" role=\"status\">Point at a facet, tap it, or step "
-           "through with the Tab key.</p></div>\n";
+    return views.empty() ? "" : filled(templates::stone_views, {{"views", views}});
 }
 
 std::string fit_drawing_section(const FitView& view, bool fold) {

@@ -1,16 +1,14 @@
 // The proportions of the cut.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
 #include "page/fit_fields.h"
 #include "page/fit_page.h"
-#include "page/html.h"
 #include "page/parts.h"
 #include "page/quantity.h"
+#include "page/templates.h"
 
 namespace culet {
 
@@ -29,23 +27,23 @@ std::string shown(const Json& p) {
     return quantity(number_at(p, "value"), number_at(p, "sigma"), text_at(p, "unit"));
 }
 
-std::string row(const std::string& name, const std::string& about, const std::string& value) {
-    return fmt::format("<tr><th scope=\"row\">{}{}</th><td>{}</td></tr>\n", escaped(name),
-                       about.empty() ? "" : " <small>" + about + "</small>", value);
+View row(const std::string& name, const std::string& about, const std::vector<View>& values) {
+    return {{"name", name}, {"about", about}, {"values", values}};
 }
 
 // The one diameter of a stone that is not quite round is an average: what the caliper shows on the
 // way round stands beside it.
-std::string calipers(const Json& proportions) {
-    std::string text;
+std::vector<View> calipers(const Json& proportions) {
+    std::vector<View> values;
     for (const auto& [name, words] : {std::pair{"caliper min", "least"},
                                       {"caliper max", "largest"},
                                       {"caliper mean", "mean"}}) {
         const Json* p = named(proportions, name);
         if (p == nullptr) continue;
-        text += (text.empty() ? "" : "<br>") + std::string(words) + " " + shown(*p);
+        values.push_back(
+            {{"further", !values.empty()}, {"value", std::string(words) + " " + shown(*p)}});
     }
-    return text;
+    return values;
 }
 
 }  // namespace
@@ -58,37 +56,28 @@ std::string fit_proportions_section(const FitView& view) {
                                    "crown angle", "pavilion angle", "weight"};
     first.insert(first.begin(), round ? "diameter" : "length");
     if (!round) first.insert(first.begin() + 1, "width");
-    std::string rows, rest;
-    int count = 0;
+    std::vector<View> rows, rest;
     for (const std::string& name : first) {
         const Json* p = named(proportions, name);
         if (p != nullptr) {
-            rows += row(name, name == "diameter" ? "the mean of all directions" : "", shown(*p));
+            rows.push_back(row(name, name == "diameter" ? "the mean of all directions" : "",
+                               {{{"further", false}, {"value", shown(*p)}}}));
         }
         if (name != (round ? "diameter" : "width")) continue;
-        const std::string around = calipers(proportions);
-        if (!around.empty()) rows += row("caliper", "on the way round the stone", around);
+        const std::vector<View> around = calipers(proportions);
+        if (!around.empty()) rows.push_back(row("caliper", "on the way round the stone", around));
     }
     for (const Json& p : proportions) {
         const std::string name = text_at(p, "name");
         if (name.starts_with("caliper ") || std::ranges::find(first, name) != first.end()) continue;
-        rest += row(name, "", shown(p));
-        ++count;
+        rest.push_back({{"name", name}, {"value", shown(p)}});
     }
-    const char* const head = "<th scope=\"col\">Proportion</th><th scope=\"col\">Value</th>";
-    std::string body = rows.empty() ? "" : table("Proportions of the cut", head, rows);
-    if (!rest.empty()) {
-        body += folded(fmt::format("{} more proportions", count),
-                       table("Further proportions", head, rest));
-    }
-    if (!body.empty()) {
-        body += fmt::format(
-            "<p class=\"note\">± is one standard uncertainty. % is of the {}.{}</p>\n",
-            round ? "diameter" : "width",
-            round ? " A caliper shows something between the least and the largest; on a girdle of "
-                    "flats the largest is from corner to corner."
-                  : "");
-    }
+    if (rows.empty() && rest.empty()) return {};
+    const std::string body =
+        filled(templates::fit_proportions, {{"first", table_view(rows)},
+                                            {"further_proportions", table_view(rest)},
+                                            {"count", std::to_string(rest.size())},
+                                            {"round", round}});
     if (text_at(fit, "status") == "not_converged") {
         return folded_section("proportions", "Proportions, not to be relied on", body);
     }

@@ -211,10 +211,9 @@ std::string fit_card(const FitView& view) {
     const Verdict verdict = verdict_of(fit);
     std::string text;
     for (const std::string& sentence : verdict.sentences) {
-        if (!sentence.empty()) text += (text.empty() ? "" : " ") + escaped(typeset(sentence));
+        if (!sentence.empty()) text += (text.empty() ? "" : " ") + typeset(sentence);
     }
-    return verdict_card(verdict.style, verdict.symbol, verdict.word,
-                        text.empty() ? "" : "<p>" + text + "</p>");
+    return verdict_card(verdict.style, verdict.symbol, verdict.word, text);
 }
 
 }  // namespace culet

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "page/colour_maps.h"
+#include "page/template.h"
 
 namespace culet {
 
@@ -23,19 +24,29 @@ std::string folded(const std::string& summary, const std::string& body, bool ope
 std::string folded_section(const std::string& id, const std::string& heading,
                            const std::string& body, bool open = false);
 
-/// One of the figures under a verdict: what it is, the figure (HTML), what to know about it.
+/// One of the figures under a verdict: what it is, the figure, what to know about it.
 std::string tile(const std::string& name, const std::string& value, const std::string& about,
                  const char* style = "");
 
-/// The verdict at the top of a page: a word and a sign; `body` is HTML.
+/// The verdict at the top of a page: a word, a sign and a sentence or two.
 std::string verdict_card(const char* style, const char* symbol, const std::string& word,
-                         const std::string& body);
+                         const std::string& sentences);
 
-/// Items (HTML) as a list; of a long one the first ones, the others folded.
-std::string short_list(const std::vector<std::string>& items);
+/// Items as a list; of a long one the first ones, the others folded.
+struct ListItem {
+    std::string lead;  ///< in bold with a stop behind; empty: none
+    std::string text;
+};
+std::string short_list(const std::vector<ListItem>& items);
 
 /// `<div class="scroll">` around a table, so that a narrow screen scrolls the table, not the page.
 std::string table(const std::string& caption, const std::string& head, const std::string& body);
+
+/// More rows than fill a screen: a table of them scrolls under its heading.
+bool is_tall(const std::vector<View>& rows);
+
+/// `rows` and `tall`, for a table that is left out when it has no rows.
+View table_view(const std::vector<View>& rows);
 
 /// A bar with ticks: from, middle, to.
 std::string colour_bar(ColourMap map, const std::string& what, const std::string& from,

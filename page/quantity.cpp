@@ -56,7 +56,7 @@ std::string unit_suffix(std::string_view unit) {
     std::string text = "\u00a0";
     const char last = unit.back();
     const bool power = unit.size() > 1 && (last == '2' || last == '3');
-    text += escaped(power ? unit.substr(0, unit.size() - 1) : unit);
+    text += power ? unit.substr(0, unit.size() - 1) : unit;
     if (power) text += last == '2' ? "²" : "³";
     return text;
 }

@@ -1,5 +1,6 @@
 #pragma once
 // Measured values as people write them: to the digit that the uncertainty allows, units typeset.
+// Plain text, not escaped.
 
 #include <optional>
 #include <string>
@@ -8,7 +9,6 @@
 namespace culet {
 
 /// "deg" -> "°", "mm3" -> " mm³", "" -> "": what follows the number, a no-break space included.
-/// Escaped, for a unit may come from a file.
 std::string unit_suffix(std::string_view unit);
 
 /// Below this the unit's displays show nothing: a smaller sigma is that of what is held exactly.
@@ -33,7 +33,7 @@ std::string smallest_slip(const std::optional<double>& detectable,
                           const std::optional<double>& value, std::string_view unit);
 
 /// A sentence of the fit, typeset: "0.6 degrees (+- 0.1)" -> "0.6° (± 0.1)", "mm3" -> "mm³". Only
-/// behind a digit or a blank, so that names stay what they are. Not escaped.
+/// behind a digit or a blank, so that names stay what they are.
 std::string typeset(std::string_view sentence);
 
 }  // namespace culet

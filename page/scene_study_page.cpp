@@ -11,6 +11,7 @@
 #include "page/json_fields.h"
 #include "page/parts.h"
 #include "page/study_sections.h"
+#include "page/templates.h"
 
 namespace culet {
 
@@ -115,73 +116,40 @@ Chart time_chart(const Json& study) {
     return chart;
 }
 
-std::string headline(const Json& study, const std::string& title) {
-    const Json reference = object_at(study, "reference");
-    const Json& size = array_at(study, "size");
-    const Json& scene = array_at(study, "scene_size");
-    const auto pixels = [](const Json& sides) {
-        return sides.size() == 2 && sides[0].is_number() && sides[1].is_number()
-                   ? fmt::format("{} × {}", sides[0].get<double>(), sides[1].get<double>())
-                   : std::string("–");
-    };
-    const bool usable = true_at(study, "usable");
-    std::string text = fmt::format(
-        "<header class=\"headline\"><h1>{}</h1>\n<p>{} ways of drawing this scene, at {} pixels, "
-        "each held against the reference renderer with everything on: {} wavelengths, {} rays a "
-        "pixel{}.</p>\n",
-        escaped(title), array_at(study, "settings").size(), pixels(size),
-        whole(number_at(reference, "wavelengths")), whole(number_at(reference, "samples")),
-        value_at(reference, "rough_samples") > 0
-            ? fmt::format(" and {} rough ones", whole(number_at(reference, "rough_samples")))
-            : std::string());
-    if (size != scene) {
-        text += fmt::format(
-            "<p class=\"note\">The scene's own picture has {} pixels. The study draws it smaller, "
-            "so that the reference is affordable: edges then fill more of the pixels, errors are "
-            "larger, and times are not simply proportional (<code>--size</code>).</p>\n",
-            pixels(scene));
-    }
-    text += fmt::format(
-        "<p><span class=\"badge {}\">{}</span> {}</p></header>\n", usable ? "good" : "bad",
-        usable ? "judged" : "not to be trusted",
-        usable ? fmt::format("The reference itself may be off by {} of the mean (its noise): no "
-                             "error below that is claimed.",
-                             significant(noise_of(study), 2))
-               : fmt::format("The reference itself may be off by {} of the mean, or the automatic "
-                             "settings were not drawn: give it more time (<code>--budget</code>).",
-                             significant(noise_of(study), 2)));
-    return text;
+// "640 × 480".
+std::string pixels(const Json& sides) {
+    return sides.size() == 2 && sides[0].is_number() && sides[1].is_number()
+               ? fmt::format("{} × {}", sides[0].get<double>(), sides[1].get<double>())
+               : std::string("–");
 }
 
-std::string advice_section(const Json& study) {
-    std::string rows, words;
+std::vector<View> texts_at(const Json& object, const char* key) {
+    std::vector<View> texts;
+    for (const Json& one : array_at(object, key)) {
+        if (one.is_string()) texts.push_back(one.get<std::string>());
+    }
+    return texts;
+}
+
+View advice_of(const Json& study) {
+    std::vector<View> rows, words;
     for (const Json& advice : array_at(study, "recommendations")) {
         const Json* cheapest = row_of(study, number_at(advice, "cheapest"));
         const Json* own = row_of(study, number_at(advice, "automatic"));
         const auto ratio = number_at(advice, "automatic_over_cheapest");
-        rows += fmt::format(
-            "<tr><th scope=\"row\" class=\"n\">{}</th><td>{}</td><td class=\"n\">{}</td>"
-            "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}{}</td>"
-            "<td class=\"n strong\">{}</td></tr>\n",
-            tolerance_of(advice), cheapest ? escaped(words_in(*cheapest)) : "none",
-            cheapest ? ms(*cheapest) : "–", cheapest ? error_of(*cheapest) : "–",
-            own ? ms(*own) : "–", own ? error_of(*own) : "–",
-            own && !true_at(advice, "automatic_meets") ? " <span class=\"badge\">over</span>" : "",
-            ratio ? decimals(ratio, 2) + "×" : "–");
-        std::string line = text_at(advice, "words");
-        if (!line.empty()) words += fmt::format("<li>{}</li>\n", escaped(line));
+        rows.push_back({{"tolerance", tolerance_of(advice)},
+                        {"cheapest", cheapest ? words_in(*cheapest) : "none"},
+                        {"cheapest_ms", cheapest ? ms(*cheapest) : "–"},
+                        {"cheapest_error", cheapest ? error_of(*cheapest) : "–"},
+                        {"own_ms", own ? ms(*own) : "–"},
+                        {"own_error", own ? error_of(*own) : "–"},
+                        {"over", own && !true_at(advice, "automatic_meets")},
+                        {"ratio", ratio ? decimals(ratio, 2) + "×" : "–"}});
+        const std::string line = text_at(advice, "words");
+        if (!line.empty()) words.push_back(line);
     }
-    if (rows.empty()) return {};
-    return section(
-        "advice", "What to take",
-        table("The cheapest setting found for each tolerance, and the automatic one",
-              "<th scope=\"col\" class=\"n\">Tolerance</th><th scope=\"col\">Cheapest setting</th>"
-              "<th scope=\"col\" class=\"n\">CPU, ms</th><th scope=\"col\" class=\"n\">Error</th>"
-              "<th scope=\"col\" class=\"n\">Automatic, ms</th>"
-              "<th scope=\"col\" class=\"n\">Error</th>"
-              "<th scope=\"col\" class=\"n\">Time over cheapest</th>",
-              rows) +
-            "<ul>\n" + words + "</ul>\n");
+    if (rows.empty()) return false;
+    return {{"tall", is_tall(rows)}, {"rows", rows}, {"words", words}};
 }
 
 std::string effects_words(const Json& row) {
@@ -193,165 +161,120 @@ std::string effects_words(const Json& row) {
     return fmt::format("on: {}; off: {}", on.empty() ? "none" : on, off.empty() ? "none" : off);
 }
 
-std::string front_section(const Json& study, const SceneStudyView& view) {
+View front_figures(const Json& study, const SceneStudyView& view) {
     const auto pictures_of = [&](double id) {
         return std::find_if(view.pictures.begin(), view.pictures.end(),
                             [&](const SceneStudyPicture& p) { return p.id == id; });
     };
-    // Two pictures beside each other, or one.
-    const auto figure = [](const std::string& uri, const std::string& difference,
-                           const std::string& title, const std::string& about,
-                           const std::string& bar) {
-        return fmt::format(
-            "<figure class=\"pair\"><img src=\"{}\" alt=\"{}\">{}<figcaption><b>{}</b> {}{}"
-            "</figcaption></figure>\n",
-            escaped(uri), escaped(title),
-            difference.empty() ? ""
-                               : fmt::format("<img src=\"{}\" alt=\"Difference to the reference\">",
-                                             escaped(difference)),
-            escaped(title), about, bar);
-    };
-    std::string figures;
+    std::vector<View> figures;
     if (const auto truth = pictures_of(-1); truth != view.pictures.end()) {
-        const Json reference = object_at(study, "reference");
-        figures +=
-            figure(truth->picture, "", "The reference",
-                   fmt::format("{} s, noise {}", significant(number_at(reference, "cpu_seconds")),
-                               significant(noise_of(study), 2)),
-                   "");
+        const auto seconds = number_at(object_at(study, "reference"), "cpu_seconds");
+        figures.push_back({{"picture", truth->picture},
+                           {"difference", ""},
+                           {"name", "The reference"},
+                           {"about", fmt::format("{} s, noise {}", significant(seconds),
+                                                 significant(noise_of(study), 2))},
+                           {"effects", ""},
+                           {"bar_html", ""}});
     }
     for (const Json* row : front_of(study)) {
         const auto shown = pictures_of(value_at(*row, "id"));
         if (shown == view.pictures.end()) continue;
         const std::string scale = significant(shown->difference_scale, 2);
-        figures += figure(shown->picture, shown->difference,
-                          fmt::format("{} ms, error {}", ms(*row), error_of(*row)),
-                          fmt::format("{}<br><small>{}</small>", escaped(words_in(*row)),
-                                      escaped(effects_words(*row))),
-                          colour_bar(ColourMap::difference, "difference, of the mean radiance",
-                                     "−" + scale, "0", "+" + scale));
+        figures.push_back(
+            {{"picture", shown->picture},
+             {"difference", shown->difference},
+             {"name", fmt::format("{} ms, error {}", ms(*row), error_of(*row))},
+             {"about", words_in(*row)},
+             {"effects", effects_words(*row)},
+             {"bar_html", colour_bar(ColourMap::difference, "difference, of the mean radiance",
+                                     "−" + scale, "0", "+" + scale)}});
     }
-    if (figures.empty()) return {};
-    return section("front", "The pictures along the front",
-                   "<p class=\"note\">From quick to exact. No other setting that was drawn is both "
-                   "quicker and nearer to the reference. White is five times the mean; "
-                   "differences are in luminance, each with its own scale.</p>\n<div "
-                   "class=\"pairs\">" +
-                       figures + "</div>\n");
+    if (figures.empty()) return false;
+    return {{"figures", figures}};
 }
 
-std::string settings_section(const Json& study) {
-    std::string rows;
-    for (const Json& row : array_at(study, "settings")) {
-        rows += fmt::format(
-            "<tr><th scope=\"row\">{}{} <small>{}</small></th><td>{}</td>"
-            "<td class=\"n\">{} <small>{} … {}</small></td><td class=\"n\">{}</td>"
-            "<td class=\"n\">{}</td><td class=\"n strong\">{}</td><td class=\"n\">{}</td>"
-            "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td></tr>\n",
-            escaped(text_at(row, "sweep") == "search" ? "" : text_at(row, "setting")),
-            true_at(row, "front") ? " <span class=\"badge good\">front</span>" : "",
-            escaped(text_at(row, "sweep")),
-            escaped(words_in(row)) + "<br><small>" + escaped(effects_words(row)) + "</small>",
-            ms(row), ms(row, "cpu_least"), ms(row, "cpu_most"), ms(row, "wall_seconds"),
-            whole(number_at(row, "runs")), error_of(row), significant(number_at(row, "rmse"), 2),
-            decimals(number_at(row, "psnr"), 1),
-            decimals(number_at(row, "deltaE00_mean"), 2) + " <small>" +
-                decimals(number_at(row, "deltaE00_p95"), 1) + "</small>",
-            decimals(number_at(row, "flip_mean"), 4));
-    }
-    if (rows.empty()) return {};
-    std::string body = table(
-        "Every setting that was drawn",
-        "<th scope=\"col\">Setting</th><th scope=\"col\">In words</th>"
-        "<th scope=\"col\" class=\"n\">CPU, ms</th><th scope=\"col\" class=\"n\">Wall, ms</th>"
-        "<th scope=\"col\" class=\"n\">Runs</th><th scope=\"col\" class=\"n\">Error</th>"
-        "<th scope=\"col\" class=\"n\">RMSE</th><th scope=\"col\" class=\"n\">PSNR, dB</th>"
-        "<th scope=\"col\" class=\"n\">ΔE00</th><th scope=\"col\" class=\"n\">FLIP</th>",
-        rows);
-    // Long: it scrolls within itself.
-    const std::string scroll = "class=\"scroll\"";
-    if (const auto at = body.find(scroll); at != std::string::npos)
-        body.replace(at, scroll.size(), "class=\"scroll tall\"");
+View setting_row(const Json& row) {
+    return {{"setting", text_at(row, "sweep") == "search" ? "" : text_at(row, "setting")},
+            {"on_front", true_at(row, "front")},
+            {"sweep", text_at(row, "sweep")},
+            {"words", words_in(row)},
+            {"effects", effects_words(row)},
+            {"ms", ms(row)},
+            {"least_ms", ms(row, "cpu_least")},
+            {"most_ms", ms(row, "cpu_most")},
+            {"wall_ms", ms(row, "wall_seconds")},
+            {"runs", whole(number_at(row, "runs"))},
+            {"error", error_of(row)},
+            {"rmse", significant(number_at(row, "rmse"), 2)},
+            {"psnr", decimals(number_at(row, "psnr"), 1)},
+            {"colour", decimals(number_at(row, "deltaE00_mean"), 2)},
+            {"colour_worst", decimals(number_at(row, "deltaE00_p95"), 1)},
+            {"flip", decimals(number_at(row, "flip_mean"), 4)}};
+}
+
+View settings_of(const Json& study) {
+    std::vector<View> rows;
+    for (const Json& row : array_at(study, "settings")) rows.push_back(setting_row(row));
+    if (rows.empty()) return false;
     const Json noise = object_at(object_at(study, "reference"), "noise");
-    body += fmt::format(
-        "<p class=\"note\">Error: mean absolute difference of R, G and B over the stone, relative "
-        "to their mean, which is what a tolerance speaks of; ≤ where it is less than twice "
-        "the reference's own. RMSE likewise. PSNR, ΔE00 (mean and 95 %) and FLIP are of the "
-        "picture as shown. The reference's own noise in these: {}, {}, {} dB, {}, {}. Time: median "
-        "(least and most) of the drawing; of automatic settings, with planning. The beams' check "
-        "against the reference, which <code>culet render</code> adds, is in it only where it made "
-        "the automatic settings take the reference.</p>\n",
-        significant(number_at(noise, "error"), 2), significant(number_at(noise, "rmse"), 2),
-        decimals(number_at(noise, "psnr"), 1), decimals(number_at(noise, "deltaE00_mean"), 2),
-        decimals(number_at(noise, "flip_mean"), 4));
-    std::string left;
-    for (const Json& one : array_at(study, "left_out")) {
-        if (one.is_string()) left += fmt::format("<li>{}</li>\n", escaped(one.get<std::string>()));
-    }
-    if (!left.empty()) {
-        body += fmt::format(
-            "<details><summary>{} settings were not drawn</summary><ul>\n{}</ul></details>\n",
-            array_at(study, "left_out").size(), left);
-    }
-    for (const Json& note : array_at(study, "notes")) {
-        if (note.is_string())
-            body += fmt::format("<p class=\"note\">{}</p>\n", escaped(note.get<std::string>()));
-    }
-    return section("settings", "All settings", body);
+    const std::vector<View> left = texts_at(study, "left_out");
+    return {{"rows", rows},
+            {"noise_rmse", significant(number_at(noise, "rmse"), 2)},
+            {"noise_psnr", decimals(number_at(noise, "psnr"), 1)},
+            {"noise_colour", decimals(number_at(noise, "deltaE00_mean"), 2)},
+            {"noise_flip", decimals(number_at(noise, "flip_mean"), 4)},
+            {"some_left", !left.empty()},
+            {"left_count", std::to_string(array_at(study, "left_out").size())},
+            {"left", left},
+            {"notes", texts_at(study, "notes")}};
+}
+
+const char* on_or_off(const Json& effect) {
+    return true_at(effect, "on") ? "on" : "off";
 }
 
 // What the automatic settings decided, tolerance by tolerance.
-std::string plans_section(const Json& study) {
-    std::string body;
+std::vector<View> plans_of(const Json& study) {
+    std::vector<View> plans;
     for (const Json& row : array_at(study, "settings")) {
         const Json plan = object_at(row, "plan");
-        std::string rows;
+        std::vector<View> items;
         for (const Json& item : array_at(plan, "items")) {
-            rows += fmt::format(
-                "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}{}{}</td><td class=\"n\">{}</td>"
-                "</tr>\n",
-                escaped(text_at(item, "name")), true_at(item, "on") ? "on" : "off",
-                escaped(text_at(item, "fidelity")), text_at(item, "fidelity").empty() ? "" : "; ",
-                escaped(text_at(item, "why")), significant(number_at(item, "error_bound"), 2));
+            items.push_back({{"name", text_at(item, "name")},
+                             {"on", on_or_off(item)},
+                             {"fidelity", text_at(item, "fidelity")},
+                             {"why", text_at(item, "why")},
+                             {"bound", significant(number_at(item, "error_bound"), 2)}});
         }
-        if (rows.empty()) continue;
-        body += fmt::format(
-            "<details><summary>Tolerance {}: {}; error {}, bound {}; {} ms</summary>{}</details>\n",
-            tolerance_of(row), escaped(words_in(row)), error_of(row),
-            significant(number_at(row, "error_bound"), 2), ms(row),
-            table(
-                "Engine: " + escaped(text_at(plan, "engine") + ", " + text_at(plan, "engine_why")),
-                "<th scope=\"col\">What</th><th scope=\"col\"></th><th scope=\"col\">How, and "
-                "why</th><th scope=\"col\" class=\"n\">Error bound</th>",
-                rows));
+        if (items.empty()) continue;
+        plans.push_back({{"tolerance", tolerance_of(row)},
+                         {"words", words_in(row)},
+                         {"error", error_of(row)},
+                         {"bound", significant(number_at(row, "error_bound"), 2)},
+                         {"ms", ms(row)},
+                         {"engine", text_at(plan, "engine")},
+                         {"why", text_at(plan, "engine_why")},
+                         {"tall", is_tall(items)},
+                         {"items", items}});
     }
-    return section("plans", "What the automatic settings decided", body);
+    return plans;
 }
 
-std::string reference_section(const Json& study) {
+View reference_of(const Json& study) {
     const Json reference = object_at(study, "reference");
-    std::string rows;
+    std::vector<View> effects;
     for (const Json& effect : array_at(reference, "effects")) {
-        rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td></tr>\n",
-                            escaped(text_at(effect, "name")), true_at(effect, "on") ? "on" : "off",
-                            escaped(text_at(effect, "why")));
+        effects.push_back({{"name", text_at(effect, "name")},
+                           {"on", on_or_off(effect)},
+                           {"why", text_at(effect, "why")}});
     }
-    if (rows.empty()) return {};
-    return section(
-        "reference", "The reference",
-        table("What it computed, and why",
-              "<th scope=\"col\">Effect</th><th scope=\"col\"></th><th scope=\"col\">Why</th>",
-              rows) +
-            fmt::format(
-                "<p class=\"note\">Drawn twice with other rays and other random paths; half the "
-                "mean difference of the two is its noise. Where there are rough rays (few "
-                "wavelengths, short paths), the mean of these is taken, and added what the exact "
-                "ones differ by along the same rays: exact in the mean, and with the noise of "
-                "many. {} s of processor time: {}. What it cut "
-                "may bring it {} of the mean at most.</p>\n",
-                significant(number_at(reference, "cpu_seconds")),
-                escaped(text_at(reference, "ended")),
-                significant(number_at(reference, "error_bound"), 2)));
+    if (effects.empty()) return false;
+    return {{"tall", is_tall(effects)},
+            {"effects", effects},
+            {"seconds", significant(number_at(reference, "cpu_seconds"))},
+            {"ended", text_at(reference, "ended")},
+            {"bound", significant(number_at(reference, "error_bound"), 2)}};
 }
 
 }  // namespace
@@ -392,19 +315,29 @@ std::string scene_study_page(const SceneStudyView& view) {
     const Json study = parsed_study<Json>(view.study_json);
     std::string title = view.title.empty() ? text_at(study, "name") : view.title;
     if (title.empty()) title = "Study of a scene";
-    std::string body = headline(study, title);
-    body += advice_section(study);
-    body += section(
-        "time", "What accuracy costs in time",
-        chart_figure(draw_chart_svg(time_chart(study))) +
-            "<p class=\"note\">Each point is one way of drawing; hollow ones are as near to the "
-            "reference as can be told (noise). Numbers beside the automatic settings are their "
-            "tolerances.</p>\n");
-    body += front_section(study, view);
-    body += plans_section(study);
-    body += settings_section(study);
-    body += reference_section(study);
-    body += study_provenance(study, view.version, view.command);
+    const Json reference = object_at(study, "reference");
+    const Json &size = array_at(study, "size"), &scene = array_at(study, "scene_size");
+    const bool rough = value_at(reference, "rough_samples") > 0;
+    const std::vector<View> plans = plans_of(study);
+    const std::string body =
+        filled(templates::scene_study,
+               {{"title", title},
+                {"count", std::to_string(array_at(study, "settings").size())},
+                {"pixels", pixels(size)},
+                {"wavelengths", whole(number_at(reference, "wavelengths"))},
+                {"samples", whole(number_at(reference, "samples"))},
+                {"rough_samples", rough ? whole(number_at(reference, "rough_samples")) : ""},
+                {"scene_pixels", size != scene ? pixels(scene) : ""},
+                {"usable", true_at(study, "usable")},
+                {"noise", significant(noise_of(study), 2)},
+                {"advice", advice_of(study)},
+                {"chart_html", chart_figure(draw_chart_svg(time_chart(study)))},
+                {"front", front_figures(study, view)},
+                {"planned", !plans.empty()},
+                {"plans", plans},
+                {"settings", settings_of(study)},
+                {"reference", reference_of(study)},
+                {"provenance_html", study_provenance(study, view.version, view.command)}});
     return html_page(title, body, study.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 

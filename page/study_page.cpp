@@ -12,6 +12,7 @@
 #include "page/json_fields.h"
 #include "page/parts.h"
 #include "page/study_sections.h"
+#include "page/templates.h"
 
 namespace culet {
 
@@ -121,88 +122,63 @@ Chart limit_chart(const Json& study) {
     return chart;
 }
 
-std::string time_table(const Json& study, const std::string& unit) {
-    std::string rows;
-    for (const Json& row : array_at(study, "settings")) {
-        const std::string sweep = text_at(row, "sweep");
-        const SweepWords* words = words_of(sweep);
-        rows += fmt::format(
-            "<tr><th scope=\"row\">{}</th><td>{}{}</td><td class=\"n\">{}</td>"
-            "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
-            "<td class=\"n\">{}</td><td class=\"n\">{}</td>"
-            "<td class=\"n\">{} <small>{} … {}</small></td></tr>\n",
-            escaped(words != nullptr ? words->name : sweep), escaped(text_at(row, "setting")),
-            true_at(row, "as_asked") ? " <small>as asked</small>" : "", of_fits(row, "sound"),
-            of_fits(row, "settled"), of_fits(row, "best"),
-            significant(number_at(row, "angle_error")),
-            significant(number_at(row, "angle_left"), 2),
-            significant(number_at(row, "offset_error")), ms(value_at(row, "seconds")),
-            ms(value_at(row, "seconds_low")), ms(value_at(row, "seconds_high")));
-    }
-    if (rows.empty()) return {};
-    return table("Error and time of each way of fitting",
-                 fmt::format("<th scope=\"col\">What</th><th scope=\"col\">Setting</th>"
-                             "<th scope=\"col\" class=\"n\">Sound</th>"
-                             "<th scope=\"col\" class=\"n\">Settled</th>"
-                             "<th scope=\"col\" class=\"n\">Best</th>"
-                             "<th scope=\"col\" class=\"n\">Angles, °</th>"
-                             "<th scope=\"col\" class=\"n\">From the end, °</th>"
-                             "<th scope=\"col\" class=\"n\">Offsets, {}</th>"
-                             "<th scope=\"col\" class=\"n\">Processor time, ms</th>",
-                             escaped(unit)),
-                 rows);
+View time_row(const Json& row) {
+    const std::string sweep = text_at(row, "sweep");
+    const SweepWords* words = words_of(sweep);
+    return {{"sweep", words != nullptr ? words->name : sweep},
+            {"setting", text_at(row, "setting")},
+            {"as_asked", true_at(row, "as_asked")},
+            {"sound", of_fits(row, "sound")},
+            {"settled", of_fits(row, "settled")},
+            {"best", of_fits(row, "best")},
+            {"angles", significant(number_at(row, "angle_error"))},
+            {"angles_left", significant(number_at(row, "angle_left"), 2)},
+            {"offsets", significant(number_at(row, "offset_error"))},
+            {"ms", ms(value_at(row, "seconds"))},
+            {"ms_low", ms(value_at(row, "seconds_low"))},
+            {"ms_high", ms(value_at(row, "seconds_high"))}};
 }
 
-std::string limit_table(const Json& study, const std::string& unit) {
-    std::string rows;
-    for (const Json& row : array_at(study, "limits")) {
-        const double failed = number_at(row, "failed").value_or(0);
-        rows += fmt::format(
-            "<tr><th scope=\"row\">{} <small>{} %</small></th><td class=\"n\">{}</td>"
-            "<td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n strong\">{} <small>± "
-            "{}</small></td><td class=\"n\">{}</td><td class=\"n\">{}</td><td "
-            "class=\"n\">{}{}</td></tr>\n",
-            whole(number_at(row, "readings")), whole(100 * value_at(row, "share")),
-            decimals(number_at(row, "dof"), 0), significant(number_at(row, "angle_error")),
-            significant(number_at(row, "angle_limit")), decimals(number_at(row, "ratio"), 3),
-            decimals(number_at(row, "ratio_sigma"), 3), significant(number_at(row, "offset_error")),
-            significant(number_at(row, "offset_limit")), whole(number_at(row, "draws")),
-            failed > 0 ? fmt::format(", {:.0f} failed", failed) : "");
-    }
-    if (rows.empty()) return {};
-    return table("Error and limit as readings are taken away",
-                 fmt::format("<th scope=\"col\">Readings</th><th scope=\"col\" class=\"n\">"
-                             "Redundancy</th><th scope=\"col\" class=\"n\">Angles, °</th>"
-                             "<th scope=\"col\" class=\"n\">Limit, °</th>"
-                             "<th scope=\"col\" class=\"n\">Ratio</th>"
-                             "<th scope=\"col\" class=\"n\">Offsets, {0}</th>"
-                             "<th scope=\"col\" class=\"n\">Limit, {0}</th>"
-                             "<th scope=\"col\" class=\"n\">Draws</th>",
-                             escaped(unit)),
-                 rows);
-}
-
-std::string headline(const Json& study, const std::string& title) {
-    std::string status = text_at(study, "status");
-    std::replace(status.begin(), status.end(), '_', ' ');
-    const bool good = status == "converged";
-    return fmt::format(
-        "<header class=\"headline\"><h1>{}</h1>\n<p>{} facets, {} readings. The stone as fitted is "
-        "taken for the truth, its readings are drawn anew with errors of their own σ, and fitted "
-        "again.</p>\n<p><span class=\"badge {}\">{}</span> {}</p></header>\n",
-        escaped(title), whole(number_at(study, "facets")), whole(number_at(study, "readings")),
-        good ? "good" : "bad", escaped(status.empty() ? "status unknown" : status),
-        escaped(text_at(study, "message")));
-}
-
-std::string notes_of(const Json& study) {
-    std::string list;
+View time_of(const Json& study) {
+    std::vector<View> rows;
+    for (const Json& row : array_at(study, "settings")) rows.push_back(time_row(row));
+    if (rows.empty()) return false;
+    std::string left_out;
     for (const Json& left : array_at(study, "left_out")) {
-        if (left.is_string()) list += (list.empty() ? "" : ", ") + left.get<std::string>();
+        if (left.is_string()) left_out += (left_out.empty() ? "" : ", ") + left.get<std::string>();
     }
-    return list.empty() ? ""
-                        : fmt::format("<p class=\"note\">Not reached within the budget: {}.</p>\n",
-                                      escaped(list));
+    return {{"chart_html", chart_figure(draw_chart_svg(time_chart(study)))},
+            {"tall", is_tall(rows)},
+            {"rows", rows},
+            {"left_out", left_out}};
+}
+
+View limit_row(const Json& row) {
+    const double failed = number_at(row, "failed").value_or(0);
+    return {{"readings", whole(number_at(row, "readings"))},
+            {"percent", whole(100 * value_at(row, "share"))},
+            {"redundancy", decimals(number_at(row, "dof"), 0)},
+            {"angles", significant(number_at(row, "angle_error"))},
+            {"angle_limit", significant(number_at(row, "angle_limit"))},
+            {"ratio", decimals(number_at(row, "ratio"), 3)},
+            {"ratio_sigma", decimals(number_at(row, "ratio_sigma"), 3)},
+            {"offsets", significant(number_at(row, "offset_error"))},
+            {"offset_limit", significant(number_at(row, "offset_limit"))},
+            {"draws", whole(number_at(row, "draws"))},
+            {"failed", failed > 0 ? fmt::format("{:.0f}", failed) : ""}};
+}
+
+View limit_of(const Json& study) {
+    std::vector<View> rows;
+    for (const Json& row : array_at(study, "limits")) rows.push_back(limit_row(row));
+    const std::string message = text_at(study, "limit_message");
+    if (rows.empty() && message.empty()) return false;
+    return {{"chart_html", chart_figure(draw_chart_svg(limit_chart(study)))},
+            {"some", !rows.empty()},
+            {"tall", is_tall(rows)},
+            {"rows", rows},
+            {"made_exact", true_at(study, "limit_made_exact")},
+            {"limit_message", message}};
 }
 
 }  // namespace
@@ -262,38 +238,22 @@ std::string study_limit_chart(const std::string& study_json) {
 
 std::string study_page(const StudyView& view) {
     const Json study = parsed_study<Json>(view.study_json);
-    const std::string unit = text_at(study, "unit");
     std::string title = view.title.empty() ? text_at(study, "name") : view.title;
     if (title.empty()) title = "Study of a fit";
-    std::string body = headline(study, title);
-    std::string time = chart_figure(draw_chart_svg(time_chart(study))) + time_table(study, unit);
-    if (!array_at(study, "settings").empty()) {
-        time +=
-            "<p class=\"note\">Angles and offsets: root mean square over facets and draws, against "
-            "the truth. From the end: likewise against the fit as asked of the same readings, what "
-            "the arithmetic leaves undone. Sound: a closed stone with every facet. Settled: the "
-            "search ended by "
-            "itself. Best: as good a fit as any start gave. Time: median and quartiles of one fit, "
-            "uncertainties included. Hollow points: some fits found no stone.</p>\n" +
-            notes_of(study);
-    }
-    body += section("time", "What accuracy costs in time", time);
-    std::string limit = chart_figure(draw_chart_svg(limit_chart(study))) + limit_table(study, unit);
-    const std::string message = text_at(study, "limit_message");
-    if (!limit.empty() || !message.empty()) {
-        limit += fmt::format(
-            "<p class=\"note\">Readings go in the order of their redundancy: first those that the "
-            "others tell already. The limit (Cramér-Rao) is the smallest error that any unbiased "
-            "way of fitting can have with these readings; numbers in the chart are measured error "
-            "over limit.{}{}</p>\n",
-            true_at(study, "limit_made_exact")
-                ? " Meets and symmetries are exact here, whatever the stone file says: soft ones "
-                  "are readings of a kind that cannot be drawn anew."
-                : "",
-            message.empty() ? "" : " The table ends here: " + escaped(message) + ".");
-    }
-    body += section("limit", "How near to the theoretical limit", limit);
-    body += study_provenance(study, view.version, view.command);
+    std::string status = text_at(study, "status");
+    std::replace(status.begin(), status.end(), '_', ' ');
+    const std::string body =
+        filled(templates::study,
+               {{"title", title},
+                {"facets", whole(number_at(study, "facets"))},
+                {"readings", whole(number_at(study, "readings"))},
+                {"good", status == "converged"},
+                {"status", status},
+                {"message", text_at(study, "message")},
+                {"unit", text_at(study, "unit")},
+                {"time", time_of(study)},
+                {"limit", limit_of(study)},
+                {"provenance_html", study_provenance(study, view.version, view.command)}});
     return html_page(title, body, study.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 

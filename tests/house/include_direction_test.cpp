@@ -68,7 +68,7 @@ std::set<std::string> includes_of(const fs::path& file) {
 // that stay inside their room may show Eigen or OpenCV to their neighbours.
 TEST(Rooms, show_no_heavy_library_to_other_rooms) {
     const std::regex heavy(
-        R"(#\s*include\s*<(CGAL|OpenMesh|ceres|Eigen|opencv2|Imath|OpenEXR|Imf|toml\+\+|nlohmann|tbb))");
+        R"(#\s*include\s*<(CGAL|OpenMesh|ceres|Eigen|opencv2|Imath|OpenEXR|Imf|toml\+\+|nlohmann|kainjow|tbb))");
     const fs::path source(CULET_SOURCE_DIR);
     std::set<std::string> shown, open;
     for (const auto& [room, visible] : k_may_see) {

@@ -1,0 +1,55 @@
+// What a template may ask for, and that it escapes: rules of the mustache manual, mustache(5), and
+// of page/template.h.
+
+#include "page/template.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <stdexcept>
+
+namespace culet {
+namespace {
+
+TEST(Template, escapes_what_does_not_say_that_it_is_html) {
+    const Template form{"form", "<p>{{text}}{{{text_html}}}</p>"};
+    EXPECT_EQ(filled(form, {{"text", "<b>\x01"}, {"text_html", "<i>"}}),
+              "<p>&lt;b&gt;\xef\xbf\xbd<i></p>");
+}
+
+TEST(Template, repeats_lists_and_leaves_out_what_is_empty) {
+    const Template form{"form", "{{#rows}}{{name}};{{/rows}}{{#note}}({{note}}){{/note}}"};
+    const std::vector<View> rows{{{"name", "a"}}, {{"name", "b"}}};
+    EXPECT_EQ(filled(form, {{"rows", rows}, {"note", ""}}), "a;b;");
+    EXPECT_EQ(filled(form, {{"rows", std::vector<View>{}}, {"note", "n"}}), "(n)");
+}
+
+TEST(Template, refuses_names_that_are_not_there) {
+    for (const char* text : {"{{gone}}", "{{{gone}}}", "{{#gone}}x{{/gone}}", "{{^gone}}x{{/gone}}",
+                             "{{>gone}}", "{{#open}}"}) {
+        EXPECT_THROW(filled({"form", text}, {{"open", true}}), std::logic_error) << text;
+    }
+}
+
+// Of page/template.h: what stands as it is says so by its name.
+TEST(Template, files_write_nothing_unescaped_but_what_is_named_so) {
+    const std::regex raw(R"(\{\{(\{|&)\s*([a-z_.]*))"), named(R"(.*_(html|svg|css|js|json))");
+    int files = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(
+             std::filesystem::path(CULET_SOURCE_DIR) / "page/templates")) {
+        ++files;
+        std::ifstream in(entry.path());
+        const std::string text{std::istreambuf_iterator<char>(in), {}};
+        for (std::sregex_iterator at(text.begin(), text.end(), raw), end; at != end; ++at) {
+            EXPECT_TRUE(std::regex_match((*at)[2].str(), named))
+                << entry.path() << ": " << *at->begin();
+        }
+    }
+    EXPECT_GT(files, 0);
+}
+
+}  // namespace
+}  // namespace culet
