@@ -7,6 +7,7 @@
 
 #include "render/beams/beam_picture.h"
 #include "render/plan/cause_pilot.h"
+#include "render/plan/planner.h"
 #include "render/plan/resolutions.h"
 #include "render/reference.h"
 #include "render/work_meter.h"
@@ -15,7 +16,8 @@ namespace culet {
 
 namespace {
 
-constexpr int k_most_drawings = 7;
+// Of all effects that are to be drawn; where a crystal's two waves go as one for a try.
+constexpr int k_most_drawings = 7, k_most_as_one = 3;
 constexpr int k_most_rays = 1600;  // a pixel
 // What is off by this share still is no better than what was drawn before: then the truth is
 // suspected, whose few rays may be noisier than they look, where noise is such a share of the
@@ -124,6 +126,8 @@ void Ladder::climb(const ScenePlan& plan, ErrorEstimator& estimator, const Ladde
     const double tolerance = scene_.settings.tolerance;
     WorkMeter* const meter = scene_.settings.meter.get();
     Step step = steps.first();
+    const bool as_one = plan.item(name_of(Effects::birefringence)).why == k_as_one;
+    const int most = as_one ? k_most_as_one : k_most_drawings;
     double seconds_before = plan.seconds_planning, error_before = 0;
     for (int drawing = 1;; ++drawing) {
         const bool beams = drawn_by_beams(step.settings);
@@ -135,8 +139,7 @@ void Ladder::climb(const ScenePlan& plan, ErrorEstimator& estimator, const Ladde
         RenderStats& stats = result.stats;
         if (beams) step.price_ns = steps.price_of(stats);
         const auto start = Clock::now();
-        const double share =
-            beams && drawing < k_most_drawings ? k_check_share : k_last_check_share;
+        const double share = beams && drawing < most ? k_check_share : k_last_check_share;
         const ErrorEstimate estimate =
             held_against_truth(result, estimator, step.price_ns,
                                std::max(k_least_check_ns, share * step.price_ns), error_before);
@@ -145,7 +148,7 @@ void Ladder::climb(const ScenePlan& plan, ErrorEstimator& estimator, const Ladde
         std::optional<Step> other;
         if (!so_far.near_enough) {
             so_far.misjudged = misjudged(estimate, estimator, step.settings, so_far);
-            if (!so_far.misjudged && drawing < k_most_drawings)
+            if (!so_far.misjudged && drawing < most)
                 other = next(steps, step, estimate, drawing > 1);
         }
         error_before = estimate.error();
@@ -159,12 +162,15 @@ void Ladder::climb(const ScenePlan& plan, ErrorEstimator& estimator, const Ladde
         if (!so_far.best || stats.error_bound < so_far.best->stats.error_bound) {
             so_far.best = std::move(result);
             so_far.settings = step.settings;
+            so_far.why = step.why;
             so_far.bound_delta_e = estimate.bound_delta_e;
         }
         if (!other) break;
         step = std::move(*other);
         so_far.notes.push_back(step.why);
     }
+    // Nothing else is left to blame.
+    if (!so_far.near_enough && so_far.off_without > 0) so_far.misjudged = true;
     so_far.best->stats.seconds_setup += seconds_before - seconds_of(so_far.best->stats);
 }
 
@@ -180,6 +186,7 @@ LadderPicture Ladder::draw(ScenePlan plan, ErrorEstimator& estimator) {
     }
     LadderPicture done{std::move(*so_far.best), so_far.near_enough, so_far.misjudged};
     plan.settings = so_far.settings;
+    plan.engine_why = so_far.why;
     plan.bound_delta_e = so_far.bound_delta_e;
     set_resolutions(plan, scene_, scene_.settings);
     add_plan(plan, done.result.stats);

@@ -36,6 +36,7 @@ private:
     struct SoFar {
         std::optional<RenderResult> best;
         RenderSettings settings;  // of it
+        std::string why;          // it was drawn so
         double bound_delta_e = 0;
         std::vector<std::string> notes;
         bool near_enough = false, misjudged = false;

@@ -272,8 +272,9 @@ void Planner::estimate_times() {
     const double seconds = 1e-9 * machine_;
     plan_.seconds *= seconds;
     const int rays_of_all = std::max(plan_.settings.samples, k_usual_rays);
-    plan_.seconds_everything = seconds * pixels_.in_picture * rays_of_all * price_ns(whole_) *
-                               (on(Effects::dispersion) ? 4 : 1);
+    plan_.seconds_everything =
+        std::max(plan_.seconds, seconds * pixels_.in_picture * rays_of_all * price_ns(whole_) *
+                                    (on(Effects::dispersion) ? 4 : 1));
     for (PlanItem& line : plan_.items) {
         // So far they hold prices of the pilot with and without.
         const double with = line.seconds_with, without = line.seconds_without;
