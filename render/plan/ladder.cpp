@@ -167,7 +167,6 @@ void Ladder::climb(const ScenePlan& plan, ErrorEstimator& estimator, const Ladde
         }
         if (!other) break;
         step = std::move(*other);
-        so_far.notes.push_back(step.why);
     }
     // Nothing else is left to blame.
     if (!so_far.near_enough && so_far.off_without > 0) so_far.misjudged = true;
@@ -190,10 +189,6 @@ LadderPicture Ladder::draw(ScenePlan plan, ErrorEstimator& estimator) {
     plan.bound_delta_e = so_far.bound_delta_e;
     set_resolutions(plan, scene_, scene_.settings);
     add_plan(plan, done.result.stats);
-    // Where the work is what is given, nobody asks how often it was drawn.
-    if (!is_paced(scene_.settings)) {
-        for (const std::string& note : so_far.notes) done.result.stats.notes.push_back(note);
-    }
     done.result.stats.plan = std::move(plan);
     return done;
 }

@@ -38,7 +38,6 @@ private:
         RenderSettings settings;  // of it
         std::string why;          // it was drawn so
         double bound_delta_e = 0;
-        std::vector<std::string> notes;
         bool near_enough = false, misjudged = false;
         int pixels_without = 0;  // at which the truth was drawn without what the plan left out
         double off_without = 0;

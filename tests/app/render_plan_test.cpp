@@ -144,7 +144,10 @@ TEST_F(RenderPlan, VerifiesAPicture) {
     EXPECT_TRUE(found["holds"]);
     EXPECT_GT(found["pixels"], 0);
     EXPECT_GE(found["measured"], 0);
-    EXPECT_LE(found["measured"], found["error_bound"]);
+    // As far as 128 pixels can tell (Verification::holds).
+    EXPECT_LE(found["measured"].get<double>() - 3 * found["spread"].get<double>() -
+                  found["noise"].get<double>(),
+              found["error_bound"]);
     EXPECT_GT(found["deltaE00"], 0);
     // The stats carry the plan too.
     EXPECT_EQ(json("stats.json")["plan"]["items"].size(), k_lines.size());
