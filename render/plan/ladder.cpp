@@ -159,7 +159,10 @@ void Ladder::climb(const ScenePlan& plan, ErrorEstimator& estimator, const Ladde
         stats.seconds_check = seconds_since(start);
         stats.seconds_setup += seconds_before;
         seconds_before = seconds_of(stats);
-        if (!so_far.best || stats.error_bound < so_far.best->stats.error_bound) {
+        // What may miss the sun is off by nobody knows how much.
+        if (!so_far.best || so_far.blind > blind ||
+            (so_far.blind == blind && stats.error_bound < so_far.best->stats.error_bound)) {
+            so_far.blind = blind;
             so_far.best = std::move(result);
             so_far.settings = step.settings;
             so_far.why = step.why;

@@ -38,6 +38,7 @@ private:
         RenderSettings settings;  // of it
         std::string why;          // it was drawn so
         double bound_delta_e = 0;
+        bool blind = false;  // it may miss the sun
         bool near_enough = false, misjudged = false;
         int pixels_without = 0;  // at which the truth was drawn without what the plan left out
         double off_without = 0;

@@ -67,7 +67,7 @@ bool tried_as_one_wave(const Scene& scene) {
 ScenePlan Planner::run() {
     begin();
     if (!pixels_.at.empty()) {
-        if (costs_less_than_pilots()) {
+        if (leave_ == Leave::surely || costs_less_than_pilots()) {
             for (PlanItem& line : plan_.items) {
                 if (line.on) line.matters = line.matters_delta_e = k_unknown;
             }
@@ -101,9 +101,7 @@ void Planner::begin() {
 }
 
 void Planner::finish() {
-    for (int e = 0; e < k_effect_count; ++e)
-        plan_.settings.effects[static_cast<std::size_t>(e)] =
-            plan_.items[static_cast<std::size_t>(e)].on;
+    settle_effects();
     if (!pixels_.at.empty()) {
         bound_depth();
         choose_first_picture();
@@ -119,19 +117,19 @@ void Planner::finish() {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
 
+void Planner::settle_effects() {
+    for (std::size_t e = 0; e < k_effect_count; ++e) plan_.settings.effects[e] = plan_.items[e].on;
+}
+
 // Pilots of paths of so many faces, about.
 bool Planner::costs_less_than_pilots() {
-    if (branches_ || !user_.effects_auto || on(Effects::aperture) || user_.depth > 0 ||
-        leave_ == Leave::surely)
-        return leave_ == Leave::surely;
+    if (branches_ || !user_.effects_auto || on(Effects::aperture) || user_.depth > 0) return false;
     PathWork ray;
     ray.rays = 1;
     ray.events = k_usual_events;
     const double pilots =
         k_usual_rays_of_pilots * static_cast<double>(pixels_.at.size()) * price_ns(ray);
-    for (int e = 0; e < k_effect_count; ++e)
-        plan_.settings.effects[static_cast<std::size_t>(e)] =
-            plan_.items[static_cast<std::size_t>(e)].on;
+    settle_effects();
     const Step first = LadderSteps(scene_, plan_, *estimator_, progress_).first();
     return drawn_by_beams(first.settings) && first.price_ns <= pilots;
 }

@@ -71,6 +71,7 @@ private:
     void finish();
     void say_what_is_known();
     void find_pixels();
+    void settle_effects();
     bool costs_less_than_pilots();
     void weigh_effects();
     void settle_without_pilot();

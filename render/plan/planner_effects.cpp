@@ -77,7 +77,6 @@ void Planner::say_what_is_known() {
 }
 
 bool Planner::may_go(double bound, double likely, double share) const {
-    if (leave_ == Leave::surely) return bound <= 0;
     return bound <= tolerance_ && likely <= share * tolerance_ &&
            std::hypot(left_out_, likely) <= k_share_of_effects * tolerance_;
 }
