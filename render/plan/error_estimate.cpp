@@ -121,6 +121,11 @@ PilotDrawing ErrorEstimator::draw(const StonePixels& pixels, int samples) {
 }
 
 double ErrorEstimator::noise_of_16() {
+    if (!noise_of_16_) noise_of_16_ = drawn_noise_of_16();
+    return *noise_of_16_;
+}
+
+double ErrorEstimator::drawn_noise_of_16() {
     const PilotDrawing drawing = draw(some_.stretch(0, k_noise_pixels), levels_[0].samples);
     double squares = 0, sum = 0;
     for (double halves : drawing.halves_apart) {
@@ -197,13 +202,6 @@ CheckedSample ErrorEstimator::sample(std::size_t pixels) const {
     sample.nodes = nodes_;
     sample.noise = noise_of(level);
     return sample;
-}
-
-std::size_t ErrorEstimator::pixels_for(double ns) const {
-    if (limits_.roulette || !(rays_drawn_ > 0)) return 0;
-    const double pixels = ns * rays_drawn_ / (levels_.front().samples * price_ns(work_));
-    return static_cast<std::size_t>(
-        std::min(pixels, static_cast<double>(levels_.front().rgb.size())));
 }
 
 ErrorEstimate ErrorEstimator::look(const Picture& picture, std::size_t wanted) {

@@ -80,9 +80,6 @@ public:
 
     /// The truth at the first `pixels` of the last estimate, and how it was drawn.
     CheckedSample sample(std::size_t pixels) const;
-    /// How many of these can be drawn once more for so much (price.h). 0 where small paths are left
-    /// to chance: their trees are dear, and no cut is to blame for what they are off by.
-    std::size_t pixels_for(double ns) const;
     const Scene& scene() const { return scene_; }
     /// Another picture has more to tell of where to look: pixels are chosen anew, and drawn.
     void look_elsewhere();
@@ -100,6 +97,7 @@ private:
         double halves = 0, radiance = 0, cut = 0;  // sums over the first, as they count
     };
     int grid(std::size_t level) const;
+    double drawn_noise_of_16();
     void choose(const Picture& picture, FrameRenderer* frames);
     PilotDrawing draw(const StonePixels& pixels, int samples);
     void draw_up_to(std::size_t count);
@@ -126,7 +124,8 @@ private:
     std::map<std::pair<int, int>, std::size_t> of_picture_;  // the picture's, and which of those
     std::vector<Level> levels_;
     PathWork work_;
-    double rays_drawn_ = 0;  // pixels x samples
+    double rays_drawn_ = 0;              // pixels x samples
+    std::optional<double> noise_of_16_;  // once it was drawn
 };
 
 }  // namespace culet

@@ -166,6 +166,7 @@ void Ladder::climb(const ScenePlan& plan, ErrorEstimator& estimator, const Ladde
             so_far.best = std::move(result);
             so_far.settings = step.settings;
             so_far.why = step.why;
+            so_far.noise = step.noise;
             so_far.bound_delta_e = estimate.bound_delta_e;
         }
         if (!other) break;
@@ -189,6 +190,7 @@ LadderPicture Ladder::draw(ScenePlan plan, ErrorEstimator& estimator) {
     LadderPicture done{std::move(*so_far.best), so_far.near_enough, so_far.misjudged};
     plan.settings = so_far.settings;
     plan.engine_why = so_far.why;
+    plan.bound_of_sampling = so_far.noise;
     plan.bound_delta_e = so_far.bound_delta_e;
     set_resolutions(plan, scene_, scene_.settings);
     add_plan(plan, done.result.stats);

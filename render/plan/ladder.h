@@ -37,6 +37,7 @@ private:
         std::optional<RenderResult> best;
         RenderSettings settings;  // of it
         std::string why;          // it was drawn so
+        double noise = 0;
         double bound_delta_e = 0;
         bool blind = false;  // it may miss the sun
         bool near_enough = false, misjudged = false;

@@ -42,20 +42,23 @@ constexpr double k_crystal_cut = 0.009, k_crystal_remainder = 0.047, k_crystal_p
 // tolerance.
 constexpr double k_fine_tolerance = 0.02, k_gambled = 0.04, k_fine_gambled = 0.01, k_split = 0.6,
                  k_fine_split = 0.1;
+// Of the tolerance, the weight below which the reference's paths are cut where they do not branch.
+constexpr double k_cut_of_paths = 0.1;
 constexpr int k_most_side = 40, k_pupil_points = 16, k_most_pupil_points = 256;
 // Pixels of the estimate that tell causes apart.
-constexpr std::size_t k_pixelsof_causes = 192;
+constexpr std::size_t k_pixels_of_causes = 192;
 
 // With which the rays of a pixel take turns.
 int nodes_for(int rays) {
     return rays < 36 ? 29 : 57;
 }
 
-// Rays a pixel, where `rays` were off by `off` and may be by `room`: what the mean of N is off by
-// falls about as N^-0.7.
+// What the mean of N rays is off by falls about as N to this power.
+constexpr double k_power_of_rays = 0.7;
+
+// Rays a pixel, where `rays` were off by `off` and may be by `room`.
 int rays_to_reach(double room, int rays, double off) {
-    constexpr double k_power = 0.7;
-    const double wanted = rays * std::pow(off / room, 1 / k_power);
+    const double wanted = rays * std::pow(off / room, 1 / k_power_of_rays);
     int side =
         std::clamp(static_cast<int>(std::ceil(std::sqrt(std::min(wanted, 1e6)))), 1, k_most_side);
     while (ErrorEstimator::takes_grid(side)) ++side;
@@ -108,7 +111,7 @@ Step LadderSteps::first() const {
 Step LadderSteps::first_beams() const {
     const RenderSettings& user = scene_.settings;
     const double tolerance = user.tolerance;
-    Step step{with_effects().settings, 0, {}};
+    Step step{.settings = with_effects().settings};
     RenderSettings& settings = step.settings;
     // A preview has one colour a region: of a map that is seldom near enough.
     const bool preview = user.engine == "preview" ||
@@ -150,18 +153,20 @@ Step LadderSteps::first_beams() const {
 Step LadderSteps::by_reference(const ErrorEstimate* estimate) const {
     const RenderSettings& user = scene_.settings;
     const double tolerance = user.tolerance;
-    Step step{with_effects().settings, 0, {}};
+    Step step{.settings = with_effects().settings};
     RenderSettings& settings = step.settings;
     settings.engine = "reference";
     const bool fine = tolerance < k_fine_tolerance;
-    settings.cut_weight = !doubles_ ? k_coarsest * tolerance : fine ? k_fine_gambled : k_gambled;
+    settings.cut_weight = !doubles_ ? k_cut_of_paths * tolerance
+                          : fine    ? k_fine_gambled
+                                    : k_gambled;
     settings.split_weight = doubles_ && !fine ? k_split : k_fine_split;
     // The estimate has seen more of what few rays are off by.
     const double noise =
         std::max(estimate != nullptr ? estimate->noise : estimator_.noise_of_16(), 1e-9);
-    if (user.samples == 0)
-        settings.samples =
-            rays_to_reach(k_aim * tolerance, estimate != nullptr ? estimate->samples : 16, noise);
+    const int rays = estimate != nullptr ? estimate->samples : 16;
+    if (user.samples == 0) settings.samples = rays_to_reach(k_aim * tolerance, rays, noise);
+    step.noise = noise * std::pow(static_cast<double>(rays) / settings.samples, k_power_of_rays);
     // With dispersion the rays of a pixel take turns with the wavelengths: many of both are needed
     // anyway, and each ray at one wavelength tells as much as another.
     const bool dispersed = (setup_.on(Effects::dispersion) || setup_.on(Effects::coherence)) &&
@@ -192,7 +197,9 @@ Step LadderSteps::more_rays(const Step& step, const ErrorEstimate& estimate) con
         more.settings.wavelength_turns =
             turns_for(more.settings.samples, static_cast<int>(nm.size()));
     }
-    more.price_ns = step.price_ns * more.settings.samples / rays;
+    const double times = static_cast<double>(more.settings.samples) / rays;
+    more.price_ns *= times;
+    more.noise *= std::pow(times, -k_power_of_rays);
     return more;
 }
 
@@ -277,7 +284,7 @@ Step LadderSteps::finer_beams(const Step& step, const ErrorEstimate& estimate, b
     Step finer = step;
     CausePilot pilot(
         estimator_.scene(), step.settings,
-        estimator_.sample(std::min(static_cast<std::size_t>(estimate.pixels), k_pixelsof_causes)),
+        estimator_.sample(std::min(static_cast<std::size_t>(estimate.pixels), k_pixels_of_causes)),
         progress_);
     const double of_wavelengths = finer_wavelengths(finer, pilot, again);
     double of_cut = 0;

@@ -15,7 +15,8 @@ class CausePilot;
 struct Step {
     RenderSettings settings;
     double price_ns = 0;  ///< about (price.h)
-    std::string why;
+    double noise = 0;     ///< about what the reference's few rays are off by
+    std::string why = {};
 };
 
 class LadderSteps {

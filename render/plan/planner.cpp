@@ -263,6 +263,7 @@ void Planner::choose_first_picture() {
     plan_.settings = first.settings;
     plan_.engine_why = first.why;
     plan_.seconds = first.price_ns;
+    plan_.bound_of_sampling = first.noise;
 }
 
 // By counts of faces met.

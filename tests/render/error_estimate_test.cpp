@@ -418,22 +418,6 @@ TEST(CausePilot, finds_what_single_choices_are_off_by) {
         << "nothing is left out";
 }
 
-// A crystal's paths are left to chance: no cut is to blame, and no pilot is drawn for it.
-TEST(CausePilot, is_not_for_trees_that_gamble) {
-    const Progress quiet;
-    Scene scene = plan_scene_of("peridot", "step", "smooth", 40).scene;
-    scene.settings.tolerance = 0.1;
-    scene.settings.effects_auto = true;
-    ErrorEstimator estimator(scene, all_stone_pixels(scene), 0.1, quiet);
-    EXPECT_EQ(estimator.pixels_for(1e12), 0u) << "nothing is drawn yet";
-    Picture dark;
-    dark.width = dark.height = 40;
-    dark.rgb.assign(3 * dark.pixels(), 0.0f);
-    estimator.estimate(dark, 0.1, 1e9);
-    EXPECT_GT(estimator.sample(1000).truth.size(), 0u);
-    EXPECT_EQ(estimator.pixels_for(1e12), 0u);
-}
-
 }  // namespace
 
 }  // namespace culet
