@@ -12,7 +12,7 @@
 #include "compare/photo/bracket.h"
 #include "compare/photo/lens.h"
 #include "compare/photo/white_balance.h"
-#include "render/image_io.h"
+#include "render/image/image_io.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 

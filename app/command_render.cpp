@@ -11,9 +11,9 @@
 #include "app/options.h"
 #include "app/picture_output.h"
 #include "app/terminal.h"
-#include "render/light_presets.h"
 #include "render/render.h"
-#include "render/stone_scene.h"
+#include "render/scene/light_presets.h"
+#include "render/scene/stone_scene.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 

@@ -5,8 +5,8 @@
 
 #include "app/describe.h"
 #include "app/solid_input.h"
-#include "render/image_io.h"
-#include "render/scene_io.h"
+#include "render/image/image_io.h"
+#include "render/scene/scene_io.h"
 #include "stone/units.h"
 
 namespace culet {

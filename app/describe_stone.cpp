@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "app/describe.h"
-#include "render/material_colour.h"
+#include "render/colour/material_colour.h"
 #include "stone/material_io.h"
 #include "stone/stone_io.h"
 #include "stone/units.h"

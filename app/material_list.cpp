@@ -10,7 +10,7 @@
 
 #include "app/solid_input.h"
 #include "page/material_page.h"
-#include "render/material_colour.h"
+#include "render/colour/material_colour.h"
 #include "stone/errors.h"
 #include "stone/material.h"
 #include "stone/output_file.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/light/near_light.h"
+#include "compare/light_probe/near_light.h"
 
 namespace culet {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "render/exposure.h"
-#include "render/light_presets.h"
+#include "render/image/exposure.h"
+#include "render/scene/light_presets.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 

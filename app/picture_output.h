@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "render/image_io.h"
-#include "render/scene.h"
+#include "render/image/image_io.h"
+#include "render/scene/scene.h"
 
 namespace culet {
 

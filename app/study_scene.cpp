@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include "app/terminal.h"
-#include "compare/scene_study.h"
+#include "compare/study/scene_study.h"
 #include "page/scene_study_page.h"
-#include "render/image_io.h"
-#include "render/scene_io.h"
+#include "render/image/image_io.h"
+#include "render/scene/scene_io.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 

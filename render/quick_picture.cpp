@@ -1,9 +1,9 @@
 #include <limits>
 
 #include "render/beams/beam_picture.h"
-#include "render/reference.h"
+#include "render/reference/reference.h"
 #include "render/render.h"
-#include "render/scene_checks.h"
+#include "render/setup/scene_checks.h"
 
 namespace culet {
 
@@ -29,7 +29,7 @@ RenderResult draw_quickly(const Scene& scene, const Progress& progress) {
         settings.effects[static_cast<std::size_t>(effect)] = false;
     if (settings.wavelengths_nm.empty()) settings.wavelengths_nm = k_three_nm;
     RenderResult result;
-    if (refused_by_beams(quick, make_plan(quick)).empty()) {
+    if (refused_by_beams(quick, make_optical_setup(quick)).empty()) {
         settings.engine = "preview";
         FrameRenderer frames(quick);
         frames.report_to(progress);

@@ -5,12 +5,12 @@
 #include <algorithm>
 
 #include "render/beams/beam_picture.h"
-#include "render/plan/ladder.h"
-#include "render/plan/paced_drawing.h"
-#include "render/plan/planner.h"
-#include "render/reference.h"
-#include "render/scene_checks.h"
-#include "render/work_meter.h"
+#include "render/planner/ladder.h"
+#include "render/planner/paced_drawing.h"
+#include "render/planner/planner.h"
+#include "render/reference/reference.h"
+#include "render/setup/scene_checks.h"
+#include "render/work/work_meter.h"
 
 namespace culet {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "render/picture.h"
-#include "render/plan.h"
-#include "render/plan/scene_plan.h"
-#include "render/scene.h"
+#include "render/image/picture.h"
+#include "render/planner/scene_plan.h"
+#include "render/scene/scene.h"
+#include "render/setup/optical_setup.h"
 #include "stone/progress.h"
 
 namespace culet {

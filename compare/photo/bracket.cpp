@@ -10,9 +10,9 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/video/tracking.hpp>
 
+#include "compare/photo/pixels.h"
 #include "compare/photo/response.h"
-#include "compare/pixels.h"
-#include "render/colour.h"
+#include "render/colour/colour.h"
 #include "stone/errors.h"
 #include "stone/upper_median.h"
 

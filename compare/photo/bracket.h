@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/photo.h"
+#include "compare/photo/photo.h"
 #include "stone/progress.h"
 
 namespace culet {

@@ -9,7 +9,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "compare/pixels.h"
+#include "compare/photo/pixels.h"
 #include "stone/errors.h"
 
 namespace culet {

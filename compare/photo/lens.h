@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/photo.h"
+#include "compare/photo/photo.h"
 
 namespace culet {
 

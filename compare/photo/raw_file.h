@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "compare/photo.h"
+#include "compare/photo/photo.h"
 
 namespace culet {
 

@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/photo.hpp>
 
-#include "render/colour.h"
+#include "render/colour/colour.h"
 #include "stone/errors.h"
 
 namespace culet {

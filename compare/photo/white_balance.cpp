@@ -10,9 +10,9 @@
 #include <opencv2/mcc.hpp>
 #include <vector>
 
-#include "compare/pixels.h"
-#include "render/colour.h"
-#include "render/colour_difference.h"
+#include "compare/photo/pixels.h"
+#include "render/colour/colour.h"
+#include "render/colour/colour_difference.h"
 #include "stone/errors.h"
 #include "stone/upper_median.h"
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include "compare/photo.h"
+#include "compare/photo/photo.h"
 
 namespace culet {
 

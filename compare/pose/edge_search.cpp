@@ -5,7 +5,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "compare/pixels.h"
+#include "compare/photo/pixels.h"
 #include "compare/pose/picture_noise.h"
 
 namespace culet {

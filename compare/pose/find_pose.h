@@ -16,8 +16,8 @@
 #include <string>
 #include <vector>
 
-#include "compare/photo.h"
-#include "render/scene.h"
+#include "compare/photo/photo.h"
+#include "render/scene/scene.h"
 #include "stone/progress.h"
 #include "stone/solid.h"
 

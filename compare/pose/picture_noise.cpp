@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-#include "compare/pixels.h"
+#include "compare/photo/pixels.h"
 
 namespace culet {
 

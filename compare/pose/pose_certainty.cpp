@@ -122,13 +122,14 @@ void judge(const PoseTask& task, const Candidate& won, double rival, double riva
     // small irregularities say, and what was asked for says another.
     if (pose.start_angle > task.options.search) {
         const double off = degrees(pose.start_angle);
-        refuse(fmt::format("the likeliest view is {:.0f} degrees from the scene's camera, which may "
-                           "be off by {:.0f}",
-                           off, degrees(task.options.search)),
-               fmt::format("See the overlay: if that is how the stone was held, turn the scene's "
-                           "camera there, or search so far with --search-deg {:.0f}; else turn it "
-                           "to within 10 degrees of how it was held",
-                           std::ceil(off) + 1));
+        refuse(
+            fmt::format("the likeliest view is {:.0f} degrees from the scene's camera, which may "
+                        "be off by {:.0f}",
+                        off, degrees(task.options.search)),
+            fmt::format("See the overlay: if that is how the stone was held, turn the scene's "
+                        "camera there, or search so far with --search-deg {:.0f}; else turn it "
+                        "to within 10 degrees of how it was held",
+                        std::ceil(off) + 1));
     }
     const double outline_limit = std::max(1.0, limits.outline_residual * diameter);
     if (pose.outline_px > outline_limit) {

@@ -3,7 +3,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "compare/pixels.h"
+#include "compare/photo/pixels.h"
 #include "compare/pose/find_pose.h"
 #include "compare/pose/wireframe.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "compare/pixels.h"
+#include "compare/photo/pixels.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
 

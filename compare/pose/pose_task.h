@@ -10,7 +10,7 @@
 #include "compare/pose/edge_support.h"
 #include "compare/pose/find_pose.h"
 #include "compare/pose/refine_view.h"
-#include "compare/silhouette.h"
+#include "compare/registration/silhouette.h"
 
 namespace culet {
 

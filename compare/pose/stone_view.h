@@ -6,7 +6,7 @@
 #include <array>
 #include <glm/mat3x3.hpp>
 
-#include "render/scene.h"
+#include "render/scene/scene.h"
 #include "stone/solid.h"
 
 namespace culet {

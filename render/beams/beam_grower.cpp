@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/fresnel.h"
+#include "render/optics/fresnel.h"
 
 namespace culet {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/beams/environment_pyramid.h"
-#include "render/scene.h"
+#include "render/scene/scene.h"
 
 namespace culet {
 

@@ -12,13 +12,13 @@
 #include <utility>
 
 #include "render/beams/beam_renderer.h"
-#include "render/eye_optics.h"
-#include "render/light_field.h"
-#include "render/pilot.h"
-#include "render/pixel_shader.h"
-#include "render/plan/a_priori.h"
-#include "render/scene_checks.h"
-#include "render/threads.h"
+#include "render/optics/eye_optics.h"
+#include "render/reference/light_field.h"
+#include "render/reference/pilot.h"
+#include "render/reference/pixel_shader.h"
+#include "render/setup/a_priori.h"
+#include "render/setup/scene_checks.h"
+#include "render/work/threads.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -55,8 +55,8 @@ double processor_seconds() {
     return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
-void require_beams(const Scene& scene, const Plan& plan) {
-    const std::string why = refused_by_beams(scene, plan);
+void require_beams(const Scene& scene, const OpticalSetup& setup) {
+    const std::string why = refused_by_beams(scene, setup);
     if (!why.empty()) throw InputError(why + ": say engine = \"reference\"");
 }
 
@@ -87,9 +87,9 @@ BeamSettings beam_settings(const Scene& scene, const PathLimits& limits) {
 }
 
 // Of the wavelength at which they lie farthest apart; pixels.
-double images_apart(const Scene& scene, const Plan& plan) {
+double images_apart(const Scene& scene, const OpticalSetup& setup) {
     double widest = 0;
-    for (const Band& band : plan.bands) {
+    for (const Band& band : setup.bands) {
         const auto [low, high] =
             std::minmax_element(band.crystal.n().begin(), band.crystal.n().end());
         widest = std::max(
@@ -100,7 +100,7 @@ double images_apart(const Scene& scene, const Plan& plan) {
 
 // What the scene calls for, with all that is made of it.
 struct Called {
-    Plan plan;
+    OpticalSetup setup;
     WavelengthSet colours;
     LightField lights;
     PathLimits limits;
@@ -109,19 +109,19 @@ struct Called {
 
     /// Another camera, with the wavelengths that were chosen.
     void look(const Scene& scene) {
-        Plan anew = make_plan(scene, colours.size());
+        OpticalSetup anew = make_optical_setup(scene, colours.size());
         require_beams(scene, anew);
-        plan = std::move(anew);
-        limits = limits_for(scene, plan, lights, colours);
+        setup = std::move(anew);
+        limits = limits_for(scene, setup, lights, colours);
         choose_crystal(scene);
     }
 
     explicit Called(const Scene& scene)
-        : plan(plan_for_tolerance(scene)),
-          colours(plan.wavelengths_nm),
+        : setup(setup_for_tolerance(scene)),
+          colours(setup.wavelengths_nm),
           lights(scene.lights, colours),
-          limits(limits_for(scene, plan, lights, colours)) {
-        require_beams(scene, plan);
+          limits(limits_for(scene, setup, lights, colours)) {
+        require_beams(scene, setup);
         choose_crystal(scene);
     }
 
@@ -129,12 +129,12 @@ private:
     void choose_crystal(const Scene& scene) {
         why.clear();
         crystal = CrystalBeams::merged;
-        if (!plan.splits) return;
-        const double apart = images_apart(scene, plan);
+        if (!setup.splits) return;
+        const double apart = images_apart(scene, setup);
         if (scene.settings.crystal_beams) {
             crystal = *scene.settings.crystal_beams;
             why = "as the scene says";
-        } else if (plan.on(Effects::coherence)) {
+        } else if (setup.on(Effects::coherence)) {
             why = "the two waves interfere";
         } else {
             crystal = apart > k_seen_apart ? CrystalBeams::parted : CrystalBeams::merged;
@@ -173,16 +173,16 @@ void FrameRenderer::State::draw(bool with_check) {
     settings.limits.cut_share = std::max(settings.limits.cut_share, cut);
     settings.crystal = called->crystal;
     const double started = processor_seconds();
-    renderer.draw(scene, called->plan, called->colours, settings, result.picture, progress);
+    renderer.draw(scene, called->setup, called->colours, settings, result.picture, progress);
     const double took_ms = 1e3 * (processor_seconds() - started);
     const BeamReport& report = renderer.report();
     RenderStats& stats = result.stats;
     stats = {};
     stats.engine = scene.settings.engine;
     stats.depth = report.deepest;
-    stats.effects.assign(called->plan.effects.begin(), called->plan.effects.end());
+    stats.effects.assign(called->setup.effects.begin(), called->setup.effects.end());
     stats.effects[static_cast<std::size_t>(Effects::birefringence)].why += called->why;
-    stats.wavelengths_nm = called->plan.wavelengths_nm;
+    stats.wavelengths_nm = called->setup.wavelengths_nm;
     stats.mean_radiance = report.luminance;
     stats.remainder = report.remainder;
     stats.absorbed = report.absorbed;
@@ -214,7 +214,7 @@ void FrameRenderer::State::check(double filled) {
                                                          : k_checked_across * k_checked_across;
     const int samples =
         scene.settings.checked_samples > 0 ? scene.settings.checked_samples : k_check_samples;
-    const PixelShader shader(scene, called->plan, called->lights, called->colours, called->limits,
+    const PixelShader shader(scene, called->setup, called->lights, called->colours, called->limits,
                              single && scene.camera.aperture_radius == 0 ? 1 : samples);
     std::vector<std::size_t> pixels;
     // A grid over the picture, or of so many pixels on the stone.
@@ -249,7 +249,7 @@ void FrameRenderer::State::check(double filled) {
                 for (int node = 0; node < nodes; ++node) {
                     const Stokes row =
                         response(scene.camera.optics,
-                                 called->plan.wavelengths_nm[static_cast<std::size_t>(node)]);
+                                 called->setup.wavelengths_nm[static_cast<std::size_t>(node)]);
                     double& seen_there = stokes[static_cast<std::size_t>(node)];
                     if (k == 1) seen_there *= row[0];
                     seen_there += row[static_cast<std::size_t>(k)] *
@@ -335,9 +335,9 @@ RenderResult FrameRenderer::take() {
     return std::move(state_->result);
 }
 
-std::string refused_by_beams(const Scene& scene, const Plan& plan) {
+std::string refused_by_beams(const Scene& scene, const OpticalSetup& setup) {
     if (!scene.stone.convex) return "beams are for convex stones only";
-    for (const Band& band : plan.bands) {
+    for (const Band& band : setup.bands) {
         if (!(band.n > band.n_outside)) {
             return fmt::format("beams need a stone denser than what surrounds it, found {} in {}",
                                band.n, band.n_outside);

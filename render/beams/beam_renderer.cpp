@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "render/beams/shading_passes.h"
-#include "render/eye_optics.h"
-#include "render/listener.h"
-#include "render/plan/price.h"
-#include "render/threads.h"
-#include "render/work_meter.h"
+#include "render/optics/eye_optics.h"
+#include "render/work/listener.h"
+#include "render/work/price.h"
+#include "render/work/threads.h"
+#include "render/work/work_meter.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -38,9 +38,9 @@ std::vector<ScreenPoint> pupil_points(int count) {
     return points;
 }
 
-std::vector<ScreenView> views_of(const Scene& scene, const Plan& plan) {
+std::vector<ScreenView> views_of(const Scene& scene, const OpticalSetup& setup) {
     std::vector<ScreenView> views;
-    if (plan.on(Effects::aperture)) {
+    if (setup.on(Effects::aperture)) {
         const int points = scene.settings.samples > 0 ? scene.settings.samples : k_pupil_points;
         for (const ScreenPoint& p : pupil_points(points))
             views.push_back(screen_view(scene.camera, p.x, p.y));
@@ -55,8 +55,8 @@ std::vector<ScreenView> views_of(const Scene& scene, const Plan& plan) {
 // Bands that share beams, by the band whose index these are of: the borders of two wavelengths'
 // beams lie apart by the angle |dn| / (n sqrt(n^2 - 1)) at most (Snell's law), over the way through
 // the stone; as long as that is less than a map may be off, one set of beams serves.
-std::vector<std::size_t> shared_beams(const Plan& plan, const ScreenView& view, const Vec3& middle,
-                                      double size, const BeamLimits& limits) {
+std::vector<std::size_t> shared_beams(const OpticalSetup& setup, const ScreenView& view,
+                                      const Vec3& middle, double size, const BeamLimits& limits) {
     // Segments are some two thirds of the stone's size; few ways longer than this bring light.
     constexpr double k_segment = 2.0 / 3;
     constexpr int k_longest = 16;
@@ -65,9 +65,11 @@ std::vector<std::size_t> shared_beams(const Plan& plan, const ScreenView& view, 
     const double pixels =
         std::hypot(beside.x / beside.z - here.x / here.z, beside.y / beside.z - here.y / here.z);
     const double way = k_segment * std::min(limits.depth, k_longest) * pixels;
-    std::vector<std::size_t> leader(plan.bands.size());
+    std::vector<std::size_t> leader(setup.bands.size());
     for (std::size_t first = 0; first < leader.size();) {
-        const auto index = [&](std::size_t b) { return plan.bands[b].n / plan.bands[b].n_outside; };
+        const auto index = [&](std::size_t b) {
+            return setup.bands[b].n / setup.bands[b].n_outside;
+        };
         const auto apart = [&](std::size_t a, std::size_t b) {
             const double n = std::min(index(a), index(b));
             return way * std::abs(index(a) - index(b)) / (n * std::sqrt((n - 1) * (n + 1)));
@@ -104,13 +106,14 @@ struct BeamRenderer::Work {
     std::vector<std::array<float, 3>> rgb_of_plane;
     void clear(int strip);
     void develop(int strip, Picture& picture) const;
-    void prepare(const Scene& scene, const Plan& plan, const WavelengthSet& colours,
+    void prepare(const Scene& scene, const OpticalSetup& setup, const WavelengthSet& colours,
                  std::size_t planes, Picture& picture);
-    void keep_spectra(const Scene& scene, const Plan& plan, Picture& picture) const;
+    void keep_spectra(const Scene& scene, const OpticalSetup& setup, Picture& picture) const;
 };
 
-void BeamRenderer::Work::prepare(const Scene& scene, const Plan& plan, const WavelengthSet& colours,
-                                 std::size_t planes, Picture& picture) {
+void BeamRenderer::Work::prepare(const Scene& scene, const OpticalSetup& setup,
+                                 const WavelengthSet& colours, std::size_t planes,
+                                 Picture& picture) {
     if (scene.lights.environment != map) {
         map = scene.lights.environment;
         pyramid = map ? std::make_shared<EnvironmentPyramid>(*map) : nullptr;
@@ -124,7 +127,7 @@ void BeamRenderer::Work::prepare(const Scene& scene, const Plan& plan, const Wav
     picture.spectral.clear();
     for (auto& plane : picture.polarised) plane.clear();
     rgb_of_plane.clear();
-    const std::size_t nodes = plan.wavelengths_nm.size();
+    const std::size_t nodes = setup.wavelengths_nm.size();
     std::vector<double> one(nodes, 0.0);
     for (std::size_t i = 0; i < planes; ++i) {
         const std::size_t node = i % nodes;
@@ -133,7 +136,7 @@ void BeamRenderer::Work::prepare(const Scene& scene, const Plan& plan, const Wav
         one[node] = 0;
         // Stokes planes are seen through the eye's optics; else those are in the passes already.
         const double seen =
-            planes > nodes ? response(scene.camera.optics, plan.wavelengths_nm[node])[i / nodes]
+            planes > nodes ? response(scene.camera.optics, setup.wavelengths_nm[node])[i / nodes]
                            : 1.0;
         rgb_of_plane.push_back({static_cast<float>(seen * rgb[0]),
                                 static_cast<float>(seen * rgb[1]),
@@ -173,18 +176,18 @@ void BeamRenderer::Work::develop(int strip, Picture& picture) const {
     }
 }
 
-void BeamRenderer::Work::keep_spectra(const Scene& scene, const Plan& plan,
+void BeamRenderer::Work::keep_spectra(const Scene& scene, const OpticalSetup& setup,
                                       Picture& picture) const {
-    const std::size_t nodes = plan.wavelengths_nm.size(), planes = rgb_of_plane.size(),
+    const std::size_t nodes = setup.wavelengths_nm.size(), planes = rgb_of_plane.size(),
                       pixels = canvas.pixels();
-    picture.wavelengths_nm = plan.wavelengths_nm;
+    picture.wavelengths_nm = setup.wavelengths_nm;
     const auto plane = [&](std::size_t number) { return canvas.planes.data() + number * pixels; };
     for (std::size_t node = 0; node < nodes; ++node) {
         std::vector<float> seen(pixels, 0.0f);
         for (std::size_t p = node; p < planes; p += nodes) {
             const float weight =
                 planes > nodes ? static_cast<float>(response(scene.camera.optics,
-                                                             plan.wavelengths_nm[node])[p / nodes])
+                                                             setup.wavelengths_nm[node])[p / nodes])
                                : 1.0f;
             for (std::size_t i = 0; i < pixels; ++i) seen[i] += weight * plane(p)[i];
         }
@@ -202,17 +205,17 @@ const BeamReport& BeamRenderer::report() const {
     return work_->report;
 }
 
-void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSet& colours,
+void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const WavelengthSet& colours,
                         const BeamSettings& settings, Picture& picture, const Progress& progress) {
     Work& work = *work_;
-    const std::size_t nodes = plan.wavelengths_nm.size();
-    const std::size_t stokes = plan.stokes && scene.settings.spectral ? 4 : 1;
-    work.prepare(scene, plan, colours, stokes * nodes, picture);
+    const std::size_t nodes = setup.wavelengths_nm.size();
+    const std::size_t stokes = setup.stokes && scene.settings.spectral ? 4 : 1;
+    work.prepare(scene, setup, colours, stokes * nodes, picture);
     std::vector<ShadingPass> passes =
-        shading_passes(scene, plan, colours, work.stone.shaded.middle, work.pyramid,
+        shading_passes(scene, setup, colours, work.stone.shaded.middle, work.pyramid,
                        static_cast<int>(stokes), settings.crystal == CrystalBeams::parted);
-    const std::vector<ScreenView> views = views_of(scene, plan);
-    const std::vector<std::size_t> leader = shared_beams(plan, views[0], work.stone.shaded.middle,
+    const std::vector<ScreenView> views = views_of(scene, setup);
+    const std::vector<std::size_t> leader = shared_beams(setup, views[0], work.stone.shaded.middle,
                                                          work.stone.net.size(), settings.limits);
     for (ShadingPass& pass : passes) pass.beams = leader[pass.beams];
     BeamReport& report = work.report;
@@ -223,7 +226,7 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
     options.cut_weight = settings.limits.cut_weight;
     options.share = 1.0 / static_cast<double>(views.size());
 
-    const std::size_t bands = plan.bands.size();
+    const std::size_t bands = setup.bands.size();
     work.beams.resize(views.size() * bands);
     const int strips = (work.canvas.height + k_strip - 1) / k_strip;
     StripSums whole;
@@ -241,7 +244,7 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
             tbb::parallel_for(
                 std::size_t{0}, bands,
                 [&](std::size_t b) {
-                    const Band& band = plan.bands[b];
+                    const Band& band = setup.bands[b];
                     if (band.two_waves && settings.crystal == CrystalBeams::parted) return;
                     if (leader[b] != b) return;
                     beams[b].grow(work.stone.net, views[v], band.n / band.n_outside,
@@ -271,7 +274,7 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
         if (listener.stopped()) throw Interrupted();
         if (meter != nullptr) meter->require_not_over();
         for (const StripSums& sum : sums) whole += sum;
-        const bool kept = settings.crystal == CrystalBeams::merged || !plan.splits;
+        const bool kept = settings.crystal == CrystalBeams::merged || !setup.splits;
         for (std::size_t b = 0; kept && b < bands; ++b) {
             if (leader[b] != b) continue;
             const BeamTree& tree = beams[b].tree;
@@ -294,7 +297,7 @@ void BeamRenderer::draw(const Scene& scene, const Plan& plan, const WavelengthSe
         report.luminance = whole.luminance / whole.filled;
     }
     std::swap(picture.coverage, work.canvas.coverage);
-    if (scene.settings.spectral) work.keep_spectra(scene, plan, picture);
+    if (scene.settings.spectral) work.keep_spectra(scene, setup, picture);
 }
 
 }  // namespace culet

@@ -5,8 +5,8 @@
 
 #include "render/beams/beam_tree.h"
 #include "render/beams/strip_painter.h"
-#include "render/picture.h"
-#include "render/plan.h"
+#include "render/image/picture.h"
+#include "render/setup/optical_setup.h"
 #include "stone/progress.h"
 
 namespace culet {
@@ -37,7 +37,7 @@ public:
     /// Draws into `picture`, whose memory is used again. Beams are kept where view, indices and
     /// limits are those of the last call. Throws InputError for a conoscope and
     /// Interrupted.
-    void draw(const Scene& scene, const Plan& plan, const WavelengthSet& colours,
+    void draw(const Scene& scene, const OpticalSetup& setup, const WavelengthSet& colours,
               const BeamSettings& settings, Picture& picture, const Progress& progress = {});
     const BeamReport& report() const;
 

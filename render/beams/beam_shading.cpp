@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "render/band.h"
-#include "render/built_effects.h"
+#include "render/optics/band.h"
+#include "render/setup/built_effects.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "render/beams/beam_shading.cpp"

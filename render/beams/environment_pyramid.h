@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "render/scene.h"
+#include "render/scene/scene.h"
 
 namespace culet {
 

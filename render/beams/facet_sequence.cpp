@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "render/fresnel.h"
+#include "render/optics/fresnel.h"
 
 namespace culet {
 

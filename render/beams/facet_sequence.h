@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "render/beams/screen_view.h"
-#include "render/convex_body.h"
+#include "render/geometry/convex_body.h"
 
 namespace culet {
 

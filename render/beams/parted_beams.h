@@ -11,10 +11,10 @@
 #include <functional>
 #include <vector>
 
-#include "render/band.h"
 #include "render/beams/region_splitter.h"
-#include "render/crystal.h"
-#include "render/stokes.h"
+#include "render/optics/band.h"
+#include "render/optics/crystal.h"
+#include "render/optics/stokes.h"
 
 namespace culet {
 

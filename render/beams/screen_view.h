@@ -5,7 +5,7 @@
 #include <array>
 #include <glm/geometric.hpp>
 
-#include "render/scene.h"
+#include "render/scene/scene.h"
 
 namespace culet {
 

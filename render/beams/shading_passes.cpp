@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 
-#include "render/eye_optics.h"
+#include "render/optics/eye_optics.h"
 
 namespace culet {
 
@@ -48,16 +48,16 @@ MergedCrystal merged_crystal(const Band& band, int node) {
 
 }  // namespace
 
-std::vector<ShadingPass> shading_passes(const Scene& scene, const Plan& plan,
+std::vector<ShadingPass> shading_passes(const Scene& scene, const OpticalSetup& setup,
                                         const WavelengthSet& colours, const Vec3& middle,
                                         std::shared_ptr<const EnvironmentPyramid> environment,
                                         int stokes, bool parted) {
-    const std::size_t nodes = plan.wavelengths_nm.size();
-    const bool responds = plan.stokes;
+    const std::size_t nodes = setup.wavelengths_nm.size();
+    const bool responds = setup.stokes;
     std::vector<ShadingPass> passes;
     const auto add = [&](std::size_t b, int first, int count, int k) {
-        const Band& band = plan.bands[b];
-        const double nm = plan.wavelengths_nm[static_cast<std::size_t>(first)];
+        const Band& band = setup.bands[b];
+        const double nm = setup.wavelengths_nm[static_cast<std::size_t>(first)];
         const Stokes seen = response(scene.camera.optics, nm);
         ShadingPass pass;
         pass.beams = b;
@@ -76,7 +76,7 @@ std::vector<ShadingPass> shading_passes(const Scene& scene, const Plan& plan,
                                                  : of_node);
         }
         pass.optics.n = number(pass.n);
-        pass.optics.polarised = plan.polarised;
+        pass.optics.polarised = setup.polarised;
         const int node = first - band.first;
         if (band.two_waves && parted) {
             auto waves = std::make_shared<ShadingPass::Parted>();
@@ -109,8 +109,8 @@ std::vector<ShadingPass> shading_passes(const Scene& scene, const Plan& plan,
         pass.lights = ShadedLights(scene.lights, colours, first, count, middle, environment);
         passes.push_back(std::move(pass));
     };
-    for (std::size_t b = 0; b < plan.bands.size(); ++b) {
-        const Band& band = plan.bands[b];
+    for (std::size_t b = 0; b < setup.bands.size(); ++b) {
+        const Band& band = setup.bands[b];
         if (!responds && (!band.two_waves || parted)) {
             add(b, band.first, band.count, 0);
             continue;

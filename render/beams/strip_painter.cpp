@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/built_effects.h"
+#include "render/setup/built_effects.h"
 
 namespace culet {
 

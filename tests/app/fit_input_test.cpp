@@ -1,5 +1,5 @@
-// Meshes and readings as people really bring them, through the command line: which are repaired, and
-// what is said of those that are not.
+// Meshes and readings as people really bring them, through the command line: which are repaired,
+// and what is said of those that are not.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,10 +10,10 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "compare/photo.h"
-#include "render/image_io.h"
+#include "compare/photo/photo.h"
+#include "render/image/image_io.h"
 #include "tests/app/run_program.h"
-#include "tests/compare/light/simulated_ball.h"
+#include "tests/compare/light_probe/simulated_ball.h"
 #include "tests/scratch_folder.h"
 
 namespace culet {

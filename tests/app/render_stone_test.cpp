@@ -9,7 +9,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "render/image_io.h"
+#include "render/image/image_io.h"
 #include "tests/app/run_program.h"
 #include "tests/scratch_folder.h"
 
@@ -54,8 +54,8 @@ TEST_F(RenderStone, MeshesDesignsAndStoneFilesNeedNoScene) {
 }
 
 TEST_F(RenderStone, SaysTheSizeThatItTakes) {
-    const ProgramRun run = run_culet({"render", file("stone.asc"), "--material", "diamond", "--size",
-                                      "32", "--tolerance", "0.2", "-o", file("a.png")});
+    const ProgramRun run = run_culet({"render", file("stone.asc"), "--material", "diamond",
+                                      "--size", "32", "--tolerance", "0.2", "-o", file("a.png")});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.err, HasSubstr("6.5 mm wide"));
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;

@@ -14,7 +14,7 @@
 #include <iostream>
 
 #include "render/render.h"
-#include "render/scene_io.h"
+#include "render/scene/scene_io.h"
 #include "stone/errors.h"
 #include "tests/bench/cpu_time.h"
 #include "tests/bench/povray_run.h"

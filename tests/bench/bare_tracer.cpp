@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "render/convex_body.h"
+#include "render/geometry/convex_body.h"
 
 namespace culet {
 

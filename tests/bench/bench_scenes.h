@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "render/scene.h"
+#include "render/scene/scene.h"
 
 namespace culet {
 

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "render/beams/beam_picture.h"
-#include "render/plan/planner.h"
-#include "render/plan/wavelengths.h"
+#include "render/planner/planner.h"
+#include "render/planner/wavelengths.h"
 #include "stone/errors.h"
 #include "tests/bench/cpu_time.h"
 
@@ -28,7 +28,7 @@ struct Hand {
 };
 
 std::vector<Hand> hands(const Scene& scene) {
-    const Plan whole = make_plan(scene);
+    const OpticalSetup whole = make_optical_setup(scene);
     std::vector<Hand> found{{{}, ""}};
     if (whole.on(Effects::birefringence)) found.push_back({{Effects::birefringence}, ", one wave"});
     const std::size_t count = found.size();
@@ -77,7 +77,7 @@ ReferenceSample sample_reference(const Scene& scene, const Truth& truth) {
     limits.depth = settings.depth > 0 ? settings.depth : k_deepest;
     limits.cut_weight = settings.cut_weight.value_or(settings.tolerance);
     limits.split_weight = settings.split_weight.value_or(0.1);
-    limits.roulette = make_plan(scene).splits;
+    limits.roulette = make_optical_setup(scene).splits;
     const PilotDrawing drawing = draw_pilot(scene, truth.pixels, limits, settings.samples);
     ReferenceSample sample;
     // Of the rays alone: what is made ready once weighs little in a whole picture.
@@ -109,7 +109,7 @@ std::vector<HandChosen> hand_chosen(const Scene& whole, const Truth& truth, doub
         found.push_back({words, cpu, error});
         if (error <= finest) best = std::min(best, cpu);
     };
-    const bool crystal = make_plan(scene).splits;
+    const bool crystal = make_optical_setup(scene).splits;
     const Truth some = some_of(truth);
     for (const Hand& hand : hands(scene)) {
         for (const char* engine : {"preview", "beams"}) {
@@ -118,7 +118,7 @@ std::vector<HandChosen> hand_chosen(const Scene& whole, const Truth& truth, doub
                 for (double cut : k_cuts) {
                     scene.settings = with(whole, hand, nodes, cut);
                     scene.settings.engine = engine;
-                    if (!refused_by_beams(scene, make_plan(scene)).empty()) continue;
+                    if (!refused_by_beams(scene, make_optical_setup(scene)).empty()) continue;
                     if (cut < 0.3 * finest) break;
                     RenderResult drawn;
                     const Clocks took =

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "render/plan/verify.h"
-#include "render/scene.h"
+#include "render/planner/verify.h"
+#include "render/scene/scene.h"
 
 namespace culet {
 

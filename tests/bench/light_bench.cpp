@@ -11,11 +11,11 @@
 #include <cmath>
 #include <random>
 
-#include "compare/light/light_probe.h"
+#include "compare/light_probe/light_probe.h"
 #include "stone/errors.h"
 #include "stone/quantile.h"
 #include "stone/units.h"
-#include "tests/compare/light/light_agreement.h"
+#include "tests/compare/light_probe/light_agreement.h"
 
 namespace {
 

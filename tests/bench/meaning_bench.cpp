@@ -15,16 +15,16 @@
 #include <glm/geometric.hpp>
 #include <map>
 
-#include "compare/frame.h"
-#include "compare/laid_pictures.h"
-#include "compare/meaning/calibrate.h"
-#include "compare/meaning/chance.h"
-#include "compare/meaning/cropped_camera.h"
-#include "compare/meaning/facet_error.h"
-#include "compare/meaning/hypotheses.h"
-#include "compare/meaning/meaning.h"
-#include "compare/meaning/photo_blur.h"
-#include "compare/meaning/photo_noise.h"
+#include "compare/calibration/calibrate.h"
+#include "compare/calibration/chance.h"
+#include "compare/calibration/cropped_camera.h"
+#include "compare/calibration/facet_error.h"
+#include "compare/calibration/hypotheses.h"
+#include "compare/calibration/meaning.h"
+#include "compare/calibration/photo_blur.h"
+#include "compare/calibration/photo_noise.h"
+#include "compare/registration/frame.h"
+#include "compare/scores/aligned_pair.h"
 #include "stone/cuts/cuts.h"
 #include "stone/units.h"
 

@@ -7,8 +7,8 @@
 
 #include <memory>
 
-#include "render/picture.h"
-#include "render/scene.h"
+#include "render/image/picture.h"
+#include "render/scene/scene.h"
 
 namespace culet {
 

@@ -11,12 +11,12 @@
 #include <limits>
 
 #include "render/beams/beam_picture.h"
-#include "render/colour_error.h"
-#include "render/image_io.h"
-#include "render/plan/planner.h"
-#include "render/plan/verify.h"
-#include "render/plan/wavelengths.h"
-#include "render/reference.h"
+#include "render/colour/colour_error.h"
+#include "render/image/image_io.h"
+#include "render/planner/planner.h"
+#include "render/planner/verify.h"
+#include "render/planner/wavelengths.h"
+#include "render/reference/reference.h"
 #include "stone/errors.h"
 #include "tests/bench/cpu_time.h"
 #include "tests/bench/effect_prices.h"
@@ -49,9 +49,9 @@ void turns(const Options& options) {
     const StonePixels pixels = stone_pixels(scene, options.checked);
     PathLimits limits;
     limits.depth = k_deepest;
-    limits.cut_weight = make_plan(scene).splits ? 0.01 : 1e-3;
+    limits.cut_weight = make_optical_setup(scene).splits ? 0.01 : 1e-3;
     limits.split_weight = 0.1;
-    limits.roulette = make_plan(scene).splits;
+    limits.roulette = make_optical_setup(scene).splits;
     const auto draw = [&](int rays, int nodes, int turn) {
         Scene drawn = scene;
         drawn.settings.wavelengths_nm = even_wavelengths(nodes);

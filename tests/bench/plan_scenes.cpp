@@ -4,7 +4,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "render/light_presets.h"
+#include "render/scene/light_presets.h"
 #include "stone/cuts/cuts.h"
 #include "stone/units.h"
 #include "tests/bench/bench_scenes.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "compare/photo.h"
+#include "compare/photo/photo.h"
 #include "compare/pose/stone_view.h"
 #include "stone/solid.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "render/image_io.h"
-#include "render/povray.h"
+#include "render/export/povray.h"
+#include "render/image/image_io.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 

@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "render/picture.h"
-#include "render/scene.h"
+#include "render/image/picture.h"
+#include "render/scene/scene.h"
 
 namespace culet {
 

@@ -5,8 +5,8 @@
 #include <map>
 #include <string>
 
-#include "render/picture.h"
-#include "render/scene.h"
+#include "render/image/picture.h"
+#include "render/scene/scene.h"
 
 namespace culet {
 

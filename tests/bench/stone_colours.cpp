@@ -1,7 +1,7 @@
 // The catalogue's stones held against published colours: bench_stone_colours
 //
-// Body colour (render/material_colour.h) at 6.5 mm, and the mean of a round brilliant of 6.5 mm
-// seen face up in white light from everywhere, which is what a spectrophotometer with a sphere
+// Body colour (render/colour/material_colour.h) at 6.5 mm, and the mean of a round brilliant of 6.5
+// mm seen face up in white light from everywhere, which is what a spectrophotometer with a sphere
 // measures of a cut stone. Measured with one, natural rubies have L* 32 to 44, a* 6 to 27, b* -5 to
 // 4 in D65 (Influence of Light Source and Cathodoluminescence on the Color Parameters of Ruby Red,
 // Key Eng. Mater. 492, 379, 2011, abstract).
@@ -12,7 +12,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/material_colour.h"
+#include "render/colour/material_colour.h"
 #include "render/render.h"
 #include "stone/cuts/cuts.h"
 #include "tests/render/published_gem_colours.h"

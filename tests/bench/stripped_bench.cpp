@@ -1,6 +1,6 @@
 // What effects that are off cost: an isotropic, clear stone in unpolarised light at one wavelength,
 // drawn by the renderer as it is, by the renderer compiled without any effect
-// (render/built_effects.h), and by a tracer written for nothing else (bare_tracer.h).
+// (render/setup/built_effects.h), and by a tracer written for nothing else (bare_tracer.h).
 //
 // This source is built twice: bench_stripped asks, in alternating order, itself and
 // bench_stripped_without for one drawing at a time, and compares processor times and pictures.
@@ -17,8 +17,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "render/built_effects.h"
 #include "render/render.h"
+#include "render/setup/built_effects.h"
 #include "stone/errors.h"
 #include "tests/bench/bare_tracer.h"
 #include "tests/bench/bench_scenes.h"

@@ -1,4 +1,4 @@
-#include "compare/compare.h"
+#include "compare/scores/compare.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "render/colour.h"
+#include "render/colour/colour.h"
 #include "stone/errors.h"
 #include "stone/units.h"
 #include "tests/compare/synthetic_pictures.h"

@@ -1,4 +1,4 @@
-#include "compare/metrics.h"
+#include "compare/scores/metrics.h"
 
 #include <gtest/gtest.h>
 
@@ -8,13 +8,13 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/quality/qualityssim.hpp>
 
-#include "compare/flip.h"
-#include "compare/laid_pictures.h"
-#include "compare/pixels.h"
-#include "compare/reflexes.h"
-#include "compare/resampling.h"
-#include "compare/score_list.h"
-#include "compare/wavelet_similarity.h"
+#include "compare/photo/pixels.h"
+#include "compare/photo/resampling.h"
+#include "compare/scores/aligned_pair.h"
+#include "compare/scores/flip.h"
+#include "compare/scores/reflexes.h"
+#include "compare/scores/score_list.h"
+#include "compare/scores/wavelet_similarity.h"
 
 namespace culet {
 namespace {

@@ -1,4 +1,4 @@
-#include "compare/photo.h"
+#include "compare/photo/photo.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "render/colour.h"
-#include "render/picture_header.h"
+#include "render/colour/colour.h"
+#include "render/image/picture_header.h"
 #include "stone/errors.h"
 
 namespace culet {

@@ -1,10 +1,10 @@
-#include "compare/picture_error.h"
+#include "compare/study/picture_error.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "render/colour.h"
+#include "render/colour/colour.h"
 #include "stone/errors.h"
 
 namespace culet {

@@ -11,7 +11,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "compare/pixels.h"
+#include "compare/photo/pixels.h"
 #include "compare/pose/changed_view.h"
 #include "compare/pose/edge_search.h"
 #include "compare/pose/edge_support.h"

@@ -1,4 +1,4 @@
-#include "compare/report.h"
+#include "compare/report/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <set>
 #include <sstream>
 
-#include "compare/report_parts.h"
+#include "compare/report/report_parts.h"
 #include "stone/errors.h"
 #include "tests/compare/synthetic_pictures.h"
 

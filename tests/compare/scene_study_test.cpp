@@ -1,4 +1,4 @@
-#include "compare/scene_study.h"
+#include "compare/study/scene_study.h"
 
 #include <gtest/gtest.h>
 

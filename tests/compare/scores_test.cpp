@@ -6,13 +6,13 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "compare/colour_distribution.h"
-#include "compare/flip.h"
-#include "compare/metrics.h"
-#include "compare/pixels.h"
-#include "compare/reflexes.h"
-#include "compare/structure.h"
-#include "render/colour.h"
+#include "compare/photo/pixels.h"
+#include "compare/scores/colour_distribution.h"
+#include "compare/scores/flip.h"
+#include "compare/scores/metrics.h"
+#include "compare/scores/reflexes.h"
+#include "compare/scores/structure.h"
+#include "render/colour/colour.h"
 
 namespace culet {
 namespace {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "compare/pose/stone_view.h"
-#include "render/colour.h"
+#include "render/colour/colour.h"
 #include "stone/errors.h"
 #include "stone/perpendicular.h"
 #include "stone/quantile.h"

@@ -6,9 +6,9 @@
 #include <random>
 #include <string>
 
-#include "compare/photo.h"
-#include "render/picture.h"
-#include "render/scene.h"
+#include "compare/photo/photo.h"
+#include "render/image/picture.h"
+#include "render/scene/scene.h"
 
 namespace culet::synthetic {
 

@@ -1,11 +1,11 @@
-#include "compare/study_design.h"
+#include "compare/study/study_design.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
-#include "render/plan.h"
+#include "render/setup/optical_setup.h"
 #include "tests/compare/study_scene.h"
 
 namespace culet {
@@ -16,9 +16,9 @@ StudyGround ground_of(const Scene& scene) {
     ground.scene = scene;
     Scene exact = scene;
     exact.settings = exact_settings(scene, 0.001, k_node_counts.back());
-    const Plan plan = make_plan(exact);
-    ground.exact.effects.assign(plan.effects.begin(), plan.effects.end());
-    ground.exact.wavelengths_nm = plan.wavelengths_nm;
+    const OpticalSetup setup = make_optical_setup(exact);
+    ground.exact.effects.assign(setup.effects.begin(), setup.effects.end());
+    ground.exact.wavelengths_nm = setup.wavelengths_nm;
     ground.exact.depth = 30;
     ground.tolerances = {0.1, 0.01};
     return ground;

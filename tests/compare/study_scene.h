@@ -1,7 +1,7 @@
 #pragma once
 // A small scene whose study takes seconds: a cube seen from a corner.
 
-#include "render/scene.h"
+#include "render/scene/scene.h"
 #include "stone/units.h"
 
 namespace culet::test {

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "compare/photo.h"
+#include "compare/photo/photo.h"
 
 namespace culet::synthetic {
 

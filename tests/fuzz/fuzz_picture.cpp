@@ -1,4 +1,4 @@
-#include "render/image_io.h"
+#include "render/image/image_io.h"
 #include "tests/fuzz/fuzz_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

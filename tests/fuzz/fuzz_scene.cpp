@@ -1,4 +1,4 @@
-#include "render/scene_io.h"
+#include "render/scene/scene_io.h"
 #include "stone/cuts/cuts.h"
 #include "tests/fuzz/fuzz_file.h"
 

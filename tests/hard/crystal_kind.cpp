@@ -19,7 +19,7 @@
 #include <memory>
 #include <vector>
 
-#include "render/complex_vector.h"
+#include "render/optics/complex_vector.h"
 #include "tests/hard/hard_kinds.h"
 #include "tests/hard/textbook.h"
 #include "tests/random_attitudes.h"

@@ -12,7 +12,7 @@
 #include <complex>
 #include <memory>
 
-#include "render/fresnel.h"
+#include "render/optics/fresnel.h"
 #include "tests/hard/hard_kinds.h"
 #include "tests/hard/hard_solids.h"
 #include "tests/hard/textbook.h"

@@ -9,7 +9,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "render/scene_io.h"
+#include "render/scene/scene_io.h"
 #include "stone/mesh_io.h"
 #include "stone/output_file.h"
 

@@ -2,14 +2,14 @@
 // Scenes of hard cases: the file's [stone] (hard_solids.h) in its [scene], which is a scene file
 // (docs/rendering.md) without the stone; and the same scene turned or in other units.
 
-#include "render/scene.h"
+#include "render/scene/scene.h"
 #include "tests/hard/hard_kinds.h"
 #include "tests/hard/hard_solids.h"
 
 namespace culet::hard {
 
-/// Read by render/scene_io.h from a file in the results folder, which stays for whoever wants to
-/// look at it with `culet render`.
+/// Read by render/scene/scene_io.h from a file in the results folder, which stays for whoever wants
+/// to look at it with `culet render`.
 Scene hard_scene(const HardCase& hard_case, const HardPoint& point, const TomlTable& parameters);
 
 /// Stone, crystal, camera and lights together. Throws for environment maps, which cannot turn.

@@ -16,8 +16,8 @@
 #include <optional>
 #include <random>
 
-#include "compare/compare.h"
-#include "compare/report.h"
+#include "compare/report/report.h"
+#include "compare/scores/compare.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 #include "tests/compare/synthetic_pictures.h"

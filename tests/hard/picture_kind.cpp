@@ -14,7 +14,7 @@
 #include <optional>
 
 #include "render/beams/beam_shading.h"
-#include "render/image_io.h"
+#include "render/image/image_io.h"
 #include "render/render.h"
 #include "stone/errors.h"
 #include "tests/hard/hard_scenes.h"

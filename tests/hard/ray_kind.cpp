@@ -15,7 +15,7 @@
 #include <memory>
 #include <optional>
 
-#include "render/probe.h"
+#include "render/reference/probe.h"
 #include "stone/errors.h"
 #include "tests/hard/hard_scenes.h"
 #include "tests/random_attitudes.h"

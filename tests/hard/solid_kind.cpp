@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
-#include "render/convex_body.h"
-#include "render/polyhedron_body.h"
+#include "render/geometry/convex_body.h"
+#include "render/geometry/polyhedron_body.h"
 #include "stone/checks.h"
 #include "stone/mesh_io.h"
 #include "tests/hard/exact_solid.h"

@@ -5,7 +5,7 @@
 #include <array>
 #include <complex>
 
-#include "render/crystal.h"
+#include "render/optics/crystal.h"
 #include "stone/solid.h"
 
 namespace culet::hard {

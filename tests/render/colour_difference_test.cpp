@@ -1,4 +1,4 @@
-#include "render/colour_difference.h"
+#include "render/colour/colour_difference.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Expectations: the search over all planes, which takes no guess, to the bit.
 
-#include "render/convex_body.h"
+#include "render/geometry/convex_body.h"
 
 #include <gtest/gtest.h>
 

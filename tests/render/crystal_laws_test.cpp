@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "render/complex_vector.h"
-#include "render/fresnel.h"
+#include "render/optics/complex_vector.h"
+#include "render/optics/fresnel.h"
 #include "tests/random_attitudes.h"
 #include "tests/render/face_judge.h"
 

@@ -1,7 +1,7 @@
 // Expectations: conservation (leaves + remainder + absorbed + cut = 1) in every optical class, the
 // special case of light_paths.h, closed forms of plates between polarisers, and reciprocity.
 
-#include "render/crystal_paths.h"
+#include "render/reference/crystal_paths.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <numbers>
 #include <random>
 
-#include "render/eye_optics.h"
-#include "render/light_paths.h"
+#include "render/optics/eye_optics.h"
+#include "render/reference/light_paths.h"
 #include "stone/least_rotation.h"
 #include "stone/perpendicular.h"
 #include "tests/render/ray_stones.h"

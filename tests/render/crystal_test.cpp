@@ -1,7 +1,7 @@
 // Expectations: closed forms of uniaxial crystals, Snell's law, conservation of power at a face.
 // crystal_faces_test.cpp compares faces with 50-digit arithmetic.
 
-#include "render/crystal.h"
+#include "render/optics/crystal.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "render/fresnel.h"
+#include "render/optics/fresnel.h"
 
 namespace {
 

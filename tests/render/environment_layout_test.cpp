@@ -1,7 +1,7 @@
 // Lat-long and cube maps. Expectations: solid angles of closed form, OpenEXR's own ImfEnvmap as an
 // independent implementation of both layouts, conservation of energy.
 
-#include "render/environment_layout.h"
+#include "render/scene/environment_layout.h"
 
 #include <ImathVec.h>
 #include <ImfEnvmap.h>

@@ -1,7 +1,7 @@
 // Is an estimate's bound what it says where a picture is off in few pixels? Expectations: every
 // pixel of the stone, drawn by the reference, and the lights' own geometry.
 
-#include "render/plan/error_estimate.h"
+#include "render/planner/error_estimate.h"
 
 #include <gtest/gtest.h>
 
@@ -12,16 +12,16 @@
 #include <numbers>
 #include <random>
 
-#include "render/colour_error.h"
-#include "render/light_presets.h"
-#include "render/plan/cause_pilot.h"
-#include "render/plan/check_pixels.h"
-#include "render/plan/contrast.h"
-#include "render/plan/light_edge_scan.h"
-#include "render/plan/planner.h"
-#include "render/plan/verify.h"
-#include "render/plan/wavelengths.h"
+#include "render/colour/colour_error.h"
+#include "render/planner/cause_pilot.h"
+#include "render/planner/check_pixels.h"
+#include "render/planner/contrast.h"
+#include "render/planner/light_edge_scan.h"
+#include "render/planner/planner.h"
+#include "render/planner/verify.h"
+#include "render/planner/wavelengths.h"
 #include "render/render.h"
+#include "render/scene/light_presets.h"
 #include "tests/bench/plan_scenes.h"
 
 namespace culet {

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "render/complex_vector.h"
+#include "render/optics/complex_vector.h"
 
 namespace culet {
 

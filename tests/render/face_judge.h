@@ -1,5 +1,5 @@
 #pragma once
-// Holds render/crystal.h against the oracle, one face problem after the other.
+// Holds render/optics/crystal.h against the oracle, one face problem after the other.
 //
 // A deviation passes when it is below the tolerance, or below what the rounding of the input does
 // to the true answer (backward stability): the oracle's own answers move by `sensitivity` when K

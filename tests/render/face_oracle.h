@@ -1,6 +1,6 @@
 #pragma once
 // A second derivation of what a crystal face does to light, in 100 decimal digits, to judge
-// render/crystal.h by. It shares no formula with it:
+// render/optics/crystal.h by. It shares no formula with it:
 //  - all four q of det(N N^T - N^2 I + eps) = 0, N = K + q n, as the roots of the quartic in q
 //  whose
 //    coefficients come from multiplying the determinant out (Aberth's method);
@@ -19,7 +19,7 @@
 
 #include <array>
 
-#include "render/crystal.h"
+#include "render/optics/crystal.h"
 
 namespace culet::oracle {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "render/complex_vector.h"
+#include "render/optics/complex_vector.h"
 #include "stone/perpendicular.h"
 #include "tests/random_attitudes.h"
 

@@ -1,6 +1,6 @@
 // Expectations: closed forms (Born & Wolf, Principles of Optics, 1.5) and energy balance.
 
-#include "render/fresnel.h"
+#include "render/optics/fresnel.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Expectations: conservation (leaves + remainder + absorbed + cut = 1), closed forms of a slab, and
 // Beer and Lambert.
 
-#include "render/light_paths.h"
+#include "render/reference/light_paths.h"
 
 #include <gtest/gtest.h>
 

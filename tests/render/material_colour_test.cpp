@@ -1,6 +1,6 @@
 // Body colours of the catalogue's stones against closed forms and published colours.
 
-#include "render/material_colour.h"
+#include "render/colour/material_colour.h"
 
 #include <gtest/gtest.h>
 

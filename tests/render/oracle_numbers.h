@@ -7,7 +7,7 @@
 #include <boost/multiprecision/cpp_complex.hpp>
 #include <vector>
 
-#include "render/crystal.h"
+#include "render/optics/crystal.h"
 
 namespace culet::oracle {
 

@@ -10,8 +10,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "render/colour.h"
-#include "render/image_io.h"
+#include "render/colour/colour.h"
+#include "render/image/image_io.h"
 #include "stone/errors.h"
 
 namespace {

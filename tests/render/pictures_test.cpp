@@ -11,8 +11,8 @@
 #include <fstream>
 #include <random>
 
-#include "render/colour.h"
-#include "render/image_io.h"
+#include "render/colour/colour.h"
+#include "render/image/image_io.h"
 #include "stone/errors.h"
 
 namespace {

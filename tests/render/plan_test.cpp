@@ -1,7 +1,7 @@
 // Expectations: what is zero by the table of effects (docs/plan.md), pictures drawn with everything
 // on, and the scenes of samples/effects, each made so that one effect matters.
 
-#include "render/plan/scene_plan.h"
+#include "render/planner/scene_plan.h"
 
 #include <gtest/gtest.h>
 
@@ -11,12 +11,12 @@
 #include <random>
 #include <set>
 
-#include "render/colour_error.h"
-#include "render/plan/error_estimate.h"
-#include "render/plan/planner.h"
-#include "render/plan/wavelengths.h"
+#include "render/colour/colour_error.h"
+#include "render/planner/error_estimate.h"
+#include "render/planner/planner.h"
+#include "render/planner/wavelengths.h"
 #include "render/render.h"
-#include "render/scene_io.h"
+#include "render/scene/scene_io.h"
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
 
@@ -94,7 +94,7 @@ TEST(ColourError, in_common_is_what_two_drawings_both_show) {
               std::sqrt(7.0 / 64) * colour_error(mean, truth).radiance);
 }
 
-TEST(Plan, in_the_same_light_from_everywhere_nothing_but_depth_matters) {
+TEST(OpticalSetup, in_the_same_light_from_everywhere_nothing_but_depth_matters) {
     for (const char* material : {"diamond", "zircon_high", "peridot"}) {
         Scene scene = small_scene(material);
         if (material == std::string("peridot")) {
@@ -115,7 +115,7 @@ TEST(Plan, in_the_same_light_from_everywhere_nothing_but_depth_matters) {
     }
 }
 
-TEST(Plan, keeps_its_word) {
+TEST(OpticalSetup, keeps_its_word) {
     int on = 0, off = 0;
     for (const char* material : {"diamond", "fluorite", "zircon_high"}) {
         for (const double tolerance : {0.2, 0.1, 0.05, 0.02}) {
@@ -139,7 +139,7 @@ TEST(Plan, keeps_its_word) {
     EXPECT_GT(off, 2) << "and some are not";
 }
 
-TEST(Plan, a_bound_that_is_too_low_is_found_out) {
+TEST(OpticalSetup, a_bound_that_is_too_low_is_found_out) {
     Scene scene = small_scene("diamond");
     add_lobes(scene);
     RenderResult result = render(scene);
@@ -147,7 +147,7 @@ TEST(Plan, a_bound_that_is_too_low_is_found_out) {
     EXPECT_FALSE(verify(scene, result, 24).holds());
 }
 
-TEST(Plan, its_settings_draw_the_same_picture) {
+TEST(OpticalSetup, its_settings_draw_the_same_picture) {
     for (const char* material : {"garnet_almandine", "corundum"}) {
         Scene scene = small_scene(material);
         add_lobes(scene);
@@ -159,7 +159,7 @@ TEST(Plan, its_settings_draw_the_same_picture) {
     }
 }
 
-TEST(Plan, is_the_same_on_any_number_of_threads) {
+TEST(OpticalSetup, is_the_same_on_any_number_of_threads) {
     Scene scene = small_scene("diamond");
     add_lobes(scene);
     scene.settings.threads = 1;
@@ -173,7 +173,7 @@ TEST(Plan, is_the_same_on_any_number_of_threads) {
     EXPECT_EQ(one.bound_delta_e, three.bound_delta_e);
 }
 
-TEST(Plan, respects_what_the_scene_says) {
+TEST(OpticalSetup, respects_what_the_scene_says) {
     Scene scene = small_scene("diamond");
     add_lobes(scene);
     scene.settings.effects_auto = false;
@@ -190,7 +190,7 @@ TEST(Plan, respects_what_the_scene_says) {
     EXPECT_TRUE(effects_on(none).empty());
 }
 
-TEST(Plan, with_tolerance_0_leaves_nothing_out) {
+TEST(OpticalSetup, with_tolerance_0_leaves_nothing_out) {
     Scene scene = small_scene("diamond");
     add_lobes(scene);
     scene.settings.tolerance = 0;
@@ -202,7 +202,7 @@ TEST(Plan, with_tolerance_0_leaves_nothing_out) {
     EXPECT_FALSE(render(scene).stats.plan.has_value());
 }
 
-TEST(Plan, of_a_picture_without_the_stone_says_so) {
+TEST(OpticalSetup, of_a_picture_without_the_stone_says_so) {
     Scene scene = small_scene("diamond");
     scene.camera.look_at = {100, 0, 12};
     const ScenePlan plan = plan_scene(scene);
@@ -211,7 +211,7 @@ TEST(Plan, of_a_picture_without_the_stone_says_so) {
     EXPECT_NO_THROW(render(scene));
 }
 
-TEST(Plan, black_scenes_have_no_error) {
+TEST(OpticalSetup, black_scenes_have_no_error) {
     Scene scene = small_scene("diamond");
     scene.lights.constant = 0;
     const RenderResult result = render(scene);
@@ -219,7 +219,7 @@ TEST(Plan, black_scenes_have_no_error) {
     EXPECT_FALSE(std::isnan(result.stats.error_bound));
 }
 
-TEST(Plan, stops_when_it_is_told_to) {
+TEST(OpticalSetup, stops_when_it_is_told_to) {
     Scene scene = small_scene("diamond");
     add_lobes(scene);
     int told = 0;
@@ -233,7 +233,7 @@ TEST(Plan, stops_when_it_is_told_to) {
 
 // In even light a path brings all that it has not lost, so that what a depth leaves out is 1 less
 // the mean radiance, exactly.
-TEST(Plan, has_a_depth_that_the_scene_names_in_its_bound) {
+TEST(OpticalSetup, has_a_depth_that_the_scene_names_in_its_bound) {
     Scene scene = small_scene("diamond");
     scene.settings.depth = 3;
     const RenderResult result = render(scene);
@@ -248,7 +248,7 @@ TEST(Plan, has_a_depth_that_the_scene_names_in_its_bound) {
                             }));
 }
 
-TEST(Plan, draws_crystals_as_one_wave_where_that_is_near_enough) {
+TEST(OpticalSetup, draws_crystals_as_one_wave_where_that_is_near_enough) {
     Scene scene = small_scene("quartz");
     add_lobes(scene);
     scene.settings.tolerance = 0.1;
@@ -271,7 +271,7 @@ TEST(Plan, draws_crystals_as_one_wave_where_that_is_near_enough) {
 
 // A spinel in smooth light: previews are far better than a tenth of the mean, and cost less than
 // pilots of the effects.
-TEST(Plan, weighs_no_effects_where_that_would_cost_more_than_the_picture) {
+TEST(OpticalSetup, weighs_no_effects_where_that_would_cost_more_than_the_picture) {
     Scene scene = small_scene("spinel");
     add_lobes(scene);
     scene.camera.width = scene.camera.height = 64;
@@ -292,7 +292,7 @@ TEST(Plan, weighs_no_effects_where_that_would_cost_more_than_the_picture) {
     EXPECT_FALSE(std::isnan(plan_scene(scene).item("polarization").matters));
 }
 
-TEST(Plan, pictures_and_checks_are_the_same_on_any_number_of_threads) {
+TEST(OpticalSetup, pictures_and_checks_are_the_same_on_any_number_of_threads) {
     for (const char* material : {"diamond", "quartz"}) {
         Scene scene = small_scene(material);
         add_lobes(scene);

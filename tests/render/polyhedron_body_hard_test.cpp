@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/polyhedron_body.h"
+#include "render/geometry/polyhedron_body.h"
 #include "tests/render/carved_solids.h"
 
 namespace {

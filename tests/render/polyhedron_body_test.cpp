@@ -1,7 +1,7 @@
 // Expectations: ConvexBody where the solid is convex; exact rational clipping; integral geometry
 // (Cauchy, Crofton); solid angles; and the hand for small solids. Seeds are fixed and printed.
 
-#include "render/polyhedron_body.h"
+#include "render/geometry/polyhedron_body.h"
 
 #include <gtest/gtest.h>
 

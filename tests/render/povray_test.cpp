@@ -1,7 +1,7 @@
 // Expectations: what the scene holds, closed meshes, and, where POV-Ray 3.7 is installed, its own
 // pictures of the same scenes.
 
-#include "render/povray.h"
+#include "render/export/povray.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <regex>
 #include <sstream>
 
-#include "render/image_io.h"
+#include "render/image/image_io.h"
 #include "render/render.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"

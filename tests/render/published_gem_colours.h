@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "render/colour.h"
-#include "render/colour_difference.h"
+#include "render/colour/colour.h"
+#include "render/colour/colour_difference.h"
 
 namespace culet::test {
 

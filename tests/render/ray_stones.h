@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "render/scene.h"
+#include "render/scene/scene.h"
 #include "stone/solid.h"
 
 namespace culet {

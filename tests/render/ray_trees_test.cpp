@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "render/probe.h"
+#include "render/reference/probe.h"
 
 namespace {
 

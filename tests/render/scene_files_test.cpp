@@ -9,11 +9,11 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "render/image_io.h"
-#include "render/light_field.h"
-#include "render/light_presets.h"
-#include "render/scene_checks.h"
-#include "render/scene_io.h"
+#include "render/image/image_io.h"
+#include "render/reference/light_field.h"
+#include "render/scene/light_presets.h"
+#include "render/scene/scene_io.h"
+#include "render/setup/scene_checks.h"
 #include "stone/errors.h"
 #include "tests/scratch_folder.h"
 

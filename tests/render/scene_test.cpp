@@ -9,10 +9,10 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "render/light_field.h"
-#include "render/probe.h"
+#include "render/reference/light_field.h"
+#include "render/reference/probe.h"
 #include "render/render.h"
-#include "render/scene_io.h"
+#include "render/scene/scene_io.h"
 #include "stone/errors.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "render/stokes.h"
+#include "render/optics/stokes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Scenes that no file describes: how the stone is framed, sized, lit and exposed.
 
-#include "render/stone_scene.h"
+#include "render/scene/stone_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -9,11 +9,11 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
-#include "render/exposure.h"
-#include "render/framing.h"
-#include "render/light_presets.h"
+#include "render/image/exposure.h"
 #include "render/render.h"
-#include "render/scene_io.h"
+#include "render/scene/framing.h"
+#include "render/scene/light_presets.h"
+#include "render/scene/scene_io.h"
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
 #include "tests/scratch_folder.h"

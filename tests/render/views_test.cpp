@@ -1,7 +1,7 @@
 // Expectations: closed forms of plates and retarders between polarisers, Beer and Lambert for each
 // wave, and conservation. Scenes are read from text, as users write them.
 
-#include "render/view_presets.h"
+#include "render/scene/view_presets.h"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "render/image_io.h"
-#include "render/probe.h"
+#include "render/image/image_io.h"
+#include "render/reference/probe.h"
+#include "render/reference/sampling.h"
 #include "render/render.h"
-#include "render/sampling.h"
-#include "render/scene_io.h"
+#include "render/scene/scene_io.h"
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
 

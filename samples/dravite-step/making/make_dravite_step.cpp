@@ -1,5 +1,6 @@
-// Makes the sample `dravite-step`: a hidden true stone, the hand-made mesh that a modeller would have
-// drawn of it, the readings that instruments would give, and what a camera would do to its picture.
+// Makes the sample `dravite-step`: a hidden true stone, the hand-made mesh that a modeller would
+// have drawn of it, the readings that instruments would give, and what a camera would do to its
+// picture.
 //   make_dravite_step stone FOLDER             truth.asc, hand.obj, readings.csv
 //   make_dravite_step photograph TRUE.exr OUT.png
 // Everything random comes from the seeds below, so the sample can be made again to the bit.
@@ -58,8 +59,14 @@ struct Proportions {
 
 Proportions step_cut() {
     const double end = 4.5, side = 3.5, corner = 4.85;
-    return {{{{"E", 0, end}, {"NE", 45, corner}, {"N", 90, side}, {"NW", 135, corner},
-              {"W", 180, end}, {"SW", 225, corner}, {"S", 270, side}, {"SE", 315, corner}}},
+    return {{{{"E", 0, end},
+              {"NE", 45, corner},
+              {"N", 90, side},
+              {"NW", 135, corner},
+              {"W", 180, end},
+              {"SW", 225, corner},
+              {"S", 270, side},
+              {"SE", 315, corner}}},
             {{{"C1", 48, 0.10}, {"C2", 38, 0.55}, {"C3", 27, 0.95}}},
             {{{"P1", 60, 0.10}, {"P2", 49, 1.35}, {"P3", 40, 2.25}}},
             1.25,
@@ -72,7 +79,8 @@ Vec3 direction(double azimuth, double inclination, bool crown) {
 }
 
 // Planes of a step cut: every tier of a side starts where the tier before it has come to.
-std::vector<NamedPlane> planes_of(const Proportions& cut, double tilt_deg, double shift_mm, Deviates& deviates) {
+std::vector<NamedPlane> planes_of(const Proportions& cut, double tilt_deg, double shift_mm,
+                                  Deviates& deviates) {
     std::vector<NamedPlane> planes;
     const auto add = [&](const std::string& name, double azimuth_deg, double angle_deg, bool crown,
                          double radius, double height) {
@@ -90,12 +98,13 @@ std::vector<NamedPlane> planes_of(const Proportions& cut, double tilt_deg, doubl
             for (const Side& side : cut.sides) {
                 double radius = side.girdle_mm, height = cut.half_girdle_mm;
                 for (std::size_t below = 0; below < t; ++below) {
-                    radius -= (tiers[below + 1].start_mm - height) / std::tan(radians(tiers[below].angle_deg));
+                    radius -= (tiers[below + 1].start_mm - height) /
+                              std::tan(radians(tiers[below].angle_deg));
                     height = tiers[below + 1].start_mm;
                 }
                 // Tilted about the middle of its upper edge, as a facet is cut: deeper on one side.
-                add(fmt::format("{}{}", tiers[t].name, side.name), side.azimuth_deg, tiers[t].angle_deg,
-                    crown, radius, crown ? height : -height);
+                add(fmt::format("{}{}", tiers[t].name, side.name), side.azimuth_deg,
+                    tiers[t].angle_deg, crown, radius, crown ? height : -height);
             }
         }
     }
@@ -132,7 +141,9 @@ Solid true_stone() {
     return intersect_half_spaces(planes).solid;
 }
 
-double rounded(double value, double step) { return std::round(value / step) * step; }
+double rounded(double value, double step) {
+    return std::round(value / step) * step;
+}
 
 void write_readings(const Solid& truth, const std::filesystem::path& file) {
     Deviates instrument(2004);
@@ -140,38 +151,52 @@ void write_readings(const Solid& truth, const std::filesystem::path& file) {
     out << "kind,of,value,sigma\n";
     for (const Facet& facet : truth.facets) {
         if (facet.name == "T") continue;
-        const double i = degrees(inclination(facet.plane.normal, {0, 0, 1})) + instrument.normal(0.1);
+        const double i =
+            degrees(inclination(facet.plane.normal, {0, 0, 1})) + instrument.normal(0.1);
         fmt::print(out, "inclination,{},{:.1f},0.1\n", facet.name, std::min(90.0, rounded(i, 0.1)));
     }
     for (const Facet& facet : truth.facets) {
         if (facet.name == "T") continue;
         const double i = inclination(facet.plane.normal, {0, 0, 1});
-        const double a = degrees(azimuth(facet.plane.normal)) + instrument.normal(0.1 / std::sin(i));
-        fmt::print(out, "azimuth,{},{:.1f},{:.2f}\n", facet.name, rounded(std::fmod(a + 360, 360), 0.1),
-                   rounded(0.1 / std::sin(i), 0.01));
+        const double a =
+            degrees(azimuth(facet.plane.normal)) + instrument.normal(0.1 / std::sin(i));
+        fmt::print(out, "azimuth,{},{:.1f},{:.2f}\n", facet.name,
+                   rounded(std::fmod(a + 360, 360), 0.1), rounded(0.1 / std::sin(i), 0.01));
     }
     for (const int a : {0, 30, 60, 90, 120, 150}) {
         const double w = width_along(truth, direction(radians(a), std::numbers::pi / 2, true));
         fmt::print(out, "width,{},{:.2f},0.01\n", a, rounded(w + instrument.normal(0.01), 0.01));
     }
-    fmt::print(out, "depth,,{:.2f},0.01\n", rounded(width_along(truth, {0, 0, 1}) + instrument.normal(0.01), 0.01));
+    fmt::print(out, "depth,,{:.2f},0.01\n",
+               rounded(width_along(truth, {0, 0, 1}) + instrument.normal(0.01), 0.01));
     // Lengths read under a microscope with a scale in the eyepiece.
     const HalfEdges links = half_edges(truth);
-    const auto prefix = [](const std::string& name) { return name.substr(0, name[0] == 'G' || name[0] == 'T' ? 1 : 2); };
-    for (const auto& [upper, lower] : std::vector<std::pair<std::string, std::string>>{
-             {"T", "C3"}, {"C3", "C2"}, {"C2", "C1"}, {"C1", "G"}, {"G", "P1"}, {"P1", "P2"}, {"P2", "P3"}}) {
+    const auto prefix = [](const std::string& name) {
+        return name.substr(0, name[0] == 'G' || name[0] == 'T' ? 1 : 2);
+    };
+    for (const auto& [upper, lower] :
+         std::vector<std::pair<std::string, std::string>>{{"T", "C3"},
+                                                          {"C3", "C2"},
+                                                          {"C2", "C1"},
+                                                          {"C1", "G"},
+                                                          {"G", "P1"},
+                                                          {"P1", "P2"},
+                                                          {"P2", "P3"}}) {
         for (const Edge& edge : links.edges) {
             const std::string& a = truth.facets[edge.left].name;
             const std::string& b = truth.facets[edge.right].name;
-            const bool same_side = a == "T" || b == "T" || a.substr(prefix(a).size()) == b.substr(prefix(b).size());
-            if (!same_side || !((prefix(a) == upper && prefix(b) == lower) || (prefix(b) == upper && prefix(a) == lower)))
+            const bool same_side =
+                a == "T" || b == "T" || a.substr(prefix(a).size()) == b.substr(prefix(b).size());
+            if (!same_side || !((prefix(a) == upper && prefix(b) == lower) ||
+                                (prefix(b) == upper && prefix(a) == lower)))
                 continue;
             const double l = glm::length(truth.vertices[edge.from] - truth.vertices[edge.to]);
-            fmt::print(out, "edge,{}/{},{:.2f},0.03\n", prefix(a) == upper ? a : b, prefix(a) == upper ? b : a,
-                       rounded(l + instrument.normal(0.03), 0.01));
+            fmt::print(out, "edge,{}/{},{:.2f},0.03\n", prefix(a) == upper ? a : b,
+                       prefix(a) == upper ? b : a, rounded(l + instrument.normal(0.03), 0.01));
         }
     }
-    fmt::print(out, "weight,,{:.3f},0.002\n", rounded(carat(volume(truth), 3.06) + instrument.normal(0.002), 0.001));
+    fmt::print(out, "weight,,{:.3f},0.002\n",
+               rounded(carat(volume(truth), 3.06) + instrument.normal(0.002), 0.001));
 }
 
 // A lens of a little blur, photon and read noise, an exposure that is not the render's, 8 bit sRGB.
@@ -189,9 +214,11 @@ int photograph(const std::string& in, const std::string& out) {
             for (int c = 0; c < 3; ++c) {
                 const double signal = gain[c] * radiance.at<cv::Vec3d>(y, x)[c];
                 // 4000 electrons at full scale, 6 electrons of read noise.
-                const double noise = std::sqrt(std::max(signal, 0.0) / 4000 + 36.0 / (4000.0 * 4000.0));
+                const double noise =
+                    std::sqrt(std::max(signal, 0.0) / 4000 + 36.0 / (4000.0 * 4000.0));
                 const double linear = std::clamp(signal + sensor.normal(noise), 0.0, 1.0);
-                const double srgb = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+                const double srgb = linear <= 0.0031308 ? 12.92 * linear
+                                                        : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
                 photo.at<cv::Vec3b>(y, x)[c] = static_cast<unsigned char>(std::lround(255 * srgb));
             }
         }
@@ -213,6 +240,7 @@ int main(int argc, char** argv) {
         return 0;
     }
     if (words.size() == 3 && words[0] == "photograph") return photograph(words[1], words[2]);
-    fmt::print(stderr, "make_dravite_step stone FOLDER | make_dravite_step photograph TRUE.exr OUT.png\n");
+    fmt::print(stderr,
+               "make_dravite_step stone FOLDER | make_dravite_step photograph TRUE.exr OUT.png\n");
     return 2;
 }

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "compare/photo/exposure.h"
-#include "render/colour.h"
+#include "render/colour/colour.h"
 #include "stone/errors.h"
 
 namespace culet {

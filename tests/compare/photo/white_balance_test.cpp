@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/colour.h"
+#include "render/colour/colour.h"
 #include "stone/errors.h"
 
 namespace culet {

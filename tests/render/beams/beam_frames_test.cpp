@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "render/scene_io.h"
+#include "render/scene/scene_io.h"
 #include "stone/errors.h"
 #include "tests/render/beams/beam_lights.h"
 

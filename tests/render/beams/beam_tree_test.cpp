@@ -8,8 +8,8 @@
 #include <cmath>
 #include <functional>
 
-#include "render/convex_body.h"
-#include "render/fresnel.h"
+#include "render/geometry/convex_body.h"
+#include "render/optics/fresnel.h"
 #include "tests/render/beams/beam_scenes.h"
 
 namespace {

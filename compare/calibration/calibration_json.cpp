@@ -1,0 +1,92 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "compare/calibration/calibration.h"
+#include "compare/json_number.h"
+
+namespace culet {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int k_schema = 3;  // 1: scored against a sharp render; 2: without the facets' tilts
+constexpr std::size_t k_most_draws = 100000;
+
+constexpr World k_worlds[] = {World::facet_error, World::light,    World::pose, World::both,
+                              World::catalogue,   World::material, World::wrong};
+
+std::optional<World> world_named(const std::string& name) {
+    for (const World world : k_worlds) {
+        if (name == name_of(world)) return world;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::string calibration_json(const Calibration& calibration) {
+    Json json;
+    json["schema"] = k_schema;
+    json["kind"] = "calibration";
+    json["hash"] = calibration.hash;
+    json["planned"] = calibration.planned;
+    json["seed"] = calibration.seed;
+    json["stone_px"] = number(calibration.stone_px);
+    json["psf_px"] = number(calibration.psf_px);
+    json["electrons"] = number(calibration.electrons);
+    json["seconds"] = number(calibration.seconds);
+    json["keys"] = calibration.keys;
+    json["higher_is_better"] = calibration.higher_is_better;
+    json["notes"] = calibration.notes;
+    json["draws"] = Json::array();
+    for (const CalibrationDraw& draw : calibration.draws) {
+        Json one = {{"world", name_of(draw.world)},
+                    {"name", draw.name},
+                    {"facet_error_deg", number(draw.facet_error_deg)},
+                    {"scores", Json::array()}};
+        for (const auto& score : draw.scores) one["scores"].push_back(number(score));
+        json["draws"].push_back(std::move(one));
+    }
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::optional<Calibration> calibration_from(const std::string& text) {
+    // A cache is a convenience: whatever is wrong with it, it is made anew.
+    try {
+        const Json json = Json::parse(text);
+        if (json.at("schema") != k_schema || json.at("kind") != "calibration") return std::nullopt;
+        Calibration result;
+        result.hash = json.at("hash").get<std::string>();
+        result.planned = json.at("planned").get<int>();
+        result.seed = json.at("seed").get<std::uint64_t>();
+        result.stone_px = json.at("stone_px").get<double>();
+        result.psf_px = json.at("psf_px").get<double>();
+        result.electrons = json.at("electrons").get<double>();
+        result.seconds = json.at("seconds").get<double>();
+        result.keys = json.at("keys").get<std::vector<std::string>>();
+        result.higher_is_better = json.at("higher_is_better").get<std::vector<bool>>();
+        result.notes = json.at("notes").get<std::vector<std::string>>();
+        if (result.keys.size() != result.higher_is_better.size()) return std::nullopt;
+        if (json.at("draws").size() > k_most_draws) return std::nullopt;
+        for (const Json& one : json.at("draws")) {
+            CalibrationDraw draw;
+            const auto world = world_named(one.at("world").get<std::string>());
+            if (!world) return std::nullopt;
+            draw.world = *world;
+            draw.name = one.at("name").get<std::string>();
+            draw.facet_error_deg = one.at("facet_error_deg").get<double>();
+            for (const Json& score : one.at("scores")) {
+                draw.scores.push_back(score.is_null() ? std::nullopt
+                                                      : std::optional(score.get<double>()));
+            }
+            if (draw.scores.size() != result.keys.size()) return std::nullopt;
+            result.draws.push_back(std::move(draw));
+        }
+        return result;
+    } catch (const nlohmann::json::exception&) {
+        return std::nullopt;
+    }
+}
+
+}  // namespace culet

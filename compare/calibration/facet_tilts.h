@@ -1,0 +1,68 @@
+#pragma once
+// The facets' tilts, read from the picture itself: how much of what a photograph is off by is what
+// tilted facets change.
+
+#include <opencv2/core/mat.hpp>
+#include <optional>
+
+#include "compare/calibration/draft_renderer.h"
+#include "compare/calibration/simulated_camera.h"
+#include "compare/calibration/tilt_variance.h"
+#include "compare/registration/frame.h"
+#include "compare/scores/aligned_pair.h"
+#include "stone/progress.h"
+
+namespace culet {
+
+/// The model's picture is drawn with each facet tilted a little either way about each of two axes.
+/// The differences are what a photograph's difference from the model's render is held against
+/// (tilt_variance.h), all facets at once, so that how large their tilts are is known about as well
+/// as so many tilts can tell: a score that adds up differences hangs on the few facets that change
+/// most. Samples count by how straight the changes are there: where the tilts' second differences
+/// are large, tilts of other sizes change something else. Shift, scale, turn, exposure and blur are
+/// projected out.
+///
+/// All of it is in the root of luminance, clipped at white, blurred by 0.8 % of the stone's
+/// diameter, on a picture of the stone 192 pixels across in the model's frame.
+class FacetTilts {
+public:
+    /// `model`, `renderer` and its picture, `camera`: as for a calibration. Draws four sketches a
+    /// facet; where `progress` says no between some of them it ends early, without a score.
+    FacetTilts(const Scene& model, const DraftRenderer& renderer, const CameraModel& camera,
+               int threads, const Progress& progress = {});
+    /// The same without its sketches, which `kept` stands for: the `variance()` of one of the same
+    /// model and camera.
+    FacetTilts(const Scene& model, const DraftRenderer& renderer, const CameraModel& camera,
+               TiltVariance kept);
+
+    /// False: the stone is not convex, is drawn by rays, shows nothing of its facets, or it
+    /// ended early.
+    bool usable() const { return variance_.usable(); }
+    bool ended_early() const { return ended_early_; }
+
+    const TiltVariance& variance() const { return variance_; }
+
+    /// Degrees: the facet error (facet_error.h) by which the photograph differs from the model. It
+    /// is about right from 0.05 to 0.5 degrees; larger ones are read too small, and what else there
+    /// is in the picture counts as facet error, so that it needs a calibration like any score.
+    /// `frame`: the photograph with the model's picture laid on it; of that only the place is used.
+    std::optional<double> facet_error_deg(const Frame& frame, const LaidPictures& laid) const;
+
+private:
+    /// Where the samples lie, and the model's picture there; its first sketch, nothing when there
+    /// is nothing to be told.
+    std::optional<Photo> lay_samples(const Scene& model, const Scene& small,
+                                     const DraftRenderer& renderer, const CameraModel& camera);
+
+    cv::Matx33d model_from_sample_;  // pixels' centres at whole numbers
+    cv::Mat mask_;                   // CV_8U: the samples
+    cv::Mat fine_;                   // CV_32F: the model's picture, as the camera would see it
+    cv::Mat picture_;                // the same at the samples' places
+    TiltVariance variance_;
+    bool ended_early_ = false;
+};
+
+/// As a score of a calibration; smaller is better.
+inline constexpr const char* k_facet_tilts = "facet_tilts_deg";
+
+}  // namespace culet

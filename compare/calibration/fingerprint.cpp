@@ -1,0 +1,199 @@
+#include "compare/calibration/fingerprint.h"
+
+#include <fmt/format.h>
+
+#include "compare/calibration/calibrate.h"
+
+namespace culet {
+
+namespace {
+
+// Of the calibration's own workings: a cached table of another version is not used.
+constexpr int k_version = 3;
+
+void add_colour(Fingerprint& print, const LightColour& colour) {
+    std::visit(
+        [&](const auto& value) {
+            using Value = std::decay_t<decltype(value)>;
+            if constexpr (std::is_same_v<Value, Rgb>) {
+                for (const double c : value) print.add(c);
+            } else {
+                print.add(value);
+            }
+        },
+        colour.value);
+    print.add(colour.polarisation ? 1 : 0);
+    if (colour.polarisation) {
+        print.add(colour.polarisation->vibration);
+        print.add(colour.polarisation->degree);
+        print.add(colour.polarisation->normal.value_or(Vec3(0)));
+    }
+}
+
+struct AddPart {
+    Fingerprint& print;
+    void point(const Vec3& p) const { print.add(p); }
+    void direction(const Vec3& d) const { print.add(d); }
+    void extent(const std::optional<Vec3>& e) const { print.add(e.value_or(Vec3(0))); }
+    void number(double v) const { print.add(v); }
+};
+
+void add_lights(Fingerprint& print, const Lights& lights) {
+    print.add(lights.constant);
+    if (lights.environment) {
+        print.add(lights.environment->width);
+        print.add(lights.environment->rgb);
+    }
+    if (lights.polarisation) add_colour(print, {0.0, lights.polarisation});
+    for (const Light& light : lights.sources) {
+        std::visit(
+            [&](const auto& l) {
+                print.add(l.k_name);
+                l.each_part(l, AddPart{print});
+                add_colour(print, l.radiance);
+            },
+            light);
+    }
+}
+
+void add_material(Fingerprint& print, const Material& material) {
+    print.add(static_cast<int>(material.optic));
+    for (int r = 0; r < ray_count(material.optic); ++r) {
+        const auto k = static_cast<std::size_t>(r);
+        for (double nm = 380; nm <= 780; nm += 10) print.add(material.index[k].at(nm));
+    }
+    for (const Spectrum& spectrum : material.absorption_per_mm) {
+        print.add(spectrum.wavelengths_nm());
+        print.add(spectrum.values());
+    }
+}
+
+void add_camera(Fingerprint& print, const Camera& camera) {
+    print.add(camera.position);
+    print.add(camera.look_at);
+    print.add(camera.up);
+    print.add(camera.fov);
+    print.add(camera.orthographic_width.value_or(-1));
+    print.add(camera.width);
+    print.add(camera.height);
+    for (const double c : line_of_sight_in(camera)) print.add(c);
+    print.add(camera.aperture_radius);
+    print.add(camera.focus_distance);
+    print.add(camera.cone.value_or(-1));
+    print.add(camera.optics.analyzer.value_or(-100));
+    print.add(camera.optics.two_windows ? 1 : 0);
+    if (camera.optics.retarder) {
+        print.add(camera.optics.retarder->retardation_nm);
+        print.add(camera.optics.retarder->slow_axis);
+    }
+}
+
+void add_settings(Fingerprint& print, const RenderSettings& settings) {
+    print.add(settings.engine);
+    print.add(static_cast<int>(settings.refraction));
+    print.add(settings.crystal_beams ? static_cast<int>(*settings.crystal_beams) : -1);
+    print.add(settings.depth);
+    print.add(settings.tolerance);
+    print.add(settings.cut_weight.value_or(-1));
+    print.add(settings.split_weight.value_or(-1));
+    print.add(settings.wavelength_turns);
+    print.add(static_cast<double>(settings.most_beams));
+    print.add(settings.checked_pixels);
+    print.add(settings.checked_samples);
+    print.add(settings.effects_auto ? 1 : 0);
+    for (const bool on : settings.effects) print.add(on ? 1 : 0);
+    print.add(settings.coherence ? (*settings.coherence ? 1 : 0) : -1);
+    print.add(settings.bandwidth_nm.value_or(-1));
+    print.add(settings.wavelengths_nm);
+    print.add(settings.samples);
+    print.add(static_cast<int>(settings.filter));
+    print.add(settings.filter_radius);
+    print.add(static_cast<double>(settings.seed));
+}
+
+}  // namespace
+
+void Fingerprint::add_bytes(const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < size; ++i) {
+        a_ = (a_ ^ bytes[i]) * 0x100000001b3u;
+        b_ = (b_ ^ bytes[i] ^ 0x5a) * 0x100000001b3u;
+    }
+}
+
+void Fingerprint::add(std::string_view text) {
+    add(static_cast<double>(text.size()));
+    add_bytes(text.data(), text.size());
+}
+
+void Fingerprint::add(double value) {
+    const double positive_zero = value == 0 ? 0 : value;
+    add_bytes(&positive_zero, sizeof positive_zero);
+}
+
+void Fingerprint::add(const Vec3& v) {
+    add(v.x);
+    add(v.y);
+    add(v.z);
+}
+
+void Fingerprint::add(const std::vector<float>& values) {
+    add(static_cast<double>(values.size()));
+    add_bytes(values.data(), values.size() * sizeof(float));
+}
+
+void Fingerprint::add(const std::vector<double>& values) {
+    add(static_cast<double>(values.size()));
+    add_bytes(values.data(), values.size() * sizeof(double));
+}
+
+void Fingerprint::add(const Solid& solid) {
+    for (const Facet& facet : solid.facets) {
+        add(facet.name);
+        add(facet.plane.normal);
+        add(facet.plane.offset);
+    }
+    for (const Vec3& vertex : solid.vertices) add(vertex);
+}
+
+void Fingerprint::add(const Scene& scene) {
+    add(scene.stone.solid);
+    add(scene.stone.convex ? 1 : 0);
+    add(static_cast<int>(scene.stone.unit));
+    add(scene.stone.up);
+    for (const Vec3& axis : scene.stone.crystal.axes) add(axis);
+    add_material(*this, scene.stone.material);
+    add_camera(*this, scene.camera);
+    add_lights(*this, scene.lights);
+    add(scene.immersion);
+    add_settings(*this, scene.settings);
+}
+
+std::string Fingerprint::hex() const {
+    return fmt::format("{:016x}{:016x}", a_, b_);
+}
+
+std::string calibration_hash(const Scene& model, const CalibrateOptions& options) {
+    Fingerprint print;
+    print.add(k_version);
+    print.add(model);
+    const CameraModel& camera = options.camera;
+    print.add(camera.psf_px);
+    print.add(camera.electrons);
+    print.add(camera.read_noise);
+    print.add(camera.bits);
+    print.add(camera.clips ? 1 : 0);
+    print.add(camera.outline_from_background ? 1 : 0);
+    print.add(camera.scale_error);
+    for (const double g : camera.gain) print.add(g);
+    for (const float g : camera.ground) print.add(static_cast<double>(g));
+    print.add(options.draws);
+    print.add(options.null_draws);
+    print.add(static_cast<double>(options.seed));
+    print.add(options.largest);
+    print.add(options.ignored);
+    if (options.start) print.add(*options.start);
+    return print.hex();
+}
+
+}  // namespace culet

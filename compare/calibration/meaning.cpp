@@ -1,0 +1,186 @@
+#include "compare/calibration/meaning.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compare/calibration/facet_tilts.h"
+#include "compare/scores/score_list.h"
+#include "page/html.h"
+#include "stone/upper_median.h"
+
+namespace culet {
+
+namespace {
+
+constexpr const char* k_primary = "zncc";
+
+// What can be said of a match, whatever the units: see `Meaning` and docs/comparing.md.
+constexpr double k_match_deg = 0.7, k_partial_deg = 1.4;
+// A light that is turned by little may do nearly as well as the right one: one draw of 24 may.
+constexpr double k_most_p = 0.1, k_least_z = 2;
+
+std::size_t index_of(const Calibration& calibration, const std::string& key) {
+    const auto at = std::find(calibration.keys.begin(), calibration.keys.end(), key);
+    return static_cast<std::size_t>(at - calibration.keys.begin());
+}
+
+std::vector<std::optional<double>> values_of(const std::vector<Score>& scores,
+                                             const Calibration& calibration) {
+    std::vector<std::optional<double>> values(calibration.keys.size());
+    for (const Score& score : scores) {
+        const std::size_t k = index_of(calibration, score.key);
+        if (k < values.size()) values[k] = score.value;
+    }
+    return values;
+}
+
+std::optional<NullWorth> null_worth(World world, const Score& photo, const Calibration& calibration,
+                                    const FacetErrorScale& scale,
+                                    std::optional<double> photo_rank) {
+    const std::size_t primary = index_of(calibration, photo.key);
+    Score against = photo;
+    against.null.clear();
+    std::vector<double> ranks, errors;
+    for (const CalibrationDraw& draw : calibration.draws) {
+        if (draw.world != world) continue;
+        if (draw.scores[primary]) against.null.push_back(*draw.scores[primary]);
+        // A draw that could not even be laid on the model is as far from it as any.
+        const EquivalentError error = scale.of(draw.scores);
+        ranks.push_back(error.rank.value_or(scale.largest_rank()));
+        errors.push_back(error.deg.value_or(std::exp(scale.largest_rank())));
+    }
+    if (against.null.size() < 5) return std::nullopt;
+    fill_null(against);
+    NullWorth worth;
+    worth.world = world;
+    worth.draws = static_cast<int>(ranks.size());
+    worth.mean = against.null_mean;
+    worth.sd = against.null_sd;
+    worth.z = against.z.value_or(0);
+    if (photo_rank) {
+        worth.as_good = static_cast<int>(std::count_if(
+            ranks.begin(), ranks.end(), [&](double rank) { return rank <= *photo_rank; }));
+        worth.p = (worth.as_good + 1.0) / (worth.draws + 1.0);
+    }
+    worth.least_deg = *std::min_element(errors.begin(), errors.end());
+    worth.median_deg = upper_median(std::move(errors));
+    return worth;
+}
+
+std::string degrees_in_words(double deg) {
+    return significant(deg, 2) + (deg == 1 ? " degree" : " degrees");
+}
+
+std::string headline_of(const Meaning& meaning) {
+    std::string text;
+    const EquivalentError& error = meaning.equivalent;
+    if (!error.deg) {
+        text = "how large an error of the facets this would be is not known";
+    } else if (error.at_least) {
+        text = "fits no better than the same stone with " + degrees_in_words(*error.deg) +
+               " of facet error";
+    } else if (error.at_most) {
+        text = "fits as well as the same stone with no more than " + degrees_in_words(*error.deg) +
+               " of facet error";
+    } else {
+        text = fmt::format("fits as well as the same stone with {} of facet error ({} to {})",
+                           degrees_in_words(*error.deg), significant(error.low_deg, 2),
+                           significant(error.high_deg, 2));
+    }
+    if (!meaning.nulls.empty()) {
+        const NullWorth& worst = meaning.nulls.front();
+        const char* what = worst.world == World::light  ? "a wrong light"
+                           : worst.world == World::pose ? "a wrong pose"
+                                                        : "a wrong light and pose";
+        text += fmt::format("; {} sigma from chance ({}: {} of {} draws as good)",
+                            decimals(std::max(0.0, worst.z), worst.z < 10 ? 1 : 0), what,
+                            worst.as_good, worst.draws);
+    }
+    return text;
+}
+
+void judge(Meaning& meaning) {
+    const bool beaten = std::all_of(
+        meaning.nulls.begin(), meaning.nulls.end(),
+        [](const NullWorth& n) { return n.as_good == 0 || (n.p <= k_most_p && n.z >= k_least_z); });
+    const EquivalentError& error = meaning.equivalent;
+    std::string why;
+    if (meaning.nulls.empty() || !error.deg) {
+        meaning.verdict = Verdict::no_evidence;
+        why = "too little was drawn to tell a match from chance";
+    } else if (!beaten) {
+        meaning.verdict = Verdict::no_evidence;
+        why = "some wrong light or pose would do as well";
+    } else if (*error.deg <= k_match_deg) {
+        meaning.verdict = Verdict::match;
+    } else if (*error.deg <= k_partial_deg) {
+        meaning.verdict = Verdict::partial;
+    } else {
+        meaning.verdict = Verdict::no_evidence;
+        why =
+            "better than a wrong light or pose, but a stone with facets far from these would do "
+            "as well";
+    }
+    meaning.reason = (why.empty() ? "" : why + "; ") + meaning.headline;
+}
+
+}  // namespace
+
+const char* const k_calibrated_rule =
+    "match: an equivalent facet error of 0.7 degrees at most, and for each null (a wrong light, a "
+    "wrong pose, both) either smaller than that of every draw, or p of 0.1 at most with zncc 2 "
+    "standard deviations above; partial: the same up to 1.4 degrees; else no_evidence.";
+
+bool takes_part(const std::string& key, bool geometry_only) {
+    // Colour-only scores see no geometry; the counts of reflexes are coarse beside their areas.
+    const std::vector<std::string> geometry{"cw_ssim", "gmsd", "nmi", "reflex_area_f1"};
+    const std::vector<std::string> all{"zncc",          "zncc_1pct", "zncc_4pct",  "reflex_area_f1",
+                                       "cw_ssim",       "ssim",      "nmi",        "psnr",
+                                       "deltaE00_mean", "flip_mean", k_facet_tilts};
+    const auto& taken = geometry_only ? geometry : all;
+    return std::find(taken.begin(), taken.end(), key) != taken.end();
+}
+
+Meaning meaning_of(const std::vector<Score>& scores, const Calibration& calibration,
+                   bool geometry_only) {
+    Meaning meaning;
+    meaning.geometry_only = geometry_only;
+    std::vector<std::string> keys;
+    for (const std::string& key : calibration.keys) {
+        if (takes_part(key, geometry_only)) keys.push_back(key);
+    }
+    const FacetErrorScale scale(calibration, keys);
+    const auto values = values_of(scores, calibration);
+    meaning.equivalent = scale.of(values);
+    meaning.curves = scale.curves(values);
+    const std::optional<double> rank = meaning.equivalent.rank;
+    meaning.evidence = -rank.value_or(scale.largest_rank());
+
+    const std::string primary = geometry_only ? "cw_ssim" : k_primary;
+    for (const Score& score : scores) {
+        if (score.key != primary || !score.value) continue;
+        for (const World world : {World::light, World::pose, World::both}) {
+            if (auto worth = null_worth(world, score, calibration, scale, rank)) {
+                meaning.nulls.push_back(*worth);
+            }
+        }
+    }
+    std::stable_sort(meaning.nulls.begin(), meaning.nulls.end(),
+                     [](const NullWorth& a, const NullWorth& b) { return a.z < b.z; });
+    const std::size_t zncc = index_of(calibration, k_primary);
+    for (const CalibrationDraw& draw : calibration.draws) {
+        if (draw.world != World::catalogue && draw.world != World::material &&
+            draw.world != World::wrong) {
+            continue;
+        }
+        meaning.hypotheses.push_back(
+            {draw.world, draw.name, draw.scores[zncc], scale.of(draw.scores)});
+    }
+    meaning.headline = headline_of(meaning);
+    judge(meaning);
+    return meaning;
+}
+
+}  // namespace culet

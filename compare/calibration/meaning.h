@@ -1,0 +1,62 @@
+#pragma once
+// What a photograph's scores mean: how large an error of the facets would lower them as much, and
+// how far they are from chance.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/calibration/calibration.h"
+#include "compare/calibration/sensitivity.h"
+#include "compare/scores/score.h"
+
+namespace culet {
+
+/// The photograph against the draws of one null.
+struct NullWorth {
+    World world = World::light;
+    int draws = 0;
+    double mean = 0, sd = 0;  ///< of zncc
+    double z = 0;             ///< of atanh, see `fill_null`
+    /// Draws whose equivalent facet error is no larger than the photograph's, and their honest
+    /// share, (as_good + 1) / (draws + 1).
+    int as_good = 0;
+    double p = 1;
+    /// Equivalent facet errors of the null's draws: their smallest and their middle, degrees.
+    double least_deg = 0, median_deg = 0;
+};
+
+/// A hypothesis, and the facet error that it would look like if it were true.
+struct HypothesisWorth {
+    World world = World::wrong;
+    std::string name;
+    std::optional<double> zncc;
+    EquivalentError equivalent;
+};
+
+struct Meaning {
+    Verdict verdict = Verdict::no_evidence;
+    std::string reason;  ///< the verdict in one sentence
+    std::string
+        headline;  ///< "fits as well as the same stone with 0.2 degrees of facet error; ..."
+    EquivalentError equivalent;
+    std::vector<SensitivityCurve> curves;  ///< one a score that takes part
+    std::vector<NullWorth> nulls;          ///< the worst, that of the smallest z, first
+    std::vector<HypothesisWorth> hypotheses;
+    bool geometry_only = false;  ///< the photograph cannot serve for photometry
+    /// Minus the logarithm of the scores' average answer (degrees), which goes on where the
+    /// equivalent error ends: for ranking photographs of one calibration.
+    double evidence = 0;
+};
+
+/// How the verdict is reached, for people.
+extern const char* const k_calibrated_rule;
+
+/// The scores that decide whether it is a match at all, and those that geometry alone decides.
+bool takes_part(const std::string& key, bool geometry_only);
+
+/// `scores` of the photograph against the model's render, at the size of the calibration.
+Meaning meaning_of(const std::vector<Score>& scores, const Calibration& calibration,
+                   bool geometry_only = false);
+
+}  // namespace culet

@@ -1,0 +1,78 @@
+#include "compare/calibration/meaning_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "compare/json_number.h"
+
+namespace culet {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json equivalent_json(const EquivalentError& error) {
+    return {{"deg", number(error.deg)},
+            {"low_deg", error.deg ? number(error.low_deg) : Json(nullptr)},
+            {"high_deg", error.deg ? number(error.high_deg) : Json(nullptr)},
+            {"at_least", error.at_least},
+            {"at_most", error.at_most}};
+}
+
+}  // namespace
+
+Json meaning_json(const Meaning& meaning, const Calibration& calibration) {
+    Json json;
+    json["headline"] = meaning.headline;
+    json["geometry_only"] = meaning.geometry_only;
+    json["equivalent_facet_error"] = equivalent_json(meaning.equivalent);
+    json["evidence"] = number(meaning.evidence);
+    json["nulls"] = Json::array();
+    for (const NullWorth& null : meaning.nulls) {
+        json["nulls"].push_back({{"world", name_of(null.world)},
+                                 {"draws", null.draws},
+                                 {"zncc_mean", number(null.mean)},
+                                 {"zncc_sd", number(null.sd)},
+                                 {"z", number(null.z)},
+                                 {"as_good", null.as_good},
+                                 {"p", number(null.p)},
+                                 {"least_deg", number(null.least_deg)},
+                                 {"median_deg", number(null.median_deg)}});
+    }
+    json["hypotheses"] = Json::array();
+    for (const HypothesisWorth& h : meaning.hypotheses) {
+        json["hypotheses"].push_back({{"world", name_of(h.world)},
+                                      {"name", h.name},
+                                      {"zncc", number(h.zncc)},
+                                      {"equivalent_facet_error", equivalent_json(h.equivalent)}});
+    }
+    json["calibration"] = {{"hash", calibration.hash},
+                           {"draws", calibration.draws.size()},
+                           {"planned", calibration.planned},
+                           {"seed", calibration.seed},
+                           {"stone_px", number(calibration.stone_px)},
+                           {"psf_px", number(calibration.psf_px)},
+                           {"electrons", number(calibration.electrons)},
+                           {"from_cache", calibration.from_cache},
+                           {"notes", calibration.notes}};
+    return json;
+}
+
+Json sensitivity_json(const Meaning& meaning) {
+    Json rows = Json::array();
+    if (meaning.curves.empty()) return rows;
+    for (std::size_t level = 0; level < meaning.curves.front().levels.size(); ++level) {
+        Json row;
+        row["facet_error_deg"] = number(meaning.curves.front().levels[level].facet_error_deg);
+        for (const SensitivityCurve& curve : meaning.curves) {
+            const SensitivityCurve::Level& at = curve.levels[level];
+            row[curve.key] = {{"draws", at.draws},
+                              {"mean", number(at.mean)},
+                              {"sd", number(at.sd)},
+                              {"fitted", number(at.fitted)}};
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+}  // namespace culet

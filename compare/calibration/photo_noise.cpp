@@ -1,0 +1,91 @@
+#include "compare/calibration/photo_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "compare/calibration/chance.h"
+#include "compare/calibration/photo_blur.h"
+#include "compare/pose/picture_noise.h"
+
+namespace culet {
+
+namespace {
+
+constexpr double k_least = 100, k_most = 1e6;
+// Of white: below, read noise is more than shot noise; above, the file clips it.
+constexpr double k_dark = 0.02, k_bright = 0.9;
+constexpr int k_least_pixels = 400;
+constexpr int k_halvings = 12;
+constexpr double k_least_psf_px = 0.3;  // a camera's pixels alone
+constexpr double k_psf_step_px = 0.1;
+constexpr double k_steps_per_octave = 4;  // of electrons
+
+cv::Mat root_of(const cv::Mat& colour, double white) {
+    cv::Mat root = cv::min(cv::max(colour / white, 0), 1);
+    cv::sqrt(root, root);
+    return root;
+}
+
+// All three channels between the two.
+cv::Mat between(const cv::Mat& colour, double low, double high) {
+    cv::Mat result;
+    cv::inRange(colour, cv::Scalar::all(low), cv::Scalar::all(high), result);
+    return result;
+}
+
+// Roots of light as a file of whole steps of the sRGB code (IEC 61966-2-1, above its straight part)
+// would have them. Noise of less than a step is not just added to by them.
+cv::Mat in_steps(const cv::Mat& root, int bits) {
+    if (bits <= 0) return root;
+    const double steps = std::ldexp(1.0, bits) - 1;
+    cv::Mat code, result;
+    cv::pow(cv::max(root, 0), 2 / 2.4, code);
+    code.convertTo(code, CV_16U, 1.055 * steps, -0.055 * steps);
+    code.convertTo(code, CV_32F, 1 / (1.055 * steps), 0.055 / 1.055);
+    cv::pow(code, 2.4 / 2, result);
+    return result;
+}
+
+// Of standard deviation 1, the same whenever it is asked for.
+cv::Mat unit_noise(cv::Size size) {
+    Chance chance(1);
+    cv::Mat noise(size, CV_32FC3);
+    for (cv::Vec3f& pixel : cv::Mat_<cv::Vec3f>(noise)) {
+        for (int i = 0; i < 3; ++i) pixel[i] = static_cast<float>(chance.normal());
+    }
+    return noise;
+}
+
+}  // namespace
+
+double photo_electrons(const MatchedPictures& pictures, double psf_px, int bits) {
+    const double white = pictures.white;
+    const cv::Mat render = softened(pictures.render, psf_px);
+    const cv::Mat inside = pictures.mask &
+                           between(pictures.photo, k_dark * white, k_bright * white) &
+                           between(render, k_dark * white, k_bright * white);
+    if (cv::countNonZero(inside) < k_least_pixels) return k_most;
+    const double wanted = noise_of(root_of(pictures.photo, white), inside);
+    const cv::Mat root = root_of(render, white), unit = unit_noise(root.size());
+    const auto seen = [&](double sigma) {
+        return noise_of(in_steps(root + sigma * unit, bits), inside);
+    };
+    double low = 0, high = 1 / (2 * std::sqrt(k_least));
+    if (!(wanted > seen(low))) return k_most;
+    for (int i = 0; i < k_halvings; ++i) {
+        const double middle = (low + high) / 2;
+        (seen(middle) < wanted ? low : high) = middle;
+    }
+    return std::clamp(1 / (4 * low * low), k_least, k_most);
+}
+
+void set_blur_and_noise(CameraModel& camera, const MatchedPictures& pictures) {
+    camera.psf_px = std::max(k_least_psf_px,
+                             k_psf_step_px * std::round(photo_blur_px(pictures) / k_psf_step_px));
+    const double electrons = photo_electrons(pictures, camera.psf_px, camera.bits);
+    camera.electrons =
+        std::exp2(std::round(k_steps_per_octave * std::log2(electrons)) / k_steps_per_octave);
+}
+
+}  // namespace culet

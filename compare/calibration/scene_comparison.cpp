@@ -1,0 +1,244 @@
+#include "compare/calibration/scene_comparison.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "compare/calibration/calibrate.h"
+#include "compare/calibration/calibration_cache.h"
+#include "compare/calibration/cropped_camera.h"
+#include "compare/calibration/draft_renderer.h"
+#include "compare/calibration/photo_blur.h"
+#include "compare/calibration/photo_noise.h"
+#include "compare/photo/pixels.h"
+#include "compare/registration/frame.h"
+#include "compare/scores/aligned_pair.h"
+#include "compare/scores/score_list.h"
+#include "stone/checks.h"
+#include "stone/errors.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double k_margin = 0.18;     // of the diameter, around the stone
+constexpr double k_tolerance = 0.03;  // of the pictures that are compared
+// Of the time that is left: a stone of hundreds of facets must leave some for draws.
+constexpr double k_most_for_tilts = 0.4;
+constexpr double k_bar_for_tilts = 0.2;  // of the progress
+// A pose is taken when it is sure (99 %) to two degrees, and to half a percent of the diameter:
+// reflexes are matched within 2 %. Such poses are 0.2 degrees off in the median (bench_pose), which
+// costs the scores what about 0.1 degrees of facet error cost; with one degree, three in four
+// stones of 0.2 degrees of facet error would be left with the scene's camera, which is farther off.
+constexpr double k_pose_angle = radians(2.0), k_pose_shift = 0.005;
+
+// What a pose is off by less than this costs the scores nothing that shows.
+constexpr double k_worth_saying = radians(0.1);
+
+Progress part_of(const Progress& progress, double from, double to) {
+    if (!progress) return {};
+    return [=, &progress](double fraction) { return progress(from + (to - from) * fraction); };
+}
+
+template <class Value>
+void flip_rows(std::vector<Value>& values, int width, std::size_t channels) {
+    const auto row = static_cast<std::size_t>(width) * channels;
+    for (std::size_t y = 0; row > 0 && y + row <= values.size(); y += row) {
+        for (std::size_t left = 0, right = static_cast<std::size_t>(width) - 1; left < right;
+             ++left, --right) {
+            for (std::size_t c = 0; c < channels; ++c) {
+                std::swap(values[y + left * channels + c], values[y + right * channels + c]);
+            }
+        }
+    }
+}
+
+struct Mirrored {
+    Photo photo;
+    std::vector<float> mask, ignored;
+};
+
+Mirrored mirrored(const Photo& photo, const CompareOptions& options) {
+    Mirrored result{photo, options.mask, options.ignored};
+    flip_rows(result.photo.rgb, photo.width, 3);
+    flip_rows(result.photo.coverage, photo.width, 1);
+    flip_rows(result.photo.variance, photo.width, 3);
+    flip_rows(result.photo.saturated, photo.width, 1);
+    flip_rows(result.mask, photo.width, 1);
+    flip_rows(result.ignored, photo.width, 1);
+    return result;
+}
+
+// What the photograph tells of its own camera.
+CameraModel camera_of(const Photo& photo, const Frame& frame, const Comparison& comparison) {
+    CameraModel camera;
+    camera.clips = photo.saturation > 0;
+    camera.bits = !camera.clips ? 0 : photo.encoding.find("16-bit") != std::string::npos ? 16 : 8;
+    const double white = comparison.pictures.white;
+    for (std::size_t c = 0; c < 3; ++c) camera.gain[c] = comparison.gain[c] / white;
+    const LaidPictures laid = lay_pictures(frame, photo.saturation, 0);
+    set_blur_and_noise(camera, laid.pictures);
+    camera.outline_from_background = comparison.registration.photo_outline == "background";
+    // The median of what surrounds the stone.
+    const cv::Mat around = frame.photo.silhouette.mask == 0;
+    std::vector<cv::Mat> channels;
+    cv::split(frame.photo.colour, channels);
+    for (std::size_t c = 0; c < 3; ++c) {
+        camera.ground[c] = static_cast<float>(quantile(channels[c], around, 0.5) / white);
+    }
+    return camera;
+}
+
+// What is left out, seen from the model's picture.
+std::vector<float> ignored_in_model(const Frame& frame, const Photo& model) {
+    if (frame.photo.ignored.empty()) return {};
+    std::vector<float> result(
+        static_cast<std::size_t>(model.width) * static_cast<std::size_t>(model.height), 0.0f);
+    const cv::Mat& ignored = frame.photo.ignored;
+    for (int y = 0; y < ignored.rows; ++y) {
+        for (int x = 0; x < ignored.cols; ++x) {
+            if (ignored.at<unsigned char>(y, x) == 0) continue;
+            const cv::Point2d at =
+                frame.render_from_photo(frame.photo.in_picture(cv::Point2d(x, y)));
+            const int column = static_cast<int>(std::lround(at.x)),
+                      row = static_cast<int>(std::lround(at.y));
+            if (column < 0 || row < 0 || column >= model.width || row >= model.height) continue;
+            result[static_cast<std::size_t>(row) * static_cast<std::size_t>(model.width) +
+                   static_cast<std::size_t>(column)] = 1;
+        }
+    }
+    return result;
+}
+
+Calibration calibrated(const SceneComparison& compared, const DraftRenderer& renderer,
+                       CalibrateOptions& how, std::optional<FacetTilts>& tilts,
+                       const CalibrationCache& cache, const Progress& progress) {
+    if (auto kept = cache.find(calibration_hash(compared.scene, how))) {
+        tilts.emplace(compared.scene, renderer, how.camera, std::move(kept->tilts));
+        return std::move(kept->calibration);
+    }
+    const auto start = Clock::now();
+    const std::chrono::duration<double> left = how.deadline - start;
+    tilts.emplace(compared.scene, renderer, how.camera, how.threads, [&](double fraction) {
+        if (progress && !progress(k_bar_for_tilts * fraction)) throw Interrupted();
+        return Clock::now() - start < k_most_for_tilts * left;
+    });
+    how.tilts = &*tilts;
+    Calibration made = calibrate(compared.scene, compared.render, renderer, how,
+                                 part_of(progress, k_bar_for_tilts, 1));
+    made.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    made.psf_px = how.camera.psf_px;
+    made.electrons = how.camera.electrons;
+    made.stone_px = compared.comparison.registration.render_diameter_px;
+    if (tilts->ended_early()) {
+        made.notes.push_back(
+            "the budget left no time for what each facet's tilt changes: that score is missing");
+    } else {
+        cache.keep(made, tilts->variance());
+    }
+    return made;
+}
+
+}  // namespace
+
+SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
+                                   const SceneCompareOptions& options, const Progress& progress) {
+    const auto start = Clock::now();
+    SceneComparison result;
+    result.scene = scene;
+    CompareOptions how = options.compare;
+    how.largest = options.largest;
+    Photo turned_over;
+    const Photo* photo = &given;
+    std::vector<std::string> notes;
+
+    if (options.find_pose && !is_convex(scene.stone.solid)) {
+        notes.push_back(
+            "pose: only convex stones are found in a photograph, and this mesh is not convex (a "
+            "fitted one is, unless the stone is not); the scene's own camera was taken instead");
+    } else if (options.find_pose) {
+        PoseOptions pose_options;
+        pose_options.mask = how.mask;
+        pose_options.threads = how.threads;
+        pose_options.limits.angle = k_pose_angle;
+        pose_options.limits.shift_px =
+            std::max(1.0, k_pose_shift * stone_diameter_px(given, how.mask));
+        result.pose = find_pose(given, scene.stone.solid, scene.camera, pose_options,
+                                part_of(progress, 0, 0.1));
+        if (result.pose->usable()) {
+            result.pose_used = true;
+            result.scene.camera = result.pose->camera;
+            if (result.pose->sigmas.angle_99 > k_worth_saying) {
+                notes.push_back(fmt::format(
+                    "pose: known to {:.2f} degrees (99 %); what it is off counts as facet error, "
+                    "0.5 degrees as 0.15 to 0.25",
+                    degrees(result.pose->sigmas.angle_99)));
+            }
+            if (result.pose->mirrored) {
+                Mirrored other = mirrored(given, how);
+                turned_over = std::move(other.photo);
+                how.mask = std::move(other.mask);
+                how.ignored = std::move(other.ignored);
+                photo = &turned_over;
+                notes.push_back("photo: turned left to right, as its edges call for");
+            }
+        } else {
+            notes.push_back("pose: " + result.pose->trouble +
+                            "; the scene's own camera was taken instead. What to do: culet "
+                            "register finds the pose by itself and takes options. " +
+                            result.pose->remedy);
+        }
+    }
+
+    const double across = stone_diameter_px(*photo, how.mask);
+    const double diameter = std::min(across > 0 ? across : options.largest, options.largest);
+    result.scene.camera =
+        cropped_to_stone(result.scene.camera, scene.stone.solid, diameter, k_margin);
+    const DraftRenderer renderer(result.scene, k_tolerance);
+    result.scene.settings = renderer.settings();
+    result.stats = renderer.stats();
+    result.render = renderer.picture();
+    result.comparison =
+        compare(*photo, result.render, how, part_of(progress, 0.1, options.calibrate ? 0.2 : 1));
+    Comparison& comparison = result.comparison;
+    comparison.notes.insert(comparison.notes.end(), notes.begin(), notes.end());
+    if (!options.calibrate || !comparison.usable()) return result;
+
+    const Frame frame =
+        align(*photo, how.mask, result.render, {.largest = how.largest, .ignored = how.ignored});
+    CalibrateOptions calibration;
+    calibration.camera = camera_of(*photo, frame, comparison);
+    calibration.draws = options.draws;
+    calibration.null_draws = 3 * options.draws;
+    if (options.budget_seconds > 0) {
+        calibration.deadline = start + std::chrono::duration_cast<Clock::duration>(
+                                           std::chrono::duration<double>(options.budget_seconds));
+    }
+    calibration.seed = how.seed;
+    calibration.threads = how.threads;
+    calibration.largest = options.largest;
+    calibration.ignored = ignored_in_model(frame, result.render);
+    calibration.start = options.start;
+    std::optional<FacetTilts> tilts;
+    comparison.calibration = calibrated(result, renderer, calibration, tilts,
+                                        CalibrationCache(options.cache), part_of(progress, 0.2, 1));
+    // As the draws are: against a render as soft as the photograph.
+    std::vector<Score> scores =
+        scores_against(*photo, how.mask, softened(result.render, calibration.camera.psf_px),
+                       {.largest = how.largest, .ignored = how.ignored}, &*tilts);
+    if (comparison.geometry_only) {
+        keep_geometry_only(scores, "the photograph cannot serve for photometry");
+    }
+    comparison.meaning = meaning_of(scores, *comparison.calibration, comparison.geometry_only);
+    comparison.verdict = comparison.meaning->verdict;
+    comparison.reason = comparison.meaning->reason;
+    return result;
+}
+
+}  // namespace culet

@@ -1,0 +1,43 @@
+#pragma once
+// A photograph against a scene: the stone's pose is found, the scene drawn at the photograph's
+// scale, compared, and on request calibrated.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "compare/pose/find_pose.h"
+#include "compare/scores/compare.h"
+#include "render/render.h"
+
+namespace culet {
+
+struct SceneCompareOptions {
+    CompareOptions compare;
+    bool find_pose = true;  ///< false: the scene's camera stands where it says
+    bool calibrate = false;
+    /// Of the clock, for all of a calibrated comparison; 0: no limit. What is left after pose and
+    /// scores is the calibration's.
+    double budget_seconds = 57;
+    int draws = 8;  ///< at each facet error; nulls have three times as many
+    /// Pixels that the stone is across at most: every draw of the calibration is drawn at it.
+    double largest = 256;
+    std::filesystem::path cache{};  ///< folder of calibrations; empty: none is kept
+    std::optional<Solid> start{};   ///< the mesh that the fit started from
+};
+
+struct SceneComparison {
+    Comparison comparison;
+    Scene scene;   ///< as drawn: camera at the photograph's pose and at the compared size
+    Photo render;  ///< of it
+    RenderStats stats;
+    std::optional<FoundPose> pose;
+    bool pose_used = false;
+};
+
+/// Throws InputError as `render` does and for a camera that does not see the stone; Interrupted.
+SceneComparison compare_with_scene(const Photo& photo, const Scene& scene,
+                                   const SceneCompareOptions& options = {},
+                                   const Progress& progress = {});
+
+}  // namespace culet

@@ -1,0 +1,30 @@
+#pragma once
+// Where the mirror ball is in a photograph.
+
+#include <optional>
+#include <vector>
+
+#include "compare/light_probe/mirror_ball.h"
+#include "compare/photo/photo.h"
+
+namespace culet {
+
+struct FoundBall {
+    BallCircle circle;
+    double support = 0;   ///< 0..1: share of the outline along which there is an edge
+    double sigma_px = 0;  ///< of the centre and the radius, one standard deviation
+};
+
+/// The likeliest balls, best first: circles by Hough's transform at several scales and thresholds,
+/// each fitted to the edges that rays from its middle meet (RANSAC over three points, then
+/// iterated least squares with Tukey's weights, to a fraction of a pixel). Of a ball cut by the
+/// picture's border only what is seen counts. Empty when there is none of `least_support`.
+/// Deterministic.
+std::vector<FoundBall> find_balls(const Photo& photo, double least_support = 0.45);
+
+/// A ball given roughly (by a click), fitted to the edges within `reach` of its radius; nothing
+/// when too few edges are there.
+std::optional<FoundBall> refined_ball(const Photo& photo, const BallCircle& rough,
+                                      double reach = 0.1);
+
+}  // namespace culet

@@ -1,0 +1,154 @@
+#include "compare/light_probe/ball_series.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+bool alike(double a, double b) {
+    return std::abs(std::log2(a / b)) < 0.02;
+}
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> views_of(const std::vector<SortedShot>& shots) {
+    std::vector<std::vector<std::size_t>> views;
+    const bool none = std::none_of(shots.begin(), shots.end(),
+                                   [](const SortedShot& s) { return s.exposure.has_value(); });
+    const bool all = std::all_of(shots.begin(), shots.end(),
+                                 [](const SortedShot& s) { return s.exposure.has_value(); });
+    if (!none && !all) {
+        for (const SortedShot& shot : shots) {
+            if (!shot.exposure) {
+                throw InputError(shot.file,
+                                 "says no exposure time, and others do: give one for each with "
+                                 "--exposure, or name the views with --view");
+            }
+        }
+    }
+    if (none) {
+        if (shots.size() > 2) {
+            throw InputError(fmt::format(
+                "{} photographs without exposure times in their EXIF data: say which belong to "
+                "one view with --view FILE FILE... --view FILE FILE... and give --exposure",
+                shots.size()));
+        }
+        for (std::size_t i = 0; i < shots.size(); ++i) views.push_back({i});
+        return views;
+    }
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+        const bool again =
+            !views.empty() &&
+            std::any_of(views.back().begin(), views.back().end(), [&](std::size_t k) {
+                return alike(*shots[k].exposure, *shots[i].exposure);
+            });
+        if (views.empty() || again) views.emplace_back();
+        views.back().push_back(i);
+    }
+    return views;
+}
+
+ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) {
+    std::vector<std::filesystem::path> files = series.files;
+    std::vector<std::vector<std::size_t>> groups;
+    for (const auto& view : series.views) {
+        groups.emplace_back();
+        for (const auto& file : view) {
+            groups.back().push_back(files.size());
+            files.push_back(file);
+        }
+    }
+    if (!series.views.empty() && !series.files.empty())
+        throw InputError("name the photographs either plainly or after --view, not both");
+    if (files.empty()) throw InputError("name the photographs of the ball");
+    if (!series.exposures.empty() && series.exposures.size() != files.size()) {
+        throw InputError(
+            fmt::format("--exposure has {} values for {} photographs: one for each, in "
+                        "the order of the files",
+                        series.exposures.size(), files.size()));
+    }
+    std::vector<Photo> photos;
+    std::vector<SortedShot> shots;
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        photos.push_back(read_photo(files[i]));
+        if (photos[i].not_finite > 0) {
+            throw InputError(files[i], fmt::format("{} samples are no numbers (NaN or infinite): "
+                                                   "export it again",
+                                                   photos[i].not_finite));
+        }
+        std::optional<double> exposure;
+        if (!series.exposures.empty()) {
+            exposure = series.exposures[i];
+        } else if (photos[i].saturation > 0) {
+            exposure = exposure_of(photos[i].shot);
+        }
+        shots.push_back({files[i], exposure});
+        if (progress &&
+            !progress(0.6 * static_cast<double>(i + 1) / static_cast<double>(files.size())))
+            throw Interrupted();
+    }
+    if (groups.empty()) groups = views_of(shots);
+
+    ReadSeries result;
+    double first_exposure = 0;
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        std::vector<BracketShot> bracket;
+        bool known = true;
+        for (const std::size_t i : groups[g]) {
+            if (!shots[i].exposure) {
+                known = false;
+                if (groups[g].size() > 1) {
+                    throw InputError(files[i],
+                                     "says no exposure time: give one for each photograph with "
+                                     "--exposure 1/10,1/40,...");
+                }
+            }
+            bracket.push_back(
+                {files[i].string(), std::move(photos[i]), shots[i].exposure.value_or(1.0)});
+        }
+        const double exposure = bracket[0].exposure;
+        if (g == 0) first_exposure = exposure;
+        const Photo& sample = bracket[0].photo;
+        const double diagonal = std::hypot(sample.width, sample.height);
+        const double focal_px = focal_px_of(sample.shot, diagonal);
+        const std::string name = bracket[0].name;
+        Bracket merged = merge_bracket(std::move(bracket));
+        // Everything in units of the first shot of all.
+        if (known && first_exposure > 0) {
+            const auto scale = static_cast<float>(first_exposure / exposure);
+            for (float& v : merged.photo.rgb) v *= scale;
+            for (float& v : merged.photo.variance) v *= scale * scale;
+            merged.photo.saturation = 0;
+        }
+        for (const std::string& note : merged.notes)
+            result.notes.push_back(fmt::format("{}: {}", name, note));
+        if (!merged.photo.photometric) {
+            result.notes.push_back(fmt::format("{}: {}: the light is as right as that curve", name,
+                                               merged.photo.not_photometric));
+        }
+        ProbeView view;
+        view.name = name;
+        view.photo = std::move(merged.photo);
+        view.focal_px = focal_px;
+        if (series.lens) {
+            const Lens lens =
+                lens_for(*series.lens, view.photo.width, view.photo.height, view.name);
+            undistort(view.photo, lens);
+            view.focal_px = (lens.focal_x + lens.focal_y) / 2;
+            view.principal = PixelPlace{lens.principal_x, lens.principal_y};
+        }
+        result.views.push_back(std::move(view));
+        if (progress &&
+            !progress(0.6 + 0.4 * static_cast<double>(g + 1) / static_cast<double>(groups.size())))
+            throw Interrupted();
+    }
+    return result;
+}
+
+}  // namespace culet

@@ -1,0 +1,44 @@
+#pragma once
+// How the camera turned around the ball between two pictures, found from what both show.
+
+#include <optional>
+#include <string>
+
+#include "compare/light_probe/ball_view.h"
+
+namespace culet {
+
+/// What is known of a view before the two are brought together.
+struct ViewPrior {
+    BallCircle circle;
+    double circle_sigma_px = 0;  ///< of the centre and the radius; 0: exact
+    PixelPlace principal;
+    double focal_px = 0;  ///< 0: not known; then the distance is
+    double distance = 0;  ///< in ball radii, may be infinite; 0: not known, found here
+};
+
+/// A view from its prior; an unknown distance is taken as `otherwise`.
+MirrorBall ball_of(const ViewPrior& prior, double otherwise);
+
+struct ViewAlignment {
+    glm::dmat3 first_from_second{1.0};  ///< directions in camera frames
+    double correlation = 0;             ///< of log-luminance where both views are good, -1..1
+    double rival = 0;                   ///< correlation of the best quite different rotation
+    double gain = 1;                    ///< first over second: their exposures differ by so much
+    double residual = 0;                ///< median disagreement, stops
+    double sigma = 0;                   ///< of the rotation, radians (one standard deviation)
+    MirrorBall first, second;           ///< with outlines and distance refined by the agreement
+    /// No rotation stands out: the light has too little structure, or the views are not of one
+    /// room.
+    bool ambiguous = false;
+};
+
+/// Best over all rotations: correlation of what both show, first coarse over SO(3) (quaternions of
+/// Alexa 2022, eq. 6: super-Fibonacci spirals), then by least squares on the pictures, together
+/// with the outlines within their sigmas and the distance where it is not known. Deterministic.
+/// `turned` is a rotation that is known beforehand (only the fine part is done then).
+ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
+                          const BallView& second, const ViewPrior& second_prior,
+                          const std::optional<glm::dmat3>& turned = std::nullopt);
+
+}  // namespace culet

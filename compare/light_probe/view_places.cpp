@@ -1,0 +1,159 @@
+#include "compare/light_probe/view_places.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/photo.hpp>
+
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+// Gains nearer to 1 than this are lamps' flicker, shutters' scatter or the error of finding them:
+// exposures that differ on purpose differ by a third of a stop.
+constexpr double k_rounding = 0.01;
+// Farther away than this, a radius in pixels says nothing of the distance: a tenth of a pixel of
+// 100 is one radius of 1000.
+constexpr double k_farthest_moved = 1000;
+
+// What the outline's error turns all that a ball shows by: a reflection doubles it.
+double turned_by_outline(const ViewPrior& prior) {
+    return 2 * prior.circle_sigma_px / prior.circle.radius;
+}
+
+glm::dmat3 about_vertical(double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    return {Vec3(c, 0, -s), Vec3(0, 1, 0), Vec3(s, 0, c)};  // columns
+}
+
+// With what surrounds it instead of what is left out, so that no blur carries it beyond.
+BallView painted_over(const BallView& view) {
+    BallView result = view;
+    if (!view.left_out) return result;
+    auto picture = std::make_shared<Photo>(*view.picture);
+    const cv::Size size(picture->width, picture->height);
+    const cv::Mat flags(size, CV_8U, const_cast<std::uint8_t*>(view.left_out->data()));
+    const cv::Mat rgb(size, CV_32FC3, picture->rgb.data());
+    std::vector<cv::Mat> channels(3);
+    cv::split(rgb, channels);
+    for (cv::Mat& channel : channels) {
+        cv::Mat filled;
+        cv::inpaint(channel, flags, filled, 3, cv::INPAINT_TELEA);
+        channel = filled;
+    }
+    cv::merge(channels, rgb);
+    result.picture = std::move(picture);
+    return result;
+}
+
+double usual_gain(double found) {
+    return std::abs(found - 1) < k_rounding ? 1.0 : found;
+}
+
+// What was refined with one view stays as it is for the next.
+void keep_refined(ViewPrior& prior, const MirrorBall& ball) {
+    prior.circle = ball.circle();
+    prior.circle_sigma_px = 0.02;
+    if (prior.focal_px <= 0) prior.distance = ball.distance();
+}
+
+}  // namespace
+
+glm::dmat3 world_from_camera(double azimuth, double elevation) {
+    const double ca = std::cos(azimuth), sa = std::sin(azimuth);
+    const double ce = std::cos(elevation), se = std::sin(elevation);
+    const Vec3 forward(ce * ca, ce * sa, se), up(-se * ca, -se * sa, ce);
+    return {glm::cross(forward, up), up, -forward};
+}
+
+void align_all(PlacedViews& views, const ProbeOptions& options, const Progress& progress) {
+    for (std::size_t v = 1; v < views.seen.size(); ++v) {
+        std::optional<glm::dmat3> turned;
+        if (options.turned) turned = about_vertical(*options.turned);
+        // To the first view; further ones, where the first shows too little in common, to others.
+        std::size_t to = 0;
+        std::optional<ViewAlignment> best;
+        for (std::size_t candidate = 0; candidate < v; ++candidate) {
+            ViewAlignment a =
+                align_views(views.seen[candidate], views.cuts[candidate].prior, views.seen[v],
+                            views.cuts[v].prior, candidate == 0 && v == 1 ? turned : std::nullopt);
+            if (!best || (best->ambiguous && !a.ambiguous)) {
+                best = a;
+                to = candidate;
+            }
+            if (!best->ambiguous) break;
+        }
+        views.seen[to].ball = best->first;
+        views.seen[v].ball = best->second;
+        views.seen[v].world_from_camera =
+            views.seen[to].world_from_camera * best->first_from_second;
+        views.gains[v] = views.gains[to] * usual_gain(best->gain);
+        views.places[v].turned_sigma = best->sigma;
+        keep_refined(views.cuts[to].prior, best->first);
+        views.alignments.push_back(*best);
+        if (!progress(static_cast<double>(v) / static_cast<double>(views.seen.size() - 1)))
+            throw Interrupted();
+    }
+}
+
+void align_without_near_lights(PlacedViews& views, std::vector<ViewPrior> priors) {
+    const glm::dmat3 camera_from_world = glm::transpose(views.seen[0].world_from_camera);
+    const double first_outline = turned_by_outline(priors[0]);
+    for (std::size_t v = 1; v < views.seen.size(); ++v) {
+        const double outline = turned_by_outline(priors[v]);
+        const ViewAlignment again =
+            align_views(painted_over(views.seen[0]), priors[0], painted_over(views.seen[v]),
+                        priors[v], camera_from_world * views.seen[v].world_from_camera);
+        views.seen[0].ball = again.first;
+        views.seen[v].ball = again.second;
+        keep_refined(priors[0], again.first);
+        views.seen[v].world_from_camera = views.seen[0].world_from_camera * again.first_from_second;
+        // Nothing left that would hold the turn: it is not known to a radian.
+        const bool known = std::isfinite(again.sigma) && again.sigma > 0;
+        // Light beside and behind a ball draws its outline to one side, which least squares do not
+        // know of: its error counts in full.
+        const double sigma = known ? std::min(again.sigma, 1.0) : 1.0;
+        views.places[v].turned_sigma = std::hypot(sigma, first_outline, outline);
+        views.alignments[v - 1].residual = again.residual;
+        views.alignments[v - 1].sigma = sigma;
+    }
+}
+
+void place_moved_balls(PlacedViews& views) {
+    if (views.seen[0].ball.distance() > k_farthest_moved) {
+        throw InputError(
+            "--moved: where the ball was moved to shows in its size, and needs the camera's "
+            "distance or focal length: give --camera LENS or --distance RADII");
+    }
+    for (std::size_t v = 1; v < views.seen.size(); ++v) {
+        const double focal_px =
+            views.seen[0].ball.focal_px() * views.cuts[0].factor / views.cuts[v].factor;
+        views.seen[v].ball = MirrorBall::with_focal_length(views.cuts[v].prior.circle,
+                                                           views.cuts[v].prior.principal, focal_px);
+        views.seen[v].world_from_camera = views.seen[0].world_from_camera;
+        views.places[v].centre = views.seen[0].world_from_camera *
+                                 (views.seen[v].ball.centre() - views.seen[0].ball.centre());
+        if (glm::length(views.places[v].centre) < 1) {
+            throw InputError(
+                std::filesystem::path(views.cuts[v].name),
+                fmt::format("--moved: the ball lies {:.2f} radii from its first place; the "
+                            "parallax needs 1 at least, and a third of the light's distance is "
+                            "best",
+                            glm::length(views.places[v].centre)));
+        }
+        views.places[v].turned_sigma = std::hypot(turned_by_outline(views.cuts[0].prior),
+                                                  turned_by_outline(views.cuts[v].prior));
+    }
+}
+
+void leave_out(const FoundNearLights& near, PlacedViews& views) {
+    for (std::size_t v = 0; v < near.shown.size(); ++v) views.seen[v].left_out = near.shown[v];
+}
+
+}  // namespace culet

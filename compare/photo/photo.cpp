@@ -1,0 +1,108 @@
+#include "compare/photo/photo.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "compare/photo/raw_file.h"
+#include "render/colour/colour.h"
+#include "render/image/image_io.h"
+#include "render/image/picture_header.h"
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+// The start of a file: enough for its kind and its EXIF data.
+std::string first_bytes(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::string bytes(std::size_t{1} << 18, '\0');
+    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+    return bytes;
+}
+
+void note_camera(Photo& photo, const std::string& bytes) {
+    const std::string format = picture_header(bytes).format;
+    if (format == "JPEG" || format == "TIFF") photo.shot = shot_data(bytes);
+    if (!photo.shot.processed.empty()) {
+        photo.photometric = false;
+        photo.not_photometric = photo.shot.processed;
+    } else if (format == "JPEG") {
+        photo.photometric = false;
+        photo.not_photometric = "a JPEG, whose tone curve is the camera's own secret";
+    }
+    if (format == "JPEG") photo.encoding += " JPEG";
+}
+
+}  // namespace
+
+Photo read_photo(const std::filesystem::path& file) {
+    if (has_raw_extension(file)) return read_raw(file);
+    ReadPicture read = read_picture(file);
+    if (static_cast<double>(read.picture.pixels()) > k_max_photo_pixels) {
+        throw InputError(
+            file, fmt::format("has {} x {} pixels; up to {:.0f} million are read",
+                              read.picture.width, read.picture.height, k_max_photo_pixels / 1e6));
+    }
+    Photo photo;
+    photo.width = read.picture.width;
+    photo.height = read.picture.height;
+    photo.rgb = std::move(read.picture.rgb);
+    photo.coverage = std::move(read.picture.coverage);
+    photo.saturation = read.white;
+    photo.encoding = read.encoding;
+    for (Picture::Plane& plane : read.picture.planes) {
+        if (plane.channel == "saturated") photo.saturated = std::move(plane.values);
+    }
+    for (const auto& [key, value] : read.picture.text) {
+        if (key != "culet:photometric" || value == "yes") continue;
+        photo.photometric = false;
+        photo.not_photometric = value;
+    }
+    note_camera(photo, first_bytes(file));
+    std::size_t not_finite = 0, negative = 0;
+    for (float& value : photo.rgb) {
+        if (!std::isfinite(value)) {
+            ++not_finite;
+            value = 0;
+        } else if (value < 0) {
+            ++negative;
+            value = 0;
+        }
+    }
+    for (float& share : photo.coverage) {
+        share = std::isfinite(share) ? std::clamp(share, 0.0f, 1.0f) : 0.0f;
+    }
+    photo.not_finite = not_finite;
+    if (not_finite > 0) {
+        photo.notes.push_back(
+            fmt::format("{} samples were no finite numbers and count as 0", not_finite));
+    }
+    if (negative > 0)
+        photo.notes.push_back(fmt::format("{} negative samples count as 0", negative));
+    return photo;
+}
+
+std::vector<float> read_mask(const std::filesystem::path& file, int width, int height) {
+    const Photo mask = read_photo(file);
+    if (mask.width != width || mask.height != height) {
+        throw InputError(file, fmt::format("is a mask of {} x {} pixels for a photograph of {} x "
+                                           "{}: they must be of one size",
+                                           mask.width, mask.height, width, height));
+    }
+    std::vector<float> stone(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    const float half = static_cast<float>(mask.saturation > 0 ? srgb_decoded(0.5) : 0.5);
+    for (std::size_t i = 0; i < stone.size(); ++i) {
+        const float brightest =
+            std::max({mask.rgb[3 * i], mask.rgb[3 * i + 1], mask.rgb[3 * i + 2]});
+        const bool opaque = mask.coverage.empty() || mask.coverage[i] > 0.5f;
+        stone[i] = opaque && brightest > half ? 1.0f : 0.0f;
+    }
+    return stone;
+}
+
+}  // namespace culet

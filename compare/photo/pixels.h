@@ -1,0 +1,31 @@
+#pragma once
+// Pictures as OpenCV matrices, inside this room only. Colour is CV_32FC3 in the order R, G, B,
+// linear light; masks are CV_8U, 0 or 255. Positions are in pixels with the centre of the first
+// pixel at (0, 0), x to the right, y down.
+
+#include <opencv2/core/mat.hpp>
+
+#include "compare/photo/photo.h"
+
+namespace culet {
+
+/// A view on (not a copy of) the photo's pixels.
+cv::Mat colour_of(const Photo& photo);
+
+/// Luminance of linear sRGB primaries (Rec. ITU-R BT.709-6, item 3.2), CV_32F.
+cv::Mat luminance(const cv::Mat& colour);
+
+/// Each sample through the sRGB transfer function after clipping to 0..1.
+cv::Mat encoded(const cv::Mat& linear);
+
+/// PNG file bytes; CV_8U with 1 channel, or 3 in the order R, G, B.
+std::string png_bytes(const cv::Mat& pixels);
+
+/// Of CV_32F, between the four pixels around a place (x to the right, y down); at the border where
+/// that lies outside.
+double between_pixels(const cv::Mat& plane, double x, double y);
+
+/// Value below which `share` (0..1) of the pixels under the mask lie; 0 for an empty mask.
+double quantile(const cv::Mat& plane, const cv::Mat& mask, double share);
+
+}  // namespace culet

@@ -1,0 +1,189 @@
+#include "compare/registration/frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "compare/photo/pixels.h"
+#include "compare/photo/resampling.h"
+
+namespace culet {
+
+namespace {
+
+constexpr int k_search_size = 1024;  // the stone is looked for at this size
+constexpr double k_margin = 0.15;    // of the diameter, around the stone
+constexpr double k_worth_it = 0.85;  // reductions weaker than this are not made
+constexpr int k_empty_border = 4;    // so that an outline never runs out of the close-up
+
+struct Source {
+    cv::Mat colour, coverage;  // coverage may be empty
+    std::string coverage_name;
+};
+
+cv::Mat reduced(const cv::Mat& picture, double scale) {
+    if (scale >= 1 || picture.empty()) return picture;
+    const cv::Size size(std::max(1, static_cast<int>(std::lround(picture.cols * scale))),
+                        std::max(1, static_cast<int>(std::lround(picture.rows * scale))));
+    cv::Mat result;
+    cv::resize(picture, result, size, 0, 0, cv::INTER_AREA);
+    return result;
+}
+
+Silhouette silhouette_of(const cv::Mat& colour, const cv::Mat& coverage, const std::string& name) {
+    if (!coverage.empty()) return silhouette_from_coverage(coverage, name);
+    return silhouette_from_background(colour);
+}
+
+struct Place {
+    cv::Rect box;  // of the stone, in the picture's pixels
+    double diameter = 0;
+    std::string trouble;
+};
+
+Place find_stone(const Source& source) {
+    const double scale = std::min(
+        1.0, static_cast<double>(k_search_size) / std::max(source.colour.cols, source.colour.rows));
+    const Silhouette silhouette = silhouette_of(
+        reduced(source.colour, scale), reduced(source.coverage, scale), source.coverage_name);
+    Place place;
+    place.trouble = silhouette.trouble;
+    place.diameter = silhouette.diameter / scale;
+    const cv::Rect box = cv::boundingRect(silhouette.mask);
+    place.box = {static_cast<int>(std::floor(box.x / scale)),
+                 static_cast<int>(std::floor(box.y / scale)),
+                 static_cast<int>(std::ceil(box.width / scale)),
+                 static_cast<int>(std::ceil(box.height / scale))};
+    return place;
+}
+
+CloseUp close_up(const Source& source, const Place& place, double diameter) {
+    const int margin = static_cast<int>(std::lround(k_margin * place.diameter)) + 2;
+    const cv::Rect whole(0, 0, source.colour.cols, source.colour.rows);
+    cv::Rect cut(place.box.x - margin, place.box.y - margin, place.box.width + 2 * margin,
+                 place.box.height + 2 * margin);
+    cut &= whole;
+    CloseUp result;
+    result.scale = diameter / place.diameter;
+    if (result.scale > k_worth_it) result.scale = 1;
+    const cv::Mat colour = reduced(source.colour(cut), result.scale);
+    const cv::Mat coverage =
+        source.coverage.empty() ? cv::Mat() : reduced(source.coverage(cut), result.scale);
+    // Whole pixels of the reduced picture: the true factor differs a little from the asked one.
+    result.scale = static_cast<double>(colour.cols) / cut.width;
+    result.silhouette = silhouette_of(colour, coverage, source.coverage_name);
+    const int b = k_empty_border;
+    cv::copyMakeBorder(colour, result.colour, b, b, b, b, cv::BORDER_REPLICATE);
+    cv::copyMakeBorder(result.silhouette.mask, result.silhouette.mask, b, b, b, b,
+                       cv::BORDER_CONSTANT, cv::Scalar(0));
+    result.silhouette.centre += cv::Point2d(b, b);
+    result.corner = {cut.x - b / result.scale, cut.y - b / result.scale};
+    return result;
+}
+
+// The part of a mask of the photo that a close-up shows. A pixel that the mask touches at all is
+// in it.
+cv::Mat cut_out(const std::vector<float>& mask, const Photo& photo, const CloseUp& shown) {
+    const cv::Mat whole(photo.height, photo.width, CV_32F, const_cast<float*>(mask.data()));
+    cv::Mat touched = whole > 0.5f;
+    if (shown.scale < 1) {
+        const int reach = 2 * static_cast<int>(std::ceil(0.5 / shown.scale)) + 1;
+        cv::dilate(touched, touched, cv::Mat::ones(reach, reach, CV_8U));
+    }
+    cv::Mat result = cv::Mat::zeros(shown.colour.size(), CV_8U);
+    for (int y = 0; y < result.rows; ++y) {
+        for (int x = 0; x < result.cols; ++x) {
+            const cv::Point2d at = shown.in_picture(cv::Point2d(x, y));
+            const int column = static_cast<int>(std::lround(at.x)),
+                      row = static_cast<int>(std::lround(at.y));
+            if (column < 0 || row < 0 || column >= touched.cols || row >= touched.rows) continue;
+            result.at<unsigned char>(y, x) = touched.at<unsigned char>(row, column);
+        }
+    }
+    return result;
+}
+
+Source source_of(const Photo& photo, const std::vector<float>& mask) {
+    Source source;
+    source.colour = colour_of(photo);
+    const bool painted = !mask.empty();
+    const std::vector<float>& coverage = painted ? mask : photo.coverage;
+    // An alpha of 1 everywhere says nothing about the stone.
+    const bool says_something =
+        painted || std::any_of(coverage.begin(), coverage.end(), [](float c) { return c < 0.5f; });
+    if (!coverage.empty() && says_something) {
+        source.coverage =
+            cv::Mat(photo.height, photo.width, CV_32F, const_cast<float*>(coverage.data()));
+        source.coverage_name = painted ? "mask" : "coverage";
+    }
+    return source;
+}
+
+// A map that is a shift by whole pixels to within a thousandth of a pixel is made just that: it
+// then moves samples without mixing them, and a picture laid on itself stays what it is.
+cv::Matx23d whole_pixels(const cv::Matx23d& map, cv::Size size) {
+    const cv::Matx23d whole(1, 0, std::round(map(0, 2)), 0, 1, std::round(map(1, 2)));
+    const cv::Matx23d off = map - whole;
+    for (const cv::Vec3d& corner :
+         {cv::Vec3d(0, 0, 1), cv::Vec3d(size.width, 0, 1), cv::Vec3d(0, size.height, 1),
+          cv::Vec3d(size.width, size.height, 1)}) {
+        if (cv::norm(off * corner) > 1e-3) return map;
+    }
+    return whole;
+}
+
+// The map between close-ups, restated for the pictures as they were given.
+Similarity in_given_pixels(const Similarity& s, const CloseUp& photo, const CloseUp& render) {
+    Similarity result;
+    result.scale = s.scale * photo.scale / render.scale;
+    result.turn = s.turn;
+    result.about = photo.in_picture(s.about);
+    result.shift = render.in_picture(s(s.about)) - result.about;
+    return result;
+}
+
+}  // namespace
+
+cv::Point2d CloseUp::in_picture(const cv::Point2d& p) const {
+    return {(p.x + 0.5) / scale - 0.5 + corner.x, (p.y + 0.5) / scale - 0.5 + corner.y};
+}
+
+double stone_diameter_px(const Photo& photo, const std::vector<float>& mask) {
+    const Place place = find_stone(source_of(photo, mask));
+    return place.trouble.empty() ? place.diameter : 0;
+}
+
+Frame align(const Photo& photo, const std::vector<float>& mask, const Photo& render,
+            const Alignment& how) {
+    Frame frame;
+    const Source photo_source = source_of(photo, mask), render_source = source_of(render, {});
+    const Place photo_place = find_stone(photo_source), render_place = find_stone(render_source);
+    frame.photo_diameter_px = photo_place.diameter;
+    frame.render_diameter_px = render_place.diameter;
+    if (!photo_place.trouble.empty() || !render_place.trouble.empty()) {
+        frame.match.trouble = photo_place.trouble.empty() ? "render: " + render_place.trouble
+                                                          : "photo: " + photo_place.trouble;
+        return frame;
+    }
+    const double diameter = std::min({photo_place.diameter, render_place.diameter, how.largest});
+    frame.photo = close_up(photo_source, photo_place, diameter);
+    if (!how.ignored.empty()) frame.photo.ignored = cut_out(how.ignored, photo, frame.photo);
+    const CloseUp near = close_up(render_source, render_place, diameter);
+    frame.render_outline = near.silhouette.source;
+    frame.render_warning = near.silhouette.warning;
+    frame.match = match_outlines(frame.photo.silhouette, near.silhouette);
+    if (frame.match.trouble.empty() || frame.match.iou > 0) {
+        const cv::Matx23d onto =
+            whole_pixels(matrix_of(frame.match.render_from_photo), frame.photo.colour.size());
+        frame.render =
+            resampled(near.colour, onto, frame.photo.colour.size(), Kernel::cubic, Beyond::nearest);
+        frame.render_mask = resampled_mask(near.silhouette.mask, onto, frame.photo.colour.size());
+        frame.render_from_photo = in_given_pixels(frame.match.render_from_photo, frame.photo, near);
+        frame.match.residual_px /= frame.photo.scale;
+        frame.match.worst_px /= frame.photo.scale;
+    }
+    return frame;
+}
+
+}  // namespace culet

@@ -1,0 +1,54 @@
+#pragma once
+// The report page: one self-contained HTML file that needs no network.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/photo/photo.h"
+#include "compare/scores/compare.h"
+#include "stone/solid.h"
+
+namespace culet {
+
+struct ReportFile {
+    std::string role;  ///< "photograph", "render", "stone", ...
+    std::string name;
+};
+
+/// What the page shows. Every part is optional: a section appears when its data is there.
+struct Report {
+    std::string title = "culet report";
+    std::string version;  ///< of the program
+    std::string command;  ///< as it was typed
+    std::vector<ReportFile> files;
+
+    std::optional<Comparison> comparison;  ///< photo against render
+    std::string scores_json;               ///< what --json wrote; empty: made from `comparison`
+
+    std::string fit_json;         ///< the fit report, as written by `culet fit --report`
+    std::optional<Solid> fitted;  ///< drawn, with its facets coloured by their readings' residuals
+    std::optional<Solid> starting;  ///< the hand-made or catalogue mesh, for the table of changes
+    std::string length_unit = "mm";
+
+    /// The same scene with the starting mesh and with the fitted one, of one size.
+    std::optional<Photo> starting_render, fitted_render;
+    double renders_white =
+        0;  ///< linear value shown as white; 0: such that the stone is well exposed
+
+    /// The photograph with the stone's edges where the pose puts them, PNG bytes; empty: none.
+    std::string pose_overlay_png;
+    bool pose_used = false;
+
+    std::string stats_json;  ///< of the renderer: plan, error bounds, times
+    std::string settings;    ///< the job or scene as text
+};
+
+/// The page as text. Throws InputError when one of the JSON texts is none.
+std::string report_page(const Report& report);
+
+/// Writes the page whole or not at all.
+void write_report(const Report& report, const std::filesystem::path& file);
+
+}  // namespace culet

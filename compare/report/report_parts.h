@@ -1,0 +1,49 @@
+#pragma once
+// The sections of the report page. Each returns HTML, or nothing when its data is not there.
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/report/report.h"
+#include "page/colour_maps.h"
+#include "page/fit_page.h"
+
+namespace culet {
+
+/// The linear value at which the stone is neither dull nor burnt out. `brightest` has the largest
+/// channel of each of its pixels. Nothing without light.
+std::optional<double> white_for_stone(std::vector<float> brightest);
+/// The white that both of a comparison's pictures are shown with: never over the photograph's own.
+double white_shown(const Comparison& comparison);
+
+/// PNG data URI of a linear picture, `white` shown as white.
+std::string picture_uri(const Photo& picture, double white);
+/// The same of a map; clear where it has no value.
+std::string map_uri(const PixelMap& map, ColourMap colours, double low, double high);
+
+std::string headline_section(const Report& report, const FitView& fitted);
+std::string pictures_section(const Report& report);
+std::string maps_section(const Report& report);
+std::string scores_section(const Report& report, const nlohmann::json& scores);
+std::string reflexes_section(const Report& report);
+std::string meaning_section(const Report& report);
+std::string registration_section(const Report& report);
+std::string changes_section(const Report& report);
+std::string plan_section(const nlohmann::json& stats);
+std::string provenance_section(const Report& report);
+
+/// A verdict in words, with its colour and sign.
+struct VerdictShown {
+    const char *word, *style, *symbol;
+};
+VerdictShown verdict_shown(Verdict verdict);
+
+/// "ZNCC, 2 %": a score's name for people.
+std::string score_name(const std::string& key);
+
+/// "photograph", or "simulated photograph" wherever that is what it is.
+std::string photo_word(const Report& report);
+
+}  // namespace culet

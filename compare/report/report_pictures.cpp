@@ -1,0 +1,125 @@
+// The report's pictures: photograph and render on one another, and maps of where they differ.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <utility>
+
+#include "compare/photo/pixels.h"
+#include "compare/report/report_parts.h"
+#include "page/html.h"
+#include "page/parts.h"
+#include "stone/quantile.h"
+
+namespace culet {
+
+namespace {
+
+std::string map_figure(const PixelMap& map, ColourMap colours, double low, double high,
+                       const std::string& title, const std::string& about, const std::string& bar) {
+    if (map.values.empty()) return {};
+    return fmt::format(
+        "<figure class=\"map\"><img src=\"{}\" alt=\"{}\"><figcaption><b>{}</b> {}</figcaption>{}"
+        "</figure>\n",
+        map_uri(map, colours, low, high), escaped(title + ": " + about), escaped(title),
+        escaped(about), bar);
+}
+
+}  // namespace
+
+std::string map_uri(const PixelMap& map, ColourMap colours, double low, double high) {
+    cv::Mat picture(map.height, map.width, CV_8UC4, cv::Scalar(0, 0, 0, 0));
+    const float* value_at = map.values.data();
+    for (int y = 0; y < map.height; ++y) {
+        for (int x = 0; x < map.width; ++x) {
+            const double value = static_cast<double>(*value_at++);
+            if (std::isnan(value)) continue;
+            const auto c = colour_at(colours, (value - low) / (high - low));
+            picture.at<cv::Vec4b>(y, x) = {c[2], c[1], c[0], 255};
+        }
+    }
+    return png_uri(png_bytes(picture));
+}
+
+std::optional<double> white_for_stone(std::vector<float> brightest) {
+    // Most of a stone is shown as a medium tone; glints are few and may burn out, but not more than
+    // a fourteenth of it, and not less than a fiftieth: a picture without a white looks dull.
+    constexpr double k_median_shown = 0.4, k_most_over = 0.07, k_least_over = 0.02;
+    std::erase_if(brightest, [](float v) { return !(v > 0) || !std::isfinite(v); });
+    if (brightest.empty()) return std::nullopt;
+    const auto level = [&](double share) { return double(quantile(brightest, share)); };
+    return std::clamp(level(0.5) / k_median_shown, level(1 - k_most_over), level(1 - k_least_over));
+}
+
+double white_shown(const Comparison& comparison) {
+    const ComparedPictures& pictures = comparison.pictures;
+    const std::vector<float>& outline = pictures.photo_outline.values;
+    std::vector<float> brightest;
+    for (std::size_t p = 0; p < outline.size() && 3 * p + 2 < pictures.photo.rgb.size(); ++p) {
+        const float* rgb = pictures.photo.rgb.data() + 3 * p;
+        if (outline[p] > 0.5f) brightest.push_back(std::max({rgb[0], rgb[1], rgb[2]}));
+    }
+    return std::min(pictures.white, white_for_stone(std::move(brightest)).value_or(pictures.white));
+}
+
+std::string picture_uri(const Photo& picture, double white) {
+    cv::Mat shown_now;
+    encoded(colour_of(picture) * (1 / std::max(white, 1e-30))).convertTo(shown_now, CV_8U, 255);
+    return png_uri(png_bytes(shown_now));
+}
+
+std::string pictures_section(const Report& report) {
+    if (!report.comparison) return {};
+    const ComparedPictures& pictures = report.comparison->pictures;
+    if (pictures.photo.rgb.empty() || pictures.render.rgb.empty()) return {};
+    const std::string word = photo_word(report);
+    const bool usable = report.comparison->usable();
+    const double white = white_shown(*report.comparison);
+    std::string body = slider(
+        "pictures-slider", {word, picture_uri(pictures.photo, white), "The stone in the " + word},
+        {"render", picture_uri(pictures.render, white), "The render, laid onto the " + word});
+    body += usable ? fmt::format(
+                         "<p class=\"note\">The render is moved onto the {} by its outline "
+                         "and brought to its exposure and white balance by one factor a "
+                         "colour channel. <span class=\"screen\">Drag, or use the arrow "
+                         "keys.</span></p>\n",
+                         word)
+                   : "<p class=\"note\">The render is laid over as well as its outline allows; "
+                     "its exposure is its own.</p>\n";
+    if (white < 0.95 * pictures.white) {
+        body += fmt::format(
+            "<p class=\"note\">Both are shown {} times as bright as the {} is, so that the stone "
+            "does not look dull; scores and maps are of the light as it is.</p>\n",
+            significant(pictures.white / white, 2), word);
+    }
+    std::string heading = word + " and render";
+    heading[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(heading[0])));
+    return section("pictures", heading, body);
+}
+
+std::string maps_section(const Report& report) {
+    if (!report.comparison) return {};
+    const ComparedPictures& p = report.comparison->pictures;
+    std::string figures;
+    figures +=
+        map_figure(p.luminance_difference, ColourMap::difference, -0.5, 0.5, "Brightness",
+                   "Render minus " + photo_word(report) + ", encoded luminance.",
+                   colour_bar(ColourMap::difference, "blue: render too dark, red: too bright",
+                              "−0.5", "0", "+0.5"));
+    figures += map_figure(
+        p.colour_difference, ColourMap::error, 0, 30, "Colour", "CIEDE2000 of each pixel.",
+        colour_bar(ColourMap::error, "1 is just visible, 10 is plain", "0", "15", "≥ 30"));
+    figures += map_figure(p.visible_difference, ColourMap::error, 0, 1, "To the eye",
+                          "FLIP: what shows when the two are flicked between.",
+                          colour_bar(ColourMap::error, "bright: plain to see", "0", "0.5", "1"));
+    figures += map_figure(p.similarity, ColourMap::likeness, 0, 1, "Structure",
+                          "SSIM of each pixel's neighbourhood.",
+                          colour_bar(ColourMap::likeness, "dark: alike", "≤ 0", "0.5", "1"));
+    if (figures.empty()) return {};
+    return section("maps", "Where they differ", "<div class=\"maps\">" + figures + "</div>\n");
+}
+
+}  // namespace culet

@@ -1,0 +1,91 @@
+#include "compare/scores/aligned_pair.h"
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "compare/photo/pixels.h"
+
+namespace culet {
+
+namespace {
+
+// A sample within 1 % of the clipping level counts as clipped: JPEGs round there.
+constexpr double k_clipped = 0.99;
+
+// Of the diameter. The longest wavelets are as long; blurs of light that reach as far see nothing
+// outside the mask.
+constexpr double k_around = 0.06;
+// The window of SSIM reaches five pixels.
+constexpr int k_least_around = 6;
+
+cv::Mat eroded(const cv::Mat& mask, double by_px) {
+    cv::Mat distance;
+    cv::distanceTransform(mask, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
+    return distance > by_px;
+}
+
+cv::Mat brightest_channel(const cv::Mat& colour) {
+    cv::Mat channels[3];
+    cv::split(colour, channels);
+    return cv::max(cv::max(channels[0], channels[1]), channels[2]);
+}
+
+}  // namespace
+
+cv::Rect part_to_score(const MatchedPictures& pictures) {
+    const cv::Rect box = cv::boundingRect(pictures.mask);
+    const int around =
+        std::max(k_least_around, static_cast<int>(std::ceil(k_around * pictures.diameter)));
+    // From even pixels to even ones, so that scores that halve the pictures pair the same ones.
+    const auto even = [](int at) { return std::max(0, at - at % 2); };
+    const cv::Point corner(even(box.x - around), even(box.y - around));
+    const cv::Point far(even(box.x + box.width + around + 1),
+                        even(box.y + box.height + around + 1));
+    return cv::Rect(corner, far) & cv::Rect({0, 0}, pictures.mask.size());
+}
+
+MatchedPictures part_of(const MatchedPictures& pictures, const cv::Rect& part) {
+    MatchedPictures result = pictures;
+    result.photo = pictures.photo(part).clone();
+    result.render = pictures.render(part).clone();
+    result.mask = pictures.mask(part).clone();
+    return result;
+}
+
+double white_level(const cv::Mat& colour, const cv::Mat& mask, double saturation) {
+    if (saturation > 0) return saturation;
+    return std::max(1e-30, quantile(brightest_channel(colour), mask, 0.995));
+}
+
+cv::Mat not_clipped(const cv::Mat& colour, double saturation, const cv::Mat& mask) {
+    if (saturation <= 0) return mask.clone();
+    const cv::Mat below = brightest_channel(colour) < k_clipped * saturation;
+    return below & mask;
+}
+
+void multiply_channels(cv::Mat& colour, const std::array<double, 3>& gain) {
+    cv::multiply(colour, cv::Scalar(gain[0], gain[1], gain[2]), colour);
+}
+
+LaidPictures lay_pictures(const Frame& frame, double photo_saturation, double render_saturation) {
+    LaidPictures laid;
+    MatchedPictures& pictures = laid.pictures;
+    pictures.photo = frame.photo.colour;
+    pictures.render = frame.render.clone();
+    pictures.diameter = frame.photo.silhouette.diameter;
+    pictures.mask = eroded(frame.photo.silhouette.mask & frame.render_mask,
+                           std::max(2.0, 0.005 * pictures.diameter));
+    if (!frame.photo.ignored.empty()) pictures.mask.setTo(0, frame.photo.ignored);
+    laid.compared_pixels = cv::countNonZero(pictures.mask);
+    if (!laid.enough()) return laid;
+    pictures.white = white_level(pictures.photo, pictures.mask, photo_saturation);
+    const cv::Mat photo_usable = not_clipped(pictures.photo, photo_saturation, pictures.mask);
+    laid.usable = not_clipped(pictures.render, render_saturation, photo_usable);
+    laid.saturated = 1 - static_cast<double>(cv::countNonZero(photo_usable)) / laid.compared_pixels;
+    laid.gain = solve_gain(pictures.photo, pictures.render, laid.usable);
+    multiply_channels(pictures.render, laid.gain);
+    return laid;
+}
+
+}  // namespace culet

@@ -1,0 +1,133 @@
+#pragma once
+// How far a render is from a photograph. The front door of this room: pictures in, plain data out.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/calibration/meaning.h"
+#include "compare/photo/photo.h"
+#include "compare/scores/score.h"
+#include "stone/progress.h"
+
+namespace culet {
+
+/// Positions are pixels of the given pictures, centre of the first pixel at (0, 0), y down.
+struct Registration {
+    double residual_px = 0;  ///< root mean square distance between the outlines, photo pixels
+    double worst_px = 0;     ///< 95 % of the outline is closer than this
+    double iou = 0;          ///< overlap of the silhouettes: area of both over area of either
+    double scale = 1;        ///< render pixels per photo pixel
+    double turn_deg = 0;     ///< from photo to render, clockwise as seen
+    bool turn_known = true;  ///< false: the outlines are round and the turn was left at 0
+    std::array<double, 2> shift_px{};  ///< from the stone's centre in the photo to it in the render
+    std::array<double, 2> centre_px{};                     ///< of the stone in the photo
+    double photo_diameter_px = 0, render_diameter_px = 0;  ///< of the circles of equal area
+    std::string photo_outline, render_outline;  ///< where from: "mask", "coverage", "background"
+    std::vector<std::string> warnings;
+};
+
+/// A value a pixel, rows from the top; NaN where there is none.
+struct PixelMap {
+    int width = 0, height = 0;
+    std::vector<float> values;
+};
+
+/// For the report: everything in the frame of the photo's close-up.
+struct ComparedPictures {
+    Photo photo, render;  ///< render with the gain applied; empty when refused early
+    double white = 1;     ///< linear value to be shown as white
+    PixelMap mask;        ///< 1 where compared, NaN elsewhere
+    PixelMap photo_outline, render_outline;  ///< 1 inside, NaN outside
+    PixelMap luminance_difference;           ///< render - photo, encoded luminance, -1..1
+    PixelMap colour_difference;              ///< CIEDE2000
+    PixelMap visible_difference;             ///< FLIP, 0..1
+    PixelMap similarity;                     ///< local SSIM
+};
+
+/// The bright reflexes as things, see reflexes.h.
+struct ReflexCount {
+    int in_photo = 0, in_render = 0, matched = 0;
+    std::optional<double> displacement;  ///< median, in diameters
+    /// Matched reflexes that are coloured in the photo, and how many of them have its hue.
+    int coloured = 0, same_hue = 0;
+    /// All of them, the photo's first, for the picture of the report.
+    struct Mark {
+        std::array<double, 2> at_px{};  ///< in the frame of the photo's close-up
+        double radius_px = 0;           ///< of the circle of equal area
+        bool of_photo = true;
+        int partner = -1;  ///< index among the other picture's; -1: not found there
+    };
+    std::vector<Mark> marks;
+};
+
+/// "37 of 42 reflexes found, 0.4 % of the diameter apart; 9 of 11 coloured ones of one hue"
+std::string sentence_of(const ReflexCount& reflexes);
+
+struct Comparison {
+    Verdict verdict = Verdict::refused;
+    std::string reason;  ///< the verdict in one plain sentence
+    Registration registration;
+    std::array<double, 3> gain{1, 1, 1};  ///< factors on the render, R G B
+    double saturated = 0;                 ///< share of compared pixels that the camera clipped
+    int compared_pixels = 0;
+    std::vector<Score> scores;
+    bool geometry_only = false;  ///< the photograph cannot serve for photometry
+    ReflexCount reflexes;
+    /// Mean luminance of the compared pixels, 1 being the white level; the render's with the gain.
+    double photo_light = 0, render_light = 0;
+    int null_draws = 0;
+    std::string null_note;
+    /// What the scores mean for this stone, pose and light, where that was calibrated. The verdict
+    /// and its reason are then those of the meaning.
+    std::optional<Calibration> calibration;
+    std::optional<Meaning> meaning;
+    std::vector<std::string> notes;
+    bool simulated = false;
+    std::uint64_t seed = 1;
+    ComparedPictures pictures;
+
+    /// False when the answer should not be trusted: the registration was refused.
+    bool usable() const { return verdict != Verdict::refused; }
+};
+
+struct CompareOptions {
+    std::vector<float> mask;  ///< of the photo, from `read_mask`; empty: found in the picture
+    /// Of the photo: over a half is left out of every score (dust, inclusions, a holder); empty:
+    /// nothing is.
+    std::vector<float> ignored;
+    bool simulated = false;  ///< the photograph is itself computed: said wherever it appears
+    std::uint64_t seed = 1;  ///< of the null's draws
+    int null_draws = 24;     ///< at least 20
+    int threads = 0;         ///< 0: all processors; the result does not depend on it
+    double largest = 640;    ///< pixels that the stone is across at most, where it is compared
+};
+
+/// Registers by the outlines, solves one gain for each channel, scores, and draws the null.
+/// Bad pictures are no exception: they end as `refused` or as scores without a value. Throws
+/// Interrupted when `progress` says so.
+///
+/// The verdict is a proposal, not validated: `match` when zncc lies at least `k_match_z` standard
+/// deviations above its null and reaches `k_match_zncc`, which is about what random facet errors of
+/// half a degree leave of a brilliant's pattern; `partial` from `k_partial_z` on, if
+/// no draw was as good. It tells a
+/// pattern from the same pattern turned; it cannot tell a stone from another of the same cut.
+Comparison compare(const Photo& photo, const Photo& render, const CompareOptions& options = {},
+                   const Progress& progress = {});
+
+constexpr double k_match_z = 5, k_partial_z = 2, k_match_zncc = 0.8;
+/// The same of CW-SSIM, which decides for photographs that cannot serve for photometry.
+constexpr double k_match_cw_ssim = 0.55;
+
+/// What a program would want to know beside the scores themselves.
+struct CompareSources {
+    std::string photo_file, render_file, mask_file;
+    std::string pose{};  ///< JSON of the pose that was found; empty: none was looked for
+};
+
+/// The scores as one JSON object (schema 1).
+std::string scores_json(const Comparison& comparison, const CompareSources& sources = {});
+
+}  // namespace culet

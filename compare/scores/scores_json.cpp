@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "compare/calibration/meaning_json.h"
+#include "compare/json_number.h"
+#include "compare/scores/compare.h"
+
+namespace culet {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json registration_json(const Registration& r) {
+    Json json;
+    json["residual_px"] = number(r.residual_px);
+    json["worst_px"] = number(r.worst_px);
+    json["iou"] = number(r.iou);
+    json["scale"] = number(r.scale);
+    json["turn_deg"] = number(r.turn_deg);
+    json["turn_known"] = r.turn_known;
+    json["shift_px"] = {number(r.shift_px[0]), number(r.shift_px[1])};
+    json["centre_px"] = {number(r.centre_px[0]), number(r.centre_px[1])};
+    json["photo_diameter_px"] = number(r.photo_diameter_px);
+    json["render_diameter_px"] = number(r.render_diameter_px);
+    json["photo_outline"] = r.photo_outline;
+    json["render_outline"] = r.render_outline;
+    json["warnings"] = r.warnings;
+    return json;
+}
+
+Json null_json(const Comparison& comparison) {
+    Json json;
+    json["kind"] = "turned_render";
+    json["draws"] = comparison.null_draws;
+    json["seed"] = comparison.seed;
+    json["note"] = comparison.null_note;
+    for (const Score& score : comparison.scores) {
+        Json& one = json[score.key];
+        const bool any = !score.null.empty();
+        one["mean"] = any ? number(score.null_mean) : Json(nullptr);
+        one["sd"] = any ? number(score.null_sd) : Json(nullptr);
+        one["z"] = number(score.z);
+        one["p"] = number(score.p);
+        one["higher_is_better"] = score.higher_is_better;
+        one["values"] = Json::array();
+        for (const double value : score.null) one["values"].push_back(number(value));
+    }
+    return json;
+}
+
+}  // namespace
+
+std::string sentence_of(const ReflexCount& reflexes) {
+    if (reflexes.in_photo == 0) return "the photograph has no bright reflex";
+    std::string text = fmt::format("{} of {} reflexes found", reflexes.matched, reflexes.in_photo);
+    if (reflexes.displacement) {
+        text += fmt::format(", {:.1f} % of the diameter apart", 100 * *reflexes.displacement);
+    }
+    if (reflexes.coloured > 0) {
+        text += fmt::format("; {} of {} coloured ones of one hue", reflexes.same_hue,
+                            reflexes.coloured);
+    }
+    return text;
+}
+
+std::string scores_json(const Comparison& comparison, const CompareSources& sources) {
+    Json json;
+    json["schema"] = 1;
+    json["command"] = "compare";
+    json["verdict"] = name_of(comparison.verdict);
+    json["reason"] = comparison.reason;
+    json["equivalent_facet_error_deg"] =
+        comparison.meaning ? number(comparison.meaning->equivalent.deg) : Json(nullptr);
+    json["geometry_only"] = comparison.geometry_only;
+    json["simulated"] = comparison.simulated;
+    json["photo"] = sources.photo_file;
+    json["render"] = sources.render_file;
+    json["mask"] = sources.mask_file.empty() ? Json(nullptr) : Json(sources.mask_file);
+    json["seed"] = comparison.seed;
+    json["registration"] = registration_json(comparison.registration);
+    if (!sources.pose.empty()) json["pose"] = Json::parse(sources.pose, nullptr, false);
+    json["gain"] = {number(comparison.gain[0]), number(comparison.gain[1]),
+                    number(comparison.gain[2])};
+    json["saturated"] = number(comparison.saturated);
+    json["compared_pixels"] = comparison.compared_pixels;
+    json["scores"] = Json::object();
+    json["score_notes"] = Json::object();
+    for (const Score& score : comparison.scores) {
+        json["scores"][score.key] = number(score.value);
+        if (!score.note.empty()) json["score_notes"][score.key] = score.note;
+    }
+    json["reflexes"] = {{"photo", comparison.reflexes.in_photo},
+                        {"render", comparison.reflexes.in_render},
+                        {"matched", comparison.reflexes.matched},
+                        {"displacement", number(comparison.reflexes.displacement)},
+                        {"coloured", comparison.reflexes.coloured},
+                        {"same_hue", comparison.reflexes.same_hue},
+                        {"sentence", sentence_of(comparison.reflexes)}};
+    json["light_return"] = {{"photo", number(comparison.photo_light)},
+                            {"render", number(comparison.render_light)}};
+    json["null"] = null_json(comparison);
+    json["sensitivity"] =
+        comparison.meaning ? sensitivity_json(*comparison.meaning) : Json::array();
+    if (comparison.meaning && comparison.calibration) {
+        json["meaning"] = meaning_json(*comparison.meaning, *comparison.calibration);
+    }
+    json["verdict_rule"] =
+        comparison.meaning
+            ? std::string(k_calibrated_rule)
+            : fmt::format(
+                  "match: zncc at least {} standard deviations above its null (of atanh) and at "
+                  "least {}; partial: at least {} standard deviations and better than every draw; "
+                  "else "
+                  "no_evidence. A "
+                  "proposal, not validated.",
+                  k_match_z, k_match_zncc, k_partial_z);
+    json["notes"] = comparison.notes;
+    // File names need not be UTF-8; what is not is replaced rather than thrown over.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace culet

@@ -1,0 +1,38 @@
+#pragma once
+// How far a render is from a finer one of the same scene and view. No registration and no gain:
+// pixel is held against pixel.
+
+#include <opencv2/core/mat.hpp>
+#include <optional>
+
+#include "compare/scores/compare.h"
+#include "compare/scores/metrics.h"
+#include "compare/study/scene_study.h"
+#include "render/image/picture.h"
+
+namespace culet {
+
+/// Holds pictures against one that is taken for the truth.
+class PictureJudge {
+public:
+    /// The stone's pixels are those that the truth's coverage says it touches; all, when it has
+    /// none. White, for the scores of what is shown, is five times their mean.
+    explicit PictureJudge(Picture truth);
+
+    PictureError error_of(const Picture& picture) const;
+    /// Luminance of `picture` less that of the truth, relative to the mean; NaN beside the stone.
+    PixelMap difference(const Picture& picture) const;
+
+    const Picture& truth() const { return truth_; }
+    int stone_pixels() const { return stone_pixels_; }
+    double mean_radiance() const { return mean_; }  ///< of R, G and B over the stone's pixels
+    double white() const { return matched_.white; }
+
+private:
+    Picture truth_;
+    MatchedPictures matched_;  // `photo` is the truth
+    double mean_ = 0;
+    int stone_pixels_ = 0;
+};
+
+}  // namespace culet

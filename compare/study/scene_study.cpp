@@ -1,0 +1,364 @@
+#include "compare/study/scene_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "compare/study/picture_error.h"
+#include "compare/study/study_clock.h"
+#include "compare/study/study_design.h"
+#include "compare/study/study_reference.h"
+#include "render/beams/beam_picture.h"
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+constexpr double k_reference_share = 0.4, k_design_share = 0.65, k_search_share = 0.85;
+// Of the budget: for the first drawing of one setting, and of one that the study needs.
+constexpr double k_row_share = 0.06, k_needed_share = 0.15;
+// Settings whose first run took up to this times as long as the front's are timed again: their
+// median might be quicker.
+constexpr double k_perhaps_quicker = 1.3;
+// The next on the front is nearer to the truth by more than that.
+constexpr double k_better = 0.98;
+// A neighbour must be quicker by that much to be worth going on from.
+constexpr double k_gain = 0.97;
+
+struct DrawnTimes {
+    std::vector<double> cpu, wall;
+};
+
+StudyTime of_runs(std::vector<double> times) {
+    std::sort(times.begin(), times.end());
+    const std::size_t n = times.size();
+    return {n % 2 == 1 ? times[n / 2] : 0.5 * (times[n / 2 - 1] + times[n / 2]), times.front(),
+            times.back()};
+}
+
+// Without the beams' check against the reference renderer: what it finds, the study finds itself.
+RenderResult drawn(const Scene& scene, const Progress& progress) {
+    if (!drawn_by_beams(scene.settings)) return render(scene, progress);
+    FrameRenderer frames(scene);
+    frames.report_to(progress);
+    return frames.draw(false);
+}
+
+// The settings that a picture was drawn with in the end.
+RenderSettings settled_by(const RenderSettings& asked, const RenderStats& stats) {
+    if (!stats.plan) return asked;
+    RenderSettings settled = stats.plan->settings;
+    settled.checked_pixels = settled.checked_samples = 0;
+    return settled;
+}
+
+class SceneStudier {
+public:
+    SceneStudier(const Scene& scene, const SceneStudyOptions& options, const Progress& progress)
+        : scene_(scene), clock_(options.budget_seconds, progress) {
+        study_.options = options;
+        std::vector<double>& tolerances = study_.options.tolerances;
+        const double asked = scene.settings.tolerance > 0 ? scene.settings.tolerance : 0.01;
+        if (std::find(tolerances.begin(), tolerances.end(), asked) == tolerances.end())
+            tolerances.push_back(asked);
+        std::sort(tolerances.rbegin(), tolerances.rend());
+        study_.name = scene.stone.name;
+        study_.asked = scene.settings;
+        study_.scene_width = scene.camera.width;
+        study_.scene_height = scene.camera.height;
+        ground_.tolerance = asked;
+    }
+
+    SceneStudy study() {
+        prepare();
+        for (const StudyCandidate& candidate : study_design(ground_)) try_out(candidate);
+        drawing_share_ = k_search_share;
+        try_by_hand();
+        search();
+        time_again();
+        advise();
+        study_.cpu_seconds = clock_.spent();
+        return std::move(study_);
+    }
+
+private:
+    void prepare();
+    void try_out(const StudyCandidate& candidate);
+    void time_once(const RenderSettings& settings, DrawnTimes& times);
+    void try_by_hand();
+    void search();
+    void time_again();
+    void advise();
+    void update_front();
+    bool may_be_on_front(const StudiedRender& render) const;
+    std::optional<int> cheapest_within(double tolerance) const;
+    Scene scene_with(const RenderSettings& settings) const {
+        Scene scene = ground_.scene;
+        scene.settings = settings;
+        // Random paths other than the reference's.
+        scene.settings.seed = scene_.settings.seed + 2;
+        scene.settings.spectral = false;
+        return scene;
+    }
+
+    const Scene& scene_;
+    StudyClock clock_;
+    StudyGround ground_;
+    SceneStudy study_;
+    std::optional<PictureJudge> judge_;
+    std::vector<DrawnTimes> times_;  // of each render
+    std::set<std::string> tried_;
+    double drawing_share_ = k_design_share;  // of the budget: until when settings are tried
+};
+
+void SceneStudier::prepare() {
+    SceneStudyOptions& options = study_.options;
+    const double finest = options.tolerances.back();
+    const int longer = std::max(scene_.camera.width, scene_.camera.height);
+    ground_.scene = scene_;
+    ground_.tolerances = options.tolerances;
+    const int size =
+        options.size > 0
+            ? std::min(options.size, longer)
+            : affordable_size(scene_, finest, clock_.share(0.75 * k_reference_share), clock_);
+    ground_.scene.camera = resized(scene_.camera, size);
+    study_.width = ground_.scene.camera.width;
+    study_.height = ground_.scene.camera.height;
+    study_.reference = study_reference(ground_.scene, finest,
+                                       clock_.share(k_reference_share) - clock_.spent(), clock_);
+    ground_.exact = study_.reference.stats;
+    judge_.emplace(study_.reference.picture);
+    Scene by_beams = ground_.scene;
+    by_beams.settings = exact_settings(scene_, ground_.tolerance, k_node_counts.front());
+    const std::string refused = refused_by_beams(by_beams, make_optical_setup(by_beams));
+    ground_.beams = refused.empty();
+    if (!ground_.beams) study_.notes.push_back("engines beams and preview: " + refused);
+}
+
+// Draws and judges a setting that was not tried yet, if there is time for it.
+void SceneStudier::try_out(const StudyCandidate& candidate) {
+    const std::string key = key_of(ground_, candidate.settings);
+    if (!tried_.insert(key).second) return;
+    const auto leave_out = [&](const std::string& why) {
+        study_.left_out.push_back(fmt::format("{} {} ({}): {}", candidate.sweep, candidate.setting,
+                                              words_of(ground_, candidate.settings), why));
+    };
+    if (!candidate.needed && clock_.spent() > clock_.share(drawing_share_))
+        return leave_out("not reached within the budget");
+    const double allowed =
+        clock_.share(candidate.automatic || candidate.needed ? k_needed_share : k_row_share);
+    const Scene scene = scene_with(candidate.settings);
+    RenderResult result;
+    const auto wall = std::chrono::steady_clock::now();
+    const double cpu = clock_.spent();
+    try {
+        if (!clock_.within(allowed,
+                           [&](const Progress& progress) { result = drawn(scene, progress); }))
+            return leave_out(fmt::format("took over {:.3g} s", allowed));
+    } catch (const InputError& error) {
+        return leave_out(error.what());
+    }
+    DrawnTimes times;
+    times.cpu.push_back(clock_.spent() - cpu);
+    times.wall.push_back(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count());
+    StudiedRender render;
+    if (candidate.automatic) {
+        // All that `render` does: the plan, its pictures, and their check.
+        render.checked_cpu = times.cpu.front();
+    }
+    render.id = static_cast<int>(study_.renders.size());
+    render.sweep = candidate.sweep;
+    render.setting = candidate.setting;
+    render.settled = settled_by(candidate.settings, result.stats);
+    render.words = words_of(ground_, render.settled);
+    render.automatic = candidate.automatic;
+    render.settings = candidate.settings;
+    render.stats = std::move(result.stats);
+    render.error = judge_->error_of(result.picture);
+    const double noise = study_.reference.noise.mean;
+    render.claimed_error = std::max(render.error.mean, noise);
+    render.at_noise = render.error.mean < 2 * noise;
+    render.runs = 1;
+    render.cpu = of_runs(times.cpu);
+    render.wall = of_runs(times.wall);
+    render.difference = judge_->difference(result.picture);
+    render.picture = std::move(result.picture);
+    study_.renders.push_back(std::move(render));
+    times_.push_back(std::move(times));
+    update_front();
+    clock_.report();
+}
+
+// One more drawing, for its time.
+void SceneStudier::time_once(const RenderSettings& settings, DrawnTimes& times) {
+    const Scene scene = scene_with(settings);
+    const auto wall = std::chrono::steady_clock::now();
+    const double cpu = clock_.spent();
+    clock_.within(std::numeric_limits<double>::infinity(),
+                  [&](const Progress& progress) { drawn(scene, progress); });
+    times.cpu.push_back(clock_.spent() - cpu);
+    times.wall.push_back(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count());
+}
+
+// Quickest first; each is nearer to the truth than all before it. Pictures of others are let go.
+void SceneStudier::update_front() {
+    std::vector<const StudiedRender*> order;
+    for (const StudiedRender& render : study_.renders) order.push_back(&render);
+    std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
+        return std::pair(a->cpu.median, a->claimed_error) <
+               std::pair(b->cpu.median, b->claimed_error);
+    });
+    study_.front.clear();
+    double best = std::numeric_limits<double>::infinity();
+    for (const StudiedRender* render : order) {
+        if (!(render->claimed_error < k_better * best)) continue;
+        best = render->claimed_error;
+        study_.front.push_back(render->id);
+    }
+    for (StudiedRender& render : study_.renders) {
+        render.on_front =
+            std::find(study_.front.begin(), study_.front.end(), render.id) != study_.front.end();
+        if (may_be_on_front(render)) continue;
+        render.picture = {};
+        render.difference = {};
+    }
+}
+
+// False when another is nearer to the truth and much quicker.
+bool SceneStudier::may_be_on_front(const StudiedRender& render) const {
+    return std::none_of(study_.front.begin(), study_.front.end(), [&](int id) {
+        const StudiedRender& rival = study_.render(id);
+        return rival.claimed_error <= render.claimed_error &&
+               k_perhaps_quicker * rival.cpu.median < render.cpu.median;
+    });
+}
+
+std::optional<int> SceneStudier::cheapest_within(double tolerance) const {
+    const StudiedRender* best = nullptr;
+    for (const StudiedRender& render : study_.renders) {
+        if (render.claimed_error > tolerance) continue;
+        if (best == nullptr || render.cpu.median < best->cpu.median) best = &render;
+    }
+    return best == nullptr ? std::nullopt : std::optional(best->id);
+}
+
+// What the plans chose, as somebody would who knows it: without planning.
+void SceneStudier::try_by_hand() {
+    std::vector<StudyCandidate> chosen;
+    for (const StudiedRender& render : study_.renders) {
+        if (render.automatic) chosen.push_back({"by hand", render.setting, render.settled});
+    }
+    for (const StudyCandidate& candidate : chosen) try_out(candidate);
+}
+
+// From the cheapest setting known for each tolerance to cheaper ones that still meet it.
+void SceneStudier::search() {
+    for (const double tolerance : study_.options.tolerances) {
+        for (;;) {
+            const std::optional<int> at = cheapest_within(tolerance);
+            if (!at || clock_.spent() > clock_.share(drawing_share_)) break;
+            const RenderSettings settings = study_.render(*at).settled;
+            const RenderStats stats = study_.render(*at).stats;
+            const double before = study_.render(*at).cpu.median;
+            for (const StudyCandidate& neighbour : cheaper_neighbours(ground_, settings, stats)) {
+                if (clock_.spent() > clock_.share(drawing_share_)) break;
+                try_out(neighbour);
+            }
+            const std::optional<int> next = cheapest_within(tolerance);
+            if (!next || *next == *at || study_.render(*next).cpu.median > k_gain * before) break;
+        }
+    }
+}
+
+// In turn, so that whatever else the machine does falls on all alike.
+void SceneStudier::time_again() {
+    std::vector<int> chosen;
+    for (const StudiedRender& render : study_.renders) {
+        if (render.automatic || may_be_on_front(render)) chosen.push_back(render.id);
+    }
+    for (int run = 1; run < study_.options.runs; ++run) {
+        for (const int id : chosen) {
+            StudiedRender& render = study_.renders[static_cast<std::size_t>(id)];
+            if (clock_.spent() + render.cpu.median > clock_.share(1)) continue;
+            DrawnTimes& times = times_[static_cast<std::size_t>(id)];
+            time_once(render.settings, times);
+            render.runs = static_cast<int>(times.cpu.size());
+            render.cpu = of_runs(times.cpu);
+            render.wall = of_runs(times.wall);
+        }
+    }
+    update_front();
+    // Others may have come to the front whose pictures were let go.
+    for (const int id : study_.front) {
+        StudiedRender& render = study_.renders[static_cast<std::size_t>(id)];
+        if (!render.picture.rgb.empty()) continue;
+        clock_.within(std::numeric_limits<double>::infinity(), [&](const Progress& progress) {
+            render.picture = drawn(scene_with(render.settled), progress).picture;
+        });
+        render.difference = judge_->difference(render.picture);
+    }
+}
+
+void SceneStudier::advise() {
+    for (const double tolerance : study_.options.tolerances) {
+        StudyAdvice advice;
+        advice.tolerance = tolerance;
+        advice.cheapest = cheapest_within(tolerance);
+        for (const StudiedRender& render : study_.renders) {
+            if (render.automatic && render.settings.tolerance == tolerance)
+                advice.automatic = render.id;
+        }
+        if (study_.reference.noise.mean > tolerance) {
+            advice.words = fmt::format(
+                "tolerance {:g}: not decided, the reference itself may be off by {:.2g}", tolerance,
+                study_.reference.noise.mean);
+        } else if (!advice.cheapest) {
+            advice.words =
+                fmt::format("tolerance {:g}: no setting that was drawn met it", tolerance);
+        } else {
+            const StudiedRender& best = study_.render(*advice.cheapest);
+            advice.words = fmt::format("for tolerance {:g} take {}: {:.3g} s, error {:.2g}",
+                                       tolerance, best.words, best.cpu.median, best.claimed_error);
+        }
+        if (advice.automatic) {
+            const StudiedRender& own = study_.render(*advice.automatic);
+            advice.automatic_meets = own.claimed_error <= tolerance;
+            if (advice.cheapest) {
+                advice.ratio = own.cpu.median / study_.render(*advice.cheapest).cpu.median;
+                advice.words += fmt::format(
+                    "; automatic settings took {:.2f}x of that{} {:.2g}", *advice.ratio,
+                    advice.automatic_meets ? ", error" : " but missed it:", own.claimed_error);
+            } else {
+                advice.words += fmt::format("; automatic settings took {:.3g} s, error {:.2g}",
+                                            own.cpu.median, own.claimed_error);
+            }
+        } else {
+            advice.words += "; automatic settings took too long for this budget";
+        }
+        study_.advice.push_back(std::move(advice));
+    }
+}
+
+}  // namespace
+
+bool SceneStudy::usable() const {
+    const double wanted = asked.tolerance > 0 ? asked.tolerance : 0.01;
+    return reference.noise.mean <= wanted &&
+           std::any_of(renders.begin(), renders.end(), [&](const StudiedRender& render) {
+               return render.automatic && render.settings.tolerance == wanted;
+           });
+}
+
+SceneStudy study_scene(const Scene& scene, const SceneStudyOptions& options,
+                       const Progress& progress) {
+    return SceneStudier(scene, options, progress).study();
+}
+
+}  // namespace culet

@@ -1,0 +1,309 @@
+#include "compare/study/study_design.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "render/setup/optical_setup.h"
+
+namespace culet {
+
+namespace {
+
+constexpr std::array k_depths{2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512};
+constexpr std::array k_samples{1, 4, 16, 36, 64};
+constexpr std::array k_tolerances{0.3, 0.1, 0.03, 0.01, 0.003, 0.001};
+
+bool by_beams(const RenderSettings& settings) {
+    return settings.engine == "beams" || settings.engine == "preview";
+}
+
+void without(RenderSettings& settings, Effects effect) {
+    settings.effects_auto = false;
+    settings.effects[static_cast<std::size_t>(effect)] = false;
+    if (effect == Effects::coherence) settings.coherence = false;
+}
+
+std::vector<Effects> effects_on(const RenderStats& stats) {
+    std::vector<Effects> on;
+    for (const EffectDecision& decision : stats.effects) {
+        if (decision.on) on.push_back(decision.effect);
+    }
+    return on;
+}
+
+// Ever more wavelengths, up to those of the reference.
+std::vector<std::vector<double>> wavelength_sets(const StudyGround& ground) {
+    const std::vector<double>& finest = ground.exact.wavelengths_nm;
+    std::vector<std::vector<double>> sets;
+    if (ground.scene.settings.wavelengths_nm.size() == 1 || finest.size() < 2) return sets;
+    sets.push_back({589.3});
+    if (finest.size() > 3) sets.push_back({450, 550, 610});
+    for (const int count : k_node_counts) {
+        Scene scene = ground.scene;
+        scene.settings.wavelengths_nm.clear();
+        scene.settings.effects_auto = true;
+        const std::vector<double> nodes = make_optical_setup(scene, count).wavelengths_nm;
+        if (nodes.size() <= finest.size() && nodes.size() > sets.back().size())
+            sets.push_back(nodes);
+    }
+    return sets;
+}
+
+// From the engine's own choices to everything on at this tolerance.
+RenderSettings with_all(const Scene& scene, const std::string& engine, double tolerance) {
+    RenderSettings settings = exact_settings(scene, tolerance, k_node_counts[1]);
+    settings.engine = engine;
+    if (engine == "reference") settings.samples = 4;
+    return settings;
+}
+
+class Design {
+public:
+    explicit Design(const StudyGround& ground) : ground_(ground) {}
+
+    void add(const std::string& sweep, const std::string& setting, const RenderSettings& settings,
+             bool automatic = false, bool needed = false) {
+        candidates_.push_back({sweep, setting, settings, automatic, needed});
+    }
+
+    void automatic() {
+        for (const double tolerance : ground_.tolerances) {
+            RenderSettings settings = with_all(ground_.scene, "auto", tolerance);
+            settings.effects_auto = true;
+            if (ground_.scene.settings.wavelengths_nm.size() != 1) settings.wavelengths_nm.clear();
+            add("automatic", fmt::format("tolerance {:g}", tolerance), settings, true,
+                tolerance == ground_.tolerance);
+        }
+    }
+    // The engine, and how finely it cuts.
+    void engines() {
+        std::vector<double> order = ground_.tolerances;
+        std::stable_sort(order.begin(), order.end(), [&](double a, double b) {
+            return (a == ground_.tolerance) > (b == ground_.tolerance);
+        });
+        for (const double tolerance : order) {
+            const std::string setting = fmt::format("{:g}", tolerance);
+            const bool needed = tolerance == ground_.tolerance;
+            if (ground_.beams) {
+                for (const char* engine : {"beams", "preview"}) {
+                    add("tolerance", setting, with_all(ground_.scene, engine, tolerance), false,
+                        needed);
+                }
+            }
+            add("tolerance", setting, with_all(ground_.scene, "reference", tolerance), false,
+                needed);
+        }
+    }
+    // One thing at a time; `base` is the quicker engine that can draw the scene.
+    void sweeps() {
+        const RenderSettings base =
+            with_all(ground_.scene, ground_.beams ? "beams" : "reference", ground_.tolerance);
+        for (const Effects effect : effects_on(ground_.exact)) {
+            RenderSettings settings = base;
+            without(settings, effect);
+            add("effects", fmt::format("without {}", name_of(effect)), settings);
+        }
+        RenderSettings none = base;
+        none.effects_auto = false;
+        none.effects.fill(false);
+        add("effects", "none", none);
+        for (const std::vector<double>& nm : wavelength_sets(ground_)) {
+            RenderSettings settings = base;
+            settings.wavelengths_nm = nm;
+            add("wavelengths", fmt::format("{}", nm.size()), settings);
+        }
+        for (const int samples : k_samples) {
+            RenderSettings settings = with_all(ground_.scene, "reference", ground_.tolerance);
+            settings.samples = samples;
+            add("samples", fmt::format("{}", samples), settings);
+        }
+        if (ground_.beams && ground_.scene.camera.aperture_radius == 0) {
+            RenderSettings settings = base;
+            settings.samples = 1;
+            add("samples", "1", settings);
+        }
+        for (const int depth : k_depths) {
+            if (depth > std::max(48, ground_.exact.depth / 4) || depth >= ground_.exact.depth)
+                break;
+            RenderSettings settings = base;
+            settings.depth = depth;
+            add("depth", fmt::format("{}", depth), settings);
+        }
+        // Paths are cut for their weight alone.
+        const int deep = std::min(24, std::max(2, ground_.exact.depth));
+        for (const double tolerance : k_tolerances) {
+            RenderSettings settings = base;
+            settings.depth = deep;
+            settings.tolerance = tolerance;
+            add("pruning", fmt::format("depth {}, {:g}", deep, tolerance), settings);
+        }
+        if (!ground_.beams) return;
+        if (ground_.scene.stone.material.optic != OpticCharacter::isotropic) {
+            for (const CrystalBeams beams : {CrystalBeams::merged, CrystalBeams::parted}) {
+                RenderSettings settings = base;
+                settings.crystal_beams = beams;
+                add("crystal beams", beams == CrystalBeams::merged ? "merged" : "parted", settings);
+            }
+        }
+    }
+    std::vector<StudyCandidate> take() { return std::move(candidates_); }
+
+private:
+    const StudyGround& ground_;
+    std::vector<StudyCandidate> candidates_;
+};
+
+}  // namespace
+
+RenderSettings exact_settings(const Scene& scene, double tolerance, int nodes) {
+    RenderSettings settings = scene.settings;
+    settings.engine = "reference";
+    settings.tolerance = tolerance;
+    settings.depth = 0;
+    settings.effects_auto = false;
+    settings.effects.fill(true);
+    // As "all" in a scene file: where the scene calls for it.
+    settings.effects[static_cast<std::size_t>(Effects::coherence)] = false;
+    settings.crystal_beams.reset();
+    settings.cut_weight.reset();
+    settings.split_weight.reset();
+    settings.checked_pixels = settings.checked_samples = 0;
+    settings.refraction = Refraction::astigmatic;
+    settings.samples = 0;
+    settings.spectral = false;
+    // A single wavelength is what the scene shows; several are how finely it is computed.
+    if (settings.wavelengths_nm.size() != 1) {
+        settings.wavelengths_nm.clear();
+        Scene exact = scene;
+        exact.settings = settings;
+        settings.wavelengths_nm = make_optical_setup(exact, nodes).wavelengths_nm;
+    }
+    return settings;
+}
+
+std::vector<StudyCandidate> study_design(const StudyGround& ground) {
+    Design design(ground);
+    design.automatic();
+    design.engines();
+    design.sweeps();
+    return design.take();
+}
+
+std::vector<StudyCandidate> cheaper_neighbours(const StudyGround& ground,
+                                               const RenderSettings& settings,
+                                               const RenderStats& drawn) {
+    std::vector<StudyCandidate> found;
+    const auto add = [&](const RenderSettings& changed) {
+        found.push_back({"search", words_of(ground, changed), changed});
+    };
+    const auto coarser = std::find_if(k_tolerances.rbegin(), k_tolerances.rend(), [&](double t) {
+        return t > settings.tolerance * (1 + 1e-9);
+    });
+    if (coarser != k_tolerances.rend()) {
+        RenderSettings changed = settings;
+        changed.tolerance = *coarser;
+        add(changed);
+    }
+    if (settings.cut_weight) {
+        RenderSettings changed = settings;
+        changed.cut_weight = 3 * *settings.cut_weight;
+        add(changed);
+    }
+    const auto sets = wavelength_sets(ground);
+    const auto fewer = std::find_if(sets.rbegin(), sets.rend(), [&](const auto& nm) {
+        return nm.size() < drawn.wavelengths_nm.size();
+    });
+    if (fewer != sets.rend()) {
+        RenderSettings changed = settings;
+        changed.wavelengths_nm = *fewer;
+        add(changed);
+    }
+    const auto shallower = std::find_if(k_depths.rbegin(), k_depths.rend(), [&](int depth) {
+        return depth < (settings.depth > 0 ? settings.depth : drawn.depth / 2);
+    });
+    if (shallower != k_depths.rend()) {
+        RenderSettings changed = settings;
+        changed.depth = *shallower;
+        add(changed);
+    }
+    for (const Effects effect : effects_on(drawn)) {
+        RenderSettings changed = settings;
+        if (settings.effects_auto) changed.effects.fill(true);
+        without(changed, effect);
+        add(changed);
+    }
+    if (settings.engine == "reference") {
+        const auto less = std::find_if(k_samples.rbegin(), k_samples.rend(), [&](int samples) {
+            return samples < (settings.samples > 0 ? settings.samples : 16);
+        });
+        if (less != k_samples.rend()) {
+            RenderSettings changed = settings;
+            changed.samples = *less;
+            add(changed);
+        }
+    }
+    if (settings.engine == "beams") {
+        RenderSettings changed = settings;
+        changed.engine = "preview";
+        changed.samples = 0;
+        add(changed);
+        changed = settings;
+        changed.samples = settings.samples == 1 ? 0 : 1;
+        if (ground.scene.camera.aperture_radius == 0) add(changed);
+    }
+    if (by_beams(settings) && settings.crystal_beams != CrystalBeams::merged &&
+        std::any_of(drawn.effects.begin(), drawn.effects.end(), [](const EffectDecision& d) {
+            return d.effect == Effects::birefringence && d.on;
+        })) {
+        RenderSettings changed = settings;
+        changed.crystal_beams = CrystalBeams::merged;
+        add(changed);
+    }
+    return found;
+}
+
+std::vector<std::string> effects_left_out(const StudyGround& ground,
+                                          const RenderSettings& settings) {
+    std::vector<std::string> names;
+    Scene scene = ground.scene;
+    scene.settings = settings;
+    const OpticalSetup setup = make_optical_setup(scene);
+    for (const Effects effect : effects_on(ground.exact)) {
+        if (!setup.on(effect)) names.emplace_back(name_of(effect));
+    }
+    return names;
+}
+
+std::string words_of(const StudyGround& ground, const RenderSettings& settings) {
+    std::string words = settings.engine;
+    if (settings.samples > 0)
+        words +=
+            fmt::format(", {} ray{} a pixel", settings.samples, settings.samples > 1 ? "s" : "");
+    if (!settings.wavelengths_nm.empty() && ground.exact.wavelengths_nm.size() > 1) {
+        words += fmt::format(", {} wavelength{}", settings.wavelengths_nm.size(),
+                             settings.wavelengths_nm.size() > 1 ? "s" : "");
+    }
+    if (settings.depth > 0) words += fmt::format(", depth {}", settings.depth);
+    words += fmt::format(", tolerance {:g}", settings.tolerance);
+    if (settings.cut_weight) words += fmt::format(", weights over {:.2g}", *settings.cut_weight);
+    if (settings.crystal_beams) {
+        words +=
+            *settings.crystal_beams == CrystalBeams::merged ? ", waves merged" : ", waves parted";
+    }
+    const std::vector<std::string> out = effects_left_out(ground, settings);
+    if (!out.empty()) words += fmt::format(", without {}", fmt::join(out, ", "));
+    return words;
+}
+
+std::string key_of(const StudyGround& ground, const RenderSettings& settings) {
+    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", settings.engine, settings.samples,
+                       settings.tolerance, settings.depth, settings.effects_auto,
+                       fmt::join(settings.wavelengths_nm, " "),
+                       settings.crystal_beams ? static_cast<int>(*settings.crystal_beams) : -1,
+                       settings.cut_weight.value_or(-1), settings.split_weight.value_or(-1),
+                       fmt::join(effects_left_out(ground, settings), " "));
+}
+
+}  // namespace culet

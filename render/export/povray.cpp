@@ -1,0 +1,400 @@
+#include "render/export/povray.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <iterator>
+#include <numbers>
+
+#include "render/setup/optical_setup.h"
+#include "render/setup/scene_checks.h"
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+// POV-Ray 3.7 holds corners in single precision: nearer ones are one.
+constexpr double k_single_precision = 1e-7;
+// The stone's diameter in POV-Ray's units is from this to twice this: hits nearer than 1e-4, which
+// POV-Ray does not take, are then nearer than single precision tells apart.
+constexpr double k_stone_size = 1024;
+constexpr int k_highest_level = 256;      // that POV-Ray accepts
+constexpr int k_depth_by_tolerance = 64;  // written where the tolerance decides
+
+std::string vector_text(const Vec3& v) {
+    return fmt::format("<{}, {}, {}>", v.x, v.z, v.y);
+}
+std::string colour_text(const Rgb& rgb) {
+    return fmt::format("rgb <{}, {}, {}>", rgb[0], rgb[1], rgb[2]);
+}
+
+void refuse_what_has_no_picture(const Scene& scene) {
+    const Camera& camera = scene.camera;
+    const auto refuse = [](const char* what) {
+        throw InputError(fmt::format("{} cannot be carried to POV-Ray", what));
+    };
+    if (camera.cone) refuse("a conoscope's camera");
+    if (camera.optics.analyzer || camera.optics.retarder || camera.optics.two_windows)
+        refuse("an analyser, retarder or dichroscope before the eye");
+    if (polarised(scene.lights)) refuse("polarised light");
+    if (scene.lights.environment)
+        refuse(
+            "an environment map (its texels would be looked up differently; use lobes, caps and "
+            "hemispheres)");
+}
+
+// Ear clipping (Meisters 1975) in the facet's plane; convex facets come out as fans.
+std::vector<std::array<int, 3>> triangles_of(const Solid& solid, const Facet& facet) {
+    std::vector<int> left = facet.corners;
+    std::vector<std::array<int, 3>> triangles;
+    const auto turn = [&](int a, int b, int c) {
+        const Vec3 &A = solid.vertices[a], &B = solid.vertices[b], &C = solid.vertices[c];
+        return glm::dot(facet.plane.normal, glm::cross(B - A, C - B));
+    };
+    const auto is_ear = [&](std::size_t i) {
+        const int a = left[(i + left.size() - 1) % left.size()], b = left[i],
+                  c = left[(i + 1) % left.size()];
+        if (!(turn(a, b, c) > 0)) return false;
+        return std::none_of(left.begin(), left.end(), [&](int p) {
+            return p != a && p != b && p != c && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 &&
+                   turn(c, a, p) >= 0;
+        });
+    };
+    while (left.size() > 3) {
+        // From the second corner, so that a convex facet is a fan about its first one. Where
+        // rounding leaves no ear what is left has no width, and any corner does.
+        std::size_t ear = 1;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            if (is_ear((1 + i) % left.size())) {
+                ear = (1 + i) % left.size();
+                break;
+            }
+        }
+        triangles.push_back({left[(ear + left.size() - 1) % left.size()], left[ear],
+                             left[(ear + 1) % left.size()]});
+        left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
+    }
+    if (left.size() == 3) triangles.push_back({left[0], left[1], left[2]});
+    return triangles;
+}
+
+// What the renderer draws: of a convex stone the planes, whose corners are here computed anew where
+// they lie off them.
+Solid drawn_solid(const Stone& stone) {
+    const double tolerance = k_single_precision * diameter(stone.solid);
+    if (!stone.convex || planarity(stone.solid) <= tolerance) return stone.solid;
+    std::vector<NamedPlane> planes;
+    for (const Facet& facet : stone.solid.facets) planes.push_back({facet.name, facet.plane});
+    return contract_near_meets(intersect_half_spaces(planes).solid, tolerance).solid;
+}
+
+class PovrayWriter {
+public:
+    explicit PovrayWriter(const Scene& scene)
+        : scene_(scene),
+          setup_(make_optical_setup(scene)),
+          colours_(one_wavelength() ? scene.settings.wavelengths_nm
+                                    : std::vector<double>{450, 500, 550, 610, 650}),
+          scale_(std::exp2(std::ceil(std::log2(k_stone_size / diameter(scene.stone.solid))))) {}
+
+    PovrayScene write() {
+        header();
+        camera();
+        distant_lights();
+        near_lights();
+        stone();
+        for (const std::string& note : result_.notes) line("// Not carried: {}", note);
+        return std::move(result_);
+    }
+
+private:
+    template <class... Args>
+    void line(fmt::format_string<Args...> format, Args&&... args) {
+        fmt::format_to(std::back_inserter(result_.text), format, std::forward<Args>(args)...);
+        result_.text += '\n';
+    }
+    void note(const std::string& text) { result_.notes.push_back(text); }
+    bool one_wavelength() const { return scene_.settings.wavelengths_nm.size() == 1; }
+
+    void header() {
+        const Camera& camera = scene_.camera;
+        const RenderSettings& settings = scene_.settings;
+        const int depth = settings.depth > 0 ? settings.depth : k_depth_by_tolerance;
+        const int level = std::min(depth + 1, k_highest_level);
+        line("// POV-Ray 3.7: povray +ITHIS.pov +OPICTURE.png +W{} +H{} -A +FN16 File_Gamma=sRGB",
+             camera.width, camera.height);
+        line(
+            "// -A: one ray through the middle of each pixel; a grid of 4 x 4: +AM1 +A0.0 -J +R4.");
+        line("// PNG ends at 1: +FE (EXR, 11 bits) for brighter lights.");
+        line("// Lengths: stone's unit x {}; y and z changed places.", scale_);
+        line("#version 3.7;");
+        line("global_settings {{ assumed_gamma 1 max_trace_level {} adc_bailout 0 }}", level);
+        if (level <= depth)
+            note(fmt::format("paths deeper than {} faces (POV-Ray's highest level)", level - 1));
+        if (settings.depth == 0 || settings.tolerance > 0) {
+            note(fmt::format("the tolerance: every path is followed through {} faces, none farther",
+                             level - 1));
+        }
+        if (setup_.polarised)
+            note("polarisation by the faces: the picture is that of effects = \"none\"");
+    }
+
+    void camera() {
+        const Camera& camera = scene_.camera;
+        const Vec3 forward = glm::normalize(camera.look_at - camera.position);
+        const Vec3 right = glm::normalize(glm::cross(forward, camera.up));
+        const Vec3 up = glm::cross(right, forward);
+        // Of the picture's plane; in POV-Ray's units for the orthographic camera.
+        double width = 0;
+        if (camera.orthographic_width) {
+            width = *camera.orthographic_width * scale_;
+        } else {
+            width = 2 * std::tan(camera.fov / 2) * camera.width / camera.height;
+        }
+        const double height = width * camera.height / camera.width;
+        // POV-Ray's picture has `direction` in its middle, which is not where the line of sight is.
+        const auto [sight_x, sight_y] = line_of_sight_in(camera);
+        const Vec3 to_middle = width * (0.5 - sight_x / camera.width) * right +
+                               height * (sight_y / camera.height - 0.5) * up;
+        const bool parallel = camera.orthographic_width.has_value();
+        line("camera {{\n  {}\n  location {}\n  direction {}\n  right {}\n  up {}\n}}",
+             parallel ? "orthographic" : "perspective",
+             vector_text(scale_ * camera.position + (parallel ? to_middle : Vec3(0))),
+             vector_text(parallel ? forward : forward + to_middle), vector_text(width * right),
+             vector_text(height * up));
+        if (setup_.on(Effects::aperture)) note("the lens: the picture is that of a pinhole");
+    }
+
+    Rgb rgb_of(const LightColour& light) {
+        if (const double* number = std::get_if<double>(&light.value))
+            return {*number, *number, *number};
+        if (const Rgb* rgb = std::get_if<Rgb>(&light.value))
+            return one_wavelength() ? colours_.rgb_of(colours_.spectrum_of(*rgb).data()) : *rgb;
+        const std::string& name = std::get<std::string>(light.value);
+        if (name != "D65" && !one_wavelength())
+            note(fmt::format("the spectrum of illuminant {}: its colour only", name));
+        return colours_.rgb_of(colours_.illuminant_relative(name.c_str()).data());
+    }
+
+    // Distant lights add up: a function of the direction for each channel, or one for all.
+    struct Term {
+        std::string shape;  // 0..1; empty: 1
+        Rgb radiance{};
+    };
+
+    // Of a distant light: its share of the radiance from each direction, as a function.
+    static std::string cosine(const Vec3& d) {
+        return fmt::format("({})*x + ({})*y + ({})*z", d.x, d.z, d.y);
+    }
+    static std::string shape(const LobeLight& lobe) {
+        return fmt::format("pow(max({}, 0), {})", cosine(lobe.direction), lobe.exponent);
+    }
+    static std::string shape(const HemisphereLight& half) {
+        return fmt::format("select(-({}), 1, 0)", cosine(half.direction));
+    }
+    static std::string shape(const CapLight& cap) {
+        const std::string at = cosine(cap.direction);
+        const std::string beyond =
+            cap.from <= 0 ? "1" : fmt::format("select(({}) - ({}), 0, 1)", std::cos(cap.from), at);
+        if (cap.to >= std::numbers::pi) return beyond;
+        return fmt::format("select(({}) - ({}), {}, 0)", std::cos(cap.to), at, beyond);
+    }
+
+    void distant_lights() {
+        const Lights& lights = scene_.lights;
+        std::vector<Term> terms;
+        for (const Light& light : lights.sources) {
+            std::visit(
+                [&](const auto& l) {
+                    if constexpr (!std::decay_t<decltype(l)>::k_is_near) {
+                        terms.push_back({shape(l), rgb_of(l.radiance)});
+                    }
+                },
+                light);
+        }
+        if (terms.empty()) {
+            line("background {{ rgb {} }}", lights.constant);
+            return;
+        }
+        terms.push_back({"1", {lights.constant, lights.constant, lights.constant}});
+        const bool grey = std::all_of(terms.begin(), terms.end(), [](const Term& term) {
+            return term.radiance[0] == term.radiance[1] && term.radiance[1] == term.radiance[2];
+        });
+        line("sky_sphere {{ pigment {{");
+        if (grey) {
+            sky_channel(terms, 0, {1, 1, 1});
+        } else {
+            // An average of three is the sum of their threefold.
+            line("  average pigment_map {{");
+            for (int c = 0; c < 3; ++c) {
+                Rgb unit{0, 0, 0};
+                unit[c] = 3;
+                line("  [1");
+                sky_channel(terms, c, unit);
+                line("  ]");
+            }
+            line("  }}");
+        }
+        line("}} }}");
+    }
+
+    void sky_channel(const std::vector<Term>& terms, int channel, const Rgb& unit) {
+        double most = 0;
+        std::string sum;
+        for (const Term& term : terms) {
+            if (term.radiance[channel] == 0) continue;
+            most += std::abs(term.radiance[channel]);
+            sum += fmt::format("{}({}) * {}", sum.empty() ? "" : "\n      + ",
+                               term.radiance[channel], term.shape);
+        }
+        if (sum.empty()) {
+            line("    rgb 0");
+            return;
+        }
+        // A colour map ends at 1, where functions start anew from 0: half of it is used.
+        const double range = 2 * most;
+        line("    function {{ ({}) / {} }}", sum, range);
+        line("    color_map {{ [0 rgb 0] [1 {}] }}",
+             colour_text({range * unit[0], range * unit[1], range * unit[2]}));
+    }
+
+    void near_lights() {
+        for (const Light& light : scene_.lights.sources) {
+            std::visit(
+                [&](const auto& l) {
+                    if constexpr (std::decay_t<decltype(l)>::k_is_near) near_light(l);
+                },
+                light);
+        }
+    }
+
+    void near_light(const SphereLight& sphere) {
+        // Seen from within a body POV-Ray 3.7 reflects nothing inside a second one: a dome round
+        // the camera is turned inside out, so that the camera is outside.
+        const bool inside = glm::length(scene_.camera.position - sphere.center) < sphere.radius;
+        line("sphere {{ {}, {} {}{} }}", vector_text(scale_ * sphere.center),
+             scale_ * sphere.radius, glowing(sphere.radiance), inside ? " inverse" : "");
+    }
+
+    void near_light(const PlaneLight& plane) {
+        const double of_camera = height(plane, scene_.camera.position);
+        double lowest = of_camera, highest = of_camera;
+        for (const Vec3& corner : scene_.stone.solid.vertices) {
+            lowest = std::min(lowest, height(plane, corner));
+            highest = std::max(highest, height(plane, corner));
+        }
+        if (highest <= 0) {
+            line("// A plane light with its back to everything: not there.");
+            return;
+        }
+        if (of_camera <= 0) {
+            throw InputError(
+                "a plane light whose back is towards the camera cannot be carried to POV-Ray");
+        }
+        // From behind it is not there: clear, which in POV-Ray takes up a level.
+        std::string back;
+        if (lowest < 0) {
+            back = " interior_texture { pigment { rgbt 1 } finish { ambient 0 diffuse 0 } }";
+            note("that the back of a plane light is not there: rays through it lose a level");
+        }
+        if (!plane.u || !plane.v) {
+            line("plane {{ {}, {} {}{} }}", vector_text(plane.normal),
+                 scale_ * glm::dot(plane.point, plane.normal), glowing(plane.radiance), back);
+            return;
+        }
+        // A mesh's front is where its corners run counter-clockwise; in the mirrored frame, where
+        // they ran clockwise.
+        const Vec3 &u = *plane.u, &v = *plane.v;
+        const bool swap = glm::dot(glm::cross(u, v), plane.normal) > 0;
+        const Vec3 corners[4] = {plane.point - u - v, plane.point + u - v, plane.point + u + v,
+                                 plane.point - u + v};
+        line("mesh2 {{ vertex_vectors {{ 4");
+        for (const Vec3& corner : corners) line("    {}", vector_text(scale_ * corner));
+        line("  }} face_indices {{ 2 {} }}", swap ? "<0, 2, 1> <0, 3, 2>" : "<0, 1, 2> <0, 2, 3>");
+        line("  {}{} }}", glowing(plane.radiance), back);
+    }
+
+    static double height(const PlaneLight& plane, const Vec3& point) {
+        return glm::dot(point - plane.point, plane.normal);
+    }
+    std::string glowing(const LightColour& radiance) {
+        return fmt::format("pigment {{ {} }} finish {{ ambient 0 diffuse 0 emission 1 }}",
+                           colour_text(rgb_of(radiance)));
+    }
+    void stone() {
+        const Solid solid = drawn_solid(scene_.stone);
+        line("mesh2 {{ vertex_vectors {{ {}", solid.vertices.size());
+        for (const Vec3& vertex : solid.vertices) line("    {}", vector_text(scale_ * vertex));
+        std::vector<std::array<int, 3>> triangles;
+        for (const Facet& facet : solid.facets) {
+            for (const auto& triangle : triangles_of(solid, facet)) triangles.push_back(triangle);
+        }
+        line("  }} face_indices {{ {}", triangles.size());
+        for (const auto& t : triangles) line("    <{}, {}, {}>", t[0], t[1], t[2]);
+        line("  }}");
+        line("  pigment {{ rgbt 1 }}");
+        line("  finish {{ ambient 0 diffuse 0 specular 0");
+        line("    reflection {{ 0, 1 fresnel on }} conserve_energy }}");
+        interior();
+        line("}}");
+    }
+
+    void interior() {
+        constexpr double k_d_line_nm = 589.3, k_red_nm = 610, k_green_nm = 545, k_blue_nm = 465;
+        const Material& material = scene_.stone.material;
+        const int rays = ray_count(material.optic);
+        const double nm = one_wavelength() ? scene_.settings.wavelengths_nm[0] : k_d_line_nm;
+        // As the renderer does where double refraction is left out; uniaxial stones have two
+        // directions of the ordinary index.
+        const bool uniaxial = material.optic == OpticCharacter::uniaxial;
+        const auto mean = [&](const auto& of_ray) {
+            if (rays == 1) return of_ray(0);
+            return (of_ray(0) + (uniaxial ? of_ray(0) : of_ray(2)) + of_ray(1)) / 3;
+        };
+        const double n = mean([&](int ray) { return material.index[ray].at(nm); });
+        if (setup_.on(Effects::birefringence))
+            note(fmt::format("double refraction: the mean index {:.4f} is written", n));
+        if (setup_.on(Effects::dispersion))
+            note(fmt::format("dispersion: the index at {} nm is written", nm));
+        if (!setup_.on(Effects::absorption)) {
+            line("  interior {{ ior {} }}", n / scene_.immersion);
+            return;
+        }
+        // As a medium, because POV-Ray's fade_distance spares the partly reflected rays.
+        const double per_unit = mm_per(scene_.stone.unit) / scale_;
+        Rgb absorption{};
+        for (int c = 0; c < 3; ++c) {
+            const double at =
+                one_wavelength() ? nm : std::array{k_red_nm, k_green_nm, k_blue_nm}[c];
+            absorption[c] =
+                per_unit * mean([&](int ray) { return material.absorption_per_mm[ray].at(at); });
+        }
+        if (setup_.on(Effects::pleochroism)) note("pleochroism: the mean absorption is written");
+        for (int ray = 0; ray < rays; ++ray) {
+            if (one_wavelength() || material.absorption_per_mm[ray].is_constant()) continue;
+            note("the spectrum of absorption: three values for red, green and blue are written");
+            break;
+        }
+        line("  hollow interior {{ ior {} media {{ absorption {} }} }}", n / scene_.immersion,
+             colour_text(absorption));
+    }
+
+    const Scene& scene_;
+    OpticalSetup setup_;
+    WavelengthSet colours_;
+    double scale_;
+    PovrayScene result_;
+};
+
+}  // namespace
+
+PovrayScene povray_scene(const Scene& scene) {
+    require_renderable(scene);
+    refuse_what_has_no_picture(scene);
+    return PovrayWriter(scene).write();
+}
+
+}  // namespace culet

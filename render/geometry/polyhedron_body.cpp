@@ -1,0 +1,372 @@
+#include "render/geometry/polyhedron_body.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+// Working memory of one thread, so that a ray allocates nothing. `step` is all 0 between rays.
+struct Scratch {
+    std::vector<double> x, y;
+    std::vector<unsigned char> side;
+    std::vector<int> candidates, step, touched;
+    std::vector<LineCrossing> crossings;
+
+    void fit(std::size_t vertices, std::size_t edges, std::size_t facets) {
+        if (x.size() < vertices) {
+            x.resize(vertices);
+            y.resize(vertices);
+            side.resize(vertices);
+        }
+        if (candidates.size() < edges) candidates.resize(edges);
+        if (step.size() < facets) step.resize(facets, 0);
+    }
+};
+
+Scratch& scratch() {
+    thread_local Scratch mine;
+    return mine;
+}
+
+// Exact sign of a.x b.y - a.y b.x: rounding keeps order, so that only equal products need their
+// rounding errors compared.
+int turn(double ax, double ay, double bx, double by) {
+    const double left = ax * by, right = ay * bx;
+    if (left != right) return left > right ? 1 : -1;
+    const double left_error = std::fma(ax, by, -left), right_error = std::fma(ay, bx, -right);
+    return (left_error > right_error) - (left_error < right_error);
+}
+
+bool comes_before(const LineCrossing& a, const LineCrossing& b) {
+    if (a.distance != b.distance) return a.distance < b.distance;
+    if ((a.step > 0) != (b.step > 0)) return a.step > 0;
+    return a.facet < b.facet;
+}
+
+// Bits of a projected vertex; `k_right_shift` brings one to the place of the other.
+constexpr unsigned k_above = 1, k_right = 2, k_right_shift = 1;
+
+}  // namespace
+
+PolyhedronBody::PolyhedronBody(const Solid& solid) {
+    if (solid.facets.size() < 4) throw InputError("a solid needs at least 4 facets");
+    const int vertex_count = static_cast<int>(solid.vertices.size());
+    for (const Vec3& vertex : solid.vertices) {
+        for (int axis = 0; axis < 3; ++axis) coordinates_[axis].push_back(vertex[axis]);
+    }
+
+    // Uses of each edge: facets along it from the lower to the higher vertex, and back.
+    std::map<std::pair<int, int>, std::pair<std::vector<int>, std::vector<int>>> uses;
+    std::vector<std::vector<int>> facets_at(solid.vertices.size());
+    for (std::size_t f = 0; f < solid.facets.size(); ++f) {
+        const Facet& facet = solid.facets[f];
+        const int index = static_cast<int>(f);
+        normals_.push_back(facet.plane.normal);
+        offsets_.push_back(facet.plane.offset);
+        corners_.push_back(facet.corners);
+        all_.push_back(index);
+        if (facet.corners.empty()) {
+            throw InputError(fmt::format("facet {} has no corners", facet.name));
+        }
+        for (std::size_t i = 0; i < facet.corners.size(); ++i) {
+            const int a = facet.corners[i], b = facet.corners[(i + 1) % facet.corners.size()];
+            if (std::min(a, b) < 0 || std::max(a, b) >= vertex_count) {
+                throw InputError(
+                    fmt::format("facet {} has a corner that does not exist", facet.name));
+            }
+            facets_at[static_cast<std::size_t>(a)].push_back(index);
+            if (a < b) uses[{a, b}].first.push_back(index);
+            if (a > b) uses[{b, a}].second.push_back(index);
+        }
+    }
+
+    // Where more than two facets share an edge, which are paired makes no difference to a ray.
+    for (const auto& [ends, facets] : uses) {
+        const auto& [along, against] = facets;
+        if (along.size() != against.size()) {
+            const int facet = along.empty() ? against.front() : along.front();
+            throw InputError(
+                fmt::format("the stone is not closed: facet {} has an edge without a neighbour",
+                            solid.facets[static_cast<std::size_t>(facet)].name));
+        }
+        for (std::size_t i = 0; i < along.size(); ++i) {
+            edges_.push_back({ends.first, ends.second, along[i], against[i]});
+        }
+    }
+
+    for (std::size_t f = 0; f < corners_.size(); ++f) {
+        std::vector<int> sharers;
+        for (const int corner : corners_[f]) {
+            const auto& here = facets_at[static_cast<std::size_t>(corner)];
+            sharers.insert(sharers.end(), here.begin(), here.end());
+        }
+        std::sort(sharers.begin(), sharers.end());
+        sharers.erase(std::unique(sharers.begin(), sharers.end()), sharers.end());
+        std::erase(sharers, static_cast<int>(f));
+        vertex_sharers_.push_back(std::move(sharers));
+    }
+}
+
+// The facet's plane says where, kept within the facet's own extent along the line: a facet seen
+// edge-on has no better answer.
+double PolyhedronBody::distance_to(std::size_t facet, const Vec3& origin,
+                                   const Vec3& direction) const {
+    const double inverse_length = 1 / glm::dot(direction, direction);
+    double first = std::numeric_limits<double>::infinity(), last = -first;
+    for (const int corner : corners_[facet]) {
+        const std::size_t v = static_cast<std::size_t>(corner);
+        const double along = (coordinates_[0][v] - origin.x) * direction.x +
+                             (coordinates_[1][v] - origin.y) * direction.y +
+                             (coordinates_[2][v] - origin.z) * direction.z;
+        first = std::min(first, along);
+        last = std::max(last, along);
+    }
+    const double distance = (offsets_[facet] - glm::dot(normals_[facet], origin)) /
+                            glm::dot(normals_[facet], direction);
+    // Also catches 0/0.
+    if (!(distance >= first * inverse_length)) return first * inverse_length;
+    return std::min(distance, last * inverse_length);
+}
+
+// How far the line passes beside the facet's outline.
+double PolyhedronBody::miss_of(std::size_t facet, const Vec3& origin, const Vec3& direction) const {
+    const Vec3 along = glm::normalize(direction);
+    const auto across = [&](int vertex) {
+        const std::size_t v = static_cast<std::size_t>(vertex);
+        const Vec3 arm = Vec3{coordinates_[0][v], coordinates_[1][v], coordinates_[2][v]} - origin;
+        return arm - glm::dot(arm, along) * along;
+    };
+    double miss = std::numeric_limits<double>::infinity();
+    Vec3 a = across(corners_[facet].back());
+    for (const int corner : corners_[facet]) {
+        const Vec3 b = across(corner);
+        const Vec3 edge = b - a;
+        const double length2 = glm::dot(edge, edge);
+        const double part = length2 > 0 ? std::clamp(-glm::dot(a, edge) / length2, 0.0, 1.0) : 0;
+        miss = std::min(miss, glm::length(a + part * edge));
+        a = b;
+    }
+    return miss;
+}
+
+// All crossings in order. The crossing of `from` has distance 0, whatever its plane says.
+std::span<const LineCrossing> PolyhedronBody::trace(const Vec3& origin, const Vec3& direction,
+                                                    int from) const {
+    Scratch& work = scratch();
+    const std::size_t vertex_count = coordinates_[0].size();
+    work.fit(vertex_count, edges_.size(), normals_.size());
+
+    // Shear the line onto the axis that it follows most; the other two then lie across it.
+    const Vec3 size = glm::abs(direction);
+    const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
+    const int right = (axis + 1) % 3, up = (axis + 2) % 3;
+    const double shear_right = direction[right] / direction[axis];
+    const double shear_up = direction[up] / direction[axis];
+    const double *along = coordinates_[axis].data(), *rightward = coordinates_[right].data(),
+                 *upward = coordinates_[up].data();
+    const double at_along = origin[axis], at_right = origin[right], at_up = origin[up];
+    double *x = work.x.data(), *y = work.y.data();
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+        const double depth = along[v] - at_along;
+        x[v] = (rightward[v] - at_right) - shear_right * depth;
+        y[v] = (upward[v] - at_up) - shear_up * depth;
+    }
+    unsigned char* side = work.side.data();
+    for (std::size_t v = 0; v < vertex_count; ++v) {
+        side[v] =
+            static_cast<unsigned char>((y[v] >= 0 ? k_above : 0u) | (x[v] > 0 ? k_right : 0u));
+    }
+
+    // Edges that may cross the half-axis to the right.
+    std::size_t candidate_count = 0;
+    int* candidates = work.candidates.data();
+    const Edge* edges = edges_.data();
+    const std::size_t edge_count = edges_.size();
+    for (std::size_t e = 0; e < edge_count; ++e) {
+        const unsigned low = side[edges[e].low], high = side[edges[e].high];
+        candidates[candidate_count] = static_cast<int>(e);
+        candidate_count += (low ^ high) & ((low | high) >> k_right_shift) & k_above;
+    }
+
+    // What an edge adds to the winding of one facet it takes from the other's. Seen along the
+    // line, an outline that winds counter-clockwise is left.
+    const int out = direction[axis] > 0 ? -1 : 1;
+    work.touched.clear();
+    for (std::size_t i = 0; i < candidate_count; ++i) {
+        const Edge& edge = edges_[static_cast<std::size_t>(candidates[i])];
+        const std::size_t a = static_cast<std::size_t>(edge.low);
+        const std::size_t b = static_cast<std::size_t>(edge.high);
+        const bool rising = (side[b] & k_above) != 0;
+        const int sense = rising ? 1 : -1;
+        if (!(side[a] & side[b] & k_right) && turn(x[a], y[a], x[b], y[b]) != sense) continue;
+        work.step[static_cast<std::size_t>(edge.along)] += out * sense;
+        work.step[static_cast<std::size_t>(edge.against)] -= out * sense;
+        work.touched.push_back(edge.along);
+        work.touched.push_back(edge.against);
+    }
+
+    work.crossings.clear();
+    for (const int facet : work.touched) {
+        const std::size_t f = static_cast<std::size_t>(facet);
+        const int step = std::exchange(work.step[f], 0);
+        if (step == 0) continue;
+        const double distance = facet == from ? 0 : distance_to(f, origin, direction);
+        const LineCrossing crossing{facet, step, distance};
+        // There are few: insert in order.
+        auto place = work.crossings.end();
+        while (place != work.crossings.begin() && comes_before(crossing, *(place - 1))) --place;
+        work.crossings.insert(place, crossing);
+    }
+    return work.crossings;
+}
+
+std::vector<LineCrossing> PolyhedronBody::crossings(const Vec3& origin,
+                                                    const Vec3& direction) const {
+    const auto found = trace(origin, direction, -1);
+    return {found.begin(), found.end()};
+}
+
+std::optional<BodyHit> PolyhedronBody::entry(const Vec3& origin, const Vec3& direction) const {
+    const auto found = trace(origin, direction, -1);
+    int depth = 0;
+    const LineCrossing* entered = nullptr;
+    for (const LineCrossing& crossing : found) {
+        const int before = std::exchange(depth, depth + crossing.step);
+        if (before <= 0 && depth > 0) entered = &crossing;
+        if (before > 0 && depth <= 0 && crossing.distance > entered->distance) {
+            // A stretch inside from `entered` to `crossing`.
+            if (entered->distance >= 0) return BodyHit{entered->facet, entered->distance};
+            if (crossing.distance > 0) return std::nullopt;
+        }
+    }
+    return std::nullopt;
+}
+
+BodyHit PolyhedronBody::exit(const Vec3& origin, const Vec3& direction, int from) const {
+    return run(origin, direction, from, true).value_or(BodyHit{std::max(from, 0), 0});
+}
+
+std::optional<BodyHit> PolyhedronBody::reentry(const Vec3& origin, const Vec3& direction,
+                                               int from) const {
+    return run(origin, direction, from, false);
+}
+
+namespace {
+
+// The crossings from `next` on until the ray is no longer `inside`; it is at depth `depth` before.
+std::optional<BodyHit> follow(std::span<const LineCrossing> crossings, std::size_t next, int depth,
+                              bool inside) {
+    for (; next < crossings.size(); ++next) {
+        depth += crossings[next].step;
+        if ((depth > 0) != inside) {
+            return BodyHit{crossings[next].facet, std::max(crossings[next].distance, 0.0)};
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+// Where a ray that runs inside (or outside) of the stone comes to the surface.
+std::optional<BodyHit> PolyhedronBody::run(const Vec3& origin, const Vec3& direction, int from,
+                                           bool inside) const {
+    const auto found = trace(origin, direction, from);
+    int depth = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        depth += found[i].step;
+        if (found[i].facet != from) continue;
+        if ((found[i].step > 0) != inside) break;
+        if ((depth > 0) == inside) return follow(found, i + 1, depth, inside);
+        // Rounding swapped this crossing with the one that the ray comes to at once.
+        while (i-- > 0) {
+            if ((found[i].step > 0) != inside) return BodyHit{found[i].facet, 0};
+        }
+        break;
+    }
+    return run_from_beside(origin, direction, from, inside, found);
+}
+
+// The ray does not pass through the facet that it starts on. Where it starts is as good as on the
+// right side, or rounding put it to the wrong side; then the shortest move that brings it back
+// decides: forwards, backwards or sideways over the edge of a facet that it runs against.
+std::optional<BodyHit> PolyhedronBody::run_from_beside(
+    const Vec3& origin, const Vec3& direction, int from, bool inside,
+    std::span<const LineCrossing> crossings) const {
+    int depth = 0;
+    std::size_t next = 0;
+    while (next < crossings.size() && crossings[next].distance <= 0) {
+        depth += crossings[next++].step;
+    }
+    if ((depth > 0) == inside) return follow(crossings, next, depth, inside);
+
+    std::optional<BodyHit> hit;
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = next; i-- > 0;) {
+        if ((crossings[i].step > 0) == inside) continue;
+        shortest = -crossings[i].distance;
+        hit = BodyHit{crossings[i].facet, 0};
+        break;
+    }
+    for (std::size_t i = next; i < crossings.size(); ++i) {
+        depth += crossings[i].step;
+        if ((depth > 0) != inside) continue;
+        if (crossings[i].distance < shortest) {
+            shortest = crossings[i].distance;
+            hit = follow(crossings, i + 1, depth, inside);
+        }
+        break;
+    }
+    // Move lengths are compared in lengths of the direction.
+    const double inverse_length = 1 / glm::length(direction);
+    double nearest = std::numeric_limits<double>::infinity();
+    const auto move_over_edges = [&](const std::vector<int>& facets) {
+        for (const int facet : facets) {
+            const std::size_t f = static_cast<std::size_t>(facet);
+            const double towards = glm::dot(normals_[f], direction);
+            if (inside ? !(towards > 0) : !(towards < 0)) continue;
+            const double distance = distance_to(f, origin, direction);
+            const double move = std::hypot(miss_of(f, origin, direction) * inverse_length,
+                                           std::max(-distance, 0.0));
+            if (move < shortest || (move == shortest && distance < nearest)) {
+                shortest = move;
+                nearest = distance;
+                hit = BodyHit{facet, std::max(distance, 0.0)};
+            }
+        }
+    };
+    if (from >= 0) move_over_edges(vertex_sharers_[static_cast<std::size_t>(from)]);
+    if (from < 0 || (inside && !hit)) move_over_edges(all_);
+    return hit;
+}
+
+bool PolyhedronBody::contains(const Vec3& point) const {
+    // Along all three axes: a point on a facet is seen to be on it from one of them.
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3 direction{0, 0, 0};
+        direction[axis] = 1;
+        int depth = 0;
+        for (const LineCrossing& crossing : trace(point, direction, -1)) {
+            if (crossing.distance == 0) return false;
+            if (crossing.distance < 0) depth += crossing.step;
+        }
+        if (depth <= 0) return false;
+    }
+    return true;
+}
+
+Vec3 PolyhedronBody::on_facet(int facet, const Vec3& point) const {
+    const std::size_t f = static_cast<std::size_t>(facet);
+    return point - (glm::dot(normals_[f], point) - offsets_[f]) * normals_[f];
+}
+
+}  // namespace culet

@@ -1,0 +1,20 @@
+#pragma once
+// OpenEXR files, which OpenCV reads without names of channels.
+
+#include <filesystem>
+#include <string>
+
+#include "render/image/picture.h"
+
+namespace culet {
+
+/// R, G, B (or Y), A and spectral planes of the file's bytes; 16-bit, 32-bit float and integer
+/// channels. Memory is taken only for what the file can hold. Throws InputError naming `file`.
+Picture read_exr(const std::string& bytes, const std::filesystem::path& file, bool& had_alpha);
+
+/// Channels R, G, B, A when coverage is known, S0.589,300nm for spectral planes and S1 to S3 for
+/// their polarisation (Fichet et al. 2021), and standard_error.Y where paths were chosen at random.
+void write_exr(const Picture& picture, const std::filesystem::path& file,
+               const std::vector<std::pair<std::string, std::string>>& text);
+
+}  // namespace culet

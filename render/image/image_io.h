@@ -1,0 +1,40 @@
+#pragma once
+// Pictures in files: EXR and HDR in linear light, PNG, JPEG and TIFF in the sRGB encoding.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "render/image/picture.h"
+
+namespace culet {
+
+struct ReadPicture {
+    Picture picture;           ///< linear; 8- and 16-bit files are decoded from sRGB
+    bool was_encoded = false;  ///< true: the file held sRGB values (8 or 16 bit)
+    bool had_alpha = false;    ///< alpha (EXR, PNG) is in picture.coverage
+    std::string encoding;      ///< for the record: "8-bit sRGB", "16-bit sRGB", "linear EXR", ...
+    float white = 0;  ///< linear value at which the file saturates (1 when encoded); 0: none
+};
+
+/// By content: EXR, HDR, PFM, PNG, JPEG, TIFF. JPEGs are turned upright as their EXIF tag says;
+/// colour profiles are not applied. Throws InputError: missing, a folder, empty, no picture, cut
+/// off, damaged, absurd size (over 2^28 pixels, or more than a file of its length can hold).
+ReadPicture read_picture(const std::filesystem::path& file);
+
+enum class ToneMap { none, reinhard };
+
+struct PngLook {
+    double exposure = 1;  ///< factor on linear light before the encoding
+    ToneMap tone_map = ToneMap::none;
+};
+
+/// By extension: .exr (linear float, half the file's channels named R, G, B, A when coverage is
+/// known, and S0.589,300nm for spectral planes), .hdr, .png (8 bit sRGB, exposure and tone
+/// map in a text chunk). Whole or not at all. `text`: key/value pairs stored in the file where it
+/// can hold them.
+void write_picture(const Picture& picture, const std::filesystem::path& file,
+                   const PngLook& look = {},
+                   const std::vector<std::pair<std::string, std::string>>& text = {});
+
+}  // namespace culet

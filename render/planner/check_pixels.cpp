@@ -1,0 +1,151 @@
+#include "render/planner/check_pixels.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/planner/contrast.h"
+#include "render/planner/light_edge_scan.h"
+#include "render/planner/wavelengths.h"
+#include "render/reference/light_field.h"
+
+namespace culet {
+
+namespace {
+
+constexpr std::size_t k_first_pixels = 48, k_most_pixels = 3072;
+// Lights that are so many times as bright as the picture are looked for where the picture lacks
+// them, and more pixels are looked at first: of those where a light may be seen, some see it.
+constexpr double k_bright = 8;
+constexpr std::size_t k_first_pixels_of_bright = 96;
+// Below this tolerance more in proportion: so much rarer are pixels that matter.
+constexpr double k_fine_tolerance = 0.03, k_most_times_as_many = 10;
+// Every pixel has this share of a mean chance at least: none counts more than two and a half times.
+constexpr double k_even_share = 0.4;
+// Pixels stand out that have so many times the mean.
+constexpr double k_times_the_mean = 30;
+// That the stone fills by so much at least.
+constexpr float k_filled = 0.5f;
+// Of the rest, what goes to where a light's edge may be.
+constexpr double k_share_of_edges = 0.5;
+
+double brightest_light(const Scene& scene) {
+    const WavelengthSet colours(even_wavelengths(3));
+    return LightField(scene.lights, colours).max_radiance();
+}
+
+}  // namespace
+
+// More often where the picture changes beside a pixel. With the root of that change: pixels of
+// little contrast are off as well, because a picture may lack what is there.
+CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, const StonePixels& some,
+                                const Progress& progress, FrameRenderer* frames) {
+    CheckPixels chosen;
+    chosen.pixels.in_picture = some.in_picture;
+    chosen.first = k_first_pixels;
+    const Contrast contrast =
+        contrast_of(picture, scene.camera.optics.two_windows ? 2 : 1, some.in_picture);
+    const std::vector<Contrast::Pixel>& pixels = contrast.pixels;
+    const std::size_t size = pixels.size();
+    const double count = static_cast<double>(size);
+    if (size <= k_first_pixels) {
+        // A stone of few pixels, or of none that the picture tells of.
+        for (const Contrast::Pixel& pixel : pixels) chosen.pixels.at.emplace_back(pixel.x, pixel.y);
+        chosen.all = size > 0;
+        if (!chosen.all) chosen.pixels.at = some.at;
+        chosen.counts.assign(chosen.pixels.at.size(), 1.0);
+        return chosen;
+    }
+    std::vector<double> edges;
+    double sum_of_edges = 0;
+    // Without what few pixels have more than that.
+    const double much = k_bright * contrast.radiance / count;
+    double radiance = 0;
+    for (const Contrast::Pixel& pixel : pixels) radiance += std::min(pixel.radiance, much);
+    const Brightness bright{k_bright * radiance / count, brightest_light(scene)};
+    if (radiance > 0 && bright.most > bright.least) {
+        chosen.bright = true;
+        chosen.sun = bright.sun();
+        const LightEdgeScan scan(scene, bright, progress, frames);
+        edges.reserve(size);
+        for (const Contrast::Pixel& pixel : pixels) {
+            edges.push_back(scan.near(pixel.x, pixel.y));
+            sum_of_edges += edges.back();
+        }
+        const double times =
+            std::clamp(k_fine_tolerance / scene.settings.tolerance, 1.0, k_most_times_as_many);
+        chosen.first = static_cast<std::size_t>(times * k_first_pixels_of_bright);
+    }
+    // Chances, 1 in the mean, and their sums; then the golden ratio's multiples, evenly spread over
+    // these.
+    const double of_edges = sum_of_edges > 0 ? k_share_of_edges * (1 - k_even_share) : 0,
+                 of_contrast = 1 - k_even_share - of_edges,
+                 by_edge = sum_of_edges > 0 ? of_edges * count / sum_of_edges : 0,
+                 by_root = contrast.sum > 0 ? of_contrast * count / contrast.sum : 0;
+    const auto chance = [&](std::size_t i) {
+        return k_even_share + by_root * pixels[i].root + (by_edge > 0 ? by_edge * edges[i] : 0);
+    };
+    std::vector<double> sums;
+    sums.reserve(size);
+    double total = 0;
+    for (std::size_t i = 0; i < size; ++i) sums.push_back(total += chance(i));
+    for (std::size_t i = 0; i < std::min(k_most_pixels, size); ++i) {
+        const double place =
+            total * std::fmod(0.6180339887498949 * (static_cast<double>(i) + 0.5), 1.0);
+        const std::size_t at =
+            std::min(static_cast<std::size_t>(std::upper_bound(sums.begin(), sums.end(), place) -
+                                              sums.begin()),
+                     size - 1);
+        chosen.pixels.at.emplace_back(pixels[at].x, pixels[at].y);
+        chosen.counts.push_back(total / count / chance(at));
+    }
+    return chosen;
+}
+
+std::vector<std::pair<int, int>> outstanding_pixels(const Picture& picture, int windows,
+                                                    double share, std::size_t most) {
+    struct Bright {
+        std::size_t pixel = 0;
+        double light = 0;
+    };
+    std::vector<Bright> found;
+    const int width = picture.width / windows;
+    const auto light_of = [&](std::size_t pixel) {
+        const float* rgb = picture.rgb.data() + 3 * pixel;
+        const double light = static_cast<double>(std::abs(rgb[0] + rgb[1] + rgb[2]));
+        return std::isfinite(light) ? light : 0;
+    };
+    double sum = 0, count = 0;
+    const auto each = [&](const auto& take) {
+        for (int y = 0; y < picture.height; ++y) {
+            const std::size_t row =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width);
+            for (std::size_t pixel = row; pixel < row + static_cast<std::size_t>(width); ++pixel) {
+                if (!picture.coverage.empty() && picture.coverage[pixel] >= k_filled)
+                    take(pixel, light_of(pixel));
+            }
+        }
+    };
+    each([&](std::size_t, double light) {
+        sum += light;
+        ++count;
+    });
+    const double least = std::max(share, k_times_the_mean / count) * sum;
+    each([&](std::size_t pixel, double light) {
+        if (light > least) found.push_back({pixel, light});
+    });
+    if (found.size() > most) {
+        std::stable_sort(found.begin(), found.end(),
+                         [](const Bright& a, const Bright& b) { return a.light > b.light; });
+        found.resize(most);
+        std::sort(found.begin(), found.end(),
+                  [](const Bright& a, const Bright& b) { return a.pixel < b.pixel; });
+    }
+    std::vector<std::pair<int, int>> at;
+    for (const Bright& bright : found) {
+        at.emplace_back(static_cast<int>(bright.pixel % static_cast<std::size_t>(picture.width)),
+                        static_cast<int>(bright.pixel / static_cast<std::size_t>(picture.width)));
+    }
+    return at;
+}
+
+}  // namespace culet

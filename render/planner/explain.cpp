@@ -1,0 +1,108 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "render/planner/planner.h"
+
+namespace culet {
+
+const PlanItem& ScenePlan::item(const std::string& name) const {
+    for (const PlanItem& line : items) {
+        if (line.name == name) return line;
+    }
+    static const PlanItem none;
+    return none;
+}
+
+ScenePlan plan_scene(const Scene& scene, const Progress& progress) {
+    return Planner(scene, progress).run_to_explain(false);
+}
+
+ScenePlan plan_to_explain(const Scene& scene, const Progress& progress) {
+    ScenePlan plan = Planner(scene, progress).run_to_explain(true);
+    for (PlanItem& line : plan.items) {
+        if (line.name == name_of(Effects::birefringence) && line.on && tried_as_one_wave(scene))
+            line.why +=
+                ", which a few rays overrate: the picture is first drawn as one wave, and "
+                "kept if the check agrees";
+    }
+    return plan;
+}
+
+namespace {
+
+std::string in_seconds(double seconds) {
+    if (seconds < 1) return fmt::format("{:.0f} ms", std::max(1.0, 1e3 * seconds));
+    if (seconds < 100) return fmt::format("{:.1f} s", seconds);
+    return fmt::format("{:.0f} s", seconds);
+}
+
+}  // namespace
+
+std::string explain(const ScenePlan& plan) {
+    std::string text =
+        fmt::format("{:<19}{:<5}{}: {}\n", "engine", "", plan.settings.engine, plan.engine_why);
+    for (const PlanItem& line : plan.items) {
+        text += fmt::format("{:<19}{:<5}", line.name, line.on ? "on:" : "off:");
+        if (!line.fidelity.empty()) text += line.fidelity + "; ";
+        text += line.why;
+        // Of what was weighed; what a scene cannot have takes no time either way.
+        if (line.seconds_with != line.seconds_without || line.matters > 0) {
+            text += fmt::format(" ({}, {} it {})",
+                                in_seconds(line.on ? line.seconds_with : line.seconds_without),
+                                line.on ? "without" : "with",
+                                in_seconds(line.on ? line.seconds_without : line.seconds_with));
+        }
+        text += "\n";
+    }
+    if (plan.pilot_pixels > 0) {
+        text += fmt::format(
+            "{:<19}{:<5}{:.2g} of the mean radiance, CIEDE2000 {:.2g}", "error bound", "",
+            plan.bound + (plan.settings.engine == "reference" ? plan.bound_of_sampling : 0),
+            plan.bound_delta_e);
+        if (plan.settings.engine != "reference")
+            text += "; to it comes what the beams are off by, measured on the finished picture";
+        text += fmt::format("\n{:<19}{:<5}{} of processor time; with everything on {}\n", "time",
+                            "", in_seconds(plan.seconds), in_seconds(plan.seconds_everything));
+    }
+    return text;
+}
+
+std::string plan_json(const ScenePlan& plan) {
+    using Json = nlohmann::ordered_json;
+    const auto number = [](double v) { return std::isnan(v) ? Json(nullptr) : Json(v); };
+    Json items = Json::array();
+    for (const PlanItem& line : plan.items) {
+        items.push_back({{"name", line.name},
+                         {"on", line.on},
+                         {"fidelity", line.fidelity},
+                         {"why", line.why},
+                         {"error_bound", number(line.bound)},
+                         {"error_bound_deltaE00", number(line.bound_delta_e)},
+                         {"matters", number(line.matters)},
+                         {"matters_deltaE00", number(line.matters_delta_e)},
+                         {"seconds_with", number(line.seconds_with)},
+                         {"seconds_without", number(line.seconds_without)}});
+    }
+    const Json json = {{"schema", 1},
+                       {"engine", plan.settings.engine},
+                       {"engine_why", plan.engine_why},
+                       {"tolerance", plan.tolerance},
+                       {"depth", plan.settings.depth},
+                       {"cut_weight", plan.settings.cut_weight.value_or(0)},
+                       {"samples", plan.settings.samples},
+                       {"wavelengths", plan.settings.wavelengths_nm},
+                       {"items", items},
+                       {"error_bound", number(plan.bound)},
+                       {"error_bound_of_sampling", number(plan.bound_of_sampling)},
+                       {"error_bound_deltaE00", number(plan.bound_delta_e)},
+                       {"seconds", plan.seconds},
+                       {"seconds_everything", plan.seconds_everything},
+                       {"seconds_planning", plan.seconds_planning},
+                       {"pilot_pixels", plan.pilot_pixels},
+                       {"mean_radiance", plan.mean_radiance}};
+    return json.dump(2) + "\n";
+}
+
+}  // namespace culet

@@ -1,0 +1,201 @@
+#include "render/planner/ladder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "render/beams/beam_picture.h"
+#include "render/planner/cause_pilot.h"
+#include "render/planner/planner.h"
+#include "render/planner/resolutions.h"
+#include "render/reference/reference.h"
+#include "render/work/work_meter.h"
+
+namespace culet {
+
+namespace {
+
+// Of all effects that are to be drawn; where a crystal's two waves go as one for a try.
+constexpr int k_most_drawings = 7, k_most_as_one = 3;
+constexpr int k_most_rays = 1600;  // a pixel
+// What is off by this share still is no better than what was drawn before: then the truth is
+// suspected, whose few rays may be noisier than they look, where noise is such a share of the
+// difference; a smaller one where finding out costs no more than this share of the picture's price.
+constexpr double k_no_better = 0.8, k_suspect = 0.25, k_suspect_cheaply = 0.1,
+                 k_cheap_suspicion = 0.25;
+constexpr int k_more_grids = 2;
+// Of the tolerance, or of what a picture is off by, what effects that were left out may be off by
+// before they come back.
+constexpr double k_misjudged = 0.7;
+// The next step of a check may take this share of the picture's price before a finer one is drawn,
+// which takes longer. After the reference there is no other way.
+constexpr double k_check_share = 1.5, k_last_check_share = 6, k_least_check_ns = 3e7;
+// About what checks take of the pictures' prices.
+constexpr double k_usual_check = 0.7;
+// Paths at so many times what is left are not begun.
+constexpr double k_surely_over = 1.3;
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// The work is what is given, and the tolerance follows.
+bool is_paced(const RenderSettings& settings) {
+    return settings.meter != nullptr && settings.meter->limited();
+}
+
+void add_plan(const ScenePlan& plan, RenderStats& stats) {
+    for (EffectDecision& decision : stats.effects) {
+        const PlanItem& line = plan.item(name_of(decision.effect));
+        decision.why = line.why;
+        decision.error_bound = line.bound;
+    }
+}
+
+}  // namespace
+
+double seconds_of(const RenderStats& stats) {
+    return stats.seconds_setup + stats.seconds_build + stats.seconds_shade + stats.seconds_check;
+}
+
+// Beams are held against the truth by the estimator, not by their own check.
+RenderResult Ladder::draw_with(const RenderSettings& settings) {
+    drawn_.settings = settings;
+    if (!drawn_by_beams(settings)) return render_with_reference(drawn_, progress_);
+    if (frames_) {
+        frames_->show(drawn_);
+    } else {
+        frames_.emplace(drawn_);
+        frames_->report_to(progress_);
+    }
+    frames_->draw(false);
+    return frames_->take();
+}
+
+ErrorEstimate Ladder::held_against_truth(const RenderResult& result, ErrorEstimator& estimator,
+                                         double price, double most_ns, double error_before) {
+    const double tolerance = scene_.settings.tolerance;
+    FrameRenderer* frames = frames_ ? &*frames_ : nullptr;
+    ErrorEstimate estimate = estimator.estimate(result.picture, tolerance, most_ns, frames);
+    for (int more = 0; more < k_more_grids && error_before > 0; ++more) {
+        if (estimate.bound <= tolerance || estimate.error() <= k_no_better * error_before) break;
+        const bool cheap = estimator.more_ns() <= k_cheap_suspicion * price;
+        if (estimate.noise < (cheap ? k_suspect_cheaply : k_suspect) * estimate.difference) break;
+        estimator.take_more();
+        estimate = estimator.estimate(result.picture, tolerance, most_ns, frames);
+    }
+    return estimate;
+}
+
+// What was left out is known once the truth's own rays have shown it at the pixels of the check.
+bool Ladder::misjudged(const ErrorEstimate& estimate, const ErrorEstimator& estimator,
+                       const RenderSettings& settings, SoFar& so_far) const {
+    const double tolerance = scene_.settings.tolerance;
+    if (estimate.pixels > so_far.pixels_without) {
+        so_far.pixels_without = estimate.pixels;
+        CausePilot pilot(estimator.scene(), settings,
+                         estimator.sample(static_cast<std::size_t>(estimate.pixels)), progress_);
+        so_far.off_without = pilot.without_effects();
+    }
+    return so_far.off_without > k_misjudged * std::min(tolerance, LadderSteps::seen(estimate));
+}
+
+std::optional<Step> Ladder::next(const LadderSteps& steps, const Step& step,
+                                 const ErrorEstimate& estimate, bool again) const {
+    const RenderSettings& user = scene_.settings;
+    if (!drawn_by_beams(step.settings)) {
+        if (user.samples > 0 || step.settings.samples >= k_most_rays) return std::nullopt;
+        Step more = steps.more_rays(step, estimate);
+        more.why = fmt::format("{} rays a pixel were off by {:.2g}: drawn with more",
+                               step.settings.samples, estimate.bound);
+        return more;
+    }
+    Step finer = steps.finer_beams(step, estimate, again);
+    if (user.engine != "auto") return finer;
+    Step reference = steps.by_reference(&estimate);
+    if (finer.price_ns <= reference.price_ns) return finer;
+    reference.why = fmt::format("beams came to within {:.2g} only: drawn by the reference instead",
+                                estimate.bound);
+    return reference;
+}
+
+void Ladder::climb(const ScenePlan& plan, ErrorEstimator& estimator, const LadderSteps& steps,
+                   SoFar& so_far) {
+    const double tolerance = scene_.settings.tolerance;
+    WorkMeter* const meter = scene_.settings.meter.get();
+    Step step = steps.first();
+    const bool as_one = plan.item(name_of(Effects::birefringence)).why == k_as_one;
+    const int most = as_one ? k_most_as_one : k_most_drawings;
+    double seconds_before = plan.seconds_planning, error_before = 0;
+    for (int drawing = 1;; ++drawing) {
+        const bool beams = drawn_by_beams(step.settings);
+        if (meter != nullptr) meter->expect_more((1 + k_usual_check) * step.price_ns);
+        // What paths take is known well; what beams take they find out.
+        if (is_paced(scene_.settings) && !beams && step.price_ns > k_surely_over * meter->left())
+            throw OverAllowance();
+        RenderResult result = draw_with(step.settings);
+        RenderStats& stats = result.stats;
+        if (beams) step.price_ns = steps.price_of(stats);
+        const auto start = Clock::now();
+        const double share = beams && drawing < most ? k_check_share : k_last_check_share;
+        const ErrorEstimate estimate =
+            held_against_truth(result, estimator, step.price_ns,
+                               std::max(k_least_check_ns, share * step.price_ns), error_before);
+        const bool blind = beams && steps.may_miss_the_sun(step.settings);
+        so_far.near_enough = estimate.bound <= tolerance && !blind;
+        std::optional<Step> other;
+        if (!so_far.near_enough) {
+            so_far.misjudged = misjudged(estimate, estimator, step.settings, so_far);
+            if (!so_far.misjudged && drawing < most)
+                other = next(steps, step, estimate, drawing > 1);
+        }
+        error_before = estimate.error();
+        if (blind) estimator.look_elsewhere();
+        stats.error_bound = estimate.bound + plan.bound_of_depth;
+        stats.checked_pixels = estimate.pixels;
+        if (beams) stats.engine_error = estimate.bound;
+        stats.seconds_check = seconds_since(start);
+        stats.seconds_setup += seconds_before;
+        seconds_before = seconds_of(stats);
+        // What may miss the sun is off by nobody knows how much.
+        if (!so_far.best || so_far.blind > blind ||
+            (so_far.blind == blind && stats.error_bound < so_far.best->stats.error_bound)) {
+            so_far.blind = blind;
+            so_far.best = std::move(result);
+            so_far.settings = step.settings;
+            so_far.why = step.why;
+            so_far.noise = step.noise;
+            so_far.bound_delta_e = estimate.bound_delta_e;
+        }
+        if (!other) break;
+        step = std::move(*other);
+    }
+    // Nothing else is left to blame.
+    if (!so_far.near_enough && so_far.off_without > 0) so_far.misjudged = true;
+    so_far.best->stats.seconds_setup += seconds_before - seconds_of(so_far.best->stats);
+}
+
+LadderPicture Ladder::draw(ScenePlan plan, ErrorEstimator& estimator) {
+    Scene window = scene_;
+    if (window.camera.optics.two_windows) window.camera.width /= 2;
+    SoFar so_far;
+    try {
+        climb(plan, estimator, LadderSteps(window, plan, estimator, progress_), so_far);
+    } catch (const OverAllowance&) {
+        if (!so_far.best) throw;
+        so_far.misjudged = false;
+    }
+    LadderPicture done{std::move(*so_far.best), so_far.near_enough, so_far.misjudged};
+    plan.settings = so_far.settings;
+    plan.engine_why = so_far.why;
+    plan.bound_of_sampling = so_far.noise;
+    plan.bound_delta_e = so_far.bound_delta_e;
+    set_resolutions(plan, scene_, scene_.settings);
+    add_plan(plan, done.result.stats);
+    done.result.stats.plan = std::move(plan);
+    return done;
+}
+
+}  // namespace culet

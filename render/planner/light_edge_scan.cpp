@@ -1,0 +1,312 @@
+#include "render/planner/light_edge_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <numeric>
+#include <optional>
+
+#include "render/beams/beam_picture.h"
+#include "render/planner/wavelengths.h"
+#include "render/setup/a_priori.h"
+#include "stone/solid.h"
+
+namespace culet {
+
+namespace {
+
+// By beams, whose regions all are seen: pixels along a cell. Else rays, one a cell.
+constexpr int k_cell = 3;
+constexpr double k_tolerance = 0.1;
+// Pixels across the stone that do: in larger pictures what is seen is larger, too.
+constexpr double k_across = 200;
+constexpr int k_pixels = 1000;
+// Those that may be off by most are looked at at more wavelengths, with rims that fill the steps
+// between them.
+struct Closer {
+    std::size_t cells;
+    int wavelengths;
+};
+const std::vector<Closer> k_closer{{512, 8}, {96, 29}};
+const std::vector<double> k_few_nm{460, 560}, k_one_nm{550};
+// Paths below this weight are left to the estimate's even choice; where there is a sun, those that
+// show less than is bright of it, but not such as would take too long to find.
+constexpr double k_cut_weight = 0.01, k_least_cut_weight = 1e-4;
+// Where light leaves at 60 degrees from a facet's normal, refraction has widened what rays leave
+// apart by the index and twice, the inverse of the angle's cosine.
+constexpr double k_widened = 2;
+// Cells of a map of directions: wider than any stone's colours leave apart.
+constexpr int k_map_width = 64, k_map_height = 32;
+
+// The same view in pixels that are so many times as large; the last ones may reach beyond it.
+Camera coarser(const Camera& camera, int times) {
+    Camera result = camera;
+    result.width = (camera.width + times - 1) / times;
+    result.height = (camera.height + times - 1) / times;
+    const auto middle = line_of_sight_in(camera);
+    result.principal_point = {middle[0] / times, middle[1] / times};
+    if (camera.orthographic_width) {
+        result.orthographic_width =
+            *camera.orthographic_width * result.width * times / camera.width;
+    } else {
+        result.fov =
+            2 * std::atan(std::tan(camera.fov / 2) * result.height * times / camera.height);
+    }
+    return result;
+}
+
+CapLight rim(const Vec3& direction, double angle, double width, const LightColour& radiance) {
+    return {direction, std::max(0.0, angle - width), std::min(angle + width, std::numbers::pi),
+            radiance};
+}
+
+// The four sides, each as wide as is asked for.
+void add_rims(const PlaneLight& plane, double width, std::vector<Light>& rims) {
+    if (!plane.u || !plane.v) return;
+    const Vec3 u = *plane.u, v = *plane.v;
+    const double along_u = glm::length(u), along_v = glm::length(v);
+    if (!(along_u > 0) || !(along_v > 0)) return;
+    for (const double side : {-1.0, 1.0}) {
+        PlaneLight one = plane;
+        one.point = plane.point + side * u;
+        one.u = u * (width / along_u);
+        one.v = v * (1 + width / along_v);
+        rims.push_back(one);
+        one.point = plane.point + side * v;
+        one.u = u * (1 + width / along_u);
+        one.v = v * (width / along_v);
+        rims.push_back(one);
+    }
+}
+
+// The brightest texel about each direction, where it has this radiance.
+std::shared_ptr<const EnvironmentMap> brightest_of(const EnvironmentMap& map, double least) {
+    auto found = std::make_shared<EnvironmentMap>();
+    found->width = std::min(map.width, k_map_width);
+    found->height = std::min(map.height, k_map_height);
+    found->rgb.assign(3 * static_cast<std::size_t>(found->width * found->height), 0.0f);
+    for (int y = 0; y < map.height; ++y) {
+        for (int x = 0; x < map.width; ++x) {
+            const std::size_t from = 3 * static_cast<std::size_t>(y * map.width + x);
+            const int row = y * found->height / map.height, column = x * found->width / map.width;
+            const std::size_t to = 3 * static_cast<std::size_t>(row * found->width + column);
+            for (std::size_t c = 0; c < 3; ++c)
+                found->rgb[to + c] = std::max(found->rgb[to + c], map.rgb[from + c]);
+        }
+    }
+    for (auto texel = found->rgb.begin(); texel != found->rgb.end(); texel += 3) {
+        if (static_cast<double>(*std::max_element(texel, texel + 3)) < least)
+            std::fill_n(texel, 3, 0.0f);
+    }
+    return found;
+}
+
+// One ray in each pixel: mean over the wavelengths.
+std::vector<double> mean_spectra(const Scene& scene, const StonePixels& pixels,
+                                 const Progress& progress) {
+    PathLimits limits;
+    limits.seed = scene.settings.seed;
+    limits.depth = scene.settings.depth > 0 ? scene.settings.depth : k_deepest;
+    limits.cut_weight = scene.settings.cut_weight.value_or(k_cut_weight);
+    limits.split_weight = 1;
+    limits.roulette = !scene.stone.convex;
+    const PilotDrawing drawing = draw_pilot(scene, pixels, limits, 1, k_node_counts[0], progress);
+    const std::size_t count = drawing.wavelengths_nm.size();
+    std::vector<double> seen(pixels.at.size(), 0.0);
+    for (std::size_t i = 0; i < drawing.spectra.size(); ++i)
+        seen[i / count] += drawing.spectra[i] / static_cast<double>(count);
+    return seen;
+}
+
+// A map is left as it is.
+Lights bright_lights(const Lights& lights, double least) {
+    const WavelengthSet colours(even_wavelengths(k_node_counts[0]));
+    const auto dim = [&](const Light& light) {
+        const std::vector<double> radiance = radiance_of(colour_of(light), colours);
+        return *std::max_element(radiance.begin(), radiance.end()) < least;
+    };
+    Lights bright = lights;
+    bright.constant = 0;
+    std::erase_if(bright.sources, dim);
+    return bright;
+}
+
+// Adds the rims of a source, `width` wide as seen from the stone.
+struct RimAdder {
+    std::vector<Light>& rims;
+    const Vec3& stone;
+    double width;
+
+    void operator()(const CapLight& cap) const {
+        rims.push_back(rim(cap.direction, cap.to, width, cap.radiance));
+        if (cap.from > 0) rims.push_back(rim(cap.direction, cap.from, width, cap.radiance));
+    }
+    void operator()(const HemisphereLight& half) const {
+        rims.push_back(rim(half.direction, std::numbers::pi / 2, width, half.radiance));
+    }
+    void operator()(const PlaneLight& plane) const {
+        add_rims(plane, width * glm::length(plane.point - stone), rims);
+    }
+    void operator()(SphereLight sphere) const {
+        sphere.radius += width * glm::length(sphere.center - stone);
+        // Whose widened ball would swallow the stone is no small light.
+        if (sphere.radius < glm::length(sphere.center - stone)) rims.push_back(sphere);
+    }
+    void operator()(LobeLight lobe) const {
+        // cos^e falls to a third within about 1 / sqrt(e / 2).
+        const double angle = std::sqrt(2 / std::max(lobe.exponent, 1.0));
+        lobe.exponent = 2 / ((angle + width) * (angle + width));
+        rims.push_back(lobe);
+    }
+};
+
+}  // namespace
+
+Lights light_rims(const Lights& all, const Vec3& stone, double width, double least) {
+    const Lights lights = bright_lights(all, least);
+    Lights rims;
+    for (const Light& light : lights.sources) {
+        std::visit(RimAdder{rims.sources, stone, width}, light);
+    }
+    if (lights.environment) rims.environment = brightest_of(*lights.environment, least);
+    return rims;
+}
+
+LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const Progress& progress,
+                             FrameRenderer* frames) {
+    Scene scene = whole;
+    RenderSettings& settings = scene.settings;
+    const bool disperses =
+        settings.effects_auto || settings.effects[static_cast<std::size_t>(Effects::dispersion)];
+    settings.effects_auto = false;
+    settings.effects.fill(false);
+    settings.effects[static_cast<std::size_t>(Effects::dispersion)] = disperses;
+    settings.wavelength_turns = 1;
+    settings.coherence = false;
+    // A preview's regions lie beside those that show a sun.
+    settings.engine = bright.sun() ? "beams" : "preview";
+    settings.tolerance = k_tolerance;
+    settings.cut_weight =
+        bright.sun() ? std::max(bright.least / bright.most, k_least_cut_weight) : k_cut_weight;
+    scene.camera.aperture_radius = 0;
+    scene.camera.optics = {};
+    const Vec3 middle = centroid(scene.stone.solid);
+    const IndexSpans spans = index_spans(scene);
+    const double apart = disperses ? exit_deviation(spans.dispersion, spans.mean) / 2 : 0;
+    const auto pixel = [&] {
+        return k_widened * spans.mean * pixel_on_stone(scene) /
+               std::max(glm::length(scene.camera.position - middle), 1e-300);
+    };
+    // A map's brightest texels are the same whatever the width.
+    Lights lights = whole.lights;
+    const auto map = lights.environment ? brightest_of(*lights.environment, bright.least) : nullptr;
+    lights.environment.reset();
+    const auto light = [&](double width) {
+        scene.lights = light_rims(lights, middle, width, bright.least);
+        scene.lights.environment = map;
+    };
+
+    // A pixel of each cell: by beams the one in which most is seen, else any.
+    StonePixels at;
+    std::vector<double> seen;
+    int times = 1;
+    double step = k_cell;  // of a cell, in these pixels
+    int rows = 0;
+    settings.wavelengths_nm = disperses ? k_few_nm : k_one_nm;
+    light(apart + pixel());
+    if (refused_by_beams(scene, make_optical_setup(scene)).empty()) {
+        const double across = diameter(scene.stone.solid) / pixel_on_stone(scene);
+        times = static_cast<int>(std::clamp(across / k_across, 1.0, 100.0));
+        // Beams that fill little of a pixel are not split: of smaller pictures, as little of the
+        // stone.
+        settings.tolerance = k_tolerance * std::pow(std::min(1.0, across / k_across), 2);
+        if (times > 1) {
+            scene.camera = coarser(scene.camera, times);
+            light(apart + pixel());
+        }
+        std::optional<FrameRenderer> own;
+        if (frames == nullptr) {
+            frames = &own.emplace(scene);
+            frames->report_to(progress);
+        } else {
+            frames->show(scene);
+        }
+        const Picture& picture = frames->draw(false).picture;
+        columns_ = picture.width / k_cell + 1;
+        rows = picture.height / k_cell + 1;
+        std::vector<std::pair<int, int>> best(static_cast<std::size_t>(columns_ * rows));
+        std::vector<float> most(best.size(), 0.0f);
+        for (int y = 0; y < picture.height; ++y) {
+            for (int x = 0; x < picture.width; ++x) {
+                const float* rgb = picture.at(x, y);
+                const float here = (std::abs(rgb[0]) + std::abs(rgb[1]) + std::abs(rgb[2])) / 3;
+                const std::size_t cell =
+                    static_cast<std::size_t>(y / k_cell * columns_ + x / k_cell);
+                if (!(here > most[cell])) continue;
+                most[cell] = here;
+                best[cell] = {x, y};
+            }
+        }
+        for (std::size_t cell = 0; cell < most.size(); ++cell) {
+            if (!(most[cell] > 0)) continue;
+            at.at.push_back(best[cell]);
+            seen.push_back(static_cast<double>(most[cell]));
+        }
+    } else {
+        at = stone_pixels(scene, k_pixels);
+        if (at.at.empty()) return;
+        step = std::max(1.0, std::sqrt(at.in_picture / static_cast<double>(at.at.size())));
+        columns_ = static_cast<int>(scene.camera.width / step) + 1;
+        rows = static_cast<int>(scene.camera.height / step) + 1;
+        light(apart + step * pixel());
+        seen = mean_spectra(scene, at, progress);
+    }
+    for (const Closer& closer : disperses ? k_closer : std::vector<Closer>{}) {
+        std::vector<std::size_t> order(seen.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::size_t a, std::size_t b) { return seen[a] > seen[b]; });
+        order.resize(std::min(order.size(), closer.cells));
+        StonePixels some;
+        for (const std::size_t i : order) some.at.push_back(at.at[i]);
+        settings.wavelengths_nm = even_wavelengths(closer.wavelengths);
+        light(2 * apart / closer.wavelengths + step * pixel());
+        const std::vector<double> found = mean_spectra(scene, some, progress);
+        // Of what may be there, those of which nothing more is known have as much as these.
+        double possible = 0, actual = 0;
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            possible += seen[order[k]];
+            actual += found[k];
+        }
+        if (possible > 0) {
+            for (double& cell : seen) cell *= std::min(1.0, actual / possible);
+        }
+        for (std::size_t k = 0; k < order.size(); ++k) seen[order[k]] = found[k];
+    }
+    // With what is in the cells beside it.
+    cells_.assign(static_cast<std::size_t>(columns_ * rows), 0.0f);
+    for (std::size_t i = 0; i < at.at.size(); ++i) {
+        const int column = static_cast<int>(at.at[i].first / step),
+                  row = static_cast<int>(at.at[i].second / step);
+        for (int r = std::max(0, row - 1); r <= std::min(rows - 1, row + 1); ++r) {
+            for (int c = std::max(0, column - 1); c <= std::min(columns_ - 1, column + 1); ++c) {
+                float& cell = cells_[static_cast<std::size_t>(r * columns_ + c)];
+                cell = std::max(cell, static_cast<float>(seen[i]));
+            }
+        }
+    }
+    for (int x = 0; x < whole.camera.width; ++x)
+        column_of_.push_back(static_cast<std::size_t>(x / (step * times)));
+    for (int y = 0; y < whole.camera.height; ++y)
+        row_of_.push_back(static_cast<std::size_t>(y / (step * times)));
+}
+
+double LightEdgeScan::near(int x, int y) const {
+    if (cells_.empty()) return 0;
+    const std::size_t row = row_of_[static_cast<std::size_t>(y)];
+    return static_cast<double>(
+        cells_[row * static_cast<std::size_t>(columns_) + column_of_[static_cast<std::size_t>(x)]]);
+}
+
+}  // namespace culet

@@ -1,0 +1,209 @@
+#include "render/planner/pilot_picture.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+
+#include "render/geometry/stone_body.h"
+#include "render/optics/eye_optics.h"
+#include "render/reference/light_field.h"
+#include "render/reference/pixel_shader.h"
+#include "render/work/listener.h"
+#include "render/work/price.h"
+#include "render/work/threads.h"
+#include "render/work/work_meter.h"
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+// Points along the longer side, to find the stone: as many as are wanted of it, or where they do
+// not find enough, the finest.
+constexpr int k_least_looked_at = 16, k_most_looked_at = 64;
+constexpr double k_share_of_stone = 0.3;  // of a usual picture
+
+struct Window {
+    double x0, y0, x1, y1;
+};
+
+// Pixels of a jittered grid whose middle the stone covers.
+std::vector<std::pair<int, int>> covered(const Scene& scene, const StoneBody& body,
+                                         const EyeRays& eyes, const Window& window, double step) {
+    std::vector<std::pair<int, int>> found;
+    EntryGuess guess;
+    int number = 0;
+    for (double y = window.y0; y < window.y1; y += step) {
+        for (double x = window.x0; x < window.x1; x += step, ++number) {
+            // The golden ratio and its like in two dimensions (Roberts 2018): no grid of facets
+            // falls in with them.
+            const int px = static_cast<int>(x + step * std::fmod(number * 0.6180339887498949, 1.0)),
+                      py = static_cast<int>(y + step * std::fmod(number * 0.7548776662466927, 1.0));
+            if (px >= scene.camera.width || py >= scene.camera.height) continue;
+            if (!eyes.sees(px + 0.5, py + 0.5)) continue;
+            const EyeRay ray = eyes.through(px + 0.5, py + 0.5);
+            if (body.entry(ray.origin, ray.direction, guess)) found.emplace_back(px, py);
+        }
+    }
+    return found;
+}
+
+// Along the rows by the golden ratio: every stretch is spread over all of them.
+std::vector<std::pair<int, int>> spread_evenly(const std::vector<std::pair<int, int>>& rows) {
+    const std::size_t count = rows.size();
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < count; ++i)
+        order.emplace_back(std::fmod(0.6180339887498949 * static_cast<double>(i), 1.0), i);
+    // The inverse permutation of the ranks: the i-th is where a step of the golden ratio lands.
+    std::sort(order.begin(), order.end());
+    std::vector<std::pair<int, int>> spread(count);
+    for (std::size_t rank = 0; rank < count; ++rank) spread[order[rank].second] = rows[rank];
+    return spread;
+}
+
+}  // namespace
+
+StonePixels StonePixels::stretch(std::size_t first, std::size_t count) const {
+    StonePixels some;
+    some.in_picture = in_picture;
+    const std::size_t end = std::min(at.size(), first + count);
+    for (std::size_t i = first; i < end; ++i) some.at.push_back(at[i]);
+    return some;
+}
+
+StonePixels stone_pixels(const Scene& scene, int wanted) {
+    const StoneBody body(scene.stone.solid, scene.stone.convex);
+    const EyeRays eyes(scene.camera);
+    const double width = scene.camera.width, height = scene.camera.height;
+    const auto look = [&](Window window, double step) {
+        StonePixels pixels;
+        pixels.at = covered(scene, body, eyes, window, step);
+        pixels.in_picture = static_cast<double>(pixels.at.size()) * step * step;
+        return pixels;
+    };
+    const Window whole{0, 0, width, height};
+    const double side = std::max(width, height);
+    const int along = std::clamp(static_cast<int>(std::sqrt(wanted / k_share_of_stone)) + 1,
+                                 k_least_looked_at, k_most_looked_at);
+    double step = std::max(1.0, side / along);
+    StonePixels pixels = look(whole, step);
+    const auto too_few = [&] { return static_cast<int>(pixels.at.size()) < wanted && step > 1; };
+    if (too_few() && along < k_most_looked_at) {
+        step = std::max(1.0, side / k_most_looked_at);
+        pixels = look(whole, step);
+    }
+    if (pixels.at.empty()) return pixels;
+    if (too_few()) {
+        // A small stone: once more, where it is.
+        Window window{width, height, 0, 0};
+        for (const auto& [x, y] : pixels.at) {
+            window.x0 = std::min(window.x0, std::max(0.0, x - step));
+            window.y0 = std::min(window.y0, std::max(0.0, y - step));
+            window.x1 = std::max(window.x1, std::min(width, x + step));
+            window.y1 = std::max(window.y1, std::min(height, y + step));
+        }
+        const double around = std::max(window.x1 - window.x0, window.y1 - window.y0);
+        step = std::max(1.0, around / k_most_looked_at);
+        pixels = look(window, step);
+    }
+    pixels.at = spread_evenly(pixels.at);
+    if (static_cast<int>(pixels.at.size()) > wanted)
+        pixels.at.resize(static_cast<std::size_t>(wanted));
+    return pixels;
+}
+
+StonePixels all_stone_pixels(const Scene& scene) {
+    const StoneBody body(scene.stone.solid, scene.stone.convex);
+    const Window whole{0, 0, double(scene.camera.width), double(scene.camera.height)};
+    StonePixels pixels;
+    pixels.at = spread_evenly(covered(scene, body, EyeRays(scene.camera), whole, 1));
+    pixels.in_picture = static_cast<double>(pixels.at.size());
+    return pixels;
+}
+
+PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const PathLimits& limits,
+                        int samples, int nodes, const Progress& progress) {
+    using Clock = std::chrono::steady_clock;
+    const OpticalSetup setup = make_optical_setup(scene, nodes);
+    const WavelengthSet colours(setup.wavelengths_nm);
+    const LightField lights(scene.lights, colours);
+    PathLimits own = limits;
+    own.polarised = setup.polarised;
+    own.roulette = limits.roulette && (setup.splits || !scene.stone.convex);
+    const PixelShader shader(scene, setup, lights, colours, own, samples);
+    std::vector<Stokes> behind;
+    for (double nm : setup.wavelengths_nm) behind.push_back(response(scene.camera.optics, nm));
+
+    PilotDrawing drawing;
+    drawing.wavelengths_nm = setup.wavelengths_nm;
+    drawing.brightest = lights.max_radiance();
+    drawing.rgb.resize(pixels.at.size());
+    std::vector<PixelSums> sums(pixels.at.size());
+    const int wavelengths = colours.size();
+    drawing.spectra.resize(pixels.at.size() * static_cast<std::size_t>(wavelengths));
+    std::atomic<long long> nanoseconds{0};
+    Listener listener(progress);
+    WorkMeter* const meter = scene.settings.meter.get();
+    PathWork of_a_ray;
+    of_a_ray.general = setup.general;
+    of_a_ray.polarised = setup.polarised;
+    of_a_ray.nodes = setup.bands.front().count;
+    on_threads(scene.settings.threads, [&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pixels.at.size(), 8), [&](const auto&
+                                                                                           range) {
+            const auto start = Clock::now();
+            PixelMemory memory;
+            std::vector<double> stokes(static_cast<std::size_t>(wavelengths * shader.planes()));
+            for (std::size_t p = range.begin(); p < range.end() && listener.goes_on(); ++p) {
+                const auto [x, y] = pixels.at[p];
+                const std::uint64_t number =
+                    static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(scene.camera.width) +
+                    static_cast<std::uint64_t>(x);
+                sums[p] = shader.shade(x, y, 1, number, stokes.data(), memory);
+                if (meter != nullptr) {
+                    PathWork work = of_a_ray;
+                    work.rays = static_cast<double>(sums[p].rays);
+                    work.events = static_cast<double>(sums[p].events);
+                    meter->spend(price_ns(work));
+                    if (meter->over()) return;
+                }
+                for (int i = 0; i < wavelengths && shader.planes() > 1; ++i) {
+                    double seen = 0;
+                    for (int k = 0; k < shader.planes(); ++k)
+                        seen += behind[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] *
+                                stokes[static_cast<std::size_t>(k * wavelengths + i)];
+                    stokes[static_cast<std::size_t>(i)] = seen;
+                }
+                drawing.rgb[p] = colours.rgb_of(stokes.data());
+                std::copy_n(stokes.begin(), wavelengths,
+                            drawing.spectra.begin() + static_cast<long>(p) * wavelengths);
+            }
+            nanoseconds +=
+                std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
+        });
+    });
+    if (listener.stopped()) throw Interrupted();
+    if (meter != nullptr) meter->require_not_over();
+    PixelSums whole;
+    for (const PixelSums& sum : sums) {
+        whole += sum;
+        drawing.halves_apart.push_back(sum.halves_apart);
+    }
+    const double count = static_cast<double>(pixels.at.size());
+    for (const Rgb& rgb : drawing.rgb) drawing.mean += (rgb[0] + rgb[1] + rgb[2]) / (3 * count);
+    drawing.rays = static_cast<double>(whole.rays);
+    drawing.events = static_cast<double>(whole.events);
+    if (whole.hit > 0) {
+        drawing.remainder = whole.remainder / whole.hit;
+        drawing.cut = whole.cut / whole.hit;
+        drawing.absorbed = whole.absorbed / whole.hit;
+        drawing.few_rays = whole.radiance > 0 ? whole.halves_apart / whole.radiance : 0;
+    }
+    drawing.seconds = 1e-9 * static_cast<double>(nanoseconds);
+    return drawing;
+}
+
+}  // namespace culet

@@ -1,0 +1,106 @@
+#pragma once
+// Which effects a picture needs: what is known beforehand, then pilots of the scene with each of
+// them left out.
+
+#include <chrono>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/colour/colour_error.h"
+#include "render/planner/error_estimate.h"
+#include "render/planner/pilot_picture.h"
+#include "render/planner/scene_plan.h"
+#include "render/setup/optical_setup.h"
+#include "render/work/price.h"
+
+namespace culet {
+
+// Rays in each pixel of a pilot.
+constexpr int k_pilot_rays = 4;
+// Of the tolerance: the weight below which the pilots' paths are cut.
+constexpr double k_pilot_cut = 0.03;
+constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* k_as_one = "the two waves go as one";
+constexpr const char* k_same_light = "the light is the same from everywhere: nothing changes";
+
+/// Whether `render` first draws a crystal's two waves as one: what that is off by, a pilot of few
+/// rays shows as far too much, because it shifts light within the pixel.
+bool tried_as_one_wave(const Scene& scene);
+
+class Planner {
+public:
+    /// Likely: effects go that are likely to change little enough. Surely: only those that are sure
+    /// to change nothing; a picture has shown that few pixels misjudge the scene.
+    enum class Leave { likely, surely };
+    /// `one_wave`: a crystal's two waves are to go as one, which only the finished picture can show
+    /// to be near enough. `progress` is told 0, and may stop it; it must outlive the planner.
+    Planner(const Scene& whole, const Progress& progress, bool one_wave = false,
+            Leave leave = Leave::likely);
+    /// For a picture: where the coarsest costs no more than weighing effects, none is weighed, and
+    /// none left out but what is sure to change nothing.
+    ScenePlan run();
+    /// For people who want to know: all are weighed, those too that the scene switches off.
+    ScenePlan run_to_explain(bool everything);
+
+    /// Holds pictures against the truth; none where there was no pilot. After `run`.
+    std::optional<ErrorEstimator> take_estimator() { return std::move(estimator_); }
+    /// Before all else: of the same scene, whose drawings count.
+    void give_estimator(std::optional<ErrorEstimator> estimator) {
+        estimator_ = std::move(estimator);
+    }
+
+private:
+    PlanItem& item(Effects effect) { return plan_.items[static_cast<std::size_t>(effect)]; }
+    bool on(Effects effect) const { return plan_.items[static_cast<std::size_t>(effect)].on; }
+
+    // The scene with the effects that are on, less one.
+    Scene with_effects(bool dispersion, std::optional<Effects> without = {}) const;
+    Scene at_pilot_wavelengths(Scene scene) const;
+    PathLimits limits() const;
+    PilotDrawing draw(const Scene& scene, int samples) const;
+    // Of one eye ray.
+    PathWork work_of(const Scene& scene, const PilotDrawing& drawing, int samples) const;
+    // Whether something that is likely to be off by so much may be left out, with all that is:
+    // `share` of the tolerance at most.
+    bool may_go(double bound, double likely, double share) const;
+    void leave_out(double bound, double likely);
+
+    void begin();
+    void finish();
+    void say_what_is_known();
+    void find_pixels();
+    void settle_effects();
+    bool costs_less_than_pilots();
+    void weigh_effects();
+    void settle_without_pilot();
+    void drop_what_changes_nothing();
+    void choose_effects();
+    void try_without(Effects effect, double share);
+    void bound_coherence();
+    void try_without_dispersion();
+    void bound_depth();
+    void measure_what_the_scene_forbids();
+    void choose_first_picture();
+    void estimate_times();
+
+    Scene scene_;                // of one window
+    const RenderSettings user_;  // as the scene has them
+    const Progress& progress_;
+    double tolerance_;
+    bool one_wave_;
+    Leave leave_;
+    ScenePlan plan_;
+    StonePixels pixels_;                       // of the pilots
+    std::optional<ErrorEstimator> estimator_;  // of others
+    bool branches_ = false;                    // trees of light paths double
+    double spent_ = 0;                         // of the tolerance, by bounds
+    double left_out_ = 0;                      // what effects that are left out are likely off by
+    PilotDrawing first_;                       // with the effects that are on, without dispersion
+    PathWork work_, whole_;  // of one of its eye rays; the same with everything on
+    double machine_ = 1;     // nanoseconds of this one over those of price.h
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace culet

@@ -1,0 +1,30 @@
+#include "render/planner/wavelengths.h"
+
+#include <algorithm>
+
+namespace culet {
+
+namespace {
+
+constexpr double k_first_nm = 410, k_last_nm = 690;
+
+}  // namespace
+
+std::vector<double> even_wavelengths(int count) {
+    // Few in the middle of the eye's responses rather than at the ends of the spectrum. Dispersion
+    // moves lights' edges over a pixel, each wavelength's at another place: of five, these show
+    // such a step of a spectrum, at any wavelength, better than even ones do, and a lamp about as
+    // well.
+    if (count == 3) return {450, 550, 610};
+    if (count == 5) return {440, 480, 540, 600, 650};
+    std::vector<double> nm;
+    for (int i = 0; i < count; ++i)
+        nm.push_back(k_first_nm + (k_last_nm - k_first_nm) * i / (count - 1));
+    return nm;
+}
+
+int turns_for(int rays, int wavelengths) {
+    return std::max(1, std::min(rays / 2, wavelengths / 4 + 1));
+}
+
+}  // namespace culet

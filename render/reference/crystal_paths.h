@@ -1,0 +1,258 @@
+#pragma once
+// The exact tree of light paths behind one eye ray, for stones of every optical class and shape,
+// with polarisation at both ends: the judge. light_paths.h is its special case for isotropic,
+// convex stones seen without a polariser.
+//
+// A face acts on amplitudes and is unitary, so that for every ray
+//   leaves + remainder + absorbed + cut + gambled = 1
+
+#include <algorithm>
+#include <vector>
+
+#include "render/reference/crystal_node.h"
+#include "render/scene/scene.h"
+
+namespace culet {
+
+// A Sink has
+//   void leaf(const PathEnd&, const PathTrace&);
+//   void remainder(const NodeWeights&), absorbed(const NodeWeights&), cut(const NodeWeights&);
+//   void gambled(const NodeWeights&): lost to Russian roulette, less what was won: of mean 0.
+//   void choice_begins(), choice_ends(bool second): two independent estimates, each of half weight,
+//     of what a subtree brings; their difference tells the variance.
+template <class Sink>
+class CrystalPaths {
+public:
+    CrystalPaths(const StoneBody& body, const Band& band, const PathLimits& limits, Sink& sink)
+        : body_(body),
+          band_(band),
+          limits_(limits),
+          sink_(sink),
+          random_(limits.seed),
+          steps_(body, band) {}
+
+    /// Follows an eye ray that enters the stone at `entry`; `x`, `y`: the eye's polarisations.
+    void trace(const EyeRay& ray, const Vec3& x, const Vec3& y, const BodyHit& entry) {
+        splits_ = 0;
+        choosing_ = false;
+        trace_.length = 0;
+        CrystalNode eye;
+        eye.inside = false;
+        eye.at = body_.on_facet(entry.facet, ray.origin + entry.distance * ray.direction);
+        eye.direction = ray.direction;
+        eye.u = x;
+        eye.v = y;
+        eye.c = EyeCoherency::of_eye();
+        eye.tau.fill(1.0);
+        eye.event = 1;
+        waiting_.clear();
+        CrystalNode first, second;
+        steps_.meet_from_outside(eye, entry.facet, first, second);
+        push(entry.facet);
+        const int count = after_hit(first, second);
+        // The first face is never left to chance: what waits there waits for `follow` to end.
+        const int length = trace_.length;
+        if (count > 0) follow(first);
+        trace_.length = length;
+        if (count > 1) follow(second);
+    }
+
+    /// True when the last tree was larger than `most_splits`.
+    bool sampled() const { return splits_ > limits_.most_splits; }
+    /// Faces met so far, on all branches of all trees.
+    long long events() const { return events_; }
+    /// Largest |sum of powers - 1| of a crystal's face before it was put right.
+    double worst_imbalance() const { return steps_.worst_imbalance(); }
+
+private:
+    NodeWeights weighted(double weight, const NodeWeights& tau) const {
+        NodeWeights result;  // the first band_.count are meant
+        for (int i = 0; i < band_.count; ++i) result[i] = weight * tau[i];
+        return result;
+    }
+    double largest(const CrystalNode& node) const {
+        double most = 0;
+        for (int i = 0; i < band_.count; ++i) most = std::max(most, node.tau[i]);
+        return node.power() * most;
+    }
+    void push(int facet) {
+        trace_.facets[trace_.length] = facet;
+        trace_.modes[trace_.length] = 'i';
+        ++trace_.length;
+    }
+
+    // What leaves for good is a leaf; what stays, or meets the stone again, goes on. Returns how
+    // many go on; a single one is left in `inner`.
+    int after_hit(CrystalNode& inner, CrystalNode& outer) {
+        bool meets = false;
+        if (outer.power() > 0) {
+            const auto again = body_.reentry(outer.at, outer.direction, outer.facet);
+            meets = again.has_value();
+            if (again) {
+                outer.again = *again;
+            } else {
+                sink_.leaf({outer.at, outer.direction, outer.u, outer.v, outer.c, outer.tau},
+                           trace_);
+            }
+        }
+        const bool stays = inner.power() > 0;
+        if (meets && !stays) inner = outer;
+        return stays + meets;
+    }
+
+    // One event, or the parting of two modes that are no longer coherent.
+    int step(CrystalNode& node, CrystalNode& first, CrystalNode& second) {
+        char& mode = trace_.modes[trace_.length - 1];
+        NodeWeights absorbed;
+        ++events_;
+        if (!node.inside) {
+            mode = 'a';
+            node.at =
+                body_.on_facet(node.again.facet, node.at + node.again.distance * node.direction);
+            steps_.meet_from_outside(node, node.again.facet, first, second);
+        } else if (node.c.power(0) > 0 && node.c.power(1) > 0) {
+            mode = band_.crystal.isotropic() ? 'i' : 'c';
+            if (!steps_.meet_together(node, first, second, absorbed)) {
+                first = second = node;
+                keep_only(0, first.c);
+                keep_only(1, second.c);
+                return 2;
+            }
+        } else {
+            const int m = node.c.power(0) > 0 ? 0 : 1;
+            mode = static_cast<char>(node.modes[m].kind);
+            steps_.meet_alone(node, m, first, second, absorbed);
+        }
+        if (band_.absorbs && node.inside) sink_.absorbed(absorbed);
+        push(first.facet);
+        return after_hit(first, second);
+    }
+    static void keep_only(int m, EyeCoherency& c) {
+        for (Eigen::Matrix2cd* block : {&c.xx, &c.yy, &c.xy}) {
+            block->row(1 - m).setZero();
+            block->col(1 - m).setZero();
+        }
+    }
+
+    // The tree that hangs on a node, depth first; `node` is used up. What waits is on a list,
+    // because a tree may be as deep as a path is long.
+    void follow(CrystalNode& node) {
+        const std::size_t others = waiting_.size();
+        CrystalNode first, second;
+        for (;;) {
+            int count = stops(node) ? 0 : step(node, first, second);
+            if (count == 2) count = branch(first, second);
+            if (count > 0) {
+                node = first;
+            } else {
+                if (waiting_.size() == others) return;
+                node = waiting_.back().node;
+                trace_.length = waiting_.back().length;
+                waiting_.pop_back();
+            }
+        }
+    }
+
+    // Two go on: the second waits, or one is chosen, or both are seen to by two estimates. Returns
+    // whether `first` goes on.
+    int branch(CrystalNode& first, CrystalNode& second) {
+        if (choosing_) {
+            choose(first, second);
+            return 1;
+        }
+        if (limits_.split_weight <= largest(first) + largest(second) &&
+            ++splits_ <= limits_.most_splits) {
+            waiting_.push_back({second, trace_.length});
+            return 1;
+        }
+        twice([&] {
+            CrystalNode chosen = first, other = second;
+            choose(chosen, other);
+            chosen.c.scale(0.5);
+            follow(chosen);
+        });
+        return 0;
+    }
+
+    // One of two, by power, with the weight of both; in `first`.
+    void choose(CrystalNode& first, CrystalNode& second) {
+        const double power_first = first.power(), power_second = second.power();
+        const double whole = power_first + power_second;
+        const bool stay = uniform() * whole < power_first;
+        if (!stay) first = second;
+        first.c.scale(whole / (stay ? power_first : power_second));
+    }
+
+    // Two independent estimates of half weight, from here to the end of what hangs on it. From then
+    // on branches are chosen, so that nothing waits.
+    template <class Estimate>
+    void twice(Estimate&& estimate) {
+        const int length = trace_.length;
+        choosing_ = true;
+        for (const bool second : {false, true}) {
+            trace_.length = length;
+            sink_.choice_begins();
+            estimate();
+            sink_.choice_ends(second);
+        }
+        choosing_ = false;
+    }
+
+    // The depth limit, the weight cut and the roulette.
+    bool stops(CrystalNode& node) {
+        if (node.event > limits_.depth) {
+            sink_.remainder(weighted(node.power(), node.tau));
+            return true;
+        }
+        const double weight = largest(node);
+        if (!(weight < limits_.cut_weight)) return false;
+        if (!limits_.roulette) {
+            sink_.cut(weighted(node.power(), node.tau));
+            return true;
+        }
+        if (!choosing_) {
+            node.c.scale(0.5);
+            twice([&] {
+                CrystalNode half = node;
+                follow(half);
+            });
+            return true;
+        }
+        // Survives with the probability weight / cut_weight, and then weighs cut_weight.
+        if (uniform() * limits_.cut_weight >= weight) {
+            sink_.gambled(weighted(node.power(), node.tau));
+            return true;
+        }
+        const double gain = limits_.cut_weight / weight;
+        sink_.gambled(weighted(node.power() * (1 - gain), node.tau));
+        node.c.scale(gain);
+        return false;
+    }
+
+    // SplitMix64 (Steele, Lea & Flood 2014): a stream fixed by the seed.
+    double uniform() {
+        random_ += 0x9e3779b97f4a7c15ull;
+        std::uint64_t z = random_;
+        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+        z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+        return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+    }
+
+    const StoneBody& body_;
+    const Band& band_;
+    PathLimits limits_;
+    Sink& sink_;
+    std::uint64_t random_;
+    CrystalSteps steps_;
+    PathTrace trace_;
+    struct Waiting {
+        CrystalNode node;
+        int length;  // of the trace where it starts
+    };
+    std::vector<Waiting> waiting_;
+    int splits_ = 0;
+    long long events_ = 0;
+    bool choosing_ = false;
+};
+
+}  // namespace culet

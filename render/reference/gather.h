@@ -1,0 +1,57 @@
+#pragma once
+// Sums over the light paths of one ray: what is seen, and what is not.
+
+#include <algorithm>
+#include <numeric>
+
+#include "render/optics/path.h"
+#include "render/reference/light_field.h"
+#include "render/scene/scene.h"
+
+namespace culet {
+
+/// What is not seen of one eye ray. Sums over the band's nodes.
+class Lost {
+public:
+    explicit Lost(int count) : count_(count) {}
+    void remainder(const NodeWeights& weight) { remainder_ += sum(weight); }
+    void absorbed(const NodeWeights& weight) { absorbed_ += sum(weight); }
+    void cut(const NodeWeights& weight) { cut_ += sum(weight); }
+
+    double remainder_ = 0, absorbed_ = 0, cut_ = 0;
+    int deepest_ = 0;
+
+protected:
+    void seen(const PathTrace& trace) { deepest_ = std::max(deepest_, trace.length); }
+
+private:
+    double sum(const NodeWeights& weight) const {
+        return std::accumulate(weight.begin(), weight.begin() + count_, 0.0);
+    }
+    int count_;
+};
+
+/// Adds up what the leaves of one ray see, at the nodes of its band; `single`: at its only one.
+template <bool single>
+class Gather : public Lost {
+public:
+    Gather(const LightField& lights, const Band& band, double* radiance)
+        : Lost(band.count), lights_(lights), band_(band), radiance_(radiance) {}
+
+    void leaf(const Vec3& at, const Vec3& direction, const NodeWeights& weight,
+              const PathTrace& trace) {
+        seen(trace);
+        const int count = single ? 1 : band_.count;
+        NodeWeights radiance;
+        std::fill_n(radiance.begin(), count, 0.0);
+        lights_.add_radiance(at, direction, 1.0, band_.first, count, radiance.data());
+        for (int i = 0; i < count; ++i) radiance_[band_.first + i] += weight[i] * radiance[i];
+    }
+
+private:
+    const LightField& lights_;
+    const Band& band_;
+    double* radiance_;
+};
+
+}  // namespace culet

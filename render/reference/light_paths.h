@@ -1,0 +1,235 @@
+#pragma once
+// The exact light paths behind one eye ray in an isotropic, convex stone: crystal_paths.h without
+// what such a stone cannot do. There is one path, which sends a leaf out at every face.
+//
+// Traced backwards from the eye, which is exact because a face's power fractions are the same when
+// every wave vector is reversed: the eye ray is an emitted, unpolarised ray, and the radiance seen
+// is the sum over leaves of weight x radiance from the exit direction. Radiance is "basic" (per
+// normal flux and per squared tangential wave vector), so there are no factors of index squared or
+// of solid angle. For every ray
+//   leaves + remainder + absorbed + cut = 1.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "render/geometry/convex_body.h"
+#include "render/optics/fresnel.h"
+#include "render/optics/path.h"
+#include "render/scene/scene.h"
+#include "render/setup/built_effects.h"
+#include "stone/perpendicular.h"
+
+namespace culet {
+
+// A Sink has
+//   void leaf(const Vec3& origin, const Vec3& direction, const NodeWeights&, const PathTrace&);
+//   void remainder(const NodeWeights&), absorbed(const NodeWeights&), cut(const NodeWeights&);
+// `single`: the band has one node, and loops over nodes are none.
+template <class Sink, bool single = !k_has_effects>
+class LightPaths {
+public:
+    /// `trace`: room for the way, and where to look first: what the last ray met there. It changes
+    /// the time taken and nothing else, and comes from the same body or is new.
+    LightPaths(const ConvexBody& body, const Band& band, const PathLimits& limits, Sink& sink,
+               PathTrace& trace)
+        : body_(body), band_(band), limits_(limits), sink_(sink), trace_(trace) {}
+    LightPaths(const ConvexBody& body, const Band& band, const PathLimits& limits, Sink& sink)
+        : body_(body),
+          band_(band),
+          limits_(limits),
+          sink_(sink),
+          own_(PathTrace{}),
+          trace_(*own_) {}
+    LightPaths(const LightPaths&) = delete;
+    LightPaths& operator=(const LightPaths&) = delete;
+
+    /// Follows an eye ray that enters the stone at `entry`.
+    void trace(const EyeRay& ray, const BodyHit& entry) {
+        trace_.length = 0;
+        std::fill_n(tau_.begin(), nodes(), 1.0);
+        const Vec3 at = body_.on_facet(entry.facet, ray.origin + entry.distance * ray.direction);
+        // What is off is not in the loop at all.
+        if (!k_has_effects) {
+            trace_scalar<false>(at, ray.direction, entry.facet);
+        } else if (limits_.polarised) {
+            band_.absorbs ? trace_polarised<true>(at, ray.direction, entry.facet)
+                          : trace_polarised<false>(at, ray.direction, entry.facet);
+        } else {
+            band_.absorbs ? trace_scalar<true>(at, ray.direction, entry.facet)
+                          : trace_scalar<false>(at, ray.direction, entry.facet);
+        }
+    }
+
+private:
+    int nodes() const { return single ? 1 : band_.count; }
+    NodeWeights weighted(double weight, const NodeWeights& tau) const {
+        NodeWeights result;  // the band's nodes only
+        for (int i = 0; i < nodes(); ++i) result[i] = weight * tau[i];
+        return result;
+    }
+    bool too_small(double weight, const NodeWeights& tau) const {
+        return limits_.cut_weight > 0 && largest(weight, tau) < limits_.cut_weight;
+    }
+    double largest(double weight, const NodeWeights& tau) const {
+        double most = 0;
+        for (int i = 0; i < nodes(); ++i) most = std::max(most, tau[i]);
+        return weight * most;
+    }
+    int guess() const { return trace_.facets[trace_.length]; }
+    void push(int facet) {
+        trace_.facets[trace_.length] = facet;
+        trace_.modes[trace_.length] = 'i';
+        ++trace_.length;
+    }
+
+    // Beer and Lambert along a segment.
+    void absorb(double weight, double length, NodeWeights& tau) {
+        NodeWeights lost{};
+        for (int i = 0; i < band_.count; ++i) {
+            const double after = tau[i] * std::exp(-band_.absorption[0][i] * length);
+            lost[i] = weight * (tau[i] - after);
+            tau[i] = after;
+        }
+        sink_.absorbed(lost);
+    }
+
+    // The tangent of a face for a ray, of any length; with the ray's direction it gives p.
+    static Vec3 tangent(const Vec3& direction, const Vec3& n) {
+        const Vec3 s = glm::cross(direction, n);
+        if (glm::dot(s, s) > 1e-28) return s;
+        // Normal incidence: the face treats all directions alike (r_p = -r_s), any tangent serves.
+        return perpendicular_to(n);
+    }
+
+    static Vec3 mirrored(const Vec3& direction, const Vec3& n) {
+        const Vec3 v = direction - 2 * glm::dot(direction, n) * n;
+        // Newton's step to unit length: of a length that is off by rounding it is exact.
+        return (1.5 - 0.5 * glm::dot(v, v)) * v;
+    }
+    // `n` points to the side that the ray goes to; q1, q2 along it.
+    static Vec3 refracted(const Vec3& direction, const Vec3& n, double n1, double q1, double q2) {
+        return glm::normalize(n1 * direction + (q2 - q1) * n);
+    }
+
+    // Powers that a path passes on of two orthogonal eye polarisations of power 1/2 each, as Stokes
+    // parameters: of s and p together, their difference, and twice the real and imaginary part of
+    // E_s E_p*. A new face turns the frame (s, direction x s): no frame degenerates, and the
+    // parameters' I is the weight.
+    struct Carried {
+        double I, Q, U, V;
+
+        // To the tangent s2, from s; each of any length.
+        void turn(const Vec3& direction, const Vec3& s, const Vec3& s2) {
+            const double along = glm::dot(s, s2), across = glm::dot(glm::cross(direction, s), s2);
+            const double scale = 1 / (along * along + across * across);
+            const double cosine = (along * along - across * across) * scale,
+                         sine = 2 * along * across * scale, was = Q;
+            Q = cosine * was + sine * U;
+            U = cosine * U - sine * was;
+        }
+        void reflect(const FaceAmplitudes& face) {
+            const std::complex<double>&s = face.r_s, &p = face.r_p;
+            if (!face.total) {
+                const double Rs = s.real() * s.real(), Rp = p.real() * p.real(), was = I;
+                I = 0.5 * ((Rs + Rp) * was + (Rs - Rp) * Q);
+                Q = 0.5 * ((Rs - Rp) * was + (Rs + Rp) * Q);
+            }
+            // r_s r_p*, of modulus 1 where reflection is total.
+            const double re = s.real() * p.real() + s.imag() * p.imag(),
+                         im = s.imag() * p.real() - s.real() * p.imag(), was = U;
+            U = re * was - im * V;
+            V = im * was + re * V;
+        }
+        double transmitted(const FaceAmplitudes& face) const {
+            return 0.5 * (face.t_s * face.t_s * (I + Q) + face.t_p * face.t_p * (I - Q));
+        }
+    };
+
+    // The first face: its leaf goes out, and `direction` turns into the stone.
+    FaceAmplitudes enter(const Vec3& at, Vec3& direction, int facet) {
+        const Vec3 n_in = -body_.normal(facet);
+        const double q1 = std::clamp(glm::dot(direction, n_in), 0.0, 1.0);
+        const FaceAmplitudes face = fresnel(1.0, band_.n, q1);
+        push(facet);
+        leaf(at, mirrored(direction, n_in), 0.5 * (std::norm(face.r_s) + std::norm(face.r_p)),
+             tau_);
+        direction = refracted(direction, n_in, 1.0, q1, face.q2);
+        return face;
+    }
+
+    template <bool absorbs>
+    void trace_polarised(Vec3 at, Vec3 direction, int facet) {
+        Vec3 s = tangent(direction, -body_.normal(facet));
+        const FaceAmplitudes face = enter(at, direction, facet);
+        const double Ts = face.t_s * face.t_s, Tp = face.t_p * face.t_p;
+        Carried carried{0.5 * (Ts + Tp), 0.5 * (Ts - Tp), 0, 0};
+        NodeWeights& tau = tau_;
+        for (int event = 2; event <= limits_.depth; ++event) {
+            if (too_small(carried.I, tau)) {
+                sink_.cut(weighted(carried.I, tau));
+                return;
+            }
+            const BodyHit hit = body_.exit(at, direction, guess());
+            at = body_.on_facet(hit.facet, at + hit.distance * direction);
+            if constexpr (absorbs) absorb(carried.I, hit.distance, tau);
+            const Vec3& n = body_.normal(hit.facet);
+            const double q = band_.n * glm::dot(direction, n);
+            const FaceAmplitudes out = fresnel(band_.n, 1.0, q);
+            const Vec3 s2 = tangent(direction, n);
+            carried.turn(direction, s, s2);
+            push(hit.facet);
+            if (!out.total) {
+                leaf(at, refracted(direction, n, band_.n, q, out.q2), carried.transmitted(out),
+                     tau);
+            }
+            carried.reflect(out);
+            direction = mirrored(direction, n);
+            s = s2;
+        }
+        sink_.remainder(weighted(carried.I, tau));
+    }
+
+    template <bool absorbs>
+    void trace_scalar(Vec3 at, Vec3 direction, int facet) {
+        const FaceAmplitudes face = enter(at, direction, facet);
+        double weight = 0.5 * (face.t_s * face.t_s + face.t_p * face.t_p);
+        NodeWeights& tau = tau_;
+        for (int event = 2; event <= limits_.depth; ++event) {
+            if (too_small(weight, tau)) {
+                sink_.cut(weighted(weight, tau));
+                return;
+            }
+            const BodyHit hit = body_.exit(at, direction, guess());
+            at = body_.on_facet(hit.facet, at + hit.distance * direction);
+            if constexpr (absorbs) absorb(weight, hit.distance, tau);
+            const Vec3& n = body_.normal(hit.facet);
+            const double q = band_.n * glm::dot(direction, n);
+            const FaceReflection out = mean_reflection(band_.n, 1.0, q);
+            push(hit.facet);
+            if (!out.total) {
+                leaf(at, refracted(direction, n, band_.n, q, out.q2), weight * (1 - out.mean), tau);
+                weight *= out.mean;
+            }
+            direction = mirrored(direction, n);
+        }
+        sink_.remainder(weighted(weight, tau));
+    }
+
+    void leaf(const Vec3& at, const Vec3& direction, double weight, const NodeWeights& tau) {
+        if (weight > 0) sink_.leaf(at, direction, weighted(weight, tau), trace_);
+    }
+
+    const ConvexBody& body_;
+    const Band& band_;
+    PathLimits limits_;
+    Sink& sink_;
+    std::optional<PathTrace> own_;
+    PathTrace& trace_;
+    NodeWeights tau_;  // transmitted so far by absorption
+};
+
+}  // namespace culet

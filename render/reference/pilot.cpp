@@ -1,0 +1,119 @@
+#include "render/reference/pilot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/reference/pixel_shader.h"
+
+namespace culet {
+
+namespace {
+
+// Crystals: a path splits in two at every hit while it carries more than this.
+constexpr double k_split_weight = 0.02;
+constexpr double k_gambled_weight = 1e-3;
+constexpr int k_pilot_pixels = 16;  // along the picture's longer side
+constexpr int k_spectral_pixels = 10, k_spectral_samples = 16;
+constexpr int k_spectral_depth = 12, k_spectral_crystal_depth = 6;  // of trees that double
+
+// Calls visit(x, y, size) for an even choice of pixels.
+template <class Visit>
+void each_pilot_pixel(const Camera& camera, int along, Visit&& visit) {
+    const double step =
+        std::max(1.0, static_cast<double>(std::max(camera.width, camera.height)) / along);
+    for (double y = 0; y < camera.height; y += step) {
+        for (double x = 0; x < camera.width; x += step) visit(x, y, step);
+    }
+}
+
+// Mean luminance of the stone's pixels in a small, shallow picture; 0 when no ray meets the stone.
+double pilot_mean(const Scene& scene, const OpticalSetup& setup, const LightField& lights,
+                  const WavelengthSet& colours, PathLimits limits) {
+    limits.depth = 16;
+    limits.cut_weight = 1e-3;
+    limits.split_weight = 1;
+    limits.roulette = false;
+    const PixelShader shader(scene, setup, lights, colours, limits, 1);
+    std::vector<double> stokes(setup.wavelengths_nm.size() *
+                               static_cast<std::size_t>(shader.planes()));
+    PixelMemory memory;
+    double sum = 0, hits = 0;
+    each_pilot_pixel(scene.camera, k_pilot_pixels, [&](double x, double y, double size) {
+        const PixelSums pixel = shader.shade(x, y, size, 0, stokes.data(), memory);
+        hits += pixel.hit;
+        sum += pixel.luminance;
+    });
+    return hits > 0 ? sum / hits : 0;
+}
+
+}  // namespace
+
+PathLimits limits_for(const Scene& scene, const OpticalSetup& setup, const LightField& lights,
+                      const WavelengthSet& colours) {
+    const RenderSettings& settings = scene.settings;
+    PathLimits limits;
+    limits.seed = settings.seed;
+    limits.polarised = setup.polarised;
+    limits.depth = settings.depth > 0 ? settings.depth : k_deepest;
+    if (settings.tolerance > 0 && settings.cut_weight) {
+        limits.cut_weight = *settings.cut_weight;
+        limits.roulette = setup.splits || !scene.stone.convex;
+        limits.split_weight = settings.split_weight.value_or(k_split_weight);
+    } else if (settings.tolerance > 0) {
+        const double mean = pilot_mean(scene, setup, lights, colours, limits);
+        const double brightest = lights.max_radiance();
+        // What is cut sees at most the brightest light. Half of what that allows, because the
+        // pilot's mean is itself a few per cent off.
+        limits.cut_weight = brightest > 0 && mean > 0 ? 0.5 * settings.tolerance * mean / brightest
+                                                      : settings.tolerance;
+        limits.cut_weight = std::min(limits.cut_weight, settings.tolerance);
+        limits.split_weight = std::max(k_split_weight, limits.cut_weight);
+        // Trees that branch gamble instead of cutting: that costs no accuracy but noise, which a
+        // light of great radiance must not make as dear as it makes cutting.
+        limits.roulette = setup.splits || !scene.stone.convex;
+        if (limits.roulette) limits.cut_weight = std::max(limits.cut_weight, k_gambled_weight);
+    }
+    return limits;
+}
+
+OpticalSetup setup_for_tolerance(const Scene& scene) {
+    OpticalSetup setup = make_optical_setup(scene);
+    if (!(scene.settings.tolerance > 0) || !chose_spectrum(scene, setup)) return setup;
+    const OpticalSetup finest = make_optical_setup(scene, k_node_counts.back());
+    const WavelengthSet colours(finest.wavelengths_nm);
+    const LightField lights(scene.lights, colours);
+    PathLimits limits;
+    limits.depth = setup.splits ? k_spectral_crystal_depth : k_spectral_depth;
+    limits.cut_weight = 1e-4;
+    limits.split_weight = 0;
+    limits.polarised = finest.polarised;
+    const PixelShader shader(scene, finest, lights, colours, limits, k_spectral_samples);
+    const std::size_t nodes = finest.wavelengths_nm.size();
+    std::vector<double> stokes(nodes * static_cast<std::size_t>(shader.planes()));
+    PixelMemory memory;
+    std::vector<std::vector<double>> spectra;
+    each_pilot_pixel(scene.camera, k_spectral_pixels, [&](double x, double y, double) {
+        if (shader.shade(x, y, 1, 0, stokes.data(), memory).hit > 0)
+            spectra.emplace_back(stokes.begin(), stokes.begin() + static_cast<long>(nodes));
+    });
+    for (int count : k_node_counts) {
+        const OpticalSetup coarse = make_optical_setup(scene, count);
+        const std::size_t every = (nodes - 1) / (coarse.wavelengths_nm.size() - 1);
+        const WavelengthSet few(coarse.wavelengths_nm);
+        double squares = 0, mean = 0;
+        std::vector<double> chosen(coarse.wavelengths_nm.size());
+        for (const std::vector<double>& spectrum : spectra) {
+            for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = spectrum[i * every];
+            const Rgb fine = colours.rgb_of(spectrum.data()), rough = few.rgb_of(chosen.data());
+            for (int c = 0; c < 3; ++c) {
+                squares += (fine[c] - rough[c]) * (fine[c] - rough[c]);
+                mean += fine[c];
+            }
+        }
+        const double values = 3 * static_cast<double>(spectra.size());
+        if (std::sqrt(squares * values) <= scene.settings.tolerance * mean) return coarse;
+    }
+    return finest;
+}
+
+}  // namespace culet

@@ -1,0 +1,282 @@
+#include "render/reference/pixel_shader.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+#include "render/optics/eye_optics.h"
+#include "render/reference/crystal_paths.h"
+#include "render/reference/gather.h"
+#include "render/reference/light_paths.h"
+#include "render/setup/built_effects.h"
+
+namespace culet {
+
+namespace {
+
+class GatherStokes : public Lost {
+public:
+    GatherStokes(const LightField& lights, const Band& band, const std::vector<double>& luminance,
+                 const std::vector<double>& usual, int nodes, int planes, double* stokes)
+        : Lost(band.count),
+          lights_(lights),
+          band_(band),
+          luminance_(luminance),
+          usual_(usual),
+          nodes_(nodes),
+          planes_(planes),
+          stokes_(stokes) {}
+
+    void leaf(const PathEnd& end, const PathTrace& trace) {
+        seen(trace);
+        if (planes_ == 4) {
+            lights_.add_stokes(end, band_.first, band_.count, stokes_, nodes_);
+            return;
+        }
+        NodeWeights seen{};
+        lights_.add_radiance(end.at, end.direction, end.coherency.power(), band_.first, band_.count,
+                             seen.data());
+        for (int i = 0; i < band_.count; ++i)
+            stokes_[band_.first + i] += end.transmitted[i] * seen[i];
+    }
+    // Weight of mean 0, so it may be given any radiance: the usual one makes up best for what was
+    // lost, and exactly in a constant light.
+    void gambled(const NodeWeights& weight) {
+        for (int i = 0; i < band_.count; ++i)
+            stokes_[band_.first + i] += weight[i] * usual_[band_.first + i];
+    }
+    void choice_begins() { estimates_.begin(luminance_so_far()); }
+    void choice_ends(bool second) { estimates_.end(second, luminance_so_far()); }
+    double variance() const { return estimates_.variance(); }
+
+private:
+    double luminance_so_far() const {
+        double sum = 0;
+        for (int k = 0; k < planes_; ++k) {
+            for (int i = band_.first; i < band_.first + band_.count; ++i)
+                sum += luminance_[k * nodes_ + i] * stokes_[k * nodes_ + i];
+        }
+        return sum;
+    }
+    const LightField& lights_;
+    const Band& band_;
+    const std::vector<double>&luminance_, &usual_;
+    int nodes_, planes_;
+    double* stokes_;
+    PairedEstimates estimates_;
+};
+
+// Colour of a Stokes parameter of 1 at each node, as seen behind the eye's optics.
+std::vector<Rgb> colour_weights(const WavelengthSet& colours, const EyeOptics& optics, int planes) {
+    const int nodes = colours.size();
+    std::vector<Rgb> weights(static_cast<std::size_t>(planes * nodes));
+    std::vector<double> one(nodes, 0.0);
+    for (int i = 0; i < nodes; ++i) {
+        one[i] = 1;
+        const Rgb of_node = colours.rgb_of(one.data());
+        one[i] = 0;
+        const Stokes row = response(optics, colours.wavelengths_nm()[i]);
+        for (int k = 0; k < planes; ++k) {
+            for (int c = 0; c < 3; ++c) weights[k * nodes + i][c] = of_node[c] * row[k];
+        }
+    }
+    return weights;
+}
+
+// Mean over directions evenly spread on the sphere (Fibonacci's spiral).
+std::vector<double> usual_radiance(const LightField& lights, const Vec3& at, int nodes) {
+    constexpr int k_directions = 256;
+    constexpr double k_golden_angle = 2.39996322972865332;
+    std::vector<double> mean(nodes, 0.0);
+    for (int i = 0; i < k_directions; ++i) {
+        const double z = 1 - (2 * i + 1.0) / k_directions, r = std::sqrt(1 - z * z);
+        const Vec3 direction{r * std::cos(k_golden_angle * i), r * std::sin(k_golden_angle * i), z};
+        lights.add_radiance(at, direction, 1.0 / k_directions, 0, nodes, mean.data());
+    }
+    return mean;
+}
+
+}  // namespace
+
+PixelSums& PixelSums::operator+=(const PixelSums& more) {
+    hit += more.hit;
+    luminance += more.luminance;
+    remainder += more.remainder;
+    absorbed += more.absorbed;
+    cut += more.cut;
+    variance += more.variance;
+    radiance += more.radiance;
+    halves_apart += more.halves_apart;
+    worst_imbalance = std::max(worst_imbalance, more.worst_imbalance);
+    deepest = std::max(deepest, more.deepest);
+    rays += more.rays;
+    sampled += more.sampled;
+    events += more.events;
+    return *this;
+}
+
+PixelShader::PixelShader(const Scene& scene, const OpticalSetup& setup, const LightField& lights,
+                         const WavelengthSet& colours, const PathLimits& limits, int samples)
+    : body_(scene.stone.solid, scene.stone.convex),
+      eyes_(scene.camera),
+      setup_(setup),
+      lights_(lights),
+      limits_(limits),
+      pattern_(sample_pattern(samples, setup.on(Effects::aperture), scene.settings.filter,
+                              scene.settings.filter_radius)),
+      nodes_(colours.size()),
+      rgb_(colour_weights(colours, scene.camera.optics, setup.stokes ? 4 : 1)),
+      usual_(usual_radiance(lights, scene.camera.look_at, nodes_)) {
+    for (const Rgb& rgb : rgb_) luminance_.push_back(luminance(rgb));
+    take_turns(std::clamp(scene.settings.wavelength_turns, 1,
+                          static_cast<int>(std::min(pattern_.size(), setup.bands.size()))));
+}
+
+void PixelShader::take_turns(int turns) {
+    const std::size_t count = pattern_.size();
+    // Cells of a grid in an order whose every stretch is evenly spread (Roberts 2018, R2).
+    const std::size_t side = static_cast<std::size_t>(std::lround(std::sqrt(count)));
+    const bool grid = side * side == count;
+    std::vector<std::pair<double, std::size_t>> order;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double x = static_cast<double>(i % side), y = static_cast<double>(i / side);
+        order.emplace_back(grid ? std::fmod(0.7548776662466927 * x + 0.5698402909980532 * y, 1.0)
+                                : std::fmod(0.6180339887498949 * static_cast<double>(i), 1.0),
+                           i);
+    }
+    std::sort(order.begin(), order.end());
+    // Two halves, to see what few rays are off by: the black and the white squares of a chessboard.
+    // In each of them every stretch of that order has one turn.
+    turns_ = turns;
+    turn_.assign(count, 0);
+    half_.assign(count, 0);
+    std::array<std::vector<std::size_t>, 2> halves;
+    for (const auto& [key, i] : order) {
+        half_[i] = grid ? (i % side + i / side) % 2 : i % 2;
+        halves[half_[i]].push_back(i);
+    }
+    std::vector<std::array<double, 2>> rays(static_cast<std::size_t>(turns));
+    std::array<double, 2> in_half{};
+    for (const std::vector<std::size_t>& of : halves) {
+        for (std::size_t rank = 0; rank < of.size(); ++rank) {
+            const std::size_t i = of[rank],
+                              turn = rank * static_cast<std::size_t>(turns) / of.size();
+            turn_[i] = static_cast<int>(turn);
+            rays[turn][half_[i]] += 1;
+            in_half[half_[i]] += 1;
+        }
+    }
+    halved_ = std::all_of(rays.begin(), rays.end(),
+                          [](const std::array<double, 2>& of) { return of[0] > 0 && of[1] > 0; });
+    factor_.assign(luminance_.size(), 1.0);
+    for (std::size_t half : {0, 1}) {
+        of_half_[half].assign(luminance_.size(), 0.0);
+        behind_half_[half] = in_half[half] > 0 ? 1 / in_half[half] : 0;
+    }
+    for (std::size_t b = 0; b < setup_.bands.size(); ++b) {
+        const Band& band = setup_.bands[b];
+        const std::array<double, 2>& of = rays[b % static_cast<std::size_t>(turns)];
+        band_factor_.push_back(static_cast<double>(count) / (of[0] + of[1]));
+        for (std::size_t first = 0; first < factor_.size(); first += nodes_) {
+            for (int k = 0; k < band.count; ++k) {
+                const std::size_t i = first + static_cast<std::size_t>(band.first + k);
+                factor_[i] = band_factor_.back();
+                for (std::size_t half : {0, 1}) of_half_[half][i] = of[half] > 0 ? 1 / of[half] : 0;
+            }
+        }
+    }
+    stone_luminance_ = luminance_;
+    for (std::size_t i = 0; i < factor_.size(); ++i) stone_luminance_[i] *= factor_[i];
+}
+
+void PixelShader::background(const EyeRay& ray, double* stokes) const {
+    if (!setup_.stokes) {
+        lights_.add_radiance(ray.origin, ray.direction, 1.0, 0, nodes_, stokes);
+        return;
+    }
+    lights_.add_direct_stokes(ray, eyes_.frame(ray.direction), nodes_, stokes);
+}
+
+PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixel, double* stokes,
+                             PixelMemory& memory) const {
+    const std::size_t values = static_cast<std::size_t>(planes() * nodes_);
+    // Sums of the two halves of the rays, of what they see of the stone and beside it.
+    memory.stone.assign(2 * values, 0.0);
+    memory.behind.assign(2 * values, 0.0);
+    PixelSums sums;
+    const double share = 1.0 / static_cast<double>(pattern_.size());
+    for (std::size_t i = 0; i < pattern_.size(); ++i) {
+        const SamplePoint& p = pattern_[i];
+        if (!eyes_.sees(x + size * p.x, y + size * p.y)) continue;
+        const EyeRay ray = eyes_.through(x + size * p.x, y + size * p.y, p.pupil_x, p.pupil_y);
+        const auto entry = body_.entry(ray.origin, ray.direction, memory.entry);
+        if (!entry || lights_.nearest_distance(ray.origin, ray.direction) < entry->distance) {
+            background(ray, memory.behind.data() + half_[i] * values);
+            continue;
+        }
+        sums.hit += share;
+        double* seen = memory.stone.data() + half_[i] * values;
+        for (std::size_t b = 0; b < (k_has_effects ? setup_.bands.size() : 1); ++b) {
+            if (k_has_effects && static_cast<int>(b % static_cast<std::size_t>(turns_)) != turn_[i])
+                continue;
+            const Band& band = setup_.bands[b];
+            const double part = share * band_factor_[b];
+            PathLimits limits = limits_;
+            limits.seed = limits_.seed + 0x9e3779b97f4a7c15ull * (pixel * pattern_.size() + i + 1) +
+                          (limits_.alike ? 0 : static_cast<std::uint64_t>(band.first));
+            const auto take = [&](const Lost& lost) {
+                sums.remainder += part * lost.remainder_ / nodes_;
+                sums.absorbed += part * lost.absorbed_ / nodes_;
+                sums.cut += part * lost.cut_ / nodes_;
+                sums.deepest = std::max(sums.deepest, lost.deepest_);
+            };
+            if (k_has_effects && setup_.general) {
+                GatherStokes gather(lights_, band, stone_luminance_, usual_, nodes_, planes(),
+                                    seen);
+                CrystalPaths<GatherStokes> paths(body_, band, limits, gather);
+                const EyeFrame frame = eyes_.frame(ray.direction);
+                paths.trace(ray, frame.x, frame.y, *entry);
+                sums.worst_imbalance = std::max(sums.worst_imbalance, paths.worst_imbalance());
+                sums.sampled += paths.sampled();
+                sums.events += paths.events();
+                sums.variance += share * share * gather.variance();
+                take(gather);
+            } else {
+                const auto follow = [&](auto one) {
+                    Gather<one> gather(lights_, band, seen);
+                    LightPaths<Gather<one>, one>(body_.planes(), band, limits, gather, memory.trace)
+                        .trace(ray, *entry);
+                    take(gather);
+                };
+                if (!k_has_effects || band.count == 1) {
+                    follow(std::true_type{});
+                } else {
+                    follow(std::false_type{});
+                }
+                sums.events += memory.trace.length;
+            }
+            ++sums.rays;
+        }
+    }
+    Rgb apart{};
+    for (std::size_t i = 0; i < values; ++i) {
+        const double *stone = &memory.stone[i], *behind = &memory.behind[i];
+        const double of_stone = factor_[i] * (stone[0] + stone[values]);
+        const double whole = share * (of_stone + (behind[0] + behind[values]));
+        const double difference = of_half_[0][i] * stone[0] - of_half_[1][i] * stone[values] +
+                                  behind_half_[0] * behind[0] - behind_half_[1] * behind[values];
+        sums.luminance += share * luminance_[i] * of_stone;
+        for (std::size_t c = 0; c < 3; ++c) {
+            apart[c] += rgb_[i][c] * difference;
+            if (sums.hit > 0) sums.radiance += rgb_[i][c] * whole / 3;
+        }
+        stokes[i] = whole;
+    }
+    if (halved_ && sums.hit > 0)
+        sums.halves_apart = (std::abs(apart[0]) + std::abs(apart[1]) + std::abs(apart[2])) / 6;
+    return sums;
+}
+
+}  // namespace culet

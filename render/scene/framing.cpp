@@ -1,0 +1,45 @@
+#include "render/scene/framing.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+namespace culet {
+
+namespace {
+
+// The eye's distance, in sizes of the stone: out of it by far; an orthographic view knows no other.
+constexpr double k_distance = 5;
+constexpr double k_along_view = 1e-9;
+
+}  // namespace
+
+void frame_stone(const Solid& solid, Facing facing, Camera& camera) {
+    if (solid.vertices.empty()) return;
+    Vec3 low = solid.vertices.front(), high = low;
+    for (const Vec3& v : solid.vertices) {
+        low = glm::min(low, v);
+        high = glm::max(high, v);
+    }
+    const Vec3 towards_eye{0, 0, facing == Facing::crown ? 1.0 : -1.0};
+    if (!(glm::length(glm::cross(towards_eye, camera.up)) > k_along_view * glm::length(camera.up)))
+        camera.up = {0, 1, 0};
+    const Vec3 right = glm::normalize(glm::cross(camera.up, towards_eye)),
+               upwards = glm::cross(towards_eye, right);
+    const auto [left_end, right_end] = std::minmax_element(
+        solid.vertices.begin(), solid.vertices.end(),
+        [&right](const Vec3& a, const Vec3& b) { return glm::dot(a, right) < glm::dot(b, right); });
+    const auto [lower_end, upper_end] = std::minmax_element(
+        solid.vertices.begin(), solid.vertices.end(), [&upwards](const Vec3& a, const Vec3& b) {
+            return glm::dot(a, upwards) < glm::dot(b, upwards);
+        });
+    const double x = glm::dot(*left_end + *right_end, right) / 2,
+                 y = glm::dot(*lower_end + *upper_end, upwards) / 2;
+    const double wide = glm::dot(*right_end - *left_end, right),
+                 high_up = glm::dot(*upper_end - *lower_end, upwards);
+    camera.look_at = x * right + y * upwards + Vec3{0, 0, (low.z + high.z) / 2};
+    camera.position = camera.look_at + k_distance * diameter(solid) * towards_eye;
+    camera.orthographic_width =
+        std::max(wide, high_up * camera.width / camera.height) / k_framed_share;
+}
+
+}  // namespace culet

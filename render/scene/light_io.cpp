@@ -1,0 +1,277 @@
+#include "render/scene/light_io.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "render/image/image_io.h"
+#include "render/scene/environment_layout.h"
+#include "render/scene/light_presets.h"
+#include "render/scene/view_presets.h"
+#include "stone/errors.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+// Directions typed with a few digits: a plane's half-extents lie in it to within this sine.
+constexpr double k_in_plane = 0.01;
+
+Vec3 direction_in(const TomlTable& table, const char* key) {
+    const auto value = table.vector(key);
+    if (!value) table.fail("", fmt::format("{} is missing", key));
+    const double length = glm::length(*value);
+    if (!(length > 0) || !std::isfinite(length))
+        table.fail(key, fmt::format("{} must not be the zero vector", key));
+    return *value / length;
+}
+
+Vec3 point_in(const TomlTable& table, const char* key) {
+    const auto value = table.vector(key);
+    if (!value) table.fail("", fmt::format("{} is missing", key));
+    return *value;
+}
+
+double positive_in(const TomlTable& table, const char* key) {
+    const auto value = table.number(key);
+    if (!value) table.fail("", fmt::format("{} is missing", key));
+    if (!(*value > 0)) table.fail(key, fmt::format("{} must be positive, found {}", key, *value));
+    return *value;
+}
+
+std::vector<std::string_view> with_polarisation_keys(std::vector<std::string_view> keys) {
+    keys.insert(keys.end(), {"polarization", "degree_of_polarization"});
+    return keys;
+}
+
+// `normal`: of the polariser's sheet where the light has one.
+std::optional<LinearPolarisation> polarisation_in(const TomlTable& table,
+                                                  const std::optional<Vec3>& normal) {
+    if (!table.has("polarization")) {
+        if (table.has("degree_of_polarization"))
+            table.fail("degree_of_polarization",
+                       "degree_of_polarization needs polarization, the direction of vibration");
+        return std::nullopt;
+    }
+    LinearPolarisation polarisation{direction_in(table, "polarization"), normal, 1};
+    if (const auto degree = table.number("degree_of_polarization")) {
+        if (!(*degree >= 0 && *degree <= 1))
+            table.fail("degree_of_polarization",
+                       fmt::format("degree_of_polarization is 0 to 1, found {}", *degree));
+        polarisation.degree = *degree;
+    }
+    if (normal && !(glm::length(glm::cross(*normal, polarisation.vibration)) > 1e-9)) {
+        table.fail("polarization",
+                   "light cannot vibrate along the way it goes: polarization must not be parallel "
+                   "to the light's direction or normal");
+    }
+    return polarisation;
+}
+
+// A picture's floats end at 3e38 and lose digits below 1e-38: what several lights add up to, and
+// what is left of it behind a stone, must fit, too.
+constexpr double k_brightest = 1e36, k_dimmest = 1e-36;
+
+double checked_radiance(const TomlTable& table, const char* key, double value) {
+    if (value < 0) table.fail(key, fmt::format("{} must not be negative, found {}", key, value));
+    if (value > k_brightest || (value > 0 && value < k_dimmest)) {
+        table.fail(key,
+                   fmt::format("{} of {:g} is {} than a picture can hold (0, or {:g} to "
+                               "{:g}): scale all lights by one factor",
+                               key, value, value > 1 ? "more" : "less", k_dimmest, k_brightest));
+    }
+    return value;
+}
+
+LightColour radiance_alone_in(const TomlTable& table) {
+    switch (table.kind("radiance")) {
+        case TomlTable::Kind::missing:
+            return {1.0};
+        case TomlTable::Kind::number: {
+            return {checked_radiance(table, "radiance", *table.number("radiance"))};
+        }
+        case TomlTable::Kind::list: {
+            const auto list = *table.numbers("radiance");
+            if (list.size() != 3)
+                table.fail("radiance",
+                           fmt::format("a colour has three numbers, found {}", list.size()));
+            for (double v : list) checked_radiance(table, "radiance", v);
+            return {Rgb{list[0], list[1], list[2]}};
+        }
+        case TomlTable::Kind::text: {
+            const std::string name = *table.text("radiance");
+            if (illuminant(name.c_str()) == nullptr) {
+                table.fail("radiance", fmt::format("no spectrum \"{}\"; known: D65, A", name));
+            }
+            return {name};
+        }
+        default:
+            table.fail("radiance",
+                       "radiance is a number, [r, g, b], or a spectrum by name (D65, A)");
+    }
+}
+
+LightColour radiance_in(const TomlTable& table, const std::optional<Vec3>& normal) {
+    LightColour colour = radiance_alone_in(table);
+    colour.polarisation = polarisation_in(table, normal);
+    return colour;
+}
+
+std::shared_ptr<const EnvironmentMap> read_environment(const TomlTable& table,
+                                                       std::vector<std::string>& notes) {
+    const auto path = *table.path("environment");
+    ReadPicture read = [&] {
+        try {
+            return read_picture(path);
+        } catch (const InputError& error) {
+            table.fail("environment", error.what());
+        }
+    }();
+    auto map = std::make_shared<EnvironmentMap>();
+    map->width = read.picture.width;
+    map->height = read.picture.height;
+    map->rgb = std::move(read.picture.rgb);
+    const auto shaped = [&](int across, int down) {
+        return map->width * static_cast<long long>(down) ==
+               map->height * static_cast<long long>(across);
+    };
+    if (shaped(6, 1) || shaped(4, 3) || shaped(3, 4)) {
+        table.fail("environment",
+                   fmt::format("{} is {} x {} pixels, a cube map by its shape; six squares in a "
+                               "column are read (OpenEXR's layout), and lat-long maps",
+                               path.filename().string(), map->width, map->height));
+    }
+    const bool cube = shaped(1, 6);
+    if (!cube && !shaped(2, 1)) {
+        table.fail("environment",
+                   fmt::format("{} is {} x {} pixels; a lat-long map is twice as wide as high",
+                               path.filename().string(), map->width, map->height));
+    }
+    if (read.was_encoded) {
+        notes.push_back(fmt::format(
+            "{}: lights brighter than white are missing in a picture of 8 or 16 bits; an EXR or "
+            "HDR map holds them",
+            path.filename().string()));
+    }
+    std::size_t negative = 0;
+    for (std::size_t i = 0; i < map->rgb.size(); ++i) {
+        if (!std::isfinite(map->rgb[i])) {
+            const std::size_t pixel = i / 3;
+            table.fail("environment", fmt::format("{} holds {} at pixel {},{}: repair the map",
+                                                  path.filename().string(), map->rgb[i],
+                                                  pixel % static_cast<std::size_t>(map->width),
+                                                  pixel / static_cast<std::size_t>(map->width)));
+        }
+        if (map->rgb[i] < 0) {
+            map->rgb[i] = 0;
+            ++negative;
+        }
+    }
+    if (negative > 0) {
+        notes.push_back(
+            fmt::format("{}: {} negative values were taken as 0", path.string(), negative));
+    }
+    // A lat-long map holds a cube's detail when its equator has as many texels.
+    if (cube) *map = lat_long_of_cube(*map, std::min(4 * map->width, 4096));
+    return map;
+}
+
+// One source of each type; the pointer says which.
+SphereLight source_of(const TomlTable& t, const SphereLight*) {
+    t.refuse_unknown(with_polarisation_keys({"center", "radius", "radiance"}));
+    return {point_in(t, "center"), positive_in(t, "radius"), radiance_in(t, std::nullopt)};
+}
+
+LobeLight source_of(const TomlTable& t, const LobeLight*) {
+    t.refuse_unknown(with_polarisation_keys({"direction", "exponent", "radiance"}));
+    const double exponent = t.number("exponent").value_or(1);
+    if (exponent < 0)
+        t.fail("exponent", fmt::format("exponent must not be negative, found {}", exponent));
+    const Vec3 direction = direction_in(t, "direction");
+    return {direction, exponent, radiance_in(t, direction)};
+}
+
+HemisphereLight source_of(const TomlTable& t, const HemisphereLight*) {
+    t.refuse_unknown(with_polarisation_keys({"direction", "radiance"}));
+    const Vec3 direction = direction_in(t, "direction");
+    return {direction, radiance_in(t, direction)};
+}
+
+CapLight source_of(const TomlTable& t, const CapLight*) {
+    t.refuse_unknown(with_polarisation_keys({"direction", "half_angle", "from", "to", "radiance"}));
+    if (t.has("half_angle") == t.has("to"))
+        t.fail("", "a cap needs half_angle, or a band from .. to, in degrees");
+    const double from = t.number("from").value_or(0);
+    const double to = t.has("to") ? *t.number("to") : *t.number("half_angle");
+    if (!(from >= 0 && from < to && to <= 180)) {
+        t.fail(t.has("to") ? "to" : "half_angle",
+               fmt::format("a cap's angles are 0 <= from < to <= 180 degrees, found {} to {}", from,
+                           to));
+    }
+    const Vec3 direction = direction_in(t, "direction");
+    return {direction, radians(from), radians(to), radiance_in(t, direction)};
+}
+
+PlaneLight source_of(const TomlTable& t, const PlaneLight*) {
+    t.refuse_unknown(with_polarisation_keys({"point", "normal", "u", "v", "radiance"}));
+    PlaneLight plane;
+    plane.point = point_in(t, "point");
+    plane.normal = direction_in(t, "normal");
+    plane.u = t.vector("u");
+    plane.v = t.vector("v");
+    plane.radiance = radiance_in(t, plane.normal);
+    if (plane.u.has_value() != plane.v.has_value())
+        t.fail("", "a plane has both half-extents u and v, or none");
+    if (plane.u && !(glm::length(glm::cross(*plane.u, *plane.v)) >
+                     1e-12 * glm::length(*plane.u) * glm::length(*plane.v))) {
+        t.fail("u", "u and v must span the plane");
+    }
+    for (auto [key, extent] : {std::pair{"u", &plane.u}, std::pair{"v", &plane.v}}) {
+        if (!*extent) continue;
+        const double out = glm::dot(**extent, plane.normal);
+        if (std::abs(out) > k_in_plane * glm::length(**extent)) {
+            t.fail(key,
+                   fmt::format("{} must lie in the plane, at right angles to its normal", key));
+        }
+        **extent -= out * plane.normal;
+    }
+    return plane;
+}
+
+}  // namespace
+
+Lights lights_of(const TomlTable& table, std::vector<std::string>& notes) {
+    std::vector<std::string_view> keys{"environment", "constant"};
+    for_each_light_type([&]<class L>() { keys.push_back(L::k_name); });
+    table.refuse_unknown(with_view_keys(with_polarisation_keys(std::move(keys))));
+    Lights lights;
+    const auto preset = table.text("preset");
+    const bool is_view = preset && is_view_preset(*preset);
+    if (preset && !is_view) {
+        const auto known = light_preset(*preset);
+        if (!known) table.fail("preset", no_light_preset(*preset));
+        lights = *known;
+    }
+    if (table.has("environment")) {
+        if (table.has("constant"))
+            table.fail("constant", "give an environment or a constant, not both");
+        lights.environment = read_environment(table, notes);
+    }
+    if (const auto constant = table.number("constant")) {
+        lights.constant = checked_radiance(table, "constant", *constant);
+    }
+    lights.polarisation = polarisation_in(table, std::nullopt);
+    for_each_light_type([&]<class L>() {
+        for (const TomlTable& t : table.tables(L::k_name)) {
+            lights.sources.push_back(source_of(t, static_cast<const L*>(nullptr)));
+        }
+    });
+    const bool dark = !lights.environment && lights.constant == 0 && lights.sources.empty();
+    if (dark && !table.has("constant") && !is_view)
+        table.fail("", "the scene is dark: [light] names no light");
+    return lights;
+}
+
+}  // namespace culet

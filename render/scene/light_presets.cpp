@@ -1,0 +1,138 @@
+#include "render/scene/light_presets.h"
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+
+#include "stone/toml_file.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+const Vec3 k_up{0, 0, 1};
+// Half angles of the eye's hole. With 15 degrees, which show arrows, the hearts of a pavilion
+// of 40.75 degrees lie in the hole's reflection.
+constexpr double k_eye_deg = 15, k_hearts_eye_deg = 5;
+
+CapLight band(const Vec3& axis, double from_deg, double to_deg, LightColour colour) {
+    return {glm::normalize(axis), radians(from_deg), radians(to_deg), std::move(colour)};
+}
+
+// The hood of a viewer, round the hole for the eye.
+Lights reflector(const Vec3& axis, double hole_deg) {
+    Lights lights;
+    lights.sources.push_back(band(axis, hole_deg, 80, {Rgb{1.0, 0.25, 0.3}}));
+    return lights;
+}
+
+Lights jeweller() {
+    Lights lights;
+    lights.constant = 0.05;
+    lights.sources.push_back(band(k_up, 12, 40, {0.7}));
+    lights.sources.push_back(band({1, 0.3, 0.6}, 0, 18, {3.0}));
+    lights.sources.push_back(band({-0.6, 1, 0.9}, 0, 10, {2.0}));
+    lights.sources.push_back(HemisphereLight{k_up, {0.12}});
+    return lights;
+}
+
+Lights daylight() {
+    Lights lights;
+    lights.constant = 0.04;
+    const Vec3 sun{1, 0.4, 1.1};
+    // From the head to the trees; paler where the sun is.
+    lights.sources.push_back(band(k_up, 15, 75, {Rgb{0.33, 0.37, 0.43}}));
+    lights.sources.push_back(LobeLight{glm::normalize(sun), 6, {Rgb{1.3, 1.25, 1.15}}});
+    lights.sources.push_back(band(sun, 0, 2.5, {Rgb{60, 56, 50}}));
+    return lights;
+}
+
+Lights lightbox() {
+    Lights lights;
+    lights.sources.push_back(HemisphereLight{-k_up, {0.9}});
+    lights.sources.push_back(band(k_up, 10, 38, {0.9}));
+    lights.sources.push_back(band(k_up, 52, 90, {0.6}));
+    for (const double side : {-1.0, 1.0})
+        lights.sources.push_back(band({side, 0.2, 0.45}, 0, 20, {2.0}));
+    return lights;
+}
+
+Lights darkfield() {
+    Lights lights;
+    lights.constant = 0.02;
+    lights.sources.push_back(band(-k_up, 35, 75, {1.0}));
+    return lights;
+}
+
+Lights aset() {
+    Lights lights;
+    lights.sources.push_back(band(k_up, 0, 15, {Rgb{0.1, 0.2, 1.0}}));
+    lights.sources.push_back(band(k_up, 15, 45, {Rgb{1.0, 0.1, 0.1}}));
+    lights.sources.push_back(band(k_up, 45, 90, {Rgb{0.1, 0.8, 0.1}}));
+    return lights;
+}
+
+Lights idealscope() {
+    Lights lights = reflector(k_up, k_eye_deg);
+    lights.sources.push_back(HemisphereLight{-k_up, {1.0}});
+    return lights;
+}
+
+struct Made {
+    LightPreset preset;
+    Lights (*lights)();
+};
+
+const std::vector<Made>& all_made() {
+    static const std::vector<Made> made{
+        {{"jeweller", "a ring of light, two windows, a dim room", false, false}, jeweller},
+        {{"daylight", "an open sky, a hazy sun, dim ground", false, false}, daylight},
+        {{"lightbox", "a white tent with two lamps and the lens's hole", false, false}, lightbox},
+        {{"darkfield", "a ring of light from below the girdle, dark ground", false, false},
+         darkfield},
+        {{"aset", "red, green and blue by elevation (AGS)", false, true}, aset},
+        {{"idealscope", "a red reflector, white light from below", false, true}, idealscope},
+        {{"arrows", "a red reflector before the crown", false, true},
+         [] { return reflector(k_up, k_eye_deg); }},
+        {{"hearts", "a red reflector before the pavilion, seen from below", true, true},
+         [] { return reflector(-k_up, k_hearts_eye_deg); }}};
+    return made;
+}
+
+}  // namespace
+
+const std::vector<LightPreset>& light_presets() {
+    static const std::vector<LightPreset> presets = [] {
+        std::vector<LightPreset> all;
+        for (const Made& made : all_made()) all.push_back(made.preset);
+        return all;
+    }();
+    return presets;
+}
+
+const LightPreset* find_light_preset(std::string_view name) {
+    for (const LightPreset& preset : light_presets()) {
+        if (preset.name == name) return &preset;
+    }
+    return nullptr;
+}
+
+std::optional<Lights> light_preset(std::string_view name) {
+    for (const Made& made : all_made()) {
+        if (made.preset.name == name) return made.lights();
+    }
+    return std::nullopt;
+}
+
+std::string no_light_preset(std::string_view name) {
+    std::vector<std::string> known;
+    for (const LightPreset& preset : light_presets()) known.emplace_back(preset.name);
+    for (const char* view : {"polariscope", "conoscope", "dichroscope"}) known.emplace_back(view);
+    const auto near = nearest_name(name, known);
+    return fmt::format("no light \"{}\"{}; known: {}", name,
+                       near ? fmt::format(", did you mean \"{}\"?", *near) : "",
+                       fmt::join(known, ", "));
+}
+
+}  // namespace culet

@@ -1,0 +1,133 @@
+#include "render/scene/lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+#include "stone/least_rotation.h"
+#include "stone/perpendicular.h"
+
+namespace culet {
+
+Rgb EnvironmentMap::at(const Vec3& direction) const {
+    // Top row +z; the middle column +x; azimuth grows to the left as seen from inside, which is to
+    // smaller columns.
+    const double azimuth = std::atan2(direction.y, direction.x);
+    const double polar = std::acos(std::clamp(direction.z, -1.0, 1.0));
+    const double column = (0.5 - azimuth / (2 * std::numbers::pi)) * width - 0.5;
+    const double row = std::clamp(polar / std::numbers::pi * height - 0.5, 0.0, height - 1.0);
+    const double x0 = std::floor(column), y0 = std::floor(row);
+    const double u = column - x0, v = row - y0;
+    const auto texel = [&](double x, double y) {
+        const int i = ((static_cast<int>(x) % width) + width) % width;
+        const int j = std::min(static_cast<int>(y), height - 1);
+        return rgb.data() + 3 * (static_cast<std::size_t>(j) * static_cast<std::size_t>(width) +
+                                 static_cast<std::size_t>(i));
+    };
+    const float *a = texel(x0, y0), *b = texel(x0 + 1, y0), *c = texel(x0, y0 + 1),
+                *d = texel(x0 + 1, y0 + 1);
+    Rgb result;
+    for (int k = 0; k < 3; ++k) {
+        result[k] = (1 - v) * ((1 - u) * a[k] + u * b[k]) + v * ((1 - u) * c[k] + u * d[k]);
+    }
+    return result;
+}
+
+std::vector<double> radiance_of(const LightColour& colour, const WavelengthSet& wavelengths) {
+    if (const double* number = std::get_if<double>(&colour.value)) {
+        return std::vector<double>(wavelengths.wavelengths_nm().size(), *number);
+    }
+    if (const Rgb* rgb = std::get_if<Rgb>(&colour.value)) return wavelengths.spectrum_of(*rgb);
+    return wavelengths.illuminant_relative(std::get<std::string>(colour.value).c_str());
+}
+
+CapCosines cosines_of(const CapLight& cap) {
+    // Whole discs and half spaces include their limits: a cap of 180 degrees is everywhere.
+    return {cap.from <= 0 ? 2.0 : std::cos(cap.from),
+            cap.to >= std::numbers::pi ? -2.0 : std::cos(cap.to)};
+}
+
+// Distance along a ray to a sphere, or infinity; from inside, to the far side: a dome shines
+// inwards.
+double distance_to(const SphereLight& sphere, const Vec3& origin, const Vec3& direction) {
+    const Vec3 to = sphere.center - origin;
+    const double along = glm::dot(to, direction);
+    const Vec3 beside = to - along * direction;
+    const double half_squared = sphere.radius * sphere.radius - glm::dot(beside, beside);
+    if (half_squared < 0) return std::numeric_limits<double>::infinity();
+    const double half = std::sqrt(half_squared);
+    const double distance = along - half > 0 ? along - half : along + half;
+    return distance > 0 ? distance : std::numeric_limits<double>::infinity();
+}
+
+// The lit side only: from behind, a plane is not there.
+double distance_to(const PlaneLight& plane, const Vec3& origin, const Vec3& direction) {
+    const double towards = glm::dot(direction, plane.normal);
+    const double height = glm::dot(origin - plane.point, plane.normal);
+    if (!(towards < 0) || !(height > 0)) return std::numeric_limits<double>::infinity();
+    const double distance = -height / towards;
+    if (plane.u && plane.v) {
+        // The two half-extents need not be at right angles: coordinates in their own frame.
+        const Vec3 at = origin + distance * direction - plane.point;
+        const double uu = glm::dot(*plane.u, *plane.u), vv = glm::dot(*plane.v, *plane.v);
+        const double uv = glm::dot(*plane.u, *plane.v), au = glm::dot(at, *plane.u),
+                     av = glm::dot(at, *plane.v);
+        const double determinant = uu * vv - uv * uv;
+        const double s = (au * vv - av * uv) / determinant, t = (av * uu - au * uv) / determinant;
+        if (std::abs(s) > 1 || std::abs(t) > 1) return std::numeric_limits<double>::infinity();
+    }
+    return distance;
+}
+
+double share_of(const LobeLight& lobe, const Vec3& direction) {
+    const double cosine = glm::dot(direction, lobe.direction);
+    return cosine > 0 ? std::pow(cosine, lobe.exponent) : 0;
+}
+
+double share_of(const HemisphereLight& half, const Vec3& direction) {
+    return glm::dot(direction, half.direction) > 0 ? 1 : 0;
+}
+
+double share_of(const CapLight& cap, const CapCosines& cosines, const Vec3& direction) {
+    const double cosine = glm::dot(direction, cap.direction);
+    return cosine <= cosines.from && cosine > cosines.to ? 1 : 0;
+}
+
+Vec3 LinearPolarisation::of_ray(const Vec3& direction) const {
+    if (!normal) {
+        const Vec3 across = vibration - glm::dot(vibration, direction) * direction;
+        const double length = glm::length(across);
+        return length > 0 ? across / length : perpendicular_to(direction);
+    }
+    const Vec3 from = glm::dot(*normal, direction) < 0 ? -*normal : *normal;
+    // A sheet's direction lies in it: what a scene's rounding left along the normal is dropped.
+    const Vec3 in_sheet = glm::normalize(vibration - glm::dot(vibration, from) * from);
+    return turned_with(from, direction, in_sheet);
+}
+
+const LightColour& colour_of(const Light& light) {
+    return std::visit([](const auto& l) -> const LightColour& { return l.radiance; }, light);
+}
+
+LightColour& colour_of(Light& light) {
+    return std::visit([](auto& l) -> LightColour& { return l.radiance; }, light);
+}
+
+bool is_near(const Light& light) {
+    return std::visit([](const auto& l) { return l.k_is_near; }, light);
+}
+
+bool has_edge(const Light& light) {
+    return std::visit([](const auto& l) { return l.k_has_edge; }, light);
+}
+
+bool polarised(const Lights& lights) {
+    return lights.polarisation ||
+           std::any_of(lights.sources.begin(), lights.sources.end(), [](const Light& light) {
+               return colour_of(light).polarisation.has_value();
+           });
+}
+
+}  // namespace culet

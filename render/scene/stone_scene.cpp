@@ -1,0 +1,155 @@
+#include "render/scene/stone_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "render/scene/scene_io.h"
+#include "render/scene/view_presets.h"
+#include "stone/errors.h"
+#include "stone/gemcad_io.h"
+#include "stone/material.h"
+#include "stone/mesh_io.h"
+#include "stone/toml_file.h"
+
+namespace culet {
+
+namespace {
+
+// Designs are 1 or 2 wide (a radius of 1), cut stones hardly ever under 2 mm.
+constexpr double k_widest_of_no_size = 2 + 1e-6;
+constexpr double k_d_line_nm = 589.3;
+constexpr std::size_t k_suggestions = 3;
+
+enum class Kind { scene, stone, mesh, cut };
+
+std::string extension_of(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
+Kind kind_of(const std::filesystem::path& file) {
+    const std::string extension = extension_of(file);
+    if (extension == ".asc" || extension == ".gem") return Kind::cut;
+    if (mesh_format(file)) return Kind::mesh;
+    if (extension != ".toml") {
+        throw InputError(file,
+                         "is no scene, stone (.toml), mesh (.obj .off .ply .stl) or cut design "
+                         "(.asc .gem)");
+    }
+    const TomlTable root = read_toml(file);
+    if (root.kind("stone") == TomlTable::Kind::table) return Kind::stone;
+    if (root.has("fit") && !root.has("stone") && !root.has("mesh")) {
+        throw InputError(file, fmt::format("is a job: culet run {} -o DIR draws its picture",
+                                           file.filename().string()));
+    }
+    return Kind::scene;
+}
+
+// Of the catalogue, those whose index is that of the design.
+std::string materials_of_index(double index) {
+    std::vector<std::pair<double, std::string>> near;
+    for (const std::string& name : catalogue_names())
+        near.emplace_back(std::abs(catalogue_material(name).index[0].at(k_d_line_nm) - index),
+                          name);
+    std::sort(near.begin(), near.end());
+    std::string names;
+    for (std::size_t i = 0; i < std::min(k_suggestions, near.size()); ++i)
+        names += (i == 0 ? "" : ", ") + near[i].second;
+    return names;
+}
+
+[[noreturn]] void ask_for_material(const std::filesystem::path& file, Kind kind) {
+    std::string hint = "e.g. --material diamond";
+    if (kind == Kind::cut) {
+        const CutSheet sheet =
+            (extension_of(file) == ".asc" ? read_gemcad_asc(file) : read_gemcad_gem(file)).sheet;
+        if (sheet.refractive_index && *sheet.refractive_index > 1) {
+            hint = fmt::format("its index {:.4g} is that of {}", *sheet.refractive_index,
+                               materials_of_index(*sheet.refractive_index));
+        }
+    }
+    throw InputError(file, fmt::format("names no material: say which with --material NAME ({}; "
+                                       "culet info --materials lists them)",
+                                       hint));
+}
+
+double width_mm(const Stone& stone) {
+    return mm_per(stone.unit) *
+           std::min(width_along(stone.solid, {1, 0, 0}), width_along(stone.solid, {0, 1, 0}));
+}
+
+void scale(Solid& solid, double factor) {
+    for (Vec3& v : solid.vertices) v *= factor;
+    for (Facet& facet : solid.facets) facet.plane.offset *= factor;
+}
+
+void set_size(const std::filesystem::path& file, Kind kind, const std::optional<double>& wanted,
+              Stone& stone, std::vector<std::string>& notes) {
+    const double width = width_mm(stone);
+    if (!(width > 0) || !std::isfinite(width)) return;
+    const std::string name = file.filename().string();
+    const bool has_size =
+        kind == Kind::stone || (kind == Kind::mesh && width > k_widest_of_no_size);
+    if (wanted) {
+        scale(stone.solid, *wanted / width);
+    } else if (!has_size) {
+        scale(stone.solid, k_usual_width_mm / width);
+        notes.push_back(fmt::format("{} has no size: drawn {:g} mm wide (--width MM for another)",
+                                    name, k_usual_width_mm));
+    } else if (kind == Kind::mesh) {
+        notes.push_back(fmt::format("{} is taken in {}: {:.4g} mm wide (--width MM for another)",
+                                    name, name_of(stone.unit), width));
+    }
+}
+
+}  // namespace
+
+Scene read_any_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                     const StoneScene& choices) {
+    const Kind kind = kind_of(file);
+    std::vector<std::string> keys = overrides;
+    std::string light = choices.light;
+    if (is_view_preset(light)) {
+        keys.push_back("preset=\"" + light + "\"");
+        light.clear();
+    }
+    if (choices.width_mm && !(*choices.width_mm > 0 && std::isfinite(*choices.width_mm)))
+        throw InputError(fmt::format("--width is in mm, found {:g}", *choices.width_mm));
+    // From where the command is given, as other files on the command line.
+    std::string material = choices.material;
+    if (std::filesystem::path(material).extension() == ".toml")
+        material = std::filesystem::absolute(material).string();
+    if (kind == Kind::scene) {
+        if (choices.width_mm)
+            throw InputError(file,
+                             "is a scene, whose stone has its size: --width is for stones "
+                             "without a scene");
+        TomlTable root = material.empty() ? read_toml(file, keys)
+                                          : read_toml_with(file, {{"material", material}}, keys);
+        return scene_of(root, nullptr, light);
+    }
+    std::vector<std::pair<std::string, std::string>> texts{
+        {kind == Kind::stone ? "stone" : "mesh", file.filename().string()}};
+    if (!material.empty()) texts.emplace_back("material", material);
+    const TomlTable root = toml_beside(file, texts, keys);
+    if (kind != Kind::stone && !root.has("material")) ask_for_material(file, kind);
+    if (kind == Kind::stone && !root.has("material")) {
+        const TomlTable own = read_toml(file);
+        if (!own.has("material") && !own.table("stone")->has("material"))
+            ask_for_material(file, kind);
+    }
+    std::vector<std::string> notes;
+    Stone stone = scene_stone_of(root, notes);
+    set_size(file, kind, choices.width_mm, stone, notes);
+    if (light.empty() && !root.has("light") && !is_view_preset(choices.light))
+        light = k_usual_light;
+    Scene scene = scene_of(root, &stone, light);
+    scene.notes.insert(scene.notes.begin(), notes.begin(), notes.end());
+    return scene;
+}
+
+}  // namespace culet

@@ -1,0 +1,43 @@
+#pragma once
+// Which effects a scene calls for, at which wavelengths, and what leaving one out may cost.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "render/optics/band.h"
+#include "render/scene/scene.h"
+
+namespace culet {
+
+struct EffectDecision {
+    Effects effect = Effects::dispersion;
+    bool on = false;
+    std::string why;
+    /// Bound on the error of the radiance, relative to the largest light, of leaving it out; 0 when
+    /// it is on or changes nothing. NaN: no bound is known (written as null).
+    double error_bound = 0;
+};
+
+struct OpticalSetup {
+    std::array<EffectDecision, k_effect_count> effects;
+    std::vector<double> wavelengths_nm;
+    std::vector<Band> bands;
+    bool polarised = true;
+    bool stokes = false;   ///< all four Stokes parameters are needed: polarised lights, an analyser
+    bool general = false;  ///< crystal_paths.h; else light_paths.h suffices
+    bool splits = false;   ///< the stone has two waves, so that trees double
+
+    bool on(Effects effect) const { return effects[static_cast<std::size_t>(effect)].on; }
+};
+
+/// Wavelengths that can be chosen from, coarse to fine; each set holds the one before.
+constexpr std::array<int, 4> k_node_counts{8, 15, 29, 57};
+
+/// `nodes`: wavelengths where a spectrum is called for and the scene names none.
+OpticalSetup make_optical_setup(const Scene& scene, int nodes = k_node_counts[1]);
+
+/// True when the plan's wavelengths were its own choice of a spectrum.
+bool chose_spectrum(const Scene& scene, const OpticalSetup& setup);
+
+}  // namespace culet

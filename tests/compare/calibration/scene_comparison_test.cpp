@@ -1,0 +1,293 @@
+#include "compare/calibration/scene_comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <functional>
+#include <set>
+
+#include "compare/calibration/calibrate.h"
+#include "compare/calibration/cropped_camera.h"
+#include "compare/calibration/facet_error.h"
+#include "compare/calibration/fingerprint.h"
+#include "stone/checks.h"
+#include "stone/cuts/cuts.h"
+#include "stone/errors.h"
+#include "stone/units.h"
+
+namespace culet {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A princess cut of glass under three lobes, of few facets and little dispersion: a picture of 100
+// pixels is a matter of milliseconds.
+Scene small_scene() {
+    Scene scene;
+    scene.stone.solid = *with_facet_error(make_cut("princess"), radians(0.5), 4);
+    scene.stone.material = catalogue_material("glass_bk7");
+    scene.camera.position = {4, -3, 200};
+    scene.camera.up = {0, 1, 0};
+    scene.camera.orthographic_width = 9;
+    scene.camera.width = scene.camera.height = 120;
+    scene.lights.constant = 0.1;
+    scene.lights.sources.push_back(LobeLight{Vec3{0.3, 0.1, 1}, 8, {Rgb{1.2, 1.1, 1.0}}});
+    scene.lights.sources.push_back(LobeLight{Vec3{1, 0.3, 0.5}, 30, {Rgb{3.0, 2.8, 2.9}}});
+    scene.lights.sources.push_back(LobeLight{Vec3{-0.5, 0.9, 0.4}, 20, {Rgb{1.0, 1.2, 0.8}}});
+    scene.settings.wavelengths_nm = {550};
+    scene.settings.effects_auto = false;
+    return scene;
+}
+
+SceneCompareOptions quick() {
+    SceneCompareOptions options;
+    options.find_pose = false;
+    options.calibrate = true;
+    options.draws = 2;
+    options.largest = 80;
+    options.budget_seconds = 0;
+    return options;
+}
+
+Photo photograph_of(Scene scene, double facet_error_deg) {
+    if (facet_error_deg > 0) {
+        scene.stone.solid = *with_facet_error(scene.stone.solid, radians(facet_error_deg), 21);
+    }
+    CameraModel camera;
+    camera.gain = {0.6, 0.6, 0.6};
+    camera.ground = {0.02f, 0.02f, 0.02f};
+    RenderResult result = render(scene);
+    return photographed(photo_of(result.picture), camera, 5);
+}
+
+TEST(SceneComparison, of_the_right_stone_is_nearer_than_of_a_wrong_one) {
+    const Scene scene = small_scene();
+    const SceneComparison right = compare_with_scene(photograph_of(scene, 0), scene, quick());
+    const SceneComparison wrong = compare_with_scene(photograph_of(scene, 1.5), scene, quick());
+    ASSERT_TRUE(right.comparison.meaning && wrong.comparison.meaning);
+    EXPECT_TRUE(right.comparison.calibration->complete());
+    ASSERT_TRUE(right.comparison.meaning->equivalent.deg.has_value());
+    EXPECT_LT(*right.comparison.meaning->equivalent.deg, 0.15);
+    EXPECT_GT(*wrong.comparison.meaning->equivalent.deg, 0.7);
+    EXPECT_EQ(right.comparison.verdict, Verdict::match);
+    EXPECT_NE(wrong.comparison.verdict, Verdict::match);
+    const std::string json = scores_json(right.comparison);
+    EXPECT_NE(json.find("\"sensitivity\": [\n"), std::string::npos);
+    EXPECT_NE(json.find("\"headline\""), std::string::npos);
+}
+
+// A hand-made mesh: its corners are only roughly in their planes. Said, not left out in silence.
+TEST(SceneComparison, of_a_stone_that_is_not_convex_says_that_no_pose_was_sought) {
+    Scene scene = small_scene();
+    const Photo photo = photograph_of(scene, 0);
+    for (std::size_t v = 0; v < scene.stone.solid.vertices.size(); v += 3)
+        scene.stone.solid.vertices[v] *= 1.03;
+    ASSERT_FALSE(is_convex(scene.stone.solid));
+    SceneCompareOptions options;
+    options.find_pose = true;
+    const SceneComparison found = compare_with_scene(photo, scene, options);
+    EXPECT_FALSE(found.pose_used);
+    ASSERT_FALSE(found.comparison.notes.empty());
+    EXPECT_NE(found.comparison.notes.back().find("not convex"), std::string::npos);
+}
+
+TEST(SceneComparison, is_the_same_whatever_the_threads) {
+    const Scene scene = small_scene();
+    const Photo photo = photograph_of(scene, 0.2);
+    SceneCompareOptions options = quick();
+    options.compare.threads = 1;
+    const SceneComparison one = compare_with_scene(photo, scene, options);
+    options.compare.threads = 2;
+    const SceneComparison two = compare_with_scene(photo, scene, options);
+    EXPECT_EQ(scores_json(one.comparison), scores_json(two.comparison));
+}
+
+TEST(SceneComparison, keeps_its_calibration_for_the_next_photograph) {
+    const fs::path cache = fs::path(testing::TempDir()) / "culet-calibrations";
+    fs::remove_all(cache);
+    const Scene scene = small_scene();
+    const Photo photo = photograph_of(scene, 0.2);
+    SceneCompareOptions options = quick();
+    options.cache = cache;
+    const SceneComparison first = compare_with_scene(photo, scene, options);
+    EXPECT_FALSE(first.comparison.calibration->from_cache);
+    const SceneComparison second = compare_with_scene(photo, scene, options);
+    EXPECT_TRUE(second.comparison.calibration->from_cache);
+    EXPECT_EQ(first.comparison.meaning->headline, second.comparison.meaning->headline);
+    // No score hangs on whether it was kept.
+    const auto meant = [](const SceneComparison& compared) {
+        const std::string json = scores_json(compared.comparison);
+        const std::size_t from = json.find("\"sensitivity\": ["),
+                          to = json.find("\"calibration\": {");
+        return json.substr(from, to - from);
+    };
+    EXPECT_TRUE(meant(first) == meant(second));
+    // Another seed is another calibration.
+    options.compare.seed = 2;
+    EXPECT_FALSE(compare_with_scene(photo, scene, options).comparison.calibration->from_cache);
+    fs::remove_all(cache);
+}
+
+TEST(SceneComparison, a_budget_ends_it_and_says_so) {
+    const Scene scene = small_scene();
+    SceneCompareOptions options = quick();
+    options.draws = 40;
+    options.budget_seconds = 0.01;
+    const SceneComparison ended = compare_with_scene(photograph_of(scene, 0.2), scene, options);
+    EXPECT_FALSE(ended.comparison.calibration->complete());
+    ASSERT_FALSE(ended.comparison.calibration->notes.empty());
+    EXPECT_NE(ended.comparison.calibration->notes.back().find("budget"), std::string::npos);
+}
+
+TEST(SceneComparison, of_a_camera_that_does_not_see_the_stone_is_the_users_mistake) {
+    Scene scene = small_scene();
+    const Photo photo = photograph_of(scene, 0);
+    scene.camera.orthographic_width.reset();
+    scene.camera.look_at = {0, 0, 400};  // away from it
+    EXPECT_THROW(compare_with_scene(photo, scene, quick()), InputError);
+}
+
+TEST(SceneComparison, stops_when_asked) {
+    const Scene scene = small_scene();
+    const Photo photo = photograph_of(scene, 0);
+    EXPECT_THROW(compare_with_scene(photo, scene, quick(), [](double f) { return f < 0.5; }),
+                 Interrupted);
+}
+
+TEST(Calibrate, under_the_same_light_from_everywhere_has_no_wrong_light) {
+    Scene scene = small_scene();
+    scene.lights = {};
+    scene.lights.constant = 1;
+    scene.camera = cropped_to_stone(scene.camera, scene.stone.solid, 60, 0.2);
+    const DraftRenderer renderer(scene, 0.05);
+    CalibrateOptions options;
+    options.draws = 2;
+    options.null_draws = 2;
+    options.largest = 60;
+    const Calibration calibration = calibrate(scene, renderer.picture(), renderer, options);
+    for (const CalibrationDraw& draw : calibration.draws) {
+        EXPECT_NE(draw.world, World::light);
+        EXPECT_NE(draw.world, World::both);
+    }
+    EXPECT_FALSE(calibration.notes.empty());
+}
+
+TEST(Calibrate, for_several_cameras_is_that_for_each) {
+    Scene scene = small_scene();
+    scene.camera = cropped_to_stone(scene.camera, scene.stone.solid, 60, 0.2);
+    const DraftRenderer renderer(scene, 0.05);
+    CalibrateOptions options;
+    options.draws = 2;
+    options.null_draws = 2;
+    options.largest = 60;
+    CameraModel noisy;
+    noisy.electrons = 500;
+    CameraModel blurred;
+    blurred.psf_px = 1.5;
+    const auto both = calibrate(scene, renderer.picture(), renderer, options, {noisy, blurred});
+    ASSERT_EQ(both.size(), 2u);
+    for (const auto& [camera, calibration] : {std::pair(noisy, both[0]), {blurred, both[1]}}) {
+        options.camera = camera;
+        Calibration one = calibrate(scene, renderer.picture(), renderer, options);
+        one.seconds = calibration.seconds;
+        EXPECT_EQ(calibration_json(one), calibration_json(calibration));
+    }
+    EXPECT_NE(both[0].draws[0].scores, both[1].draws[0].scores);
+}
+
+// Changes the n-th part of a light.
+struct ChangePart {
+    int n;
+    bool changed = false;
+    void point(Vec3& p) {
+        change([&] { p.x += 1; });
+    }
+    void direction(Vec3& d) {
+        change([&] { d.y += 1; });
+    }
+    void extent(std::optional<Vec3>& e) {
+        change([&] { e = e.value_or(Vec3(0)) + Vec3(1); });
+    }
+    void number(double& v) {
+        change([&] { v += 1; });
+    }
+    template <class Change>
+    void change(Change&& make) {
+        if (n-- != 0) return;
+        make();
+        changed = true;
+    }
+};
+
+// Of every type in the list, so that a new one is held to it, too: a part that it does not name in
+// `each_part` would let a calibration of another light pass for its own.
+TEST(Fingerprint, tells_lights_apart_by_every_part_of_every_type) {
+    const auto print = [](const Light& light) {
+        Scene scene = small_scene();
+        scene.lights.sources = {light};
+        Fingerprint fingerprint;
+        fingerprint.add(scene);
+        return fingerprint.hex();
+    };
+    for_each_light_type([&]<class L>() {
+        SCOPED_TRACE(L::k_name);
+        const L light{};
+        std::set<std::string> prints{print(light)};
+        std::size_t parts = 1;
+        for (;; ++parts) {
+            L other = light;
+            ChangePart change{int(parts) - 1};
+            other.each_part(other, change);
+            if (!change.changed) break;
+            prints.insert(print(other));
+        }
+        EXPECT_GT(parts, 1u);
+        EXPECT_EQ(prints.size(), parts);
+        L coloured = light;
+        coloured.radiance.value = 7.0;
+        EXPECT_TRUE(prints.insert(print(coloured)).second);
+    });
+}
+
+TEST(Fingerprint, tells_scenes_apart_by_each_of_their_parts) {
+    const auto print = [](const Scene& scene) {
+        Fingerprint fingerprint;
+        fingerprint.add(scene);
+        return fingerprint.hex();
+    };
+    const Scene scene = small_scene();
+    EXPECT_EQ(print(scene), print(small_scene()));
+    const std::vector<std::function<void(Scene&)>> changes{
+        [](Scene& s) { s.camera.position.x += 1e-9; },
+        [](Scene& s) { nth_light<LobeLight>(s.lights, 1).exponent = 31; },
+        [](Scene& s) { s.lights.sources.pop_back(); },
+        [](Scene& s) { nth_light<LobeLight>(s.lights, 0).radiance.value = 1.0; },
+        [](Scene& s) { s.stone.solid.facets[3].plane.offset *= 1 + 1e-12; },
+        [](Scene& s) { s.stone.material = catalogue_material("quartz"); },
+        [](Scene& s) { s.stone.convex = false; },
+        [](Scene& s) {
+            s.camera.principal_point = {60, 61};
+        },
+        [](Scene& s) { s.settings.depth = 9; },
+        [](Scene& s) { s.settings.samples = 9; },
+        [](Scene& s) { s.settings.cut_weight = 1e-3; },
+        [](Scene& s) { s.settings.split_weight = 0.1; },
+        [](Scene& s) { s.settings.wavelength_turns = 2; },
+        [](Scene& s) { s.settings.most_beams = 1000; },
+        [](Scene& s) { s.settings.checked_pixels = 100; },
+        [](Scene& s) { s.settings.checked_samples = 4; },
+        [](Scene& s) { s.settings.coherence = false; },
+        [](Scene& s) { s.settings.bandwidth_nm = 1; },
+        [](Scene& s) { s.immersion = 1.33; }};
+    for (std::size_t i = 0; i < changes.size(); ++i) {
+        Scene other = scene;
+        changes[i](other);
+        EXPECT_NE(print(scene), print(other)) << i;
+    }
+    Scene threads = scene;
+    threads.settings.threads = 3;
+    EXPECT_EQ(print(scene), print(threads));
+}
+
+}  // namespace
+}  // namespace culet

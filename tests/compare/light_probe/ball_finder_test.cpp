@@ -1,0 +1,120 @@
+// Balls in photographs that were traced: the outline is known. Real photographs of balls are not at
+// hand here; these have cluttered grounds, lamps, noise and 8 bits instead.
+
+#include "compare/light_probe/ball_finder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/compare/light_probe/simulated_ball.h"
+
+namespace culet {
+namespace {
+
+// Boxes, discs and stripes: among them circles that are no ball.
+std::function<Rgb(double, double)> clutter(unsigned seed, int width, int height) {
+    std::mt19937_64 random(seed);
+    const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1.0p-53; };
+    struct Thing {
+        double x, y, w, h;
+        bool disc;
+        Rgb colour;
+    };
+    std::vector<Thing> things;
+    for (int i = 0; i < 60; ++i) {
+        things.push_back({width * uniform(),
+                          height * uniform(),
+                          4 + 0.12 * width * uniform(),
+                          4 + 0.2 * height * uniform(),
+                          i % 4 == 0,
+                          {uniform(), uniform(), uniform()}});
+    }
+    return [things](double x, double y) {
+        Rgb light{0.3, 0.3, 0.3};
+        for (const Thing& t : things) {
+            const double u = (x - t.x) / t.w, v = (y - t.y) / (t.disc ? t.w : t.h);
+            if (t.disc ? u * u + v * v < 1 : std::abs(u) < 1 && std::abs(v) < 1) light = t.colour;
+        }
+        return light;
+    };
+}
+
+struct Case {
+    const char* name;
+    double radius, x, y, reflectance;
+    int ground;  // 0: the room itself behind the ball, 1: black, 2: clutter
+    bool noisy;
+};
+
+class Balls : public testing::TestWithParam<Case> {};
+
+TEST_P(Balls, are_found_within_half_a_percent_of_their_radius) {
+    const Case& c = GetParam();
+    simulated::BallShot shot;
+    shot.width = 420;
+    shot.height = 320;
+    shot.radius = c.radius;
+    shot.centre_x = c.x;
+    shot.centre_y = c.y;
+    shot.reflectance = c.reflectance;
+    shot.samples = 3;
+    shot.photographer = 0.15;
+    if (c.ground == 1) shot.background = [](double, double) { return Rgb{}; };
+    if (c.ground == 2) shot.background = clutter(9, shot.width, shot.height);
+    auto taken = simulated::take(shot, simulated::room(static_cast<unsigned>(c.radius)));
+    if (c.noisy) simulated::expose(taken.photo, 1.0, 800, 3);
+    const auto found = find_balls(taken.photo);
+    ASSERT_FALSE(found.empty());
+    const BallCircle& ball = found.front().circle;
+    RecordProperty("support", std::to_string(found.front().support));
+    const double most = 0.005 * taken.radius;
+    EXPECT_NEAR(ball.x, taken.x, most);
+    EXPECT_NEAR(ball.y, taken.y, most);
+    EXPECT_NEAR(ball.radius, taken.radius, most);
+    EXPECT_GT(found.front().support, 0.4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Traced, Balls,
+                         testing::Values(Case{"large_on_black", 130, 210, 160, 0.6, 1, false},
+                                         Case{"small_on_black", 45, 100.4, 210.7, 0.6, 1, false},
+                                         Case{"room_behind", 120, 215.3, 158.8, 0.6, 0, false},
+                                         Case{"room_behind_steel", 100, 180, 150, 0.55, 0, true},
+                                         Case{"room_behind_noisy", 90, 250.6, 170.2, 0.6, 0, true},
+                                         Case{"clutter", 110, 205.2, 161.9, 0.6, 2, false},
+                                         Case{"clutter_noisy", 95, 260.8, 150.4, 0.6, 2, true},
+                                         Case{"clutter_small", 60, 140.2, 120.1, 0.6, 2, false}),
+                         [](const testing::TestParamInfo<Case>& ball) {
+                             return std::string(ball.param.name);
+                         });
+
+TEST(BallFinder, a_click_is_enough) {
+    simulated::BallShot shot;
+    shot.width = 420;
+    shot.height = 320;
+    shot.radius = 100;
+    shot.centre_x = 214.6;
+    shot.centre_y = 155.3;
+    shot.samples = 3;
+    const auto taken = simulated::take(shot, simulated::room(4));
+    const auto ball = refined_ball(taken.photo, {218, 151, 104});
+    ASSERT_TRUE(ball);
+    EXPECT_NEAR(ball->circle.x, taken.x, 0.5);
+    EXPECT_NEAR(ball->circle.y, taken.y, 0.5);
+    EXPECT_NEAR(ball->circle.radius, taken.radius, 0.5);
+}
+
+TEST(BallFinder, there_is_no_ball_in_an_empty_picture_or_a_small_one) {
+    Photo photo;
+    photo.width = 200;
+    photo.height = 150;
+    photo.rgb.assign(3 * 200 * 150, 0.4f);
+    EXPECT_TRUE(find_balls(photo).empty());
+    photo.width = photo.height = 3;
+    photo.rgb.resize(27);
+    EXPECT_TRUE(find_balls(photo).empty());
+    EXPECT_FALSE(refined_ball(photo, {1, 1, 1}));
+}
+
+}  // namespace
+}  // namespace culet
