@@ -4,11 +4,10 @@
 
 #include <algorithm>
 
-#include "render/beams/beam_picture.h"
+#include "render/engine/engine.h"
 #include "render/planner/ladder.h"
 #include "render/planner/paced_drawing.h"
 #include "render/planner/planner.h"
-#include "render/reference/reference.h"
 #include "render/setup/scene_checks.h"
 #include "render/work/work_meter.h"
 
@@ -17,8 +16,7 @@ namespace culet {
 namespace {
 
 RenderResult drawn(const Scene& scene, const Progress& progress) {
-    return drawn_by_beams(scene.settings) ? render_with_beams(scene, progress)
-                                          : render_with_reference(scene, progress);
+    return engine_of(scene.settings).draw(scene, progress);
 }
 
 // What was left out unseen, the picture has shown to be near enough.
@@ -81,8 +79,9 @@ void forget_meter(RenderStats& stats) {
 }  // namespace
 
 bool leaves_something_open(const RenderSettings& settings) {
-    return settings.tolerance > 0 &&
-           (settings.engine == "auto" || settings.effects_auto || settings.wavelengths_nm.empty());
+    if (!engine_of(settings).approaches_truth()) return false;
+    return settings.tolerance > 0 && (settings.engine == k_auto_engine || settings.effects_auto ||
+                                      settings.wavelengths_nm.empty());
 }
 
 RenderResult render(const Scene& scene, const Progress& progress, const PictureSink& better) {

@@ -1,82 +1,13 @@
 #pragma once
 // Front door of the room: a scene in, a picture out, and what was left out of it.
 
-#include <functional>
-#include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "render/image/picture.h"
-#include "render/planner/scene_plan.h"
+#include "render/engine/render_result.h"
 #include "render/scene/scene.h"
-#include "render/setup/optical_setup.h"
 #include "stone/progress.h"
 
 namespace culet {
-
-/// How a finished picture compares with the truth: the reference with everything on at some pixels
-/// of the stone. Errors as in plan/scene_plan.h.
-struct Verification {
-    int pixels = 0, samples = 0;
-    double difference = 0;                ///< to the truth as drawn
-    double spread = 0;                    ///< standard error of it, as of pixels chosen at random
-    double noise = 0;                     ///< what the truth's few rays are off by
-    double measured = 0;                  ///< the difference less the noise
-    double delta_e = 0;                   ///< CIEDE2000, with the noise in it
-    double bound = 0, bound_delta_e = 0;  ///< what the picture says of itself
-    double seconds = 0;
-
-    /// The bound is not below what was measured, as far as that is certain.
-    bool holds() const { return measured - 3 * spread - noise <= bound; }
-};
-
-struct RenderStats {
-    std::string engine = "reference";
-    int depth = 0;  ///< faces on the longest path that brought light
-    std::vector<EffectDecision> effects;
-    std::vector<double> wavelengths_nm;
-    double mean_radiance = 0;  ///< of the stone's pixels, luminance
-    /// Mean weight over the stone's pixels of what paths were left at the depth limit, and of paths
-    /// cut for their small weight.
-    double remainder = 0, cut = 0, absorbed = 0;
-    /// (remainder + cut) x brightest light / mean radiance: the picture's relative error is below
-    /// this on average over the stone, beside sampling and effects switched off.
-    double error_bound = 0;
-    /// Crystals, whose smallest paths are chosen at random: root mean square over the stone's
-    /// pixels of the standard error of a pixel, relative to the mean. Each choice is made twice,
-    /// independently, and the differences tell it without bias.
-    double standard_error = 0;
-    /// Reference: mean over the stone's pixels of about what their few rays are off by, relative to
-    /// the mean: half the difference between every other ray and the rest.
-    double sampling_error = 0;
-    /// What was decided, where the scene left it open; then `error_bound` is that of the plan with
-    /// what the picture shows of its sampling, or of the beams.
-    std::optional<ScenePlan> plan;
-    std::optional<Verification> verification;  ///< where asked for
-    /// Where the tolerance was what the work allowed: the one that was chosen.
-    std::optional<double> allowed_tolerance;
-    /// Largest |sum of powers - 1| met at a crystal's face before it was put right.
-    double worst_imbalance = 0;
-    /// Beams: mean of |difference to the reference| over pixels of the stone, relative to the mean,
-    /// measured at `checked_pixels` of them, with three standard errors; part of `error_bound`.
-    double engine_error = 0;
-    int checked_pixels = 0;
-    long long beams = 0;     ///< of all wavelengths and pupil positions
-    long long retraced = 0;  ///< rays that did not meet their beam's facets, and were traced anew
-    double lost_area = 0;    ///< that no beam covers, as a share of the stone's
-    std::vector<std::string> notes;  ///< what a person should know about this picture
-    long long rays = 0;              ///< eye rays x bands that met the stone
-    double seconds_setup = 0, seconds_build = 0, seconds_shade = 0, seconds_check = 0;
-};
-
-struct RenderResult {
-    Picture picture;
-    RenderStats stats;
-};
-
-/// Told of a picture that is nearer to the truth than those before.
-using PictureSink = std::function<void(const RenderResult&)>;
 
 /// Draws with the scene's engine: the exact reference renderer, or beams. Same scene and seed, same
 /// bytes, whatever the number of threads. `better`: where the tolerance is what `allowed_ns`
@@ -87,51 +18,6 @@ RenderResult render(const Scene& scene, const Progress& progress = {},
 
 /// Whether `render` chooses anything itself: then `allowed_ns` counts.
 bool leaves_something_open(const RenderSettings& settings);
-
-/// A picture to be looked at while a better one is drawn: a crystal's two waves as one, few
-/// wavelengths, the coarsest beams where the scene can be drawn by them, else one ray a pixel. Its
-/// `error_bound` is NaN: nobody knows how near it is. Throws as `render`.
-RenderResult draw_quickly(const Scene& scene, const Progress& progress = {});
-
-/// Draws some pixels anew with everything on: the time of so many pixels of 64 to 256 rays
-/// each.
-Verification verify(const Scene& scene, const RenderResult& result, int pixels = 128);
-
-/// Frame after frame by beams (engine "beams" or "preview"), for programs that draw while a person
-/// watches: what is kept from frame to frame is memory and whatever the changes left valid.
-class FrameRenderer {
-public:
-    /// Throws InputError where the scene cannot be drawn by beams.
-    explicit FrameRenderer(const Scene& scene);
-    ~FrameRenderer();
-    FrameRenderer(FrameRenderer&&) noexcept;
-
-    /// Another view: beams are grown anew (milliseconds).
-    void look_from(const Camera& camera);
-    /// Other lights: the beams stay, and are only shaded anew, unless the lights' colours call for
-    /// other wavelengths.
-    void light_with(const Lights& lights);
-    /// Another view, other lights and other settings: only the stone, which must be the same,
-    /// stays.
-    void show(const Scene& scene);
-    /// Milliseconds of processor time that a frame may take; 0: no limit. Beams that bring little
-    /// are then split no further, as much as the last frame's time asks for: the picture depends on
-    /// the machine, and its `remainder` grows. Guy & Soler (2004) call it the frame-rate limit.
-    void keep_within(double milliseconds);
-    /// Told how far a frame is; may stop it, and `draw` then throws Interrupted.
-    void report_to(const Progress& progress);
-
-    /// The picture stays valid until the next call. Without `check` no pixels are compared with the
-    /// reference, and `error_bound` is NaN.
-    const RenderResult& draw(bool check = false);
-    /// What was drawn last, with its memory.
-    RenderResult take();
-
-private:
-    friend RenderResult render_with_beams(const Scene& scene, const Progress& progress);
-    struct State;
-    std::unique_ptr<State> state_;
-};
 
 /// STATS.json (docs/rendering.md) as text.
 std::string stats_json(const RenderStats& stats);

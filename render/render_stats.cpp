@@ -1,6 +1,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "render/planner/explain.h"
 #include "render/render.h"
 
 namespace culet {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "render/beams/frame_renderer.h"
 #include "stone/errors.h"
 
 namespace culet {

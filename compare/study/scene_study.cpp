@@ -12,7 +12,7 @@
 #include "compare/study/study_clock.h"
 #include "compare/study/study_design.h"
 #include "compare/study/study_reference.h"
-#include "render/beams/beam_picture.h"
+#include "render/beams/frame_renderer.h"
 #include "stone/errors.h"
 
 namespace culet {

@@ -33,7 +33,7 @@ struct SceneStudyOptions {
 /// Errors of one picture over the stone's pixels.
 struct PictureError {
     /// Mean absolute difference of R, G and B over their mean: what `tolerance` speaks of
-    /// (render/planner/scene_plan.h).
+    /// (render/engine/scene_plan.h).
     double mean = 0;
     double rmse = 0;  ///< root mean square, likewise
     /// Of the encoded picture, peak at white, decibel; nothing for equal pictures.

@@ -8,6 +8,7 @@
 
 #include "compare/json_number.h"
 #include "compare/study/scene_study.h"
+#include "render/planner/explain.h"
 
 namespace culet {
 

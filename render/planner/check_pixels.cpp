@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/beams/frame_renderer.h"
 #include "render/planner/contrast.h"
 #include "render/planner/light_edge_scan.h"
 #include "render/planner/wavelengths.h"
-#include "render/reference/light_field.h"
+#include "render/reference/surroundings.h"
 
 namespace culet {
 
@@ -29,8 +30,7 @@ constexpr float k_filled = 0.5f;
 constexpr double k_share_of_edges = 0.5;
 
 double brightest_light(const Scene& scene) {
-    const WavelengthSet colours(even_wavelengths(3));
-    return LightField(scene.lights, colours).max_radiance();
+    return surroundings_of(scene, WavelengthSet(even_wavelengths(3)))->max_radiance();
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/beams/frame_renderer.h"
 #include "render/colour/colour_error.h"
 #include "render/planner/wavelengths.h"
 
@@ -53,7 +54,7 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, StonePixels some, double tole
       nodes_(k_node_counts[tolerance < k_fine_tolerance ? 3 : 2]),
       progress_(&progress) {
     const OpticalSetup plan = make_optical_setup(scene_, nodes_);
-    const bool branches = plan.splits || !scene_.stone.convex, fine = tolerance < k_fine_tolerance;
+    const bool branches = paths_branch(scene_, plan), fine = tolerance < k_fine_tolerance;
     // Interference depends on how wide the wavelengths' bands are.
     if (plan.on(Effects::coherence)) nodes_ = k_node_counts.back();
     // Other random paths than the picture's.

@@ -20,6 +20,7 @@
 #include <map>
 #include <optional>
 
+#include "render/beams/frame_renderer.h"
 #include "render/image/picture.h"
 #include "render/optics/path.h"
 #include "render/planner/check_pixels.h"

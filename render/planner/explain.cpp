@@ -59,9 +59,9 @@ std::string explain(const ScenePlan& plan) {
     if (plan.pilot_pixels > 0) {
         text += fmt::format(
             "{:<19}{:<5}{:.2g} of the mean radiance, CIEDE2000 {:.2g}", "error bound", "",
-            plan.bound + (plan.settings.engine == "reference" ? plan.bound_of_sampling : 0),
+            plan.bound + (plan.settings.engine == k_reference_engine ? plan.bound_of_sampling : 0),
             plan.bound_delta_e);
-        if (plan.settings.engine != "reference")
+        if (plan.settings.engine != k_reference_engine)
             text += "; to it comes what the beams are off by, measured on the finished picture";
         text += fmt::format("\n{:<19}{:<5}{} of processor time; with everything on {}\n", "time",
                             "", in_seconds(plan.seconds), in_seconds(plan.seconds_everything));

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <chrono>
 
-#include "render/beams/beam_picture.h"
+#include "render/beams/frame_renderer.h"
+#include "render/engine/engine.h"
 #include "render/planner/cause_pilot.h"
 #include "render/planner/planner.h"
 #include "render/planner/resolutions.h"
-#include "render/reference/reference.h"
 #include "render/work/work_meter.h"
 
 namespace culet {
@@ -63,7 +63,7 @@ double seconds_of(const RenderStats& stats) {
 // Beams are held against the truth by the estimator, not by their own check.
 RenderResult Ladder::draw_with(const RenderSettings& settings) {
     drawn_.settings = settings;
-    if (!drawn_by_beams(settings)) return render_with_reference(drawn_, progress_);
+    if (!drawn_by_beams(settings)) return engine_named(settings.engine).draw(drawn_, progress_);
     if (frames_) {
         frames_->show(drawn_);
     } else {
@@ -113,7 +113,7 @@ std::optional<Step> Ladder::next(const LadderSteps& steps, const Step& step,
         return more;
     }
     Step finer = steps.finer_beams(step, estimate, again);
-    if (user.engine != "auto") return finer;
+    if (user.engine != k_auto_engine) return finer;
     Step reference = steps.by_reference(&estimate);
     if (finer.price_ns <= reference.price_ns) return finer;
     reference.why = fmt::format("beams came to within {:.2g} only: drawn by the reference instead",

@@ -8,10 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "render/beams/frame_renderer.h"
+#include "render/engine/render_result.h"
+#include "render/engine/scene_plan.h"
 #include "render/planner/error_estimate.h"
 #include "render/planner/ladder_steps.h"
-#include "render/planner/scene_plan.h"
-#include "render/render.h"
 
 namespace culet {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/beams/beam_picture.h"
+#include "render/engine/engine.h"
 #include "render/planner/cause_pilot.h"
 #include "render/planner/wavelengths.h"
 #include "render/setup/a_priori.h"
@@ -74,7 +74,7 @@ LadderSteps::LadderSteps(const Scene& scene, const ScenePlan& plan, ErrorEstimat
       estimator_(estimator),
       progress_(progress),
       setup_(make_optical_setup(with_effects())),
-      doubles_(setup_.splits || !scene.stone.convex) {}
+      doubles_(paths_branch(scene, setup_)) {}
 
 Scene LadderSteps::with_effects() const {
     Scene scene = scene_;
@@ -95,16 +95,16 @@ double LadderSteps::seen(const ErrorEstimate& estimate) {
 
 Step LadderSteps::first() const {
     const RenderSettings& user = scene_.settings;
-    const std::string refused = refused_by_beams(scene_, setup_);
+    const std::string refused = engine_named(k_beam_engine).refuses(scene_, setup_);
     Step step;
-    if (user.engine == "reference" || (user.engine == "auto" && !refused.empty())) {
+    if (user.engine == k_reference_engine || (user.engine == k_auto_engine && !refused.empty())) {
         step = by_reference(nullptr);
         step.why = refused;
     } else {
         step = first_beams();
         step.why = "the coarsest that can do; finer ones, or the reference, where the check asks";
     }
-    if (user.engine != "auto") step.why = "as the scene says";
+    if (user.engine != k_auto_engine) step.why = "as the scene says";
     return step;
 }
 
@@ -114,9 +114,10 @@ Step LadderSteps::first_beams() const {
     Step step{.settings = with_effects().settings};
     RenderSettings& settings = step.settings;
     // A preview has one colour a region: of a map that is seldom near enough.
-    const bool preview = user.engine == "preview" ||
-                         (user.engine == "auto" && !setup_.splits && !scene_.lights.environment);
-    settings.engine = preview ? "preview" : "beams";
+    const bool preview =
+        user.engine == k_preview_engine ||
+        (user.engine == k_auto_engine && !setup_.splits && !scene_.lights.environment);
+    settings.engine = preview ? k_preview_engine : k_beam_engine;
     settings.tolerance = k_coarsest;
     settings.cut_weight = std::min(0.3, tolerance);
     if (setup_.splits && settings.crystal_beams != CrystalBeams::merged) {
@@ -136,17 +137,17 @@ Step LadderSteps::first_beams() const {
     if (setup_.on(Effects::aperture) && user.samples == 0)
         settings.samples =
             std::clamp(static_cast<int>(3 / tolerance), k_pupil_points, k_most_pupil_points);
-    BeamWork work;
+    DrawingWork work;
     work.pixels = plan_.pixels;
     work.views = setup_.on(Effects::aperture) ? settings.samples : 1;
     work.bands = static_cast<double>(
         std::min(setup_.bands.size(), std::max<std::size_t>(1, settings.wavelengths_nm.size())));
-    work.events_per_ray = plan_.events_per_ray;
+    work.faces_per_ray = plan_.events_per_ray;
     work.tolerance = settings.tolerance;
     work.cut = *settings.cut_weight;
     work.polarised = setup_.polarised;
-    work.parted = setup_.splits;
-    step.price_ns = price_ns(work);
+    work.splits = setup_.splits;
+    step.price_ns = engine_named(settings.engine).cost_ns(work);
     return step;
 }
 
@@ -155,7 +156,7 @@ Step LadderSteps::by_reference(const ErrorEstimate* estimate) const {
     const double tolerance = user.tolerance;
     Step step{.settings = with_effects().settings};
     RenderSettings& settings = step.settings;
-    settings.engine = "reference";
+    settings.engine = k_reference_engine;
     const bool fine = tolerance < k_fine_tolerance;
     settings.cut_weight = !doubles_ ? k_cut_of_paths * tolerance
                           : fine    ? k_fine_gambled
@@ -216,7 +217,7 @@ bool LadderSteps::too_few(int wavelengths) const {
 
 bool LadderSteps::may_miss_the_sun(const RenderSettings& settings) const {
     if (!estimator_.sees_sun()) return false;
-    return (settings.engine == "preview" && scene_.settings.engine == "auto") ||
+    return (settings.engine == k_preview_engine && scene_.settings.engine == k_auto_engine) ||
            too_few(static_cast<int>(settings.wavelengths_nm.size()));
 }
 
@@ -261,8 +262,8 @@ double LadderSteps::finer_borders(Step& step, double off_by) const {
     const double aim = k_aim * scene_.settings.tolerance;
     RenderSettings& settings = step.settings;
     double factor = 1, price = 1;
-    if (settings.engine == "preview" && scene_.settings.engine != "preview") {
-        settings.engine = "beams";
+    if (settings.engine == k_preview_engine && scene_.settings.engine != k_preview_engine) {
+        settings.engine = k_beam_engine;
         price = k_price_over_preview;
         const double left = k_beams_over_preview * off_by;
         if (left > aim) factor = std::max(std::pow(aim / left, 2), 0.3 * k_longest_step);

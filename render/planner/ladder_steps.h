@@ -4,9 +4,9 @@
 
 #include <string>
 
+#include "render/engine/render_result.h"
+#include "render/engine/scene_plan.h"
 #include "render/planner/error_estimate.h"
-#include "render/planner/scene_plan.h"
-#include "render/render.h"
 
 namespace culet {
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <optional>
 
-#include "render/beams/beam_picture.h"
+#include "render/beams/frame_renderer.h"
 #include "render/planner/wavelengths.h"
 #include "render/setup/a_priori.h"
 #include "stone/solid.h"
@@ -185,7 +185,7 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
     settings.wavelength_turns = 1;
     settings.coherence = false;
     // A preview's regions lie beside those that show a sun.
-    settings.engine = bright.sun() ? "beams" : "preview";
+    settings.engine = bright.sun() ? k_beam_engine : k_preview_engine;
     settings.tolerance = k_tolerance;
     settings.cut_weight =
         bright.sun() ? std::max(bright.least / bright.most, k_least_cut_weight) : k_cut_weight;

@@ -10,8 +10,9 @@
 
 #include <vector>
 
+#include "render/beams/frame_renderer.h"
+#include "render/engine/render_result.h"
 #include "render/planner/pilot_picture.h"
-#include "render/render.h"
 #include "render/scene/scene.h"
 
 namespace culet {

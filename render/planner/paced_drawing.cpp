@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "render/planner/quick_picture.h"
 #include "render/work/work_meter.h"
 
 namespace culet {

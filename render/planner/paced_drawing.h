@@ -3,7 +3,9 @@
 
 #include <functional>
 
-#include "render/render.h"
+#include "render/engine/render_result.h"
+#include "render/scene/scene.h"
+#include "stone/progress.h"
 
 namespace culet {
 

@@ -127,19 +127,16 @@ StonePixels all_stone_pixels(const Scene& scene) {
 PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const PathLimits& limits,
                         int samples, int nodes, const Progress& progress) {
     using Clock = std::chrono::steady_clock;
-    const OpticalSetup setup = make_optical_setup(scene, nodes);
-    const WavelengthSet colours(setup.wavelengths_nm);
-    const LightField lights(scene.lights, colours);
-    PathLimits own = limits;
-    own.polarised = setup.polarised;
-    own.roulette = limits.roulette && (setup.splits || !scene.stone.convex);
-    const PixelShader shader(scene, setup, lights, colours, own, samples);
+    const PreparedScene prepared(scene, nodes, limits);
+    const OpticalSetup& setup = prepared.setup;
+    const WavelengthSet& colours = prepared.colours;
+    const PixelShader shader(scene, prepared, samples);
     std::vector<Stokes> behind;
     for (double nm : setup.wavelengths_nm) behind.push_back(response(scene.camera.optics, nm));
 
     PilotDrawing drawing;
     drawing.wavelengths_nm = setup.wavelengths_nm;
-    drawing.brightest = lights.max_radiance();
+    drawing.brightest = prepared.surroundings->max_radiance();
     drawing.rgb.resize(pixels.at.size());
     std::vector<PixelSums> sums(pixels.at.size());
     const int wavelengths = colours.size();

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "render/beams/beam_picture.h"
+#include "render/beams/frame_renderer.h"
 #include "render/planner/ladder_steps.h"
 #include "render/planner/resolutions.h"
 #include "render/setup/a_priori.h"
@@ -39,7 +39,7 @@ Planner::Planner(const Scene& whole, const Progress& progress, bool one_wave, Le
     // The two windows of a dichroscope are one view, seen twice.
     if (scene_.camera.optics.two_windows) scene_.camera.width /= 2;
     const OpticalSetup base = make_optical_setup(scene_);
-    branches_ = base.splits || !scene_.stone.convex;
+    branches_ = paths_branch(scene_, base);
     for (const EffectDecision& decision : base.effects) {
         PlanItem line;
         line.name = name_of(decision.effect);
@@ -60,7 +60,7 @@ Planner::Planner(const Scene& whole, const Progress& progress, bool one_wave, Le
 
 bool tried_as_one_wave(const Scene& scene) {
     const OpticalSetup plan = make_optical_setup(scene);
-    return scene.settings.effects_auto && scene.settings.engine == "auto" && plan.splits &&
+    return scene.settings.effects_auto && scene.settings.engine == k_auto_engine && plan.splits &&
            !plan.stokes && scene.stone.convex;
 }
 
@@ -199,7 +199,7 @@ PathWork Planner::work_of(const Scene& scene, const PilotDrawing& drawing, int s
 
 void Planner::settle_without_pilot() {
     RenderSettings& settings = plan_.settings;
-    if (settings.engine == "auto") settings.engine = "reference";
+    if (settings.engine == k_auto_engine) settings.engine = k_reference_engine;
     plan_.engine_why = tolerance_ > 0 ? "no ray of the pilot met the stone"
                                       : "with tolerance 0 nothing is left out";
     for (PlanItem& line : plan_.items) {

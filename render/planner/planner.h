@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "render/colour/colour_error.h"
+#include "render/engine/scene_plan.h"
 #include "render/planner/error_estimate.h"
 #include "render/planner/pilot_picture.h"
-#include "render/planner/scene_plan.h"
 #include "render/setup/optical_setup.h"
 #include "render/work/price.h"
 

@@ -180,7 +180,7 @@ void Planner::measure_what_the_scene_forbids() {
                static_cast<double>(make_optical_setup(piloted).bands.size());
     };
     const auto drawing_of = [&](const Scene& scene, int samples) {
-        branches_ = make_optical_setup(scene).splits || !scene.stone.convex;
+        branches_ = paths_branch(scene);
         return draw(at_pilot_wavelengths(scene), samples);
     };
     const int samples = scene_.camera.aperture_radius > 0 ? k_lens_rays : k_pilot_rays;
@@ -252,7 +252,7 @@ void Planner::try_without_dispersion() {
         if (user_.wavelengths_nm.empty())
             scene.settings.wavelengths_nm = even_wavelengths(k_spectral_nodes);
         PathLimits how = limits();
-        how.roulette = make_optical_setup(scene).splits || !scene.stone.convex;
+        how.roulette = paths_branch(scene);
         if (!how.roulette) how.cut_weight = k_pilot_cut * tolerance_;
         const StonePixels half = pixels_.stretch(0, (pixels_.at.size() + 1) / 2);
         const auto drawn = [&](int rays) {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <map>
 
-#include "render/beams/beam_picture.h"
+#include "render/beams/frame_renderer.h"
 
 namespace culet {
 
@@ -28,7 +28,7 @@ public:
           scene_(scene),
           user_(user),
           beams_(drawn_by_beams(plan.settings)),
-          preview_(plan.settings.engine == "preview") {}
+          preview_(plan.settings.engine == k_preview_engine) {}
 
     void add_all() {
         add_depth();

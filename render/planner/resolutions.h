@@ -1,7 +1,7 @@
 #pragma once
 // The lines of a plan that are no effects: how finely a picture is resolved.
 
-#include "render/planner/scene_plan.h"
+#include "render/engine/scene_plan.h"
 
 namespace culet {
 

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "render/optics/path.h"
-#include "render/reference/light_field.h"
+#include "render/reference/surroundings.h"
 #include "render/scene/scene.h"
 
 namespace culet {
@@ -35,8 +35,8 @@ private:
 template <bool single>
 class Gather : public Lost {
 public:
-    Gather(const LightField& lights, const Band& band, double* radiance)
-        : Lost(band.count), lights_(lights), band_(band), radiance_(radiance) {}
+    Gather(const Surroundings& surroundings, const Band& band, double* radiance)
+        : Lost(band.count), surroundings_(surroundings), band_(band), radiance_(radiance) {}
 
     void leaf(const Vec3& at, const Vec3& direction, const NodeWeights& weight,
               const PathTrace& trace) {
@@ -44,12 +44,12 @@ public:
         const int count = single ? 1 : band_.count;
         NodeWeights radiance;
         std::fill_n(radiance.begin(), count, 0.0);
-        lights_.add_radiance(at, direction, 1.0, band_.first, count, radiance.data());
+        surroundings_.add_radiance(at, direction, 1.0, band_.first, count, radiance.data());
         for (int i = 0; i < count; ++i) radiance_[band_.first + i] += weight[i] * radiance[i];
     }
 
 private:
-    const LightField& lights_;
+    const Surroundings& surroundings_;
     const Band& band_;
     double* radiance_;
 };

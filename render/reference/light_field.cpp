@@ -7,8 +7,6 @@
 #include <limits>
 #include <map>
 
-#include "render/optics/path.h"
-
 namespace culet {
 
 struct LightField::Ready {
@@ -104,7 +102,6 @@ LightField::LightField(const Lights& lights, const WavelengthSet& wavelengths) :
 }
 
 LightField::~LightField() = default;
-LightField::LightField(LightField&&) noexcept = default;
 
 template <class Visit>
 void LightField::Ready::each_seen(const Vec3& origin, const Vec3& direction, Visit&& visit) const {
@@ -196,6 +193,11 @@ std::string LightField::name_at(const Vec3& origin, const Vec3& direction) const
 
 double LightField::max_radiance() const {
     return ready_->brightest;
+}
+
+std::unique_ptr<const Surroundings> surroundings_of(const Scene& scene,
+                                                    const WavelengthSet& wavelengths) {
+    return std::make_unique<LightField>(scene.lights, wavelengths);
 }
 
 }  // namespace culet

@@ -18,10 +18,11 @@ namespace {
 
 class GatherStokes : public Lost {
 public:
-    GatherStokes(const LightField& lights, const Band& band, const std::vector<double>& luminance,
-                 const std::vector<double>& usual, int nodes, int planes, double* stokes)
+    GatherStokes(const Surroundings& surroundings, const Band& band,
+                 const std::vector<double>& luminance, const std::vector<double>& usual, int nodes,
+                 int planes, double* stokes)
         : Lost(band.count),
-          lights_(lights),
+          surroundings_(surroundings),
           band_(band),
           luminance_(luminance),
           usual_(usual),
@@ -32,12 +33,12 @@ public:
     void leaf(const PathEnd& end, const PathTrace& trace) {
         seen(trace);
         if (planes_ == 4) {
-            lights_.add_stokes(end, band_.first, band_.count, stokes_, nodes_);
+            surroundings_.add_stokes(end, band_.first, band_.count, stokes_, nodes_);
             return;
         }
         NodeWeights seen{};
-        lights_.add_radiance(end.at, end.direction, end.coherency.power(), band_.first, band_.count,
-                             seen.data());
+        surroundings_.add_radiance(end.at, end.direction, end.coherency.power(), band_.first,
+                                   band_.count, seen.data());
         for (int i = 0; i < band_.count; ++i)
             stokes_[band_.first + i] += end.transmitted[i] * seen[i];
     }
@@ -60,7 +61,7 @@ private:
         }
         return sum;
     }
-    const LightField& lights_;
+    const Surroundings& surroundings_;
     const Band& band_;
     const std::vector<double>&luminance_, &usual_;
     int nodes_, planes_;
@@ -86,14 +87,14 @@ std::vector<Rgb> colour_weights(const WavelengthSet& colours, const EyeOptics& o
 }
 
 // Mean over directions evenly spread on the sphere (Fibonacci's spiral).
-std::vector<double> usual_radiance(const LightField& lights, const Vec3& at, int nodes) {
+std::vector<double> usual_radiance(const Surroundings& surroundings, const Vec3& at, int nodes) {
     constexpr int k_directions = 256;
     constexpr double k_golden_angle = 2.39996322972865332;
     std::vector<double> mean(nodes, 0.0);
     for (int i = 0; i < k_directions; ++i) {
         const double z = 1 - (2 * i + 1.0) / k_directions, r = std::sqrt(1 - z * z);
         const Vec3 direction{r * std::cos(k_golden_angle * i), r * std::sin(k_golden_angle * i), z};
-        lights.add_radiance(at, direction, 1.0 / k_directions, 0, nodes, mean.data());
+        surroundings.add_radiance(at, direction, 1.0 / k_directions, 0, nodes, mean.data());
     }
     return mean;
 }
@@ -117,21 +118,20 @@ PixelSums& PixelSums::operator+=(const PixelSums& more) {
     return *this;
 }
 
-PixelShader::PixelShader(const Scene& scene, const OpticalSetup& setup, const LightField& lights,
-                         const WavelengthSet& colours, const PathLimits& limits, int samples)
+PixelShader::PixelShader(const Scene& scene, const PreparedScene& prepared, int samples)
     : body_(scene.stone.solid, scene.stone.convex),
       eyes_(scene.camera),
-      setup_(setup),
-      lights_(lights),
-      limits_(limits),
-      pattern_(sample_pattern(samples, setup.on(Effects::aperture), scene.settings.filter,
+      setup_(prepared.setup),
+      surroundings_(*prepared.surroundings),
+      limits_(prepared.limits),
+      pattern_(sample_pattern(samples, setup_.on(Effects::aperture), scene.settings.filter,
                               scene.settings.filter_radius)),
-      nodes_(colours.size()),
-      rgb_(colour_weights(colours, scene.camera.optics, setup.stokes ? 4 : 1)),
-      usual_(usual_radiance(lights, scene.camera.look_at, nodes_)) {
+      nodes_(prepared.colours.size()),
+      rgb_(colour_weights(prepared.colours, scene.camera.optics, planes())),
+      usual_(usual_radiance(surroundings_, scene.camera.look_at, nodes_)) {
     for (const Rgb& rgb : rgb_) luminance_.push_back(luminance(rgb));
     take_turns(std::clamp(scene.settings.wavelength_turns, 1,
-                          static_cast<int>(std::min(pattern_.size(), setup.bands.size()))));
+                          static_cast<int>(std::min(pattern_.size(), setup_.bands.size()))));
 }
 
 void PixelShader::take_turns(int turns) {
@@ -193,10 +193,10 @@ void PixelShader::take_turns(int turns) {
 
 void PixelShader::background(const EyeRay& ray, double* stokes) const {
     if (!setup_.stokes) {
-        lights_.add_radiance(ray.origin, ray.direction, 1.0, 0, nodes_, stokes);
+        surroundings_.add_radiance(ray.origin, ray.direction, 1.0, 0, nodes_, stokes);
         return;
     }
-    lights_.add_direct_stokes(ray, eyes_.frame(ray.direction), nodes_, stokes);
+    surroundings_.add_direct_stokes(ray, eyes_.frame(ray.direction), nodes_, stokes);
 }
 
 PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixel, double* stokes,
@@ -212,7 +212,7 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
         if (!eyes_.sees(x + size * p.x, y + size * p.y)) continue;
         const EyeRay ray = eyes_.through(x + size * p.x, y + size * p.y, p.pupil_x, p.pupil_y);
         const auto entry = body_.entry(ray.origin, ray.direction, memory.entry);
-        if (!entry || lights_.nearest_distance(ray.origin, ray.direction) < entry->distance) {
+        if (!entry || surroundings_.nearest_distance(ray.origin, ray.direction) < entry->distance) {
             background(ray, memory.behind.data() + half_[i] * values);
             continue;
         }
@@ -233,7 +233,7 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
                 sums.deepest = std::max(sums.deepest, lost.deepest_);
             };
             if (k_has_effects && setup_.general) {
-                GatherStokes gather(lights_, band, stone_luminance_, usual_, nodes_, planes(),
+                GatherStokes gather(surroundings_, band, stone_luminance_, usual_, nodes_, planes(),
                                     seen);
                 CrystalPaths<GatherStokes> paths(body_, band, limits, gather);
                 const EyeFrame frame = eyes_.frame(ray.direction);
@@ -245,7 +245,7 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
                 take(gather);
             } else {
                 const auto follow = [&](auto one) {
-                    Gather<one> gather(lights_, band, seen);
+                    Gather<one> gather(surroundings_, band, seen);
                     LightPaths<Gather<one>, one>(body_.planes(), band, limits, gather, memory.trace)
                         .trace(ray, *entry);
                     take(gather);

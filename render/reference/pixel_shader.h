@@ -5,10 +5,8 @@
 #include <vector>
 
 #include "render/geometry/stone_body.h"
-#include "render/optics/path.h"
-#include "render/reference/light_field.h"
+#include "render/reference/prepared_scene.h"
 #include "render/reference/sampling.h"
-#include "render/setup/optical_setup.h"
 
 namespace culet {
 
@@ -39,8 +37,8 @@ struct PixelMemory {
 
 class PixelShader {
 public:
-    PixelShader(const Scene& scene, const OpticalSetup& setup, const LightField& lights,
-                const WavelengthSet& colours, const PathLimits& limits, int samples);
+    /// `prepared` must outlive it, and stay as it is; but for its limits, which are copied.
+    PixelShader(const Scene& scene, const PreparedScene& prepared, int samples);
 
     /// Stokes parameters in `stokes`: 1 (S0 only) or, when the plan asks for them, 4.
     int planes() const { return setup_.stokes ? 4 : 1; }
@@ -58,7 +56,7 @@ private:
     StoneBody body_;
     EyeRays eyes_;
     const OpticalSetup& setup_;
-    const LightField& lights_;
+    const Surroundings& surroundings_;
     PathLimits limits_;
     std::vector<SamplePoint> pattern_;
     std::vector<std::size_t> half_;               // of the samples, 0 or 1

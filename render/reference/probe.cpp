@@ -8,8 +8,8 @@
 
 #include "render/optics/eye_optics.h"
 #include "render/reference/crystal_paths.h"
-#include "render/reference/light_field.h"
 #include "render/reference/light_paths.h"
+#include "render/reference/surroundings.h"
 #include "render/setup/scene_checks.h"
 #include "stone/errors.h"
 #include "stone/units.h"
@@ -24,10 +24,10 @@ constexpr int k_most_splits = 1 << 18;
 // Keeps every leaf; paths of different wavelengths through the same facets and modes become one.
 class Record {
 public:
-    Record(const Scene& scene, const LightField& lights, int nodes, const Progress& progress,
-           ProbeResult& result)
+    Record(const Scene& scene, const Surroundings& surroundings, int nodes,
+           const Progress& progress, ProbeResult& result)
         : scene_(scene),
-          lights_(lights),
+          surroundings_(surroundings),
           nodes_(nodes),
           progress_(progress),
           result_(result),
@@ -39,7 +39,7 @@ public:
               const PathTrace& trace) {
         ProbedPath& path = path_of(at, direction, trace);
         NodeWeights seen{};
-        lights_.add_radiance(at, direction, 1.0, band_->first, band_->count, seen.data());
+        surroundings_.add_radiance(at, direction, 1.0, band_->first, band_->count, seen.data());
         for (int i = 0; i < band_->count; ++i) {
             path.weight[band_->first + i] += weight[i];
             stokes_[band_->first + i] += weight[i] * seen[i];
@@ -53,7 +53,7 @@ public:
             path.weight[band_->first + i] += through[0] * end.transmitted[i];
             for (int k = 0; k < 4; ++k) path.stokes[k] += through[k] * end.transmitted[i] / nodes_;
         }
-        lights_.add_stokes(end, band_->first, band_->count, stokes_.data(), nodes_);
+        surroundings_.add_stokes(end, band_->first, band_->count, stokes_.data(), nodes_);
     }
     void remainder(const NodeWeights& weight) { add(result_.remainder, weight); }
     void absorbed(const NodeWeights& weight) { add(result_.absorbed, weight); }
@@ -88,7 +88,7 @@ private:
             path.modes = modes;
             path.weight.assign(nodes_, 0.0);
             path.exit_direction = direction;
-            path.light = lights_.name_at(at, direction);
+            path.light = surroundings_.name_at(at, direction);
             result_.paths.push_back(std::move(path));
         }
         return result_.paths[found->second];
@@ -102,7 +102,7 @@ private:
         for (int i = 0; i < band_->count; ++i) sums[band_->first + i] += weight[i];
     }
     const Scene& scene_;
-    const LightField& lights_;
+    const Surroundings& surroundings_;
     int nodes_;
     long long leaves_ = 0;
     const Progress& progress_;
@@ -130,7 +130,7 @@ ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progres
     require_renderable(scene);
     const OpticalSetup setup = make_optical_setup(scene);
     const WavelengthSet colours(setup.wavelengths_nm);
-    const LightField lights(scene.lights, colours);
+    const auto surroundings = surroundings_of(scene, colours);
     const StoneBody body(scene.stone.solid, scene.stone.convex);
     if (body.contains(ray.origin)) {
         throw InputError(
@@ -141,11 +141,11 @@ ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progres
     result.wavelengths_nm = setup.wavelengths_nm;
     result.radiance.assign(nodes, 0.0);
     result.remainder = result.absorbed = result.cut = result.radiance;
-    Record record(scene, lights, nodes, progress, result);
+    Record record(scene, *surroundings, nodes, progress, result);
     const EyeFrame frame = EyeRays(scene.camera).frame(ray.direction);
     const auto entry = body.entry(ray.origin, ray.direction);
-    if (!entry || lights.nearest_distance(ray.origin, ray.direction) < entry->distance) {
-        lights.add_direct_stokes(ray, frame, nodes, record.stokes().data());
+    if (!entry || surroundings->nearest_distance(ray.origin, ray.direction) < entry->distance) {
+        surroundings->add_direct_stokes(ray, frame, nodes, record.stokes().data());
         record.finish(scene.camera.optics);
         return result;
     }

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "render/scene/engine_name.h"
 #include "render/scene/lights.h"
 #include "stone/stone.h"
 
@@ -118,7 +119,7 @@ enum class PixelFilter { box, tent, gaussian };
 constexpr int k_deepest = 1000;
 
 struct RenderSettings {
-    std::string engine = "auto";  ///< reference (auto means it, for now), beams, preview
+    std::string engine = k_auto_engine;  ///< engine_name.h
     Refraction refraction = Refraction::astigmatic;
     /// Beams in crystals: nothing: whichever the scene calls for.
     std::optional<CrystalBeams> crystal_beams;

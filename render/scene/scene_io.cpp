@@ -98,15 +98,12 @@ RenderSettings read_settings(const TomlTable& table) {
     }
     read_filter(table, settings);
     if (const auto engine = table.text("engine")) {
-        const std::vector<std::string> known{"auto", "reference", "beams", "preview", "raytable"};
+        const std::vector<std::string> known = engine_names();
         if (std::find(known.begin(), known.end(), *engine) == known.end()) {
             const auto near = nearest_name(*engine, known);
-            table.fail("engine",
-                       fmt::format("no engine \"{}\"{}; known: auto, reference, beams, preview",
-                                   *engine, near ? ", did you mean \"" + *near + "\"?" : ""));
-        }
-        if (*engine == "raytable") {
-            table.fail("engine", "the engine raytable is not built yet: use beams or reference");
+            table.fail("engine", fmt::format("no engine \"{}\"{}; known: {}", *engine,
+                                             near ? ", did you mean \"" + *near + "\"?" : "",
+                                             fmt::join(known, ", ")));
         }
         settings.engine = *engine;
     }

@@ -278,4 +278,12 @@ OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
     return setup;
 }
 
+bool paths_branch(const Scene& scene, const OpticalSetup& setup) {
+    return setup.splits || !scene.stone.convex;
+}
+
+bool paths_branch(const Scene& scene) {
+    return paths_branch(scene, make_optical_setup(scene));
+}
+
 }  // namespace culet

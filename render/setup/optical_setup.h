@@ -40,4 +40,8 @@ OpticalSetup make_optical_setup(const Scene& scene, int nodes = k_node_counts[1]
 /// True when the plan's wavelengths were its own choice of a spectrum.
 bool chose_spectrum(const Scene& scene, const OpticalSetup& setup);
 
+/// Whether a ray's paths are a tree, whose small branches are chosen at random.
+bool paths_branch(const Scene& scene, const OpticalSetup& setup);
+bool paths_branch(const Scene& scene);
+
 }  // namespace culet

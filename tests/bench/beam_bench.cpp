@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "render/beams/frame_renderer.h"
 #include "stone/errors.h"
 
 namespace culet {

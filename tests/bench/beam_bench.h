@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "render/beams/frame_renderer.h"
 #include "render/render.h"
 #include "tests/bench/bench_scenes.h"
 #include "tests/bench/bench_table.h"

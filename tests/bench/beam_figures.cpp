@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "render/beams/frame_renderer.h"
 #include "tests/bench/beam_bench.h"
 
 namespace culet {

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "render/beams/frame_renderer.h"
 #include "tests/bench/beam_bench.h"
 #include "tests/bench/plain_tracer.h"
 #include "tests/bench/povray_run.h"

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "render/beams/frame_renderer.h"
 #include "render/render.h"
 #include "stone/errors.h"
 #include "tests/bench/cpu_time.h"

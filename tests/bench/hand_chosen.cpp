@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "render/beams/beam_picture.h"
+#include "render/beams/frame_renderer.h"
 #include "render/planner/planner.h"
 #include "render/planner/wavelengths.h"
 #include "stone/errors.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/planner/verify.h"
+#include "render/planner/truth.h"
 #include "render/scene/scene.h"
 
 namespace culet {

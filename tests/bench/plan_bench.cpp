@@ -10,13 +10,13 @@
 #include <filesystem>
 #include <limits>
 
-#include "render/beams/beam_picture.h"
+#include "render/beams/frame_renderer.h"
 #include "render/colour/colour_error.h"
 #include "render/image/image_io.h"
+#include "render/planner/explain.h"
 #include "render/planner/planner.h"
-#include "render/planner/verify.h"
+#include "render/planner/truth.h"
 #include "render/planner/wavelengths.h"
-#include "render/reference/reference.h"
 #include "stone/errors.h"
 #include "tests/bench/cpu_time.h"
 #include "tests/bench/effect_prices.h"

@@ -17,6 +17,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "render/beams/frame_renderer.h"
 #include "render/render.h"
 #include "render/setup/built_effects.h"
 #include "stone/errors.h"

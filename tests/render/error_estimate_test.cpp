@@ -12,12 +12,14 @@
 #include <numbers>
 #include <random>
 
+#include "render/beams/frame_renderer.h"
 #include "render/colour/colour_error.h"
 #include "render/planner/cause_pilot.h"
 #include "render/planner/check_pixels.h"
 #include "render/planner/contrast.h"
 #include "render/planner/light_edge_scan.h"
 #include "render/planner/planner.h"
+#include "render/planner/truth.h"
 #include "render/planner/verify.h"
 #include "render/planner/wavelengths.h"
 #include "render/render.h"

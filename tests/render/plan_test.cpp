@@ -1,7 +1,7 @@
 // Expectations: what is zero by the table of effects (docs/plan.md), pictures drawn with everything
 // on, and the scenes of samples/effects, each made so that one effect matters.
 
-#include "render/planner/scene_plan.h"
+#include "render/planner/explain.h"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +14,7 @@
 #include "render/colour/colour_error.h"
 #include "render/planner/error_estimate.h"
 #include "render/planner/planner.h"
+#include "render/planner/verify.h"
 #include "render/planner/wavelengths.h"
 #include "render/render.h"
 #include "render/scene/scene_io.h"

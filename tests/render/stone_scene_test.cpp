@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/image/exposure.h"
+#include "render/planner/quick_picture.h"
 #include "render/render.h"
 #include "render/scene/framing.h"
 #include "render/scene/light_presets.h"

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "render/beams/frame_renderer.h"
 #include "render/scene/scene_io.h"
 #include "stone/errors.h"
 #include "tests/render/beams/beam_lights.h"

@@ -7,6 +7,7 @@
 
 #include "render/beams/beam_tree.h"
 #include "render/beams/environment_pyramid.h"
+#include "render/beams/frame_renderer.h"
 #include "render/beams/pixel_coverage.h"
 #include "tests/render/beams/beam_lights.h"
 

@@ -1,4 +1,4 @@
-#include "render/reference/pilot.h"
+#include "render/reference/prepared_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,14 +27,15 @@ void each_pilot_pixel(const Camera& camera, int along, Visit&& visit) {
 }
 
 // Mean luminance of the stone's pixels in a small, shallow picture; 0 when no ray meets the stone.
-double pilot_mean(const Scene& scene, const OpticalSetup& setup, const LightField& lights,
-                  const WavelengthSet& colours, PathLimits limits) {
-    limits.depth = 16;
-    limits.cut_weight = 1e-3;
-    limits.split_weight = 1;
-    limits.roulette = false;
-    const PixelShader shader(scene, setup, lights, colours, limits, 1);
-    std::vector<double> stokes(setup.wavelengths_nm.size() *
+double pilot_mean(const Scene& scene, PreparedScene& prepared) {
+    const PathLimits before = prepared.limits;
+    prepared.limits.depth = 16;
+    prepared.limits.cut_weight = 1e-3;
+    prepared.limits.split_weight = 1;
+    prepared.limits.roulette = false;
+    const PixelShader shader(scene, prepared, 1);
+    prepared.limits = before;
+    std::vector<double> stokes(prepared.setup.wavelengths_nm.size() *
                                static_cast<std::size_t>(shader.planes()));
     PixelMemory memory;
     double sum = 0, hits = 0;
@@ -46,49 +47,49 @@ double pilot_mean(const Scene& scene, const OpticalSetup& setup, const LightFiel
     return hits > 0 ? sum / hits : 0;
 }
 
-}  // namespace
-
-PathLimits limits_for(const Scene& scene, const OpticalSetup& setup, const LightField& lights,
-                      const WavelengthSet& colours) {
+// As far as the scene says, or its tolerance.
+void set_limits(const Scene& scene, PreparedScene& prepared) {
     const RenderSettings& settings = scene.settings;
-    PathLimits limits;
+    PathLimits& limits = prepared.limits;
+    limits = {};
     limits.seed = settings.seed;
-    limits.polarised = setup.polarised;
+    limits.polarised = prepared.setup.polarised;
     limits.depth = settings.depth > 0 ? settings.depth : k_deepest;
-    if (settings.tolerance > 0 && settings.cut_weight) {
+    if (!(settings.tolerance > 0)) return;
+    const bool branch = paths_branch(scene, prepared.setup);
+    if (settings.cut_weight) {
         limits.cut_weight = *settings.cut_weight;
-        limits.roulette = setup.splits || !scene.stone.convex;
+        limits.roulette = branch;
         limits.split_weight = settings.split_weight.value_or(k_split_weight);
-    } else if (settings.tolerance > 0) {
-        const double mean = pilot_mean(scene, setup, lights, colours, limits);
-        const double brightest = lights.max_radiance();
-        // What is cut sees at most the brightest light. Half of what that allows, because the
-        // pilot's mean is itself a few per cent off.
-        limits.cut_weight = brightest > 0 && mean > 0 ? 0.5 * settings.tolerance * mean / brightest
-                                                      : settings.tolerance;
-        limits.cut_weight = std::min(limits.cut_weight, settings.tolerance);
-        limits.split_weight = std::max(k_split_weight, limits.cut_weight);
-        // Trees that branch gamble instead of cutting: that costs no accuracy but noise, which a
-        // light of great radiance must not make as dear as it makes cutting.
-        limits.roulette = setup.splits || !scene.stone.convex;
-        if (limits.roulette) limits.cut_weight = std::max(limits.cut_weight, k_gambled_weight);
+        return;
     }
-    return limits;
+    const double mean = pilot_mean(scene, prepared);
+    const double brightest = prepared.surroundings->max_radiance();
+    // What is cut sees at most the brightest light. Half of what that allows, because the pilot's
+    // mean is itself a few per cent off.
+    limits.cut_weight = brightest > 0 && mean > 0 ? 0.5 * settings.tolerance * mean / brightest
+                                                  : settings.tolerance;
+    limits.cut_weight = std::min(limits.cut_weight, settings.tolerance);
+    limits.split_weight = std::max(k_split_weight, limits.cut_weight);
+    // Trees that branch gamble instead of cutting: that costs no accuracy but noise, which a light
+    // of great radiance must not make as dear as it makes cutting.
+    limits.roulette = branch;
+    if (branch) limits.cut_weight = std::max(limits.cut_weight, k_gambled_weight);
 }
 
+// The fewest wavelengths whose colours differ from those of the finest set by less than the
+// tolerance, root mean square over some pixels and relative to their mean. Seen on paths of a few
+// faces, which are where the light is.
 OpticalSetup setup_for_tolerance(const Scene& scene) {
     OpticalSetup setup = make_optical_setup(scene);
     if (!(scene.settings.tolerance > 0) || !chose_spectrum(scene, setup)) return setup;
-    const OpticalSetup finest = make_optical_setup(scene, k_node_counts.back());
-    const WavelengthSet colours(finest.wavelengths_nm);
-    const LightField lights(scene.lights, colours);
     PathLimits limits;
     limits.depth = setup.splits ? k_spectral_crystal_depth : k_spectral_depth;
     limits.cut_weight = 1e-4;
     limits.split_weight = 0;
-    limits.polarised = finest.polarised;
-    const PixelShader shader(scene, finest, lights, colours, limits, k_spectral_samples);
-    const std::size_t nodes = finest.wavelengths_nm.size();
+    const PreparedScene finest(scene, k_node_counts.back(), limits);
+    const PixelShader shader(scene, finest, k_spectral_samples);
+    const std::size_t nodes = finest.setup.wavelengths_nm.size();
     std::vector<double> stokes(nodes * static_cast<std::size_t>(shader.planes()));
     PixelMemory memory;
     std::vector<std::vector<double>> spectra;
@@ -104,7 +105,8 @@ OpticalSetup setup_for_tolerance(const Scene& scene) {
         std::vector<double> chosen(coarse.wavelengths_nm.size());
         for (const std::vector<double>& spectrum : spectra) {
             for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = spectrum[i * every];
-            const Rgb fine = colours.rgb_of(spectrum.data()), rough = few.rgb_of(chosen.data());
+            const Rgb fine = finest.colours.rgb_of(spectrum.data()),
+                      rough = few.rgb_of(chosen.data());
             for (int c = 0; c < 3; ++c) {
                 squares += (fine[c] - rough[c]) * (fine[c] - rough[c]);
                 mean += fine[c];
@@ -113,7 +115,30 @@ OpticalSetup setup_for_tolerance(const Scene& scene) {
         const double values = 3 * static_cast<double>(spectra.size());
         if (std::sqrt(squares * values) <= scene.settings.tolerance * mean) return coarse;
     }
-    return finest;
+    return finest.setup;
+}
+
+}  // namespace
+
+PreparedScene::PreparedScene(const Scene& scene)
+    : setup(setup_for_tolerance(scene)),
+      colours(setup.wavelengths_nm),
+      surroundings(surroundings_of(scene, colours)) {
+    set_limits(scene, *this);
+}
+
+PreparedScene::PreparedScene(const Scene& scene, int nodes, const PathLimits& as_given)
+    : setup(make_optical_setup(scene, nodes)),
+      colours(setup.wavelengths_nm),
+      surroundings(surroundings_of(scene, colours)),
+      limits(as_given) {
+    limits.polarised = setup.polarised;
+    limits.roulette = limits.roulette && paths_branch(scene, setup);
+}
+
+void PreparedScene::look(const Scene& scene) {
+    setup = make_optical_setup(scene, colours.size());
+    set_limits(scene, *this);
 }
 
 }  // namespace culet

@@ -1,8 +1,8 @@
 #pragma once
-// Is a finished picture as near to the truth as it says?
+// The truth at a few pixels of a finished picture, and how far the picture is from it.
 
+#include "render/engine/render_result.h"
 #include "render/planner/pilot_picture.h"
-#include "render/render.h"
 
 namespace culet {
 

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "render/scene/scene.h"
-#include "stone/progress.h"
 
 namespace culet {
 
@@ -59,16 +58,5 @@ struct ScenePlan {
 
     const PlanItem& item(const std::string& name) const;
 };
-
-/// Throws InputError as `render` does, and Interrupted.
-ScenePlan plan_scene(const Scene& scene, const Progress& progress = {});
-/// The same plan for people who want to know: what effects would bring that the scene switches off
-/// is measured too, and is part of the bound.
-ScenePlan plan_to_explain(const Scene& scene, const Progress& progress = {});
-
-/// The plan for people, one line an item.
-std::string explain(const ScenePlan& plan);
-/// The same as JSON, one object.
-std::string plan_json(const ScenePlan& plan);
 
 }  // namespace culet

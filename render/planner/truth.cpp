@@ -1,10 +1,11 @@
-#include "render/planner/verify.h"
+#include "render/planner/truth.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "render/colour/colour_error.h"
+#include "render/planner/verify.h"
 #include "render/planner/wavelengths.h"
 
 namespace culet {
@@ -33,7 +34,7 @@ Truth draw_truth(const Scene& scene, const ScenePlan& plan, StonePixels pixels, 
     PathLimits limits;
     limits.seed = settings.seed + 1;
     limits.depth = k_deepest;
-    const bool branches = make_optical_setup(whole).splits || !scene.stone.convex;
+    const bool branches = paths_branch(whole);
     const double cut = plan.settings.cut_weight.value_or(1e-4);
     limits.cut_weight = branches ? 1e-3 : std::min(1e-4, cut / 64);
     limits.split_weight = 0.05;

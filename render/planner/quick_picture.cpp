@@ -1,8 +1,9 @@
+#include "render/planner/quick_picture.h"
+
 #include <limits>
 
-#include "render/beams/beam_picture.h"
-#include "render/reference/reference.h"
-#include "render/render.h"
+#include "render/beams/frame_renderer.h"
+#include "render/engine/engine.h"
 #include "render/setup/scene_checks.h"
 
 namespace culet {
@@ -30,15 +31,15 @@ RenderResult draw_quickly(const Scene& scene, const Progress& progress) {
     if (settings.wavelengths_nm.empty()) settings.wavelengths_nm = k_three_nm;
     RenderResult result;
     if (refused_by_beams(quick, make_optical_setup(quick)).empty()) {
-        settings.engine = "preview";
+        settings.engine = k_preview_engine;
         FrameRenderer frames(quick);
         frames.report_to(progress);
         frames.draw(false);
         result = frames.take();
     } else {
-        settings.engine = "reference";
+        settings.engine = k_reference_engine;
         settings.samples = 1;
-        result = render_with_reference(quick, progress);
+        result = engine_named(settings.engine).draw(quick, progress);
     }
     result.stats.error_bound = std::numeric_limits<double>::quiet_NaN();
     return result;

@@ -1,0 +1,105 @@
+#include "render/beams/sampled_check.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/optics/eye_optics.h"
+#include "render/reference/pixel_shader.h"
+#include "render/work/threads.h"
+
+namespace culet {
+
+namespace {
+
+// Pixels that are compared with the reference, and its rays in each: their own noise counts as the
+// beams' error, which can only make the bound larger.
+constexpr int k_checked_across = 64, k_check_samples = 16;
+constexpr double k_standard_errors = 3;
+
+// On a grid over the picture, or of so many pixels on the stone, jittered by the golden ratio.
+std::vector<std::size_t> pixels_to_check(const Picture& picture, int wanted, double filled) {
+    const double area =
+        wanted > 0 ? filled
+                   : std::pow(static_cast<double>(std::max(picture.width, picture.height)), 2);
+    const double count = wanted > 0 ? wanted : k_checked_across * k_checked_across;
+    const double step = std::max(1.0, std::sqrt(area / count));
+    std::vector<std::size_t> pixels;
+    int number = 0;
+    for (double y = 0; y < picture.height; y += step) {
+        for (double x = 0; x < picture.width; x += step, ++number) {
+            const int px = static_cast<int>(x + step * std::fmod(number * 0.6180339887498949, 1.0)),
+                      py = static_cast<int>(y + step * std::fmod(number * 0.7548776662466927, 1.0));
+            if (px >= picture.width || py >= picture.height) continue;
+            const std::size_t pixel =
+                static_cast<std::size_t>(py) * static_cast<std::size_t>(picture.width) +
+                static_cast<std::size_t>(px);
+            if (picture.coverage[pixel] > 0) pixels.push_back(pixel);
+        }
+    }
+    return pixels;
+}
+
+// `stokes[plane * nodes + node]`, as seen behind the eye's optics, to its first plane.
+void look_through_optics(const Scene& scene, const PreparedScene& prepared, int planes,
+                         std::vector<double>& stokes) {
+    const int nodes = prepared.colours.size();
+    for (int node = 0; node < nodes && planes > 1; ++node) {
+        const Stokes row = response(scene.camera.optics,
+                                    prepared.setup.wavelengths_nm[static_cast<std::size_t>(node)]);
+        double seen = 0;
+        for (int k = 0; k < planes; ++k)
+            seen += row[static_cast<std::size_t>(k)] *
+                    stokes[static_cast<std::size_t>(k * nodes + node)];
+        stokes[static_cast<std::size_t>(node)] = seen;
+    }
+}
+
+}  // namespace
+
+SampledCheck check_against_reference(const Scene& scene, const PreparedScene& prepared,
+                                     const Picture& picture, double filled, double mean_radiance) {
+    const RenderSettings& settings = scene.settings;
+    const bool single = settings.samples == 1 && scene.camera.aperture_radius == 0;
+    const int samples = single                         ? 1
+                        : settings.checked_samples > 0 ? settings.checked_samples
+                                                       : k_check_samples;
+    const PixelShader shader(scene, prepared, samples);
+    const std::vector<std::size_t> pixels =
+        pixels_to_check(picture, settings.checked_pixels, filled);
+    std::vector<double> errors(pixels.size());
+    on_threads(settings.threads, [&] {
+        tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
+            PixelMemory memory;
+            std::vector<double> stokes(
+                static_cast<std::size_t>(prepared.colours.size() * shader.planes()));
+            const int x = static_cast<int>(pixels[i] % static_cast<std::size_t>(picture.width)),
+                      y = static_cast<int>(pixels[i] / static_cast<std::size_t>(picture.width));
+            shader.shade(x, y, 1, pixels[i], stokes.data(), memory);
+            look_through_optics(scene, prepared, shader.planes(), stokes);
+            const Rgb exact = prepared.colours.rgb_of(stokes.data());
+            const float* seen = picture.rgb.data() + 3 * pixels[i];
+            errors[i] = std::abs(luminance(exact) - luminance({static_cast<double>(seen[0]),
+                                                               static_cast<double>(seen[1]),
+                                                               static_cast<double>(seen[2])}));
+        });
+    });
+    double sum = 0, squares = 0;
+    for (double error : errors) {
+        // A pixel of no number is as wrong as can be.
+        if (!std::isfinite(error)) error = prepared.surroundings->max_radiance();
+        sum += error;
+        squares += error * error;
+    }
+    SampledCheck found;
+    found.pixels = static_cast<int>(errors.size());
+    if (!errors.empty() && mean_radiance > 0) {
+        const double count = static_cast<double>(errors.size()), mean = sum / count;
+        const double spread = std::sqrt(std::max(0.0, squares / count - mean * mean) / count);
+        found.error = (mean + k_standard_errors * spread) / mean_radiance;
+    }
+    return found;
+}
+
+}  // namespace culet

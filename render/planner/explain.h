@@ -1,0 +1,23 @@
+#pragma once
+// The plan of a scene, for people.
+
+#include <string>
+
+#include "render/engine/scene_plan.h"
+#include "render/scene/scene.h"
+#include "stone/progress.h"
+
+namespace culet {
+
+/// Throws InputError as `render` does, and Interrupted.
+ScenePlan plan_scene(const Scene& scene, const Progress& progress = {});
+/// The same plan for people who want to know: what effects would bring that the scene switches off
+/// is measured too, and is part of the bound.
+ScenePlan plan_to_explain(const Scene& scene, const Progress& progress = {});
+
+/// One line an item.
+std::string explain(const ScenePlan& plan);
+/// The same as JSON, one object.
+std::string plan_json(const ScenePlan& plan);
+
+}  // namespace culet
