@@ -3,20 +3,21 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
 #include <optional>
 
-#include "app/options.h"
 #include "app/picture_output.h"
+#include "app/render_frames.h"
+#include "app/render_options.h"
+#include "app/saved_plan.h"
 #include "app/terminal.h"
 #include "render/planner/explain.h"
 #include "render/planner/quick_picture.h"
 #include "render/planner/verify.h"
 #include "render/render.h"
-#include "render/scene/light_presets.h"
-#include "render/scene/stone_scene.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 
@@ -26,15 +27,6 @@ namespace {
 
 // What k_usual_allowance_ns is for people.
 constexpr int k_usual_seconds = 10;
-
-struct RenderOptions {
-    CommonOptions common;
-    std::string scene, out, stats, engine, effects, exposure, size, tonemap = "none";
-    StoneScene stone;
-    std::optional<int> depth;
-    std::optional<double> tolerance;
-    bool spectral = false, explain = false, verify = false;
-};
 
 // `--effects dispersion,absorption` is a list in the scene file.
 std::string effects_setting(const std::string& words) {
@@ -59,13 +51,22 @@ std::vector<std::string> settings_of(const RenderOptions& options) {
     if (options.depth) settings.push_back(fmt::format("render.depth={}", *options.depth));
     if (options.tolerance)
         settings.push_back(fmt::format("render.tolerance={}", *options.tolerance));
+    if (!options.check.empty()) settings.push_back("render.check=\"" + options.check + "\"");
     if (!options.size.empty()) settings.push_back(size_setting(options.size));
     return settings;
 }
 
+Frames frames_of(const RenderOptions& options) {
+    return {options.frames.value_or(1), options.turn_deg, options.out,
+            options.exposure,           options.tonemap,  options.spectral};
+}
+
 // As the file and the command line say; what there is to note about it is said.
-Scene scene_of(const RenderOptions& options) {
-    Scene scene = read_any_scene(options.scene, settings_of(options), options.stone);
+Scene scene_of(const RenderOptions& options, const SavedPlan* plan = nullptr) {
+    std::vector<std::string> settings = settings_of(options);
+    if (plan != nullptr)
+        settings.insert(settings.begin(), plan->settings.begin(), plan->settings.end());
+    Scene scene = read_any_scene(options.scene, settings, options.stone);
     scene.settings.threads = options.common.threads;
     scene.settings.seed = options.common.seed;
     scene.settings.spectral = options.spectral;
@@ -83,7 +84,11 @@ int explain_plan(const RenderOptions& options) {
 }
 
 // How near the picture is, where that was left to culet.
-void say_how_near(const RenderStats& stats, bool quiet) {
+void say_how_near(const RenderStats& stats, Check check, bool quiet) {
+    if (std::isnan(stats.error_bound) && check == Check::none) {
+        say("not checked: nobody knows how near the picture is", quiet);
+        return;
+    }
     if (std::isnan(stats.error_bound)) {
         say(fmt::format(
                 "a rough picture, nobody knows how near: one that is checked takes more than "
@@ -156,70 +161,81 @@ private:
     bool wanted_, any_ = false;
 };
 
-int run_render(const RenderOptions& options) {
-    if (options.explain) return explain_plan(options);
+// What contradicts itself on the command line.
+void require_sense(const RenderOptions& options) {
     if (options.out.empty() && options.stats.empty())
         throw InputError("render needs -o IMAGE, --stats FILE, or --explain");
     if (options.out == "-" && options.stats == "-")
         throw InputError("stdout takes the picture or the stats, not both");
-    PictureOutput output(options.out, options.spectral);
+    if (!options.plan.empty() &&
+        std::any_of(options.common.set.begin(), options.common.set.end(),
+                    [](const std::string& set) { return set.starts_with("render."); }))
+        throw InputError("--plan says how to draw: leave out --set render...., or --plan");
+}
+
+void say_verified(const Verification& found, bool quiet) {
+    say(fmt::format("measured error {:.2g} of the mean radiance at {} pixels (their own noise "
+                    "{:.2g}), error bound {:.2g}",
+                    found.measured, found.pixels, found.noise, found.bound),
+        quiet);
+    if (!found.holds()) say("the error bound does not hold", quiet);
+}
+
+// All frames of a turntable, of which the first is the picture; else the picture alone, written.
+RenderResult draw(const RenderOptions& options, const Scene& scene,
+                  const std::optional<SavedPlan>& saved, const PictureOutput& output,
+                  Drafts& drafts) {
+    const bool quiet = options.common.quiet;
+    const auto picture = [&](const Scene& now) {
+        const Progress progress = progress_line("rendering", quiet);
+        RenderResult result = saved ? render_as_planned(now, saved->of(now), progress)
+                                    : render(now, progress, drafts.better());
+        if (options.verify) result.stats.verification = verify(now, result);
+        return result;
+    };
+    if (options.frames) return draw_frames(frames_of(options), scene, picture, quiet);
+    if (!saved) drafts.first();
+    RenderResult result = picture(scene);
+    output.write(result.picture,
+                 {{"culet:scene", std::filesystem::path(options.scene).filename().string()},
+                  {"culet:seed", std::to_string(options.common.seed)}});
+    return result;
+}
+
+int run_render(const RenderOptions& options) {
+    if (options.explain) return explain_plan(options);
+    require_sense(options);
+    if (options.frames) require_frames(frames_of(options));
+    PictureOutput output(options.frames ? "" : options.out, options.spectral);
     require_writable(options.stats);
-    Scene scene = scene_of(options);
+    std::optional<SavedPlan> saved;
+    if (!options.plan.empty()) saved = read_saved_plan(options.plan);
+    Scene scene = scene_of(options, saved ? &*saved : nullptr);
     output.look_as(options.exposure, options.tonemap, scene);
-    if (!scene.names_tolerance && leaves_something_open(scene.settings))
-        scene.settings.allowed_ns = k_usual_allowance_ns;
+    const bool paced = !saved && !scene.names_tolerance && scene.settings.check == Check::full &&
+                       leaves_something_open(scene.settings);
+    if (paced) scene.settings.allowed_ns = k_usual_allowance_ns;
 
     const bool quiet = options.common.quiet;
     Drafts drafts(options, output, scene);
     RenderResult result;
     try {
-        drafts.first();
-        result = render(scene, progress_line("rendering", quiet), drafts.better());
-        if (options.verify) result.stats.verification = verify(scene, result);
+        result = draw(options, scene, saved, output, drafts);
     } catch (const Interrupted&) {
         if (!drafts.any()) throw;
         say(fmt::format("interrupted; {} holds a coarse picture", options.out), false);
         return exit_interrupted;
     }
-    for (const std::string& note : result.stats.notes) say(note, quiet);
-    say_how_near(result.stats, quiet);
-    const std::string stats = stats_json(result.stats);
-    output.write(result.picture,
-                 {{"culet:scene", std::filesystem::path(options.scene).filename().string()},
-                  {"culet:seed", std::to_string(options.common.seed)}});
-    if (!options.stats.empty()) write_text(options.stats, stats);
-    if (options.verify) {
-        const Verification& found = *result.stats.verification;
-        say(fmt::format("measured error {:.2g} of the mean radiance at {} pixels (their own noise "
-                        "{:.2g}), error bound {:.2g}",
-                        found.measured, found.pixels, found.noise, found.bound),
-            quiet);
-    }
-    if (options.common.verbose && !quiet) say_all_about(result.stats);
-    const bool trusted = !options.verify || result.stats.verification->holds();
-    if (!trusted) say("the error bound does not hold", quiet);
+    const RenderStats& stats = result.stats;
+    for (const std::string& note : stats.notes) say(note, quiet);
+    say_how_near(stats, scene.settings.check, quiet);
+    if (!options.stats.empty()) write_text(options.stats, stats_json(stats));
+    if (stats.verification) say_verified(*stats.verification, quiet);
+    if (options.common.verbose && !quiet) say_all_about(stats);
     // A rough picture, for want of time.
-    if (scene.settings.allowed_ns > 0 && std::isnan(result.stats.error_bound))
-        return exit_untrusted;
-    return trusted ? exit_good : exit_untrusted;
-}
-
-void add_stone_options(CLI::App& command, StoneScene& stone) {
-    command.add_option("--material", stone.material, "of the stone, instead of its own")
-        ->type_name("NAME");
-    std::string presets;
-    for (const LightPreset& preset : light_presets())
-        presets += fmt::format("{}{}", presets.empty() ? "" : ", ", preset.name);
-    command
-        .add_option("--light", stone.light,
-                    presets +
-                        ", or the views polariscope, conoscope, dichroscope; a stone without "
-                        "a scene: jeweller")
-        ->type_name("PRESET");
-    command
-        .add_option("--width", stone.width_mm,
-                    "of a stone without a scene, mm; a design without a size: 6.5")
-        ->type_name("MM");
+    const bool rough = paced && std::isnan(stats.error_bound);
+    const bool holds = !stats.verification || stats.verification->holds();
+    return rough || !holds ? exit_untrusted : exit_good;
 }
 
 }  // namespace
@@ -228,43 +244,7 @@ void add_command_render(CLI::App& program, int& exit_code) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command =
         program.add_subcommand("render", "a picture of a scene or a stone, with polarised light");
-    command
-        ->add_option("scene", options->scene,
-                     "scene or stone file, or a mesh (.obj .off .ply .stl) or cut design (.asc "
-                     ".gem), which is shown face up")
-        ->required()
-        ->type_name("SCENE.toml|STONE");
-    command
-        ->add_option("-o,--output", options->out,
-                     "picture: .exr (linear), .hdr or .png; - is stdout, as PNG")
-        ->type_name("IMAGE");
-    add_stone_options(*command, options->stone);
-    command->add_option("--size", options->size, "of the picture in pixels: 400 or 600,400")
-        ->type_name("PIXELS");
-    command
-        ->add_option("--stats,--json", options->stats,
-                     "what was simulated, left out and how long it took (JSON; - is stdout)")
-        ->type_name("STATS.json");
-    command->add_option("--engine", options->engine, "auto, reference, beams or preview");
-    command->add_option("--effects", options->effects,
-                        "auto, all, none, or a list: dispersion,absorption,...");
-    command->add_option("--depth", options->depth, "faces on a path at most (0: by tolerance)");
-    command->add_option("--tolerance", options->tolerance,
-                        "of the picture's mean radiance; not given: what about 10 s allow");
-    command->add_flag("--explain", options->explain,
-                      "print what would be simulated, left out, and why; draw nothing");
-    command->add_flag("--verify", options->verify,
-                      "hold some pixels against the reference with everything on");
-    command->add_flag("--spectral", options->spectral,
-                      "Stokes parameters S0 to S3 at every wavelength in the .exr");
-    command
-        ->add_option("--exposure", options->exposure,
-                     "for .png: a factor on linear light, or auto: to the stone (which jeweller, "
-                     "daylight, lightbox and darkfield are shown with; else 1)")
-        ->type_name("auto|FACTOR");
-    command->add_option("--tonemap", options->tonemap, "for .png: none or reinhard")
-        ->check(CLI::IsMember({"none", "reinhard"}));
-    add_common(*command, options->common, true);
+    add_render_options(*command, *options);
     command->footer(
         "Examples:\n"
         "  culet render stone.obj --material sapphire_blue -o stone.png\n"

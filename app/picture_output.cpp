@@ -78,11 +78,15 @@ void PictureOutput::look_as(const std::string& exposure, const std::string& tone
     }
 }
 
+double PictureOutput::exposure_of(const Picture& picture) const {
+    return exposure_ ? *exposure_ : exposure_for_stone(picture);
+}
+
 void PictureOutput::write(const Picture& picture,
                           const std::vector<std::pair<std::string, std::string>>& text) const {
     if (out_.empty()) return;
     PngLook look;
-    look.exposure = exposure_ ? *exposure_ : exposure_for_stone(picture);
+    look.exposure = exposure_of(picture);
     look.tone_map = tone_map_;
     if (out_ != "-") return write_picture(picture, out_, look, text);
     const ScratchFile file(".png");

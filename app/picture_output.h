@@ -20,6 +20,9 @@ public:
     /// and 1 where the scene's own lights or an instrument's are shown. Throws InputError.
     void look_as(const std::string& exposure, const std::string& tonemap, const Scene& scene);
 
+    /// The factor that a picture is shown with.
+    double exposure_of(const Picture& picture) const;
+
     bool goes_to_a_file() const { return !out_.empty() && out_ != "-"; }
     /// Whole or not at all; what was there is replaced.
     void write(const Picture& picture,

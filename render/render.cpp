@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 
+#include "render/beams/frame_renderer.h"
 #include "render/engine/engine.h"
+#include "render/planner/error_estimate.h"
 #include "render/planner/ladder.h"
 #include "render/planner/paced_drawing.h"
 #include "render/planner/planner.h"
@@ -71,6 +74,29 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
     return result;
 }
 
+// As finely as the tolerance asks for, as far as that is known beforehand.
+RenderResult drawn_once(const Scene& scene, const Progress& progress) {
+    require_renderable(scene);
+    Scene settled = scene;
+    RenderSettings& settings = settled.settings;
+    const Engine& beams = engine_named(k_beam_engine);
+    if (settings.engine == k_auto_engine && beams.refuses(scene, make_optical_setup(scene)).empty())
+        settings.engine = k_beam_engine;
+    // The estimator's own is better.
+    settings.check = Check::none;
+    RenderResult result = drawn(settled, progress);
+    if (scene.settings.check == Check::none) return result;
+    const auto start = std::chrono::steady_clock::now();
+    const ErrorEstimate estimate = estimate_error(settled, result.picture, progress);
+    RenderStats& stats = result.stats;
+    stats.checked_pixels = estimate.pixels;
+    stats.error_bound = estimate.bound;
+    if (drawn_by_beams(settings)) stats.engine_error = estimate.bound;
+    stats.seconds_check =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
 // It was of this drawing alone.
 void forget_meter(RenderStats& stats) {
     if (stats.plan) stats.plan->settings.meter = nullptr;
@@ -84,8 +110,28 @@ bool leaves_something_open(const RenderSettings& settings) {
                                       settings.wavelengths_nm.empty());
 }
 
+RenderResult render_as_planned(const Scene& scene, const ScenePlan& plan,
+                               const Progress& progress) {
+    Scene settled = scene;
+    RenderSettings& settings = settled.settings;
+    settings = plan.settings;
+    settings.seed = scene.settings.seed;
+    settings.threads = scene.settings.threads;
+    settings.spectral = scene.settings.spectral;
+    settings.check = Check::none;
+    RenderResult result = drawn(settled, progress);
+    result.stats.plan = plan;
+    result.stats.plan->seconds_planning = 0;
+    result.stats.error_bound = plan.checked_bound;
+    result.stats.notes.push_back(
+        "drawn as an earlier picture of the same stone and light; the error bound is of that one");
+    return result;
+}
+
 RenderResult render(const Scene& scene, const Progress& progress, const PictureSink& better) {
-    const bool planned = leaves_something_open(scene.settings);
+    const bool open = leaves_something_open(scene.settings);
+    const bool planned = open && scene.settings.check == Check::full;
+    if (open && !planned) return drawn_once(scene, progress);
     if (planned && scene.settings.allowed_ns > 0) {
         require_renderable(scene);
         RenderResult result = draw_within_allowance(scene, progress, drawn_as_planned, better);

@@ -16,6 +16,12 @@ namespace culet {
 RenderResult render(const Scene& scene, const Progress& progress = {},
                     const PictureSink& better = {});
 
+/// Draws with what was chosen for an earlier picture of the same stone and light, and tells the
+/// error bound of that one: nothing is chosen or checked anew. For turntables, and for other views
+/// of a scene whose plan was kept.
+RenderResult render_as_planned(const Scene& scene, const ScenePlan& plan,
+                               const Progress& progress = {});
+
 /// Whether `render` chooses anything itself: then `allowed_ns` counts.
 bool leaves_something_open(const RenderSettings& settings);
 

@@ -35,7 +35,7 @@ public:
         const auto start = std::chrono::steady_clock::now();
         FrameRenderer frames(scene);
         frames.report_to(progress);
-        frames.draw(true);
+        frames.draw(scene.settings.check != Check::none);
         RenderResult result = frames.take();
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
         RenderStats& stats = result.stats;

@@ -7,6 +7,7 @@
 #include <ctime>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "render/beams/beam_renderer.h"
@@ -132,7 +133,8 @@ struct FrameRenderer::State {
     PreparedScene prepared;
     BeamRenderer renderer;
     RenderResult result;
-    double limit_ms = 0, cut = 0;  // of a beam's share, to keep within the limit
+    std::optional<double> checked_bound;  // of an earlier frame of this light and these settings
+    double limit_ms = 0, cut = 0;         // of a beam's share, to keep within the limit
     Progress progress;
 
     void show(Scene changed);
@@ -144,6 +146,7 @@ void FrameRenderer::State::show(Scene changed) {
     PreparedScene anew(changed);
     require_beams(changed, anew.setup);
     prepared = std::move(anew);
+    checked_bound.reset();
     scene = std::move(changed);
 }
 
@@ -184,6 +187,10 @@ void FrameRenderer::State::draw(bool with_check) {
             stats.error_bound +=
                 stats.remainder * prepared.surroundings->max_radiance() / stats.mean_radiance;
         stats.seconds_check = seconds_since(start);
+        checked_bound = stats.error_bound;
+    } else if (checked_bound) {
+        stats.error_bound = *checked_bound;
+        stats.notes.emplace_back("the error bound is that of an earlier view");
     }
     if (limit_ms > 0) {
         // The number of beams falls about with the root of the cut: steps towards the limit.

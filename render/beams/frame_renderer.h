@@ -34,7 +34,8 @@ public:
     void report_to(const Progress& progress);
 
     /// The picture stays valid until the next call. Without `check` no pixels are compared with the
-    /// reference, and `error_bound` is NaN.
+    /// reference: `error_bound` is that of the last view that was checked, in this light and with
+    /// these settings, as a note says; NaN where none was.
     const RenderResult& draw(bool check = false);
     /// What was drawn last, with its memory.
     RenderResult take();

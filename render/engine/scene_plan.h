@@ -8,7 +8,7 @@
 // known beforehand and of what a pilot picture shows, with three standard errors. A pilot can miss
 // a light that none of its rays meet; `verify` looks at the finished picture.
 
-#include <optional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -54,7 +54,12 @@ struct ScenePlan {
     double mean_radiance = 0;       ///< of the stone, as the pilot sees it
     double events_per_ray = 1;      ///< faces that light meets
     double pixels = 0;              ///< of the stone, estimated
-    int pilot_pixels = 0;           ///< 0: nothing was open, or tolerance 0: no pilot
+    /// Of the stone and its light (fingerprint.h): another's plan is of no use.
+    std::string stone_and_light;
+    /// Error bound of the picture that was drawn with these settings and held against the truth;
+    /// NaN: none was.
+    double checked_bound = std::numeric_limits<double>::quiet_NaN();
+    int pilot_pixels = 0;  ///< 0: nothing was open, or tolerance 0: no pilot
 
     const PlanItem& item(const std::string& name) const;
 };

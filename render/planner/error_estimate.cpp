@@ -40,6 +40,8 @@ constexpr double k_outstanding = 1.0 / 24;
 constexpr std::size_t k_most_outstanding = 96;
 // Below this tolerance the truth takes the finest wavelengths, and larger trees.
 constexpr double k_fine_tolerance = 0.02;
+// What finding out about a single picture may cost: about two seconds of a processor.
+constexpr double k_most_ns_at_once = 2e9;
 
 }  // namespace
 
@@ -356,6 +358,20 @@ ErrorEstimate ErrorEstimator::estimate(const Picture& picture, double room, doub
         estimate = look(picture, wanted);
     }
     return estimate;
+}
+
+ErrorEstimate estimate_error(const Scene& scene, const Picture& picture, const Progress& progress) {
+    Scene window = scene;
+    if (window.camera.optics.two_windows) window.camera.width /= 2;
+    const StonePixels some = stone_pixels(window, k_noise_pixels);
+    if (some.at.empty()) {
+        ErrorEstimate none;
+        none.bound = std::numeric_limits<double>::quiet_NaN();
+        return none;
+    }
+    const double tolerance = scene.settings.tolerance;
+    return ErrorEstimator(window, some, tolerance, progress)
+        .estimate(picture, tolerance, k_most_ns_at_once);
 }
 
 }  // namespace culet

@@ -129,4 +129,8 @@ private:
     std::optional<double> noise_of_16_;  // once it was drawn
 };
 
+/// Of one finished picture of a scene, held against the truth at the scene's tolerance. Without
+/// pixels on the stone: 0 of them, and a bound of NaN.
+ErrorEstimate estimate_error(const Scene& scene, const Picture& picture, const Progress& progress);
+
 }  // namespace culet

@@ -1,19 +1,14 @@
+#include "render/planner/explain.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "render/planner/planner.h"
+#include "render/scene/settings_io.h"
 
 namespace culet {
-
-const PlanItem& ScenePlan::item(const std::string& name) const {
-    for (const PlanItem& line : items) {
-        if (line.name == name) return line;
-    }
-    static const PlanItem none;
-    return none;
-}
 
 ScenePlan plan_scene(const Scene& scene, const Progress& progress) {
     return Planner(scene, progress).run_to_explain(false);
@@ -85,6 +80,9 @@ std::string plan_json(const ScenePlan& plan) {
                          {"seconds_with", number(line.seconds_with)},
                          {"seconds_without", number(line.seconds_without)}});
     }
+    Json settings = Json::object();
+    for (const auto& [key, value] : written_settings(plan.settings))
+        settings[key] = Json::parse(value);
     const Json json = {{"schema", 1},
                        {"engine", plan.settings.engine},
                        {"engine_why", plan.engine_why},
@@ -101,7 +99,10 @@ std::string plan_json(const ScenePlan& plan) {
                        {"seconds_everything", plan.seconds_everything},
                        {"seconds_planning", plan.seconds_planning},
                        {"pilot_pixels", plan.pilot_pixels},
-                       {"mean_radiance", plan.mean_radiance}};
+                       {"mean_radiance", plan.mean_radiance},
+                       {"settings", settings},
+                       {"stone_and_light", plan.stone_and_light},
+                       {"checked_bound", number(plan.checked_bound)}};
     return json.dump(2) + "\n";
 }
 

@@ -192,6 +192,7 @@ LadderPicture Ladder::draw(ScenePlan plan, ErrorEstimator& estimator) {
     plan.engine_why = so_far.why;
     plan.bound_of_sampling = so_far.noise;
     plan.bound_delta_e = so_far.bound_delta_e;
+    plan.checked_bound = done.result.stats.error_bound;
     set_resolutions(plan, scene_, scene_.settings);
     add_plan(plan, done.result.stats);
     done.result.stats.plan = std::move(plan);

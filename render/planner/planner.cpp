@@ -7,6 +7,7 @@
 #include "render/beams/frame_renderer.h"
 #include "render/planner/ladder_steps.h"
 #include "render/planner/resolutions.h"
+#include "render/scene/fingerprint.h"
 #include "render/setup/a_priori.h"
 
 namespace culet {
@@ -48,6 +49,9 @@ Planner::Planner(const Scene& whole, const Progress& progress, bool one_wave, Le
         line.bound = decision.error_bound;
         plan_.items.push_back(line);
     }
+    Fingerprint print;
+    print.add_stone_and_light(whole);
+    plan_.stone_and_light = print.hex();
     plan_.settings = user_;
     plan_.settings.effects_auto = false;
     if (!one_wave_) return;

@@ -113,6 +113,13 @@ enum class CrystalBeams {
 /// About ten seconds of two cores, in the nanoseconds of plan/price.h: what `culet render` allows.
 constexpr double k_usual_allowance_ns = 2e10;
 
+/// What is done to find out how near a picture is to the truth, where that is left to culet.
+enum class Check {
+    none,      ///< nothing: drawn once
+    estimate,  ///< drawn once, and held against the truth at some pixels
+    full       ///< drawn more finely until these pixels say that it is near enough
+};
+
 enum class PixelFilter { box, tent, gaussian };
 
 /// Deepest path that a scene may ask for, and that is followed where the tolerance decides.
@@ -134,6 +141,7 @@ struct RenderSettings {
     /// Beams of one wavelength's tree, isotropic or merged: what memory they may take, some 100
     /// bytes each. Where there would be more, more of the light is cut.
     long long most_beams = 1 << 23;
+    Check check = Check::full;
     /// Beams: pixels that are held against the reference, and its rays in each; 0: some 2000, 16.
     int checked_pixels = 0, checked_samples = 0;
     bool effects_auto = true;  ///< all that can matter; else `effects`

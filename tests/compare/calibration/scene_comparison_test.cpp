@@ -9,7 +9,7 @@
 #include "compare/calibration/calibrate.h"
 #include "compare/calibration/cropped_camera.h"
 #include "compare/calibration/facet_error.h"
-#include "compare/calibration/fingerprint.h"
+#include "render/scene/fingerprint.h"
 #include "stone/checks.h"
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"

@@ -21,6 +21,8 @@ public:
     void add(const std::vector<double>& values);
     /// Everything that a picture of the scene depends on, threads apart.
     void add(const Scene& scene);
+    /// The same but for the view and the settings.
+    void add_stone_and_light(const Scene& scene);
     void add(const Solid& solid);
     std::string hex() const;
 

@@ -1,15 +1,10 @@
-#include "compare/calibration/fingerprint.h"
+#include "render/scene/fingerprint.h"
 
 #include <fmt/format.h>
-
-#include "compare/calibration/calibrate.h"
 
 namespace culet {
 
 namespace {
-
-// Of the calibration's own workings: a cached table of another version is not used.
-constexpr int k_version = 3;
 
 void add_colour(Fingerprint& print, const LightColour& colour) {
     std::visit(
@@ -98,6 +93,7 @@ void add_settings(Fingerprint& print, const RenderSettings& settings) {
     print.add(settings.split_weight.value_or(-1));
     print.add(settings.wavelength_turns);
     print.add(static_cast<double>(settings.most_beams));
+    print.add(static_cast<int>(settings.check));
     print.add(settings.checked_pixels);
     print.add(settings.checked_samples);
     print.add(settings.effects_auto ? 1 : 0);
@@ -156,44 +152,25 @@ void Fingerprint::add(const Solid& solid) {
     for (const Vec3& vertex : solid.vertices) add(vertex);
 }
 
-void Fingerprint::add(const Scene& scene) {
+void Fingerprint::add_stone_and_light(const Scene& scene) {
     add(scene.stone.solid);
     add(scene.stone.convex ? 1 : 0);
     add(static_cast<int>(scene.stone.unit));
     add(scene.stone.up);
     for (const Vec3& axis : scene.stone.crystal.axes) add(axis);
     add_material(*this, scene.stone.material);
-    add_camera(*this, scene.camera);
     add_lights(*this, scene.lights);
     add(scene.immersion);
+}
+
+void Fingerprint::add(const Scene& scene) {
+    add_stone_and_light(scene);
+    add_camera(*this, scene.camera);
     add_settings(*this, scene.settings);
 }
 
 std::string Fingerprint::hex() const {
     return fmt::format("{:016x}{:016x}", a_, b_);
-}
-
-std::string calibration_hash(const Scene& model, const CalibrateOptions& options) {
-    Fingerprint print;
-    print.add(k_version);
-    print.add(model);
-    const CameraModel& camera = options.camera;
-    print.add(camera.psf_px);
-    print.add(camera.electrons);
-    print.add(camera.read_noise);
-    print.add(camera.bits);
-    print.add(camera.clips ? 1 : 0);
-    print.add(camera.outline_from_background ? 1 : 0);
-    print.add(camera.scale_error);
-    for (const double g : camera.gain) print.add(g);
-    for (const float g : camera.ground) print.add(static_cast<double>(g));
-    print.add(options.draws);
-    print.add(options.null_draws);
-    print.add(static_cast<double>(options.seed));
-    print.add(options.largest);
-    print.add(options.ignored);
-    if (options.start) print.add(*options.start);
-    return print.hex();
 }
 
 }  // namespace culet
