@@ -240,7 +240,7 @@ std::vector<std::pair<std::string, std::string>> written_settings(const RenderSe
     write("tolerance", fmt::format("{}", settings.tolerance));
     if (settings.cut_weight) write("cut_weight", fmt::format("{}", *settings.cut_weight));
     if (settings.split_weight) write("split_weight", fmt::format("{}", *settings.split_weight));
-    write("samples", std::to_string(settings.samples));
+    if (settings.samples > 0) write("samples", std::to_string(settings.samples));
     write("wavelength_turns", std::to_string(settings.wavelength_turns));
     if (!settings.effects_auto) {
         std::vector<std::string> on;

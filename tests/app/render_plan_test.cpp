@@ -33,6 +33,10 @@ protected:
         std::ifstream stream(folder_ / name, std::ios::binary);
         return nlohmann::json::parse(std::string{std::istreambuf_iterator<char>(stream), {}});
     }
+    std::string bytes(const std::string& name) const {
+        std::ifstream stream(folder_ / name, std::ios::binary);
+        return std::string{std::istreambuf_iterator<char>(stream), {}};
+    }
     bool nothing_was_written() const { return fs::is_empty(folder_.path()); }
 
     // Pictures of 48 x 48 pixels.
@@ -170,6 +174,62 @@ TEST_F(RenderPlan, StatsHaveNoVerificationUnlessAsked) {
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.err, Not(HasSubstr("measured error")));
     EXPECT_FALSE(nlohmann::json::parse(run.out).contains("verification"));
+}
+
+// The plan of STATS.json holds all that was chosen: the same picture comes out, byte for byte.
+TEST_F(RenderPlan, APlanThatWasKeptDrawsTheSamePicture) {
+    for (const std::string scene : {"garnet-depth.toml", "tourmaline-across.toml"}) {
+        ASSERT_EQ(render(scene, {"-o", file("first.exr"), "--stats", file("first.json"),
+                                 "--tolerance", "0.2"})
+                      .exit_code,
+                  0);
+        const ProgramRun again = render(scene, {"-o", file("again.exr"), "--stats",
+                                                file("again.json"), "--plan", file("first.json")});
+        EXPECT_EQ(again.exit_code, 0) << again.err;
+        EXPECT_THAT(again.err, HasSubstr("the error bound is of that one"));
+        EXPECT_EQ(bytes("again.exr"), bytes("first.exr"));
+        EXPECT_EQ(json("again.json")["error_bound"], json("first.json")["error_bound"]);
+        EXPECT_EQ(json("again.json")["checked_pixels"], 0);
+    }
+}
+
+TEST_F(RenderPlan, APlanOfAnotherStoneIsRefused) {
+    ASSERT_EQ(
+        render("garnet-depth.toml", {"--stats", file("plan.json"), "--tolerance", "0.2"}).exit_code,
+        0);
+    const auto refused = [&](const std::string& scene, std::vector<std::string> more,
+                             const std::string& why) {
+        more.insert(more.end(), {"-o", file("picture.png")});
+        const ProgramRun run = render(scene, std::move(more));
+        EXPECT_EQ(run.exit_code, 2) << why;
+        EXPECT_THAT(run.err, HasSubstr(why));
+        EXPECT_FALSE(fs::exists(folder_ / "picture.png"));
+    };
+    refused("zircon-doubling.toml", {"--plan", file("plan.json")}, "of another stone");
+    refused("garnet-depth.toml", {"--plan", file("nowhere.json")}, "no such file");
+    refused("garnet-depth.toml", {"--plan", file("plan.json"), "--tolerance", "0.1"}, "excludes");
+    refused("garnet-depth.toml", {"--plan", file("plan.json"), "--set", "render.samples=3"},
+            "leave out --set render");
+    std::ofstream(folder_ / "text.json") << "{\"plan\": ";
+    refused("garnet-depth.toml", {"--plan", file("text.json")}, "is no JSON");
+    std::ofstream(folder_ / "empty.json") << "{\"plan\": {\"settings\": 3}}";
+    refused("garnet-depth.toml", {"--plan", file("empty.json")}, "has no plan");
+}
+
+TEST_F(RenderPlan, ATurntableIsPlannedAndCheckedOnce) {
+    const ProgramRun run =
+        render("garnet-depth.toml", {"-o", file("frame-###.png"), "--frames", "3", "--turn", "90",
+                                     "--tolerance", "0.2", "--stats", file("stats.json")});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("first of 3 frames"));
+    EXPECT_NE(bytes("frame-001.png"), bytes("frame-002.png"));
+    EXPECT_NE(bytes("frame-002.png"), bytes("frame-003.png"));
+    EXPECT_FALSE(fs::exists(folder_ / "frame-004.png"));
+    EXPECT_GT(json("stats.json")["checked_pixels"], 0);
+    const ProgramRun unnumbered =
+        render("garnet-depth.toml", {"-o", file("frame.png"), "--frames", "3"});
+    EXPECT_EQ(unnumbered.exit_code, 2);
+    EXPECT_THAT(unnumbered.err, HasSubstr("frame-####.png"));
 }
 
 TEST_F(RenderPlan, RefusesInOneLineAndWritesNothing) {
