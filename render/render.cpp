@@ -26,27 +26,27 @@ RenderResult drawn(const Scene& scene, const Progress& progress) {
 void bound_by_picture(RenderResult& result) {
     for (PlanItem& line : result.stats.plan->items) {
         const bool alone = line.name != name_of(Effects::coherence);
-        if (alone && line.why == k_as_one) line.bound = result.stats.error_bound;
+        if (alone && line.why == k_merged_waves) line.bound = result.stats.error_bound;
     }
 }
 
 RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
     require_renderable(scene);
-    // A crystal's two waves as one, effects that few pixels say may go, and only those that are
+    // A crystal's two waves merged, effects that few pixels say may go, and only those that are
     // sure to change nothing.
     struct Try {
-        bool one_wave;
+        bool merged_waves;
         Planner::Leave leave;
     };
     std::vector<Try> tries{{false, Planner::Leave::likely}, {false, Planner::Leave::surely}};
-    if (tried_as_one_wave(scene)) tries.insert(tries.begin(), {true, Planner::Leave::likely});
+    if (tried_with_merged_waves(scene)) tries.insert(tries.begin(), {true, Planner::Leave::likely});
     Ladder ladder(scene, progress);
     std::optional<ErrorEstimator> estimator;
     std::vector<std::string> tried;
     double seconds_before = 0;
     RenderResult result;
     for (const Try& now : tries) {
-        Planner planner(scene, progress, now.one_wave, now.leave);
+        Planner planner(scene, progress, now.merged_waves, now.leave);
         planner.give_estimator(std::move(estimator));
         const ScenePlan plan = planner.run();
         estimator = planner.take_estimator();
@@ -64,7 +64,7 @@ RenderResult drawn_as_planned(const Scene& scene, const Progress& progress) {
         if (picture.near_enough) bound_by_picture(result);
         if (!picture.misjudged) break;
         seconds_before = seconds_of(result.stats);
-        if (!now.one_wave && now.leave == Planner::Leave::likely &&
+        if (!now.merged_waves && now.leave == Planner::Leave::likely &&
             (scene.settings.meter == nullptr || !scene.settings.meter->limited()))
             tried.push_back(
                 "what was left out matters more than its pilot saw: drawn with all that is not "

@@ -56,7 +56,7 @@ struct ShadedLights::Adder {
         return spectrum(colour, colours, first, count);
     }
 
-    void operator()(const LobeLight& light) const {
+    void operator()(const CosinePowerLight& light) const {
         const Vec3& d = light.direction;
         const bool whole = light.exponent == std::floor(light.exponent) &&
                            light.exponent <= k_multiplied_out && light.exponent >= 0;
@@ -69,9 +69,9 @@ struct ShadedLights::Adder {
         to.caps.push_back({number(d.x), number(d.y), number(d.z), disc(0), disc(2),
                            radiance(light.radiance), polarised_as(light.radiance.polarisation)});
     }
-    void operator()(const CapLight& light) const {
+    void operator()(const DiscLight& light) const {
         const Vec3& d = light.direction;
-        const CapCosines cosines = cosines_of(light);
+        const DiscCosines cosines = cosines_of(light);
         to.caps.push_back({number(d.x), number(d.y), number(d.z), disc(cosines.to),
                            disc(cosines.from), radiance(light.radiance),
                            polarised_as(light.radiance.polarisation)});

@@ -189,13 +189,13 @@ private:
     static std::string cosine(const Vec3& d) {
         return fmt::format("({})*x + ({})*y + ({})*z", d.x, d.z, d.y);
     }
-    static std::string shape(const LobeLight& lobe) {
+    static std::string shape(const CosinePowerLight& lobe) {
         return fmt::format("pow(max({}, 0), {})", cosine(lobe.direction), lobe.exponent);
     }
     static std::string shape(const HemisphereLight& half) {
         return fmt::format("select(-({}), 1, 0)", cosine(half.direction));
     }
-    static std::string shape(const CapLight& cap) {
+    static std::string shape(const DiscLight& cap) {
         const std::string at = cosine(cap.direction);
         const std::string beyond =
             cap.from <= 0 ? "1" : fmt::format("select(({}) - ({}), 0, 1)", std::cos(cap.from), at);

@@ -22,7 +22,7 @@ constexpr std::size_t k_first_pixels_of_bright = 96;
 constexpr double k_fine_tolerance = 0.03, k_most_times_as_many = 10;
 // Every pixel has this share of a mean chance at least: none counts more than two and a half times.
 constexpr double k_even_share = 0.4;
-// Pixels stand out that have so many times the mean.
+// Outliers are pixels that have so many times the mean.
 constexpr double k_times_the_mean = 30;
 // That the stone fills by so much at least.
 constexpr float k_filled = 0.5f;

@@ -29,15 +29,15 @@ constexpr double k_noisy = 0.5, k_noisy_price = 12;
 // What the mean of N rays is off by falls about as N^-0.6; and of what a bound may be, what it
 // should be by that to be sought.
 constexpr double k_noise_power = 0.6, k_likely_room = 0.95;
-// What the truth's paths are cut at, as a share of the tolerance. Trees that branch gamble: the
-// quickest way to little noise is to follow few branches where few rays do.
+// What the truth's paths are cut at, as a share of the tolerance. Trees that branch play roulette:
+// the quickest way to little noise is to follow few branches where few rays do.
 constexpr double k_cut_share = 0.01;
-constexpr double k_gambled_weight = 0.04, k_split_weight = 0.6, k_fine_gambled_weight = 0.01,
+constexpr double k_roulette_weight = 0.04, k_split_weight = 0.6, k_fine_roulette_weight = 0.01,
                  k_fine_split_weight = 0.3;
-// Pixels stand out that have this share of the tolerance of the picture's light; so many do at
+// Outliers are pixels that have this share of the tolerance of the picture's light; so many do at
 // most.
-constexpr double k_outstanding = 1.0 / 24;
-constexpr std::size_t k_most_outstanding = 96;
+constexpr double k_outlier_share = 1.0 / 24;
+constexpr std::size_t k_most_outliers = 96;
 // Below this tolerance the truth takes the finest wavelengths, and larger trees.
 constexpr double k_fine_tolerance = 0.02;
 // What finding out about a single picture may cost: about two seconds of a processor.
@@ -63,8 +63,8 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, StonePixels some, double tole
     limits_.seed = scene_.settings.seed + 1;
     limits_.depth = scene_.settings.depth > 0 ? scene_.settings.depth : k_deepest;
     limits_.cut_weight = !branches ? std::max(k_cut_share * tolerance, 1e-7)
-                         : fine    ? k_fine_gambled_weight
-                                   : k_gambled_weight;
+                         : fine    ? k_fine_roulette_weight
+                                   : k_roulette_weight;
     limits_.split_weight = fine ? k_fine_split_weight : k_split_weight;
     limits_.roulette = branches;
     work_.general = plan.general;
@@ -159,23 +159,23 @@ void ErrorEstimator::draw_up_to(std::size_t count) {
         level.rgb.insert(level.rgb.end(), drawing.rgb.begin(), drawing.rgb.end());
     }
     for (Level& level : levels_) {
-        const std::size_t first = level.outstanding.size();
-        const StonePixels more = outstanding_.stretch(first, outstanding_.at.size() - first);
+        const std::size_t first = level.outliers.size();
+        const StonePixels more = outliers_.stretch(first, outliers_.at.size() - first);
         if (more.at.empty()) continue;
         const PilotDrawing drawing = draw(more, level.samples);
-        level.outstanding.insert(level.outstanding.end(), drawing.rgb.begin(), drawing.rgb.end());
+        level.outliers.insert(level.outliers.end(), drawing.rgb.begin(), drawing.rgb.end());
     }
 }
 
-void ErrorEstimator::find_outstanding(const Picture& picture) {
+void ErrorEstimator::find_outliers(const Picture& picture) {
     of_picture_.clear();
     if (!chosen_.bright || chosen_.all) return;
     for (const auto& at :
          outstanding_pixels(picture, scene_.camera.optics.two_windows ? 2 : 1,
-                            k_outstanding * scene_.settings.tolerance, k_most_outstanding)) {
-        const auto before = std::find(outstanding_.at.begin(), outstanding_.at.end(), at);
-        of_picture_[at] = static_cast<std::size_t>(before - outstanding_.at.begin());
-        if (before == outstanding_.at.end()) outstanding_.at.push_back(at);
+                            k_outlier_share * scene_.settings.tolerance, k_most_outliers)) {
+        const auto before = std::find(outliers_.at.begin(), outliers_.at.end(), at);
+        of_picture_[at] = static_cast<std::size_t>(before - outliers_.at.begin());
+        if (before == outliers_.at.end()) outliers_.at.push_back(at);
     }
 }
 
@@ -236,7 +236,7 @@ ErrorEstimate ErrorEstimator::look(const Picture& picture, std::size_t wanted) {
     // Each of these is one of all.
     double surely = 0;
     for (const auto& [at, i] : of_picture_) {
-        const Rgb there = truth(&Level::outstanding, i);
+        const Rgb there = truth(&Level::outliers, i);
         const double counts = pixels / chosen_.pixels.in_picture;
         surely += counts * error_of(picture.pixel(at.first, at.second), there);
         sizes += counts * mean_of(there);
@@ -338,7 +338,7 @@ ErrorEstimate ErrorEstimator::estimate(const Picture& picture, double room, doub
     // What was drawn to judge other pictures judges this one.
     std::size_t known = chosen_.pixels.at.size();
     for (const Level& level : levels_) known = std::min(known, level.rgb.size());
-    find_outstanding(picture);
+    find_outliers(picture);
     ErrorEstimate estimate = look(picture, std::max(chosen_.first, known));
     for (int more = 1; more < k_looks && estimate.bound > room; ++more) {
         // As long as the noise is what is seen, the picture cannot be blamed.

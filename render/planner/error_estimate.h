@@ -91,10 +91,10 @@ public:
     static bool takes_grid(int side);
 
 private:
-    // Rays of one grid in each of the first pixels, and in those that stand out of some picture.
+    // Rays of one grid in each of the first pixels, and in the outliers of some picture.
     struct Level {
         int samples = 0;
-        std::vector<Rgb> rgb, outstanding;
+        std::vector<Rgb> rgb, outliers;
         double halves = 0, radiance = 0, cut = 0;  // sums over the first, as they count
     };
     int grid(std::size_t level) const;
@@ -103,7 +103,7 @@ private:
     PilotDrawing draw(const StonePixels& pixels, int samples);
     void draw_up_to(std::size_t count);
     Rgb truth(std::vector<Rgb> Level::*of, std::size_t pixel) const;
-    void find_outstanding(const Picture& picture);
+    void find_outliers(const Picture& picture);
     double noise_of(const Level& level) const;
     ErrorEstimate look(const Picture& picture, std::size_t wanted);
     // How many pixels and grids, and how many rays that draws.
@@ -121,7 +121,7 @@ private:
     int nodes_;
     const Progress* progress_;
     CheckPixels chosen_;
-    StonePixels outstanding_;                                // of all pictures so far
+    StonePixels outliers_;                                   // of all pictures so far
     std::map<std::pair<int, int>, std::size_t> of_picture_;  // the picture's, and which of those
     std::vector<Level> levels_;
     PathWork work_;

@@ -17,9 +17,10 @@ ScenePlan plan_scene(const Scene& scene, const Progress& progress) {
 ScenePlan plan_to_explain(const Scene& scene, const Progress& progress) {
     ScenePlan plan = Planner(scene, progress).run_to_explain(true);
     for (PlanItem& line : plan.items) {
-        if (line.name == name_of(Effects::birefringence) && line.on && tried_as_one_wave(scene))
+        if (line.name == name_of(Effects::birefringence) && line.on &&
+            tried_with_merged_waves(scene))
             line.why +=
-                ", which a few rays overrate: the picture is first drawn as one wave, and "
+                ", which a few rays overrate: the picture is first drawn with merged waves, and "
                 "kept if the check agrees";
     }
     return plan;

@@ -16,8 +16,8 @@ namespace culet {
 
 namespace {
 
-// Of all effects that are to be drawn; where a crystal's two waves go as one for a try.
-constexpr int k_most_drawings = 7, k_most_as_one = 3;
+// Of all effects that are to be drawn; where a crystal's two waves are merged for a try.
+constexpr int k_most_drawings = 7, k_most_merged = 3;
 constexpr int k_most_rays = 1600;  // a pixel
 // What is off by this share still is no better than what was drawn before: then the truth is
 // suspected, whose few rays may be noisier than they look, where noise is such a share of the
@@ -126,8 +126,8 @@ void Ladder::climb(const ScenePlan& plan, ErrorEstimator& estimator, const Ladde
     const double tolerance = scene_.settings.tolerance;
     WorkMeter* const meter = scene_.settings.meter.get();
     Step step = steps.first();
-    const bool as_one = plan.item(name_of(Effects::birefringence)).why == k_as_one;
-    const int most = as_one ? k_most_as_one : k_most_drawings;
+    const bool merged = plan.item(name_of(Effects::birefringence)).why == k_merged_waves;
+    const int most = merged ? k_most_merged : k_most_drawings;
     double seconds_before = plan.seconds_planning, error_before = 0;
     for (int drawing = 1;; ++drawing) {
         const bool beams = drawn_by_beams(step.settings);

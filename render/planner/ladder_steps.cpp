@@ -34,13 +34,13 @@ constexpr double k_colours_apart = 0.3, k_colours_power = 0.9;
 constexpr double k_sun_apart = 0.8, k_share_of_sun = 0.2;
 // Of the truth's noise, what an error must be to be seen in it.
 constexpr double k_seen_in_noise = 0.5;
-// Crystals' beams are cut, and not gambled on: at 0.009 that left 0.047 of the light, and others in
+// Crystals' beams are cut, without roulette: at 0.009 that left 0.047 of the light, and others in
 // proportion to the cut to the power of 0.6.
 constexpr double k_crystal_cut = 0.009, k_crystal_remainder = 0.047, k_crystal_power = 0.6,
                  k_crystal_share = 0.4, k_coarsest_crystal_cut = 0.03;
-// The reference's trees that gamble: so they come to little noise soonest; finer below this
+// The reference's trees that play roulette: so they come to little noise soonest; finer below this
 // tolerance.
-constexpr double k_fine_tolerance = 0.02, k_gambled = 0.04, k_fine_gambled = 0.01, k_split = 0.6,
+constexpr double k_fine_tolerance = 0.02, k_roulette = 0.04, k_fine_roulette = 0.01, k_split = 0.6,
                  k_fine_split = 0.1;
 // Of the tolerance, the weight below which the reference's paths are cut where they do not branch.
 constexpr double k_cut_of_paths = 0.1;
@@ -159,8 +159,8 @@ Step LadderSteps::by_reference(const ErrorEstimate* estimate) const {
     settings.engine = k_reference_engine;
     const bool fine = tolerance < k_fine_tolerance;
     settings.cut_weight = !doubles_ ? k_cut_of_paths * tolerance
-                          : fine    ? k_fine_gambled
-                                    : k_gambled;
+                          : fine    ? k_fine_roulette
+                                    : k_roulette;
     settings.split_weight = doubles_ && !fine ? k_split : k_fine_split;
     // The estimate has seen more of what few rays are off by.
     const double noise =

@@ -56,30 +56,6 @@ Camera coarser(const Camera& camera, int times) {
     return result;
 }
 
-CapLight rim(const Vec3& direction, double angle, double width, const LightColour& radiance) {
-    return {direction, std::max(0.0, angle - width), std::min(angle + width, std::numbers::pi),
-            radiance};
-}
-
-// The four sides, each as wide as is asked for.
-void add_rims(const PlaneLight& plane, double width, std::vector<Light>& rims) {
-    if (!plane.u || !plane.v) return;
-    const Vec3 u = *plane.u, v = *plane.v;
-    const double along_u = glm::length(u), along_v = glm::length(v);
-    if (!(along_u > 0) || !(along_v > 0)) return;
-    for (const double side : {-1.0, 1.0}) {
-        PlaneLight one = plane;
-        one.point = plane.point + side * u;
-        one.u = u * (width / along_u);
-        one.v = v * (1 + width / along_v);
-        rims.push_back(one);
-        one.point = plane.point + side * v;
-        one.u = u * (1 + width / along_u);
-        one.v = v * (width / along_v);
-        rims.push_back(one);
-    }
-}
-
 // The brightest texel about each direction, where it has this radiance.
 std::shared_ptr<const EnvironmentMap> brightest_of(const EnvironmentMap& map, double least) {
     auto found = std::make_shared<EnvironmentMap>();
@@ -132,42 +108,13 @@ Lights bright_lights(const Lights& lights, double least) {
     return bright;
 }
 
-// Adds the rims of a source, `width` wide as seen from the stone.
-struct RimAdder {
-    std::vector<Light>& rims;
-    const Vec3& stone;
-    double width;
-
-    void operator()(const CapLight& cap) const {
-        rims.push_back(rim(cap.direction, cap.to, width, cap.radiance));
-        if (cap.from > 0) rims.push_back(rim(cap.direction, cap.from, width, cap.radiance));
-    }
-    void operator()(const HemisphereLight& half) const {
-        rims.push_back(rim(half.direction, std::numbers::pi / 2, width, half.radiance));
-    }
-    void operator()(const PlaneLight& plane) const {
-        add_rims(plane, width * glm::length(plane.point - stone), rims);
-    }
-    void operator()(SphereLight sphere) const {
-        sphere.radius += width * glm::length(sphere.center - stone);
-        // Whose widened ball would swallow the stone is no small light.
-        if (sphere.radius < glm::length(sphere.center - stone)) rims.push_back(sphere);
-    }
-    void operator()(LobeLight lobe) const {
-        // cos^e falls to a third within about 1 / sqrt(e / 2).
-        const double angle = std::sqrt(2 / std::max(lobe.exponent, 1.0));
-        lobe.exponent = 2 / ((angle + width) * (angle + width));
-        rims.push_back(lobe);
-    }
-};
-
 }  // namespace
 
 Lights light_rims(const Lights& all, const Vec3& stone, double width, double least) {
     const Lights lights = bright_lights(all, least);
     Lights rims;
     for (const Light& light : lights.sources) {
-        std::visit(RimAdder{rims.sources, stone, width}, light);
+        std::visit([&](const auto& l) { add_rims(l, stone, width, rims.sources); }, light);
     }
     if (lights.environment) rims.environment = brightest_of(*lights.environment, least);
     return rims;

@@ -18,9 +18,9 @@ namespace {
 const std::vector<double> k_pilot_nm{450, 550, 610};
 // The pilots', and others that tell how noisy the truth is.
 constexpr int k_pilot_pixels = 96, k_check_pixels = 64;
-// Trees that branch gamble: pictures that are held against each other should differ by what is
-// looked at rather than by chance, so at weights far below the noise of a pixel's few rays.
-constexpr double k_gambled_weight = 0.01, k_split_weight = 0.1;
+// Trees that branch play roulette: pictures that are held against each other should differ by what
+// is looked at rather than by chance, so at weights far below the noise of a pixel's few rays.
+constexpr double k_roulette_weight = 0.01, k_split_weight = 0.1;
 // Pilots of a depth that the scene names are held against such as go on to here.
 constexpr double k_deep_cut = 0.01;
 // Faces that light meets, and rays of all pilots in a pixel, about: what weighing effects costs.
@@ -30,12 +30,12 @@ constexpr int k_usual_rays = 16;
 
 }  // namespace
 
-Planner::Planner(const Scene& whole, const Progress& progress, bool one_wave, Leave leave)
+Planner::Planner(const Scene& whole, const Progress& progress, bool merged_waves, Leave leave)
     : scene_(whole),
       user_(whole.settings),
       progress_(progress),
       tolerance_(whole.settings.tolerance),
-      one_wave_(one_wave),
+      merged_waves_(merged_waves),
       leave_(leave) {
     // The two windows of a dichroscope are one view, seen twice.
     if (scene_.camera.optics.two_windows) scene_.camera.width /= 2;
@@ -54,15 +54,15 @@ Planner::Planner(const Scene& whole, const Progress& progress, bool one_wave, Le
     plan_.stone_and_light = print.hex();
     plan_.settings = user_;
     plan_.settings.effects_auto = false;
-    if (!one_wave_) return;
+    if (!merged_waves_) return;
     for (Effects effect : {Effects::birefringence, Effects::pleochroism, Effects::coherence}) {
         item(effect).on = false;
-        item(effect).why = k_as_one;
+        item(effect).why = k_merged_waves;
     }
     branches_ = !scene_.stone.convex;
 }
 
-bool tried_as_one_wave(const Scene& scene) {
+bool tried_with_merged_waves(const Scene& scene) {
     const OpticalSetup plan = make_optical_setup(scene);
     return scene.settings.effects_auto && scene.settings.engine == k_auto_engine && plan.splits &&
            !plan.stokes && scene.stone.convex;
@@ -177,7 +177,7 @@ PathLimits Planner::limits() const {
     PathLimits limits;
     limits.seed = user_.seed;
     limits.depth = user_.depth > 0 ? user_.depth : k_deepest;
-    limits.cut_weight = branches_ ? k_gambled_weight : k_pilot_cut * tolerance_;
+    limits.cut_weight = branches_ ? k_roulette_weight : k_pilot_cut * tolerance_;
     limits.split_weight = k_split_weight;
     limits.roulette = branches_;
     limits.alike = true;

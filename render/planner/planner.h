@@ -22,21 +22,21 @@ constexpr int k_pilot_rays = 4;
 // Of the tolerance: the weight below which the pilots' paths are cut.
 constexpr double k_pilot_cut = 0.03;
 constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* k_as_one = "the two waves go as one";
+constexpr const char* k_merged_waves = "the two waves are merged";
 constexpr const char* k_same_light = "the light is the same from everywhere: nothing changes";
 
-/// Whether `render` first draws a crystal's two waves as one: what that is off by, a pilot of few
+/// Whether `render` first draws a crystal's two waves merged: what that is off by, a pilot of few
 /// rays shows as far too much, because it shifts light within the pixel.
-bool tried_as_one_wave(const Scene& scene);
+bool tried_with_merged_waves(const Scene& scene);
 
 class Planner {
 public:
     /// Likely: effects go that are likely to change little enough. Surely: only those that are sure
     /// to change nothing; a picture has shown that few pixels misjudge the scene.
     enum class Leave { likely, surely };
-    /// `one_wave`: a crystal's two waves are to go as one, which only the finished picture can show
+    /// `merged_waves`: a crystal's two waves are merged, which only the finished picture can show
     /// to be near enough. `progress` is told 0, and may stop it; it must outlive the planner.
-    Planner(const Scene& whole, const Progress& progress, bool one_wave = false,
+    Planner(const Scene& whole, const Progress& progress, bool merged_waves = false,
             Leave leave = Leave::likely);
     /// For a picture: where the coarsest costs no more than weighing effects, none is weighed, and
     /// none left out but what is sure to change nothing.
@@ -89,7 +89,7 @@ private:
     const RenderSettings user_;  // as the scene has them
     const Progress& progress_;
     double tolerance_;
-    bool one_wave_;
+    bool merged_waves_;
     Leave leave_;
     ScenePlan plan_;
     StonePixels pixels_;                       // of the pilots

@@ -223,7 +223,7 @@ void Planner::choose_effects() {
     if (two_waves && !on(Effects::birefringence)) {
         for (Effects effect : {Effects::pleochroism, Effects::coherence}) {
             PlanItem& line = item(effect);
-            if (effect == Effects::coherence || line.on) line.why = k_as_one;
+            if (effect == Effects::coherence || line.on) line.why = k_merged_waves;
             line.on = false;
         }
     }

@@ -4,7 +4,7 @@
 // convex stones seen without a polariser.
 //
 // A face acts on amplitudes and is unitary, so that for every ray
-//   leaves + remainder + absorbed + cut + gambled = 1
+//   exits + remainder + absorbed + cut + roulette = 1
 
 #include <algorithm>
 #include <vector>
@@ -15,9 +15,9 @@
 namespace culet {
 
 // A Sink has
-//   void leaf(const PathEnd&, const PathTrace&);
+//   void path_exits(const PathEnd&, const PathTrace&);
 //   void remainder(const NodeWeights&), absorbed(const NodeWeights&), cut(const NodeWeights&);
-//   void gambled(const NodeWeights&): lost to Russian roulette, less what was won: of mean 0.
+//   void roulette(const NodeWeights&): lost to Russian roulette, less what was won: of mean 0.
 //   void choice_begins(), choice_ends(bool second): two independent estimates, each of half weight,
 //     of what a subtree brings; their difference tells the variance.
 template <class Sink>
@@ -91,8 +91,8 @@ private:
             if (again) {
                 outer.again = *again;
             } else {
-                sink_.leaf({outer.at, outer.direction, outer.u, outer.v, outer.c, outer.tau},
-                           trace_);
+                sink_.path_exits({outer.at, outer.direction, outer.u, outer.v, outer.c, outer.tau},
+                                 trace_);
             }
         }
         const bool stays = inner.power() > 0;
@@ -220,11 +220,11 @@ private:
         }
         // Survives with the probability weight / cut_weight, and then weighs cut_weight.
         if (uniform() * limits_.cut_weight >= weight) {
-            sink_.gambled(weighted(node.power(), node.tau));
+            sink_.roulette(weighted(node.power(), node.tau));
             return true;
         }
         const double gain = limits_.cut_weight / weight;
-        sink_.gambled(weighted(node.power() * (1 - gain), node.tau));
+        sink_.roulette(weighted(node.power() * (1 - gain), node.tau));
         node.c.scale(gain);
         return false;
     }

@@ -38,8 +38,8 @@ public:
     Gather(const Surroundings& surroundings, const Band& band, double* radiance)
         : Lost(band.count), surroundings_(surroundings), band_(band), radiance_(radiance) {}
 
-    void leaf(const Vec3& at, const Vec3& direction, const NodeWeights& weight,
-              const PathTrace& trace) {
+    void path_exits(const Vec3& at, const Vec3& direction, const NodeWeights& weight,
+                    const PathTrace& trace) {
         seen(trace);
         const int count = single ? 1 : band_.count;
         NodeWeights radiance;

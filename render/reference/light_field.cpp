@@ -15,7 +15,7 @@ struct LightField::Ready {
     /// Of each source: its radiance at the nodes, and what a cap needs.
     struct Source {
         std::vector<double> nodes;
-        CapCosines cosines;
+        DiscCosines cosines;
         bool is_near = false;
         int number = 0;  ///< among those of its type
     };
@@ -32,7 +32,7 @@ struct LightField::Ready {
         return std::visit(
             [&](const auto& light) -> double {
                 using L = std::decay_t<decltype(light)>;
-                if constexpr (std::is_same_v<L, CapLight>) {
+                if constexpr (std::is_same_v<L, DiscLight>) {
                     return share_of(light, sources[i].cosines, direction);
                 } else if constexpr (L::k_is_near) {
                     return 0;
@@ -78,7 +78,7 @@ LightField::LightField(const Lights& lights, const WavelengthSet& wavelengths) :
         source.nodes = radiance_of(colour_of(light), wavelengths);
         source.is_near = is_near(light);
         source.number = count[light.index()]++;
-        if (const auto* cap = std::get_if<CapLight>(&light)) source.cosines = cosines_of(*cap);
+        if (const auto* cap = std::get_if<DiscLight>(&light)) source.cosines = cosines_of(*cap);
         const double most = *std::max_element(source.nodes.begin(), source.nodes.end());
         if (source.is_near) {
             near = std::max(near, most);

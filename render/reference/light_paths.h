@@ -26,8 +26,9 @@
 namespace culet {
 
 // A Sink has
-//   void leaf(const Vec3& origin, const Vec3& direction, const NodeWeights&, const PathTrace&);
-//   void remainder(const NodeWeights&), absorbed(const NodeWeights&), cut(const NodeWeights&);
+//   void path_exits(const Vec3& origin, const Vec3& direction, const NodeWeights&, const
+//   PathTrace&); void remainder(const NodeWeights&), absorbed(const NodeWeights&), cut(const
+//   NodeWeights&);
 // `single`: the band has one node, and loops over nodes are none.
 template <class Sink, bool single = !k_has_effects>
 class LightPaths {
@@ -155,8 +156,8 @@ private:
         const double q1 = std::clamp(glm::dot(direction, n_in), 0.0, 1.0);
         const FaceAmplitudes face = fresnel(1.0, band_.n, q1);
         push(facet);
-        leaf(at, mirrored(direction, n_in), 0.5 * (std::norm(face.r_s) + std::norm(face.r_p)),
-             tau_);
+        path_exits(at, mirrored(direction, n_in), 0.5 * (std::norm(face.r_s) + std::norm(face.r_p)),
+                   tau_);
         direction = refracted(direction, n_in, 1.0, q1, face.q2);
         return face;
     }
@@ -183,8 +184,8 @@ private:
             carried.turn(direction, s, s2);
             push(hit.facet);
             if (!out.total) {
-                leaf(at, refracted(direction, n, band_.n, q, out.q2), carried.transmitted(out),
-                     tau);
+                path_exits(at, refracted(direction, n, band_.n, q, out.q2),
+                           carried.transmitted(out), tau);
             }
             carried.reflect(out);
             direction = mirrored(direction, n);
@@ -211,7 +212,8 @@ private:
             const FaceReflection out = mean_reflection(band_.n, 1.0, q);
             push(hit.facet);
             if (!out.total) {
-                leaf(at, refracted(direction, n, band_.n, q, out.q2), weight * (1 - out.mean), tau);
+                path_exits(at, refracted(direction, n, band_.n, q, out.q2), weight * (1 - out.mean),
+                           tau);
                 weight *= out.mean;
             }
             direction = mirrored(direction, n);
@@ -219,8 +221,8 @@ private:
         sink_.remainder(weighted(weight, tau));
     }
 
-    void leaf(const Vec3& at, const Vec3& direction, double weight, const NodeWeights& tau) {
-        if (weight > 0) sink_.leaf(at, direction, weighted(weight, tau), trace_);
+    void path_exits(const Vec3& at, const Vec3& direction, double weight, const NodeWeights& tau) {
+        if (weight > 0) sink_.path_exits(at, direction, weighted(weight, tau), trace_);
     }
 
     const ConvexBody& body_;

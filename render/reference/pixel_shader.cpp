@@ -30,7 +30,7 @@ public:
           planes_(planes),
           stokes_(stokes) {}
 
-    void leaf(const PathEnd& end, const PathTrace& trace) {
+    void path_exits(const PathEnd& end, const PathTrace& trace) {
         seen(trace);
         if (planes_ == 4) {
             surroundings_.add_stokes(end, band_.first, band_.count, stokes_, nodes_);
@@ -44,7 +44,7 @@ public:
     }
     // Weight of mean 0, so it may be given any radiance: the usual one makes up best for what was
     // lost, and exactly in a constant light.
-    void gambled(const NodeWeights& weight) {
+    void roulette(const NodeWeights& weight) {
         for (int i = 0; i < band_.count; ++i)
             stokes_[band_.first + i] += weight[i] * usual_[band_.first + i];
     }

@@ -11,7 +11,7 @@ namespace {
 
 // Crystals: a path splits in two at every hit while it carries more than this.
 constexpr double k_split_weight = 0.02;
-constexpr double k_gambled_weight = 1e-3;
+constexpr double k_roulette_weight = 1e-3;
 constexpr int k_pilot_pixels = 16;  // along the picture's longer side
 constexpr int k_spectral_pixels = 10, k_spectral_samples = 16;
 constexpr int k_spectral_depth = 12, k_spectral_crystal_depth = 6;  // of trees that double
@@ -71,10 +71,10 @@ void set_limits(const Scene& scene, PreparedScene& prepared) {
                                                   : settings.tolerance;
     limits.cut_weight = std::min(limits.cut_weight, settings.tolerance);
     limits.split_weight = std::max(k_split_weight, limits.cut_weight);
-    // Trees that branch gamble instead of cutting: that costs no accuracy but noise, which a light
-    // of great radiance must not make as dear as it makes cutting.
+    // Trees that branch play roulette instead of being cut: that costs no accuracy but noise, which
+    // a light of great radiance must not make as dear as it makes cutting.
     limits.roulette = branch;
-    if (branch) limits.cut_weight = std::max(limits.cut_weight, k_gambled_weight);
+    if (branch) limits.cut_weight = std::max(limits.cut_weight, k_roulette_weight);
 }
 
 // The fewest wavelengths whose colours differ from those of the finest set by less than the

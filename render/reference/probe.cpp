@@ -35,8 +35,8 @@ public:
 
     void begin(const Band& band) { band_ = &band; }
 
-    void leaf(const Vec3& at, const Vec3& direction, const NodeWeights& weight,
-              const PathTrace& trace) {
+    void path_exits(const Vec3& at, const Vec3& direction, const NodeWeights& weight,
+                    const PathTrace& trace) {
         ProbedPath& path = path_of(at, direction, trace);
         NodeWeights seen{};
         surroundings_.add_radiance(at, direction, 1.0, band_->first, band_->count, seen.data());
@@ -46,7 +46,7 @@ public:
             path.stokes[0] += weight[i] / nodes_;
         }
     }
-    void leaf(const PathEnd& end, const PathTrace& trace) {
+    void path_exits(const PathEnd& end, const PathTrace& trace) {
         ProbedPath& path = path_of(end.at, end.direction, trace);
         const Stokes through = stokes_of_unpolarised(end.coherency);
         for (int i = 0; i < band_->count; ++i) {
@@ -58,7 +58,7 @@ public:
     void remainder(const NodeWeights& weight) { add(result_.remainder, weight); }
     void absorbed(const NodeWeights& weight) { add(result_.absorbed, weight); }
     void cut(const NodeWeights& weight) { add(result_.cut, weight); }
-    void gambled(const NodeWeights&) {}  // a probe cuts
+    void roulette(const NodeWeights&) {}  // a probe cuts
     void choice_begins() { estimates_.begin(seen()); }
     void choice_ends(bool second) { estimates_.end(second, seen()); }
 

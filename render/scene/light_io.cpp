@@ -184,7 +184,7 @@ SphereLight source_of(const TomlTable& t, const SphereLight*) {
     return {point_in(t, "center"), positive_in(t, "radius"), radiance_in(t, std::nullopt)};
 }
 
-LobeLight source_of(const TomlTable& t, const LobeLight*) {
+CosinePowerLight source_of(const TomlTable& t, const CosinePowerLight*) {
     t.refuse_unknown(with_polarisation_keys({"direction", "exponent", "radiance"}));
     const double exponent = t.number("exponent").value_or(1);
     if (exponent < 0)
@@ -199,7 +199,7 @@ HemisphereLight source_of(const TomlTable& t, const HemisphereLight*) {
     return {direction, radiance_in(t, direction)};
 }
 
-CapLight source_of(const TomlTable& t, const CapLight*) {
+DiscLight source_of(const TomlTable& t, const DiscLight*) {
     t.refuse_unknown(with_polarisation_keys({"direction", "half_angle", "from", "to", "radiance"}));
     if (t.has("half_angle") == t.has("to"))
         t.fail("", "a cap needs half_angle, or a band from .. to, in degrees");

@@ -16,7 +16,7 @@ const Vec3 k_up{0, 0, 1};
 // of 40.75 degrees lie in the hole's reflection.
 constexpr double k_eye_deg = 15, k_hearts_eye_deg = 5;
 
-CapLight band(const Vec3& axis, double from_deg, double to_deg, LightColour colour) {
+DiscLight band(const Vec3& axis, double from_deg, double to_deg, LightColour colour) {
     return {glm::normalize(axis), radians(from_deg), radians(to_deg), std::move(colour)};
 }
 
@@ -43,7 +43,7 @@ Lights daylight() {
     const Vec3 sun{1, 0.4, 1.1};
     // From the head to the trees; paler where the sun is.
     lights.sources.push_back(band(k_up, 15, 75, {Rgb{0.33, 0.37, 0.43}}));
-    lights.sources.push_back(LobeLight{glm::normalize(sun), 6, {Rgb{1.3, 1.25, 1.15}}});
+    lights.sources.push_back(CosinePowerLight{glm::normalize(sun), 6, {Rgb{1.3, 1.25, 1.15}}});
     lights.sources.push_back(band(sun, 0, 2.5, {Rgb{60, 56, 50}}));
     return lights;
 }

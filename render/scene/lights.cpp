@@ -43,7 +43,7 @@ std::vector<double> radiance_of(const LightColour& colour, const WavelengthSet& 
     return wavelengths.illuminant_relative(std::get<std::string>(colour.value).c_str());
 }
 
-CapCosines cosines_of(const CapLight& cap) {
+DiscCosines cosines_of(const DiscLight& cap) {
     // Whole discs and half spaces include their limits: a cap of 180 degrees is everywhere.
     return {cap.from <= 0 ? 2.0 : std::cos(cap.from),
             cap.to >= std::numbers::pi ? -2.0 : std::cos(cap.to)};
@@ -81,7 +81,7 @@ double distance_to(const PlaneLight& plane, const Vec3& origin, const Vec3& dire
     return distance;
 }
 
-double share_of(const LobeLight& lobe, const Vec3& direction) {
+double share_of(const CosinePowerLight& lobe, const Vec3& direction) {
     const double cosine = glm::dot(direction, lobe.direction);
     return cosine > 0 ? std::pow(cosine, lobe.exponent) : 0;
 }
@@ -90,7 +90,7 @@ double share_of(const HemisphereLight& half, const Vec3& direction) {
     return glm::dot(direction, half.direction) > 0 ? 1 : 0;
 }
 
-double share_of(const CapLight& cap, const CapCosines& cosines, const Vec3& direction) {
+double share_of(const DiscLight& cap, const DiscCosines& cosines, const Vec3& direction) {
     const double cosine = glm::dot(direction, cap.direction);
     return cosine <= cosines.from && cosine > cosines.to ? 1 : 0;
 }
@@ -128,6 +128,57 @@ bool polarised(const Lights& lights) {
            std::any_of(lights.sources.begin(), lights.sources.end(), [](const Light& light) {
                return colour_of(light).polarisation.has_value();
            });
+}
+
+namespace {
+
+DiscLight rim(const Vec3& direction, double angle, double width, const LightColour& radiance) {
+    return {direction, std::max(0.0, angle - width), std::min(angle + width, std::numbers::pi),
+            radiance};
+}
+
+}  // namespace
+
+void add_rims(const DiscLight& cap, const Vec3&, double width, std::vector<Light>& rims) {
+    rims.push_back(rim(cap.direction, cap.to, width, cap.radiance));
+    if (cap.from > 0) rims.push_back(rim(cap.direction, cap.from, width, cap.radiance));
+}
+
+void add_rims(const HemisphereLight& half, const Vec3&, double width, std::vector<Light>& rims) {
+    rims.push_back(rim(half.direction, std::numbers::pi / 2, width, half.radiance));
+}
+
+// The four sides.
+void add_rims(const PlaneLight& plane, const Vec3& from, double width, std::vector<Light>& rims) {
+    width *= glm::length(plane.point - from);
+    if (!plane.u || !plane.v) return;
+    const Vec3 u = *plane.u, v = *plane.v;
+    const double along_u = glm::length(u), along_v = glm::length(v);
+    if (!(along_u > 0) || !(along_v > 0)) return;
+    for (const double side : {-1.0, 1.0}) {
+        PlaneLight one = plane;
+        one.point = plane.point + side * u;
+        one.u = u * (width / along_u);
+        one.v = v * (1 + width / along_v);
+        rims.push_back(one);
+        one.point = plane.point + side * v;
+        one.u = u * (1 + width / along_u);
+        one.v = v * (width / along_v);
+        rims.push_back(one);
+    }
+}
+
+void add_rims(SphereLight sphere, const Vec3& from, double width, std::vector<Light>& rims) {
+    sphere.radius += width * glm::length(sphere.center - from);
+    // Whose widened ball would swallow the stone is no small light.
+    if (sphere.radius < glm::length(sphere.center - from)) rims.push_back(sphere);
+}
+
+void add_rims(CosinePowerLight lobe, const Vec3&, double width, std::vector<Light>& rims) {
+    // cos^e falls to a third within about 1 / sqrt(e / 2).
+    const double angle = std::sqrt(2 / std::max(lobe.exponent, 1.0));
+    lobe.exponent = 2 / ((angle + width) * (angle + width));
+    rims.push_back(lobe);
 }
 
 }  // namespace culet

@@ -61,7 +61,7 @@ struct SphereLight {
     }
 };
 /// radiance * cos^exponent of the angle to `direction`.
-struct LobeLight {
+struct CosinePowerLight {
     static constexpr const char *k_name = "lobe", *k_names = "lobes";
     static constexpr bool k_is_near = false, k_has_edge = false;
     Vec3 direction;
@@ -86,7 +86,7 @@ struct HemisphereLight {
     }
 };
 /// Directions whose angle to `direction` is in [from, to).
-struct CapLight {
+struct DiscLight {
     static constexpr const char *k_name = "cap", *k_names = "caps";
     static constexpr bool k_is_near = false, k_has_edge = true;
     Vec3 direction;
@@ -119,7 +119,7 @@ struct PlaneLight {
 };
 
 /// In the order in which people are told of them.
-using Light = std::variant<SphereLight, LobeLight, HemisphereLight, CapLight, PlaneLight>;
+using Light = std::variant<SphereLight, CosinePowerLight, HemisphereLight, DiscLight, PlaneLight>;
 
 struct Lights {
     std::shared_ptr<const EnvironmentMap> environment;  ///< or
@@ -169,17 +169,26 @@ bool polarised(const Lights& lights);
 std::vector<double> radiance_of(const LightColour& colour, const WavelengthSet& wavelengths);
 
 /// A cap is where the cosine of the angle to its direction is in (to, from].
-struct CapCosines {
+struct DiscCosines {
     double from = 2, to = -2;
 };
-CapCosines cosines_of(const CapLight& cap);
+DiscCosines cosines_of(const DiscLight& cap);
 
 /// Of near lights: how far along a ray (unit direction) they are; infinite when the ray misses.
 double distance_to(const SphereLight& sphere, const Vec3& origin, const Vec3& direction);
 double distance_to(const PlaneLight& plane, const Vec3& origin, const Vec3& direction);
 /// Of distant ones: what share of the radiance comes from a direction (unit, towards the light).
-double share_of(const LobeLight& lobe, const Vec3& direction);
+double share_of(const CosinePowerLight& lobe, const Vec3& direction);
 double share_of(const HemisphereLight& half, const Vec3& direction);
-double share_of(const CapLight& cap, const CapCosines& cosines, const Vec3& direction);
+double share_of(const DiscLight& cap, const DiscCosines& cosines, const Vec3& direction);
+
+/// Adds lights where the radiance of this one jumps or falls steeply, `width` (radians) wide as
+/// seen from a point: the search for what few pixels show looks along them.
+void add_rims(const DiscLight& cap, const Vec3& from, double width, std::vector<Light>& rims);
+void add_rims(const HemisphereLight& half, const Vec3& from, double width,
+              std::vector<Light>& rims);
+void add_rims(const PlaneLight& plane, const Vec3& from, double width, std::vector<Light>& rims);
+void add_rims(SphereLight sphere, const Vec3& from, double width, std::vector<Light>& rims);
+void add_rims(CosinePowerLight lobe, const Vec3& from, double width, std::vector<Light>& rims);
 
 }  // namespace culet

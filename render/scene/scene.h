@@ -132,7 +132,7 @@ struct RenderSettings {
     std::optional<CrystalBeams> crystal_beams;
     int depth = 0;            ///< 0: by tolerance. Depth d has d - 1 inner segments
     double tolerance = 0.01;  ///< of the picture's mean radiance; 0: nothing is cut
-    /// Weight below which a path is not followed (crystals: gambled on), and above which both
+    /// Weight below which a path is not followed (crystals: roulette), and above which both
     /// branches of a crystal's tree are; nothing: by tolerance.
     std::optional<double> cut_weight, split_weight;
     /// Reference: the rays of a pixel take turns, so that each carries every so manieth of the

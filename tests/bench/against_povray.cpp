@@ -40,12 +40,12 @@ std::vector<NamedScene> own_scenes() {
     constant.constant = 1;
     sky.constant = 0.1;
     sky.sources.push_back(HemisphereLight{glm::normalize(Vec3{0.1, 0.2, 1}), {0.9}});
-    rings.sources.push_back(CapLight{{0, 0, 1}, 0, 0.26, {0.3}});
-    rings.sources.push_back(CapLight{{0, 0, 1}, 0.26, 0.78, {1.0}});
-    rings.sources.push_back(CapLight{{0, 0, 1}, 0.78, 1.57, {0.6}});
+    rings.sources.push_back(DiscLight{{0, 0, 1}, 0, 0.26, {0.3}});
+    rings.sources.push_back(DiscLight{{0, 0, 1}, 0.26, 0.78, {1.0}});
+    rings.sources.push_back(DiscLight{{0, 0, 1}, 0.78, 1.57, {0.6}});
     lobes.constant = 0.05;
-    lobes.sources.push_back(LobeLight{glm::normalize(Vec3{0.3, 0.2, 1}), 3, {0.6}});
-    lobes.sources.push_back(LobeLight{glm::normalize(Vec3{-1, 0.4, 0.2}), 8, {0.35}});
+    lobes.sources.push_back(CosinePowerLight{glm::normalize(Vec3{0.3, 0.2, 1}), 3, {0.6}});
+    lobes.sources.push_back(CosinePowerLight{glm::normalize(Vec3{-1, 0.4, 0.2}), 8, {0.35}});
     std::vector<NamedScene> scenes;
     for (const auto& [name, lights] : {std::pair{"constant", constant},
                                        {"hemisphere", sky},

@@ -20,11 +20,11 @@ public:
           n_(scene.stone.material.index[0].at(scene.settings.wavelengths_nm.at(0))),
           depth_(std::min(depth, k_longest - 1)),
           cut_(cut) {
-        for (const LobeLight& lobe : lights_of_type<LobeLight>(scene.lights)) {
+        for (const CosinePowerLight& lobe : lights_of_type<CosinePowerLight>(scene.lights)) {
             lobes_.push_back(
                 {lobe.direction, lobe.exponent, std::get<double>(lobe.radiance.value)});
         }
-        for (const CapLight& cap : lights_of_type<CapLight>(scene.lights)) {
+        for (const DiscLight& cap : lights_of_type<DiscLight>(scene.lights)) {
             caps_.push_back({cap.direction, cosines_of(cap), std::get<double>(cap.radiance.value)});
         }
     }
@@ -92,7 +92,7 @@ private:
     };
     struct Cap {
         Vec3 direction;
-        CapCosines cosines;
+        DiscCosines cosines;
         double radiance;
     };
     double constant_;

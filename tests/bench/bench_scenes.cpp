@@ -93,9 +93,12 @@ Lights smooth_lights(double peak) {
     Lights lights;
     const double scale = peak / 5;
     lights.constant = 0.1 * scale;
-    lights.sources.push_back(LobeLight{glm::normalize(Vec3{0.3, 0.2, 1}), 16, {4.7 * scale}});
-    lights.sources.push_back(LobeLight{glm::normalize(Vec3{-1, 0.4, 0.5}), 8, {2.0 * scale}});
-    lights.sources.push_back(LobeLight{glm::normalize(Vec3{0.5, -1, 0.3}), 4, {1.0 * scale}});
+    lights.sources.push_back(
+        CosinePowerLight{glm::normalize(Vec3{0.3, 0.2, 1}), 16, {4.7 * scale}});
+    lights.sources.push_back(
+        CosinePowerLight{glm::normalize(Vec3{-1, 0.4, 0.5}), 8, {2.0 * scale}});
+    lights.sources.push_back(
+        CosinePowerLight{glm::normalize(Vec3{0.5, -1, 0.3}), 4, {1.0 * scale}});
     return lights;
 }
 

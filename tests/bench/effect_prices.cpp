@@ -20,7 +20,7 @@ namespace culet {
 namespace {
 
 constexpr int k_rays = 9, k_pupil = 16, k_rounds = 4;
-constexpr double k_cut = 1e-3, k_gambled = 1e-2, k_split = 0.1;
+constexpr double k_cut = 1e-3, k_roulette = 1e-2, k_split = 0.1;
 const std::vector<double> k_sodium{589.3}, k_three{450, 550, 610};
 
 struct Price {
@@ -42,7 +42,7 @@ Scene with_effects(const char* material, int pixels, const std::vector<double>& 
     settings.tolerance = k_cut;
     const bool splits =
         std::find(effects.begin(), effects.end(), Effects::birefringence) != effects.end();
-    settings.cut_weight = splits ? k_gambled : k_cut;
+    settings.cut_weight = splits ? k_roulette : k_cut;
     settings.split_weight = k_split;
     settings.crystal_beams = CrystalBeams::merged;
     return scene;
@@ -125,9 +125,9 @@ std::vector<Price> prices_of(int pixels) {
          changed(plain,
                  [](Scene& s) {
                      for (Light& light : s.lights.sources) {
-                         if (const auto* lobe = std::get_if<LobeLight>(&light))
-                             light = CapLight{Vec3(lobe->direction), 0, 0.4,
-                                              LightColour(lobe->radiance)};
+                         if (const auto* lobe = std::get_if<CosinePowerLight>(&light))
+                             light = DiscLight{Vec3(lobe->direction), 0, 0.4,
+                                               LightColour(lobe->radiance)};
                      }
                  })},
         {"environment_filter", "constant light", "a map of 512 x 256",

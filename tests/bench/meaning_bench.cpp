@@ -49,19 +49,22 @@ Scene scene_of(const Case& one, int pixels) {
     const Vec3 tilt = {0.05, -0.03, 0};
     scene.camera.position += 200.0 * tilt;
     scene.lights.constant = 0.05;
-    scene.lights.sources.push_back(CapLight{Vec3{0, 0, 1}, radians(12), radians(40), {0.7}});
+    scene.lights.sources.push_back(DiscLight{Vec3{0, 0, 1}, radians(12), radians(40), {0.7}});
     scene.lights.sources.push_back(
-        CapLight{glm::normalize(Vec3{1, 0.3, 0.6}), 0, radians(18), {3.0}});
+        DiscLight{glm::normalize(Vec3{1, 0.3, 0.6}), 0, radians(18), {3.0}});
     scene.lights.sources.push_back(
-        CapLight{glm::normalize(Vec3{-0.6, 1, 0.9}), 0, radians(10), {2.0}});
+        DiscLight{glm::normalize(Vec3{-0.6, 1, 0.9}), 0, radians(10), {2.0}});
     scene.lights.sources.push_back(HemisphereLight{Vec3{0, 0, 1}, {0.12}});
     if (!one.windows) {
         // Smooth: a bright ceiling and coloured walls.
         std::erase_if(scene.lights.sources,
-                      [](const Light& light) { return std::holds_alternative<CapLight>(light); });
-        scene.lights.sources.push_back(LobeLight{Vec3{0.2, 0.1, 1}, 6, {Rgb{1.5, 1.4, 1.2}}});
-        scene.lights.sources.push_back(LobeLight{Vec3{1, 0.2, 0.4}, 20, {Rgb{2.5, 2.4, 2.6}}});
-        scene.lights.sources.push_back(LobeLight{Vec3{-0.5, 0.9, 0.3}, 12, {Rgb{0.9, 0.8, 0.5}}});
+                      [](const Light& light) { return std::holds_alternative<DiscLight>(light); });
+        scene.lights.sources.push_back(
+            CosinePowerLight{Vec3{0.2, 0.1, 1}, 6, {Rgb{1.5, 1.4, 1.2}}});
+        scene.lights.sources.push_back(
+            CosinePowerLight{Vec3{1, 0.2, 0.4}, 20, {Rgb{2.5, 2.4, 2.6}}});
+        scene.lights.sources.push_back(
+            CosinePowerLight{Vec3{-0.5, 0.9, 0.3}, 12, {Rgb{0.9, 0.8, 0.5}}});
     }
     scene.camera = cropped_to_stone(scene.camera, scene.stone.solid, pixels, 0.18);
     return scene;

@@ -379,7 +379,7 @@ HWY_EXPORT(DrawPlainly);
 
 PlainTracer::PlainTracer(const Scene& scene) : prepared_(std::make_unique<Prepared>()) {
     const Lights& lights = scene.lights;
-    if (lights.environment || count_lights<LobeLight>(lights) < lights.sources.size() ||
+    if (lights.environment || count_lights<CosinePowerLight>(lights) < lights.sources.size() ||
         polarised(lights) || scene.camera.aperture_radius > 0 ||
         scene.settings.wavelengths_nm.empty() || scene.settings.depth < 1 ||
         scene.settings.depth > 64)
@@ -406,7 +406,7 @@ PlainTracer::PlainTracer(const Scene& scene) : prepared_(std::make_unique<Prepar
             p.neighbours.push_back(static_cast<std::uint16_t>(edge.beyond));
     }
     p.constant = number(lights.constant);
-    for (const LobeLight& lobe : lights_of_type<LobeLight>(lights)) {
+    for (const CosinePowerLight& lobe : lights_of_type<CosinePowerLight>(lights)) {
         if (lobe.exponent != std::floor(lobe.exponent) || lobe.exponent > 1024)
             throw InputError("the plain tracer takes whole exponents of lobes");
         const Vec3& d = lobe.direction;

@@ -34,9 +34,9 @@ Lights bare_sun() {
     const Vec3 up{0, 0, 1};
     Lights lights;
     lights.sources.push_back(HemisphereLight{up, {Rgb{0.45, 0.5, 0.6}}});
-    lights.sources.push_back(LobeLight{up, 2, {Rgb{0.25, 0.4, 0.8}}});
+    lights.sources.push_back(CosinePowerLight{up, 2, {Rgb{0.25, 0.4, 0.8}}});
     lights.sources.push_back(
-        CapLight{glm::normalize(Vec3{1, 0.4, 1.1}), 0, radians(0.27), {Rgb{9000, 8600, 7900}}});
+        DiscLight{glm::normalize(Vec3{1, 0.4, 1.1}), 0, radians(0.27), {Rgb{9000, 8600, 7900}}});
     lights.constant = 0.08;
     return lights;
 }
@@ -51,7 +51,7 @@ Lights light_named(const std::string& name, double size) {
         Lights lights;
         lights.constant = 0.2;
         lights.sources.push_back(
-            CapLight{glm::normalize(Vec3{0.4, 0.2, 1}), 0, 0.35, {std::string("A")}});
+            DiscLight{glm::normalize(Vec3{0.4, 0.2, 1}), 0, 0.35, {std::string("A")}});
         return lights;
     }
     return *light_preset(name);

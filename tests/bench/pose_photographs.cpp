@@ -162,9 +162,9 @@ PosePhotograph pose_photograph(const PhotographSettings& settings, int seed, Fau
     scene.lights = synthetic::named_lights(light);
     if (fault == Fault::other_side) {
         // The stone lies on its table: what lit the crown lights the pavilion.
-        for (CapLight& cap : lights_of_type<CapLight>(scene.lights))
+        for (DiscLight& cap : lights_of_type<DiscLight>(scene.lights))
             cap.direction.z = -cap.direction.z;
-        for (LobeLight& lobe : lights_of_type<LobeLight>(scene.lights))
+        for (CosinePowerLight& lobe : lights_of_type<CosinePowerLight>(scene.lights))
             lobe.direction.z = -lobe.direction.z;
         for (HemisphereLight& half : lights_of_type<HemisphereLight>(scene.lights))
             half.direction.z = -half.direction.z;

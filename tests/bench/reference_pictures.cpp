@@ -32,7 +32,7 @@ std::string key_of(const Scene& scene, int samples) {
     for (const Facet& facet : scene.stone.solid.facets)
         key += numbers(facet.plane.normal) + fmt::format("{:a};", facet.plane.offset);
     key += fmt::format("constant {:a}", scene.lights.constant);
-    for (const LobeLight& lobe : lights_of_type<LobeLight>(scene.lights))
+    for (const CosinePowerLight& lobe : lights_of_type<CosinePowerLight>(scene.lights))
         key += numbers(lobe.direction) +
                fmt::format("{:a} {:a};", lobe.exponent, std::get<double>(lobe.radiance.value));
     return key;

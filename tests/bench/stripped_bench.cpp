@@ -60,8 +60,8 @@ Scene scene_of(const Case& which) {
     }
     if (which.caps) {
         scene.lights.sources.clear();
-        scene.lights.sources.push_back(CapLight{{0, 0, 1}, 0.2, 0.7, {3.0}});
-        scene.lights.sources.push_back(CapLight{{0.8, 0, 0.6}, 0, 0.5, {2.0}});
+        scene.lights.sources.push_back(DiscLight{{0, 0, 1}, 0.2, 0.7, {3.0}});
+        scene.lights.sources.push_back(DiscLight{{0.8, 0, 0.6}, 0, 0.5, {2.0}});
     }
     return scene;
 }

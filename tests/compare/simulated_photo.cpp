@@ -129,11 +129,11 @@ Lights named_lights(const std::string& name) {
         lights.sources.push_back(HemisphereLight{up, {0.1}});
         lights.sources.push_back(HemisphereLight{-up, {0.03}});
         lights.sources.push_back(
-            CapLight{glm::normalize(Vec3(1, 0.3, 0.6)), 0, radians(20), {3.0}});
+            DiscLight{glm::normalize(Vec3(1, 0.3, 0.6)), 0, radians(20), {3.0}});
         lights.sources.push_back(
-            CapLight{glm::normalize(Vec3(-0.6, 1, 0.9)), 0, radians(12), {2.0}});
+            DiscLight{glm::normalize(Vec3(-0.6, 1, 0.9)), 0, radians(12), {2.0}});
         lights.sources.push_back(
-            CapLight{glm::normalize(Vec3(-0.3, -1, 0.5)), 0, radians(8), {2.5}});
+            DiscLight{glm::normalize(Vec3(-0.3, -1, 0.5)), 0, radians(8), {2.5}});
     } else if (name == "dome") {
         // A panorama: bands and patches of sky over a grey ground.
         auto map = std::make_shared<EnvironmentMap>();
@@ -156,11 +156,11 @@ Lights named_lights(const std::string& name) {
         lights.environment = map;
     } else if (name == "ring") {
         lights.sources.push_back(HemisphereLight{-up, {0.25}});
-        lights.sources.push_back(CapLight{up, radians(14), radians(75), {1.0}});
+        lights.sources.push_back(DiscLight{up, radians(14), radians(75), {1.0}});
     } else if (name == "overcast") {
         lights.sources.push_back(HemisphereLight{up, {0.6}});
         lights.sources.push_back(HemisphereLight{-up, {0.15}});
-        lights.sources.push_back(LobeLight{glm::normalize(Vec3(0.4, 0.2, 1)), 3, {0.8}});
+        lights.sources.push_back(CosinePowerLight{glm::normalize(Vec3(0.4, 0.2, 1)), 3, {0.8}});
     } else {
         throw InputError("no lights " + name);
     }

@@ -22,7 +22,7 @@ inline Scene cube_scene() {
     scene.camera.width = scene.camera.height = 48;
     scene.camera.fov = radians(20);
     scene.lights.constant = 0.2;
-    scene.lights.sources.push_back(LobeLight{Vec3{0, 0, 1}, 4, {}});
+    scene.lights.sources.push_back(CosinePowerLight{Vec3{0, 0, 1}, 4, {}});
     return scene;
 }
 

@@ -65,10 +65,11 @@ Scene turned(Scene scene, const Turn& turn) {
     for (Vec3* v : {&camera.position, &camera.look_at, &camera.up}) *v = turn(*v);
     Lights& lights = scene.lights;
     for (SphereLight& l : lights_of_type<SphereLight>(lights)) l.center = turn(l.center);
-    for (LobeLight& l : lights_of_type<LobeLight>(lights)) l.direction = turn(l.direction);
+    for (CosinePowerLight& l : lights_of_type<CosinePowerLight>(lights))
+        l.direction = turn(l.direction);
     for (HemisphereLight& l : lights_of_type<HemisphereLight>(lights))
         l.direction = turn(l.direction);
-    for (CapLight& l : lights_of_type<CapLight>(lights)) l.direction = turn(l.direction);
+    for (DiscLight& l : lights_of_type<DiscLight>(lights)) l.direction = turn(l.direction);
     for (PlaneLight& l : lights_of_type<PlaneLight>(lights)) {
         l.point = turn(l.point);
         l.normal = turn(l.normal);

@@ -24,21 +24,21 @@ struct Sums {
     std::vector<double> leaf_weights;
     std::vector<PathEnd> ends;
     std::vector<std::string> modes;
-    void leaf(const PathEnd& end, const PathTrace& trace) {
+    void path_exits(const PathEnd& end, const PathTrace& trace) {
         const double weight = end.coherency.power() * end.transmitted[0];
         leaves += weight;
         leaf_weights.push_back(weight);
         ends.push_back(end);
         modes.emplace_back(trace.modes.begin(), trace.modes.begin() + trace.length - 1);
     }
-    void leaf(const Vec3&, const Vec3&, const NodeWeights& w, const PathTrace&) {
+    void path_exits(const Vec3&, const Vec3&, const NodeWeights& w, const PathTrace&) {
         leaves += w[0];
         leaf_weights.push_back(w[0]);
     }
     void remainder(const NodeWeights& w) { left += w[0]; }
     void absorbed(const NodeWeights& w) { lost += w[0]; }
     void cut(const NodeWeights& w) { dropped += w[0]; }
-    void gambled(const NodeWeights& w) { dropped += w[0]; }
+    void roulette(const NodeWeights& w) { dropped += w[0]; }
     void choice_begins() {}
     void choice_ends(bool) {}
     double total() const { return leaves + left + lost + dropped; }
@@ -285,7 +285,7 @@ struct Ways {
         Vec3 at, direction;
     };
     std::vector<Way> ways;
-    void leaf(const PathEnd& end, const PathTrace& trace) {
+    void path_exits(const PathEnd& end, const PathTrace& trace) {
         ways.push_back({{trace.facets.begin(), trace.facets.begin() + trace.length},
                         {trace.modes.begin(), trace.modes.begin() + trace.length - 1},
                         end.coherency.power(),
@@ -295,7 +295,7 @@ struct Ways {
     void remainder(const NodeWeights&) {}
     void absorbed(const NodeWeights&) {}
     void cut(const NodeWeights&) {}
-    void gambled(const NodeWeights&) {}
+    void roulette(const NodeWeights&) {}
     void choice_begins() {}
     void choice_ends(bool) {}
 };
@@ -437,10 +437,10 @@ TEST(CrystalPaths, choices_at_random_are_unbiased_and_know_their_error) {
     std::mt19937_64 random(seed);
     struct Seen : Ways {
         double sum = 0, start = 0, first = 0, variance = 0;
-        void leaf(const PathEnd& end, const PathTrace&) {
+        void path_exits(const PathEnd& end, const PathTrace&) {
             if (end.direction.z > 0) sum += end.coherency.power();
         }
-        void gambled(const NodeWeights& w) { sum += 0.5 * w[0]; }
+        void roulette(const NodeWeights& w) { sum += 0.5 * w[0]; }
         void choice_begins() { start = sum; }
         void choice_ends(bool second) {
             const double brought = sum - start;

@@ -156,30 +156,30 @@ TEST(ErrorEstimate, looks_at_a_false_sun_in_a_later_picture) {
 
 TEST(LightRims, of_a_cap_lie_on_both_sides_of_its_edges) {
     Lights lights;
-    lights.sources.push_back(CapLight{{0, 0, 1}, 0.3, 0.5, {2.0}});
-    lights.sources.push_back(CapLight{{0, 0, 1}, 0, 0.02, {9.0}});
+    lights.sources.push_back(DiscLight{{0, 0, 1}, 0.3, 0.5, {2.0}});
+    lights.sources.push_back(DiscLight{{0, 0, 1}, 0, 0.02, {9.0}});
     const Lights rims = light_rims(lights, k_middle, 0.05, 0);
-    ASSERT_EQ(count_lights<CapLight>(rims), 3u);
-    EXPECT_DOUBLE_EQ(nth_light<CapLight>(rims, 0).from, 0.45);
-    EXPECT_DOUBLE_EQ(nth_light<CapLight>(rims, 0).to, 0.55);
-    EXPECT_DOUBLE_EQ(nth_light<CapLight>(rims, 1).from, 0.25);
-    EXPECT_DOUBLE_EQ(nth_light<CapLight>(rims, 1).to, 0.35);
+    ASSERT_EQ(count_lights<DiscLight>(rims), 3u);
+    EXPECT_DOUBLE_EQ(nth_light<DiscLight>(rims, 0).from, 0.45);
+    EXPECT_DOUBLE_EQ(nth_light<DiscLight>(rims, 0).to, 0.55);
+    EXPECT_DOUBLE_EQ(nth_light<DiscLight>(rims, 1).from, 0.25);
+    EXPECT_DOUBLE_EQ(nth_light<DiscLight>(rims, 1).to, 0.35);
     // A light smaller than its rim is all rim.
-    EXPECT_EQ(nth_light<CapLight>(rims, 2).from, 0);
-    EXPECT_DOUBLE_EQ(nth_light<CapLight>(rims, 2).to, 0.07);
-    EXPECT_EQ(std::get<double>(nth_light<CapLight>(rims, 2).radiance.value), 9.0);
+    EXPECT_EQ(nth_light<DiscLight>(rims, 2).from, 0);
+    EXPECT_DOUBLE_EQ(nth_light<DiscLight>(rims, 2).to, 0.07);
+    EXPECT_EQ(std::get<double>(nth_light<DiscLight>(rims, 2).radiance.value), 9.0);
 }
 
 TEST(LightRims, of_dim_lights_are_left_out) {
     Lights lights;
     lights.sources.push_back(HemisphereLight{{0, 1, 0}, {1.0}});
-    lights.sources.push_back(CapLight{{0, 0, 1}, 0, 0.02, {9.0}});
-    lights.sources.push_back(CapLight{{0, 0, 1}, 0, 0.3, {4.9}});
+    lights.sources.push_back(DiscLight{{0, 0, 1}, 0, 0.02, {9.0}});
+    lights.sources.push_back(DiscLight{{0, 0, 1}, 0, 0.3, {4.9}});
     // Bright at one wavelength is bright.
     lights.sources.push_back(SphereLight{{0, 0, 50}, 1, {Rgb{0.0, 0.0, 20.0}}});
     const Lights rims = light_rims(lights, k_middle, 0.05, 5);
-    ASSERT_EQ(count_lights<CapLight>(rims), 1u);
-    EXPECT_EQ(std::get<double>(nth_light<CapLight>(rims, 0).radiance.value), 9.0);
+    ASSERT_EQ(count_lights<DiscLight>(rims), 1u);
+    EXPECT_EQ(std::get<double>(nth_light<DiscLight>(rims, 0).radiance.value), 9.0);
     EXPECT_EQ(count_lights<SphereLight>(rims), 1u);
     auto map = std::make_shared<EnvironmentMap>();
     map->width = map->height = 2;
@@ -195,9 +195,9 @@ TEST(LightRims, of_a_hemisphere_lie_about_its_horizon) {
     lights.sources.push_back(HemisphereLight{{0, 1, 0}, {1.0}});
     const Lights rims = light_rims(lights, k_middle, 0.1, 0);
     EXPECT_EQ(rims.constant, 0) << "it has no edge";
-    ASSERT_EQ(count_lights<CapLight>(rims), 1u);
-    EXPECT_DOUBLE_EQ(nth_light<CapLight>(rims, 0).from, std::numbers::pi / 2 - 0.1);
-    EXPECT_DOUBLE_EQ(nth_light<CapLight>(rims, 0).to, std::numbers::pi / 2 + 0.1);
+    ASSERT_EQ(count_lights<DiscLight>(rims), 1u);
+    EXPECT_DOUBLE_EQ(nth_light<DiscLight>(rims, 0).from, std::numbers::pi / 2 - 0.1);
+    EXPECT_DOUBLE_EQ(nth_light<DiscLight>(rims, 0).to, std::numbers::pi / 2 + 0.1);
 }
 
 TEST(LightRims, of_a_window_are_its_four_sides) {

@@ -18,7 +18,7 @@ struct Sums {
     double leaves = 0, left = 0, lost = 0, dropped = 0;
     std::vector<double> leaf_weights;
     std::vector<Vec3> directions;
-    void leaf(const Vec3&, const Vec3& direction, const NodeWeights& w, const PathTrace&) {
+    void path_exits(const Vec3&, const Vec3& direction, const NodeWeights& w, const PathTrace&) {
         leaves += w[0];
         leaf_weights.push_back(w[0]);
         directions.push_back(direction);

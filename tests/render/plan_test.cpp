@@ -44,8 +44,8 @@ Scene small_scene(const std::string& material) {
 
 void add_lobes(Scene& scene) {
     scene.lights.constant = 0.2;
-    scene.lights.sources.push_back(LobeLight{{0.6, 0, 0.8}, 8, {2.0}});
-    scene.lights.sources.push_back(LobeLight{{-0.8, 0, 0.6}, 8, {1.0}});
+    scene.lights.sources.push_back(CosinePowerLight{{0.6, 0, 0.8}, 8, {2.0}});
+    scene.lights.sources.push_back(CosinePowerLight{{-0.8, 0, 0.6}, 8, {1.0}});
 }
 
 std::set<std::string> effects_on(const ScenePlan& plan) {

@@ -179,7 +179,7 @@ TEST(Povray, says_what_it_leaves_out) {
     scene.stone.material = catalogue_material("quartz");
     EXPECT_TRUE(noted(povray_scene(scene), "double refraction"));
     EXPECT_TRUE(noted(povray_scene(scene), "dispersion"));
-    scene.lights.sources.push_back(CapLight{{0, 0, 1}, 0, 1, {std::string("A")}});
+    scene.lights.sources.push_back(DiscLight{{0, 0, 1}, 0, 1, {std::string("A")}});
     EXPECT_TRUE(noted(povray_scene(scene), "illuminant A"));
     // Every note is also in the file.
     const PovrayScene written = povray_scene(scene);
@@ -271,9 +271,9 @@ TEST_F(PovrayPictures, coloured_distant_lights) {
     scene.lights.sources.push_back(
         HemisphereLight{glm::normalize(Vec3{0.2, 0.1, 1}), {Rgb{0.3, 0.2, 0.1}}});
     scene.lights.sources.push_back(
-        LobeLight{glm::normalize(Vec3{-1, 0.5, 0.3}), 2.5, {Rgb{0.1, 0.3, 0.5}}});
-    scene.lights.sources.push_back(CapLight{{0, 0, 1}, 0.2, 0.9, {Rgb{0.5, 0.1, 0.3}}});
-    scene.lights.sources.push_back(CapLight{{1, 0, 0}, 0, 0.5, {0.1}});
+        CosinePowerLight{glm::normalize(Vec3{-1, 0.5, 0.3}), 2.5, {Rgb{0.1, 0.3, 0.5}}});
+    scene.lights.sources.push_back(DiscLight{{0, 0, 1}, 0.2, 0.9, {Rgb{0.5, 0.1, 0.3}}});
+    scene.lights.sources.push_back(DiscLight{{1, 0, 0}, 0, 0.5, {0.1}});
     EXPECT_LT(rmse(scene), k_same_picture);
 }
 

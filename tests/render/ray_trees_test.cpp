@@ -53,7 +53,7 @@ TEST(RayTrees, radiance_and_remainder_equal_fifty_digit_arithmetic) {
             material.index[1].n = n[0].get<double>();
         }
         scene.lights.constant = oracle["constant"].get<double>();
-        LobeLight lobe;
+        CosinePowerLight lobe;
         lobe.direction = glm::normalize(vector_of(oracle["lobe"]["direction"]));
         lobe.exponent = oracle["lobe"]["exponent"].get<double>();
         lobe.radiance.value = oracle["lobe"]["radiance"].get<double>();

@@ -213,7 +213,7 @@ TEST(Lights, no_ray_is_brighter_than_the_bound) {
     for (int i = 0; i < 96; ++i) map->rgb.push_back(static_cast<float>((i * 37) % 19) / 19.0f);
     Lights lights;
     lights.environment = map;
-    lights.sources.push_back(LobeLight{{0, 0, 1}, 2, {Rgb{1, 0, 0.2}}});
+    lights.sources.push_back(CosinePowerLight{{0, 0, 1}, 2, {Rgb{1, 0, 0.2}}});
     lights.sources.push_back(HemisphereLight{{1, 0, 0}, {std::string("A")}});
     for (const int count : {1, 2, 3, 5, 15}) {
         std::vector<double> nm;

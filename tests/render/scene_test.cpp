@@ -102,7 +102,7 @@ TEST(Lights, each_kind_shines_where_it_should) {
         return radiance;
     };
     Lights lights;
-    lights.sources.push_back(LobeLight{{0, 0, 1}, 2, {3.0}});
+    lights.sources.push_back(CosinePowerLight{{0, 0, 1}, 2, {3.0}});
     EXPECT_NEAR(seen(lights, {0, 0, 0}, {0, 1, 1}), 1.5, 1e-12);
     EXPECT_EQ(seen(lights, {0, 0, 0}, {0, 0, -1}), 0);
     lights = {};
@@ -110,7 +110,7 @@ TEST(Lights, each_kind_shines_where_it_should) {
     EXPECT_EQ(seen(lights, {0, 0, 0}, {1, 0, 0.01}), 2);
     EXPECT_EQ(seen(lights, {0, 0, 0}, {1, 0, -0.01}), 0);
     lights = {};
-    lights.sources.push_back(CapLight{{0, 0, 1}, radians(15), radians(45), {1.0}});
+    lights.sources.push_back(DiscLight{{0, 0, 1}, radians(15), radians(45), {1.0}});
     EXPECT_EQ(seen(lights, {0, 0, 0}, {0, std::tan(radians(14.9)), 1}), 0);
     EXPECT_EQ(seen(lights, {0, 0, 0}, {0, std::tan(radians(15.1)), 1}), 1);
     EXPECT_EQ(seen(lights, {0, 0, 0}, {0, std::tan(radians(45.1)), 1}), 0);
@@ -151,7 +151,8 @@ TEST(Render, constant_light_of_one_gives_exactly_what_paths_bring_home) {
 TEST(Render, same_bytes_for_any_number_of_threads) {
     Scene scene = scene_with("corundum");
     scene.lights.constant = 0;
-    scene.lights.sources.push_back(LobeLight{glm::normalize(Vec3{1, 1, 1}), 3, {Rgb{1, 2, 0.5}}});
+    scene.lights.sources.push_back(
+        CosinePowerLight{glm::normalize(Vec3{1, 1, 1}), 3, {Rgb{1, 2, 0.5}}});
     scene.settings.depth = 0;
     scene.settings.tolerance = 0.02;
     scene.settings.threads = 1;
@@ -322,7 +323,7 @@ wavelengths = [650, 450]
     EXPECT_EQ(scene.camera.height, 20);
     EXPECT_EQ(scene.settings.wavelengths_nm, (std::vector<double>{450, 650}));
     EXPECT_EQ(count_lights<SphereLight>(scene.lights), 1u);
-    EXPECT_EQ(nth_light<LobeLight>(scene.lights, 0).direction, (Vec3{0, 0, 1}));
+    EXPECT_EQ(nth_light<CosinePowerLight>(scene.lights, 0).direction, (Vec3{0, 0, 1}));
     EXPECT_TRUE(scene.settings.effects[0]);
     EXPECT_FALSE(scene.settings.effects[1]);
 }

@@ -26,9 +26,10 @@ Scene glass() {
     scene.camera.orthographic_width = 9;
     scene.camera.width = scene.camera.height = 200;
     scene.lights.constant = 0.1;
-    scene.lights.sources.push_back(LobeLight{Vec3{0.3, 0.1, 1}, 8, {Rgb{1.2, 1.1, 1.0}}});
-    scene.lights.sources.push_back(LobeLight{Vec3{1, 0.3, 0.5}, 30, {Rgb{3.0, 2.8, 2.9}}});
-    scene.lights.sources.push_back(LobeLight{Vec3{-0.5, 0.9, 0.4}, 20, {Rgb{1.0, 1.2, 0.8}}});
+    scene.lights.sources.push_back(CosinePowerLight{Vec3{0.3, 0.1, 1}, 8, {Rgb{1.2, 1.1, 1.0}}});
+    scene.lights.sources.push_back(CosinePowerLight{Vec3{1, 0.3, 0.5}, 30, {Rgb{3.0, 2.8, 2.9}}});
+    scene.lights.sources.push_back(
+        CosinePowerLight{Vec3{-0.5, 0.9, 0.4}, 20, {Rgb{1.0, 1.2, 0.8}}});
     scene.settings.wavelengths_nm = {550};
     scene.settings.effects_auto = false;
     scene.camera = cropped_to_stone(scene.camera, scene.stone.solid, 150, 0.18);

@@ -36,7 +36,7 @@ Scene lit_scene() {
     scene.settings.samples = 1;
     scene.settings.wavelengths_nm = {550};
     scene.settings.effects_auto = false;
-    scene.lights.sources.push_back(CapLight{glm::normalize(Vec3{1, 0.5, 0.3}), 0, 0.4, {2.0}});
+    scene.lights.sources.push_back(DiscLight{glm::normalize(Vec3{1, 0.5, 0.3}), 0, 0.4, {2.0}});
     scene.lights.sources.push_back(SphereLight{Vec3{5, -6, 8}, 2, {3.0}});
     PlaneLight plane;
     plane.point = {0, 0, -6};

@@ -31,9 +31,10 @@ Scene small_scene() {
     scene.camera.orthographic_width = 9;
     scene.camera.width = scene.camera.height = 120;
     scene.lights.constant = 0.1;
-    scene.lights.sources.push_back(LobeLight{Vec3{0.3, 0.1, 1}, 8, {Rgb{1.2, 1.1, 1.0}}});
-    scene.lights.sources.push_back(LobeLight{Vec3{1, 0.3, 0.5}, 30, {Rgb{3.0, 2.8, 2.9}}});
-    scene.lights.sources.push_back(LobeLight{Vec3{-0.5, 0.9, 0.4}, 20, {Rgb{1.0, 1.2, 0.8}}});
+    scene.lights.sources.push_back(CosinePowerLight{Vec3{0.3, 0.1, 1}, 8, {Rgb{1.2, 1.1, 1.0}}});
+    scene.lights.sources.push_back(CosinePowerLight{Vec3{1, 0.3, 0.5}, 30, {Rgb{3.0, 2.8, 2.9}}});
+    scene.lights.sources.push_back(
+        CosinePowerLight{Vec3{-0.5, 0.9, 0.4}, 20, {Rgb{1.0, 1.2, 0.8}}});
     scene.settings.wavelengths_nm = {550};
     scene.settings.effects_auto = false;
     return scene;
@@ -259,9 +260,9 @@ TEST(Fingerprint, tells_scenes_apart_by_each_of_their_parts) {
     EXPECT_EQ(print(scene), print(small_scene()));
     const std::vector<std::function<void(Scene&)>> changes{
         [](Scene& s) { s.camera.position.x += 1e-9; },
-        [](Scene& s) { nth_light<LobeLight>(s.lights, 1).exponent = 31; },
+        [](Scene& s) { nth_light<CosinePowerLight>(s.lights, 1).exponent = 31; },
         [](Scene& s) { s.lights.sources.pop_back(); },
-        [](Scene& s) { nth_light<LobeLight>(s.lights, 0).radiance.value = 1.0; },
+        [](Scene& s) { nth_light<CosinePowerLight>(s.lights, 0).radiance.value = 1.0; },
         [](Scene& s) { s.stone.solid.facets[3].plane.offset *= 1 + 1e-12; },
         [](Scene& s) { s.stone.material = catalogue_material("quartz"); },
         [](Scene& s) { s.stone.convex = false; },

@@ -16,14 +16,14 @@ Scene polarised_scene() {
     scene.camera.optics.analyzer = 0.5;
     scene.camera.optics.retarder = {137, 1.2};
     scene.lights.polarisation = LinearPolarisation{glm::normalize(Vec3{1, 0.2, 0}), {}, 1};
-    LobeLight lobe;
+    CosinePowerLight lobe;
     lobe.direction = glm::normalize(Vec3{0.3, 0.2, 1});
     lobe.exponent = 3;
     lobe.radiance.value = 2.0;
     lobe.radiance.polarisation = LinearPolarisation{{0, 1, 0}, {}, 0.7};
     scene.lights.sources.push_back(lobe);
     // Behind a sheet: turned with its normal into each ray.
-    CapLight cap;
+    DiscLight cap;
     cap.direction = glm::normalize(Vec3{-1, 0.3, 1});
     cap.to = 0.6;
     cap.radiance.value = 3.0;
@@ -96,7 +96,8 @@ TEST(MergedBeams, are_the_reference_where_the_split_is_small) {
         Scene scene = plain_scene(round_brilliant());
         look(scene, {0.21, 0.34, 1}, 10);
         scene.settings.depth = 5;
-        scene.lights.sources.push_back(LobeLight{glm::normalize(Vec3{0.3, 0.2, 1}), 3, {2.0, {}}});
+        scene.lights.sources.push_back(
+            CosinePowerLight{glm::normalize(Vec3{0.3, 0.2, 1}), 3, {2.0, {}}});
         give_crystal(scene, crystal.n, crystal.absorption);
         if (crystal.coherent) {
             scene.camera.optics.analyzer = 0.4;
@@ -125,7 +126,8 @@ TEST(PartedBeams, are_the_reference_in_crystals_of_strong_split) {
         Scene scene = plain_scene(random_stone(random, 12));
         look(scene, random_direction(random), 9, 1.5);
         scene.settings.depth = 4;
-        scene.lights.sources.push_back(LobeLight{glm::normalize(Vec3{0.3, 0.2, 1}), 3, {2.0, {}}});
+        scene.lights.sources.push_back(
+            CosinePowerLight{glm::normalize(Vec3{0.3, 0.2, 1}), 3, {2.0, {}}});
         give_crystal(scene, crystal.n, crystal.absorption);
         scene.settings.crystal_beams = CrystalBeams::parted;
         const RenderResult beams = with_engine(scene, "beams", 1),

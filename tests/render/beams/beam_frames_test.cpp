@@ -78,7 +78,7 @@ TEST(Frames, with_lights_that_call_for_other_wavelengths_are_those_of_a_fresh_re
     frames.draw();
     Scene changed = scene;
     changed.lights = {};
-    changed.lights.sources.push_back(LobeLight{{0, 0, 1}, 3, {"A", {}}});
+    changed.lights.sources.push_back(CosinePowerLight{{0, 0, 1}, 3, {"A", {}}});
     changed.lights.environment = smooth_environment();
     frames.light_with(changed.lights);
     EXPECT_EQ(frames.draw().picture.rgb, FrameRenderer(changed).draw().picture.rgb);
@@ -94,7 +94,7 @@ TEST(Frames, of_all_changed_at_once_and_taken_away_are_those_of_a_fresh_renderer
     changed.camera.width = 130;
     changed.settings.engine = "preview";
     changed.lights = {};
-    changed.lights.sources.push_back(LobeLight{{0, 0, 1}, 3, {"A", {}}});
+    changed.lights.sources.push_back(CosinePowerLight{{0, 0, 1}, 3, {"A", {}}});
     frames.show(changed);
     EXPECT_EQ(frames.draw().picture.rgb, FrameRenderer(changed).draw().picture.rgb);
     // A smaller picture, which is left where it is, and back to the first's size.
@@ -273,7 +273,7 @@ TEST(Averages, of_a_sun_many_pixels_wide_are_parts_of_a_circle) {
     Scene scene = plain_scene(slab(1));
     scene.lights = {};
     const Vec3 sun = glm::normalize(Vec3{0.3, 0.2, 1});
-    scene.lights.sources.push_back(CapLight{sun, 0.0, k_radius, {1.0, {}}});
+    scene.lights.sources.push_back(DiscLight{sun, 0.0, k_radius, {1.0, {}}});
     scene.camera.width = scene.camera.height = k_pixels;
     scene.camera.position = 10.0 * sun;
     scene.camera.look_at = 20.0 * sun;

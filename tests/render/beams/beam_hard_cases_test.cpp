@@ -161,7 +161,8 @@ TEST(HardCases, beams_of_near_views_do_not_overlap) {
 TEST(HardCases, a_lobe_of_exponent_0_shines_from_one_side) {
     Scene scene = brilliant_scene();
     scene.lights = {};
-    scene.lights.sources.push_back(LobeLight{glm::normalize(Vec3{0.2, 0.3, 1}), 0, {2.0, {}}});
+    scene.lights.sources.push_back(
+        CosinePowerLight{glm::normalize(Vec3{0.2, 0.3, 1}), 0, {2.0, {}}});
     const Difference d = difference(with_engine(scene, "beams", 1).picture,
                                     with_engine(scene, "reference", 1).picture);
     EXPECT_LE(d.off, 3) << d;
@@ -286,7 +287,7 @@ TEST(HardCases, a_sun_smaller_than_a_pixel_keeps_its_light) {
     scene.settings.depth = 3;
     scene.lights = {};
     // A pixel is 0.024 wide; the sun's diameter is 0.0094, and it stands behind the camera.
-    scene.lights.sources.push_back(CapLight{{0, 0, 1}, 0, 0.0047, {1e4, {}}});
+    scene.lights.sources.push_back(DiscLight{{0, 0, 1}, 0, 0.0047, {1e4, {}}});
     const RenderResult beams = with_engine(scene, "beams", 16);
     const RenderResult exact = with_engine(scene, "reference", 1024);
     double seen = 0, expected = 0;
@@ -313,7 +314,7 @@ TEST(HardCases, a_beam_followed_by_one_ray_shows_the_sun_where_it_is) {
     scene.settings.tolerance = 0.05;
     scene.settings.cut_weight = 1e-9;
     scene.lights = {};
-    scene.lights.sources.push_back(CapLight{{0, 0, 1}, 0, sun, {1e4, {}}});
+    scene.lights.sources.push_back(DiscLight{{0, 0, 1}, 0, sun, {1e4, {}}});
     const double f = 7 / std::tan(scene.camera.fov / 2), radius = f * std::tan(sun);
     const double R = std::pow((n - 1) / (n + 1), 2);
     const double expected = 1e4 * 2 * R / (1 + R) * std::numbers::pi * radius * radius;

@@ -39,21 +39,22 @@ inline std::vector<NamedChange> smooth_lights() {
         {"lobe, whole exponents",
          [dark](Scene& s) {
              dark(s);
-             s.lights.sources.push_back(LobeLight{glm::normalize(Vec3{0.2, 0.3, 1}), 1, {2.0, {}}});
              s.lights.sources.push_back(
-                 LobeLight{glm::normalize(Vec3{-0.5, 0.1, 0.6}), 7, {3.0, {}}});
+                 CosinePowerLight{glm::normalize(Vec3{0.2, 0.3, 1}), 1, {2.0, {}}});
              s.lights.sources.push_back(
-                 LobeLight{glm::normalize(Vec3{0, -0.5, 0.3}), 64, {5.0, {}}});
+                 CosinePowerLight{glm::normalize(Vec3{-0.5, 0.1, 0.6}), 7, {3.0, {}}});
+             s.lights.sources.push_back(
+                 CosinePowerLight{glm::normalize(Vec3{0, -0.5, 0.3}), 64, {5.0, {}}});
          }},
         {"lobe, fractional exponents",
          [dark](Scene& s) {
              dark(s);
              s.lights.sources.push_back(
-                 LobeLight{glm::normalize(Vec3{0.2, 0.3, 1}), 0.5, {2.0, {}}});
+                 CosinePowerLight{glm::normalize(Vec3{0.2, 0.3, 1}), 0.5, {2.0, {}}});
              s.lights.sources.push_back(
-                 LobeLight{glm::normalize(Vec3{-0.5, 0.1, 0.6}), 7.3, {3.0, {}}});
+                 CosinePowerLight{glm::normalize(Vec3{-0.5, 0.1, 0.6}), 7.3, {3.0, {}}});
              s.lights.sources.push_back(
-                 LobeLight{glm::normalize(Vec3{0, -0.5, 0.3}), 120, {5.0, {}}});
+                 CosinePowerLight{glm::normalize(Vec3{0, -0.5, 0.3}), 120, {5.0, {}}});
          }},
     };
 }
@@ -71,9 +72,9 @@ inline std::vector<NamedChange> edged_lights() {
          [dark](Scene& s) {
              dark(s);
              s.lights.sources.push_back(
-                 CapLight{glm::normalize(Vec3{0.1, 0.2, 1}), 0.3, 0.9, {2.0, {}}});
+                 DiscLight{glm::normalize(Vec3{0.1, 0.2, 1}), 0.3, 0.9, {2.0, {}}});
              s.lights.sources.push_back(
-                 CapLight{glm::normalize(Vec3{-1, 0.2, 0.4}), 0.0, 0.35, {4.0, {}}});
+                 DiscLight{glm::normalize(Vec3{-1, 0.2, 0.4}), 0.0, 0.35, {4.0, {}}});
          }},
         {"spheres, one before another",
          [dark](Scene& s) {
@@ -105,11 +106,11 @@ inline std::vector<NamedChange> edged_lights() {
              dark(s);
              s.lights.constant = 0.1;
              s.lights.sources.push_back(
-                 LobeLight{glm::normalize(Vec3{0.2, 0.3, 1}), 3.5, {1.0, {}}});
+                 CosinePowerLight{glm::normalize(Vec3{0.2, 0.3, 1}), 3.5, {1.0, {}}});
              s.lights.sources.push_back(
                  HemisphereLight{glm::normalize(Vec3{0.1, 0.2, 1}), {0.3, {}}});
              s.lights.sources.push_back(
-                 CapLight{glm::normalize(Vec3{-1, 0.2, 0.4}), 0.1, 0.35, {4.0, {}}});
+                 DiscLight{glm::normalize(Vec3{-1, 0.2, 0.4}), 0.1, 0.35, {4.0, {}}});
              s.lights.sources.push_back(SphereLight{{4, 2, 6}, 2, {3.0, {}}});
              s.lights.sources.push_back(
                  PlaneLight{{0, 0, 9}, {0, 0, -1}, Vec3{3, 0, 0}, Vec3{0.4, 2, 0}, {3.0, {}}});

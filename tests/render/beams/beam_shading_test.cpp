@@ -67,7 +67,7 @@ TEST(SingleRays, are_the_references_through_all_optics) {
         for (Scene scene : {brilliant_scene(), random_scene(random, 16)}) {
             smooth_lights()[1].make(scene);
             scene.lights.constant = 0.3;
-            nth_light<LobeLight>(scene.lights, 0).radiance.value = Rgb{1.0, 2.0, 3.0};
+            nth_light<CosinePowerLight>(scene.lights, 0).radiance.value = Rgb{1.0, 2.0, 3.0};
             change.make(scene);
             expect_as_reference(scene);
         }
