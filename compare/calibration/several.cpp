@@ -9,6 +9,7 @@
 
 #include "compare/json_number.h"
 #include "compare/report/report_parts.h"
+#include "compare/templates.h"
 #include "page/html.h"
 #include "page/parts.h"
 
@@ -146,46 +147,31 @@ std::string several_page(const SeveralPhotographs& several, const std::vector<Ph
                          const std::string& title, const std::string& version,
                          const std::string& command) {
     const VerdictShown shown = verdict_shown(several.verdict);
-    std::string body = fmt::format(
-        "<header class=\"headline\"><h1>{}</h1>\n<div class=\"verdict {}\"><span class=\"symbol\" "
-        "aria-hidden=\"true\">{}</span><div><p class=\"word\">{}</p><p>{}</p></div></div>\n"
-        "</header>\n",
-        escaped(title), shown.style, shown.symbol, shown.word, escaped(several.reason + "."));
-    std::string cells;
+    std::vector<View> cells;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const Comparison& c = rows[i].comparison;
         const EquivalentError* error = equivalent_of(rows[i]);
         const Photo& photo = c.pictures.photo;
-        const std::string picture = photo.rgb.empty()
-                                        ? ""
-                                        : fmt::format("<img class=\"thumb\" src=\"{}\" alt=\"\">",
-                                                      picture_uri(photo, c.pictures.white));
-        cells += fmt::format(
-            "<tr><td>{}</td><th scope=\"row\"><a href=\"{}\">{}</a><small>{}</small></th>"
-            "<td>{}</td><td class=\"n strong\">{}</td><td class=\"n\">{}</td><td "
-            "class=\"n\">{}</td>"
-            "<td class=\"n\">{} of {}</td><td class=\"n\">{}</td></tr>\n",
-            picture, escaped(rows[i].page), escaped(rows[i].name),
-            c.usable() ? "" : escaped(c.reason), verdict_shown(c.verdict).word,
-            error != nullptr ? degrees_of(*error) : "–", score_cell(c, "zncc", 3),
-            score_cell(c, "deltaE00_mean", 1), c.reflexes.matched, c.reflexes.in_photo,
-            degrees_of(several.without[i]));
+        cells.push_back({{"uri", photo.rgb.empty() ? "" : picture_uri(photo, c.pictures.white)},
+                         {"page", rows[i].page},
+                         {"name", rows[i].name},
+                         {"trouble", c.usable() ? "" : c.reason},
+                         {"verdict", verdict_shown(c.verdict).word},
+                         {"error", error != nullptr ? degrees_of(*error) : "–"},
+                         {"zncc", score_cell(c, "zncc", 3)},
+                         {"colour", score_cell(c, "deltaE00_mean", 1)},
+                         {"matched", std::to_string(c.reflexes.matched)},
+                         {"in_photo", std::to_string(c.reflexes.in_photo)},
+                         {"others", degrees_of(several.without[i])}});
     }
-    body += section(
-        "photographs", "The photographs",
-        table(
-            "Each photograph, and the common answer without it",
-            "<th scope=\"col\"></th><th scope=\"col\">Photograph</th><th scope=\"col\">Verdict</th>"
-            "<th scope=\"col\" class=\"n\">Facet error</th><th scope=\"col\" class=\"n\">ZNCC</th>"
-            "<th scope=\"col\" class=\"n\">ΔE00</th><th scope=\"col\" class=\"n\">Reflexes</th>"
-            "<th scope=\"col\" class=\"n\">Others alone</th>",
-            cells) +
-            "<p class=\"note\">Facet error: that of simulated photographs which score like this "
-            "one. Others alone: the common facet error of all the other photographs; where it "
-            "differs much from the rest, look at that photograph first.</p>\n");
-    body += section(
-        "provenance", "How this page was made",
-        fmt::format("<p>culet {}</p>\n<pre>{}</pre>\n", escaped(version), escaped(command)));
+    const std::string body = filled(
+        templates::photographs, {{"title", title},
+                                 {"verdict_html", verdict_card(shown.style, shown.symbol,
+                                                               shown.word, several.reason + ".")},
+                                 {"tall", is_tall(cells)},
+                                 {"rows", cells},
+                                 {"version", version},
+                                 {"command", command}});
     return html_page(title, body, several_json(several, rows));
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compare/report/report_parts.h"
+#include "compare/templates.h"
 #include "page/html.h"
 #include "page/json_fields.h"
 #include "page/parts.h"
@@ -69,31 +70,22 @@ const ScoreWords* words_for(const std::string& key) {
 }
 
 // The null's draws as strokes and the value as a dot, better to the right.
-std::string strip(const std::vector<double>& null, const std::optional<double>& value,
-                  bool higher_is_better) {
-    if (null.empty() || !value) return {};
-    double low = *value, high = *value;
-    for (const double v : null) {
-        low = std::min(low, v);
-        high = std::max(high, v);
-    }
-    if (!(high > low)) return {};
+View strip(const std::vector<double>& null, const std::optional<double>& value,
+           bool higher_is_better) {
+    if (null.empty() || !value) return false;
+    const auto [least, most] = std::minmax_element(null.begin(), null.end());
+    const double low = std::min(*value, *least), high = std::max(*value, *most);
+    if (!(high > low)) return false;
     const auto at = [&](double v) {
         const double share = (v - low) / (high - low);
-        return 6 + 148 * (higher_is_better ? share : 1 - share);
+        return fmt::format("{:.1f}", 6 + 148 * (higher_is_better ? share : 1 - share));
     };
-    std::string svg =
-        "<svg class=\"strip\" viewBox=\"0 0 160 20\" role=\"img\" aria-label=\"the draws of the "
-        "chance level as strokes, this value as a dot, better to the right\">"
-        "<line class=\"axis\" x1=\"6\" y1=\"16\" x2=\"154\" y2=\"16\"/>";
-    for (const double v : null) {
-        svg += fmt::format(
-            "<line class=\"draw\" x1=\"{0:.1f}\" y1=\"5\" x2=\"{0:.1f}\" y2=\"15\"/>", at(v));
-    }
-    return svg + fmt::format("<circle cx=\"{:.1f}\" cy=\"10\" r=\"5\"/></svg>", at(*value));
+    std::vector<View> draws;
+    for (const double v : null) draws.push_back(at(v));
+    return {{"draws", draws}, {"here", at(*value)}};
 }
 
-std::string score_row(const Json& scores, const std::string& key, const Json& value) {
+View score_row(const Json& scores, const std::string& key, const Json& value) {
     const ScoreWords* words = words_for(key);
     const int places = words != nullptr ? words->places : 3;
     const Json null = scores.contains("null") && scores["null"].contains(key) ? scores["null"][key]
@@ -111,14 +103,14 @@ std::string score_row(const Json& scores, const std::string& key, const Json& va
         scores.contains("score_notes") ? text_at(scores["score_notes"], key.c_str()) : "";
     std::string about = words != nullptr ? words->about : "";
     if (!note.empty()) about += (about.empty() ? "" : " – ") + note;
-    return fmt::format(
-        "<tr><th scope=\"row\">{} <span class=\"better\">{}</span><small>{}</small></th>"
-        "<td class=\"n strong\">{}</td><td class=\"n\">{} ± {}</td><td class=\"n\">{}</td>"
-        "<td>{}</td></tr>\n",
-        escaped(words != nullptr ? words->name : key), higher ? "↑" : "↓", escaped(about),
-        decimals(number, places), decimals(number_at(null, "mean"), places),
-        decimals(number_at(null, "sd"), places), decimals(number_at(null, "z"), 1),
-        strip(draws, number, higher));
+    return {{"name", score_name(key)},
+            {"higher", higher},
+            {"about", about},
+            {"value", decimals(number, places)},
+            {"mean", decimals(number_at(null, "mean"), places)},
+            {"sd", decimals(number_at(null, "sd"), places)},
+            {"z", decimals(number_at(null, "z"), 1)},
+            {"strip", strip(draws, number, higher)}};
 }
 
 }  // namespace
@@ -132,50 +124,45 @@ std::string scores_section(const Report& report, const nlohmann::json& scores) {
     if (!report.comparison || !scores.contains("scores") || !scores["scores"].is_object())
         return {};
     // In the order of the words, then whatever else there is.
-    std::string rows;
+    std::vector<View> rows;
     for (const ScoreWords& words : k_words) {
         if (scores["scores"].contains(words.key)) {
-            rows += score_row(scores, words.key, scores["scores"][words.key]);
+            rows.push_back(score_row(scores, words.key, scores["scores"][words.key]));
         }
     }
     for (const auto& [key, value] : scores["scores"].items()) {
-        if (words_for(key) == nullptr) rows += score_row(scores, key, value);
+        if (words_for(key) == nullptr) rows.push_back(score_row(scores, key, value));
     }
     if (rows.empty()) return {};
-    const auto count = std::count(rows.begin(), rows.end(), '\n');
     const Comparison& c = *report.comparison;
-    std::string body = table("Scores beside their chance level",
-                             "<th scope=\"col\">Score</th><th scope=\"col\" class=\"n\">Value</th>"
-                             "<th scope=\"col\" class=\"n\">Chance level</th>"
-                             "<th scope=\"col\" class=\"n\">Over chance (z)</th>"
-                             "<th scope=\"col\">Chance | and this picture ●</th>",
-                             rows);
-    body += fmt::format(
-        "<p class=\"note\">↑ more is better, ↓ less is better. Chance level: mean ± standard "
-        "deviation of {} draws (seed {}): {}. Over chance: "
-        "how many of these deviations the score is better (of atanh for correlations); over 3 "
-        "hardly "
-        "happens by chance. The smallest share that {} draws can show is 1/{}.</p>\n",
-        c.null_draws, c.seed, escaped(c.null_note), c.null_draws, c.null_draws + 1);
+    const std::string word = photo_word(report);
+    View light = false, reflexes = false;
     if (c.photo_light > 0) {
-        body += fmt::format(
-            "<p>Light return, as a share of the white level: {} in the {}, {} in the render.</p>\n",
-            decimals(c.photo_light, 3), photo_word(report), decimals(c.render_light, 3));
+        light = {{"photo", decimals(c.photo_light, 3)}, {"render", decimals(c.render_light, 3)}};
     }
     if (c.reflexes.in_photo > 0) {
-        body += fmt::format(
-            "<p>{} of the {}'s {} bright reflexes are found in the render, which "
-            "has {}; they lie {} % of the diameter apart (median).</p>\n",
-            c.reflexes.matched, photo_word(report), c.reflexes.in_photo, c.reflexes.in_render,
-            c.reflexes.displacement ? decimals(100 * *c.reflexes.displacement, 2) : "–");
+        const auto& apart = c.reflexes.displacement;
+        reflexes = {{"matched", std::to_string(c.reflexes.matched)},
+                    {"in_photo", std::to_string(c.reflexes.in_photo)},
+                    {"in_render", std::to_string(c.reflexes.in_render)},
+                    {"displacement", apart ? decimals(100 * *apart, 2) : "–"}};
     }
-    body += fmt::format(
-        "<p class=\"note\">{} pixels compared; {} % of them clipped by the camera and left out of "
-        "the "
-        "gain. Gain on the render: red {}, green {}, blue {}.</p>\n",
-        c.compared_pixels, decimals(100 * c.saturated, 1), significant(c.gain[0], 4),
-        significant(c.gain[1], 4), significant(c.gain[2], 4));
-    return folded_section("scores", fmt::format("{} scores beside their chance level", count),
+    const std::string body =
+        filled(templates::report_scores, {{"tall", is_tall(rows)},
+                                          {"rows", rows},
+                                          {"null_draws", std::to_string(c.null_draws)},
+                                          {"seed", std::to_string(c.seed)},
+                                          {"null_note", c.null_note},
+                                          {"shares", std::to_string(c.null_draws + 1)},
+                                          {"word", word},
+                                          {"light", light},
+                                          {"reflexes", reflexes},
+                                          {"pixels", std::to_string(c.compared_pixels)},
+                                          {"saturated", decimals(100 * c.saturated, 1)},
+                                          {"red", significant(c.gain[0], 4)},
+                                          {"green", significant(c.gain[1], 4)},
+                                          {"blue", significant(c.gain[2], 4)}});
+    return folded_section("scores", fmt::format("{} scores beside their chance level", rows.size()),
                           body);
 }
 
