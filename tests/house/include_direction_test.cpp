@@ -129,4 +129,33 @@ TEST(Rooms, have_folders_that_include_each_other_one_way) {
     }
 }
 
+// Pages are made from template files (templates/*.html.mustache), which escape by default: no tag
+// stands in a string of the program. Drawings are SVG, made where they are computed.
+TEST(Rooms, keep_html_in_template_files) {
+    const std::set<std::string> drawings{"page/chart.cpp", "page/drawing.cpp",
+                                         "compare/photo/calibration_board.cpp"};
+    const std::regex quotes(R"re('\\?"')re"), literal(R"re("(?:[^"\\]|\\.)*")re");
+    const std::regex tag(R"re(<(/?[a-z][a-z0-9]*(>|/>| [a-z-]+=)|!doctype))re");
+    const fs::path source(CULET_SOURCE_DIR);
+    for (const auto& [room, visible] : k_may_see) {
+        for (const auto& entry : fs::recursive_directory_iterator(source / room)) {
+            if (!is_source(entry.path())) continue;
+            const std::string name = fs::relative(entry.path(), source).string();
+            if (drawings.contains(name)) continue;
+            std::ifstream text(entry.path());
+            std::string line;
+            for (int number = 1; std::getline(text, line); ++number) {
+                const std::size_t begin = line.find_first_not_of(' ');
+                if (begin != std::string::npos && line.compare(begin, 2, "//") == 0) continue;
+                const std::string code = std::regex_replace(line, quotes, "");
+                for (std::sregex_iterator at(code.begin(), code.end(), literal), end; at != end;
+                     ++at) {
+                    EXPECT_FALSE(std::regex_search(at->str(), tag))
+                        << name << ":" << number << ": " << line;
+                }
+            }
+        }
+    }
+}
+
 }  // namespace
