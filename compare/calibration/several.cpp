@@ -7,22 +7,15 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "compare/json_number.h"
-#include "compare/report/report_parts.h"
-#include "compare/templates.h"
 #include "page/html.h"
-#include "page/parts.h"
+#include "page/json_fields.h"
 
 namespace culet {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const EquivalentError* equivalent_of(const PhotographRow& row) {
-    const auto& meaning = row.comparison.meaning;
-    return meaning && meaning->equivalent.deg ? &meaning->equivalent : nullptr;
-}
+constexpr auto number = json_number<Json>;
 
 EquivalentError combined(const std::vector<const EquivalentError*>& errors) {
     EquivalentError result;
@@ -53,24 +46,18 @@ EquivalentError combined(const std::vector<const EquivalentError*>& errors) {
     return result;
 }
 
-std::string degrees_of(const EquivalentError& error) {
-    return error.deg ? significant(error.deg, 2) + "°" : std::string("–");
-}
-
 Json equivalent_json(const EquivalentError& error) {
     return {{"deg", number(error.deg)},
             {"low_deg", error.deg ? number(error.low_deg) : Json(nullptr)},
             {"high_deg", error.deg ? number(error.high_deg) : Json(nullptr)}};
 }
 
-std::string score_cell(const Comparison& comparison, const char* key, int places) {
-    for (const Score& score : comparison.scores) {
-        if (score.key == key) return decimals(score.value, places);
-    }
-    return "–";
-}
-
 }  // namespace
+
+const EquivalentError* equivalent_of(const PhotographRow& row) {
+    const bool known = row.calibrated && row.calibrated->equivalent.deg;
+    return known ? &row.calibrated->equivalent : nullptr;
+}
 
 SeveralPhotographs together(const std::vector<PhotographRow>& rows) {
     SeveralPhotographs result;
@@ -141,38 +128,6 @@ std::string several_json(const SeveralPhotographs& several,
         json["photographs"].push_back(Json::parse(row.scores_json, nullptr, false));
     }
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-std::string several_page(const SeveralPhotographs& several, const std::vector<PhotographRow>& rows,
-                         const std::string& title, const std::string& version,
-                         const std::string& command) {
-    const VerdictShown shown = verdict_shown(several.verdict);
-    std::vector<View> cells;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const Comparison& c = rows[i].comparison;
-        const EquivalentError* error = equivalent_of(rows[i]);
-        const Photo& photo = c.pictures.photo;
-        cells.push_back({{"uri", photo.rgb.empty() ? "" : picture_uri(photo, c.pictures.white)},
-                         {"page", rows[i].page},
-                         {"name", rows[i].name},
-                         {"trouble", c.usable() ? "" : c.reason},
-                         {"verdict", verdict_shown(c.verdict).word},
-                         {"error", error != nullptr ? degrees_of(*error) : "–"},
-                         {"zncc", score_cell(c, "zncc", 3)},
-                         {"colour", score_cell(c, "deltaE00_mean", 1)},
-                         {"matched", std::to_string(c.reflexes.matched)},
-                         {"in_photo", std::to_string(c.reflexes.in_photo)},
-                         {"others", degrees_of(several.without[i])}});
-    }
-    const std::string body = filled(
-        templates::photographs, {{"title", title},
-                                 {"verdict_html", verdict_card(shown.style, shown.symbol,
-                                                               shown.word, several.reason + ".")},
-                                 {"tall", is_tall(cells)},
-                                 {"rows", cells},
-                                 {"version", version},
-                                 {"command", command}});
-    return html_page(title, body, several_json(several, rows));
 }
 
 }  // namespace culet

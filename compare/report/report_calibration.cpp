@@ -169,9 +169,9 @@ std::vector<double> null_values(const Calibration& calibration, const std::strin
     return values;
 }
 
-View curve_figures(const Meaning& meaning, const Calibration& calibration) {
+View curve_figures(const CalibratedVerdict& verdict) {
     // Those that weigh most.
-    std::vector<SensitivityCurve> curves = meaning.curves;
+    std::vector<SensitivityCurve> curves = verdict.curves;
     std::stable_sort(curves.begin(), curves.end(),
                      [](const auto& a, const auto& b) { return a.weight > b.weight; });
     curves.resize(std::min<std::size_t>(curves.size(), 6));
@@ -180,7 +180,7 @@ View curve_figures(const Meaning& meaning, const Calibration& calibration) {
     for (const SensitivityCurve& curve : curves) {
         const auto& alone = curve.equivalent_deg;
         figures.push_back(
-            {{"curve_svg", CurvePicture(curve, null_values(calibration, curve.key)).svg()},
+            {{"curve_svg", CurvePicture(curve, null_values(verdict.calibration, curve.key)).svg()},
              {"name", score_name(curve.key)},
              {"percent", decimals(100 * curve.weight, 0)},
              {"equivalent", alone ? significant(alone, 2) : ""}});
@@ -188,9 +188,9 @@ View curve_figures(const Meaning& meaning, const Calibration& calibration) {
     return {{"figures", figures}};
 }
 
-View nulls_table(const Meaning& meaning) {
+View nulls_table(const CalibratedVerdict& verdict) {
     std::vector<View> rows;
-    for (const NullWorth& null : meaning.nulls) {
+    for (const NullWorth& null : verdict.nulls) {
         rows.push_back({{"world", title_of(null.world)},
                         {"mean", decimals(null.mean, 2)},
                         {"sd", decimals(null.sd, 2)},
@@ -202,9 +202,9 @@ View nulls_table(const Meaning& meaning) {
     return table_view(rows);
 }
 
-View hypotheses_table(const Meaning& meaning) {
+View hypotheses_table(const CalibratedVerdict& verdict) {
     std::vector<View> rows;
-    for (const HypothesisWorth& h : meaning.hypotheses) {
+    for (const HypothesisWorth& h : verdict.hypotheses) {
         rows.push_back({{"name", h.name},
                         {"world", title_of(h.world)},
                         {"zncc", decimals(h.zncc, 3)},
@@ -215,19 +215,17 @@ View hypotheses_table(const Meaning& meaning) {
 
 }  // namespace
 
-std::string meaning_section(const Report& report) {
-    if (!report.comparison || !report.comparison->meaning || !report.comparison->calibration) {
-        return {};
-    }
-    const Meaning& meaning = *report.comparison->meaning;
-    const Calibration& calibration = *report.comparison->calibration;
+std::string calibration_section(const Report& report) {
+    if (!report.calibrated) return {};
+    const CalibratedVerdict& verdict = *report.calibrated;
+    const Calibration& calibration = verdict.calibration;
     const auto& notes = calibration.notes;
     return section("meaning", "What it means",
                    filled(templates::report_calibration,
                           {{"word", photo_word(report)},
-                           {"headline", meaning.headline},
-                           {"geometry_only", meaning.geometry_only},
-                           {"curves", curve_figures(meaning, calibration)},
+                           {"headline", verdict.headline},
+                           {"geometry_only", verdict.geometry_only},
+                           {"curves", curve_figures(verdict)},
                            {"draws", std::to_string(calibration.draws.size())},
                            {"seed", std::to_string(calibration.seed)},
                            {"psf_px", decimals(calibration.psf_px, 1)},
@@ -235,8 +233,8 @@ std::string meaning_section(const Report& report) {
                            {"kept", calibration.from_cache},
                            {"seconds", decimals(calibration.seconds, 0)},
                            {"notes", std::vector<View>(notes.begin(), notes.end())},
-                           {"nulls", nulls_table(meaning)},
-                           {"hypotheses", hypotheses_table(meaning)}}));
+                           {"nulls", nulls_table(verdict)},
+                           {"hypotheses", hypotheses_table(verdict)}}));
 }
 
 }  // namespace culet

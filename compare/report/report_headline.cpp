@@ -18,10 +18,11 @@ const Score* score_of(const Comparison& comparison, const char* key) {
     return nullptr;
 }
 
-std::string comparison_tiles(const Comparison& c) {
+std::string comparison_tiles(const Comparison& c,
+                             const std::optional<CalibratedVerdict>& calibrated) {
     std::string tiles;
-    if (c.meaning && c.meaning->equivalent.deg) {
-        const EquivalentError& error = c.meaning->equivalent;
+    if (calibrated && calibrated->equivalent.deg) {
+        const EquivalentError& error = calibrated->equivalent;
         tiles += tile("Equivalent facet error",
                       (error.at_least  ? "≥ "
                        : error.at_most ? "≤ "
@@ -91,9 +92,10 @@ std::string headline_section(const Report& report, const FitView& fitted) {
          {"geometry_only", c != nullptr && c->geometry_only},
          {"verdict_html", verdict},
          {"fit_html", fit_card(fitted)},
-         {"tiles_html", (c != nullptr ? comparison_tiles(*c) : std::string()) + fit_tiles(fitted)},
-         {"uncalibrated", scored && !c->meaning},
-         {"calibrated", scored && c->meaning.has_value()}});
+         {"tiles_html", (c != nullptr ? comparison_tiles(*c, report.calibrated) : std::string()) +
+                            fit_tiles(fitted)},
+         {"uncalibrated", scored && !report.calibrated},
+         {"calibrated", scored && report.calibrated.has_value()}});
 }
 
 }  // namespace culet

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compare/report/report_parts.h"
+#include "compare/scores/score_list.h"
 #include "compare/templates.h"
 #include "page/html.h"
 #include "page/json_fields.h"
@@ -18,56 +19,6 @@ namespace culet {
 namespace {
 
 using Json = nlohmann::json;
-
-struct ScoreWords {
-    const char *key, *name, *about;
-    int places;
-};
-
-constexpr ScoreWords k_words[] = {
-    {"zncc", "Pattern of light",
-     "ZNCC at 2 %: the same places bright and dark, seen through a blur of 2 % of the stone; 1 is "
-     "perfect",
-     3},
-    {"zncc_1pct", "Pattern of light, finer", "ZNCC at 1 %: the same through half the blur", 3},
-    {"zncc_4pct", "Pattern of light, coarser", "ZNCC at 4 %: the same through twice the blur", 3},
-    {"reflex_f1", "Bright spots found",
-     "F1: bright spots of one picture found in the other, 0 to 1", 3},
-    {"reflex_area_f1", "Bright spots found, by area", "the same, large spots count more", 3},
-    {"reflex_hue", "Bright spots of one hue",
-     "of the coloured spots that were found, those with the photo's hue, 0 to 1", 2},
-    {"cw_ssim", "Facets' images in place",
-     "CW-SSIM: are the facets' images where they should be; hardly minds the light; 1 is perfect",
-     3},
-    {"ssim", "Structure",
-     "SSIM: likeness of each neighbourhood; for comparison with the literature only", 3},
-    {"gmsd", "Edges",
-     "GMSD: how differently sharp the edges are, 0 is alike; for comparison with the literature "
-     "only",
-     3},
-    {"nmi", "Brightness told by brightness",
-     "mutual information: does one picture's brightness tell the other's, whatever the tone curve",
-     3},
-    {"psnr", "Error of the colours, dB",
-     "PSNR: error of the encoded colours against full scale, 10 dB more is a third of it", 1},
-    {"deltaE00_mean", "Colour difference", "ΔE00 (CIEDE2000), mean: 1 is just visible", 2},
-    {"deltaE00_p95", "Colour difference, nearly all", "ΔE00 that 95 % of the stone stay under", 2},
-    {"body_deltaE00", "Body colour difference",
-     "ΔE00 between the mean colours: material and white balance", 2},
-    {"colour_emd", "Colours, wherever they are",
-     "EMD (earth mover's distance): how far colours must be moved to be the photo's", 2},
-    {"facet_tilts_deg", "Tilted facets, °",
-     "how much of the difference is what tilted facets change", 3},
-    {"flip_mean", "Difference to the eye",
-     "FLIP, mean: what shows when the two are flicked between, 0 is nothing", 3},
-};
-
-const ScoreWords* words_for(const std::string& key) {
-    for (const ScoreWords& words : k_words) {
-        if (words.key == key) return &words;
-    }
-    return nullptr;
-}
 
 // The null's draws as strokes and the value as a dot, better to the right.
 View strip(const std::vector<double>& null, const std::optional<double>& value,
@@ -86,8 +37,8 @@ View strip(const std::vector<double>& null, const std::optional<double>& value,
 }
 
 View score_row(const Json& scores, const std::string& key, const Json& value) {
-    const ScoreWords* words = words_for(key);
-    const int places = words != nullptr ? words->places : 3;
+    const ScoreKind* kind = score_kind(key);
+    const int places = kind != nullptr ? kind->decimals : 3;
     const Json null = scores.contains("null") && scores["null"].contains(key) ? scores["null"][key]
                                                                               : Json::object();
     std::vector<double> draws;
@@ -101,7 +52,7 @@ View score_row(const Json& scores, const std::string& key, const Json& value) {
         value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
     const std::string note =
         scores.contains("score_notes") ? text_at(scores["score_notes"], key.c_str()) : "";
-    std::string about = words != nullptr ? words->about : "";
+    std::string about = kind != nullptr ? kind->about : "";
     if (!note.empty()) about += (about.empty() ? "" : " – ") + note;
     return {{"name", score_name(key)},
             {"higher", higher},
@@ -116,22 +67,22 @@ View score_row(const Json& scores, const std::string& key, const Json& value) {
 }  // namespace
 
 std::string score_name(const std::string& key) {
-    const ScoreWords* words = words_for(key);
-    return words != nullptr ? words->name : key;
+    const ScoreKind* kind = score_kind(key);
+    return kind != nullptr ? kind->name : key;
 }
 
 std::string scores_section(const Report& report, const nlohmann::json& scores) {
     if (!report.comparison || !scores.contains("scores") || !scores["scores"].is_object())
         return {};
-    // In the order of the words, then whatever else there is.
+    // In the order of the table, then whatever else there is.
     std::vector<View> rows;
-    for (const ScoreWords& words : k_words) {
-        if (scores["scores"].contains(words.key)) {
-            rows.push_back(score_row(scores, words.key, scores["scores"][words.key]));
+    for (const ScoreKind& kind : score_kinds()) {
+        if (scores["scores"].contains(kind.key)) {
+            rows.push_back(score_row(scores, kind.key, scores["scores"][kind.key]));
         }
     }
     for (const auto& [key, value] : scores["scores"].items()) {
-        if (words_for(key) == nullptr) rows.push_back(score_row(scores, key, value));
+        if (score_kind(key) == nullptr) rows.push_back(score_row(scores, key, value));
     }
     if (rows.empty()) return {};
     const Comparison& c = *report.comparison;
@@ -148,20 +99,22 @@ std::string scores_section(const Report& report, const nlohmann::json& scores) {
                     {"displacement", apart ? decimals(100 * *apart, 2) : "–"}};
     }
     const std::string body =
-        filled(templates::report_scores, {{"tall", is_tall(rows)},
-                                          {"rows", rows},
-                                          {"null_draws", std::to_string(c.null_draws)},
-                                          {"seed", std::to_string(c.seed)},
-                                          {"null_note", c.null_note},
-                                          {"shares", std::to_string(c.null_draws + 1)},
-                                          {"word", word},
-                                          {"light", light},
-                                          {"reflexes", reflexes},
-                                          {"pixels", std::to_string(c.compared_pixels)},
-                                          {"saturated", decimals(100 * c.saturated, 1)},
-                                          {"red", significant(c.gain[0], 4)},
-                                          {"green", significant(c.gain[1], 4)},
-                                          {"blue", significant(c.gain[2], 4)}});
+        filled(templates::report_scores,
+               {{"tall", is_tall(rows)},
+                {"rows", rows},
+                {"null_draws", std::to_string(c.null_draws)},
+                {"seed", std::to_string(c.seed)},
+                {"null_note", c.null_note},
+                {"shares", std::to_string(c.null_draws + 1)},
+                {"word", word},
+                {"light", light},
+                {"reflexes", reflexes},
+                {"pixels", std::to_string(c.compared_pixels)},
+                {"render_blur", c.render_blur_px > 0 ? decimals(c.render_blur_px, 1) : ""},
+                {"saturated", decimals(100 * c.saturated, 1)},
+                {"red", significant(c.gain[0], 4)},
+                {"green", significant(c.gain[1], 4)},
+                {"blue", significant(c.gain[2], 4)}});
     return folded_section("scores", fmt::format("{} scores beside their chance level", rows.size()),
                           body);
 }

@@ -6,14 +6,15 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "compare/json_number.h"
 #include "compare/study/scene_study.h"
+#include "page/json_fields.h"
 
 namespace culet {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+constexpr auto number = json_number<Json>;
 
 Json errors(const PictureError& error) {
     return {{"error", number(error.mean)},

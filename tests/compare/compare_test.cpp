@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "compare/report/scores_json.h"
 #include "render/colour/colour.h"
 #include "stone/errors.h"
 #include "stone/units.h"
