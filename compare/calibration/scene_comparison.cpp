@@ -148,6 +148,7 @@ void compare_calibrated(SceneComparison& result, AlignedPair pair, const Photo& 
                    return Clock::now() - begun < k_most_for_tilts * left;
                });
     calibration.tilts = &tilts;
+    const double tilt_seconds = std::chrono::duration<double>(Clock::now() - begun).count();
 
     pair = with_render(std::move(pair), softened(result.render, camera.psf_px));
     const CalibratedScoring scoring{camera.psf_px, tilts.facet_error_deg(pair)};
@@ -159,7 +160,7 @@ void compare_calibrated(SceneComparison& result, AlignedPair pair, const Photo& 
                             : calibrate(result.scene, result.render, renderer, calibration,
                                         part_of(progress, k_bar_for_scores, 1));
     if (!kept) {
-        made.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+        made.seconds += tilt_seconds;
         made.psf_px = camera.psf_px;
         made.electrons = camera.electrons;
         made.stone_px = pair.frame.render_diameter_px;

@@ -83,9 +83,9 @@ struct Trial {
             Score score;
             score.key = calibration.keys[k];
             score.value = values[k];
-            const ScoreKind& kind = score_kinds()[k];
-            score.higher_is_better = kind.higher_is_better();
-            score.is_correlation = kind.scale == ScoreScale::correlation;
+            const ScoreKind& row = score_kinds()[k];
+            score.higher_is_better = row.higher_is_better();
+            score.is_correlation = row.scale == ScoreScale::correlation;
             if (score.value) scores[score.key] = *score.value * (score.higher_is_better ? 1 : -1);
             of_photo.push_back(std::move(score));
         }

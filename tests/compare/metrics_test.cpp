@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/quality/qualityssim.hpp>
+#include <set>
 
 #include "compare/photo/pixels.h"
 #include "compare/photo/resampling.h"
@@ -267,6 +268,18 @@ TEST(ScoredPart, of_the_frame_gives_the_whole_frames_scores) {
         if (!a.value) continue;
         EXPECT_NEAR(*a.value, *b.value, a.key == "cw_ssim" ? 0.005 : 1e-5) << a.key;
     }
+}
+
+// Expected: keys are names in the JSON, and a perfect score is stretched beyond any other.
+TEST(ScoreTable, has_each_key_once_and_says_which_way_is_better) {
+    std::set<std::string> keys;
+    for (const ScoreKind& kind : score_kinds()) {
+        EXPECT_TRUE(keys.insert(kind.key).second) << kind.key;
+        EXPECT_EQ(score_kind(kind.key), &kind);
+        const double good = kind.higher_is_better() ? 0.9 : 0.1;
+        EXPECT_GE(stretch(good, kind.scale), stretch(1 - good, kind.scale)) << kind.key;
+    }
+    EXPECT_EQ(score_kind("none"), nullptr);
 }
 
 // A stone that fills the frame: nothing is asked for beyond it.

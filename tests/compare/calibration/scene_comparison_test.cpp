@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <set>
@@ -75,6 +76,23 @@ TEST(SceneComparison, of_the_right_stone_is_nearer_than_of_a_wrong_one) {
     const std::string json = scores_json(right.comparison, {}, right.calibrated);
     EXPECT_NE(json.find("\"sensitivity\": [\n"), std::string::npos);
     EXPECT_NE(json.find("\"headline\""), std::string::npos);
+}
+
+// Of a key there is one number: in the table of scores, on its curve and in the verdict.
+TEST(SceneComparison, has_one_value_for_each_score) {
+    const Scene scene = small_scene();
+    const SceneComparison compared = compare_with_scene(photograph_of(scene, 0.2), scene, quick());
+    ASSERT_TRUE(compared.calibrated);
+    const std::vector<Score>& scores = compared.comparison.scores;
+    EXPECT_EQ(scores.size(), compared.calibrated->calibration.keys.size());
+    EXPECT_GT(compared.comparison.render_blur_px, 0);
+    ASSERT_FALSE(compared.calibrated->curves.empty());
+    for (const SensitivityCurve& curve : compared.calibrated->curves) {
+        const auto score = std::find_if(scores.begin(), scores.end(),
+                                        [&](const Score& s) { return s.key == curve.key; });
+        ASSERT_NE(score, scores.end()) << curve.key;
+        EXPECT_EQ(score->value, curve.value) << curve.key;
+    }
 }
 
 // A hand-made mesh: its corners are only roughly in their planes. Said, not left out in silence.
