@@ -9,6 +9,8 @@
 #include "compare/calibration/scene_comparison.h"
 #include "compare/calibration/several.h"
 #include "compare/report/report.h"
+#include "compare/report/scores_json.h"
+#include "compare/report/several_page.h"
 #include "compare/scores/compare.h"
 #include "render/scene/scene_io.h"
 #include "stone/errors.h"
@@ -102,6 +104,7 @@ CompareOptions options_of(const CompareArguments& a, const Photo& photo) {
 // What one photograph came to.
 struct Compared {
     Comparison comparison;
+    std::optional<CalibratedVerdict> calibrated;
     std::string json;
     Report report;
 };
@@ -151,8 +154,10 @@ Compared compare_with_scene(const CompareArguments& a, const std::string& photo_
     result.comparison = std::move(compared.comparison);
     CompareSources sources{photo_file, a.against(), a.mask};
     sources.pose = compared.pose ? pose_json(*compared.pose) : "";
-    result.json = scores_json(result.comparison, sources);
+    result.calibrated = std::move(compared.calibrated);
+    result.json = scores_json(result.comparison, sources, result.calibrated);
     result.report = report_of(a, photo_file, result.comparison, result.json, version);
+    result.report.calibrated = result.calibrated;
     result.report.stats_json = stats_json(compared.stats);
     result.report.settings = read_text(a.against());
     if (compared.pose) {
@@ -235,7 +240,7 @@ int run_compare(const CompareArguments& a, const std::string& version) {
         pages.push_back(report_page(one.report));
         rows.push_back({fs::path(file).filename().string(),
                         fmt::format("photograph-{}.html", i + 1), one.json,
-                        std::move(one.comparison)});
+                        std::move(one.comparison), std::move(one.calibrated)});
     }
     const SeveralPhotographs several = together(rows);
     const std::string json = several_json(several, rows);

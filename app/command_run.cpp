@@ -10,6 +10,7 @@
 #include "app/terminal.h"
 #include "compare/photo/rendered_photo.h"
 #include "compare/report/report.h"
+#include "compare/report/scores_json.h"
 #include "compare/scores/compare.h"
 #include "fit/fit.h"
 #include "render/image/exposure.h"

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/terminal.h"
+#include "compare/report/study_pictures.h"
 #include "compare/study/scene_study.h"
 #include "page/scene_study_page.h"
 #include "render/image/image_io.h"

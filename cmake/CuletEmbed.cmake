@@ -22,10 +22,11 @@ function(culet_embed out)
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${out} CONTENT "${text}" @ONLY)
 endfunction()
 
-# culet_templates(room): templates/*.html.mustache of this folder as `const Template culet::templates::NAME`, in
-# templates.cpp of the build folder, declared for the room's own sources by "room/templates.h" beside it.
+# culet_templates(room [folder]): templates/*.html.mustache of this folder, or of one in it, as
+# `const Template culet::templates::NAME`, in templates.cpp of the build folder, declared for the room's own sources by
+# "room/templates.h" beside it. Names are one room's alone.
 function(culet_templates room)
-  file(GLOB files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/templates/*.html.mustache)
+  file(GLOB files CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${ARGN}/templates/*.html.mustache)
   set(declared "#pragma once\n#include \"page/template.h\"\nnamespace culet::templates {\n")
   set(defined "#include \"${room}/templates.h\"\nnamespace culet::templates {\n")
   foreach(path ${files})

@@ -1,7 +1,8 @@
 #pragma once
-// Fields of a JSON object that may be missing or of another kind. Templates, so that no header of
-// the room shows a JSON library; `Json` is nlohmann::json.
+// Fields of a JSON object that may be missing or of another kind, and numbers to be written.
+// Templates, so that no header of the room shows a JSON library; `Json` is nlohmann's.
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -60,6 +61,12 @@ const Json& array_at(const Json& object, const char* key) {
     if (!object.is_object()) return none;
     const auto found = object.find(key);
     return found != object.end() && found->is_array() ? *found : none;
+}
+
+/// JSON has no infinity and no NaN: such a number, and none, is written as null.
+template <typename Json>
+Json json_number(const std::optional<double>& value) {
+    return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
 }
 
 }  // namespace culet

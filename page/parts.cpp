@@ -1,7 +1,5 @@
 #include "page/parts.h"
 
-#include <algorithm>
-
 #include "page/html.h"
 #include "page/templates.h"
 
@@ -71,13 +69,6 @@ bool is_tall(const std::vector<View>& rows) {
 View table_view(const std::vector<View>& rows) {
     if (rows.empty()) return false;
     return {{"tall", is_tall(rows)}, {"rows", rows}};
-}
-
-std::string table(const std::string& caption, const std::string& head, const std::string& body) {
-    // More than a screenful scrolls under its heading.
-    const bool tall = std::count(body.begin(), body.end(), '\n') > 24;
-    return filled(templates::table,
-                  {{"caption", caption}, {"head_html", head}, {"rows_html", body}, {"tall", tall}});
 }
 
 std::string colour_bar(ColourMap map, const std::string& what, const std::string& from,

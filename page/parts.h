@@ -39,9 +39,6 @@ struct ListItem {
 };
 std::string short_list(const std::vector<ListItem>& items);
 
-/// `<div class="scroll">` around a table, so that a narrow screen scrolls the table, not the page.
-std::string table(const std::string& caption, const std::string& head, const std::string& body);
-
 /// More rows than fill a screen: a table of them scrolls under its heading.
 bool is_tall(const std::vector<View>& rows);
 

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "page/chart.h"
 #include "page/html.h"
 #include "page/json_fields.h"
 #include "page/parts.h"
+#include "page/scene_study_fields.h"
 #include "page/study_sections.h"
 #include "page/templates.h"
 
@@ -18,103 +17,6 @@ namespace culet {
 namespace {
 
 using Json = nlohmann::json;
-
-Json object_at(const Json& object, const char* key) {
-    if (!object.is_object() || !object.contains(key) || !object[key].is_object())
-        return Json::object();
-    return object[key];
-}
-
-// Nothing for an id that is not there.
-const Json* row_of(const Json& study, const std::optional<double>& id) {
-    if (!id) return nullptr;
-    for (const Json& row : array_at(study, "settings")) {
-        if (number_at(row, "id") == id) return &row;
-    }
-    return nullptr;
-}
-
-std::vector<const Json*> front_of(const Json& study) {
-    std::vector<const Json*> rows;
-    for (const Json& id : array_at(study, "front")) {
-        if (!id.is_number()) continue;
-        if (const Json* row = row_of(study, id.get<double>())) rows.push_back(row);
-    }
-    return rows;
-}
-
-std::string words_in(const Json& row) {
-    const std::string words = text_at(row, "words");
-    return words.empty() ? text_at(row, "setting") : words;
-}
-
-std::string ms(const Json& row, const char* key = "cpu_seconds") {
-    const auto seconds = number_at(row, key);
-    return seconds ? significant(1000 * *seconds) : "–";
-}
-
-std::string error_of(const Json& row) {
-    return (true_at(row, "at_noise") ? "≤ " : "") + significant(number_at(row, "claimed_error"), 2);
-}
-
-// As people write tolerances: 0.1, 0.003.
-std::string tolerance_of(const Json& row) {
-    return fmt::format("{:g}", value_at(row, "tolerance"));
-}
-
-double noise_of(const Json& study) {
-    return value_at(object_at(object_at(study, "reference"), "noise"), "error");
-}
-
-// Every setting by its engine; the front as a line, the automatic settings as another.
-Chart time_chart(const Json& study) {
-    Chart chart;
-    chart.title = "What accuracy costs in time";
-    chart.about =
-        "Error against processor time of each way of drawing the scene, both logarithmic, with "
-        "the front of those that no other beats in both.";
-    chart.x_label = "processor time of one picture, ms";
-    chart.y_label = "mean error, of the mean radiance";
-    const auto point = [](const Json& row, const std::string& label) {
-        return ChartPoint{1000 * value_at(row, "cpu_seconds"),
-                          value_at(row, "claimed_error"),
-                          label,
-                          fmt::format("{}: {} ms, error {}", words_in(row), ms(row), error_of(row)),
-                          std::nan(""),
-                          std::nan(""),
-                          true_at(row, "at_noise")};
-    };
-    ChartSeries front{"front", {}, true, false, false};
-    for (const Json* row : front_of(study)) front.points.push_back(point(*row, ""));
-    chart.series.push_back(std::move(front));
-    for (const char* engine : {"beams", "preview", "reference"}) {
-        ChartSeries series{engine, {}, false, true, false};
-        for (const Json& row : array_at(study, "settings")) {
-            if (text_at(row, "engine") == engine && !true_at(row, "automatic"))
-                series.points.push_back(point(row, ""));
-        }
-        if (!series.points.empty()) chart.series.push_back(std::move(series));
-    }
-    ChartSeries automatic{"automatic", {}, true, true, false};
-    for (const Json& row : array_at(study, "settings")) {
-        if (true_at(row, "automatic")) automatic.points.push_back(point(row, tolerance_of(row)));
-    }
-    if (!automatic.points.empty()) chart.series.push_back(std::move(automatic));
-    // As wide as the settings are.
-    double least = INFINITY, most = 0;
-    for (const Json& row : array_at(study, "settings")) {
-        const double at = 1000 * value_at(row, "cpu_seconds");
-        if (!(at > 0)) continue;
-        least = std::min(least, at);
-        most = std::max(most, at);
-    }
-    const double noise = noise_of(study);
-    if (most > 0 && noise > 0) {
-        chart.series.push_back(
-            {"noise", {{least, noise, {}, {}}, {most, noise, {}, {}}}, true, false, true});
-    }
-    return chart;
-}
 
 // "640 × 480".
 std::string pixels(const Json& sides) {
@@ -279,38 +181,6 @@ View reference_of(const Json& study) {
 
 }  // namespace
 
-std::string scene_study_table(const std::string& study_json) {
-    const Json study = parsed_study<Json>(study_json);
-    std::string text;
-    const auto plain = [](std::string cell) {
-        for (const auto& [from, to] : {std::pair("−", "-"), std::pair("–", "-"),
-                                       std::pair("≤ ", "<="), std::pair("×", "x")}) {
-            for (std::size_t at = cell.find(from); at != std::string::npos; at = cell.find(from))
-                cell.replace(at, std::string(from).size(), to);
-        }
-        return cell;
-    };
-    for (const Json* row : front_of(study)) {
-        if (text.empty()) {
-            text = fmt::format("{:>9} {:>9} {:>9} {:>9} {:>7} {:>7}  {}\n", "CPU/ms", "wall/ms",
-                               "error", "RMSE", "dE00", "FLIP", "setting on the front");
-        }
-        text += fmt::format("{:>9} {:>9} {:>9} {:>9} {:>7} {:>7}  {}\n", plain(ms(*row)),
-                            plain(ms(*row, "wall_seconds")), plain(error_of(*row)),
-                            plain(significant(number_at(*row, "rmse"), 2)),
-                            plain(decimals(number_at(*row, "deltaE00_mean"), 2)),
-                            plain(decimals(number_at(*row, "flip_mean"), 4)), words_in(*row));
-    }
-    if (!array_at(study, "recommendations").empty()) text += "\n";
-    for (const Json& advice : array_at(study, "recommendations"))
-        text += text_at(advice, "words") + "\n";
-    return text;
-}
-
-std::string scene_study_chart(const std::string& study_json) {
-    return draw_chart_svg(time_chart(parsed_study<Json>(study_json)));
-}
-
 std::string scene_study_page(const SceneStudyView& view) {
     const Json study = parsed_study<Json>(view.study_json);
     std::string title = view.title.empty() ? text_at(study, "name") : view.title;
@@ -331,7 +201,7 @@ std::string scene_study_page(const SceneStudyView& view) {
                 {"usable", true_at(study, "usable")},
                 {"noise", significant(noise_of(study), 2)},
                 {"advice", advice_of(study)},
-                {"chart_html", chart_figure(draw_chart_svg(time_chart(study)))},
+                {"chart_html", chart_figure(scene_study_chart(view.study_json))},
                 {"front", front_figures(study, view)},
                 {"planned", !plans.empty()},
                 {"plans", plans},

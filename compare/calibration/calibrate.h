@@ -52,10 +52,10 @@ std::vector<Calibration> calibrate(const Scene& model, const Photo& model_pictur
                                    const std::vector<CameraModel>& cameras,
                                    const Progress& progress = {});
 
-/// A photograph laid on the picture and scored: one a key, without nulls; the
-/// last is that of `tilts`, a missing one without them. The picture must be as
-/// soft as the photograph (photo_blur.h): against a sharp one the blur alone outweighs facet errors
-/// under a tenth of a degree.
+/// A photograph aligned with the picture and scored: one a row of the table of scores, without
+/// nulls; without `tilts` theirs is missing. The picture must be as soft as the photograph
+/// (photo_blur.h): against a sharp one the blur alone outweighs facet errors under a tenth of a
+/// degree.
 std::vector<Score> scores_against(const Photo& photo, const std::vector<float>& mask,
                                   const Photo& soft_picture, const Alignment& how,
                                   const FacetTilts* tilts);

@@ -30,7 +30,6 @@ struct CalibrationDraw {
 
 struct Calibration {
     std::vector<std::string> keys;  ///< of the scores
-    std::vector<bool> higher_is_better;
     std::vector<CalibrationDraw> draws;
     int planned = 0;  ///< draws that were asked for; fewer were made where the budget ended it
     std::uint64_t seed = 1;

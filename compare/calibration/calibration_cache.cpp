@@ -5,7 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <system_error>
 
-#include "compare/calibration/facet_tilts.h"
+#include "compare/scores/score_list.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 

@@ -2,13 +2,14 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/calibration/calibration.h"
-#include "compare/json_number.h"
+#include "page/json_fields.h"
 
 namespace culet {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+constexpr auto number = json_number<Json>;
 
 constexpr int k_schema = 3;  // 1: scored against a sharp render; 2: without the facets' tilts
 constexpr std::size_t k_most_draws = 100000;
@@ -25,6 +26,26 @@ std::optional<World> world_named(const std::string& name) {
 
 }  // namespace
 
+const char* name_of(World world) {
+    switch (world) {
+        case World::facet_error:
+            return "facet_error";
+        case World::light:
+            return "light";
+        case World::pose:
+            return "pose";
+        case World::both:
+            return "both";
+        case World::catalogue:
+            return "catalogue";
+        case World::material:
+            return "material";
+        case World::wrong:
+            return "wrong";
+    }
+    return "wrong";
+}
+
 std::string calibration_json(const Calibration& calibration) {
     Json json;
     json["schema"] = k_schema;
@@ -37,7 +58,6 @@ std::string calibration_json(const Calibration& calibration) {
     json["electrons"] = number(calibration.electrons);
     json["seconds"] = number(calibration.seconds);
     json["keys"] = calibration.keys;
-    json["higher_is_better"] = calibration.higher_is_better;
     json["notes"] = calibration.notes;
     json["draws"] = Json::array();
     for (const CalibrationDraw& draw : calibration.draws) {
@@ -65,9 +85,7 @@ std::optional<Calibration> calibration_from(const std::string& text) {
         result.electrons = json.at("electrons").get<double>();
         result.seconds = json.at("seconds").get<double>();
         result.keys = json.at("keys").get<std::vector<std::string>>();
-        result.higher_is_better = json.at("higher_is_better").get<std::vector<bool>>();
         result.notes = json.at("notes").get<std::vector<std::string>>();
-        if (result.keys.size() != result.higher_is_better.size()) return std::nullopt;
         if (json.at("draws").size() > k_most_draws) return std::nullopt;
         for (const Json& one : json.at("draws")) {
             CalibrationDraw draw;

@@ -24,8 +24,8 @@ DraftRenderer::DraftRenderer(const Scene& model, double tolerance) {
     scene.settings.checked_samples = k_checked_samples;
     // Beams wherever they can draw the scene at all: what they are off by is the same in all the
     // pictures, and a hundred of them by the reference would take an hour.
-    if (model.settings.engine != "reference") {
-        scene.settings.engine = "beams";
+    if (model.settings.engine != k_reference_engine) {
+        scene.settings.engine = k_beam_engine;
         try {
             settle(scene);
             return;
@@ -33,7 +33,7 @@ DraftRenderer::DraftRenderer(const Scene& model, double tolerance) {
             // Drawn by the reference, which says better what is wrong if it cannot draw it either.
         }
     }
-    scene.settings.engine = "reference";
+    scene.settings.engine = k_reference_engine;
     scene.settings.samples = k_few_rays;
     settle(scene);
 }
@@ -48,7 +48,7 @@ void DraftRenderer::settle(const Scene& scene) {
 Photo DraftRenderer::draw(const Scene& scene, const Progress& progress) const {
     Scene drawn = scene;
     drawn.settings = settings_;
-    if (settings_.engine != "beams" && settings_.engine != "preview") {
+    if (!drawn_by_beams(settings_)) {
         return photo_of(render(drawn, progress).picture);
     }
     FrameRenderer renderer(drawn);
@@ -57,7 +57,7 @@ Photo DraftRenderer::draw(const Scene& scene, const Progress& progress) const {
 }
 
 std::optional<Photo> DraftRenderer::sketch(const Scene& scene) const {
-    if (settings_.engine != "beams" && settings_.engine != "preview") return std::nullopt;
+    if (!drawn_by_beams(settings_)) return std::nullopt;
     Scene drawn = scene;
     drawn.settings = settings_;
     drawn.settings.wavelengths_nm = {k_sketched_nm};
@@ -68,7 +68,7 @@ std::optional<Photo> DraftRenderer::sketch(const Scene& scene) const {
 Photo DraftRenderer::draw_exactly(const Scene& scene, int samples, const Progress& progress) const {
     Scene drawn = scene;
     drawn.settings = settings_;
-    drawn.settings.engine = "reference";
+    drawn.settings.engine = k_reference_engine;
     drawn.settings.samples = samples;
     return photo_of(render(drawn, progress).picture);
 }

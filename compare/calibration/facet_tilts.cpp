@@ -139,7 +139,7 @@ std::optional<Photo> FacetTilts::lay_samples(const Scene& model, const Scene& sm
     cv::Mat distance;
     cv::distanceTransform(inside_of(*first), distance, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
     mask_ = distance > k_inside * k_diameter;
-    if (cv::countNonZero(mask_) < LaidPictures::k_least_pixels) return std::nullopt;
+    if (cv::countNonZero(mask_) < AlignedPair::k_least_pixels) return std::nullopt;
     // Of the picture itself, not of its sketch.
     fine_ = fine_picture(renderer, camera, camera.psf_px, reduction);
     picture_ = resampled(fine_, first_rows(model_from_sample_), mask_.size(), Kernel::cubic,
@@ -212,10 +212,10 @@ FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const 
     variance_ = TiltVariance(parts);
 }
 
-std::optional<double> FacetTilts::facet_error_deg(const Frame& frame,
-                                                  const LaidPictures& laid) const {
-    if (!usable() || !laid.enough()) return std::nullopt;
-    const MatchedPictures& pictures = laid.pictures;
+std::optional<double> FacetTilts::facet_error_deg(const AlignedPair& pair) const {
+    if (!usable() || !pair.enough()) return std::nullopt;
+    const Frame& frame = pair.frame;
+    const MatchedPictures& pictures = pair.pictures;
     const cv::Mat seen =
         softened(root_light(pictures.photo, pictures.white), k_blur * pictures.diameter);
     const double scale = frame.photo.scale;

@@ -8,7 +8,6 @@
 #include "compare/calibration/draft_renderer.h"
 #include "compare/calibration/simulated_camera.h"
 #include "compare/calibration/tilt_variance.h"
-#include "compare/registration/frame.h"
 #include "compare/scores/aligned_pair.h"
 #include "stone/progress.h"
 
@@ -45,8 +44,8 @@ public:
     /// Degrees: the facet error (facet_error.h) by which the photograph differs from the model. It
     /// is about right from 0.05 to 0.5 degrees; larger ones are read too small, and what else there
     /// is in the picture counts as facet error, so that it needs a calibration like any score.
-    /// `frame`: the photograph with the model's picture laid on it; of that only the place is used.
-    std::optional<double> facet_error_deg(const Frame& frame, const LaidPictures& laid) const;
+    /// `pair`: the photograph and the model's picture; of that only the place is used.
+    std::optional<double> facet_error_deg(const AlignedPair& pair) const;
 
 private:
     /// Where the samples lie, and the model's picture there; its first sketch, nothing when there
@@ -61,8 +60,5 @@ private:
     TiltVariance variance_;
     bool ended_early_ = false;
 };
-
-/// As a score of a calibration; smaller is better.
-inline constexpr const char* k_facet_tilts = "facet_tilts_deg";
 
 }  // namespace culet

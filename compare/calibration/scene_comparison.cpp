@@ -14,9 +14,8 @@
 #include "compare/calibration/photo_blur.h"
 #include "compare/calibration/photo_noise.h"
 #include "compare/photo/pixels.h"
-#include "compare/registration/frame.h"
 #include "compare/scores/aligned_pair.h"
-#include "compare/scores/score_list.h"
+#include "compare/scores/scored_pair.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
 #include "stone/units.h"
@@ -31,7 +30,7 @@ constexpr double k_margin = 0.18;     // of the diameter, around the stone
 constexpr double k_tolerance = 0.03;  // of the pictures that are compared
 // Of the time that is left: a stone of hundreds of facets must leave some for draws.
 constexpr double k_most_for_tilts = 0.4;
-constexpr double k_bar_for_tilts = 0.2;  // of the progress
+constexpr double k_bar_for_tilts = 0.2, k_bar_for_scores = 0.3;  // of the progress: their ends
 // A pose is taken when it is sure (99 %) to two degrees, and to half a percent of the diameter:
 // reflexes are matched within 2 %. Such poses are 0.2 degrees off in the median (bench_pose), which
 // costs the scores what about 0.1 degrees of facet error cost; with one degree, three in four
@@ -76,19 +75,19 @@ Mirrored mirrored(const Photo& photo, const CompareOptions& options) {
 }
 
 // What the photograph tells of its own camera.
-CameraModel camera_of(const Photo& photo, const Frame& frame, const Comparison& comparison) {
+CameraModel camera_of(const Photo& photo, const AlignedPair& pair) {
     CameraModel camera;
     camera.clips = photo.saturation > 0;
     camera.bits = !camera.clips ? 0 : photo.encoding.find("16-bit") != std::string::npos ? 16 : 8;
-    const double white = comparison.pictures.white;
-    for (std::size_t c = 0; c < 3; ++c) camera.gain[c] = comparison.gain[c] / white;
-    const LaidPictures laid = lay_pictures(frame, photo.saturation, 0);
-    set_blur_and_noise(camera, laid.pictures);
-    camera.outline_from_background = comparison.registration.photo_outline == "background";
+    const double white = pair.pictures.white;
+    for (std::size_t c = 0; c < 3; ++c) camera.gain[c] = pair.gain[c] / white;
+    set_blur_and_noise(camera, pair.pictures);
+    const CloseUp& shown = pair.frame.photo;
+    camera.outline_from_background = shown.silhouette.source == "background";
     // The median of what surrounds the stone.
-    const cv::Mat around = frame.photo.silhouette.mask == 0;
+    const cv::Mat around = shown.silhouette.mask == 0;
     std::vector<cv::Mat> channels;
-    cv::split(frame.photo.colour, channels);
+    cv::split(shown.colour, channels);
     for (std::size_t c = 0; c < 3; ++c) {
         camera.ground[c] = static_cast<float>(quantile(channels[c], around, 0.5) / white);
     }
@@ -116,33 +115,67 @@ std::vector<float> ignored_in_model(const Frame& frame, const Photo& model) {
     return result;
 }
 
-Calibration calibrated(const SceneComparison& compared, const DraftRenderer& renderer,
-                       CalibrateOptions& how, std::optional<FacetTilts>& tilts,
-                       const CalibrationCache& cache, const Progress& progress) {
-    if (auto kept = cache.find(calibration_hash(compared.scene, how))) {
-        tilts.emplace(compared.scene, renderer, how.camera, std::move(kept->tilts));
-        return std::move(kept->calibration);
+// Against a render as soft as the photograph, as the draws are: a score is one thing in the
+// photograph and in its calibration.
+void compare_calibrated(SceneComparison& result, AlignedPair pair, const Photo& photo,
+                        const DraftRenderer& renderer, const SceneCompareOptions& options,
+                        const CompareOptions& how, Clock::time_point start,
+                        const Progress& progress) {
+    CalibrateOptions calibration;
+    calibration.camera = camera_of(photo, pair);
+    calibration.draws = options.draws;
+    calibration.null_draws = 3 * options.draws;
+    if (options.budget_seconds > 0) {
+        calibration.deadline = start + std::chrono::duration_cast<Clock::duration>(
+                                           std::chrono::duration<double>(options.budget_seconds));
     }
-    const auto start = Clock::now();
-    const std::chrono::duration<double> left = how.deadline - start;
-    tilts.emplace(compared.scene, renderer, how.camera, how.threads, [&](double fraction) {
-        if (progress && !progress(k_bar_for_tilts * fraction)) throw Interrupted();
-        return Clock::now() - start < k_most_for_tilts * left;
-    });
-    how.tilts = &*tilts;
-    Calibration made = calibrate(compared.scene, compared.render, renderer, how,
-                                 part_of(progress, k_bar_for_tilts, 1));
-    made.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    made.psf_px = how.camera.psf_px;
-    made.electrons = how.camera.electrons;
-    made.stone_px = compared.comparison.registration.render_diameter_px;
-    if (tilts->ended_early()) {
-        made.notes.push_back(
-            "the budget left no time for what each facet's tilt changes: that score is missing");
-    } else {
-        cache.keep(made, tilts->variance());
+    calibration.seed = how.seed;
+    calibration.threads = how.threads;
+    calibration.largest = options.largest;
+    calibration.ignored = ignored_in_model(pair.frame, result.render);
+    calibration.start = options.start;
+    const CameraModel& camera = calibration.camera;
+
+    const CalibrationCache cache(options.cache);
+    auto kept = cache.find(calibration_hash(result.scene, calibration));
+    const auto begun = Clock::now();
+    const std::chrono::duration<double> left = calibration.deadline - begun;
+    const Progress of_tilts = part_of(progress, 0, k_bar_for_tilts);
+    const FacetTilts tilts =
+        kept ? FacetTilts(result.scene, renderer, camera, std::move(kept->tilts))
+             : FacetTilts(result.scene, renderer, camera, calibration.threads, [&](double done) {
+                   if (of_tilts && !of_tilts(done)) throw Interrupted();
+                   return Clock::now() - begun < k_most_for_tilts * left;
+               });
+    calibration.tilts = &tilts;
+    const double tilt_seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+
+    pair = with_render(std::move(pair), softened(result.render, camera.psf_px));
+    const CalibratedScoring scoring{camera.psf_px, tilts.facet_error_deg(pair)};
+    Comparison& comparison = result.comparison;
+    comparison = scored(pair, photo, result.render, how,
+                        part_of(progress, k_bar_for_tilts, k_bar_for_scores), &scoring);
+
+    Calibration made = kept ? std::move(kept->calibration)
+                            : calibrate(result.scene, result.render, renderer, calibration,
+                                        part_of(progress, k_bar_for_scores, 1));
+    if (!kept) {
+        made.seconds += tilt_seconds;
+        made.psf_px = camera.psf_px;
+        made.electrons = camera.electrons;
+        made.stone_px = pair.frame.render_diameter_px;
+        if (tilts.ended_early()) {
+            made.notes.push_back(
+                "the budget left no time for what each facet's tilt changes: that score is "
+                "missing");
+        } else {
+            cache.keep(made, tilts.variance());
+        }
     }
-    return made;
+    result.calibrated =
+        calibrated_verdict(comparison.scores, std::move(made), comparison.geometry_only);
+    comparison.verdict = result.calibrated->verdict;
+    comparison.reason = result.calibrated->reason;
 }
 
 }  // namespace
@@ -204,40 +237,16 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
     result.scene.settings = renderer.settings();
     result.stats = renderer.stats();
     result.render = renderer.picture();
-    result.comparison =
-        compare(*photo, result.render, how, part_of(progress, 0.1, options.calibrate ? 0.2 : 1));
-    Comparison& comparison = result.comparison;
-    comparison.notes.insert(comparison.notes.end(), notes.begin(), notes.end());
-    if (!options.calibrate || !comparison.usable()) return result;
-
-    const Frame frame =
-        align(*photo, how.mask, result.render, {.largest = how.largest, .ignored = how.ignored});
-    CalibrateOptions calibration;
-    calibration.camera = camera_of(*photo, frame, comparison);
-    calibration.draws = options.draws;
-    calibration.null_draws = 3 * options.draws;
-    if (options.budget_seconds > 0) {
-        calibration.deadline = start + std::chrono::duration_cast<Clock::duration>(
-                                           std::chrono::duration<double>(options.budget_seconds));
+    const AlignedPair pair =
+        aligned(*photo, how.mask, result.render, {.largest = how.largest, .ignored = how.ignored});
+    const Progress rest = part_of(progress, 0.1, 1);
+    if (options.calibrate && pair.comparable()) {
+        compare_calibrated(result, pair, *photo, renderer, options, how, start, rest);
+    } else {
+        result.comparison = scored(pair, *photo, result.render, how, rest);
     }
-    calibration.seed = how.seed;
-    calibration.threads = how.threads;
-    calibration.largest = options.largest;
-    calibration.ignored = ignored_in_model(frame, result.render);
-    calibration.start = options.start;
-    std::optional<FacetTilts> tilts;
-    comparison.calibration = calibrated(result, renderer, calibration, tilts,
-                                        CalibrationCache(options.cache), part_of(progress, 0.2, 1));
-    // As the draws are: against a render as soft as the photograph.
-    std::vector<Score> scores =
-        scores_against(*photo, how.mask, softened(result.render, calibration.camera.psf_px),
-                       {.largest = how.largest, .ignored = how.ignored}, &*tilts);
-    if (comparison.geometry_only) {
-        keep_geometry_only(scores, "the photograph cannot serve for photometry");
-    }
-    comparison.meaning = meaning_of(scores, *comparison.calibration, comparison.geometry_only);
-    comparison.verdict = comparison.meaning->verdict;
-    comparison.reason = comparison.meaning->reason;
+    std::vector<std::string>& all_notes = result.comparison.notes;
+    all_notes.insert(all_notes.end(), notes.begin(), notes.end());
     return result;
 }
 

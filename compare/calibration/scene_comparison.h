@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "compare/calibration/calibrated_verdict.h"
 #include "compare/pose/find_pose.h"
 #include "compare/scores/compare.h"
 #include "render/render.h"
@@ -27,7 +28,8 @@ struct SceneCompareOptions {
 };
 
 struct SceneComparison {
-    Comparison comparison;
+    Comparison comparison;  ///< where it is calibrated, with that verdict and its reason
+    std::optional<CalibratedVerdict> calibrated;
     Scene scene;   ///< as drawn: camera at the photograph's pose and at the compared size
     Photo render;  ///< of it
     RenderStats stats;

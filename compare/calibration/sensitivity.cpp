@@ -7,19 +7,12 @@
 #include <numeric>
 
 #include "compare/calibration/level_curve.h"
+#include "compare/scores/score_list.h"
 #include "stone/upper_median.h"
 
 namespace culet {
 
 namespace {
-
-// Scores run against their ends: stretched so that a curve is near to straight in log error.
-double stretch(double score, bool higher_is_better, const std::string& key) {
-    if (key == "psnr") return score;
-    if (key == "nmi") return std::log(std::max(1e-4, score - 1));
-    if (higher_is_better) return -std::log(std::max(1e-4, 1 - score));
-    return -std::log(std::max(1e-4, score));
-}
 
 struct Moments {
     int count = 0;
@@ -62,8 +55,8 @@ FacetErrorScale::FacetErrorScale(const Calibration& calibration,
         if (std::find(keys.begin(), keys.end(), calibration.keys[k]) == keys.end()) continue;
         Curve curve;
         curve.key = k;
-        curve.name = calibration.keys[k];
-        curve.higher_is_better = calibration.higher_is_better[k];
+        curve.kind = score_kind(calibration.keys[k]);
+        if (curve.kind == nullptr) continue;
         bool everywhere = true;
         std::vector<double> stretched;
         for (const auto& [deg, draws] : by_level) {
@@ -71,7 +64,7 @@ FacetErrorScale::FacetErrorScale(const Calibration& calibration,
             for (const CalibrationDraw* draw : draws) {
                 if (!draw->scores[k]) continue;
                 values.push_back(*draw->scores[k]);
-                on_scale.push_back(stretch(values.back(), curve.higher_is_better, curve.name));
+                on_scale.push_back(stretch(values.back(), curve.kind->scale));
             }
             everywhere = everywhere && !values.empty();
             const Moments plain = moments(values);
@@ -83,7 +76,7 @@ FacetErrorScale::FacetErrorScale(const Calibration& calibration,
         if (!everywhere) continue;
         curve.stretched = falling(stretched);
         if (!(curve.stretched.front() > curve.stretched.back())) continue;
-        const double sign = curve.higher_is_better ? 1 : -1;
+        const double sign = curve.kind->higher_is_better() ? 1 : -1;
         std::vector<double> better = curve.mean;
         for (double& v : better) v *= sign;
         curve.fitted = falling(better);
@@ -174,7 +167,7 @@ std::vector<double> FacetErrorScale::stretched(
     std::vector<double> result;
     for (const Curve& curve : curves_) {
         const std::optional<double>& score = scores[curve.key];
-        result.push_back(score ? stretch(*score, curve.higher_is_better, curve.name)
+        result.push_back(score ? stretch(*score, curve.kind->scale)
                                : std::numeric_limits<double>::quiet_NaN());
     }
     return result;
@@ -197,8 +190,7 @@ std::optional<FacetErrorScale::Explained> FacetErrorScale::explained(
 }
 
 double FacetErrorScale::logarithm(const Curve& curve, double score) const {
-    return inverse_of_falling(levels_, curve.stretched,
-                              stretch(score, curve.higher_is_better, curve.name));
+    return inverse_of_falling(levels_, curve.stretched, stretch(score, curve.kind->scale));
 }
 
 double FacetErrorScale::weight(const Curve& curve, double log_deg) const {
@@ -257,8 +249,8 @@ std::vector<SensitivityCurve> FacetErrorScale::curves(
     double weights = 0;
     for (const Curve& curve : curves_) {
         SensitivityCurve shown;
-        shown.key = curve.name;
-        shown.higher_is_better = curve.higher_is_better;
+        shown.key = curve.kind->key;
+        shown.higher_is_better = curve.kind->higher_is_better();
         for (std::size_t i = 0; i < levels_.size(); ++i) {
             shown.levels.push_back(
                 {levels_deg_[i], curve.draws[i], curve.mean[i], curve.sd[i], curve.fitted[i]});

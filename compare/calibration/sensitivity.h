@@ -11,6 +11,8 @@
 
 namespace culet {
 
+struct ScoreKind;
+
 /// Facet errors are drawn at these, degrees; and at 0, the ceiling.
 std::vector<double> facet_errors_deg();
 
@@ -66,8 +68,7 @@ public:
 private:
     struct Curve {
         std::size_t key = 0;
-        std::string name;
-        bool higher_is_better = true;
+        const ScoreKind* kind = nullptr;
         std::vector<double> mean, sd, fitted;  // a level each
         std::vector<int> draws;
         std::vector<double> stretched;  // fitted, on the scale of `stretch`

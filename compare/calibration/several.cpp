@@ -7,21 +7,15 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "compare/json_number.h"
-#include "compare/report/report_parts.h"
 #include "page/html.h"
-#include "page/parts.h"
+#include "page/json_fields.h"
 
 namespace culet {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const EquivalentError* equivalent_of(const PhotographRow& row) {
-    const auto& meaning = row.comparison.meaning;
-    return meaning && meaning->equivalent.deg ? &meaning->equivalent : nullptr;
-}
+constexpr auto number = json_number<Json>;
 
 EquivalentError combined(const std::vector<const EquivalentError*>& errors) {
     EquivalentError result;
@@ -52,24 +46,18 @@ EquivalentError combined(const std::vector<const EquivalentError*>& errors) {
     return result;
 }
 
-std::string degrees_of(const EquivalentError& error) {
-    return error.deg ? significant(error.deg, 2) + "°" : std::string("–");
-}
-
 Json equivalent_json(const EquivalentError& error) {
     return {{"deg", number(error.deg)},
             {"low_deg", error.deg ? number(error.low_deg) : Json(nullptr)},
             {"high_deg", error.deg ? number(error.high_deg) : Json(nullptr)}};
 }
 
-std::string score_cell(const Comparison& comparison, const char* key, int places) {
-    for (const Score& score : comparison.scores) {
-        if (score.key == key) return decimals(score.value, places);
-    }
-    return "–";
-}
-
 }  // namespace
+
+const EquivalentError* equivalent_of(const PhotographRow& row) {
+    const bool known = row.calibrated && row.calibrated->equivalent.deg;
+    return known ? &row.calibrated->equivalent : nullptr;
+}
 
 SeveralPhotographs together(const std::vector<PhotographRow>& rows) {
     SeveralPhotographs result;
@@ -140,53 +128,6 @@ std::string several_json(const SeveralPhotographs& several,
         json["photographs"].push_back(Json::parse(row.scores_json, nullptr, false));
     }
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-std::string several_page(const SeveralPhotographs& several, const std::vector<PhotographRow>& rows,
-                         const std::string& title, const std::string& version,
-                         const std::string& command) {
-    const VerdictShown shown = verdict_shown(several.verdict);
-    std::string body = fmt::format(
-        "<header class=\"headline\"><h1>{}</h1>\n<div class=\"verdict {}\"><span class=\"symbol\" "
-        "aria-hidden=\"true\">{}</span><div><p class=\"word\">{}</p><p>{}</p></div></div>\n"
-        "</header>\n",
-        escaped(title), shown.style, shown.symbol, shown.word, escaped(several.reason + "."));
-    std::string cells;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const Comparison& c = rows[i].comparison;
-        const EquivalentError* error = equivalent_of(rows[i]);
-        const Photo& photo = c.pictures.photo;
-        const std::string picture = photo.rgb.empty()
-                                        ? ""
-                                        : fmt::format("<img class=\"thumb\" src=\"{}\" alt=\"\">",
-                                                      picture_uri(photo, c.pictures.white));
-        cells += fmt::format(
-            "<tr><td>{}</td><th scope=\"row\"><a href=\"{}\">{}</a><small>{}</small></th>"
-            "<td>{}</td><td class=\"n strong\">{}</td><td class=\"n\">{}</td><td "
-            "class=\"n\">{}</td>"
-            "<td class=\"n\">{} of {}</td><td class=\"n\">{}</td></tr>\n",
-            picture, escaped(rows[i].page), escaped(rows[i].name),
-            c.usable() ? "" : escaped(c.reason), verdict_shown(c.verdict).word,
-            error != nullptr ? degrees_of(*error) : "–", score_cell(c, "zncc", 3),
-            score_cell(c, "deltaE00_mean", 1), c.reflexes.matched, c.reflexes.in_photo,
-            degrees_of(several.without[i]));
-    }
-    body += section(
-        "photographs", "The photographs",
-        table(
-            "Each photograph, and the common answer without it",
-            "<th scope=\"col\"></th><th scope=\"col\">Photograph</th><th scope=\"col\">Verdict</th>"
-            "<th scope=\"col\" class=\"n\">Facet error</th><th scope=\"col\" class=\"n\">ZNCC</th>"
-            "<th scope=\"col\" class=\"n\">ΔE00</th><th scope=\"col\" class=\"n\">Reflexes</th>"
-            "<th scope=\"col\" class=\"n\">Others alone</th>",
-            cells) +
-            "<p class=\"note\">Facet error: that of simulated photographs which score like this "
-            "one. Others alone: the common facet error of all the other photographs; where it "
-            "differs much from the rest, look at that photograph first.</p>\n");
-    body += section(
-        "provenance", "How this page was made",
-        fmt::format("<p>culet {}</p>\n<pre>{}</pre>\n", escaped(version), escaped(command)));
-    return html_page(title, body, several_json(several, rows));
 }
 
 }  // namespace culet

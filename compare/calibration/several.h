@@ -1,9 +1,11 @@
 #pragma once
 // Several photographs of one stone: what they say together, and what each of them adds to that.
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "compare/calibration/calibrated_verdict.h"
 #include "compare/scores/compare.h"
 
 namespace culet {
@@ -13,7 +15,11 @@ struct PhotographRow {
     std::string page;  ///< its own report, relative to the common one
     std::string scores_json;
     Comparison comparison;
+    std::optional<CalibratedVerdict> calibrated;
 };
+
+/// Null where none was found.
+const EquivalentError* equivalent_of(const PhotographRow& row);
 
 struct SeveralPhotographs {
     Verdict verdict = Verdict::no_evidence;
@@ -34,10 +40,5 @@ SeveralPhotographs together(const std::vector<PhotographRow>& rows);
 
 /// One object: the common answer, and every photograph's scores under "photographs".
 std::string several_json(const SeveralPhotographs& several, const std::vector<PhotographRow>& rows);
-
-/// The common page: a table with links to each photograph's own report.
-std::string several_page(const SeveralPhotographs& several, const std::vector<PhotographRow>& rows,
-                         const std::string& title, const std::string& version,
-                         const std::string& command);
 
 }  // namespace culet

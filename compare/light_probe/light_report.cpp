@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "compare/json_number.h"
 #include "compare/light_probe/light_probe.h"
 #include "compare/photo/pixels.h"
 #include "page/colour_maps.h"
+#include "page/json_fields.h"
 #include "stone/units.h"
 
 namespace culet {
@@ -19,6 +20,7 @@ namespace culet {
 namespace {
 
 using Json = nlohmann::ordered_json;
+constexpr auto number = json_number<Json>;
 
 constexpr int k_sheet_width = 900;
 constexpr int k_caption = 34, k_scale = 44;

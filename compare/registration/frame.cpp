@@ -58,27 +58,38 @@ Place find_stone(const Source& source) {
     return place;
 }
 
-CloseUp close_up(const Source& source, const Place& place, double diameter) {
+Cut cut_of(const Place& place, cv::Size size, double diameter) {
     const int margin = static_cast<int>(std::lround(k_margin * place.diameter)) + 2;
-    const cv::Rect whole(0, 0, source.colour.cols, source.colour.rows);
-    cv::Rect cut(place.box.x - margin, place.box.y - margin, place.box.width + 2 * margin,
-                 place.box.height + 2 * margin);
-    cut &= whole;
-    CloseUp result;
-    result.scale = diameter / place.diameter;
-    if (result.scale > k_worth_it) result.scale = 1;
-    const cv::Mat colour = reduced(source.colour(cut), result.scale);
-    const cv::Mat coverage =
-        source.coverage.empty() ? cv::Mat() : reduced(source.coverage(cut), result.scale);
-    // Whole pixels of the reduced picture: the true factor differs a little from the asked one.
-    result.scale = static_cast<double>(colour.cols) / cut.width;
-    result.silhouette = silhouette_of(colour, coverage, source.coverage_name);
+    Cut cut;
+    cut.box = cv::Rect(place.box.x - margin, place.box.y - margin, place.box.width + 2 * margin,
+                       place.box.height + 2 * margin) &
+              cv::Rect({0, 0}, size);
+    cut.scale = diameter / place.diameter;
+    if (cut.scale > k_worth_it) cut.scale = 1;
+    return cut;
+}
+
+cv::Mat bordered(const cv::Mat& picture) {
+    cv::Mat result;
     const int b = k_empty_border;
-    cv::copyMakeBorder(colour, result.colour, b, b, b, b, cv::BORDER_REPLICATE);
+    cv::copyMakeBorder(picture, result, b, b, b, b, cv::BORDER_REPLICATE);
+    return result;
+}
+
+CloseUp close_up(const Source& source, const Cut& cut) {
+    CloseUp result;
+    const cv::Mat colour = reduced(source.colour(cut.box), cut.scale);
+    const cv::Mat coverage =
+        source.coverage.empty() ? cv::Mat() : reduced(source.coverage(cut.box), cut.scale);
+    // Whole pixels of the reduced picture: the true factor differs a little from the asked one.
+    result.scale = static_cast<double>(colour.cols) / cut.box.width;
+    result.silhouette = silhouette_of(colour, coverage, source.coverage_name);
+    result.colour = bordered(colour);
+    const int b = k_empty_border;
     cv::copyMakeBorder(result.silhouette.mask, result.silhouette.mask, b, b, b, b,
                        cv::BORDER_CONSTANT, cv::Scalar(0));
     result.silhouette.centre += cv::Point2d(b, b);
-    result.corner = {cut.x - b / result.scale, cut.y - b / result.scale};
+    result.corner = {cut.box.x - b / result.scale, cut.box.y - b / result.scale};
     return result;
 }
 
@@ -167,23 +178,32 @@ Frame align(const Photo& photo, const std::vector<float>& mask, const Photo& ren
         return frame;
     }
     const double diameter = std::min({photo_place.diameter, render_place.diameter, how.largest});
-    frame.photo = close_up(photo_source, photo_place, diameter);
+    frame.photo = close_up(photo_source, cut_of(photo_place, photo_source.colour.size(), diameter));
     if (!how.ignored.empty()) frame.photo.ignored = cut_out(how.ignored, photo, frame.photo);
-    const CloseUp near = close_up(render_source, render_place, diameter);
+    frame.render_cut = cut_of(render_place, render_source.colour.size(), diameter);
+    const CloseUp near = close_up(render_source, frame.render_cut);
     frame.render_outline = near.silhouette.source;
     frame.render_warning = near.silhouette.warning;
     frame.match = match_outlines(frame.photo.silhouette, near.silhouette);
     if (frame.match.trouble.empty() || frame.match.iou > 0) {
-        const cv::Matx23d onto =
+        frame.cut_from_photo =
             whole_pixels(matrix_of(frame.match.render_from_photo), frame.photo.colour.size());
-        frame.render =
-            resampled(near.colour, onto, frame.photo.colour.size(), Kernel::cubic, Beyond::nearest);
-        frame.render_mask = resampled_mask(near.silhouette.mask, onto, frame.photo.colour.size());
+        frame.render = resampled(near.colour, frame.cut_from_photo, frame.photo.colour.size(),
+                                 Kernel::cubic, Beyond::nearest);
+        frame.render_mask =
+            resampled_mask(near.silhouette.mask, frame.cut_from_photo, frame.photo.colour.size());
         frame.render_from_photo = in_given_pixels(frame.match.render_from_photo, frame.photo, near);
         frame.match.residual_px /= frame.photo.scale;
         frame.match.worst_px /= frame.photo.scale;
     }
     return frame;
+}
+
+cv::Mat moved_as_render(const Frame& frame, const Photo& picture) {
+    if (frame.render.empty()) return {};
+    const Cut& cut = frame.render_cut;
+    return resampled(bordered(reduced(colour_of(picture)(cut.box), cut.scale)),
+                     frame.cut_from_photo, frame.render.size(), Kernel::cubic, Beyond::nearest);
 }
 
 }  // namespace culet

@@ -21,6 +21,12 @@ struct CloseUp {
     cv::Point2d in_picture(const cv::Point2d& p) const;
 };
 
+/// What was cut out of a picture, and how much that was reduced.
+struct Cut {
+    cv::Rect box;
+    double scale = 1;
+};
+
 /// Both pictures in the frame of the photo's close-up.
 struct Frame {
     CloseUp photo;
@@ -31,6 +37,8 @@ struct Frame {
     Similarity render_from_photo;
     double photo_diameter_px = 0, render_diameter_px = 0;
     std::string render_outline, render_warning;  ///< as in Silhouette: source and warning
+    Cut render_cut;  ///< of the render, and where its pixels are seen from the photo's
+    cv::Matx23d cut_from_photo;
 };
 
 struct Alignment {
@@ -44,6 +52,9 @@ struct Alignment {
 /// alone, so that pictures of one size are not resampled but for the registration.
 Frame align(const Photo& photo, const std::vector<float>& mask, const Photo& render,
             const Alignment& how = {});
+
+/// Another picture of the render's size and outline, moved as the render was.
+cv::Mat moved_as_render(const Frame& frame, const Photo& picture);
 
 /// The stone's diameter in the photo, pixels, as `align` finds it; 0 where it finds none.
 double stone_diameter_px(const Photo& photo, const std::vector<float>& mask);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compare/report/report_parts.h"
+#include "compare/report/scores_json.h"
 #include "page/fit_page.h"
 #include "page/json_fields.h"
 #include "page/parts.h"
@@ -19,7 +20,8 @@ std::string photo_word(const Report& report) {
 
 std::string report_page(const Report& report) {
     std::string scores_text = report.scores_json;
-    if (scores_text.empty() && report.comparison) scores_text = scores_json(*report.comparison);
+    if (scores_text.empty() && report.comparison)
+        scores_text = scores_json(*report.comparison, {}, report.calibrated);
     const Json scores = parsed_object<Json>(scores_text, "the scores for the report");
     const Json fit = parsed_object<Json>(report.fit_json, "the fit report for the report page");
     const Json stats =
@@ -33,7 +35,7 @@ std::string report_page(const Report& report) {
     const bool has_picture = !compared.empty() || report.fitted_render;
     if (!has_picture) page += fit_drawing_section(fitted, false);
     page += fit_proportions_section(fitted);
-    page += meaning_section(report);
+    page += calibration_section(report);
     page += reflexes_section(report);
     page += maps_section(report);
     if (!compared.empty()) page += rendered;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/calibration/calibrated_verdict.h"
 #include "compare/photo/photo.h"
 #include "compare/scores/compare.h"
 #include "stone/solid.h"
@@ -25,7 +26,8 @@ struct Report {
     std::vector<ReportFile> files;
 
     std::optional<Comparison> comparison;  ///< photo against render
-    std::string scores_json;               ///< what --json wrote; empty: made from `comparison`
+    std::optional<CalibratedVerdict> calibrated;
+    std::string scores_json;  ///< what --json wrote; empty: made from `comparison`
 
     std::string fit_json;         ///< the fit report, as written by `culet fit --report`
     std::optional<Solid> fitted;  ///< drawn, with its facets coloured by their readings' residuals

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "compare/report/report_parts.h"
+#include "compare/templates.h"
 #include "page/html.h"
 #include "page/parts.h"
 
@@ -61,31 +61,44 @@ public:
     }
 
     std::string svg() const {
-        std::string out = fmt::format(
-            "<svg class=\"curve\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">", k_width,
-            k_height, escaped(about()));
-        axes(out);
-        bars(out);
-        for (const double v : nulls_) {
-            out += fmt::format(
-                "<line class=\"draw\" x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>", k_nulls,
-                k_width - 4, y(v), y(v));
+        std::vector<View> levels, draws;
+        std::string line;
+        for (const auto& level : curve_.levels) {
+            const double at = x(level.facet_error_deg);
+            levels.push_back({{"x", px(at)},
+                              {"low", px(y(level.mean - level.sd))},
+                              {"high", px(y(level.mean + level.sd))},
+                              {"mean", px(y(level.mean))}});
+            line += fmt::format("{}{:.1f},{:.1f}", line.empty() ? "M" : "L", at, y(level.fitted));
         }
-        if (curve_.value) {
-            out += fmt::format(
-                "<line class=\"here\" x1=\"{}\" x2=\"{}\" y1=\"{:.1f}\" y2=\"{:.1f}\"/>", k_left,
-                k_width - 4, y(*curve_.value), y(*curve_.value));
-            if (curve_.equivalent_deg) {
-                out += fmt::format("<circle class=\"place\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"6\"/>",
-                                   x(*curve_.equivalent_deg), y(*curve_.value));
-            }
-        }
-        return out + "</svg>";
+        for (const double v : nulls_) draws.push_back(px(y(v)));
+        const bool placed = curve_.value && curve_.equivalent_deg;
+        return filled(templates::sensitivity_curve,
+                      {{"width", fmt::format("{}", k_width)},
+                       {"height", fmt::format("{}", k_height)},
+                       {"about", about()},
+                       {"axes", fmt::format("M{0},{1}V{2}H{3}M{4},{1}V{2}H{5}", k_left, k_top,
+                                            k_bottom, k_right, k_nulls - 4, k_width - 2)},
+                       {"degrees", degree_ticks()},
+                       {"titles", titles()},
+                       {"values", value_ticks()},
+                       {"levels", levels},
+                       {"fit", line},
+                       {"nulls", draws},
+                       {"nulls_from", fmt::format("{}", k_nulls)},
+                       {"nulls_to", fmt::format("{}", k_width - 4)},
+                       {"here", curve_.value ? px(y(*curve_.value)) : ""},
+                       {"here_from", fmt::format("{}", k_left)},
+                       {"place", placed ? px(x(*curve_.equivalent_deg)) : ""}});
     }
 
 private:
     static constexpr double k_width = 360, k_height = 230, k_left = 46, k_right = 300,
                             k_nulls = 318, k_top = 10, k_bottom = 190;
+    static std::string px(double value) { return fmt::format("{:.1f}", value); }
+    static View label(const std::string& x, const std::string& y, const std::string& text) {
+        return {{"x", x}, {"y", y}, {"text", text}};
+    }
     // The ceiling stands at the left end.
     static double log_deg(double deg) { return std::log10(std::max(deg, 0.01)); }
     double x(double deg) const {
@@ -97,40 +110,35 @@ private:
                                        : k_top + share * (k_bottom - k_top);
     }
 
-    void axes(std::string& out) const {
-        out += fmt::format("<path class=\"axis\" d=\"M{0},{1}V{2}H{3}M{4},{1}V{2}H{5}\"/>", k_left,
-                           k_top, k_bottom, k_right, k_nulls - 4, k_width - 2);
+    std::vector<View> degree_ticks() const {
+        std::vector<View> ticks;
         for (const double deg : {0.0, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0}) {
-            out += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
-                               x(deg), k_bottom + 16, deg > 0 ? significant(deg, 1) : "0");
+            ticks.push_back(label(px(x(deg)), fmt::format("{}", k_bottom + 16),
+                                  deg > 0 ? significant(deg, 1) : "0"));
         }
-        out += fmt::format(
-            "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">facet error, degrees</text>"
-            "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">chance</text>",
-            (k_left + k_right) / 2, k_bottom + 34, (k_nulls + k_width) / 2 - 2, k_bottom + 16);
+        return ticks;
+    }
+
+    std::vector<View> titles() const {
+        return {label(fmt::format("{}", (k_left + k_right) / 2), fmt::format("{}", k_bottom + 34),
+                      "facet error, degrees"),
+                label(fmt::format("{}", (k_nulls + k_width) / 2 - 2),
+                      fmt::format("{}", k_bottom + 16), "chance")};
+    }
+
+    std::vector<View> value_ticks() const {
         const double step = std::pow(10, std::floor(std::log10((high_ - low_) / 2)));
         const double every = (high_ - low_) / step > 5 ? 2 * step : step;
         const int places = std::max(0, -static_cast<int>(std::floor(std::log10(every) + 1e-9)));
         const int first = static_cast<int>(std::ceil(low_ / every)),
                   last = static_cast<int>(std::floor(high_ / every));
+        std::vector<View> ticks;
         for (int i = first; i <= last; ++i) {
             const double v = i * every;
-            out += fmt::format("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>",
-                               k_left - 5, y(v) + 4, decimals(v, places));
+            ticks.push_back(
+                label(fmt::format("{}", k_left - 5), px(y(v) + 4), decimals(v, places)));
         }
-    }
-
-    void bars(std::string& out) const {
-        std::string line;
-        for (const auto& level : curve_.levels) {
-            const double at = x(level.facet_error_deg);
-            out += fmt::format(
-                "<line class=\"spread\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1:.1f}\" "
-                "y2=\"{2:.1f}\"/><circle class=\"mean\" cx=\"{0:.1f}\" cy=\"{3:.1f}\" r=\"3\"/>",
-                at, y(level.mean - level.sd), y(level.mean + level.sd), y(level.mean));
-            line += fmt::format("{}{:.1f},{:.1f}", line.empty() ? "M" : "L", at, y(level.fitted));
-        }
-        out += fmt::format("<path class=\"fit\" d=\"{}\"/>", line);
+        return ticks;
     }
 
     std::string about() const {
@@ -161,92 +169,72 @@ std::vector<double> null_values(const Calibration& calibration, const std::strin
     return values;
 }
 
-std::string curves_figures(const Meaning& meaning, const Calibration& calibration) {
+View curve_figures(const CalibratedVerdict& verdict) {
     // Those that weigh most.
-    std::vector<SensitivityCurve> curves = meaning.curves;
+    std::vector<SensitivityCurve> curves = verdict.curves;
     std::stable_sort(curves.begin(), curves.end(),
                      [](const auto& a, const auto& b) { return a.weight > b.weight; });
-    std::string figures;
-    for (std::size_t i = 0; i < std::min<std::size_t>(curves.size(), 6); ++i) {
-        const SensitivityCurve& curve = curves[i];
-        figures += fmt::format(
-            "<figure>{}<figcaption><b>{}</b>: {} of the answer{}</figcaption></figure>\n",
-            CurvePicture(curve, null_values(calibration, curve.key)).svg(),
-            escaped(score_name(curve.key)), decimals(100 * curve.weight, 0) + " %",
-            curve.equivalent_deg
-                ? fmt::format(", by itself {}°", significant(curve.equivalent_deg, 2))
-                : "");
+    curves.resize(std::min<std::size_t>(curves.size(), 6));
+    if (curves.empty()) return false;
+    std::vector<View> figures;
+    for (const SensitivityCurve& curve : curves) {
+        const auto& alone = curve.equivalent_deg;
+        figures.push_back(
+            {{"curve_svg", CurvePicture(curve, null_values(verdict.calibration, curve.key)).svg()},
+             {"name", score_name(curve.key)},
+             {"percent", decimals(100 * curve.weight, 0)},
+             {"equivalent", alone ? significant(alone, 2) : ""}});
     }
-    return figures.empty() ? figures : "<div class=\"curves\">" + figures + "</div>\n";
+    return {{"figures", figures}};
 }
 
-std::string nulls_table(const Meaning& meaning) {
-    std::string rows;
-    for (const NullWorth& null : meaning.nulls) {
-        rows += fmt::format(
-            "<tr><th scope=\"row\">{}</th><td class=\"n\">{} ± {}</td><td class=\"n "
-            "strong\">{}</td>"
-            "<td class=\"n\">{} of {}</td><td class=\"n\">{}°</td></tr>\n",
-            title_of(null.world), decimals(null.mean, 2), decimals(null.sd, 2), decimals(null.z, 1),
-            null.as_good, null.draws, significant(null.least_deg, 2));
+View nulls_table(const CalibratedVerdict& verdict) {
+    std::vector<View> rows;
+    for (const NullWorth& null : verdict.nulls) {
+        rows.push_back({{"world", title_of(null.world)},
+                        {"mean", decimals(null.mean, 2)},
+                        {"sd", decimals(null.sd, 2)},
+                        {"z", decimals(null.z, 1)},
+                        {"as_good", std::to_string(null.as_good)},
+                        {"of", std::to_string(null.draws)},
+                        {"least", significant(null.least_deg, 2)}});
     }
-    if (rows.empty()) return {};
-    return table("Chance, the worst first",
-                 "<th scope=\"col\">Were it</th><th scope=\"col\" class=\"n\">Pattern of light</th>"
-                 "<th scope=\"col\" class=\"n\">z of the photograph</th>"
-                 "<th scope=\"col\" class=\"n\">Draws as good</th>"
-                 "<th scope=\"col\" class=\"n\">Best draw looks like</th>",
-                 rows);
+    return table_view(rows);
 }
 
-std::string hypotheses_table(const Meaning& meaning) {
-    std::string rows;
-    for (const HypothesisWorth& h : meaning.hypotheses) {
-        rows += fmt::format(
-            "<tr><th scope=\"row\">{}<small>{}</small></th><td class=\"n\">{}</td>"
-            "<td class=\"n strong\">{}</td></tr>\n",
-            escaped(h.name), title_of(h.world), decimals(h.zncc, 3), degrees_text(h.equivalent));
+View hypotheses_table(const CalibratedVerdict& verdict) {
+    std::vector<View> rows;
+    for (const HypothesisWorth& h : verdict.hypotheses) {
+        rows.push_back({{"name", h.name},
+                        {"world", title_of(h.world)},
+                        {"zncc", decimals(h.zncc, 3)},
+                        {"equivalent", degrees_text(h.equivalent)}});
     }
-    if (rows.empty()) return {};
-    return table("What else it could be",
-                 "<th scope=\"col\">Were this true of the stone</th>"
-                 "<th scope=\"col\" class=\"n\">Pattern of light</th>"
-                 "<th scope=\"col\" class=\"n\">It would look like</th>",
-                 rows);
+    return table_view(rows);
 }
 
 }  // namespace
 
-std::string meaning_section(const Report& report) {
-    if (!report.comparison || !report.comparison->meaning || !report.comparison->calibration) {
-        return {};
-    }
-    const Meaning& meaning = *report.comparison->meaning;
-    const Calibration& calibration = *report.comparison->calibration;
-    std::string body = fmt::format("<p class=\"headline-sentence\">The {} {}.</p>\n",
-                                   photo_word(report), escaped(meaning.headline));
-    if (meaning.geometry_only) {
-        body +=
-            "<p class=\"warning\">This photograph cannot serve for photometry: only scores of "
-            "geometry take part.</p>\n";
-    }
-    body += curves_figures(meaning, calibration);
-    body += fmt::format(
-        "<p class=\"note\">Each curve is what this stone, in this pose and light, would score "
-        "against the model if every facet were tilted at random by that much: {} simulated "
-        "photographs, seed {}, blurred by {} pixels, as noisy as one of {} electrons at white, in "
-        "whole steps like a camera's, registered anew. "
-        "Dots with bars: mean and spread; line across and ring: the {}; strokes: other lights and "
-        "poses. 0 is the ceiling, the model itself photographed. {}</p>\n",
-        calibration.draws.size(), calibration.seed, decimals(calibration.psf_px, 1),
-        significant(calibration.electrons, 2), photo_word(report),
-        calibration.from_cache ? "The draws were kept from an earlier comparison with this scene."
-                               : fmt::format("They took {} s.", decimals(calibration.seconds, 0)));
-    for (const std::string& note : calibration.notes) {
-        body += fmt::format("<p class=\"warning\">{}</p>\n", escaped(note));
-    }
-    body += nulls_table(meaning) + hypotheses_table(meaning);
-    return section("meaning", "What it means", body);
+std::string calibration_section(const Report& report) {
+    if (!report.calibrated) return {};
+    const CalibratedVerdict& verdict = *report.calibrated;
+    const Calibration& calibration = verdict.calibration;
+    const auto& notes = calibration.notes;
+    return section("meaning", "What it means",
+                   filled(templates::report_calibration,
+                          {{"word", photo_word(report)},
+                           {"headline", verdict.headline},
+                           {"geometry_only", verdict.geometry_only},
+                           {"curves", curve_figures(verdict)},
+                           {"draws", std::to_string(calibration.draws.size())},
+                           {"seed", std::to_string(calibration.seed)},
+                           {"psf_px", decimals(calibration.psf_px, 1)},
+                           {"electrons", significant(calibration.electrons, 2)},
+                           {"kept", calibration.from_cache},
+                           {"seconds", decimals(calibration.seconds, 0)},
+                           {"notes", std::vector<View>(notes.begin(), notes.end())},
+                           {"nulls", nulls_table(verdict)},
+                           {"hypotheses", hypotheses_table(verdict)}}));
 }
 
 }  // namespace culet

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "compare/report/report_parts.h"
+#include "compare/templates.h"
 #include "page/html.h"
 #include "page/parts.h"
 
@@ -17,10 +18,11 @@ const Score* score_of(const Comparison& comparison, const char* key) {
     return nullptr;
 }
 
-std::string comparison_tiles(const Comparison& c) {
+std::string comparison_tiles(const Comparison& c,
+                             const std::optional<CalibratedVerdict>& calibrated) {
     std::string tiles;
-    if (c.meaning && c.meaning->equivalent.deg) {
-        const EquivalentError& error = c.meaning->equivalent;
+    if (calibrated && calibrated->equivalent.deg) {
+        const EquivalentError& error = calibrated->equivalent;
         tiles += tile("Equivalent facet error",
                       (error.at_least  ? "≥ "
                        : error.at_most ? "≤ "
@@ -59,19 +61,6 @@ std::string comparison_tiles(const Comparison& c) {
     return tiles;
 }
 
-// What the page's reader must know before believing the verdict.
-const char* const k_what_it_means =
-    "The chance level is the same render, turned and mirrored in the picture's plane: what outline "
-    "and overall brightness reach without any agreement of the pattern. The verdict compares the "
-    "pattern of light with that level only. It does not tell this stone from another of the same "
-    "cut, and its limits are proposals that have not been validated.";
-
-const char* const k_what_is_calibrated =
-    "The equivalent facet error is that of simulated photographs of this stone, in this pose and "
-    "light, which score like this photograph. It knows of facets, camera noise and registration; "
-    "dust, inclusions, another tone curve or a light that is not quite the scene's count as facet "
-    "error too.";
-
 }  // namespace
 
 VerdictShown verdict_shown(Verdict verdict) {
@@ -89,36 +78,24 @@ VerdictShown verdict_shown(Verdict verdict) {
 }
 
 std::string headline_section(const Report& report, const FitView& fitted) {
-    std::string body =
-        fmt::format("<header class=\"headline\"><h1>{}</h1>\n", escaped(report.title));
-    if (report.comparison) {
-        const Comparison& c = *report.comparison;
-        const VerdictShown shown_verdict = verdict_shown(c.verdict);
-        if (c.simulated) {
-            body +=
-                "<p class=\"simulated\"><b>Simulated photograph.</b> The photograph on this "
-                "page was computed, not taken with a camera.</p>\n";
-        }
-        if (c.geometry_only) {
-            body +=
-                "<p class=\"simulated\"><b>Geometry only.</b> This photograph cannot serve for "
-                "photometry: scores of brightness and colour are left out, and the verdict rests "
-                "on "
-                "shapes and places.</p>\n";
-        }
-        body += verdict_card(shown_verdict.style, shown_verdict.symbol, shown_verdict.word,
-                             as_sentence(c.reason));
+    const Comparison* c = report.comparison ? &*report.comparison : nullptr;
+    std::string verdict;
+    if (c != nullptr) {
+        const VerdictShown shown = verdict_shown(c->verdict);
+        verdict = verdict_card(shown.style, shown.symbol, shown.word, as_sentence(c->reason));
     }
-    body += fit_card(fitted);
-    std::string tiles;
-    if (report.comparison) tiles += comparison_tiles(*report.comparison);
-    tiles += fit_tiles(fitted);
-    if (!tiles.empty()) body += "<dl class=\"tiles\">" + tiles + "</dl>\n";
-    if (report.comparison && report.comparison->usable()) {
-        body += fmt::format("<p class=\"meaning\">{}</p>\n",
-                            report.comparison->meaning ? k_what_is_calibrated : k_what_it_means);
-    }
-    return body + "</header>\n";
+    const bool scored = c != nullptr && c->usable();
+    return filled(
+        templates::report_headline,
+        {{"title", report.title},
+         {"simulated", c != nullptr && c->simulated},
+         {"geometry_only", c != nullptr && c->geometry_only},
+         {"verdict_html", verdict},
+         {"fit_html", fit_card(fitted)},
+         {"tiles_html", (c != nullptr ? comparison_tiles(*c, report.calibrated) : std::string()) +
+                            fit_tiles(fitted)},
+         {"uncalibrated", scored && !report.calibrated},
+         {"calibrated", scored && report.calibrated.has_value()}});
 }
 
 }  // namespace culet

@@ -28,7 +28,7 @@ std::string pictures_section(const Report& report);
 std::string maps_section(const Report& report);
 std::string scores_section(const Report& report, const nlohmann::json& scores);
 std::string reflexes_section(const Report& report);
-std::string meaning_section(const Report& report);
+std::string calibration_section(const Report& report);
 std::string registration_section(const Report& report);
 std::string changes_section(const Report& report);
 std::string plan_section(const nlohmann::json& stats);

@@ -10,6 +10,7 @@
 
 #include "compare/photo/pixels.h"
 #include "compare/report/report_parts.h"
+#include "compare/templates.h"
 #include "page/html.h"
 #include "page/parts.h"
 #include "stone/quantile.h"
@@ -18,14 +19,12 @@ namespace culet {
 
 namespace {
 
-std::string map_figure(const PixelMap& map, ColourMap colours, double low, double high,
-                       const std::string& title, const std::string& about, const std::string& bar) {
-    if (map.values.empty()) return {};
-    return fmt::format(
-        "<figure class=\"map\"><img src=\"{}\" alt=\"{}\"><figcaption><b>{}</b> {}</figcaption>{}"
-        "</figure>\n",
-        map_uri(map, colours, low, high), escaped(title + ": " + about), escaped(title),
-        escaped(about), bar);
+View map_figure(const PixelMap& map, ColourMap colours, double low, double high,
+                const std::string& title, const std::string& about, const std::string& bar) {
+    return {{"uri", map_uri(map, colours, low, high)},
+            {"title", title},
+            {"about", about},
+            {"bar_html", bar}};
 }
 
 }  // namespace
@@ -76,25 +75,17 @@ std::string pictures_section(const Report& report) {
     const ComparedPictures& pictures = report.comparison->pictures;
     if (pictures.photo.rgb.empty() || pictures.render.rgb.empty()) return {};
     const std::string word = photo_word(report);
-    const bool usable = report.comparison->usable();
     const double white = white_shown(*report.comparison);
-    std::string body = slider(
+    const std::string sides = slider(
         "pictures-slider", {word, picture_uri(pictures.photo, white), "The stone in the " + word},
         {"render", picture_uri(pictures.render, white), "The render, laid onto the " + word});
-    body += usable ? fmt::format(
-                         "<p class=\"note\">The render is moved onto the {} by its outline "
-                         "and brought to its exposure and white balance by one factor a "
-                         "colour channel. <span class=\"screen\">Drag, or use the arrow "
-                         "keys.</span></p>\n",
-                         word)
-                   : "<p class=\"note\">The render is laid over as well as its outline allows; "
-                     "its exposure is its own.</p>\n";
-    if (white < 0.95 * pictures.white) {
-        body += fmt::format(
-            "<p class=\"note\">Both are shown {} times as bright as the {} is, so that the stone "
-            "does not look dull; scores and maps are of the light as it is.</p>\n",
-            significant(pictures.white / white, 2), word);
-    }
+    const std::string brighter =
+        white < 0.95 * pictures.white ? significant(pictures.white / white, 2) : "";
+    const std::string body =
+        filled(templates::report_pictures, {{"slider_html", sides},
+                                            {"usable", report.comparison->usable()},
+                                            {"word", word},
+                                            {"brighter", brighter}});
     std::string heading = word + " and render";
     heading[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(heading[0])));
     return section("pictures", heading, body);
@@ -103,23 +94,24 @@ std::string pictures_section(const Report& report) {
 std::string maps_section(const Report& report) {
     if (!report.comparison) return {};
     const ComparedPictures& p = report.comparison->pictures;
-    std::string figures;
-    figures +=
-        map_figure(p.luminance_difference, ColourMap::difference, -0.5, 0.5, "Brightness",
-                   "Render minus " + photo_word(report) + ", encoded luminance.",
-                   colour_bar(ColourMap::difference, "blue: render too dark, red: too bright",
-                              "−0.5", "0", "+0.5"));
-    figures += map_figure(
-        p.colour_difference, ColourMap::error, 0, 30, "Colour", "CIEDE2000 of each pixel.",
+    std::vector<View> figures;
+    const auto add = [&](const PixelMap& map, auto&&... parts) {
+        if (!map.values.empty()) figures.push_back(map_figure(map, parts...));
+    };
+    add(p.luminance_difference, ColourMap::difference, -0.5, 0.5, "Brightness",
+        "Render minus " + photo_word(report) + ", encoded luminance.",
+        colour_bar(ColourMap::difference, "blue: render too dark, red: too bright", "−0.5", "0",
+                   "+0.5"));
+    add(p.colour_difference, ColourMap::error, 0, 30, "Colour", "CIEDE2000 of each pixel.",
         colour_bar(ColourMap::error, "1 is just visible, 10 is plain", "0", "15", "≥ 30"));
-    figures += map_figure(p.visible_difference, ColourMap::error, 0, 1, "To the eye",
-                          "FLIP: what shows when the two are flicked between.",
-                          colour_bar(ColourMap::error, "bright: plain to see", "0", "0.5", "1"));
-    figures += map_figure(p.similarity, ColourMap::likeness, 0, 1, "Structure",
-                          "SSIM of each pixel's neighbourhood.",
-                          colour_bar(ColourMap::likeness, "dark: alike", "≤ 0", "0.5", "1"));
+    add(p.visible_difference, ColourMap::error, 0, 1, "To the eye",
+        "FLIP: what shows when the two are flicked between.",
+        colour_bar(ColourMap::error, "bright: plain to see", "0", "0.5", "1"));
+    add(p.similarity, ColourMap::likeness, 0, 1, "Structure", "SSIM of each pixel's neighbourhood.",
+        colour_bar(ColourMap::likeness, "dark: alike", "≤ 0", "0.5", "1"));
     if (figures.empty()) return {};
-    return section("maps", "Where they differ", "<div class=\"maps\">" + figures + "</div>\n");
+    return section("maps", "Where they differ",
+                   filled(templates::report_maps, {{"figures", figures}}));
 }
 
 }  // namespace culet

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "compare/report/report_parts.h"
+#include "compare/templates.h"
 #include "page/fit_page.h"
 #include "page/html.h"
 #include "page/json_fields.h"
@@ -41,81 +42,67 @@ double white_of(const Report& report) {
 }  // namespace
 
 std::string changes_section(const Report& report) {
-    std::string body;
+    std::string sides, uri, folded_parts;
     if (report.starting_render && report.fitted_render) {
         const double white = white_of(report);
-        body += slider("changes-slider",
+        sides = slider("changes-slider",
                        {"catalogue", picture_uri(*report.starting_render, white),
                         "Render of the stone as it should have been cut"},
                        {"fitted", picture_uri(*report.fitted_render, white),
                         "Render of the stone as it was measured"});
-        body +=
-            "<p class=\"note\">The same scene with the starting mesh and with the fitted one; "
-            "nothing else differs.</p>\n";
     } else if (report.fitted_render && pictures_section(report).empty()) {
-        body += fmt::format(
-            "<figure class=\"wide\"><img src=\"{}\" alt=\"Render of the stone\"></figure>\n",
-            picture_uri(*report.fitted_render, white_of(report)));
-        if (!report.starting) return section("changes", "The stone as it would look", body);
+        uri = picture_uri(*report.fitted_render, white_of(report));
     }
     if (report.starting && report.fitted) {
-        body += folded("What became steeper and what flatter, drawn",
-                       change_drawings(*report.starting, *report.fitted));
-        body += folded(fmt::format("{} facets before and after", report.fitted->facets.size()),
-                       changes_table(*report.starting, *report.fitted, report.length_unit));
+        folded_parts += folded("What became steeper and what flatter, drawn",
+                               change_drawings(*report.starting, *report.fitted));
+        folded_parts +=
+            folded(fmt::format("{} facets before and after", report.fitted->facets.size()),
+                   changes_table(*report.starting, *report.fitted, report.length_unit));
     }
-    return section("changes", "Catalogue against fitted", body);
+    if (sides.empty() && uri.empty() && folded_parts.empty()) return {};
+    const bool picture_alone = !uri.empty() && !report.starting;
+    return section("changes",
+                   picture_alone ? "The stone as it would look" : "Catalogue against fitted",
+                   filled(templates::report_changes,
+                          {{"slider_html", sides}, {"uri", uri}, {"folded_html", folded_parts}}));
 }
 
 std::string plan_section(const Json& stats) {
     if (stats.empty()) return {};
-    std::string rows;
+    std::vector<View> effects, figures;
     for (const Json& effect : array_at(stats, "effects")) {
-        rows += fmt::format(
-            "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td class=\"n\">{}</td></tr>\n",
-            escaped(text_at(effect, "name")), true_at(effect, "on") ? "on" : "off",
-            escaped(typeset(text_at(effect, "why"))),
-            significant(number_at(effect, "error_bound"), 2));
+        effects.push_back({{"name", text_at(effect, "name")},
+                           {"on", true_at(effect, "on")},
+                           {"why", typeset(text_at(effect, "why"))},
+                           {"bound", significant(number_at(effect, "error_bound"), 2)}});
     }
-    std::string body;
-    if (!rows.empty()) {
-        body += table("What was computed, and why",
-                      "<th scope=\"col\">Effect</th><th scope=\"col\"></th>"
-                      "<th scope=\"col\">Why</th><th scope=\"col\" class=\"n\">Error bound</th>",
-                      rows);
-    }
-    std::string facts;
-    const auto fact = [&](const std::string& name, const std::string& value) {
-        facts += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"n\">{}</td></tr>\n",
-                             escaped(name), value);
+    const auto figure = [&](const std::string& name, const std::string& value) {
+        figures.push_back({{"name", name}, {"value", value}});
     };
-    if (!text_at(stats, "engine").empty()) fact("engine", escaped(text_at(stats, "engine")));
+    if (!text_at(stats, "engine").empty()) figure("engine", text_at(stats, "engine"));
     for (const char* key : {"depth", "error_bound", "remainder", "beams", "rays"}) {
         if (number_at(stats, key)) {
             std::string name = key;
             std::replace(name.begin(), name.end(), '_', ' ');
-            fact(name, significant(number_at(stats, key)));
+            figure(name, significant(number_at(stats, key)));
         }
     }
     if (stats.contains("seconds") && stats["seconds"].is_object()) {
         for (const auto& [key, value] : stats["seconds"].items()) {
-            if (value.is_number()) fact("seconds, " + key, significant(value.get<double>()));
+            if (value.is_number()) figure("seconds, " + key, significant(value.get<double>()));
         }
     }
-    if (!facts.empty()) {
-        body +=
-            table("Figures of the render",
-                  "<th scope=\"col\">Figure</th><th scope=\"col\" class=\"n\">Value</th>", facts);
-    }
-    return folded_section("plan", "How it was rendered", body);
+    if (effects.empty() && figures.empty()) return {};
+    return folded_section("plan", "How it was rendered",
+                          filled(templates::report_plan, {{"effects", table_view(effects)},
+                                                          {"figures", table_view(figures)}}));
 }
 
 std::string provenance_section(const Report& report) {
-    std::string rows;
+    std::vector<View> rows;
     const auto row = [&](const std::string& name, const std::string& value) {
-        if (value.empty()) return;
-        rows += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"path\">{}</td></tr>\n",
-                            escaped(name), escaped(value));
+        if (!value.empty()) rows.push_back({{"name", name}, {"value", value}});
     };
     row("program", report.version.empty() ? "" : "culet " + report.version);
     row("command", report.command);
@@ -125,15 +112,10 @@ std::string provenance_section(const Report& report) {
         row("photograph", report.comparison->simulated ? "simulated" : "as given");
         for (const std::string& note : report.comparison->notes) row("note", note);
     }
-    std::string body;
-    if (!rows.empty()) {
-        body += table("Made from", "<th scope=\"col\">What</th><th scope=\"col\">Which</th>", rows);
-    }
-    if (!report.settings.empty()) {
-        body += fmt::format("<details><summary>Settings</summary><pre>{}</pre></details>\n",
-                            escaped(report.settings));
-    }
-    return folded_section("provenance", "How this page was made", body);
+    if (rows.empty() && report.settings.empty()) return {};
+    return folded_section("provenance", "How this page was made",
+                          filled(templates::report_provenance,
+                                 {{"made_from", table_view(rows)}, {"settings", report.settings}}));
 }
 
 }  // namespace culet

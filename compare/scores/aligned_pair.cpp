@@ -68,24 +68,46 @@ void multiply_channels(cv::Mat& colour, const std::array<double, 3>& gain) {
     cv::multiply(colour, cv::Scalar(gain[0], gain[1], gain[2]), colour);
 }
 
-LaidPictures lay_pictures(const Frame& frame, double photo_saturation, double render_saturation) {
-    LaidPictures laid;
-    MatchedPictures& pictures = laid.pictures;
+namespace {
+
+// Mask, white level and gain of pictures that lie on one another.
+void match_exposure(AlignedPair& pair) {
+    const Frame& frame = pair.frame;
+    if (frame.render.empty()) return;
+    MatchedPictures& pictures = pair.pictures;
     pictures.photo = frame.photo.colour;
     pictures.render = frame.render.clone();
     pictures.diameter = frame.photo.silhouette.diameter;
     pictures.mask = eroded(frame.photo.silhouette.mask & frame.render_mask,
                            std::max(2.0, 0.005 * pictures.diameter));
     if (!frame.photo.ignored.empty()) pictures.mask.setTo(0, frame.photo.ignored);
-    laid.compared_pixels = cv::countNonZero(pictures.mask);
-    if (!laid.enough()) return laid;
-    pictures.white = white_level(pictures.photo, pictures.mask, photo_saturation);
-    const cv::Mat photo_usable = not_clipped(pictures.photo, photo_saturation, pictures.mask);
-    laid.usable = not_clipped(pictures.render, render_saturation, photo_usable);
-    laid.saturated = 1 - static_cast<double>(cv::countNonZero(photo_usable)) / laid.compared_pixels;
-    laid.gain = solve_gain(pictures.photo, pictures.render, laid.usable);
-    multiply_channels(pictures.render, laid.gain);
-    return laid;
+    pair.compared_pixels = cv::countNonZero(pictures.mask);
+    if (!pair.enough()) return;
+    pictures.white = white_level(pictures.photo, pictures.mask, pair.photo_saturation);
+    const cv::Mat photo_usable = not_clipped(pictures.photo, pair.photo_saturation, pictures.mask);
+    pair.usable = not_clipped(pictures.render, pair.render_saturation, photo_usable);
+    pair.saturated = 1 - static_cast<double>(cv::countNonZero(photo_usable)) / pair.compared_pixels;
+    pair.gain = solve_gain(pictures.photo, pictures.render, pair.usable);
+    multiply_channels(pictures.render, pair.gain);
+}
+
+}  // namespace
+
+AlignedPair aligned(const Photo& photo, const std::vector<float>& mask, const Photo& render,
+                    const Alignment& how) {
+    AlignedPair pair;
+    pair.frame = align(photo, mask, render, how);
+    pair.photo_saturation = photo.saturation;
+    pair.render_saturation = render.saturation;
+    match_exposure(pair);
+    return pair;
+}
+
+AlignedPair with_render(AlignedPair pair, const Photo& render) {
+    pair.frame.render = moved_as_render(pair.frame, render);
+    pair.render_saturation = render.saturation;
+    match_exposure(pair);
+    return pair;
 }
 
 }  // namespace culet

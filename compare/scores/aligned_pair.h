@@ -1,5 +1,5 @@
 #pragma once
-// From a registered frame to pictures that can be scored: mask, white level and gain.
+// A photograph and a render, aligned once, as pictures that can be scored: mask, white level, gain.
 
 #include <array>
 
@@ -8,21 +8,31 @@
 
 namespace culet {
 
-struct LaidPictures {
-    MatchedPictures pictures;  ///< the gain is on the render
-    cv::Mat usable;            ///< CV_8U: compared, and clipped in neither picture
+struct AlignedPair {
+    Frame frame;
+    double photo_saturation = 0, render_saturation = 0;  ///< where they clip; 0: they do not
+    MatchedPictures pictures;                            ///< the gain is on the render
+    cv::Mat usable;  ///< CV_8U: compared, and clipped in neither picture
     std::array<double, 3> gain{1, 1, 1};
     double saturated = 0;  ///< share of compared pixels that the photo's camera clipped
     int compared_pixels = 0;
+
     bool enough() const { return compared_pixels >= k_least_pixels; }
+    /// The outlines fit, and there is something to compare.
+    bool comparable() const { return frame.match.usable && enough(); }
     /// Fewer pixels than this hold no pattern: a stone of 32 pixels has some 700.
     static constexpr int k_least_pixels = 400;
 };
 
-/// Compares what lies inside both outlines by two pixels, or by half a per cent of a large stone:
-/// there the outlines' error lives; and what the photo's frame does not say to leave out. A
-/// saturation of 0: that picture does not clip. With too few pixels no gain is solved.
-LaidPictures lay_pictures(const Frame& frame, double photo_saturation, double render_saturation);
+/// Aligns by the outlines, then compares what lies inside both by two pixels, or by half a per cent
+/// of a large stone: there the outlines' error lives; and what `how` does not say to leave out.
+/// With too few pixels no gain is solved. `mask`: as for `align`.
+AlignedPair aligned(const Photo& photo, const std::vector<float>& mask, const Photo& render,
+                    const Alignment& how);
+
+/// The pair with another picture in the render's place, of the same size and outline: as a lens
+/// would show it, say. Its place is the same; the gain is solved anew.
+AlignedPair with_render(AlignedPair pair, const Photo& render);
 
 /// Of the frame, what the scores need: the mask's box and as much around it as they look beyond.
 cv::Rect part_to_score(const MatchedPictures& pictures);

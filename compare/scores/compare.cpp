@@ -15,8 +15,9 @@
 #include "compare/scores/aligned_pair.h"
 #include "compare/scores/colour_distribution.h"
 #include "compare/scores/rotation_null.h"
+#include "compare/scores/rotation_verdict.h"
 #include "compare/scores/score_list.h"
-#include "page/html.h"
+#include "compare/scores/scored_pair.h"
 #include "stone/errors.h"
 #include "stone/units.h"
 
@@ -112,15 +113,17 @@ ReflexCount counted(const ReflexMatch& match, const cv::Point& corner) {
 // One row of scores a draw; the gain is solved anew, as it was for the render itself.
 void add_null(const MatchedPictures& pictures, const WaveletBank& wavelets, const cv::Mat& usable,
               const cv::Mat& outline, const CompareOptions& options, const Progress& progress,
-              Comparison& result) {
-    const std::vector<TurnedDraw> draws =
-        draw_turns(pictures, outline, std::max(20, options.null_draws), options.seed);
+              bool calibrating, Comparison& result) {
+    const std::vector<Rotation> draws =
+        draw_rotations(pictures, outline, std::max(20, options.null_draws), options.seed);
     std::vector<std::vector<std::optional<double>>> rows(draws.size());
     const auto measure_draw = [&](std::size_t k) {
-        MatchedPictures other = turned(pictures, draws[k]);
+        MatchedPictures other = rotated(pictures, draws[k]);
         const cv::Mat other_usable = other.mask & usable;
         multiply_channels(other.render, solve_gain(other.photo, other.render, other_usable));
-        for (const Score& s : measure(other, wavelets).scores) rows[k].push_back(s.value);
+        Measures measures = measures_of(other, wavelets);
+        measures.calibrating = calibrating;
+        for (const Score& s : scores_of(measures)) rows[k].push_back(s.value);
     };
     tbb::task_arena arena(options.threads > 0 ? options.threads : tbb::task_arena::automatic);
     // Some at a time, so that progress is told from this thread.
@@ -143,83 +146,31 @@ void add_null(const MatchedPictures& pictures, const WaveletBank& wavelets, cons
         "mirrored, gain solved anew; draws under which the render stays much the same are left out";
 }
 
-// Bright and dark places, or, where the photograph's brightness is not to be trusted, the facets'
-// images.
-const Score& deciding(const Comparison& result) {
-    const char* key = result.geometry_only ? "cw_ssim" : "zncc";
-    return *std::find_if(result.scores.begin(), result.scores.end(),
-                         [&](const Score& s) { return s.key == key; });
-}
-
-void judge(Comparison& result) {
-    const Score& zncc = deciding(result);
-    if (!zncc.value) {
-        result.verdict = Verdict::no_evidence;
-        result.reason = "there is no pattern to compare: " + zncc.note;
-        return;
-    }
-    if (result.null_draws < 20 || !zncc.z) {
-        result.verdict = Verdict::no_evidence;
-        result.reason =
-            "the render is much the same however it is turned, so that this test "
-            "cannot tell a match from chance";
-        return;
-    }
-    const double enough = result.geometry_only ? k_match_cw_ssim : k_match_zncc;
-    const std::string what =
-        result.geometry_only ? "the facets' images agree" : "bright and dark places agree";
-    const double z = *zncc.z;
-    const std::string figures = fmt::format(
-        "{} {}, chance level {} ± {}", result.geometry_only ? "CW-SSIM" : "correlation",
-        decimals(*zncc.value, 2), decimals(zncc.null_mean, 2), decimals(zncc.null_sd, 2));
-    if (z >= k_match_z && *zncc.value >= enough) {
-        result.verdict = Verdict::match;
-        result.reason = fmt::format(
-            "{} far better than those of the same "
-            "render turned ({})",
-            what, figures);
-    } else if (z >= k_partial_z && *zncc.p <= 1 / (result.null_draws + 0.99)) {
-        result.verdict = Verdict::partial;
-        result.reason = fmt::format(
-            "{} better than those of the same "
-            "render turned, but not by much ({})",
-            what, figures);
-    } else {
-        result.verdict = Verdict::no_evidence;
-        result.reason = fmt::format(
-            "{} no better than those of the same "
-            "render turned ({})",
-            what, figures);
-    }
-}
-
 }  // namespace
 
-const char* name_of(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::match:
-            return "match";
-        case Verdict::partial:
-            return "partial";
-        case Verdict::no_evidence:
-            return "no_evidence";
-        case Verdict::refused:
-            return "refused";
+std::string sentence_of(const ReflexCount& reflexes) {
+    if (reflexes.in_photo == 0) return "the photograph has no bright reflex";
+    std::string text = fmt::format("{} of {} reflexes found", reflexes.matched, reflexes.in_photo);
+    if (reflexes.displacement) {
+        text += fmt::format(", {:.1f} % of the diameter apart", 100 * *reflexes.displacement);
     }
-    return "refused";
+    if (reflexes.coloured > 0) {
+        text += fmt::format("; {} of {} coloured ones of one hue", reflexes.same_hue,
+                            reflexes.coloured);
+    }
+    return text;
 }
 
-Comparison compare(const Photo& photo, const Photo& render, const CompareOptions& options,
-                   const Progress& progress) {
+Comparison scored(const AlignedPair& pair, const Photo& photo, const Photo& render,
+                  const CompareOptions& options, const Progress& progress,
+                  const CalibratedScoring* calibrated) {
     Comparison result;
     result.simulated = options.simulated;
     result.seed = options.seed;
     for (const std::string& note : photo.notes) result.notes.push_back("photo: " + note);
     for (const std::string& note : render.notes) result.notes.push_back("render: " + note);
 
-    const Frame frame = align(photo, options.mask, render,
-                              {.largest = options.largest, .ignored = options.ignored});
-    if (progress && !progress(0.1)) throw Interrupted();
+    const Frame& frame = pair.frame;
     result.registration = registration_of(frame);
     if (!frame.photo.colour.empty()) {
         result.pictures.photo = photo_of(frame.photo.colour);
@@ -235,28 +186,29 @@ Comparison compare(const Photo& photo, const Photo& render, const CompareOptions
         result.reason = frame.match.trouble;
         return result;
     }
-
-    const LaidPictures laid = lay_pictures(frame, photo.saturation, render.saturation);
-    const MatchedPictures& pictures = laid.pictures;
-    result.compared_pixels = laid.compared_pixels;
-    if (!laid.enough()) {
+    const MatchedPictures& pictures = pair.pictures;
+    result.compared_pixels = pair.compared_pixels;
+    if (!pair.enough()) {
         result.reason = fmt::format(
             "only {} pixels of the stone can be compared: at least {} are "
             "needed",
-            result.compared_pixels, LaidPictures::k_least_pixels);
+            result.compared_pixels, AlignedPair::k_least_pixels);
         return result;
     }
-    result.saturated = laid.saturated;
-    result.gain = laid.gain;
+    result.saturated = pair.saturated;
+    result.gain = pair.gain;
 
     const cv::Rect part = part_to_score(pictures);
     const MatchedPictures close = part_of(pictures, part);
     const WaveletBank wavelets = wavelet_bank(close.mask.size(), close.diameter);
-    const Measured measured = measure(close, wavelets);
-    result.scores = measured.scores;
-    if (measured.reflexes) {
-        result.reflexes = counted(*measured.reflexes, part.tl());
+    Measures measures = measures_of(close, wavelets);
+    if (calibrated != nullptr) {
+        measures.calibrating = true;
+        measures.facet_error_deg = calibrated->facet_error_deg;
+        result.render_blur_px = calibrated->render_blur_px;
     }
+    result.scores = scores_of(measures);
+    if (measures.reflexes) result.reflexes = counted(*measures.reflexes, part.tl());
     if (!photo.photometric) {
         result.geometry_only = true;
         keep_geometry_only(result.scores, "the photograph cannot serve for photometry");
@@ -265,24 +217,29 @@ Comparison compare(const Photo& photo, const Photo& render, const CompareOptions
             "are given",
             photo.not_photometric.empty() ? "its values are not light" : photo.not_photometric));
     }
-    const ColourDistributions colours = colour_distributions(close);
-    result.photo_light = colours.photo_light;
-    result.render_light = colours.render_light;
+    result.photo_light = measures.colours.photo_light;
+    result.render_light = measures.colours.render_light;
     if (progress && !progress(0.2)) throw Interrupted();
-    add_null(close, wavelets, laid.usable(part).clone(), frame.render_mask(part).clone(), options,
-             progress, result);
-    judge(result);
-
-    const ShownPictures pair = shown(pictures);
+    add_null(close, wavelets, pair.usable(part).clone(), frame.render_mask(part).clone(), options,
+             progress, measures.calibrating, result);
+    judge_by_rotations(result);
     result.pictures.white = pictures.white;
     result.pictures.render = photo_of(pictures.render);
     result.pictures.mask = map_of({}, pictures.mask);
     result.pictures.luminance_difference =
-        map_of(pair.render_luma - pair.photo_luma, pictures.mask);
-    result.pictures.colour_difference = map_of(measured.colour_map, part, pictures.mask);
-    result.pictures.visible_difference = map_of(measured.flip_map, part, pictures.mask);
-    result.pictures.similarity = map_of(measured.ssim_map, part, pictures.mask);
+        map_of(measures.shown.render_luma - measures.shown.photo_luma, part, pictures.mask);
+    result.pictures.colour_difference = map_of(measures.colour.map, part, pictures.mask);
+    result.pictures.visible_difference = map_of(measures.visible.map, part, pictures.mask);
+    result.pictures.similarity = map_of(measures.structure.map, part, pictures.mask);
     return result;
+}
+
+Comparison compare(const Photo& photo, const Photo& render, const CompareOptions& options,
+                   const Progress& progress) {
+    const AlignedPair pair = aligned(photo, options.mask, render,
+                                     {.largest = options.largest, .ignored = options.ignored});
+    if (progress && !progress(0.1)) throw Interrupted();
+    return scored(pair, photo, render, options, progress);
 }
 
 }  // namespace culet

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "compare/calibration/meaning.h"
 #include "compare/photo/photo.h"
 #include "compare/scores/score.h"
 #include "stone/progress.h"
@@ -80,10 +79,9 @@ struct Comparison {
     double photo_light = 0, render_light = 0;
     int null_draws = 0;
     std::string null_note;
-    /// What the scores mean for this stone, pose and light, where that was calibrated. The verdict
-    /// and its reason are then those of the meaning.
-    std::optional<Calibration> calibration;
-    std::optional<Meaning> meaning;
+    /// Standard deviation of the Gaussian, in pixels, that the render was blurred by before it was
+    /// scored: in a calibrated comparison it is as soft as the photograph; else 0.
+    double render_blur_px = 0;
     std::vector<std::string> notes;
     bool simulated = false;
     std::uint64_t seed = 1;
@@ -120,14 +118,5 @@ Comparison compare(const Photo& photo, const Photo& render, const CompareOptions
 constexpr double k_match_z = 5, k_partial_z = 2, k_match_zncc = 0.8;
 /// The same of CW-SSIM, which decides for photographs that cannot serve for photometry.
 constexpr double k_match_cw_ssim = 0.55;
-
-/// What a program would want to know beside the scores themselves.
-struct CompareSources {
-    std::string photo_file, render_file, mask_file;
-    std::string pose{};  ///< JSON of the pose that was found; empty: none was looked for
-};
-
-/// The scores as one JSON object (schema 1).
-std::string scores_json(const Comparison& comparison, const CompareSources& sources = {});
 
 }  // namespace culet

@@ -35,30 +35,30 @@ double uniform(std::mt19937_64& random) {
     return static_cast<double>(random() >> 11) * 0x1.0p-53;
 }
 
-// How much the render is like its turned self, at the size of a thumbnail.
-double likeness(const MatchedPictures& pictures, const TurnedDraw& draw) {
-    MatchedPictures self = turned(pictures, draw);
+// How much the render is like its rotated self, at the size of a thumbnail.
+double likeness(const MatchedPictures& pictures, const Rotation& draw) {
+    MatchedPictures self = rotated(pictures, draw);
     self.photo = pictures.render;
     return zncc(self, 0.02).value_or(1);
 }
 
 }  // namespace
 
-MatchedPictures turned(const MatchedPictures& pictures, const TurnedDraw& draw) {
+MatchedPictures rotated(const MatchedPictures& pictures, const Rotation& draw) {
     MatchedPictures result = pictures;
-    result.render = resampled(pictures.render, draw.render_from_turned, pictures.render.size(),
+    result.render = resampled(pictures.render, draw.render_from_rotated, pictures.render.size(),
                               Kernel::linear, Beyond::nearest);
     // Into a matrix of its own: assigned straight away it would be written over the shared mask.
-    const cv::Mat covered = pictures.mask & resampled_mask(pictures.mask, draw.render_from_turned,
+    const cv::Mat covered = pictures.mask & resampled_mask(pictures.mask, draw.render_from_rotated,
                                                            pictures.mask.size());
     result.mask = covered;
     return result;
 }
 
-std::vector<TurnedDraw> draw_turns(const MatchedPictures& pictures, const cv::Mat& outline,
-                                   int count, std::uint64_t seed) {
+std::vector<Rotation> draw_rotations(const MatchedPictures& pictures, const cv::Mat& outline,
+                                     int count, std::uint64_t seed) {
     const cv::Moments m = cv::moments(outline, true);
-    std::vector<TurnedDraw> draws;
+    std::vector<Rotation> draws;
     if (!(m.m00 > 0)) return draws;
     const cv::Vec2d middle(m.m10 / m.m00, m.m01 / m.m00);
     const Roots roots = roots_of({m.mu20 / m.m00, m.mu11 / m.m00, m.mu11 / m.m00, m.mu02 / m.m00});
@@ -79,8 +79,8 @@ std::vector<TurnedDraw> draw_turns(const MatchedPictures& pictures, const cv::Ma
         const double angle = 2 * std::numbers::pi * uniform(random);
         const double mirror = draws.size() % 2 == 0 ? 1 : -1;
         const double c = std::cos(angle), s = std::sin(angle);
-        const cv::Matx22d turn(c, -s * mirror, s, c * mirror);
-        const cv::Matx22d about = roots.root * turn * roots.inverse;
+        const cv::Matx22d rotation(c, -s * mirror, s, c * mirror);
+        const cv::Matx22d about = roots.root * rotation * roots.inverse;
         const auto matrix = [&](double factor) {
             // Pixel centres of the small copy lie at (p + 0.5) * factor - 0.5.
             const cv::Vec2d at((middle[0] + 0.5) * factor - 0.5, (middle[1] + 0.5) * factor - 0.5);

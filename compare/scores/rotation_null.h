@@ -1,5 +1,5 @@
 #pragma once
-// What a score is worth: the same score for the same render, turned and mirrored in its plane.
+// What a score is worth: the same score for the same render, rotated and mirrored in its plane.
 
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
@@ -9,23 +9,23 @@
 
 namespace culet {
 
-/// One way of turning: a 2 x 3 matrix from turned positions to the render's.
-struct TurnedDraw {
-    cv::Matx23d render_from_turned;
+/// A 2 x 3 matrix from rotated positions to the render's.
+struct Rotation {
+    cv::Matx23d render_from_rotated;
 };
 
-/// Random turns by any angle, every second one mirrored, about the middle of `outline`. For a stone
-/// that is not round the turn is taken in the frame in which its ellipse of inertia is a circle, so
-/// that the turned stone covers the same ground. A draw that leaves the render much as it was
-/// (correlation over `k_same_render`: a symmetric stone under symmetric light) would be no null at
-/// all and is drawn again; fewer than `count` draws come back when there are too few others.
-/// Repeatable for one seed on every machine.
-std::vector<TurnedDraw> draw_turns(const MatchedPictures& pictures, const cv::Mat& outline,
-                                   int count, std::uint64_t seed);
+/// Random rotations by any angle, every second one mirrored, about the middle of `outline`. For a
+/// stone that is not round the rotation is taken in the frame in which its ellipse of inertia is a
+/// circle, so that the rotated stone covers the same ground. A draw that leaves the render much as
+/// it was (correlation over `k_same_render`: a symmetric stone under symmetric light) would be no
+/// null at all and is drawn again; fewer than `count` draws come back when there are too few
+/// others. Repeatable for one seed on every machine.
+std::vector<Rotation> draw_rotations(const MatchedPictures& pictures, const cv::Mat& outline,
+                                     int count, std::uint64_t seed);
 
 constexpr double k_same_render = 0.9;
 
-/// The pictures with the render turned; the mask is what both outlines cover.
-MatchedPictures turned(const MatchedPictures& pictures, const TurnedDraw& draw);
+/// The pictures with the render rotated; the mask is what both outlines cover.
+MatchedPictures rotated(const MatchedPictures& pictures, const Rotation& draw);
 
 }  // namespace culet

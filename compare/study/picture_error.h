@@ -5,9 +5,8 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 
-#include "compare/scores/compare.h"
 #include "compare/scores/metrics.h"
-#include "compare/study/scene_study.h"
+#include "compare/study/scene_study_result.h"
 #include "render/image/picture.h"
 
 namespace culet {

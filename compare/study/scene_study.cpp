@@ -9,9 +9,11 @@
 #include <set>
 
 #include "compare/study/picture_error.h"
+#include "compare/study/study_advice.h"
 #include "compare/study/study_clock.h"
 #include "compare/study/study_design.h"
 #include "compare/study/study_reference.h"
+#include "compare/study/study_words.h"
 #include "render/beams/frame_renderer.h"
 #include "stone/errors.h"
 
@@ -25,8 +27,6 @@ constexpr double k_row_share = 0.06, k_needed_share = 0.15;
 // Settings whose first run took up to this times as long as the front's are timed again: their
 // median might be quicker.
 constexpr double k_perhaps_quicker = 1.3;
-// The next on the front is nearer to the truth by more than that.
-constexpr double k_better = 0.98;
 // A neighbour must be quicker by that much to be worth going on from.
 constexpr double k_gain = 0.97;
 
@@ -81,7 +81,7 @@ public:
         try_by_hand();
         search();
         time_again();
-        advise();
+        study_.advice = advice_of(study_);
         study_.cpu_seconds = clock_.spent();
         return std::move(study_);
     }
@@ -93,10 +93,8 @@ private:
     void try_by_hand();
     void search();
     void time_again();
-    void advise();
     void update_front();
     bool may_be_on_front(const StudiedRender& render) const;
-    std::optional<int> cheapest_within(double tolerance) const;
     Scene scene_with(const RenderSettings& settings) const {
         Scene scene = ground_.scene;
         scene.settings = settings;
@@ -207,21 +205,9 @@ void SceneStudier::time_once(const RenderSettings& settings, DrawnTimes& times) 
         std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count());
 }
 
-// Quickest first; each is nearer to the truth than all before it. Pictures of others are let go.
+// Pictures of others are let go.
 void SceneStudier::update_front() {
-    std::vector<const StudiedRender*> order;
-    for (const StudiedRender& render : study_.renders) order.push_back(&render);
-    std::stable_sort(order.begin(), order.end(), [](const auto* a, const auto* b) {
-        return std::pair(a->cpu.median, a->claimed_error) <
-               std::pair(b->cpu.median, b->claimed_error);
-    });
-    study_.front.clear();
-    double best = std::numeric_limits<double>::infinity();
-    for (const StudiedRender* render : order) {
-        if (!(render->claimed_error < k_better * best)) continue;
-        best = render->claimed_error;
-        study_.front.push_back(render->id);
-    }
+    study_.front = front_of(study_);
     for (StudiedRender& render : study_.renders) {
         render.on_front =
             std::find(study_.front.begin(), study_.front.end(), render.id) != study_.front.end();
@@ -240,15 +226,6 @@ bool SceneStudier::may_be_on_front(const StudiedRender& render) const {
     });
 }
 
-std::optional<int> SceneStudier::cheapest_within(double tolerance) const {
-    const StudiedRender* best = nullptr;
-    for (const StudiedRender& render : study_.renders) {
-        if (render.claimed_error > tolerance) continue;
-        if (best == nullptr || render.cpu.median < best->cpu.median) best = &render;
-    }
-    return best == nullptr ? std::nullopt : std::optional(best->id);
-}
-
 // What the plans chose, as somebody would who knows it: without planning.
 void SceneStudier::try_by_hand() {
     std::vector<StudyCandidate> chosen;
@@ -262,7 +239,7 @@ void SceneStudier::try_by_hand() {
 void SceneStudier::search() {
     for (const double tolerance : study_.options.tolerances) {
         for (;;) {
-            const std::optional<int> at = cheapest_within(tolerance);
+            const std::optional<int> at = cheapest_within(study_, tolerance);
             if (!at || clock_.spent() > clock_.share(drawing_share_)) break;
             const RenderSettings settings = study_.render(*at).settled;
             const RenderStats stats = study_.render(*at).stats;
@@ -271,7 +248,7 @@ void SceneStudier::search() {
                 if (clock_.spent() > clock_.share(drawing_share_)) break;
                 try_out(neighbour);
             }
-            const std::optional<int> next = cheapest_within(tolerance);
+            const std::optional<int> next = cheapest_within(study_, tolerance);
             if (!next || *next == *at || study_.render(*next).cpu.median > k_gain * before) break;
         }
     }
@@ -306,55 +283,7 @@ void SceneStudier::time_again() {
     }
 }
 
-void SceneStudier::advise() {
-    for (const double tolerance : study_.options.tolerances) {
-        StudyAdvice advice;
-        advice.tolerance = tolerance;
-        advice.cheapest = cheapest_within(tolerance);
-        for (const StudiedRender& render : study_.renders) {
-            if (render.automatic && render.settings.tolerance == tolerance)
-                advice.automatic = render.id;
-        }
-        if (study_.reference.noise.mean > tolerance) {
-            advice.words = fmt::format(
-                "tolerance {:g}: not decided, the reference itself may be off by {:.2g}", tolerance,
-                study_.reference.noise.mean);
-        } else if (!advice.cheapest) {
-            advice.words =
-                fmt::format("tolerance {:g}: no setting that was drawn met it", tolerance);
-        } else {
-            const StudiedRender& best = study_.render(*advice.cheapest);
-            advice.words = fmt::format("for tolerance {:g} take {}: {:.3g} s, error {:.2g}",
-                                       tolerance, best.words, best.cpu.median, best.claimed_error);
-        }
-        if (advice.automatic) {
-            const StudiedRender& own = study_.render(*advice.automatic);
-            advice.automatic_meets = own.claimed_error <= tolerance;
-            if (advice.cheapest) {
-                advice.ratio = own.cpu.median / study_.render(*advice.cheapest).cpu.median;
-                advice.words += fmt::format(
-                    "; automatic settings took {:.2f}x of that{} {:.2g}", *advice.ratio,
-                    advice.automatic_meets ? ", error" : " but missed it:", own.claimed_error);
-            } else {
-                advice.words += fmt::format("; automatic settings took {:.3g} s, error {:.2g}",
-                                            own.cpu.median, own.claimed_error);
-            }
-        } else {
-            advice.words += "; automatic settings took too long for this budget";
-        }
-        study_.advice.push_back(std::move(advice));
-    }
-}
-
 }  // namespace
-
-bool SceneStudy::usable() const {
-    const double wanted = asked.tolerance > 0 ? asked.tolerance : 0.01;
-    return reference.noise.mean <= wanted &&
-           std::any_of(renders.begin(), renders.end(), [&](const StudiedRender& render) {
-               return render.automatic && render.settings.tolerance == wanted;
-           });
-}
 
 SceneStudy study_scene(const Scene& scene, const SceneStudyOptions& options,
                        const Progress& progress) {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "compare/json_number.h"
 #include "compare/study/scene_study.h"
+#include "page/json_fields.h"
 #include "render/planner/explain.h"
 
 namespace culet {
@@ -15,6 +15,7 @@ namespace culet {
 namespace {
 
 using Json = nlohmann::ordered_json;
+constexpr auto number = json_number<Json>;
 
 Json errors(const PictureError& error) {
     return {{"error", number(error.mean)},

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "compare/study/study_words.h"
+#include "render/beams/frame_renderer.h"
 #include "render/setup/optical_setup.h"
 
 namespace culet {
@@ -14,10 +16,6 @@ namespace {
 constexpr std::array k_depths{2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 384, 512};
 constexpr std::array k_samples{1, 4, 16, 36, 64};
 constexpr std::array k_tolerances{0.3, 0.1, 0.03, 0.01, 0.003, 0.001};
-
-bool by_beams(const RenderSettings& settings) {
-    return settings.engine == "beams" || settings.engine == "preview";
-}
 
 void without(RenderSettings& settings, Effects effect) {
     settings.effects_auto = false;
@@ -55,7 +53,7 @@ std::vector<std::vector<double>> wavelength_sets(const StudyGround& ground) {
 RenderSettings with_all(const Scene& scene, const std::string& engine, double tolerance) {
     RenderSettings settings = exact_settings(scene, tolerance, k_node_counts[1]);
     settings.engine = engine;
-    if (engine == "reference") settings.samples = 4;
+    if (engine == k_reference_engine) settings.samples = 4;
     return settings;
 }
 
@@ -70,7 +68,7 @@ public:
 
     void automatic() {
         for (const double tolerance : ground_.tolerances) {
-            RenderSettings settings = with_all(ground_.scene, "auto", tolerance);
+            RenderSettings settings = with_all(ground_.scene, k_auto_engine, tolerance);
             settings.effects_auto = true;
             if (ground_.scene.settings.wavelengths_nm.size() != 1) settings.wavelengths_nm.clear();
             add("automatic", fmt::format("tolerance {:g}", tolerance), settings, true,
@@ -87,19 +85,19 @@ public:
             const std::string setting = fmt::format("{:g}", tolerance);
             const bool needed = tolerance == ground_.tolerance;
             if (ground_.beams) {
-                for (const char* engine : {"beams", "preview"}) {
+                for (const char* engine : {k_beam_engine, k_preview_engine}) {
                     add("tolerance", setting, with_all(ground_.scene, engine, tolerance), false,
                         needed);
                 }
             }
-            add("tolerance", setting, with_all(ground_.scene, "reference", tolerance), false,
+            add("tolerance", setting, with_all(ground_.scene, k_reference_engine, tolerance), false,
                 needed);
         }
     }
     // One thing at a time; `base` is the quicker engine that can draw the scene.
     void sweeps() {
-        const RenderSettings base =
-            with_all(ground_.scene, ground_.beams ? "beams" : "reference", ground_.tolerance);
+        const RenderSettings base = with_all(
+            ground_.scene, ground_.beams ? k_beam_engine : k_reference_engine, ground_.tolerance);
         for (const Effects effect : effects_on(ground_.exact)) {
             RenderSettings settings = base;
             without(settings, effect);
@@ -115,7 +113,8 @@ public:
             add("wavelengths", fmt::format("{}", nm.size()), settings);
         }
         for (const int samples : k_samples) {
-            RenderSettings settings = with_all(ground_.scene, "reference", ground_.tolerance);
+            RenderSettings settings =
+                with_all(ground_.scene, k_reference_engine, ground_.tolerance);
             settings.samples = samples;
             add("samples", fmt::format("{}", samples), settings);
         }
@@ -159,7 +158,7 @@ private:
 
 RenderSettings exact_settings(const Scene& scene, double tolerance, int nodes) {
     RenderSettings settings = scene.settings;
-    settings.engine = "reference";
+    settings.engine = k_reference_engine;
     settings.tolerance = tolerance;
     settings.depth = 0;
     settings.effects_auto = false;
@@ -234,7 +233,7 @@ std::vector<StudyCandidate> cheaper_neighbours(const StudyGround& ground,
         without(changed, effect);
         add(changed);
     }
-    if (settings.engine == "reference") {
+    if (settings.engine == k_reference_engine) {
         const auto less = std::find_if(k_samples.rbegin(), k_samples.rend(), [&](int samples) {
             return samples < (settings.samples > 0 ? settings.samples : 16);
         });
@@ -244,16 +243,16 @@ std::vector<StudyCandidate> cheaper_neighbours(const StudyGround& ground,
             add(changed);
         }
     }
-    if (settings.engine == "beams") {
+    if (settings.engine == k_beam_engine) {
         RenderSettings changed = settings;
-        changed.engine = "preview";
+        changed.engine = k_preview_engine;
         changed.samples = 0;
         add(changed);
         changed = settings;
         changed.samples = settings.samples == 1 ? 0 : 1;
         if (ground.scene.camera.aperture_radius == 0) add(changed);
     }
-    if (by_beams(settings) && settings.crystal_beams != CrystalBeams::merged &&
+    if (drawn_by_beams(settings) && settings.crystal_beams != CrystalBeams::merged &&
         std::any_of(drawn.effects.begin(), drawn.effects.end(), [](const EffectDecision& d) {
             return d.effect == Effects::birefringence && d.on;
         })) {
@@ -262,48 +261,6 @@ std::vector<StudyCandidate> cheaper_neighbours(const StudyGround& ground,
         add(changed);
     }
     return found;
-}
-
-std::vector<std::string> effects_left_out(const StudyGround& ground,
-                                          const RenderSettings& settings) {
-    std::vector<std::string> names;
-    Scene scene = ground.scene;
-    scene.settings = settings;
-    const OpticalSetup setup = make_optical_setup(scene);
-    for (const Effects effect : effects_on(ground.exact)) {
-        if (!setup.on(effect)) names.emplace_back(name_of(effect));
-    }
-    return names;
-}
-
-std::string words_of(const StudyGround& ground, const RenderSettings& settings) {
-    std::string words = settings.engine;
-    if (settings.samples > 0)
-        words +=
-            fmt::format(", {} ray{} a pixel", settings.samples, settings.samples > 1 ? "s" : "");
-    if (!settings.wavelengths_nm.empty() && ground.exact.wavelengths_nm.size() > 1) {
-        words += fmt::format(", {} wavelength{}", settings.wavelengths_nm.size(),
-                             settings.wavelengths_nm.size() > 1 ? "s" : "");
-    }
-    if (settings.depth > 0) words += fmt::format(", depth {}", settings.depth);
-    words += fmt::format(", tolerance {:g}", settings.tolerance);
-    if (settings.cut_weight) words += fmt::format(", weights over {:.2g}", *settings.cut_weight);
-    if (settings.crystal_beams) {
-        words +=
-            *settings.crystal_beams == CrystalBeams::merged ? ", waves merged" : ", waves parted";
-    }
-    const std::vector<std::string> out = effects_left_out(ground, settings);
-    if (!out.empty()) words += fmt::format(", without {}", fmt::join(out, ", "));
-    return words;
-}
-
-std::string key_of(const StudyGround& ground, const RenderSettings& settings) {
-    return fmt::format("{}|{}|{}|{}|{}|{}|{}|{}|{}|{}", settings.engine, settings.samples,
-                       settings.tolerance, settings.depth, settings.effects_auto,
-                       fmt::join(settings.wavelengths_nm, " "),
-                       settings.crystal_beams ? static_cast<int>(*settings.crystal_beams) : -1,
-                       settings.cut_weight.value_or(-1), settings.split_weight.value_or(-1),
-                       fmt::join(effects_left_out(ground, settings), " "));
 }
 
 }  // namespace culet

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "compare/study/study_ground.h"
 #include "render/render.h"
 
 namespace culet {
@@ -13,15 +14,6 @@ struct StudyCandidate {
     RenderSettings settings;
     bool automatic = false;
     bool needed = false;  ///< drawn whatever the budget says
-};
-
-/// What the design needs to know of a scene.
-struct StudyGround {
-    Scene scene;                     ///< at the studied size
-    RenderStats exact;               ///< of the reference: effects, wavelengths, depth
-    bool beams = true;               ///< they can draw it
-    double tolerance = 0.01;         ///< that the sweeps are about: the scene's own
-    std::vector<double> tolerances;  ///< falling
 };
 
 /// Everything on, and nothing left open for a plan: what the reference is drawn with, but for
@@ -36,15 +28,5 @@ std::vector<StudyCandidate> study_design(const StudyGround& ground);
 std::vector<StudyCandidate> cheaper_neighbours(const StudyGround& ground,
                                                const RenderSettings& settings,
                                                const RenderStats& drawn);
-
-/// The same for settings that draw the same: effects that are not called for do not count.
-std::string key_of(const StudyGround& ground, const RenderSettings& settings);
-
-/// "beams, 15 wavelengths, depth 8, tolerance 0.01, without dispersion"
-std::string words_of(const StudyGround& ground, const RenderSettings& settings);
-
-/// The effects' names that these settings switch off although the reference has them on.
-std::vector<std::string> effects_left_out(const StudyGround& ground,
-                                          const RenderSettings& settings);
 
 }  // namespace culet

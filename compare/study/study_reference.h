@@ -1,9 +1,8 @@
 #pragma once
 // The picture that a study takes for the truth, and what it may itself be off by.
 
-#include "compare/study/scene_study.h"
+#include "compare/study/scene_study_result.h"
 #include "compare/study/study_clock.h"
-#include "render/render.h"
 
 namespace culet {
 

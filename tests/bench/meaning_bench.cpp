@@ -16,15 +16,15 @@
 #include <map>
 
 #include "compare/calibration/calibrate.h"
+#include "compare/calibration/calibrated_verdict.h"
 #include "compare/calibration/chance.h"
 #include "compare/calibration/cropped_camera.h"
 #include "compare/calibration/facet_error.h"
 #include "compare/calibration/hypotheses.h"
-#include "compare/calibration/meaning.h"
 #include "compare/calibration/photo_blur.h"
 #include "compare/calibration/photo_noise.h"
-#include "compare/registration/frame.h"
 #include "compare/scores/aligned_pair.h"
+#include "compare/scores/score_list.h"
 #include "stone/cuts/cuts.h"
 #include "stone/units.h"
 
@@ -77,7 +77,7 @@ struct Trial {
     bool right = false;
     Photo photo;
     CameraModel seen, camera;  // as found in the photograph; as it was
-    Meaning meaning;
+    CalibratedVerdict verdict;
     std::map<std::string, double> scores;
 
     void judge(const Calibration& calibration, const std::vector<std::optional<double>>& values) {
@@ -86,12 +86,13 @@ struct Trial {
             Score score;
             score.key = calibration.keys[k];
             score.value = values[k];
-            score.higher_is_better = calibration.higher_is_better[k];
-            score.is_correlation = score.key.starts_with("zncc");
+            const ScoreKind& row = score_kinds()[k];
+            score.higher_is_better = row.higher_is_better();
+            score.is_correlation = row.scale == ScoreScale::correlation;
             if (score.value) scores[score.key] = *score.value * (score.higher_is_better ? 1 : -1);
             of_photo.push_back(std::move(score));
         }
-        meaning = meaning_of(of_photo, calibration);
+        verdict = calibrated_verdict(of_photo, calibration);
     }
 };
 
@@ -144,8 +145,8 @@ double since(std::chrono::steady_clock::time_point start) {
 void print_ratios(const std::vector<Trial>& trials, const char* over, double Trial::*truth) {
     std::map<double, std::vector<double>> ratios;
     for (const Trial& t : trials) {
-        if (!t.right || t.sigma < 0.05 || !t.meaning.equivalent.deg) continue;
-        ratios[t.sigma].push_back(*t.meaning.equivalent.deg / (t.*truth));
+        if (!t.right || t.sigma < 0.05 || !t.verdict.equivalent.deg) continue;
+        ratios[t.sigma].push_back(*t.verdict.equivalent.deg / (t.*truth));
     }
     int within = 0, of = 0;
     double squares = 0;
@@ -245,10 +246,8 @@ int main(int argc, char** argv) {
             }
             const Photo photo = photographed(stone, camera, seed_of(seed, 556, draw));
             CameraModel seen = options.camera;
-            const Frame frame = align(photo, {}, picture, {.largest = options.largest});
-            if (!frame.render.empty()) {
-                set_blur_and_noise(seen, lay_pictures(frame, photo.saturation, 0).pictures);
-            }
+            const AlignedPair pair = aligned(photo, {}, picture, {.largest = options.largest});
+            if (pair.enough()) set_blur_and_noise(seen, pair.pictures);
             trials.push_back({kind, sigma, own, kind == "right", photo, seen, camera, {}, {}});
         };
         std::uint64_t draw = 1;
@@ -320,13 +319,13 @@ int main(int argc, char** argv) {
         std::map<std::string, std::map<std::string, int>> verdicts;
         for (const Trial& t : trials) {
             ++verdicts[t.right ? fmt::format("right {:.2f}", t.sigma) : t.kind]
-                      [name_of(t.meaning.verdict)];
+                      [name_of(t.verdict.verdict)];
             if (list) {
                 fmt::print(
                     "    {:10} {:.2f}: evidence {:.2f} equivalent {:.3f} zncc {:.3f} z {:.1f} {}\n",
-                    t.kind, t.sigma, t.meaning.evidence, t.meaning.equivalent.deg.value_or(-1),
-                    t.scores.at("zncc"), t.meaning.nulls.empty() ? 0 : t.meaning.nulls.front().z,
-                    name_of(t.meaning.verdict));
+                    t.kind, t.sigma, t.verdict.evidence, t.verdict.equivalent.deg.value_or(-1),
+                    t.scores.at("zncc"), t.verdict.nulls.empty() ? 0 : t.verdict.nulls.front().z,
+                    name_of(t.verdict.verdict));
             }
         }
         for (const auto& [kind, counts] : verdicts) {
@@ -352,8 +351,8 @@ int main(int argc, char** argv) {
                 fmt::print("\n");
             }
         };
-        roc("evidence", [](const Trial& t) { return t.meaning.evidence; });
-        roc("equivalent", [](const Trial& t) { return -t.meaning.equivalent.deg.value_or(10); });
+        roc("evidence", [](const Trial& t) { return t.verdict.evidence; });
+        roc("equivalent", [](const Trial& t) { return -t.verdict.equivalent.deg.value_or(10); });
         for (const char* key : {"zncc", "zncc_1pct", "reflex_area_f1", "cw_ssim", "psnr",
                                 "flip_mean", "nmi", "ssim", "deltaE00_mean"}) {
             roc(key, [&](const Trial& t) {

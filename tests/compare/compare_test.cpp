@@ -7,6 +7,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "compare/report/scores_json.h"
+#include "compare/scores/aligned_pair.h"
 #include "render/colour/colour.h"
 #include "stone/errors.h"
 #include "stone/units.h"
@@ -82,6 +84,25 @@ TEST(Compare, a_known_move_is_recovered_from_the_coverage) {
 }
 
 // Segmented on different grounds the outlines may each be off by half a pixel all round.
+// Another picture in the render's place lies where one that was aligned itself would: both outlines
+// are the coverage's.
+TEST(AlignedPair, takes_another_picture_of_the_renders_outline) {
+    StonePicture still = small();
+    still.with_coverage = true;
+    StonePicture moved = still;
+    moved.centre_x += 3.3;
+    moved.turn = 0.05;
+    const Photo photo = draw(moved), render = draw(still);
+    Photo darker = render;
+    for (std::size_t i = 0; i < darker.rgb.size(); i += 2) darker.rgb[i] *= 0.5f;
+    const AlignedPair put = with_render(aligned(photo, {}, render, {.largest = 70}), darker);
+    const AlignedPair own = aligned(photo, {}, darker, {.largest = 70});
+    EXPECT_TRUE(put.comparable());
+    EXPECT_EQ(cv::norm(put.pictures.render, own.pictures.render, cv::NORM_INF), 0);
+    EXPECT_EQ(put.gain, own.gain);
+    EXPECT_EQ(put.compared_pixels, own.compared_pixels);
+}
+
 TEST(Compare, a_known_move_is_recovered_from_the_background) {
     const StonePicture still = small();
     StonePicture moved = still;

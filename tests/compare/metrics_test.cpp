@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <opencv2/quality/qualityssim.hpp>
+#include <set>
 
 #include "compare/photo/pixels.h"
 #include "compare/photo/resampling.h"
@@ -255,15 +256,30 @@ TEST(ScoredPart, of_the_frame_gives_the_whole_frames_scores) {
     EXPECT_EQ(box.y % 2, 0);
     EXPECT_LT(box.area(), 0.7 * whole.mask.cols * whole.mask.rows);
     const MatchedPictures part = part_of(whole, box);
-    const Measured of_whole = measure(whole, wavelet_bank(whole.mask.size(), whole.diameter));
-    const Measured of_part = measure(part, wavelet_bank(part.mask.size(), part.diameter));
-    ASSERT_EQ(of_part.scores.size(), of_whole.scores.size());
-    for (std::size_t k = 0; k < of_part.scores.size(); ++k) {
-        const Score &a = of_whole.scores[k], &b = of_part.scores[k];
+    const auto scores = [](const MatchedPictures& pictures) {
+        const WaveletBank wavelets = wavelet_bank(pictures.mask.size(), pictures.diameter);
+        return scores_of(measures_of(pictures, wavelets));
+    };
+    const std::vector<Score> of_whole = scores(whole), of_part = scores(part);
+    ASSERT_EQ(of_part.size(), of_whole.size());
+    for (std::size_t k = 0; k < of_part.size(); ++k) {
+        const Score &a = of_whole[k], &b = of_part[k];
         ASSERT_EQ(a.value.has_value(), b.value.has_value()) << a.key;
         if (!a.value) continue;
         EXPECT_NEAR(*a.value, *b.value, a.key == "cw_ssim" ? 0.005 : 1e-5) << a.key;
     }
+}
+
+// Expected: keys are names in the JSON, and a perfect score is stretched beyond any other.
+TEST(ScoreTable, has_each_key_once_and_says_which_way_is_better) {
+    std::set<std::string> keys;
+    for (const ScoreKind& kind : score_kinds()) {
+        EXPECT_TRUE(keys.insert(kind.key).second) << kind.key;
+        EXPECT_EQ(score_kind(kind.key), &kind);
+        const double good = kind.higher_is_better() ? 0.9 : 0.1;
+        EXPECT_GE(stretch(good, kind.scale), stretch(1 - good, kind.scale)) << kind.key;
+    }
+    EXPECT_EQ(score_kind("none"), nullptr);
 }
 
 // A stone that fills the frame: nothing is asked for beyond it.

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "compare/report/report_parts.h"
+#include "compare/report/scores_json.h"
 #include "stone/errors.h"
 #include "tests/compare/synthetic_pictures.h"
 

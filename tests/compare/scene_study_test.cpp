@@ -1,4 +1,5 @@
 #include "compare/study/scene_study.h"
+#include "compare/report/study_pictures.h"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "compare/study/study_words.h"
 #include "render/setup/optical_setup.h"
 #include "tests/compare/study_scene.h"
 

@@ -17,6 +17,7 @@
 #include <random>
 
 #include "compare/report/report.h"
+#include "compare/report/scores_json.h"
 #include "compare/scores/compare.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"

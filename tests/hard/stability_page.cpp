@@ -11,6 +11,8 @@
 #include "page/html.h"
 #include "page/json_fields.h"
 #include "page/parts.h"
+#include "page/study_sections.h"
+#include "tests/hard/templates.h"
 
 namespace culet::hard {
 
@@ -64,12 +66,6 @@ std::string plain(const std::string& name) {
     std::string text = name;
     std::replace(text.begin(), text.end(), '_', ' ');
     return text;
-}
-
-std::string badge(bool good, bool run = true) {
-    return run ? fmt::format("<span class=\"badge {}\">{}</span>", good ? "good" : "bad",
-                             good ? "holds" : "fails")
-               : "<span class=\"badge\">not run</span>";
 }
 
 std::string margin_words(const Worst& w) {
@@ -153,11 +149,7 @@ std::string chart_of(const Json& result, const std::vector<std::string>& invaria
         if (with_contrasts) chart.series.push_back(std::move(limit));
     }
     for (auto& [way, series] : contrasts) chart.series.push_back(std::move(series));
-    const std::string svg = draw_chart_svg(chart);
-    if (svg.empty()) return {};
-    return "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Chart\"><figure "
-           "class=\"chart-figure\">" +
-           svg + "</figure></div>\n";
+    return chart_figure(draw_chart_svg(chart));
 }
 
 std::string charts_of(const Json& result) {
@@ -197,23 +189,19 @@ std::string charts_of(const Json& result) {
     return text;
 }
 
-std::string table_of(const Json& result) {
-    std::string rows;
+std::vector<View> rows_of(const Json& result) {
+    std::vector<View> rows;
     for (const auto& [name, w] : worst_of(result)) {
-        rows += fmt::format(
-            "<tr><th scope=\"row\">{}</th><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
-            "<td class=\"n strong\">{}</td><td>{}</td><td class=\"n\">{}</td></tr>\n",
-            escaped(plain(name)), badge(w.failed == 0), significant(w.error, 2),
-            w.limit == 0 ? "0" : significant(w.limit, 2), margin_words(w), escaped(w.at),
-            std::isfinite(w.condition) ? significant(w.condition, 2) : "");
+        rows.push_back(
+            {{"invariant", plain(name)},
+             {"holds", w.failed == 0},
+             {"error", significant(w.error, 2)},
+             {"allowed", w.limit == 0 ? "0" : significant(w.limit, 2)},
+             {"margin", margin_words(w)},
+             {"at", w.at},
+             {"condition", std::isfinite(w.condition) ? significant(w.condition, 2) : ""}});
     }
-    return table(
-        "What must hold",
-        "<th scope=\"col\">Invariant</th><th scope=\"col\">Verdict</th>"
-        "<th scope=\"col\" class=\"n\">Error</th><th scope=\"col\" class=\"n\">Allowed</th>"
-        "<th scope=\"col\" class=\"n\">Margin</th><th scope=\"col\">Narrowest at</th>"
-        "<th scope=\"col\" class=\"n\">Condition</th>",
-        rows);
+    return rows;
 }
 
 std::string id_of(const HardCase& one) {
@@ -224,9 +212,9 @@ struct Tally {
     int cases = 0, run = 0, checks = 0, failed = 0;
 };
 
-std::string overview(const std::vector<HardCase>& corpus, const std::vector<Json>& results,
-                     Tally& tally) {
-    std::string rows;
+std::vector<View> overview(const std::vector<HardCase>& corpus, const std::vector<Json>& results,
+                           Tally& tally) {
+    std::vector<View> rows;
     for (std::size_t i = 0; i < corpus.size(); ++i) {
         const HardCase& one = corpus[i];
         ++tally.cases;
@@ -249,18 +237,54 @@ std::string overview(const std::vector<HardCase>& corpus, const std::vector<Json
                 failed += !p.contains("invariants");
         }
         tally.failed += failed;
-        rows += fmt::format(
-            "<tr><td>{}</td><th scope=\"row\"><a href=\"#{}\">{}</a></th><td>{}</td>"
-            "<td class=\"n\">{}</td><td class=\"n strong\">{}</td><td>{}</td></tr>\n",
-            one.section, id_of(one), escaped(one.title), badge(failed == 0, run), one.points.size(),
-            of.empty() ? (run ? "exact" : "") : margin_words(narrowest),
-            of.empty() ? "" : escaped(plain(of) + " at " + narrowest.at));
+        rows.push_back({{"section", one.section},
+                        {"id", id_of(one)},
+                        {"title", one.title},
+                        {"run", run},
+                        {"holds", failed == 0},
+                        {"points", std::to_string(one.points.size())},
+                        {"margin", of.empty() ? (run ? "exact" : "") : margin_words(narrowest)},
+                        {"of", of.empty() ? "" : plain(of) + " at " + narrowest.at}});
     }
-    return table("All cases",
-                 "<th scope=\"col\">Section</th><th scope=\"col\">Case</th><th scope=\"col\">"
-                 "Verdict</th><th scope=\"col\" class=\"n\">Points</th><th scope=\"col\" "
-                 "class=\"n\">Narrowest margin</th><th scope=\"col\">Of</th>",
-                 rows);
+    return rows;
+}
+
+std::vector<View> highlights_of(const std::vector<HardCase>& corpus,
+                                const std::vector<Json>& results) {
+    std::vector<View> highlights;
+    for (std::size_t i = 0; i < corpus.size(); ++i) {
+        const HardCase& one = corpus[i];
+        if (one.highlight.empty() || results[i].is_null()) continue;
+        highlights.push_back(
+            {{"id", id_of(one)},
+             {"title", one.title},
+             {"chart_html", chart_of(results[i], {one.highlight}, one.title, true)}});
+    }
+    return highlights;
+}
+
+std::vector<View> sections_of(const std::vector<HardCase>& corpus,
+                              const std::vector<Json>& results) {
+    std::vector<View> shown;
+    for (const std::string& name : sections()) {
+        std::vector<View> cases;
+        for (std::size_t i = 0; i < corpus.size(); ++i) {
+            const HardCase& one = corpus[i];
+            if (one.section != name) continue;
+            const bool run = !results[i].is_null();
+            const std::vector<View> rows = run ? rows_of(results[i]) : std::vector<View>{};
+            cases.push_back({{"id", id_of(one)},
+                             {"title", one.title},
+                             {"why", one.why},
+                             {"charts_html", run ? charts_of(results[i]) : ""},
+                             {"run", run},
+                             {"tall", is_tall(rows)},
+                             {"rows", rows}});
+        }
+        if (cases.empty()) continue;
+        shown.push_back({{"name", name}, {"heading", title_of(name)}, {"cases", cases}});
+    }
+    return shown;
 }
 
 }  // namespace
@@ -272,44 +296,21 @@ std::string stability_page(const std::vector<HardCase>& corpus,
         parsed.push_back(text.empty() ? Json() : parsed_object<Json>(text, "a result"));
     }
     Tally tally;
-    const std::string table_of_all = overview(corpus, parsed, tally);
-    std::string body = fmt::format(
-        "<header class=\"headline\"><h1>Hard cases</h1>\n<p>{} cases, {} checks. {}</p>\n"
-        "<p>A case is a sweep from easy to hard, and beyond what anyone would cut, read or "
-        "photograph. A line that stays flat to the right or left edge is a computation that does "
-        "not care; one that climbs with the dashed line climbs because the question itself does: "
-        "there the last digit of the input moves the true answer by as much. Margin is the error "
-        "allowed over the error found, condition how many units in the last place of the answer "
-        "one unit in the last place of the input is worth. Errors of nothing are hollow, at the "
-        "bottom.</p></header>\n",
-        tally.cases, tally.checks,
-        tally.run < tally.cases
-            ? fmt::format("<span class=\"badge bad\">{} cases were not run</span>",
-                          tally.cases - tally.run)
-        : tally.failed == 0
-            ? "<span class=\"badge good\">all hold</span>"
-            : fmt::format("<span class=\"badge bad\">{} do not hold</span>", tally.failed));
-    std::string highlights;
-    for (std::size_t i = 0; i < corpus.size(); ++i) {
-        if (corpus[i].highlight.empty() || parsed[i].is_null()) continue;
-        highlights += fmt::format("<h3><a href=\"#{}\">{}</a></h3>\n", id_of(corpus[i]),
-                                  escaped(corpus[i].title)) +
-                      chart_of(parsed[i], {corpus[i].highlight}, corpus[i].title, true);
-    }
-    body += section("beside", "Beside the textbook", highlights);
-    body += section("all", "All cases at a glance", table_of_all);
-    for (const std::string& name : sections()) {
-        std::string text;
-        for (std::size_t i = 0; i < corpus.size(); ++i) {
-            const HardCase& one = corpus[i];
-            if (one.section != name) continue;
-            text += fmt::format("<h3 id=\"{}\">{}</h3>\n<p>{}</p>\n", id_of(one),
-                                escaped(one.title), escaped(one.why));
-            if (parsed[i].is_null()) continue;
-            text += charts_of(parsed[i]) + table_of(parsed[i]);
-        }
-        body += section(name, title_of(name), text);
-    }
+    const std::vector<View> rows = overview(corpus, parsed, tally);
+    const std::vector<View> highlights = highlights_of(corpus, parsed);
+    const bool all_run = tally.run == tally.cases;
+    const std::string body =
+        filled(templates::stability,
+               {{"cases", std::to_string(tally.cases)},
+                {"checks", std::to_string(tally.checks)},
+                {"not_run", all_run ? "" : std::to_string(tally.cases - tally.run)},
+                {"all_hold", all_run && tally.failed == 0},
+                {"failed", all_run && tally.failed > 0 ? std::to_string(tally.failed) : ""},
+                {"beside", !highlights.empty()},
+                {"highlights", highlights},
+                {"tall", is_tall(rows)},
+                {"rows", rows},
+                {"sections", sections_of(corpus, parsed)}});
     return html_page("Hard cases: how stable culet's numbers are", body);
 }
 

@@ -97,10 +97,10 @@ TEST(Rooms, show_no_heavy_library_to_other_rooms) {
 }
 
 // Folders inside a room do not include each other in circles; files that stand in no folder count
-// as one. Of compare not yet.
+// as one.
 TEST(Rooms, have_folders_that_include_each_other_one_way) {
     const fs::path source(CULET_SOURCE_DIR);
-    for (const std::string room : {"stone", "page", "fit", "render", "app"}) {
+    for (const std::string room : {"stone", "page", "fit", "render", "compare", "app"}) {
         // Of each folder those that it includes, at last also through others.
         std::map<std::string, std::set<std::string>> seen_from;
         for (const auto& entry : fs::recursive_directory_iterator(source / room)) {
@@ -125,6 +125,35 @@ TEST(Rooms, have_folders_that_include_each_other_one_way) {
         }
         for (const auto& [folder, seen] : seen_from) {
             EXPECT_EQ(seen.count(folder), 0u) << folder << " includes itself through others";
+        }
+    }
+}
+
+// Pages are made from template files (templates/*.html.mustache), which escape by default: no tag
+// stands in a string of the program. Drawings are SVG, made where they are computed.
+TEST(Rooms, keep_html_in_template_files) {
+    const std::set<std::string> drawings{"page/chart.cpp", "page/drawing.cpp",
+                                         "compare/photo/calibration_board.cpp"};
+    const std::regex quotes(R"re('\\?"')re"), literal(R"re("(?:[^"\\]|\\.)*")re");
+    const std::regex tag(R"re(<(/?[a-z][a-z0-9]*(>|/>| [a-z-]+=)|!doctype))re");
+    const fs::path source(CULET_SOURCE_DIR);
+    for (const auto& [room, visible] : k_may_see) {
+        for (const auto& entry : fs::recursive_directory_iterator(source / room)) {
+            if (!is_source(entry.path())) continue;
+            const std::string name = fs::relative(entry.path(), source).string();
+            if (drawings.contains(name)) continue;
+            std::ifstream text(entry.path());
+            std::string line;
+            for (int number = 1; std::getline(text, line); ++number) {
+                const std::size_t begin = line.find_first_not_of(' ');
+                if (begin != std::string::npos && line.compare(begin, 2, "//") == 0) continue;
+                const std::string code = std::regex_replace(line, quotes, "");
+                for (std::sregex_iterator at(code.begin(), code.end(), literal), end; at != end;
+                     ++at) {
+                    EXPECT_FALSE(std::regex_search(at->str(), tag))
+                        << name << ":" << number << ": " << line;
+                }
+            }
         }
     }
 }

@@ -37,18 +37,21 @@ TEST(Template, refuses_names_that_are_not_there) {
 // Of page/template.h: what stands as it is says so by its name.
 TEST(Template, files_write_nothing_unescaped_but_what_is_named_so) {
     const std::regex raw(R"(\{\{(\{|&)\s*([a-z_.]*))"), named(R"(.*_(html|svg|css|js|json))");
-    int files = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(
-             std::filesystem::path(CULET_SOURCE_DIR) / "page/templates")) {
-        ++files;
-        std::ifstream in(entry.path());
-        const std::string text{std::istreambuf_iterator<char>(in), {}};
-        for (std::sregex_iterator at(text.begin(), text.end(), raw), end; at != end; ++at) {
-            EXPECT_TRUE(std::regex_match((*at)[2].str(), named))
-                << entry.path() << ": " << *at->begin();
+    for (const char* folder :
+         {"page/templates", "compare/report/templates", "tests/hard/templates"}) {
+        int files = 0;
+        for (const auto& entry : std::filesystem::directory_iterator(
+                 std::filesystem::path(CULET_SOURCE_DIR) / folder)) {
+            ++files;
+            std::ifstream in(entry.path());
+            const std::string text{std::istreambuf_iterator<char>(in), {}};
+            for (std::sregex_iterator at(text.begin(), text.end(), raw), end; at != end; ++at) {
+                EXPECT_TRUE(std::regex_match((*at)[2].str(), named))
+                    << entry.path() << ": " << *at->begin();
+            }
         }
+        EXPECT_GT(files, 0) << folder;
     }
-    EXPECT_GT(files, 0);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "compare/calibration/calibration_cache.h"
+#include "compare/scores/score_list.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,6 @@ Calibration calibration() {
     Calibration result;
     result.hash = "c0ffee";
     result.keys = {"zncc", k_facet_tilts};
-    result.higher_is_better = {true, false};
     result.draws = {{World::facet_error, "0.1 degrees", 0.1, {0.9, 0.11}},
                     {World::light, "", 0, {0.2, std::nullopt}}};
     result.planned = 2;

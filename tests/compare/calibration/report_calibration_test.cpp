@@ -2,13 +2,15 @@
 
 #include "compare/calibration/several.h"
 #include "compare/report/report.h"
+#include "compare/report/scores_json.h"
+#include "compare/report/several_page.h"
 
 namespace culet {
 namespace {
 
 const std::string k_hostile = "<script>alert(1)</script>\"'&";
 
-Comparison calibrated_comparison() {
+Comparison small_comparison() {
     Comparison comparison;
     comparison.verdict = Verdict::match;
     comparison.pictures.photo.width = comparison.pictures.photo.height = 8;
@@ -25,35 +27,38 @@ Comparison calibrated_comparison() {
     comparison.reflexes.displacement = 0.004;
     comparison.reflexes.marks = {
         {{2, 2}, 1, true, 0}, {{5, 5}, 1, true, -1}, {{2.5, 2}, 1, false, 0}};
+    return comparison;
+}
+
+CalibratedVerdict calibrated_as_match() {
     Calibration calibration;
     calibration.keys = {"zncc"};
-    calibration.higher_is_better = {true};
     calibration.notes = {k_hostile};
     calibration.draws.push_back({World::light, "", 0, {0.2}});
-    comparison.calibration = calibration;
-    Meaning meaning;
-    meaning.headline = "fits as well as the same stone with 0.2 degrees of facet error";
-    meaning.equivalent.deg = 0.2;
-    meaning.equivalent.low_deg = 0.15;
-    meaning.equivalent.high_deg = 0.3;
+    CalibratedVerdict verdict;
+    verdict.calibration = calibration;
+    verdict.headline = "fits as well as the same stone with 0.2 degrees of facet error";
+    verdict.equivalent.deg = 0.2;
+    verdict.equivalent.low_deg = 0.15;
+    verdict.equivalent.high_deg = 0.3;
     SensitivityCurve curve;
     curve.key = "zncc";
     curve.levels = {{0, 4, 0.99, 0.01, 0.99}, {0.1, 8, 0.97, 0.01, 0.97}, {1, 8, 0.7, 0.1, 0.7}};
     curve.value = 0.97;
     curve.equivalent_deg = 0.1;
     curve.weight = 1;
-    meaning.curves = {curve};
+    verdict.curves = {curve};
     NullWorth null;
     null.draws = 24;
-    meaning.nulls = {null};
-    meaning.hypotheses = {{World::material, k_hostile, 0.9, meaning.equivalent}};
-    comparison.meaning = meaning;
-    return comparison;
+    verdict.nulls = {null};
+    verdict.hypotheses = {{World::material, k_hostile, 0.9, verdict.equivalent}};
+    return verdict;
 }
 
-TEST(MeaningReport, has_sentence_curves_chance_and_hypotheses) {
+TEST(CalibrationReport, has_sentence_curves_chance_and_hypotheses) {
     Report report;
-    report.comparison = calibrated_comparison();
+    report.comparison = small_comparison();
+    report.calibrated = calibrated_as_match();
     const std::string page = report_page(report);
     for (const char* part : {"id=\"meaning\"", "0.2 degrees of facet error", "class=\"curve\"",
                              "Another light", "What else it could be", "id=\"reflexes\"",
@@ -64,9 +69,9 @@ TEST(MeaningReport, has_sentence_curves_chance_and_hypotheses) {
     EXPECT_EQ(page.find("<script>alert"), std::string::npos);
 }
 
-TEST(MeaningReport, says_that_a_photograph_is_for_geometry_only) {
+TEST(CalibrationReport, says_that_a_photograph_is_for_geometry_only) {
     Report report;
-    report.comparison = calibrated_comparison();
+    report.comparison = small_comparison();
     report.comparison->geometry_only = true;
     EXPECT_NE(report_page(report).find("cannot serve for photometry"), std::string::npos);
 }
@@ -75,8 +80,9 @@ TEST(SeveralPage, links_each_photographs_page_and_escapes_names) {
     PhotographRow row;
     row.name = k_hostile;
     row.page = "photograph-1.html";
-    row.comparison = calibrated_comparison();
-    row.scores_json = scores_json(row.comparison);
+    row.comparison = small_comparison();
+    row.calibrated = calibrated_as_match();
+    row.scores_json = scores_json(row.comparison, {}, row.calibrated);
     const std::vector<PhotographRow> rows{row, row, row};
     const SeveralPhotographs several = together(rows);
     const std::string page = several_page(several, rows, k_hostile, "1", k_hostile);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <set>
@@ -9,6 +10,7 @@
 #include "compare/calibration/calibrate.h"
 #include "compare/calibration/cropped_camera.h"
 #include "compare/calibration/facet_error.h"
+#include "compare/report/scores_json.h"
 #include "render/scene/fingerprint.h"
 #include "stone/checks.h"
 #include "stone/cuts/cuts.h"
@@ -65,16 +67,33 @@ TEST(SceneComparison, of_the_right_stone_is_nearer_than_of_a_wrong_one) {
     const Scene scene = small_scene();
     const SceneComparison right = compare_with_scene(photograph_of(scene, 0), scene, quick());
     const SceneComparison wrong = compare_with_scene(photograph_of(scene, 1.5), scene, quick());
-    ASSERT_TRUE(right.comparison.meaning && wrong.comparison.meaning);
-    EXPECT_TRUE(right.comparison.calibration->complete());
-    ASSERT_TRUE(right.comparison.meaning->equivalent.deg.has_value());
-    EXPECT_LT(*right.comparison.meaning->equivalent.deg, 0.15);
-    EXPECT_GT(*wrong.comparison.meaning->equivalent.deg, 0.7);
+    ASSERT_TRUE(right.calibrated && wrong.calibrated);
+    EXPECT_TRUE(right.calibrated->calibration.complete());
+    ASSERT_TRUE(right.calibrated->equivalent.deg.has_value());
+    EXPECT_LT(*right.calibrated->equivalent.deg, 0.15);
+    EXPECT_GT(*wrong.calibrated->equivalent.deg, 0.7);
     EXPECT_EQ(right.comparison.verdict, Verdict::match);
     EXPECT_NE(wrong.comparison.verdict, Verdict::match);
-    const std::string json = scores_json(right.comparison);
+    const std::string json = scores_json(right.comparison, {}, right.calibrated);
     EXPECT_NE(json.find("\"sensitivity\": [\n"), std::string::npos);
     EXPECT_NE(json.find("\"headline\""), std::string::npos);
+}
+
+// Of a key there is one number: in the table of scores, on its curve and in the verdict.
+TEST(SceneComparison, has_one_value_for_each_score) {
+    const Scene scene = small_scene();
+    const SceneComparison compared = compare_with_scene(photograph_of(scene, 0.2), scene, quick());
+    ASSERT_TRUE(compared.calibrated);
+    const std::vector<Score>& scores = compared.comparison.scores;
+    EXPECT_EQ(scores.size(), compared.calibrated->calibration.keys.size());
+    EXPECT_GT(compared.comparison.render_blur_px, 0);
+    ASSERT_FALSE(compared.calibrated->curves.empty());
+    for (const SensitivityCurve& curve : compared.calibrated->curves) {
+        const auto score = std::find_if(scores.begin(), scores.end(),
+                                        [&](const Score& s) { return s.key == curve.key; });
+        ASSERT_NE(score, scores.end()) << curve.key;
+        EXPECT_EQ(score->value, curve.value) << curve.key;
+    }
 }
 
 // A hand-made mesh: its corners are only roughly in their planes. Said, not left out in silence.
@@ -100,7 +119,8 @@ TEST(SceneComparison, is_the_same_whatever_the_threads) {
     const SceneComparison one = compare_with_scene(photo, scene, options);
     options.compare.threads = 2;
     const SceneComparison two = compare_with_scene(photo, scene, options);
-    EXPECT_EQ(scores_json(one.comparison), scores_json(two.comparison));
+    EXPECT_EQ(scores_json(one.comparison, {}, one.calibrated),
+              scores_json(two.comparison, {}, two.calibrated));
 }
 
 TEST(SceneComparison, keeps_its_calibration_for_the_next_photograph) {
@@ -111,13 +131,13 @@ TEST(SceneComparison, keeps_its_calibration_for_the_next_photograph) {
     SceneCompareOptions options = quick();
     options.cache = cache;
     const SceneComparison first = compare_with_scene(photo, scene, options);
-    EXPECT_FALSE(first.comparison.calibration->from_cache);
+    EXPECT_FALSE(first.calibrated->calibration.from_cache);
     const SceneComparison second = compare_with_scene(photo, scene, options);
-    EXPECT_TRUE(second.comparison.calibration->from_cache);
-    EXPECT_EQ(first.comparison.meaning->headline, second.comparison.meaning->headline);
+    EXPECT_TRUE(second.calibrated->calibration.from_cache);
+    EXPECT_EQ(first.calibrated->headline, second.calibrated->headline);
     // No score hangs on whether it was kept.
     const auto meant = [](const SceneComparison& compared) {
-        const std::string json = scores_json(compared.comparison);
+        const std::string json = scores_json(compared.comparison, {}, compared.calibrated);
         const std::size_t from = json.find("\"sensitivity\": ["),
                           to = json.find("\"calibration\": {");
         return json.substr(from, to - from);
@@ -125,7 +145,7 @@ TEST(SceneComparison, keeps_its_calibration_for_the_next_photograph) {
     EXPECT_TRUE(meant(first) == meant(second));
     // Another seed is another calibration.
     options.compare.seed = 2;
-    EXPECT_FALSE(compare_with_scene(photo, scene, options).comparison.calibration->from_cache);
+    EXPECT_FALSE(compare_with_scene(photo, scene, options).calibrated->calibration.from_cache);
     fs::remove_all(cache);
 }
 
@@ -135,9 +155,9 @@ TEST(SceneComparison, a_budget_ends_it_and_says_so) {
     options.draws = 40;
     options.budget_seconds = 0.01;
     const SceneComparison ended = compare_with_scene(photograph_of(scene, 0.2), scene, options);
-    EXPECT_FALSE(ended.comparison.calibration->complete());
-    ASSERT_FALSE(ended.comparison.calibration->notes.empty());
-    EXPECT_NE(ended.comparison.calibration->notes.back().find("budget"), std::string::npos);
+    EXPECT_FALSE(ended.calibrated->calibration.complete());
+    ASSERT_FALSE(ended.calibrated->calibration.notes.empty());
+    EXPECT_NE(ended.calibrated->calibration.notes.back().find("budget"), std::string::npos);
 }
 
 TEST(SceneComparison, of_a_camera_that_does_not_see_the_stone_is_the_users_mistake) {

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "compare/calibration/calibrated_verdict.h"
 #include "compare/calibration/chance.h"
-#include "compare/calibration/meaning.h"
 #include "compare/calibration/several.h"
 
 namespace culet {
@@ -23,7 +23,6 @@ std::vector<std::optional<double>> scores_at(double deg, Chance& chance, double 
 Calibration synthetic_calibration(int draws = 8) {
     Calibration calibration;
     calibration.keys = {"zncc", "psnr", "cw_ssim"};
-    calibration.higher_is_better = {true, true, true};
     Chance chance(11);
     std::vector<double> levels = facet_errors_deg();
     levels.push_back(0);
@@ -119,43 +118,44 @@ TEST(FacetErrorScale, of_too_few_levels_is_not_usable) {
     EXPECT_FALSE(scale.of({0.9, 30.0, 0.9}).deg.has_value());
 }
 
-TEST(Meaning, of_a_right_stone_is_a_match_and_its_sentence_says_so) {
+TEST(CalibratedVerdict, of_a_right_stone_is_a_match_and_its_sentence_says_so) {
     Chance chance(14);
-    const Meaning meaning = meaning_of(scores_of(scores_at(0.2, chance)), synthetic_calibration());
-    EXPECT_EQ(meaning.verdict, Verdict::match);
-    EXPECT_NE(meaning.headline.find("fits as well as the same stone with 0."), std::string::npos);
-    EXPECT_NE(meaning.headline.find("sigma from chance"), std::string::npos);
-    ASSERT_EQ(meaning.nulls.size(), 3u);
-    EXPECT_EQ(meaning.nulls[0].as_good, 0);
-    EXPECT_NEAR(meaning.nulls[0].p, 1.0 / 25, 1e-12);
-    EXPECT_LE(meaning.nulls[0].z, meaning.nulls[1].z);
+    const CalibratedVerdict verdict =
+        calibrated_verdict(scores_of(scores_at(0.2, chance)), synthetic_calibration());
+    EXPECT_EQ(verdict.verdict, Verdict::match);
+    EXPECT_NE(verdict.headline.find("fits as well as the same stone with 0."), std::string::npos);
+    EXPECT_NE(verdict.headline.find("sigma from chance"), std::string::npos);
+    ASSERT_EQ(verdict.nulls.size(), 3u);
+    EXPECT_EQ(verdict.nulls[0].as_good, 0);
+    EXPECT_NEAR(verdict.nulls[0].p, 1.0 / 25, 1e-12);
+    EXPECT_LE(verdict.nulls[0].z, verdict.nulls[1].z);
 }
 
-TEST(Meaning, of_chance_is_no_evidence) {
-    const Meaning meaning = meaning_of(scores_of({0.25, 14.5, 0.4}), synthetic_calibration());
-    EXPECT_EQ(meaning.verdict, Verdict::no_evidence);
-    EXPECT_GT(meaning.nulls[0].as_good, 0);
+TEST(CalibratedVerdict, of_chance_is_no_evidence) {
+    const CalibratedVerdict verdict =
+        calibrated_verdict(scores_of({0.25, 14.5, 0.4}), synthetic_calibration());
+    EXPECT_EQ(verdict.verdict, Verdict::no_evidence);
+    EXPECT_GT(verdict.nulls[0].as_good, 0);
 }
 
-TEST(Meaning, grows_less_with_the_error) {
+TEST(CalibratedVerdict, grows_less_with_the_error) {
     const Calibration calibration = synthetic_calibration();
     double before = 1e9;
     for (const double deg : {0.03, 0.1, 0.3, 0.9}) {
         Chance chance(15);
         const double evidence =
-            meaning_of(scores_of(scores_at(deg, chance, 0)), calibration).evidence;
+            calibrated_verdict(scores_of(scores_at(deg, chance, 0)), calibration).evidence;
         EXPECT_LT(evidence, before);
         before = evidence;
     }
 }
 
-TEST(Meaning, without_draws_is_no_evidence) {
+TEST(CalibratedVerdict, without_draws_is_no_evidence) {
     Calibration empty;
     empty.keys = {"zncc"};
-    empty.higher_is_better = {true};
-    const Meaning meaning = meaning_of(scores_of({0.9, 30.0, 0.9}), empty);
-    EXPECT_EQ(meaning.verdict, Verdict::no_evidence);
-    EXPECT_FALSE(meaning.equivalent.deg.has_value());
+    const CalibratedVerdict verdict = calibrated_verdict(scores_of({0.9, 30.0, 0.9}), empty);
+    EXPECT_EQ(verdict.verdict, Verdict::no_evidence);
+    EXPECT_FALSE(verdict.equivalent.deg.has_value());
 }
 
 TEST(CalibrationJson, comes_back_as_it_was) {
@@ -184,11 +184,11 @@ TEST(CalibrationJson, of_rubbish_is_nothing) {
 PhotographRow row_with(double deg, Verdict verdict) {
     PhotographRow row;
     row.comparison.verdict = verdict;
-    Meaning meaning;
-    meaning.equivalent.deg = deg;
-    meaning.equivalent.low_deg = deg / 1.2;
-    meaning.equivalent.high_deg = deg * 1.2;
-    row.comparison.meaning = meaning;
+    CalibratedVerdict calibrated;
+    calibrated.equivalent.deg = deg;
+    calibrated.equivalent.low_deg = deg / 1.2;
+    calibrated.equivalent.high_deg = deg * 1.2;
+    row.calibrated = calibrated;
     row.name = std::to_string(deg);
     row.scores_json = "{}";
     return row;

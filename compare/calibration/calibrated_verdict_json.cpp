@@ -1,14 +1,15 @@
-#include "compare/calibration/meaning_json.h"
+#include "compare/calibration/calibrated_verdict_json.h"
 
 #include <nlohmann/json.hpp>
 
-#include "compare/json_number.h"
+#include "page/json_fields.h"
 
 namespace culet {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+constexpr auto number = json_number<Json>;
 
 Json equivalent_json(const EquivalentError& error) {
     return {{"deg", number(error.deg)},
@@ -20,14 +21,15 @@ Json equivalent_json(const EquivalentError& error) {
 
 }  // namespace
 
-Json meaning_json(const Meaning& meaning, const Calibration& calibration) {
+Json calibrated_verdict_json(const CalibratedVerdict& verdict) {
+    const Calibration& calibration = verdict.calibration;
     Json json;
-    json["headline"] = meaning.headline;
-    json["geometry_only"] = meaning.geometry_only;
-    json["equivalent_facet_error"] = equivalent_json(meaning.equivalent);
-    json["evidence"] = number(meaning.evidence);
+    json["headline"] = verdict.headline;
+    json["geometry_only"] = verdict.geometry_only;
+    json["equivalent_facet_error"] = equivalent_json(verdict.equivalent);
+    json["evidence"] = number(verdict.evidence);
     json["nulls"] = Json::array();
-    for (const NullWorth& null : meaning.nulls) {
+    for (const NullWorth& null : verdict.nulls) {
         json["nulls"].push_back({{"world", name_of(null.world)},
                                  {"draws", null.draws},
                                  {"zncc_mean", number(null.mean)},
@@ -39,7 +41,7 @@ Json meaning_json(const Meaning& meaning, const Calibration& calibration) {
                                  {"median_deg", number(null.median_deg)}});
     }
     json["hypotheses"] = Json::array();
-    for (const HypothesisWorth& h : meaning.hypotheses) {
+    for (const HypothesisWorth& h : verdict.hypotheses) {
         json["hypotheses"].push_back({{"world", name_of(h.world)},
                                       {"name", h.name},
                                       {"zncc", number(h.zncc)},
@@ -57,13 +59,13 @@ Json meaning_json(const Meaning& meaning, const Calibration& calibration) {
     return json;
 }
 
-Json sensitivity_json(const Meaning& meaning) {
+Json sensitivity_json(const CalibratedVerdict& verdict) {
     Json rows = Json::array();
-    if (meaning.curves.empty()) return rows;
-    for (std::size_t level = 0; level < meaning.curves.front().levels.size(); ++level) {
+    if (verdict.curves.empty()) return rows;
+    for (std::size_t level = 0; level < verdict.curves.front().levels.size(); ++level) {
         Json row;
-        row["facet_error_deg"] = number(meaning.curves.front().levels[level].facet_error_deg);
-        for (const SensitivityCurve& curve : meaning.curves) {
+        row["facet_error_deg"] = number(verdict.curves.front().levels[level].facet_error_deg);
+        for (const SensitivityCurve& curve : verdict.curves) {
             const SensitivityCurve::Level& at = curve.levels[level];
             row[curve.key] = {{"draws", at.draws},
                               {"mean", number(at.mean)},

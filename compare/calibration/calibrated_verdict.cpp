@@ -1,11 +1,10 @@
-#include "compare/calibration/meaning.h"
+#include "compare/calibration/calibrated_verdict.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "compare/calibration/facet_tilts.h"
 #include "compare/scores/score_list.h"
 #include "page/html.h"
 #include "stone/upper_median.h"
@@ -16,7 +15,7 @@ namespace {
 
 constexpr const char* k_primary = "zncc";
 
-// What can be said of a match, whatever the units: see `Meaning` and docs/comparing.md.
+// What can be said of a match, whatever the units: see docs/meaning.md.
 constexpr double k_match_deg = 0.7, k_partial_deg = 1.4;
 // A light that is turned by little may do nearly as well as the right one: one draw of 24 may.
 constexpr double k_most_p = 0.1, k_least_z = 2;
@@ -69,13 +68,21 @@ std::optional<NullWorth> null_worth(World world, const Score& photo, const Calib
     return worth;
 }
 
+bool takes_part(const std::string& key, bool geometry_only) {
+    const ScoreKind* kind = score_kind(key);
+    if (kind == nullptr) return false;
+    return kind->in_calibration == InCalibration::always ||
+           kind->in_calibration ==
+               (geometry_only ? InCalibration::geometry_only : InCalibration::photometric);
+}
+
 std::string degrees_in_words(double deg) {
     return significant(deg, 2) + (deg == 1 ? " degree" : " degrees");
 }
 
-std::string headline_of(const Meaning& meaning) {
+std::string headline_of(const CalibratedVerdict& verdict) {
     std::string text;
-    const EquivalentError& error = meaning.equivalent;
+    const EquivalentError& error = verdict.equivalent;
     if (!error.deg) {
         text = "how large an error of the facets this would be is not known";
     } else if (error.at_least) {
@@ -89,8 +96,8 @@ std::string headline_of(const Meaning& meaning) {
                            degrees_in_words(*error.deg), significant(error.low_deg, 2),
                            significant(error.high_deg, 2));
     }
-    if (!meaning.nulls.empty()) {
-        const NullWorth& worst = meaning.nulls.front();
+    if (!verdict.nulls.empty()) {
+        const NullWorth& worst = verdict.nulls.front();
         const char* what = worst.world == World::light  ? "a wrong light"
                            : worst.world == World::pose ? "a wrong pose"
                                                         : "a wrong light and pose";
@@ -101,29 +108,29 @@ std::string headline_of(const Meaning& meaning) {
     return text;
 }
 
-void judge(Meaning& meaning) {
+void judge(CalibratedVerdict& verdict) {
     const bool beaten = std::all_of(
-        meaning.nulls.begin(), meaning.nulls.end(),
+        verdict.nulls.begin(), verdict.nulls.end(),
         [](const NullWorth& n) { return n.as_good == 0 || (n.p <= k_most_p && n.z >= k_least_z); });
-    const EquivalentError& error = meaning.equivalent;
+    const EquivalentError& error = verdict.equivalent;
     std::string why;
-    if (meaning.nulls.empty() || !error.deg) {
-        meaning.verdict = Verdict::no_evidence;
+    if (verdict.nulls.empty() || !error.deg) {
+        verdict.verdict = Verdict::no_evidence;
         why = "too little was drawn to tell a match from chance";
     } else if (!beaten) {
-        meaning.verdict = Verdict::no_evidence;
+        verdict.verdict = Verdict::no_evidence;
         why = "some wrong light or pose would do as well";
     } else if (*error.deg <= k_match_deg) {
-        meaning.verdict = Verdict::match;
+        verdict.verdict = Verdict::match;
     } else if (*error.deg <= k_partial_deg) {
-        meaning.verdict = Verdict::partial;
+        verdict.verdict = Verdict::partial;
     } else {
-        meaning.verdict = Verdict::no_evidence;
+        verdict.verdict = Verdict::no_evidence;
         why =
             "better than a wrong light or pose, but a stone with facets far from these would do "
             "as well";
     }
-    meaning.reason = (why.empty() ? "" : why + "; ") + meaning.headline;
+    verdict.reason = (why.empty() ? "" : why + "; ") + verdict.headline;
 }
 
 }  // namespace
@@ -133,41 +140,31 @@ const char* const k_calibrated_rule =
     "wrong pose, both) either smaller than that of every draw, or p of 0.1 at most with zncc 2 "
     "standard deviations above; partial: the same up to 1.4 degrees; else no_evidence.";
 
-bool takes_part(const std::string& key, bool geometry_only) {
-    // Colour-only scores see no geometry; the counts of reflexes are coarse beside their areas.
-    const std::vector<std::string> geometry{"cw_ssim", "gmsd", "nmi", "reflex_area_f1"};
-    const std::vector<std::string> all{"zncc",          "zncc_1pct", "zncc_4pct",  "reflex_area_f1",
-                                       "cw_ssim",       "ssim",      "nmi",        "psnr",
-                                       "deltaE00_mean", "flip_mean", k_facet_tilts};
-    const auto& taken = geometry_only ? geometry : all;
-    return std::find(taken.begin(), taken.end(), key) != taken.end();
-}
-
-Meaning meaning_of(const std::vector<Score>& scores, const Calibration& calibration,
-                   bool geometry_only) {
-    Meaning meaning;
-    meaning.geometry_only = geometry_only;
+CalibratedVerdict calibrated_verdict(const std::vector<Score>& scores, Calibration calibration,
+                                     bool geometry_only) {
+    CalibratedVerdict verdict;
+    verdict.geometry_only = geometry_only;
     std::vector<std::string> keys;
     for (const std::string& key : calibration.keys) {
         if (takes_part(key, geometry_only)) keys.push_back(key);
     }
     const FacetErrorScale scale(calibration, keys);
     const auto values = values_of(scores, calibration);
-    meaning.equivalent = scale.of(values);
-    meaning.curves = scale.curves(values);
-    const std::optional<double> rank = meaning.equivalent.rank;
-    meaning.evidence = -rank.value_or(scale.largest_rank());
+    verdict.equivalent = scale.of(values);
+    verdict.curves = scale.curves(values);
+    const std::optional<double> rank = verdict.equivalent.rank;
+    verdict.evidence = -rank.value_or(scale.largest_rank());
 
     const std::string primary = geometry_only ? "cw_ssim" : k_primary;
     for (const Score& score : scores) {
         if (score.key != primary || !score.value) continue;
         for (const World world : {World::light, World::pose, World::both}) {
             if (auto worth = null_worth(world, score, calibration, scale, rank)) {
-                meaning.nulls.push_back(*worth);
+                verdict.nulls.push_back(*worth);
             }
         }
     }
-    std::stable_sort(meaning.nulls.begin(), meaning.nulls.end(),
+    std::stable_sort(verdict.nulls.begin(), verdict.nulls.end(),
                      [](const NullWorth& a, const NullWorth& b) { return a.z < b.z; });
     const std::size_t zncc = index_of(calibration, k_primary);
     for (const CalibrationDraw& draw : calibration.draws) {
@@ -175,12 +172,13 @@ Meaning meaning_of(const std::vector<Score>& scores, const Calibration& calibrat
             draw.world != World::wrong) {
             continue;
         }
-        meaning.hypotheses.push_back(
+        verdict.hypotheses.push_back(
             {draw.world, draw.name, draw.scores[zncc], scale.of(draw.scores)});
     }
-    meaning.headline = headline_of(meaning);
-    judge(meaning);
-    return meaning;
+    verdict.headline = headline_of(verdict);
+    verdict.calibration = std::move(calibration);
+    judge(verdict);
+    return verdict;
 }
 
 }  // namespace culet

@@ -34,7 +34,8 @@ struct HypothesisWorth {
     EquivalentError equivalent;
 };
 
-struct Meaning {
+/// A calibrated comparison's verdict, and what it rests on.
+struct CalibratedVerdict {
     Verdict verdict = Verdict::no_evidence;
     std::string reason;  ///< the verdict in one sentence
     std::string
@@ -44,6 +45,7 @@ struct Meaning {
     std::vector<NullWorth> nulls;          ///< the worst, that of the smallest z, first
     std::vector<HypothesisWorth> hypotheses;
     bool geometry_only = false;  ///< the photograph cannot serve for photometry
+    Calibration calibration;
     /// Minus the logarithm of the scores' average answer (degrees), which goes on where the
     /// equivalent error ends: for ranking photographs of one calibration.
     double evidence = 0;
@@ -52,11 +54,8 @@ struct Meaning {
 /// How the verdict is reached, for people.
 extern const char* const k_calibrated_rule;
 
-/// The scores that decide whether it is a match at all, and those that geometry alone decides.
-bool takes_part(const std::string& key, bool geometry_only);
-
 /// `scores` of the photograph against the model's render, at the size of the calibration.
-Meaning meaning_of(const std::vector<Score>& scores, const Calibration& calibration,
-                   bool geometry_only = false);
+CalibratedVerdict calibrated_verdict(const std::vector<Score>& scores, Calibration calibration,
+                                     bool geometry_only = false);
 
 }  // namespace culet

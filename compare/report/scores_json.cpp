@@ -1,17 +1,19 @@
+#include "compare/report/scores_json.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "compare/calibration/meaning_json.h"
-#include "compare/json_number.h"
-#include "compare/scores/compare.h"
+#include "compare/calibration/calibrated_verdict_json.h"
+#include "page/json_fields.h"
 
 namespace culet {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
+constexpr auto number = json_number<Json>;
 
 Json registration_json(const Registration& r) {
     Json json;
@@ -53,27 +55,15 @@ Json null_json(const Comparison& comparison) {
 
 }  // namespace
 
-std::string sentence_of(const ReflexCount& reflexes) {
-    if (reflexes.in_photo == 0) return "the photograph has no bright reflex";
-    std::string text = fmt::format("{} of {} reflexes found", reflexes.matched, reflexes.in_photo);
-    if (reflexes.displacement) {
-        text += fmt::format(", {:.1f} % of the diameter apart", 100 * *reflexes.displacement);
-    }
-    if (reflexes.coloured > 0) {
-        text += fmt::format("; {} of {} coloured ones of one hue", reflexes.same_hue,
-                            reflexes.coloured);
-    }
-    return text;
-}
-
-std::string scores_json(const Comparison& comparison, const CompareSources& sources) {
+std::string scores_json(const Comparison& comparison, const CompareSources& sources,
+                        const std::optional<CalibratedVerdict>& calibrated) {
     Json json;
     json["schema"] = 1;
     json["command"] = "compare";
     json["verdict"] = name_of(comparison.verdict);
     json["reason"] = comparison.reason;
     json["equivalent_facet_error_deg"] =
-        comparison.meaning ? number(comparison.meaning->equivalent.deg) : Json(nullptr);
+        calibrated ? number(calibrated->equivalent.deg) : Json(nullptr);
     json["geometry_only"] = comparison.geometry_only;
     json["simulated"] = comparison.simulated;
     json["photo"] = sources.photo_file;
@@ -86,6 +76,7 @@ std::string scores_json(const Comparison& comparison, const CompareSources& sour
                     number(comparison.gain[2])};
     json["saturated"] = number(comparison.saturated);
     json["compared_pixels"] = comparison.compared_pixels;
+    json["render_blur_px"] = number(comparison.render_blur_px);
     json["scores"] = Json::object();
     json["score_notes"] = Json::object();
     for (const Score& score : comparison.scores) {
@@ -102,13 +93,12 @@ std::string scores_json(const Comparison& comparison, const CompareSources& sour
     json["light_return"] = {{"photo", number(comparison.photo_light)},
                             {"render", number(comparison.render_light)}};
     json["null"] = null_json(comparison);
-    json["sensitivity"] =
-        comparison.meaning ? sensitivity_json(*comparison.meaning) : Json::array();
-    if (comparison.meaning && comparison.calibration) {
-        json["meaning"] = meaning_json(*comparison.meaning, *comparison.calibration);
+    json["sensitivity"] = calibrated ? sensitivity_json(*calibrated) : Json::array();
+    if (calibrated) {
+        json["meaning"] = calibrated_verdict_json(*calibrated);
     }
     json["verdict_rule"] =
-        comparison.meaning
+        calibrated
             ? std::string(k_calibrated_rule)
             : fmt::format(
                   "match: zncc at least {} standard deviations above its null (of atanh) and at "

@@ -1,11 +1,10 @@
-// The pictures of a study as a page shows them.
+#include "compare/report/study_pictures.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "compare/report/report_parts.h"
-#include "compare/study/scene_study.h"
 #include "stone/quantile.h"
 
 namespace culet {

@@ -1,0 +1,53 @@
+#pragma once
+// The worlds whose photographs a calibration is made of: the model with other facets, another
+// light, pose or material, or one thing wrong.
+
+#include <glm/mat3x3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compare/calibration/calibration.h"
+#include "compare/calibration/chance.h"
+#include "render/scene/scene.h"
+
+namespace culet {
+
+struct WorldsAsked {
+    int draws = 8;        ///< at each facet error
+    int null_draws = 24;  ///< of each null
+    std::uint64_t seed = 1;
+    std::optional<Solid> start{};  ///< the mesh that the fit started from: the catalogue's cut
+};
+
+/// One draw of one world.
+struct WorldDraw {
+    World world = World::facet_error;
+    std::string name;
+    double facet_error_deg = 0;
+    std::uint64_t seed = 0;
+    int which = 0;  ///< of the world's kinds
+};
+
+class OtherWorlds {
+public:
+    /// `notes` gets which worlds there are none of, and why. The model must outlive this.
+    OtherWorlds(const Scene& model, const WorldsAsked& asked, std::vector<std::string>& notes);
+
+    /// Of every world some early on, so that a budget that ends leaves a whole.
+    const std::vector<WorldDraw>& draws() const { return draws_; }
+    Scene scene_of(const WorldDraw& draw) const;
+
+private:
+    glm::dmat3 wrong_pose(Chance& chance) const;
+    void make_wrong(Scene& scene, int which, Chance& chance) const;
+
+    const Scene& model_;
+    Vec3 middle_;
+    int turns_alike_ = 1;
+    std::optional<Solid> catalogue_;
+    std::vector<Material> neighbours_;
+    std::vector<WorldDraw> draws_;
+};
+
+}  // namespace culet

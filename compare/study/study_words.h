@@ -1,0 +1,21 @@
+#pragma once
+// Settings of a study in words.
+
+#include <string>
+#include <vector>
+
+#include "compare/study/study_ground.h"
+
+namespace culet {
+
+/// The same for settings that draw the same: effects that are not called for do not count.
+std::string key_of(const StudyGround& ground, const RenderSettings& settings);
+
+/// "beams, 15 wavelengths, depth 8, tolerance 0.01, without dispersion"
+std::string words_of(const StudyGround& ground, const RenderSettings& settings);
+
+/// The effects' names that these settings switch off although the reference has them on.
+std::vector<std::string> effects_left_out(const StudyGround& ground,
+                                          const RenderSettings& settings);
+
+}  // namespace culet
