@@ -157,13 +157,18 @@ Material catalogue_material(const std::string& name) {
         const double depth = colour->value("scale", 1.0);
         const auto nm = colour->at("wavelength_nm").get<std::vector<double>>();
         const Json& rays = colour->at("rays");
+        bool coloured = false;
         for (int ray = 0; ray < ray_count(material.optic); ++ray) {
             const auto found = rays.find(ray_name(material.optic, ray));
             if (found == rays.end()) continue;
+            coloured = true;
             // The catalogue's unit is 1/cm.
             material.absorption_per_mm[ray] =
                 Spectrum(nm, found->get<std::vector<double>>()).scaled(0.1 * depth);
         }
+        if (!coloured)
+            throw InternalError(fmt::format(
+                "{} of the catalogue absorbs along none of the rays of {}", name, host));
         return material;
     }
     // What is called so before what is only described so (corundum is the host of ruby).
