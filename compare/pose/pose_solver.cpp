@@ -266,15 +266,4 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
     return result;
 }
 
-double moved_by_facets(const WireSolid& wire, const StoneView& view, const WirePoint& point,
-                       const std::vector<FacetChange>& facets) {
-    const Edge& edge = wire.edges[static_cast<std::size_t>(point.edge)];
-    const auto left = static_cast<std::size_t>(edge.left),
-               right = static_cast<std::size_t>(edge.right);
-    const MovedEdge moved = moved_edge(frame_of(wire, edge.left), frame_of(wire, edge.right),
-                                       point.on_stone, facets[left].data(), facets[right].data());
-    const PicturePoint at = seen_at(view, moved.at);
-    return (at.x - point.at.x) * point.normal_x + (at.y - point.at.y) * point.normal_y;
-}
-
 }  // namespace culet

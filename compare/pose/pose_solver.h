@@ -46,8 +46,4 @@ SolvedView solve_view(const WireSolid& wire, const StoneView& start,
                       const std::vector<MetEdge>& edges, double prior_focal_px,
                       const PicturePoint& sight, const SolverSettings& settings);
 
-/// How far along its normal a point of the wireframe moves when its facets change.
-double moved_by_facets(const WireSolid& wire, const StoneView& view, const WirePoint& point,
-                       const std::vector<FacetChange>& facets);
-
 }  // namespace culet

@@ -36,8 +36,6 @@ public:
             return false;
         }
     }
-    /// How far the study is, where no budget says it.
-    void set_fraction(double fraction) { fraction_ = fraction; }
     /// Tells the person; throws Interrupted when they stop the work.
     void report() {
         if (!goes_on()) throw Interrupted();
@@ -45,12 +43,12 @@ public:
 
 private:
     bool goes_on() {
-        const double fraction = limited() ? std::min(1.0, spent() / budget_) : fraction_;
+        const double fraction = limited() ? std::min(1.0, spent() / budget_) : 0;
         if (progress_ && !progress_(fraction)) stopped_ = true;
         return !stopped_;
     }
 
-    double budget_ = 0, start_ = now(), fraction_ = 0;
+    double budget_ = 0, start_ = now();
     const Progress& progress_;
     bool stopped_ = false;
 };
