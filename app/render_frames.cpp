@@ -2,17 +2,47 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <numbers>
 
+#include "app/movie.h"
 #include "app/terminal.h"
 #include "render/render.h"
 #include "render/scene/turntable.h"
 #include "stone/errors.h"
+#include "stone/output_file.h"
 
 namespace culet {
 
 namespace {
+
+namespace fs = std::filesystem;
+
+bool is_movie(const std::string& out) {
+    return fs::path(out).extension() == ".mp4";
+}
+
+// A folder of our own, gone with this.
+class ScratchFolder {
+public:
+    ScratchFolder() {
+        std::string name = (fs::temp_directory_path() / "culet-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+            throw InputError(name, "cannot be made, for the pictures of a film");
+        path_ = name;
+    }
+    ~ScratchFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+    const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
 
 PictureOutput output_of(const Frames& frames, int frame, const std::string& exposure,
                         const Scene& scene) {
@@ -33,16 +63,30 @@ std::string frame_name(const std::string& pattern, int frame) {
 }
 
 void require_frames(const Frames& frames) {
-    const std::string name = std::filesystem::path(frames.out).filename().string();
+    if (is_movie(frames.out)) {
+        require_writable(frames.out);
+        require_ffmpeg(frames.out);
+        return;
+    }
+    const std::string name = fs::path(frames.out).filename().string();
     if (name.find('#') == std::string::npos)
         throw InputError(
-            "--frames writes many pictures: say where their numbers go, -o frame-####.png");
+            "--frames writes many pictures: say where their numbers go, -o frame-####.png, or name "
+            "a film, -o turn.mp4");
     // Every ending and place is like the first.
     PictureOutput(frame_name(frames.out, 0), frames.spectral);
 }
 
 RenderResult draw_frames(const Frames& frames, const Scene& scene,
                          const std::function<RenderResult(const Scene&)>& first, bool quiet) {
+    if (is_movie(frames.out)) {
+        const ScratchFolder folder;
+        Frames pictures = frames;
+        pictures.out = (folder.path() / "frame-#####.png").string();
+        RenderResult result = draw_frames(pictures, scene, first, quiet);
+        write_movie(folder.path(), frames.out);
+        return result;
+    }
     const double step = frames.turn_deg * std::numbers::pi / 180 / frames.count;
     std::string exposure = frames.exposure;
     RenderResult kept;

@@ -1,5 +1,5 @@
 #pragma once
-// A turntable: `culet render --frames N --turn DEG -o frame-####.png`.
+// A turntable: `culet render --frames N --turn DEG -o frame-####.png`, or `-o turn.mp4`.
 
 #include <functional>
 #include <string>
@@ -13,12 +13,12 @@ namespace culet {
 struct Frames {
     int count = 0;
     double turn_deg = 360;  ///< from the first frame to the one after the last
-    std::string out;        ///< with a run of # where the frame's number goes
+    std::string out;        ///< with a run of # where the frame's number goes; or .mp4
     std::string exposure, tonemap;
     bool spectral = false;
 };
 
-/// Throws InputError: no # in `out`, or a place that cannot be written.
+/// Throws InputError: no # in `out`, no ffmpeg for a film, or a place that cannot be written.
 void require_frames(const Frames& frames);
 
 /// Of frame 0 and up, from 0001; the picture's name.

@@ -73,12 +73,12 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
                     "against the truth; none: drawn once")
         ->check(CLI::IsMember({"none", "estimate", "full"}))
         ->excludes(plan);
-    CLI::Option* const frames =
-        command
-            .add_option("--frames", options.frames,
-                        "a turntable of so many pictures, -o frame-####.png: planned and checked "
-                        "once, for the first")
-            ->check(CLI::Range(1, 100000));
+    CLI::Option* const frames = command
+                                    .add_option("--frames", options.frames,
+                                                "a turntable of so many pictures, -o "
+                                                "frame-####.png or turn.mp4: planned and checked "
+                                                "once, for the first")
+                                    ->check(CLI::Range(1, 100000));
     command.add_option("--turn", options.turn_deg, "degrees that the stone turns in all frames")
         ->needs(frames);
     command.add_flag("--explain", options.explain,

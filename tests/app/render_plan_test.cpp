@@ -232,6 +232,41 @@ TEST_F(RenderPlan, ATurntableIsPlannedAndCheckedOnce) {
     EXPECT_THAT(unnumbered.err, HasSubstr("frame-####.png"));
 }
 
+// A program in the place of ffmpeg writes down what it was asked for.
+TEST_F(RenderPlan, AFilmIsMadeByFfmpegOrRefused) {
+    const std::string before = std::getenv("PATH");
+    const auto film = [&](const std::string& path) {
+        setenv("PATH", path.c_str(), 1);
+        const ProgramRun run = render(
+            "garnet-depth.toml", {"-o", file("turn.mp4"), "--frames", "2", "--tolerance", "0.2"});
+        setenv("PATH", before.c_str(), 1);
+        return run;
+    };
+    const ProgramRun without = film("/nowhere");
+    EXPECT_EQ(without.exit_code, 2);
+    EXPECT_THAT(without.err, HasSubstr("ffmpeg, which is not installed"));
+    EXPECT_TRUE(nothing_was_written());
+
+    fs::create_directory(folder_ / "bin");
+    const auto pretend = [&](const std::string& script) {
+        std::ofstream(folder_ / "bin/ffmpeg") << "#!/bin/sh\n" << script;
+        fs::permissions(folder_ / "bin/ffmpeg", fs::perms::owner_all);
+        return film(file("bin") + ":" + before);
+    };
+    // The last word is where the film goes; the word after -i names the pictures.
+    const ProgramRun with = pretend(
+        "for word; do last=$word; done\n"
+        "while [ \"$1\" != -i ]; do shift; done\n"
+        "ls $(dirname \"$2\") > \"$last\"\n");
+    EXPECT_EQ(with.exit_code, 0) << with.err;
+    EXPECT_EQ(bytes("turn.mp4"), "ffmpeg.txt\nframe-00001.png\nframe-00002.png\n");
+    fs::remove(folder_ / "turn.mp4");
+    const ProgramRun failing = pretend("echo no encoder >&2; exit 1\n");
+    EXPECT_EQ(failing.exit_code, 2);
+    EXPECT_THAT(failing.err, HasSubstr("ffmpeg failed: no encoder"));
+    EXPECT_FALSE(fs::exists(folder_ / "turn.mp4"));
+}
+
 TEST_F(RenderPlan, RefusesInOneLineAndWritesNothing) {
     const auto refused = [&](const std::string& scene, std::vector<std::string> more,
                              const std::string& why) {
