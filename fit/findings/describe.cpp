@@ -210,7 +210,7 @@ void describe_extra_facets(const System& system, const Finished& finished,
     if (system.has_replicates() && (stands_out || !result.findings.extra_facets.empty())) {
         System apart = system;
         apart.keep_replicates_apart();
-        const Linearised linear = linearise(apart, finished.shape, finished.outline, false);
+        const Linearised linear = linearise(apart, finished.shape, finished.outline);
         Diagnosis again = diagnosis;
         again.covariance = std::make_shared<const Covariance>(linear);
         if (again.covariance->usable()) {

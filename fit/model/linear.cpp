@@ -14,7 +14,6 @@ using Triplets = RowWriter::Triplets;
 // tilts, offsets and extras are of the order of one.
 constexpr double k_point_weight = 1 / (0.4 * 0.4);
 constexpr double k_loose_point_weight = 0.5;
-constexpr double k_hinge_sigma = 1e-4;
 
 // The six rigid motions as steps of the unknowns.
 std::vector<Eigen::VectorXd> rigid_motions(const System& system, const Shape& shape) {
@@ -132,7 +131,7 @@ Eigen::SparseVector<double> RowWriter::function(const Quantity& quantity) const 
 }
 
 Linearised linearise(const System& system, const Shape& shape,
-                     const std::shared_ptr<const Outline>& outline, bool with_hinges,
+                     const std::shared_ptr<const Outline>& outline,
                      const std::vector<Equation>& held) {
     Linearised linear;
     linear.layout = layout_of(shape);
@@ -143,10 +142,6 @@ Linearised linearise(const System& system, const Shape& shape,
     const auto put = [&](Equation&& e) {
         const Quantity q = e.formula(shape);
         const double residual = q.value - e.value;
-        if (e.role == Equation::Role::hinge) {
-            if (!(residual > 0)) return;
-            e.sigma = k_hinge_sigma;
-        }
         if (e.exact) {
             writer.write(q, static_cast<int>(linear.hard.size()), 1, hard);
             hard_residuals.push_back(residual);
@@ -159,9 +154,6 @@ Linearised linearise(const System& system, const Shape& shape,
     };
     for (Equation& e : system.equations(shape, outline)) put(std::move(e));
     for (const Equation& e : held) put(Equation(e));
-    if (with_hinges) {
-        for (Equation& e : system.hinges()) put(std::move(e));
-    }
     const Eigen::Index unknowns = linear.layout.size();
     linear.soft_rows.resize(Eigen::Index(linear.soft.size()), unknowns);
     linear.soft_rows.setFromTriplets(soft.begin(), soft.end());

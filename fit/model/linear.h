@@ -48,9 +48,9 @@ struct Linearised {
     double worst_hard() const;
 };
 
-/// Hinges that are not positive are left out; `held` are further hard equations.
+/// `held` are further hard equations.
 Linearised linearise(const System& system, const Shape& shape,
-                     const std::shared_ptr<const Outline>& outline, bool with_hinges,
+                     const std::shared_ptr<const Outline>& outline,
                      const std::vector<Equation>& held = {});
 
 /// What the KKT solver takes: hard equations (times `hard_scale`), then motions that nothing sees,

@@ -40,7 +40,7 @@ Shape onto_constraints(const System& system, Shape shape,
                        const std::shared_ptr<const Outline>& outline, int rounds) {
     double before = 1e300;
     for (int i = 0; i < rounds; ++i) {
-        const Linearised linear = linearise(system, shape, outline, false);
+        const Linearised linear = linearise(system, shape, outline);
         const double worst = linear.worst_hard();
         if (worst < 1e-16 || worst > 0.5 * before) break;
         before = worst;
@@ -49,7 +49,7 @@ Shape onto_constraints(const System& system, Shape shape,
         const auto s = solver.solve(none(linear), right_side(linear, false));
         if (!s.good) break;
         const Shape next = retracted(shape, steps(s.unknowns));
-        if (linearise(system, next, outline, false).worst_hard() >= worst) break;
+        if (linearise(system, next, outline).worst_hard() >= worst) break;
         shape = next;
     }
     return shape;
@@ -66,7 +66,7 @@ Shape corrected(const System& system, Shape shape, const std::shared_ptr<const O
                 const KktSolver& solver) {
     double off_before = 1e300;
     for (int k = 0; k < 6; ++k) {
-        const Linearised off = linearise(system, shape, outline, false);
+        const Linearised off = linearise(system, shape, outline);
         const double worst = off.worst_hard();
         if (worst < 1e-13 || !(worst < 0.7 * off_before)) break;
         off_before = worst;
@@ -89,7 +89,7 @@ public:
         : system_(system),
           shape_(std::move(shape)),
           outline_(std::move(outline)),
-          linear_(linearise(system, shape_, outline_, false)) {}
+          linear_(linearise(system, shape_, outline_)) {}
 
     const Shape& shape() const { return shape_; }
     const std::shared_ptr<const Outline>& outline() const { return outline_; }
@@ -121,7 +121,7 @@ private:
     bool accept(Shape next, double length) {
         const std::shared_ptr<const Outline> next_outline = outline_of(system_, next);
         if (!next_outline) return false;
-        Linearised there = linearise(system_, next, next_outline, false);
+        Linearised there = linearise(system_, next, next_outline);
         const double before = exact_penalty(linear_), after = exact_penalty(there);
         if (!std::isfinite(after) || !(after <= before * (1 + 1e-12) + 1e-9)) return false;
         quiet_ = before - after < k_no_gain * (1 + before) || length < 1e-12 ? quiet_ + 1 : 0;
@@ -163,7 +163,7 @@ Finished finish(const System& system, const Shape& start, int iterations) {
         result.outline = search.outline();
         result.enclosed = false;
     }
-    const Linearised linear = linearise(system, shape, result.outline, false);
+    const Linearised linear = linearise(system, shape, result.outline);
     result.chi2 = linear.chi2();
     result.worst_hard = linear.worst_hard();
     result.shape = std::move(shape);

@@ -55,10 +55,9 @@ private:
 
 Relaxation::Relaxation(const System& system, const Parameters& parameters)
     : system_(system), parameters_(parameters) {
-    const std::vector<Facet>& facets = system.stone().solid.facets;
-    const std::size_t points = system.mesh_shape().points.size();
-    OrbitPairs incident(parameters, facets.size(), points),
-        hinged(parameters, facets.size(), points);
+    const std::size_t facets = system.stone().solid.facets.size(),
+                      points = system.mesh_shape().points.size();
+    OrbitPairs incident(parameters, facets, points), hinged(parameters, facets, points);
     for (std::size_t i = 0; i < system.incidences().size(); ++i) {
         const Incidence& incidence = system.incidences()[i];
         if (const int images = incident.take(incidence.facet, incidence.point)) {
@@ -69,27 +68,10 @@ Relaxation::Relaxation(const System& system, const Parameters& parameters)
     points_.resize(points);
     std::iota(points_.begin(), points_.end(), 0);
     choose(system.mesh_shape(), false);
-    if (!system.stone().convex) return;
-    std::vector<int> mark(points, -1);
-    for (std::size_t f = 0; f < facets.size(); ++f) {
-        const int own = static_cast<int>(f);
-        for (int corner : facets[f].corners) mark[corner] = own;
-        std::vector<int> near;
-        for (int corner : facets[f].corners) {
-            for (int g : system.edges().facets_of_vertex[corner]) {
-                for (int c : facets[g].corners) {
-                    if (mark[c] == own) continue;
-                    mark[c] = own;
-                    near.push_back(c);
-                }
-            }
-        }
-        std::sort(near.begin(), near.end());
-        for (int c : near) {
-            if (const int images = hinged.take(own, c)) {
-                hinges_.emplace_back(own, c);
-                hinge_images_.push_back(images);
-            }
+    for (const auto& [f, p] : system.hinges()) {
+        if (const int images = hinged.take(f, p)) {
+            hinges_.emplace_back(f, p);
+            hinge_images_.push_back(images);
         }
     }
 }

@@ -14,18 +14,6 @@ namespace {
 // Dense algebra grows with the cube of the unknowns; beyond this many it is the slower one.
 constexpr Eigen::Index k_most_dense = 1300;
 
-Eigen::SparseMatrix<double, Eigen::RowMajor> without_hinges(const Linearised& linear) {
-    Eigen::SparseMatrix<double, Eigen::RowMajor> rows = linear.soft_rows;
-    for (std::size_t i = 0; i < linear.soft.size(); ++i) {
-        if (linear.soft[i].role != Equation::Role::hinge) continue;
-        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, Eigen::Index(i));
-             it; ++it) {
-            it.valueRef() = 0;
-        }
-    }
-    return rows;
-}
-
 Eigen::RowVectorXd product(const FunctionRow& function, const DenseRows& columns) {
     Eigen::RowVectorXd result = Eigen::RowVectorXd::Zero(columns.cols());
     for (FunctionRow::InnerIterator it(function); it; ++it) {
@@ -37,7 +25,7 @@ Eigen::RowVectorXd product(const FunctionRow& function, const DenseRows& columns
 }  // namespace
 
 Covariance::Covariance(const Linearised& linear, Algorithm algorithm)
-    : rows_(without_hinges(linear)) {
+    : rows_(linear.soft_rows) {
     const bool small = linear.layout.size() <= k_most_dense;
     if (algorithm == Algorithm::dense || (algorithm == Algorithm::by_size && small)) {
         find_dense(linear);

@@ -67,7 +67,7 @@ private:
     void find_sparse(const Linearised& linear);
 
     bool usable_ = false;
-    Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;  // soft, without hinges
+    Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;  // soft
     // Dense. The covariance of what is held is held held'; seen: rows * held.
     DenseRows held_, open_, seen_;
     std::unique_ptr<Sparse> sparse_;

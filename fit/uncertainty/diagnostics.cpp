@@ -163,7 +163,7 @@ void find_facet_sigmas(const System& system, const Shape& shape, const Outline& 
 Diagnosis diagnose(const System& system, const Shape& shape,
                    const std::shared_ptr<const Outline>& outline, const DiagnosisOptions& options) {
     Diagnosis diagnosis;
-    const Linearised linear = linearise(system, shape, outline, false);
+    const Linearised linear = linearise(system, shape, outline);
     diagnosis.chi2 = linear.chi2();
     diagnosis.readings.resize(system.readings().size());
     diagnosis.facets.resize(shape.normals.size());

@@ -21,7 +21,7 @@ constexpr double k_precision = 1e-6;
 Inference::Inference(const System& system, const Shape& shape,
                      const std::shared_ptr<const Outline>& outline,
                      const std::vector<Equation>& held)
-    : linear_(linearise(system, shape, outline, false, held)), writer_(shape) {
+    : linear_(linearise(system, shape, outline, held)), writer_(shape) {
     usable_ =
         solver_.factor(kkt_rows(linear_, true, k_hard_scale), linear_.metric / k_unheld_variance);
     if (!usable_) return;

@@ -63,7 +63,7 @@ void agree_with_residuals(System& system, Finished& finished, const FitOptions& 
 class RestrictedLikelihood {
 public:
     RestrictedLikelihood(const System& system, const Finished& at)
-        : linear_(linearise(system, at.shape, at.outline, false)),
+        : linear_(linearise(system, at.shape, at.outline)),
           stiffness_(linear_.metric / k_unheld_variance) {
         for (const Equation& e : linear_.soft) {
             if (e.group >= 0) present_[std::size_t(e.group)] = true;

@@ -99,7 +99,7 @@ void find_suspects(const System& system, const Shape& shape,
                    const DiagnosisOptions& options, Diagnosis& diagnosis) {
     if (options.seen_from) {
         const Linearised there =
-            linearise(system, options.seen_from->shape, options.seen_from->outline, false);
+            linearise(system, options.seen_from->shape, options.seen_from->outline);
         const Covariance from_there(there);
         snoop(system, there, from_there.usable() ? from_there : *diagnosis.covariance,
               options.significance, diagnosis);
@@ -108,7 +108,7 @@ void find_suspects(const System& system, const Shape& shape,
     snoop(system, linear, *diagnosis.covariance, options.significance, diagnosis);
     if (diagnosis.suspects.empty() || options.held.empty()) return;
     // What holds a corner bends readings beside it that hardly anything else checks.
-    const Linearised there = linearise(system, shape, outline, false, options.held);
+    const Linearised there = linearise(system, shape, outline, options.held);
     const Covariance from_there(there);
     if (!from_there.usable()) return;
     for (ReadingCheck& c : diagnosis.readings) c.suspect = false;

@@ -120,8 +120,7 @@ TEST(Covariance, BothAlgorithmsAgree) {
     const Stone stone = stone_of(brilliant());
     for (const Case& c : cases()) {
         const System system(stone, c.readings, {});
-        const Linearised linear =
-            linearise(system, system.mesh_shape(), system.mesh_outline(), false);
+        const Linearised linear = linearise(system, system.mesh_shape(), system.mesh_outline());
         const Covariance dense(linear, Covariance::Algorithm::dense);
         const Covariance sparse(linear, Covariance::Algorithm::sparse);
         ASSERT_TRUE(dense.usable() && sparse.usable()) << c.name;
@@ -146,7 +145,7 @@ TEST(Covariance, BothAlgorithmsAgree) {
 TEST(Covariance, CountsWhatIsOpen) {
     const Stone stone = stone_of(brilliant());
     const System system(stone, {}, {});
-    const Linearised linear = linearise(system, system.mesh_shape(), system.mesh_outline(), false);
+    const Linearised linear = linearise(system, system.mesh_shape(), system.mesh_outline());
     for (const auto algorithm : {Covariance::Algorithm::dense, Covariance::Algorithm::sparse}) {
         // 128 edges + 6, less shifts (3), the table's tilts (2) and the turn about up.
         EXPECT_EQ(Covariance(linear, algorithm).rank_defect(), 128);
@@ -165,8 +164,7 @@ TEST(Covariance, KeepsSmallUncertaintiesApartFromLargeOnes) {
     readings[150].sigma = 1e-12;
     const System mixed(stone, readings, {});
     const auto sigma_of = [](const System& system, int f) {
-        const Linearised linear =
-            linearise(system, system.mesh_shape(), system.mesh_outline(), false);
+        const Linearised linear = linearise(system, system.mesh_shape(), system.mesh_outline());
         const Covariance covariance(linear);
         FunctionRow row(linear.layout.size());
         row.coeffRef(linear.layout.tilt(f)) = 1;
@@ -175,7 +173,7 @@ TEST(Covariance, KeepsSmallUncertaintiesApartFromLargeOnes) {
     // A facet far away hardly feels it.
     const int far = find_facet(truth, "P5");
     EXPECT_NEAR(sigma_of(mixed, far), sigma_of(plain, far), 0.05 * sigma_of(plain, far));
-    const Linearised linear = linearise(mixed, mixed.mesh_shape(), mixed.mesh_outline(), false);
+    const Linearised linear = linearise(mixed, mixed.mesh_shape(), mixed.mesh_outline());
     const Covariance covariance(linear);
     // Tight readings are checked by nothing that is as tight; the loose one by everything.
     const Eigen::Index first = [&] {

@@ -111,7 +111,7 @@ TEST(ExtraFacets, NoneIsSoughtBetweenPlanesThatFaceAwayFromEachOther) {
     const Stone stone = stone_of(mesh);
     const System system(stone, readings_of(mesh, mesh, 1), {});
     Finished finished = finish_from(system, system.mesh_shape(), 100).finished;
-    const Linearised linear = linearise(system, finished.shape, finished.outline, false);
+    const Linearised linear = linearise(system, finished.shape, finished.outline);
     const Diagnosis diagnosis = diagnose(system, finished.shape, finished.outline);
     const std::vector<int>& facets = system.edges().facets_of_vertex.front();
     ASSERT_GE(facets.size(), 3u);
