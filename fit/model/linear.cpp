@@ -122,11 +122,25 @@ void RowWriter::write(const Quantity& quantity, int row, double factor, Triplets
     }
 }
 
-Eigen::SparseVector<double> RowWriter::function(const Quantity& quantity) const {
+FunctionRow RowWriter::function(const Quantity& quantity) const {
     Triplets entries;
     write(quantity, 0, 1, entries);
-    Eigen::SparseVector<double> row(layout_.size());
+    FunctionRow row(layout_.size());
     for (const auto& entry : entries) row.coeffRef(entry.col()) += entry.value();
+    return row;
+}
+
+FunctionRows RowWriter::functions(const std::vector<Quantity>& quantities) const {
+    Triplets entries;
+    for (std::size_t i = 0; i < quantities.size(); ++i) write(quantities[i], int(i), 1, entries);
+    FunctionRows rows(Eigen::Index(quantities.size()), layout_.size());
+    rows.setFromTriplets(entries.begin(), entries.end());
+    return rows;
+}
+
+FunctionRow function_row(const FunctionRows& rows, Eigen::Index i) {
+    FunctionRow row(rows.cols());
+    for (FunctionRows::InnerIterator it(rows, i); it; ++it) row.coeffRef(it.col()) += it.value();
     return row;
 }
 
@@ -136,18 +150,18 @@ Linearised linearise(const System& system, const Shape& shape,
     Linearised linear;
     linear.layout = layout_of(shape);
     linear.has_prior = system.has_prior();
-    const RowWriter writer(shape);
+    linear.writer = RowWriter(shape);
     Triplets soft, hard;
     std::vector<double> soft_residuals, hard_residuals;
     const auto put = [&](Equation&& e) {
         const Quantity q = e.formula(shape);
         const double residual = q.value - e.value;
         if (e.exact) {
-            writer.write(q, static_cast<int>(linear.hard.size()), 1, hard);
+            linear.writer.write(q, static_cast<int>(linear.hard.size()), 1, hard);
             hard_residuals.push_back(residual);
             linear.hard.push_back(std::move(e));
         } else {
-            writer.write(q, static_cast<int>(linear.soft.size()), 1 / e.sigma, soft);
+            linear.writer.write(q, static_cast<int>(linear.soft.size()), 1 / e.sigma, soft);
             soft_residuals.push_back(residual / e.sigma);
             linear.soft.push_back(std::move(e));
         }

@@ -10,16 +10,20 @@
 
 namespace culet {
 
-/// Coefficients of a linear function of the unknowns.
+/// Coefficients of a linear function of the unknowns; of several, one a row.
 using FunctionRow = Eigen::SparseVector<double>;
+using FunctionRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+FunctionRow function_row(const FunctionRows& rows, Eigen::Index i);
 
 /// Turns slopes into entries of a row of small steps.
 class RowWriter {
 public:
     using Triplets = std::vector<Eigen::Triplet<double>>;
+    RowWriter() = default;
     explicit RowWriter(const Shape& shape);
     void write(const Quantity& quantity, int row, double factor, Triplets& to) const;
-    Eigen::SparseVector<double> function(const Quantity& quantity) const;
+    FunctionRow function(const Quantity& quantity) const;
+    FunctionRows functions(const std::vector<Quantity>& quantities) const;
 
 private:
     Layout layout_;
@@ -28,10 +32,11 @@ private:
 
 struct Linearised {
     Layout layout;
+    RowWriter writer;  ///< of the shape
     std::vector<Equation> soft, hard;
-    Eigen::SparseMatrix<double, Eigen::RowMajor> soft_rows;  ///< slopes / sigma
-    Eigen::VectorXd soft_residuals;                          ///< (formula - value) / sigma
-    Eigen::SparseMatrix<double, Eigen::RowMajor> hard_rows;
+    FunctionRows soft_rows;          ///< slopes / sigma
+    Eigen::VectorXd soft_residuals;  ///< (formula - value) / sigma
+    FunctionRows hard_rows;
     Eigen::VectorXd hard_residuals;
     /// Motions that no equation sees (shifts, turns), weighted: held at zero.
     std::vector<Eigen::VectorXd> gauge_rows;

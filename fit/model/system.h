@@ -29,8 +29,6 @@ struct Equation {
     Role role = Role::reading;
     int reading = -1;  ///< index, or -1
     int incidence = -1;
-    int facet = -1, point = -1;  ///< of held corners: which stays below which
-    bool holds_corner() const { return facet >= 0 && point >= 0; }
     int group = -1;  ///< of estimated uncertainty, or -1
     bool exact = false;
     double value = 0, sigma = 1;

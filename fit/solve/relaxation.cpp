@@ -186,9 +186,10 @@ bool Relaxation::binds(const Shape& shape, const ActiveCorner& held) const {
     return height(shape, held.facet, held.point) > -1.5 * k_hold_below;
 }
 
-bool Relaxation::are_ends_of_one_edge(const ActiveCorner& one, const ActiveCorner& other) const {
+bool are_ends_of_one_edge(const System& system, const ActiveCorner& one,
+                          const ActiveCorner& other) {
     const auto is_corner = [&](int facet, int point) {
-        const std::vector<int>& loop = system_.stone().solid.facets[std::size_t(facet)].corners;
+        const std::vector<int>& loop = system.stone().solid.facets[std::size_t(facet)].corners;
         return std::find(loop.begin(), loop.end(), point) != loop.end();
     };
     return is_corner(one.facet, other.point) && is_corner(other.facet, one.point);
@@ -197,9 +198,9 @@ bool Relaxation::are_ends_of_one_edge(const ActiveCorner& one, const ActiveCorne
 int Relaxation::binding(const Shape& shape, const std::vector<ActiveCorner>& held) const {
     std::vector<ActiveCorner> found;
     for (const ActiveCorner& h : held) {
-        const bool is_known =
-            std::any_of(found.begin(), found.end(),
-                        [&](const ActiveCorner& other) { return are_ends_of_one_edge(other, h); });
+        const bool is_known = std::any_of(
+            found.begin(), found.end(),
+            [&](const ActiveCorner& other) { return are_ends_of_one_edge(system_, other, h); });
         if (!is_known && binds(shape, h)) found.push_back(h);
     }
     return static_cast<int>(found.size());

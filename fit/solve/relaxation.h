@@ -29,6 +29,9 @@ struct ActiveCorner {
     bool operator==(const ActiveCorner&) const = default;
 };
 
+/// Each corner lies on the other's facet: of the edge between the facets, or one that they cut.
+bool are_ends_of_one_edge(const System& system, const ActiveCorner& one, const ActiveCorner& other);
+
 /// Two corners that share a caliper's jaw, and are level along its direction.
 struct SharedContact {
     int one = -1, other = -1;
@@ -117,8 +120,6 @@ public:
                                          const std::vector<ActiveCorner>& held) const;
     /// Positive hinges; with a margin those, too, that it would make positive.
     std::vector<ActiveCorner> above(const Shape& shape, double margin = 0) const;
-    /// Each corner lies on the other's facet: of the edge between the facets, or one that they cut.
-    bool are_ends_of_one_edge(const ActiveCorner& one, const ActiveCorner& other) const;
     /// How many of the held corners lie where they are held, not lower; an edge's two ends are one.
     int binding(const Shape& shape, const std::vector<ActiveCorner>& held) const;
     bool is_convex(const Shape& shape) const { return above(shape).empty(); }

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "fit/solve/kkt_solver.h"
+#include "fit/uncertainty/covariance.h"
 #include "fit/uncertainty/diagnostics.h"
-#include "fit/uncertainty/inference.h"
 #include "stone/errors.h"
 
 namespace culet {
