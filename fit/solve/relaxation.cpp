@@ -76,9 +76,11 @@ Relaxation::Relaxation(const System& system, const Parameters& parameters)
     }
 }
 
-void Relaxation::choose(const Shape& shape, bool meets_hold) {
+void Relaxation::choose(const Shape& shape, bool meets_hold,
+                        std::shared_ptr<const Outline> outline) {
     std::vector<Equation> before = std::move(equations_);
-    equations_ = system_.reading_equations(shape, system_.mesh_outline(), true, meets_hold);
+    equations_ = system_.reading_equations(shape, outline ? outline : system_.mesh_outline(), true,
+                                           meets_hold);
     if (std::exchange(begins_, false) || before.size() != equations_.size()) return;
     for (std::size_t i = 0; i < before.size(); ++i) {
         const Equation &was = before[i], &is = equations_[i];

@@ -19,8 +19,9 @@ struct PenaltyScale {
     double readings = 0;        ///< added to each reading's own uncertainty
     double hinge = 1e-4;        ///< by how much a corner may stand above a neighbour facet
     bool with_readings = true;  ///< false: only a convex stone of these meets, near the mesh
-    bool with_priors = true;    ///< the mesh's points, as far as a hand-made mesh may be off:
-    double mesh_sigma = 0.4;    ///< up to 20 % of its width
+    bool with_hinges = true;
+    bool with_priors = true;  ///< the mesh's points, as far as a hand-made mesh may be off:
+    double mesh_sigma = 0.4;  ///< up to 20 % of its width
 };
 
 /// A corner held below a facet that it wanted to pass.
@@ -69,7 +70,10 @@ public:
     /// `meets_hold`: of `System::reading_equations`.
     /// Where a jaw would change between two corners for ever, it rests on both: at the bottom of
     /// a kink the two are held level.
-    void choose(const Shape& shape, bool meets_hold);
+    /// `outline`: of a stone whose meets come apart, the corners that its planes give; the mesh's
+    /// where none is given.
+    void choose(const Shape& shape, bool meets_hold,
+                std::shared_ptr<const Outline> outline = nullptr);
     const std::vector<SharedContact>& shared_contacts() const { return shared_contacts_; }
     /// At the end of an earlier fit jaws already rest on corners that are level: each shares its
     /// jaw with the one that is touched.
