@@ -9,7 +9,7 @@
 // J'J v = lambda M v the most moved unknown moves by s of the mesh's own uncertainty of it, and the
 // readings leave s / sqrt(lambda) there. Where that is half or more, lambda < 4 s^2, v is open. The
 // mesh's errors are not averaged out over its facets: a modeller's have much in common. Of large
-// stones, where some unknown is left as uncertain, all with lambda < 4 are.
+// stones all with lambda < 4 are, but no more than unknowns that are left as uncertain.
 // Two algorithms: dense algebra in a basis of the free directions (exact but for rounding, also for
 // uncertainties that span many powers of ten), and for large stones sparse factors of the normal
 // equations.

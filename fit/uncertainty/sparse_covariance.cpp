@@ -87,14 +87,15 @@ Eigen::VectorXd Covariance::Sparse::with_all(const PinnedInverse& pinned,
     return all;
 }
 
-bool Covariance::Sparse::leaves_some_open() const {
+double Covariance::Sparse::most_open() const {
+    double most = 0;
     FunctionRow own(linear.layout.size());
     for (Eigen::Index i = 0; i < own.size(); ++i) {
         own.setZero();
         own.coeffRef(i) = 1;
-        if (!(of(tight, own) * linear.metric(i) < 1 / k_determined)) return true;
+        most += std::floor(of(tight, own) * linear.metric(i) * k_determined);
     }
-    return false;
+    return most;
 }
 
 double Covariance::Sparse::open_variance(const FunctionRow& function) const {
@@ -120,9 +121,11 @@ void Covariance::find_sparse() {
     sparse_ = std::make_unique<Sparse>(linear_);
     usable_ = sparse_->compute(sparse_->tight, k_weak_prior);
     if (!usable_) return;
-    if (!linear_.has_prior && sparse_->leaves_some_open()) {
+    const double most = linear_.has_prior ? 0 : sparse_->most_open();
+    if (most > 0) {
         // By Sylvester's law the number of negative pivots counts the directions below the bound.
-        rank_defect_ = negative_pivots(sparse_->equations(-k_determined));
+        const int below = negative_pivots(sparse_->equations(-k_determined));
+        rank_defect_ = static_cast<int>(std::min(most, double(below)));
         sparse_->has_open = rank_defect_ > 0;
         if (sparse_->has_open) usable_ = sparse_->compute(sparse_->trusted, 1);
         if (!usable_) return;

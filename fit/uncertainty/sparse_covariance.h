@@ -26,8 +26,8 @@ struct Covariance::Sparse {
     NormalEquations equations(double prior) const;
     double of(const PinnedInverse& pinned, const FunctionRow& function) const;
     Eigen::VectorXd with_all(const PinnedInverse& pinned, const Eigen::VectorXd& function) const;
-    /// Some unknown is left half as uncertain as the mesh leaves it.
-    bool leaves_some_open() const;
+    /// How many directions may be open: each leaves some unknown half as uncertain as the mesh.
+    double most_open() const;
     /// An open direction of length q has the variance q^2 / (lambda + prior): what the two priors
     /// disagree on.
     double open_variance(const FunctionRow& function) const;
