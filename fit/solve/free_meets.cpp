@@ -32,30 +32,13 @@ double exact_penalty(const StepLinearisation& linearisation) {
     return linearisation.merit + 1e6 * linearisation.hard_sum;
 }
 
-// The point of a meet that was let go belongs to nothing, and follows its planes.
-Eigen::VectorXd metric_of(const Relaxation& relaxation) {
-    constexpr double k_loose = 0.08;
-    const System& system = relaxation.system();
-    Eigen::VectorXd metric = relaxation.metric();
-    const Parameters::TangentBasis basis =
-        relaxation.parameters().tangent_basis(system.mesh_shape());
-    std::vector<bool> held(basis.points.size(), false);
-    for (const Incidence& incidence : system.incidences()) {
-        if (incidence.how != MeetTreatment::released) held[std::size_t(incidence.point)] = true;
-    }
-    for (std::size_t p = 0; p < held.size(); ++p) {
-        if (!held[p]) metric.segment(basis.points[p].column, basis.points[p].count) *= k_loose;
-    }
-    return metric;
-}
-
 // Damped Gauss-Newton steps (Levenberg and Marquardt's) under hard equations. Corners are where the
 // planes meet, and the readings' equations those of the corners at each shape.
 class DampedGaussNewton {
 public:
     DampedGaussNewton(Relaxation& relaxation, Shape shape, std::shared_ptr<const Outline> outline)
         : relaxation_(relaxation),
-          metric_(metric_of(relaxation)),
+          metric_(relaxation.metric()),
           shape_(std::move(shape)),
           outline_(std::move(outline)) {
         penalty_.with_priors = penalty_.with_hinges = false;

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "fit/model/linear.h"
 #include "fit/solve/relaxation_terms.h"
 
 namespace culet {
@@ -181,7 +182,15 @@ double Relaxation::expected_misfit(const PenaltyScale& penalty) const {
 
 Eigen::VectorXd Relaxation::metric() const {
     const std::vector<double>& m = parameters_.metric();
-    return Eigen::Map<const Eigen::VectorXd>(m.data(), Eigen::Index(m.size()));
+    Eigen::VectorXd metric = Eigen::Map<const Eigen::VectorXd>(m.data(), Eigen::Index(m.size()));
+    if (!system_.splits()) return metric;
+    const Parameters::TangentBasis basis = parameters_.tangent_basis(system_.mesh_shape());
+    const std::vector<bool> loose = loose_points(system_);
+    for (std::size_t p = 0; p < loose.size(); ++p) {
+        if (loose[p])
+            metric.segment(basis.points[p].column, basis.points[p].count) *= k_loose_point;
+    }
+    return metric;
 }
 
 bool Relaxation::binds(const Shape& shape, const ActiveCorner& held) const {
