@@ -10,7 +10,7 @@
 
 #include "fit/findings/own_axis.h"
 #include "fit/findings/polar_coordinates.h"
-#include "fit/model/datum_defect.h"
+#include "fit/uncertainty/condition_tests.h"
 #include "fit/uncertainty/statistics.h"
 #include "fit/uncertainty/variance_component.h"
 
@@ -50,24 +50,6 @@ Eigen::MatrixXd range_of(const Eigen::MatrixXd& matrix, double least,
     Eigen::Index rank = 0;
     while (rank < most && std::abs(qr.matrixR()(rank, rank)) > least) ++rank;
     return qr.householderQ() * Eigen::MatrixXd::Identity(matrix.rows(), rank);
-}
-
-// What the hard equations alone leave open, whatever was read: rows Z (Z' M Z)^-1 Z' rows' with Z
-// their null space and M the mesh's metric, but for what nothing sees. Empty where it cannot be
-// told.
-Eigen::MatrixXd reach_of(const Linearised& linear, const FunctionRows& rows) {
-    Linearised bare = linear;
-    bare.turn.resize(0);
-    const Eigen::MatrixXd unseen = rows * datum_defect(bare);
-    bare.gauge_rows.clear();
-    bare.soft.clear();
-    const Eigen::VectorXd weights = linear.metric.cwiseSqrt();
-    bare.soft_rows = FunctionRows(Eigen::MatrixXd(weights.asDiagonal()).sparseView());
-    bare.soft_residuals = Eigen::VectorXd::Zero(weights.size());
-    bare.has_prior = true;
-    const Covariance free(std::move(bare));
-    if (!free.usable()) return {};
-    return free.joint(rows) - unseen * unseen.transpose();
 }
 
 // What the tests of all groups share.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "fit/model/datum_defect.h"
 #include "fit/uncertainty/statistics.h"
 
 namespace culet {
@@ -57,6 +58,21 @@ Covariance keeping(const Linearised& linear, const Combinations& kept) {
     fewer.has_prior = true;
     // Of few functions only: faster than dense algebra for all unknowns.
     return Covariance(std::move(fewer), Covariance::Algorithm::sparse);
+}
+
+Eigen::MatrixXd reach_of(const Linearised& linear, const FunctionRows& rows) {
+    Linearised bare = linear;
+    bare.turn.resize(0);
+    const Eigen::MatrixXd unseen = rows * datum_defect(bare);
+    bare.gauge_rows.clear();
+    bare.soft.clear();
+    const Eigen::VectorXd weights = linear.metric.cwiseSqrt();
+    bare.soft_rows = FunctionRows(Eigen::MatrixXd(weights.asDiagonal()).sparseView());
+    bare.soft_residuals = Eigen::VectorXd::Zero(weights.size());
+    bare.has_prior = true;
+    const Covariance free(std::move(bare));
+    if (!free.usable()) return {};
+    return free.joint(rows) - unseen * unseen.transpose();
 }
 
 QuadraticTest quadratic_test(const Eigen::VectorXd& x, const Eigen::MatrixXd& v, double least,

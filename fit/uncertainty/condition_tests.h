@@ -27,6 +27,11 @@ Multipliers multipliers_of(const Covariance& without, const FunctionRows& rows,
 /// is open in it is not told apart.
 Covariance keeping(const Linearised& linear, const Combinations& kept);
 
+/// What the hard equations alone leave open, whatever was read: rows Z (Z' M Z)^-1 Z' rows' with Z
+/// their null space and M the mesh's metric, but for what nothing sees. Empty where it cannot be
+/// told.
+Eigen::MatrixXd reach_of(const Linearised& linear, const FunctionRows& rows);
+
 /// A quadratic test statistic x' V^-1 x over the directions that V says anything about.
 struct QuadraticTest {
     double statistic = 0;
