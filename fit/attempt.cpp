@@ -39,7 +39,7 @@ Diagnosis diagnosis_of(const System& system, const Candidate& best, const FitOpt
     Diagnosis plain = diagnose(system, finished.shape, finished.outline,
                                {.significance = options.significance,
                                 .binding = best.binding,
-                                .held = conditions_of(finished.shape, best.held)});
+                                .held = conditions_of(system, finished.shape, best.held)});
     if (!needs_robust_view(plain) || options.loss != Loss::none) return plain;
     // A gross error bends the whole stone: look for it from a fit that it does not pull.
     System reweighted = system;

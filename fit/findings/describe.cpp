@@ -52,10 +52,10 @@ std::string length_text(double value, LengthUnit unit) {
 }
 
 void describe_axis(const System& system, const Shape& shape, const System::Pose& pose,
-                   const Inference* inference, FitResult& result) {
+                   const Covariance* covariance, FitResult& result) {
     const AxisGroup group = form_group(system, shape);
     std::vector<Tier> tiers = tiers_of(system, shape, group);
-    AxisEstimate estimate = own_axis(system, shape, tiers, inference);
+    AxisEstimate estimate = own_axis(system, shape, tiers, covariance);
     OwnAxis axis = estimate.axis;
     const Vec3 inside = axis.direction;
     constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
@@ -99,7 +99,7 @@ void describe_axis(const System& system, const Shape& shape, const System::Pose&
     result.findings.own_axis = std::move(axis);
 }
 
-void describe_meets(const System& system, const Shape& shape, const Inference& inference,
+void describe_meets(const System& system, const Shape& shape, const Covariance& covariance,
                     FitResult& result) {
     MeetTestOptions options;
     options.significance = result.log.options.significance;
@@ -115,7 +115,7 @@ void describe_meets(const System& system, const Shape& shape, const Inference& i
         result.statistics.chi2 - explained < result.statistics.chi2_limit) {
         options.least_chi2 = largest;
     }
-    result.findings.meets = test_meets(system, shape, inference, options);
+    result.findings.meets = test_meets(system, shape, covariance, options);
     for (MeetFinding& meet : result.findings.meets) {
         meet.miss *= system.scale();
         meet.sigma *= system.scale();
@@ -134,9 +134,10 @@ void describe_meets(const System& system, const Shape& shape, const Inference& i
     }
 }
 
-void describe_shape(const System& system, const Finished& finished, const Diagnosis& diagnosis,
-                    const Inference& inference, FitResult& result) {
-    result.findings.shapes = find_open_shape(system, finished, diagnosis, inference);
+void describe_shape(const System& system, const Finished& finished,
+                    const std::vector<ActiveCorner>& held, const Diagnosis& diagnosis,
+                    const Covariance& holding, FitResult& result) {
+    result.findings.shapes = find_open_shape(system, finished, held, diagnosis, holding);
     // A facet that is shut at no loss may as well be there.
     const bool denied = result.findings.vanishing_edges.empty() ||
                         chi2_tail(result.findings.vanishing_chi2,
@@ -197,11 +198,9 @@ void describe_shape(const System& system, const Finished& finished, const Diagno
 }
 
 void describe_extra_facets(const System& system, const Finished& finished,
-                           const Diagnosis& diagnosis, const Inference& inference,
-                           FitResult& result) {
+                           const Diagnosis& diagnosis, FitResult& result) {
     const double significance = result.log.options.significance;
-    result.findings.extra_facets =
-        suspect_extra_facets(system, finished, inference.linear(), diagnosis, significance);
+    result.findings.extra_facets = suspect_extra_facets(system, finished, diagnosis, significance);
     // Where a reading stands out, or a facet is found, each reading of a quantity speaks for
     // itself.
     const bool stands_out = std::any_of(
@@ -210,12 +209,12 @@ void describe_extra_facets(const System& system, const Finished& finished,
     if (system.has_replicates() && (stands_out || !result.findings.extra_facets.empty())) {
         System apart = system;
         apart.keep_replicates_apart();
-        const Linearised linear = linearise(apart, finished.shape, finished.outline, false);
         Diagnosis again = diagnosis;
-        again.covariance = std::make_shared<const Covariance>(linear);
+        again.covariance =
+            std::make_shared<const Covariance>(linearise(apart, finished.shape, finished.outline));
         if (again.covariance->usable()) {
             result.findings.extra_facets =
-                suspect_extra_facets(apart, finished, linear, again, significance);
+                suspect_extra_facets(apart, finished, again, significance);
         }
     }
     for (ExtraFacet& facet : result.findings.extra_facets) {
@@ -239,14 +238,19 @@ void describe_extra_facets(const System& system, const Finished& finished,
 
 }  // namespace
 
-std::vector<Equation> conditions_of(const Shape& shape, const std::vector<ActiveCorner>& held) {
+std::vector<Equation> conditions_of(const System& system, const Shape& shape,
+                                    const std::vector<ActiveCorner>& held) {
     std::vector<Equation> conditions;
-    for (const ActiveCorner& corner : held) {
+    for (auto at = held.begin(); at != held.end(); ++at) {
+        const ActiveCorner& corner = *at;
+        if (std::any_of(held.begin(), at, [&](const ActiveCorner& other) {
+                return are_ends_of_one_edge(system, other, corner);
+            })) {
+            continue;
+        }
         Equation e;
         e.role = Equation::Role::relation;
         e.exact = true;
-        e.facet = corner.facet;
-        e.point = corner.point;
         e.formula = height(corner.facet, Corner{corner.point, {-1, -1, -1}});
         e.value = e.formula(shape).value;
         conditions.push_back(std::move(e));
@@ -258,19 +262,23 @@ void describe_findings(const System& system, const Finished& finished,
                        const std::vector<ActiveCorner>& held, const Diagnosis& diagnosis,
                        const System::Pose& pose, FitResult& result) {
     if (!result.log.options.findings || !finished.outline) return;
-    const Inference inference(system, finished.shape, finished.outline,
-                              conditions_of(finished.shape, held));
-    describe_axis(system, finished.shape, pose, inference.usable() ? &inference : nullptr, result);
-    if (!inference.usable()) return;
-    describe_meets(system, finished.shape, inference, result);
-    describe_shape(system, finished, diagnosis, inference, result);
-    describe_extra_facets(system, finished, diagnosis, inference, result);
+    std::shared_ptr<const Covariance> covariance = diagnosis.covariance;
+    if (covariance && !held.empty()) {
+        covariance = std::make_shared<const Covariance>(linearise(
+            system, finished.shape, finished.outline, conditions_of(system, finished.shape, held)));
+    }
+    if (covariance && !covariance->usable()) covariance = nullptr;
+    describe_axis(system, finished.shape, pose, covariance.get(), result);
+    if (!covariance) return;
+    describe_meets(system, finished.shape, *covariance, result);
+    describe_shape(system, finished, held, diagnosis, *covariance, result);
+    describe_extra_facets(system, finished, diagnosis, result);
     const bool declared =
         std::any_of(system.readings().begin(), system.readings().end(), declares_whole_symmetry);
     // Declared symmetry would only be found again: `fit_stone` asks a fit without it.
     if (result.log.options.find_symmetry && !declared) {
         result.findings.symmetry =
-            symmetry_of(system, finished.shape, inference, result.log.options);
+            symmetry_of(system, finished.shape, *covariance, result.log.options);
     }
 }
 

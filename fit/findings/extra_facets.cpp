@@ -204,14 +204,14 @@ bool is_news(const ExtraFacet& facet, const std::vector<ExtraFacet>& found) {
 }  // namespace
 
 std::vector<ExtraFacet> suspect_extra_facets(const System& system, const Finished& finished,
-                                             const Linearised& linear, const Diagnosis& diagnosis,
-                                             double significance) {
+                                             const Diagnosis& diagnosis, double significance) {
     std::vector<ExtraFacet> found;
     if (!system.stone().convex || !finished.outline || !diagnosis.covariance) return found;
     // What is left would not agree, see below.
     if (diagnosis.throughout) return found;
+    const Linearised& linear = diagnosis.covariance->linear();
     const ErrorSignatures signatures(system, finished.shape, *finished.outline, linear);
-    RestrictedResiduals restricted(linear, *diagnosis.covariance);
+    RestrictedResiduals restricted(*diagnosis.covariance);
     const std::vector<Candidate> candidates = candidates_of(system, finished.shape);
     const Thresholds least = thresholds_of(candidates, linear, diagnosis, significance);
     double taken = 0, most = 0;

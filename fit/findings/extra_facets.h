@@ -18,16 +18,14 @@
 #include <vector>
 
 #include "fit/findings/findings.h"
-#include "fit/model/linear.h"
 #include "fit/solve/free_meets.h"
 #include "fit/uncertainty/diagnostics.h"
 
 namespace culet {
 
-/// In the scale of the fit, the most telling first; `what` is left empty. `linear` is of the end of
-/// the fit, without hinges. None for a stone that is not convex, or without a covariance.
+/// In the scale of the fit, the most telling first; `what` is left empty. None for a stone that is
+/// not convex, or without a covariance.
 std::vector<ExtraFacet> suspect_extra_facets(const System& system, const Finished& finished,
-                                             const Linearised& linear, const Diagnosis& diagnosis,
-                                             double significance);
+                                             const Diagnosis& diagnosis, double significance);
 
 }  // namespace culet

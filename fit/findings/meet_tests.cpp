@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "fit/uncertainty/miss_covariance.h"
+#include "fit/uncertainty/condition_tests.h"
 #include "fit/uncertainty/statistics.h"
 
 namespace culet {
@@ -53,7 +53,7 @@ std::vector<bool> held_by_images(const System& system) {
     return held;
 }
 
-std::vector<Meet> meets_of(const System& system, const Shape& shape, const Inference& inference) {
+std::vector<Meet> meets_of(const System& system, const Shape& shape, const Covariance& covariance) {
     std::vector<Meet> meets(shape.points.size());
     const std::vector<Incidence>& incidences = system.incidences();
     for (const Incidence& incidence : incidences) {
@@ -62,7 +62,7 @@ std::vector<Meet> meets_of(const System& system, const Shape& shape, const Infer
         meet.facets.push_back(incidence.facet);
         meet.how = std::max(meet.how, incidence.how);
     }
-    const std::vector<Equation>& hard = inference.linear().hard;
+    const std::vector<Equation>& hard = covariance.linear().hard;
     for (std::size_t i = 0; i < hard.size(); ++i) {
         if (hard[i].incidence < 0) continue;
         meets[std::size_t(incidences[std::size_t(hard[i].incidence)].point)].equations.push_back(
@@ -88,12 +88,8 @@ std::vector<Meet> meets_of(const System& system, const Shape& shape, const Infer
 }
 
 // What the readings pull exact meets apart with, and its covariance.
-struct ExactMeets {
-    Eigen::VectorXd pulls;
-    Eigen::MatrixXd covariance;
-};
-ExactMeets exact_meets(const std::vector<Meet>& meets, const Inference& inference) {
-    const Eigen::Index hard = Eigen::Index(inference.linear().hard.size());
+Multipliers exact_meets(const std::vector<Meet>& meets, const Linearised& linear) {
+    const Eigen::Index hard = Eigen::Index(linear.hard.size());
     std::vector<Eigen::Triplet<double>> apart, together;
     std::vector<bool> is_kept(std::size_t(hard), true);
     Eigen::Index columns = 0, kept = 0;
@@ -119,20 +115,13 @@ ExactMeets exact_meets(const std::vector<Meet>& meets, const Inference& inferenc
     Combinations tested(columns, hard), others(kept, hard);
     tested.setFromTriplets(apart.begin(), apart.end());
     others.setFromTriplets(together.begin(), together.end());
-    ExactMeets result;
-    result.pulls = tested * inference.multipliers();
-    if (const auto misses = miss_covariance(inference.linear(), others, tested)) {
-        result.covariance =
-            misses->llt().solve(Eigen::MatrixXd::Identity(misses->rows(), misses->cols()));
-    } else {
-        result.covariance = inference.multiplier_covariance(Eigen::MatrixXd(tested.transpose()));
-    }
-    return result;
+    return multipliers_of(keeping(linear, others), tested * linear.hard_rows,
+                          tested * linear.hard_residuals);
 }
 
 // What is left of them when one meet is let go: given that its planes may miss each other.
-void let_go(ExactMeets& exact, const Meet& meet) {
-    Eigen::VectorXd& x = exact.pulls;
+void let_go(Multipliers& exact, const Meet& meet) {
+    Eigen::VectorXd& x = exact.values;
     Eigen::MatrixXd& v = exact.covariance;
     const Eigen::Index first = meet.first, count = meet.apart.cols();
     const Eigen::MatrixXd own = v.block(first, first, count, count);
@@ -161,26 +150,26 @@ void set_miss(MeetFinding& finding, const Meet& meet, const Eigen::VectorXd& alo
 }
 
 // V^-1 is the covariance of misses: v in [1 / told, 1 / free].
-QuadraticTest score_test(const ExactMeets& exact, const Meet& meet) {
+QuadraticTest score_test(const Multipliers& exact, const Meet& meet) {
     const Eigen::Index k = meet.apart.cols();
-    return quadratic_test(exact.pulls.segment(meet.first, k),
+    return quadratic_test(exact.values.segment(meet.first, k),
                           exact.covariance.block(meet.first, meet.first, k, k), 1 / k_told,
                           1 / k_free);
 }
 
-void set_score(const ExactMeets& exact, const Meet& meet, const QuadraticTest& test,
+void set_score(const Multipliers& exact, const Meet& meet, const QuadraticTest& test,
                MeetFinding& finding) {
     const Eigen::Index k = meet.apart.cols();
     const Eigen::MatrixXd covariance = (exact.covariance.block(meet.first, meet.first, k, k) +
                                         1e-12 * Eigen::MatrixXd::Identity(k, k))
                                            .inverse();
-    set_miss(finding, meet, covariance * exact.pulls.segment(meet.first, k), covariance);
+    set_miss(finding, meet, covariance * exact.values.segment(meet.first, k), covariance);
     finding.chi2 = test.statistic;
     finding.p = test.p;
 }
 
 // Every exact meet by itself; then forward selection among them.
-void test_exact_meets(const std::vector<Meet>& meets, ExactMeets exact, double level,
+void test_exact_meets(const std::vector<Meet>& meets, Multipliers exact, double level,
                       double least_chi2, std::vector<MeetFinding>& findings) {
     for (std::size_t m = 0; m < meets.size(); ++m) {
         if (!meets[m].has_score) continue;
@@ -239,15 +228,15 @@ Eigen::VectorXd sigmas_of(const System& system, const Meet& meet) {
 }
 
 // A soft or released meet, by the misses that came out.
-void test_misses(const System& system, const Shape& shape, const Inference& inference,
-                 const Meet& meet, double level, MeetFinding& finding) {
+void test_misses(const System& system, const Shape& shape, const Covariance& all, const Meet& meet,
+                 double level, MeetFinding& finding) {
     const std::vector<Quantity> heights = heights_of(shape, meet);
     Eigen::VectorXd offsets(Eigen::Index(heights.size()));
     for (std::size_t i = 0; i < heights.size(); ++i) offsets(Eigen::Index(i)) = heights[i].value;
     const Eigen::MatrixXd& u = meet.apart;
     const Eigen::VectorXd along = u.transpose() * offsets;
     const Eigen::MatrixXd covariance =
-        u.transpose() * inference.covariance(inference.rows_of(heights)) * u;
+        u.transpose() * all.joint(all.linear().writer.functions(heights)) * u;
     const QuadraticTest test = quadratic_test(along, covariance, k_free, k_told);
     finding.chi2 = test.statistic;
     finding.tested = test.tested;
@@ -281,18 +270,19 @@ MeetFinding untested(const System& system, const Meet& meet) {
 }  // namespace
 
 std::vector<MeetFinding> test_meets(const System& system, const Shape& shape,
-                                    const Inference& inference, const MeetTestOptions& options) {
-    const std::vector<Meet> meets = meets_of(system, shape, inference);
+                                    const Covariance& covariance, const MeetTestOptions& options) {
+    const std::vector<Meet> meets = meets_of(system, shape, covariance);
     Eigen::Index conditions = 0;
     for (const Meet& meet : meets) conditions += meet.apart.cols();
     if (conditions > k_most_tested) return {};
     const double level = options.significance / std::max<double>(1, double(meets.size()));
     std::vector<MeetFinding> findings;
     for (const Meet& meet : meets) findings.push_back(untested(system, meet));
-    test_exact_meets(meets, exact_meets(meets, inference), level, options.least_chi2, findings);
+    test_exact_meets(meets, exact_meets(meets, covariance.linear()), level, options.least_chi2,
+                     findings);
     for (std::size_t m = 0; m < meets.size(); ++m) {
         if (meets[m].how == MeetTreatment::exact) continue;
-        test_misses(system, shape, inference, meets[m], level, findings[m]);
+        test_misses(system, shape, covariance, meets[m], level, findings[m]);
     }
     return findings;
 }

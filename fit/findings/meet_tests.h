@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "fit/findings/findings.h"
-#include "fit/uncertainty/inference.h"
+#include "fit/uncertainty/covariance.h"
 
 namespace culet {
 
@@ -27,7 +27,7 @@ struct MeetTestOptions {
 /// ask for beyond the mesh. Lengths in the scale of the fit. Empty when there are too many
 /// (more than `k_most_tested` conditions).
 std::vector<MeetFinding> test_meets(const System& system, const Shape& shape,
-                                    const Inference& inference, const MeetTestOptions& options);
+                                    const Covariance& covariance, const MeetTestOptions& options);
 
 inline constexpr int k_most_tested = 1500;
 

@@ -36,31 +36,19 @@ std::vector<std::size_t> by_falling(const std::vector<CandidateReading>& candida
     return order;
 }
 
-// Sums of squared covariances of each candidate with all parts of the total.
-Eigen::VectorXd drops_of(const DenseRows& halves, const std::vector<CandidateReading>& tried,
-                         const Covariance& covariance) {
-    std::vector<FunctionRow> functions;
-    for (const CandidateReading& c : tried) functions.push_back(c.function);
-    const Eigen::MatrixXd across = halves * covariance.halves(functions)->transpose();
-    return across.colwise().squaredNorm();
-}
-
-// Likewise from solutions of large equations.
-Eigen::VectorXd drops_one_by_one(const Shape& shape, const Vec3& middle,
-                                 const std::vector<CandidateReading>& tried,
-                                 const Covariance& covariance) {
+// Sum of squared covariances of a candidate with all parts of the total.
+double drop_of(const Shape& shape, const Vec3& middle, const CandidateReading& tried,
+               const Covariance& covariance) {
     const Layout layout = layout_of(shape);
-    Eigen::VectorXd drops = Eigen::VectorXd::Zero(Eigen::Index(tried.size()));
-    for (std::size_t i = 0; i < tried.size(); ++i) {
-        const Eigen::VectorXd with = covariance.with_all(tried[i].function, true);
-        for (int f = 0; f < layout.facets; ++f) {
-            const auto [t, u] = tangents(shape.normals[std::size_t(f)]);
-            const double a = with(layout.tilt(f)), b = with(layout.tilt(f) + 1);
-            const double o = with(layout.offset(f)) - glm::dot(middle, a * t + b * u);
-            drops(Eigen::Index(i)) += a * a + b * b + o * o;
-        }
+    const Eigen::VectorXd with = covariance.with_all(tried.function, true);
+    double drop = 0;
+    for (int f = 0; f < layout.facets; ++f) {
+        const auto [t, u] = tangents(shape.normals[std::size_t(f)]);
+        const double a = with(layout.tilt(f)), b = with(layout.tilt(f) + 1);
+        const double o = with(layout.offset(f)) - glm::dot(middle, a * t + b * u);
+        drop += a * a + b * b + o * o;
     }
-    return drops;
+    return drop;
 }
 
 }  // namespace
@@ -70,22 +58,14 @@ std::vector<NextReading> next_readings(const System& system, const Shape& shape,
                                        const Covariance& covariance) {
     const Layout layout = layout_of(shape);
     const Vec3 middle = middle_of(shape);
-    // Functions whose variances add up to the total.
-    std::vector<FunctionRow> parts;
+    double total = 0;
     for (int f = 0; f < layout.facets; ++f) {
         for (int k = 0; k < 2; ++k) {
             FunctionRow row(layout.size());
             row.coeffRef(layout.tilt(f) + k) = 1;
-            parts.push_back(std::move(row));
+            total += covariance.total_variance(row);
         }
-        parts.push_back(facet_functions(shape, f, layout, middle)[2]);
-    }
-    const std::optional<DenseRows> halves = covariance.halves(parts);
-    double total = 0;
-    if (halves) {
-        total = halves->squaredNorm();
-    } else {
-        for (const FunctionRow& row : parts) total += covariance.total_variance(row);
+        total += covariance.total_variance(facet_functions(shape, f, layout, middle)[2]);
     }
     if (!(total > 0) || !std::isfinite(total)) return {};
     std::vector<CandidateReading> all = candidate_readings(system, shape, outline);
@@ -102,11 +82,8 @@ std::vector<NextReading> next_readings(const System& system, const Shape& shape,
         if (tried.size() >= k_tried) break;
         if (++of_group[all[i].group] <= 2 && all[i].promise > 0) tried.push_back(all[i]);
     }
-    const Eigen::VectorXd drops = halves ? drops_of(*halves, tried, covariance)
-                                         : drops_one_by_one(shape, middle, tried, covariance);
-    for (std::size_t i = 0; i < tried.size(); ++i) {
-        CandidateReading& c = tried[i];
-        const double drop = drops(Eigen::Index(i));
+    for (CandidateReading& c : tried) {
+        const double drop = drop_of(shape, middle, c, covariance);
         const double share = drop / (c.sigma * c.sigma + c.variance) / total;
         c.reading.reduces = std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
         // Tighter than what the mesh says, where only the mesh said something.

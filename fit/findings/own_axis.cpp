@@ -198,7 +198,7 @@ std::vector<Tier> tiers_of(const System& system, const Shape& shape, const AxisG
 }
 
 AxisEstimate own_axis(const System& system, const Shape& shape, const std::vector<Tier>& tiers,
-                      const Inference* inference) {
+                      const Covariance* covariance) {
     AxisEstimate estimate;
     OwnAxis& axis = estimate.axis;
     axis.sigma = axis.scatter_sigma = std::numeric_limits<double>::infinity();
@@ -224,8 +224,9 @@ AxisEstimate own_axis(const System& system, const Shape& shape, const std::vecto
     for (const Vec3& e : estimate.directions) {
         estimate.across.push_back(component_of(weighted, shape, parts, e));
     }
-    if (inference) {
-        const Eigen::MatrixXd cov = inference->covariance(inference->rows_of(estimate.across));
+    if (covariance) {
+        const Eigen::MatrixXd cov =
+            covariance->joint(covariance->linear().writer.functions(estimate.across));
         axis.sigma = std::sqrt(std::max(0.0, 0.5 * cov.trace()));
     }
     return estimate;

@@ -7,7 +7,7 @@
 
 #include "fit/findings/findings.h"
 #include "fit/model/axis_groups.h"
-#include "fit/uncertainty/inference.h"
+#include "fit/uncertainty/covariance.h"
 
 namespace culet {
 
@@ -23,13 +23,13 @@ AxisGroup form_group(const System& system, const Shape& shape);
 /// the least eigenvector of a 3 x 3 matrix; w_t = 1 / variance of the tier's inclinations about
 /// it, by repeated weighting, so that a tier that is askew (the stars about a tilted table) does
 /// not pull at it. With fewer than two turns in the form's symmetry: the direction least along the
-/// girdle's normals. `inference` may be null: sigmas are then infinite.
+/// girdle's normals. `covariance` may be null: sigmas are then infinite.
 struct AxisEstimate {
     OwnAxis axis;
     std::vector<Quantity> across;  ///< its components along two directions normal to it
     std::array<Vec3, 2> directions{};
 };
 AxisEstimate own_axis(const System& system, const Shape& shape, const std::vector<Tier>& tiers,
-                      const Inference* inference);
+                      const Covariance* covariance);
 
 }  // namespace culet

@@ -19,7 +19,7 @@ double wrapped(double angle) {
 }  // namespace
 
 PolarCoordinates polar_coordinates(const System& system, const Shape& shape,
-                                   const Inference& inference, const std::vector<Tier>& tiers) {
+                                   const RowWriter& writer, const std::vector<Tier>& tiers) {
     const AxisEstimate estimate = own_axis(system, shape, tiers, nullptr);
     const Vec3 axis = estimate.axis.known ? estimate.axis.direction : Vec3{0, 0, 1};
     // Azimuths about the axis begin where those about up do.
@@ -65,10 +65,10 @@ PolarCoordinates polar_coordinates(const System& system, const Shape& shape,
             c.placement(row + 2, k + 2) = -glm::dot(n, turns[std::size_t(k)]);
         }
     }
-    c.rows = inference.rows_of(quantities);
+    c.rows = Eigen::MatrixXd(writer.functions(quantities));
     if (estimate.axis.known) {
         // The axis itself moves with the facets: d(axis) = w x axis.
-        const Eigen::MatrixXd moves = inference.rows_of(estimate.across);
+        const Eigen::MatrixXd moves = writer.functions(estimate.across);
         for (std::size_t i = 0; i < estimate.across.size(); ++i) {
             const Vec3 w = glm::cross(axis, estimate.directions[i]);
             c.rows +=

@@ -8,7 +8,7 @@
 
 #include "fit/findings/findings.h"
 #include "fit/model/axis_groups.h"
-#include "fit/uncertainty/inference.h"
+#include "fit/model/linear.h"
 
 namespace culet {
 
@@ -23,7 +23,7 @@ struct PolarCoordinates {
     Eigen::MatrixXd placement;  ///< by tilts of the axis and shifts of the middle (4 columns)
 };
 PolarCoordinates polar_coordinates(const System& system, const Shape& shape,
-                                   const Inference& inference, const std::vector<Tier>& tiers);
+                                   const RowWriter& writer, const std::vector<Tier>& tiers);
 
 /// deviations = what the coordinates are beyond the nearest stone of that group at a first guess;
 /// columns = how those change with the parameters of such stones (what each orbit shares, and the

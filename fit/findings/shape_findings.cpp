@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <set>
 
-#include "fit/uncertainty/covariance.h"
+#include "fit/uncertainty/condition_tests.h"
 
 namespace culet {
 
@@ -53,13 +52,9 @@ bool keeps_open(const System& system, const Edge& edge, int point, int facet) {
 
 // Corners held below the facet at the other end of an edge keep the edge from turning round. Let
 // go, it would be as long as the readings want it.
-void add_vanishing(const System& system, const Finished& finished, const Inference& inference,
+void add_vanishing(const System& system, const Finished& finished,
+                   const std::vector<ActiveCorner>& held, const Covariance& let_go,
                    std::vector<ShapeFinding>& findings) {
-    const std::vector<Equation>& hard = inference.linear().hard;
-    std::vector<Eigen::Index> held;
-    for (std::size_t i = 0; i < hard.size(); ++i) {
-        if (hard[i].holds_corner()) held.push_back(Eigen::Index(i));
-    }
     if (held.empty()) return;
     // Of an edge both ends may be held, which is one condition said twice: they are let go
     // together. A corner of an edge of length l lies l times the slope below the far facet.
@@ -71,26 +66,29 @@ void add_vanishing(const System& system, const Finished& finished, const Inferen
         // Facets of one plane have no edge that could vanish.
         if (!(glm::dot(across, across) > 0)) continue;
         const Vec3 along = glm::normalize(across);
-        Eigen::VectorXd column = Eigen::VectorXd::Zero(Eigen::Index(hard.size()));
-        for (const Eigen::Index k : held) {
-            const Equation& e = hard[std::size_t(k)];
-            if (!keeps_open(system, edge, e.point, e.facet)) continue;
-            column(k) = std::abs(glm::dot(along, finished.shape.normals[std::size_t(e.facet)]));
+        Eigen::VectorXd column = Eigen::VectorXd::Zero(Eigen::Index(held.size()));
+        for (std::size_t k = 0; k < held.size(); ++k) {
+            const auto& [facet, point] = held[k];
+            if (!keeps_open(system, edge, point, facet)) continue;
+            column(Eigen::Index(k)) =
+                std::abs(glm::dot(along, finished.shape.normals[std::size_t(facet)]));
         }
         if (column.maxCoeff() < 1e-9) continue;
         edges.push_back(&edge);
         columns.push_back(std::move(column));
     }
     if (edges.empty()) return;
-    Eigen::MatrixXd combinations(Eigen::Index(hard.size()), Eigen::Index(columns.size()));
-    for (std::size_t k = 0; k < columns.size(); ++k) {
-        combinations.col(Eigen::Index(k)) = columns[k];
+    std::vector<Quantity> heights;
+    for (const auto& [facet, point] : held) {
+        heights.push_back(height(facet, Corner{point})(finished.shape));
     }
-    const Eigen::MatrixXd v = inference.multiplier_covariance(combinations);
-    const Eigen::VectorXd pulls = combinations.transpose() * inference.multipliers();
+    // As they lie they hold.
+    const Multipliers multipliers =
+        multipliers_of(let_go, let_go.linear().writer.functions(heights),
+                       Eigen::VectorXd::Zero(Eigen::Index(held.size())));
     for (std::size_t k = 0; k < edges.size(); ++k) {
-        const double pull = pulls(Eigen::Index(k));
-        const double information = v(Eigen::Index(k), Eigen::Index(k));
+        const double pull = columns[k].dot(multipliers.values);
+        const double information = columns[k].dot(multipliers.covariance * columns[k]);
         // Readings so vague that what they say is no number say nothing.
         if (!std::isfinite(pull) || !std::isfinite(information)) continue;
         // Drawn apart, or pulled so loosely that rounding decides: not what shapes the stone.
@@ -108,14 +106,13 @@ void add_vanishing(const System& system, const Finished& finished, const Inferen
 
 // A facet whose outline is shut by the held corners. One that is as small without being held is as
 // small as the readings say.
-void add_shut_facets(const System& system, const Finished& finished, const Inference& inference,
-                     std::vector<ShapeFinding>& findings) {
+void add_shut_facets(const System& system, const Finished& finished,
+                     const std::vector<ActiveCorner>& held, std::vector<ShapeFinding>& findings) {
     const Outline& outline = *finished.outline;
     std::set<int> held_points, held_facets;
-    for (const Equation& e : inference.linear().hard) {
-        if (!e.holds_corner()) continue;
-        held_points.insert(e.point);
-        held_facets.insert(e.facet);
+    for (const auto& [facet, point] : held) {
+        held_points.insert(point);
+        held_facets.insert(facet);
     }
     for (std::size_t f = 0; f < outline.loops.size(); ++f) {
         double width = 0;
@@ -147,50 +144,29 @@ void add_shut_facets(const System& system, const Finished& finished, const Infer
     }
 }
 
-// Cheaply, the most that a quantity's sigma may be: without the corners that are held.
-class MostSigma {
-public:
-    MostSigma(const Shape& shape, const Diagnosis& diagnosis)
-        : writer_(shape), covariance_(diagnosis.covariance.get()) {}
-    double operator()(const Quantity& q) const {
-        constexpr double k_margin = 1.1;
-        if (covariance_ == nullptr) return std::numeric_limits<double>::infinity();
-        return k_margin * std::sqrt(covariance_->total_variance(writer_.function(q)));
-    }
+double sigma_of(const Covariance& covariance, const Quantity& quantity) {
+    return std::sqrt(covariance.total_variance(covariance.linear().writer.function(quantity)));
+}
 
-private:
-    RowWriter writer_;
-    const Covariance* covariance_;
-};
-
-void add_open_edges(const System& system, const Finished& finished, const Inference& inference,
-                    const MostSigma& most_sigma, std::vector<ShapeFinding>& findings) {
+void add_open_edges(const System& system, const Finished& finished, const Covariance& holding,
+                    std::vector<ShapeFinding>& findings) {
     if (system.splits()) return;
-    std::vector<const Edge*> edges;
-    std::vector<Quantity> lengths;
     for (const Edge& edge : system.edges().edges) {
         const Corner a{edge.from, {-1, -1, -1}}, b{edge.to, {-1, -1, -1}};
         const double length =
             glm::length(place_of(finished.shape, a) - place_of(finished.shape, b));
         if (!(length < k_short_edge) || !(length > 1e-9)) continue;
-        const Quantity quantity = corner_distance(a, b)(finished.shape);
-        if (length > 2 * most_sigma(quantity)) continue;
-        edges.push_back(&edge);
-        lengths.push_back(quantity);
-    }
-    const std::vector<double> sigmas = inference.sigmas(lengths);
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        const double sigma = sigmas[i];
-        if (!(lengths[i].value < 2 * sigma) || !(sigma < 0.5)) continue;
+        const double sigma = sigma_of(holding, corner_distance(a, b)(finished.shape));
+        if (!(length < 2 * sigma) || !(sigma < 0.5)) continue;
         ShapeFinding finding;
         finding.kind = ShapeFinding::Kind::edge_open;
-        finding.facets = names_of(system, *edges[i]);
+        finding.facets = names_of(system, edge);
         const bool known = std::any_of(findings.begin(), findings.end(), [&](const auto& other) {
             return other.facets[0] == finding.facets[0] && other.facets.size() > 1 &&
                    other.facets[1] == finding.facets[1];
         });
         if (known) continue;
-        finding.value = lengths[i].value;
+        finding.value = length;
         finding.sigma = sigma;
         findings.push_back(std::move(finding));
     }
@@ -222,11 +198,7 @@ void add_open_facets(const System& system, const Finished& finished, const Diagn
 }
 
 void add_same_planes(const System& system, const Finished& finished, const Diagnosis& diagnosis,
-                     const Inference& inference, const MostSigma& most_sigma,
-                     std::vector<ShapeFinding>& findings) {
-    std::vector<const Edge*> edges;
-    std::vector<Quantity> angles;
-    std::vector<double> values;
+                     const Covariance& holding, std::vector<ShapeFinding>& findings) {
     for (const Edge& edge : system.edges().edges) {
         const Vec3 &a = finished.shape.normals[std::size_t(edge.left)],
                    &b = finished.shape.normals[std::size_t(edge.right)];
@@ -241,20 +213,13 @@ void add_same_planes(const System& system, const Finished& finished, const Diagn
         // What both might be apart at most, before asking for their common covariance.
         const double most = own(s, a) + own(t, b);
         if (!(angle < 2 * most) || !(angle < 0.2)) continue;
-        const Quantity quantity = tilt_between(edge.left, edge.right)(finished.shape);
-        if (angle > 2 * most_sigma(quantity)) continue;
-        edges.push_back(&edge);
-        angles.push_back(quantity);
-        values.push_back(angle);
-    }
-    const std::vector<double> sigmas = inference.sigmas(angles);
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        if (!(values[i] < 2 * sigmas[i]) || !(sigmas[i] < 0.5)) continue;
+        const double sigma = sigma_of(holding, tilt_between(edge.left, edge.right)(finished.shape));
+        if (!(angle < 2 * sigma) || !(sigma < 0.5)) continue;
         ShapeFinding finding;
         finding.kind = ShapeFinding::Kind::same_plane;
-        finding.facets = {name(system, edges[i]->left), name(system, edges[i]->right)};
-        finding.value = values[i];
-        finding.sigma = sigmas[i];
+        finding.facets = {name(system, edge.left), name(system, edge.right)};
+        finding.value = angle;
+        finding.sigma = sigma;
         findings.push_back(std::move(finding));
     }
 }
@@ -277,15 +242,15 @@ std::vector<std::string> edges_kept_open(const System& system,
 }
 
 std::vector<ShapeFinding> find_open_shape(const System& system, const Finished& finished,
-                                          const Diagnosis& diagnosis, const Inference& inference) {
+                                          const std::vector<ActiveCorner>& held,
+                                          const Diagnosis& diagnosis, const Covariance& holding) {
     std::vector<ShapeFinding> findings;
     if (!finished.outline) return findings;
-    add_vanishing(system, finished, inference, findings);
-    add_shut_facets(system, finished, inference, findings);
-    const MostSigma most_sigma(finished.shape, diagnosis);
-    add_open_edges(system, finished, inference, most_sigma, findings);
+    add_vanishing(system, finished, held, *diagnosis.covariance, findings);
+    add_shut_facets(system, finished, held, findings);
+    add_open_edges(system, finished, holding, findings);
     add_open_facets(system, finished, diagnosis, findings);
-    add_same_planes(system, finished, diagnosis, inference, most_sigma, findings);
+    add_same_planes(system, finished, diagnosis, holding, findings);
     return findings;
 }
 

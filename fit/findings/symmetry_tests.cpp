@@ -10,6 +10,7 @@
 
 #include "fit/findings/own_axis.h"
 #include "fit/findings/polar_coordinates.h"
+#include "fit/uncertainty/condition_tests.h"
 #include "fit/uncertainty/statistics.h"
 #include "fit/uncertainty/variance_component.h"
 
@@ -274,7 +275,7 @@ void conclude(SymmetryReport& report, double level) {
 
 }  // namespace
 
-SymmetryReport symmetry_of(const System& system, const Shape& shape, const Inference& inference,
+SymmetryReport symmetry_of(const System& system, const Shape& shape, const Covariance& all,
                            const FitOptions& options) {
     SymmetryReport report;
     const AxisGroup form = form_group(system, shape);
@@ -283,7 +284,7 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Infer
         report.message = "the stone's form has no symmetry";
         return report;
     }
-    if (shape.normals.size() > k_most_facets || !inference.usable()) {
+    if (shape.normals.size() > k_most_facets || !all.usable()) {
         report.proposed = "C1";
         report.message =
             shape.normals.size() > k_most_facets
@@ -295,10 +296,11 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Infer
         return report;
     }
     const std::vector<Tier> tiers = tiers_of(system, shape, form);
-    const PolarCoordinates coordinates = polar_coordinates(system, shape, inference, tiers);
-    const Eigen::MatrixXd covariance = inference.covariance(coordinates.rows);
-    // What the meets and exact readings leave open at all, whatever was read.
-    const Eigen::MatrixXd reach = inference.reach(coordinates.rows);
+    const PolarCoordinates coordinates =
+        polar_coordinates(system, shape, all.linear().writer, tiers);
+    const FunctionRows rows = coordinates.rows.sparseView();
+    const Eigen::MatrixXd covariance = all.joint(rows);
+    const Eigen::MatrixXd reach = reach_of(all.linear(), rows);
     if (reach.size() == 0) {
         report.proposed = "C1";
         report.message = "the meets could not be analysed";
@@ -330,9 +332,9 @@ SymmetryReport symmetry_of(const System& system, const Shape& shape, const Infer
     placed.columns.conservativeResize(Eigen::NoChange,
                                       model.columns.cols() + coordinates.placement.cols());
     placed.columns.rightCols(coordinates.placement.cols()) = coordinates.placement;
-    const Directions all = directions_of(alike, placed, covariance);
-    const VarianceComponent whole =
-        spread_of(without_what_holds(contrasts_of(all.deviations, all.covariance, all.columns)));
+    const Directions whole_stone = directions_of(alike, placed, covariance);
+    const VarianceComponent whole = spread_of(without_what_holds(
+        contrasts_of(whole_stone.deviations, whole_stone.covariance, whole_stone.columns)));
     report.sigma = whole.sigma;
     report.sigma_sigma = whole.sigma_sigma;
     conclude(report, options.significance / double(report.tiers.size() + 1));

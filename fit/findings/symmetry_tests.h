@@ -4,7 +4,7 @@
 #include "fit/findings/findings.h"
 #include "fit/model/options.h"
 #include "fit/model/system.h"
-#include "fit/uncertainty/inference.h"
+#include "fit/uncertainty/covariance.h"
 
 namespace culet {
 
@@ -15,7 +15,7 @@ bool declares_whole_symmetry(const Reading& reading);
 
 /// `system` must hold no reading that declares its symmetry (`declares_whole_symmetry`): that would
 /// be found again.
-SymmetryReport symmetry_of(const System& system, const Shape& shape, const Inference& inference,
+SymmetryReport symmetry_of(const System& system, const Shape& shape, const Covariance& all,
                            const FitOptions& options);
 
 }  // namespace culet

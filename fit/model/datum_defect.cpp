@@ -5,8 +5,7 @@
 
 namespace culet {
 
-Eigen::MatrixXd datum_defect(const Linearised& linear,
-                             const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows) {
+Eigen::MatrixXd datum_defect(const Linearised& linear) {
     Eigen::MatrixXd motions(linear.layout.size(), Eigen::Index(linear.gauge_rows.size()) + 1);
     Eigen::Index count = 0;
     std::vector<Eigen::VectorXd> all;
@@ -16,7 +15,7 @@ Eigen::MatrixXd datum_defect(const Linearised& linear,
     if (linear.turn.size() > 0) {
         const double size = linear.turn.dot(linear.metric.cwiseProduct(linear.turn));
         const double hard = (linear.hard_rows * linear.turn).norm();
-        if ((rows * linear.turn).squaredNorm() < k_determined * size &&
+        if ((linear.soft_rows * linear.turn).squaredNorm() < k_determined * size &&
             hard < 1e-9 * linear.turn.norm()) {
             all.push_back(linear.turn);
         }
@@ -33,6 +32,17 @@ Eigen::MatrixXd datum_defect(const Linearised& linear,
         motions.col(count++) = g / size;
     }
     return motions.leftCols(count);
+}
+
+std::vector<Eigen::Index> open_among(const Eigen::MatrixXd& directions,
+                                     const Eigen::VectorXd& information,
+                                     const Eigen::VectorXd& metric) {
+    std::vector<Eigen::Index> open;
+    for (Eigen::Index k = 0; k < directions.cols(); ++k) {
+        const double most = directions.col(k).cwiseAbs2().cwiseProduct(metric).maxCoeff();
+        if (information(k) < k_determined * most) open.push_back(k);
+    }
+    return open;
 }
 
 }  // namespace culet

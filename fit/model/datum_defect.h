@@ -9,17 +9,21 @@
 
 namespace culet {
 
-/// Parameters held less than twice as tightly by the readings as by the mesh (lambda = 4 in
-/// variance) count as not determined.
+/// Held less than twice as tightly by the readings as by the mesh: not determined. In information.
 inline constexpr double k_determined = 4;
 /// For the question what is open, a reading is tight enough at this weight: squares of larger ones
 /// would drown a weight of one in rounding.
 inline constexpr double k_tight = 1e6;
 
-/// Orthonormal in the metric, one a column. The turn about up is one of them also where `rows`, of
-/// the readings, see it (widths along azimuths) but hold it less than the mesh does: no freedom of
-/// the stone's shape.
-Eigen::MatrixXd datum_defect(const Linearised& linear,
-                             const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows);
+/// Orthonormal in the metric, one a column. The turn about up is one of them also where readings
+/// see it (widths along azimuths) but hold it less than the mesh does: no freedom of the stone's
+/// shape.
+Eigen::MatrixXd datum_defect(const Linearised& linear);
+
+/// Which of these directions (columns of length one in the metric, with what the readings say of
+/// each) they leave half as uncertain as the mesh does, at the unknown that it moves most.
+std::vector<Eigen::Index> open_among(const Eigen::MatrixXd& directions,
+                                     const Eigen::VectorXd& information,
+                                     const Eigen::VectorXd& metric);
 
 }  // namespace culet

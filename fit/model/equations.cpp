@@ -13,8 +13,6 @@ namespace {
 // Softening of incidences that are released: they come apart by this much of the half diameter
 // before the point that stands for them lags behind.
 constexpr double k_released_sigma = 0.2;
-// A hand-made mesh is off by as much as 20 % of its width.
-constexpr double k_mesh_sigma = 0.4;
 
 }  // namespace
 
@@ -64,8 +62,8 @@ bool System::has_exact_readings() const {
                        [](const Reading& r) { return r.exact && r.kind != ReadingKind::meet; });
 }
 
-std::vector<Equation> System::hinges() const {
-    std::vector<Equation> all;
+std::vector<std::pair<int, int>> System::hinges() const {
+    std::vector<std::pair<int, int>> all;
     if (!stone_.convex) return all;
     for (std::size_t f = 0; f < solid_.facets.size(); ++f) {
         const std::vector<int>& own = solid_.facets[f].corners;
@@ -78,27 +76,7 @@ std::vector<Equation> System::hinges() const {
         std::sort(near.begin(), near.end());
         near.erase(std::unique(near.begin(), near.end()), near.end());
         for (int c : near) {
-            if (std::find(own.begin(), own.end(), c) != own.end()) continue;
-            Equation e;
-            e.role = Equation::Role::hinge;
-            e.formula = height(static_cast<int>(f), Corner{c, {-1, -1, -1}});
-            all.push_back(std::move(e));
-        }
-    }
-    return all;
-}
-
-std::vector<Equation> System::priors() const {
-    std::vector<Equation> all;
-    for (std::size_t p = 0; p < mesh_shape_.points.size(); ++p) {
-        for (int k = 0; k < 3; ++k) {
-            Vec3 direction(0);
-            direction[k] = 1;
-            Equation e;
-            e.role = Equation::Role::prior;
-            e.sigma = k_mesh_sigma;
-            e.formula = point_component(static_cast<int>(p), direction, mesh_shape_.points[p][k]);
-            all.push_back(std::move(e));
+            if (std::find(own.begin(), own.end(), c) == own.end()) all.emplace_back(int(f), c);
         }
     }
     return all;

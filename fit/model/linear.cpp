@@ -8,13 +8,22 @@ namespace culet {
 
 namespace {
 
-using Triplets = RowWriter::Triplets;
-
-// What a step of one means for each unknown: a mesh may be off by 20 % of its width in its points;
-// tilts, offsets and extras are of the order of one.
-constexpr double k_point_weight = 1 / (0.4 * 0.4);
-constexpr double k_loose_point_weight = 0.5;
-constexpr double k_hinge_sigma = 1e-4;
+// Each over its sigma, hard ones as they are.
+FunctionRows function_rows(const JacobianRows& rows, int unknowns) {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(rows.column.size());
+    for (int i = 0; i < rows.count(); ++i) {
+        const double variance = rows.variance[std::size_t(i)],
+                     weight = variance > 0 ? 1 / std::sqrt(variance) : 1;
+        for (int k = rows.begin[std::size_t(i)]; k < rows.begin[std::size_t(i) + 1]; ++k) {
+            entries.emplace_back(i, rows.column[std::size_t(k)],
+                                 weight * rows.slope[std::size_t(k)]);
+        }
+    }
+    FunctionRows result(rows.count(), unknowns);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+}
 
 // The six rigid motions as steps of the unknowns.
 std::vector<Eigen::VectorXd> rigid_motions(const System& system, const Shape& shape) {
@@ -87,102 +96,76 @@ double Linearised::chi2() const {
     return sum;
 }
 
-double Linearised::merit() const {
-    return soft_residuals.squaredNorm();
-}
-
 double Linearised::worst_hard() const {
     return hard_residuals.size() == 0 ? 0 : hard_residuals.cwiseAbs().maxCoeff();
 }
 
-RowWriter::RowWriter(const Shape& shape) : layout_(layout_of(shape)) {
-    for (const Vec3& n : shape.normals) tangents_.push_back(tangents(n));
+RowWriter::RowWriter(const Shape& shape)
+    : parameters_(std::make_shared<const Parameters>(
+          shape, -1, Orbits(), std::vector<bool>(shape.extras.size(), false))),
+      tangent_basis_(parameters_->tangent_basis(shape)) {}
+
+FunctionRow RowWriter::function(const Quantity& quantity) const {
+    return function_row(functions({quantity}), 0);
 }
 
-void RowWriter::write(const Quantity& quantity, int row, double factor, Triplets& to) const {
-    for (const Quantity::Slope& s : quantity.slopes) {
-        switch (s.by) {
-            case Quantity::By::normal:
-                for (int k = 0; k < 2; ++k) {
-                    to.emplace_back(row, layout_.tilt(s.index) + k,
-                                    factor * glm::dot(tangents_[s.index][k], s.slope));
-                }
-                break;
-            case Quantity::By::offset:
-                to.emplace_back(row, layout_.offset(s.index), factor * s.slope.x);
-                break;
-            case Quantity::By::point:
-                for (int k = 0; k < 3; ++k) {
-                    to.emplace_back(row, layout_.point(s.index) + k, factor * s.slope[k]);
-                }
-                break;
-            case Quantity::By::extra:
-                to.emplace_back(row, layout_.extra(s.index), factor * s.slope.x);
-                break;
-        }
+FunctionRows RowWriter::functions(const std::vector<Quantity>& quantities) const {
+    JacobianRows rows;
+    Parameters::Row sum = row();
+    for (const Quantity& quantity : quantities) {
+        sum.quantity(quantity);
+        sum.close(rows, 0, 0);
     }
+    return function_rows(rows, parameters_->size());
 }
 
-Eigen::SparseVector<double> RowWriter::function(const Quantity& quantity) const {
-    Triplets entries;
-    write(quantity, 0, 1, entries);
-    Eigen::SparseVector<double> row(layout_.size());
-    for (const auto& entry : entries) row.coeffRef(entry.col()) += entry.value();
+FunctionRow function_row(const FunctionRows& rows, Eigen::Index i) {
+    FunctionRow row(rows.cols());
+    for (FunctionRows::InnerIterator it(rows, i); it; ++it) row.coeffRef(it.col()) += it.value();
     return row;
 }
 
+std::vector<bool> loose_points(const System& system) {
+    std::vector<bool> loose(system.mesh_shape().points.size(), true);
+    for (const Incidence& i : system.incidences()) {
+        if (i.how != MeetTreatment::released) loose[std::size_t(i.point)] = false;
+    }
+    return loose;
+}
+
 Linearised linearise(const System& system, const Shape& shape,
-                     const std::shared_ptr<const Outline>& outline, bool with_hinges,
+                     const std::shared_ptr<const Outline>& outline,
                      const std::vector<Equation>& held) {
     Linearised linear;
     linear.layout = layout_of(shape);
     linear.has_prior = system.has_prior();
-    const RowWriter writer(shape);
-    Triplets soft, hard;
-    std::vector<double> soft_residuals, hard_residuals;
+    linear.writer = RowWriter(shape);
+    Parameters::Row row = linear.writer.row();
+    JacobianRows soft, hard;
     const auto put = [&](Equation&& e) {
         const Quantity q = e.formula(shape);
-        const double residual = q.value - e.value;
-        if (e.role == Equation::Role::hinge) {
-            if (!(residual > 0)) return;
-            e.sigma = k_hinge_sigma;
-        }
+        row.quantity(q);
         if (e.exact) {
-            writer.write(q, static_cast<int>(linear.hard.size()), 1, hard);
-            hard_residuals.push_back(residual);
+            row.close(hard, q.value - e.value, 0);
             linear.hard.push_back(std::move(e));
         } else {
-            writer.write(q, static_cast<int>(linear.soft.size()), 1 / e.sigma, soft);
-            soft_residuals.push_back(residual / e.sigma);
+            row.close(soft, (q.value - e.value) / e.sigma, e.sigma * e.sigma);
             linear.soft.push_back(std::move(e));
         }
     };
     for (Equation& e : system.equations(shape, outline)) put(std::move(e));
     for (const Equation& e : held) put(Equation(e));
-    if (with_hinges) {
-        for (Equation& e : system.hinges()) put(std::move(e));
-    }
-    const Eigen::Index unknowns = linear.layout.size();
-    linear.soft_rows.resize(Eigen::Index(linear.soft.size()), unknowns);
-    linear.soft_rows.setFromTriplets(soft.begin(), soft.end());
-    linear.hard_rows.resize(Eigen::Index(linear.hard.size()), unknowns);
-    linear.hard_rows.setFromTriplets(hard.begin(), hard.end());
-    linear.soft_residuals =
-        Eigen::Map<Eigen::VectorXd>(soft_residuals.data(), Eigen::Index(soft_residuals.size()));
-    linear.hard_residuals =
-        Eigen::Map<Eigen::VectorXd>(hard_residuals.data(), Eigen::Index(hard_residuals.size()));
-    linear.metric = Eigen::VectorXd::Ones(unknowns);
-    linear.metric.segment(linear.layout.point(0), 3 * linear.layout.points)
-        .setConstant(k_point_weight);
-    // The point of a meet that was let go belongs to nothing: wherever it lies, nothing is open.
-    std::vector<bool> held_point(std::size_t(linear.layout.points), false);
-    for (const Incidence& incidence : system.incidences()) {
-        if (incidence.how != MeetTreatment::released)
-            held_point[std::size_t(incidence.point)] = true;
-    }
+    const int unknowns = linear.layout.size();
+    linear.soft_rows = function_rows(soft, unknowns);
+    linear.hard_rows = function_rows(hard, unknowns);
+    linear.soft_residuals = soft.residuals();
+    linear.hard_residuals = hard.residuals();
+    linear.metric =
+        Eigen::Map<const Eigen::VectorXd>(linear.writer.parameters().metric().data(), unknowns);
+    const std::vector<bool> loose = loose_points(system);
     for (int p = 0; p < linear.layout.points; ++p) {
-        if (held_point[std::size_t(p)]) continue;
-        linear.metric.segment(linear.layout.point(p), 3).setConstant(k_loose_point_weight);
+        if (loose[std::size_t(p)])
+            linear.metric.segment(linear.layout.point(p), 3) *= k_loose_point;
     }
     std::vector<Eigen::VectorXd> motions = rigid_motions(system, shape);
     linear.turn = motions[5];
@@ -193,34 +176,6 @@ Linearised linearise(const System& system, const Shape& shape,
         }
     }
     return linear;
-}
-
-JacobianRows kkt_rows(const Linearised& linear, bool with_soft, double hard_scale) {
-    JacobianRows rows;
-    const auto add = [&](const Eigen::SparseMatrix<double, Eigen::RowMajor>& from, double scale,
-                         double variance) {
-        for (Eigen::Index i = 0; i < from.rows(); ++i) {
-            for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(from, i); it;
-                 ++it) {
-                rows.add(static_cast<int>(it.col()), scale * it.value());
-            }
-            rows.close(0, variance);
-        }
-    };
-    add(linear.hard_rows, hard_scale, 0);
-    for (const Eigen::VectorXd& gauge : linear.gauge_rows) {
-        for (Eigen::Index i = 0; i < gauge.size(); ++i) {
-            if (gauge(i) != 0) rows.add(static_cast<int>(i), gauge(i));
-        }
-        rows.close(0, 0);
-    }
-    if (with_soft) add(linear.soft_rows, 1, 1);
-    return rows;
-}
-
-Eigen::Index kkt_row_count(const Linearised& linear, bool with_soft) {
-    return linear.hard_rows.rows() + Eigen::Index(linear.gauge_rows.size()) +
-           (with_soft ? linear.soft_rows.rows() : 0);
 }
 
 }  // namespace culet

@@ -5,33 +5,38 @@
 #include <memory>
 #include <vector>
 
-#include "fit/model/jacobian_rows.h"
 #include "fit/model/system.h"
 
 namespace culet {
 
-/// Coefficients of a linear function of the unknowns.
+/// Coefficients of a linear function of the unknowns; of several, one a row.
 using FunctionRow = Eigen::SparseVector<double>;
+using FunctionRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+FunctionRow function_row(const FunctionRows& rows, Eigen::Index i);
 
-/// Turns slopes into entries of a row of small steps.
+/// Quantities as functions of the unknowns: those of `Parameters` with nothing fixed and no
+/// symmetry, in the order of `Layout`.
 class RowWriter {
 public:
-    using Triplets = std::vector<Eigen::Triplet<double>>;
+    RowWriter() = default;
     explicit RowWriter(const Shape& shape);
-    void write(const Quantity& quantity, int row, double factor, Triplets& to) const;
-    Eigen::SparseVector<double> function(const Quantity& quantity) const;
+    FunctionRow function(const Quantity& quantity) const;
+    FunctionRows functions(const std::vector<Quantity>& quantities) const;
+    const Parameters& parameters() const { return *parameters_; }
+    Parameters::Row row() const { return {tangent_basis_, parameters_->size()}; }
 
 private:
-    Layout layout_;
-    std::vector<std::array<Vec3, 2>> tangents_;
+    std::shared_ptr<const Parameters> parameters_;
+    Parameters::TangentBasis tangent_basis_;
 };
 
 struct Linearised {
     Layout layout;
+    RowWriter writer;  ///< of the shape
     std::vector<Equation> soft, hard;
-    Eigen::SparseMatrix<double, Eigen::RowMajor> soft_rows;  ///< slopes / sigma
-    Eigen::VectorXd soft_residuals;                          ///< (formula - value) / sigma
-    Eigen::SparseMatrix<double, Eigen::RowMajor> hard_rows;
+    FunctionRows soft_rows;          ///< slopes / sigma
+    Eigen::VectorXd soft_residuals;  ///< (formula - value) / sigma
+    FunctionRows hard_rows;
     Eigen::VectorXd hard_residuals;
     /// Motions that no equation sees (shifts, turns), weighted: held at zero.
     std::vector<Eigen::VectorXd> gauge_rows;
@@ -43,20 +48,18 @@ struct Linearised {
     /// they are, and none counts as open.
     bool has_prior = false;
 
-    double chi2() const;   ///< of the counted equations
-    double merit() const;  ///< of all soft equations
+    double chi2() const;  ///< of the counted equations
     double worst_hard() const;
 };
 
-/// Hinges that are not positive are left out; `held` are further hard equations.
-Linearised linearise(const System& system, const Shape& shape,
-                     const std::shared_ptr<const Outline>& outline, bool with_hinges,
-                     const std::vector<Equation>& held = {});
+/// The point of a meet that was let go belongs to nothing: it follows its planes, and wherever it
+/// lies, nothing is open. In a metric it weighs `k_loose_point` of what others do.
+std::vector<bool> loose_points(const System& system);
+inline constexpr double k_loose_point = 0.08;
 
-/// What the KKT solver takes: hard equations (times `hard_scale`), then motions that nothing sees,
-/// both exact, then, if asked, what was read, of variance one.
-JacobianRows kkt_rows(const Linearised& linear, bool with_soft, double hard_scale = 1);
-/// How many those are.
-Eigen::Index kkt_row_count(const Linearised& linear, bool with_soft);
+/// `held` are further hard equations.
+Linearised linearise(const System& system, const Shape& shape,
+                     const std::shared_ptr<const Outline>& outline,
+                     const std::vector<Equation>& held = {});
 
 }  // namespace culet

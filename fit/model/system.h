@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fit/model/options.h"
@@ -23,15 +24,11 @@ struct Equation {
         relation,   ///< of symmetry, parallel and coplanar readings
         incidence,  ///< a plane passes through a meet
         released,   ///< likewise, held only so far that the meet has a place at all
-        prior,      ///< the mesh says so, as far as a rough drawing may be off
-        expected,   ///< the prior of the facets (prior.h)
-        hinge       ///< counts only when positive: a corner above a facet
+        expected    ///< the prior of the facets (prior.h)
     };
     Role role = Role::reading;
     int reading = -1;  ///< index, or -1
     int incidence = -1;
-    int facet = -1, point = -1;  ///< of held corners: which stays below which
-    bool holds_corner() const { return facet >= 0 && point >= 0; }
     int group = -1;  ///< of estimated uncertainty, or -1
     bool exact = false;
     double value = 0, sigma = 1;
@@ -51,9 +48,7 @@ struct Equation {
 
     int readings() const { return replicates.empty() ? 1 : static_cast<int>(replicates.size()); }
     /// Takes part in chi-square and in the count of redundancy.
-    bool is_counted() const {
-        return !exact && role != Role::released && role != Role::prior && role != Role::hinge;
-    }
+    bool is_counted() const { return !exact && role != Role::released; }
 };
 
 struct Incidence {
@@ -100,7 +95,7 @@ public:
     void keep_replicates_apart() { replicated_.clear(); }
     bool has_replicates() const { return !replicated_.empty(); }
 
-    /// All equations but prior and hinges, for the corners that carry them at this shape.
+    /// All equations but hinges, for the corners that carry them at this shape.
     std::vector<Equation> equations(const Shape& shape,
                                     const std::shared_ptr<const Outline>& outline) const;
     /// Of these, what the readings say; `reduced`: but for symmetry that `parameters` takes care
@@ -119,10 +114,9 @@ public:
     /// What the solver varies.
     Parameters parameters() const;
 
-    /// Every corner of a neighbour stays below every facet (mesh outline, points).
-    std::vector<Equation> hinges() const;
-    /// The mesh's points, as far as a hand-made mesh may be off.
-    std::vector<Equation> priors() const;
+    /// Facets, and the corners of their neighbours, which stay below them: in order. None of a
+    /// stone that need not be convex.
+    std::vector<std::pair<int, int>> hinges() const;
     /// What the planes of the shape enclose. `enclosed` is the solid itself; false in `whole` when
     /// a facet is missing or the planes do not close.
     struct Enclosed {

@@ -124,7 +124,7 @@ bool hold_more(const Relaxation& relaxation, const std::vector<ActiveCorner>& ab
     const std::size_t before = held.size();
     for (const ActiveCorner& h : above) {
         const bool known = std::any_of(held.begin(), held.end(), [&](const ActiveCorner& other) {
-            return other == h || relaxation.are_ends_of_one_edge(other, h);
+            return other == h || are_ends_of_one_edge(relaxation.system(), other, h);
         });
         if (!known) held.push_back(h);
     }

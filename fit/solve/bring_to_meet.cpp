@@ -40,11 +40,11 @@ Shape onto_constraints(const Relaxation& relaxation, Shape shape,
 }  // namespace
 
 void look_at_end(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
-                 LocalOptimum& optimum) {
+                 LocalOptimum& optimum, std::shared_ptr<const Outline> outline) {
     PenaltyScale penalty;
     penalty.with_priors = false;
     relaxation.forget_contacts();
-    relaxation.choose(optimum.shape, true);
+    relaxation.choose(optimum.shape, true, std::move(outline));
     optimum.chi2 = relaxation.linearisation(optimum.shape, penalty, held).chi2;
     optimum.worst_hard = relaxation.hard_linearisation(optimum.shape, {}).hard_worst;
 }

@@ -41,9 +41,10 @@ struct NewtonOptions {
 LocalOptimum constrained_newton(Relaxation& relaxation, KktSolver& solver, const Shape& start,
                                 const std::vector<ActiveCorner>& held,
                                 const NewtonOptions& options);
-/// Fills in the chi-square of an end, and what is left of its hard equations.
+/// Fills in the chi-square of an end, and what is left of its hard equations. `outline`: as in
+/// `Relaxation::choose`.
 void look_at_end(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
-                 LocalOptimum& optimum);
+                 LocalOptimum& optimum, std::shared_ptr<const Outline> outline = nullptr);
 /// Onto the hard equations by smallest steps, until rounding is all that is left.
 void bring_to_meet(Relaxation& relaxation, const std::vector<ActiveCorner>& held,
                    LocalOptimum& optimum);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fit/model/linear.h"
-#include "fit/solve/kkt_solver.h"
+#include "fit/solve/constrained_newton.h"
+#include "fit/solve/second_order_correction.h"
 
 namespace culet {
 
@@ -18,97 +18,55 @@ constexpr double k_least_damping = 1e-6;
 // of a sigma. Parameters that the readings all but leave open would creep for ever.
 constexpr int k_quiet_steps = 2;
 constexpr double k_no_gain = 1e-8;
-
-std::span<const double> steps(const Eigen::VectorXd& step) {
-    return {step.data(), static_cast<std::size_t>(step.size())};
-}
-
-Eigen::VectorXd none(const Linearised& linear) {
-    return Eigen::VectorXd::Zero(linear.layout.size());
-}
-
-// What a step is to take off the rows of `kkt_rows`.
-Eigen::VectorXd right_side(const Linearised& linear, bool with_soft) {
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(kkt_row_count(linear, with_soft));
-    right.head(linear.hard_rows.rows()) = -linear.hard_residuals;
-    if (with_soft) right.tail(linear.soft_rows.rows()) = -linear.soft_residuals;
-    return right;
-}
-
-// Smallest steps onto the hard equations, until rounding is all that is left.
-Shape onto_constraints(const System& system, Shape shape,
-                       const std::shared_ptr<const Outline>& outline, int rounds) {
-    double before = 1e300;
-    for (int i = 0; i < rounds; ++i) {
-        const Linearised linear = linearise(system, shape, outline, false);
-        const double worst = linear.worst_hard();
-        if (worst < 1e-16 || worst > 0.5 * before) break;
-        before = worst;
-        KktSolver solver;
-        if (!solver.factor(kkt_rows(linear, false), linear.metric)) break;
-        const auto s = solver.solve(none(linear), right_side(linear, false));
-        if (!s.good) break;
-        const Shape next = retracted(shape, steps(s.unknowns));
-        if (linearise(system, next, outline, false).worst_hard() >= worst) break;
-        shape = next;
-    }
-    return shape;
-}
+// Half a unit is half the stone's radius: no linearisation holds so far.
+constexpr double k_longest = 0.2;
+constexpr Correction k_correction{.most = 6, .met = 1e-13, .precision = 1e-13};
 
 std::shared_ptr<const Outline> outline_of(const System& system, const Shape& shape) {
     System::Enclosed enclosed = system.enclosed(shape);
     return enclosed.closed ? enclosed.outline : nullptr;
 }
 
-// Second-order correction: back onto the curved constraints with the same factors. Hard equations
-// stand between points and planes, so the corners' outline does not matter.
-Shape corrected(const System& system, Shape shape, const std::shared_ptr<const Outline>& outline,
-                const KktSolver& solver) {
-    double off_before = 1e300;
-    for (int k = 0; k < 6; ++k) {
-        const Linearised off = linearise(system, shape, outline, false);
-        const double worst = off.worst_hard();
-        if (worst < 1e-13 || !(worst < 0.7 * off_before)) break;
-        off_before = worst;
-        Eigen::VectorXd back = right_side(off, true);
-        back.tail(off.soft_rows.rows()).setZero();
-        shape = retracted(shape, steps(solver.solve(none(off), back).unknowns));
-    }
-    return shape;
-}
-
 // The hard equations first: their size is the size of what they leave undone.
-double exact_penalty(const Linearised& linear) {
-    return linear.merit() + 1e6 * linear.hard_residuals.lpNorm<1>();
+double exact_penalty(const StepLinearisation& linearisation) {
+    return linearisation.merit + 1e6 * linearisation.hard_sum;
 }
 
-// Damped Gauss-Newton steps (Levenberg and Marquardt's) under hard equations.
+// Damped Gauss-Newton steps (Levenberg and Marquardt's) under hard equations. Corners are where the
+// planes meet, and the readings' equations those of the corners at each shape.
 class DampedGaussNewton {
 public:
-    DampedGaussNewton(const System& system, Shape shape, std::shared_ptr<const Outline> outline)
-        : system_(system),
+    DampedGaussNewton(Relaxation& relaxation, Shape shape, std::shared_ptr<const Outline> outline)
+        : relaxation_(relaxation),
+          metric_(relaxation.metric()),
           shape_(std::move(shape)),
-          outline_(std::move(outline)),
-          linear_(linearise(system, shape_, outline_, false)) {}
+          outline_(std::move(outline)) {
+        penalty_.with_priors = penalty_.with_hinges = false;
+        here_ = linearised(shape_, outline_);
+    }
 
     const Shape& shape() const { return shape_; }
     const std::shared_ptr<const Outline>& outline() const { return outline_; }
 
     enum class State { goes_on, settled, failed };
     State step() {
-        KktSolver solver;
-        if (!solver.factor(kkt_rows(linear_, true), damping_ * linear_.metric))
-            return State::failed;
-        const auto s = solver.solve(none(linear_), right_side(linear_, true));
+        if (!solver_.factor(here_.rows, damping_ * metric_)) return State::failed;
+        const auto s =
+            solver_.solve(Eigen::VectorXd::Zero(metric_.size()), -here_.rows.residuals());
         if (!s.good) return State::failed;
         Eigen::VectorXd step = s.unknowns;
         const double length = step.cwiseAbs().maxCoeff();
-        // Half a unit is half the stone's radius: no linearisation holds so far.
-        if (length > 0.2) step *= 0.2 / length;
-        if (accept(corrected(system_, retracted(shape_, steps(step)), outline_, solver), length)) {
+        if (length > k_longest) step *= k_longest / length;
+        Shape next = relaxation_.parameters().retracted(
+            shape_, {step.data(), static_cast<std::size_t>(step.size())});
+        next = onto_hard_equations(relaxation_, solver_, here_, penalty_, std::move(next),
+                                   k_correction)
+                   .shape;
+        if (accept(std::move(next), length)) {
             damping_ = std::max(k_least_damping, damping_ / 5);
             return quiet_ >= k_quiet_steps ? State::settled : State::goes_on;
         }
+        choose(shape_, outline_);
         // Nothing more to gain at the size of rounding.
         if (length < 1e-9) return State::settled;
         damping_ *= 10;
@@ -117,24 +75,37 @@ public:
     }
 
 private:
+    void choose(const Shape& shape, const std::shared_ptr<const Outline>& outline) {
+        relaxation_.forget_contacts();
+        relaxation_.choose(shape, true, outline);
+    }
+    StepLinearisation linearised(const Shape& shape,
+                                 const std::shared_ptr<const Outline>& outline) {
+        choose(shape, outline);
+        return relaxation_.linearisation(shape, penalty_);
+    }
+
     // Goes to a shape that is no worse and encloses a stone; `length` is of the step to it.
     bool accept(Shape next, double length) {
-        const std::shared_ptr<const Outline> next_outline = outline_of(system_, next);
+        const std::shared_ptr<const Outline> next_outline = outline_of(relaxation_.system(), next);
         if (!next_outline) return false;
-        Linearised there = linearise(system_, next, next_outline, false);
-        const double before = exact_penalty(linear_), after = exact_penalty(there);
+        StepLinearisation there = linearised(next, next_outline);
+        const double before = exact_penalty(here_), after = exact_penalty(there);
         if (!std::isfinite(after) || !(after <= before * (1 + 1e-12) + 1e-9)) return false;
         quiet_ = before - after < k_no_gain * (1 + before) || length < 1e-12 ? quiet_ + 1 : 0;
         shape_ = std::move(next);
         outline_ = next_outline;
-        linear_ = std::move(there);
+        here_ = std::move(there);
         return true;
     }
 
-    const System& system_;
+    Relaxation& relaxation_;
+    KktSolver solver_;
+    const Eigen::VectorXd metric_;
+    PenaltyScale penalty_;
     Shape shape_;
     std::shared_ptr<const Outline> outline_;
-    Linearised linear_;
+    StepLinearisation here_;
     double damping_ = k_first_damping;
     int quiet_ = 0;
 };
@@ -143,30 +114,35 @@ private:
 
 Finished finish(const System& system, const Shape& start, int iterations) {
     Finished result;
-    const std::shared_ptr<const Outline> first_outline = outline_of(system, start);
-    if (!first_outline) {
+    std::shared_ptr<const Outline> outline = outline_of(system, start);
+    if (!outline) {
         result.shape = start;
         result.outline = system.mesh_outline();
         result.enclosed = false;
         return result;
     }
-    DampedGaussNewton search(system, start, first_outline);
+    const Parameters parameters = system.parameters();
+    Relaxation relaxation(system, parameters);
+    DampedGaussNewton search(relaxation, start, std::move(outline));
     for (int i = 0; i < iterations; ++i) {
         result.iterations = i + 1;
         const DampedGaussNewton::State state = search.step();
         result.converged = state == DampedGaussNewton::State::settled;
         if (state != DampedGaussNewton::State::goes_on) break;
     }
-    Shape shape = onto_constraints(system, search.shape(), search.outline(), 10);
-    result.outline = outline_of(system, shape);
+    LocalOptimum end;
+    end.shape = search.shape();
+    relaxation.choose(end.shape, true, search.outline());
+    bring_to_meet(relaxation, {}, end);
+    result.outline = outline_of(system, end.shape);
     if (!result.outline) {
         result.outline = search.outline();
         result.enclosed = false;
     }
-    const Linearised linear = linearise(system, shape, result.outline, false);
-    result.chi2 = linear.chi2();
-    result.worst_hard = linear.worst_hard();
-    result.shape = std::move(shape);
+    look_at_end(relaxation, {}, end, result.outline);
+    result.chi2 = end.chi2;
+    result.worst_hard = end.worst_hard;
+    result.shape = std::move(end.shape);
     return result;
 }
 

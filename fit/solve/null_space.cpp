@@ -64,15 +64,13 @@ public:
         return true;
     }
 
-    // Rows of the basis all full.
-    FreeDirections::Dense dense_result() const {
+    FreeDirections result() const {
         std::vector<int> place(expressions_.size(), -1);
         int count = 0;
         for (std::size_t i = 0; i < place.size(); ++i) {
             if (step_[i] < 0) place[i] = count++;
         }
-        FreeDirections::Dense basis =
-            FreeDirections::Dense::Zero(Eigen::Index(place.size()), count);
+        FreeDirections basis = FreeDirections::Zero(Eigen::Index(place.size()), count);
         for (std::size_t i = 0; i < place.size(); ++i) {
             if (place[i] >= 0) basis(Eigen::Index(i), place[i]) = 1;
         }
@@ -86,50 +84,6 @@ public:
             }
         }
         return basis;
-    }
-
-    FreeDirections result() {
-        for (auto pivot = order_.rbegin(); pivot != order_.rend(); ++pivot) {
-            Entries& expression = expressions_[std::size_t(*pivot)];
-            for (const auto& [column, value] : expression) {
-                if (step_[std::size_t(column)] < 0) {
-                    accumulate(column, value);
-                    continue;
-                }
-                for (const auto& [other, factor] : expressions_[std::size_t(column)]) {
-                    accumulate(other, value * factor);
-                }
-            }
-            expression.clear();
-            take_sum(expression);
-        }
-        FreeDirections free;
-        const int unknowns = int(expressions_.size());
-        std::vector<int> place(expressions_.size(), -1);
-        int count = 0;
-        std::size_t entries = 0;
-        for (int i = 0; i < unknowns; ++i) {
-            if (step_[std::size_t(i)] < 0) place[std::size_t(i)] = count++;
-            entries += 1 + expressions_[std::size_t(i)].size();
-        }
-        free.basis.resize(unknowns, count);
-        free.basis.reserve(Eigen::Index(entries));
-        for (int i = 0; i < unknowns; ++i) {
-            free.basis.startVec(i);
-            if (step_[std::size_t(i)] < 0) {
-                free.basis.insertBack(i, place[std::size_t(i)]) = 1;
-                continue;
-            }
-            Entries& expression = expressions_[std::size_t(i)];
-            std::sort(expression.begin(), expression.end());
-            for (const auto& [column, value] : expression) {
-                free.basis.insertBack(i, place[std::size_t(column)]) = value;
-                free.growth = std::max(free.growth, std::abs(value));
-            }
-        }
-        free.basis.finalize();
-        free.rank = unknowns - count;
-        return free;
     }
 
 private:
@@ -199,10 +153,8 @@ private:
 
 }  // namespace
 
-namespace {
-
-Elimination eliminated(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows,
-                       Eigen::Index first_preferred, Eigen::Index end_preferred) {
+FreeDirections free_directions(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows,
+                               Eigen::Index first_preferred, Eigen::Index end_preferred) {
     Elimination elimination(int(rows.cols()));
     // Short equations first: their expressions are short.
     std::vector<std::pair<Eigen::Index, Eigen::Index>> order;
@@ -223,20 +175,7 @@ Elimination eliminated(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows,
         for (auto& [column, value] : entries) value /= std::sqrt(squares);
         elimination.add(entries, int(first_preferred), int(end_preferred));
     }
-    return elimination;
-}
-
-}  // namespace
-
-FreeDirections free_directions(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows,
-                               Eigen::Index first_preferred, Eigen::Index end_preferred) {
-    return eliminated(rows, first_preferred, end_preferred).result();
-}
-
-FreeDirections::Dense dense_free_directions(
-    const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows, Eigen::Index first_preferred,
-    Eigen::Index end_preferred) {
-    return eliminated(rows, first_preferred, end_preferred).dense_result();
+    return elimination.result();
 }
 
 }  // namespace culet

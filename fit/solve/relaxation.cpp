@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "fit/model/linear.h"
 #include "fit/solve/relaxation_terms.h"
 
 namespace culet {
@@ -55,10 +56,9 @@ private:
 
 Relaxation::Relaxation(const System& system, const Parameters& parameters)
     : system_(system), parameters_(parameters) {
-    const std::vector<Facet>& facets = system.stone().solid.facets;
-    const std::size_t points = system.mesh_shape().points.size();
-    OrbitPairs incident(parameters, facets.size(), points),
-        hinged(parameters, facets.size(), points);
+    const std::size_t facets = system.stone().solid.facets.size(),
+                      points = system.mesh_shape().points.size();
+    OrbitPairs incident(parameters, facets, points), hinged(parameters, facets, points);
     for (std::size_t i = 0; i < system.incidences().size(); ++i) {
         const Incidence& incidence = system.incidences()[i];
         if (const int images = incident.take(incidence.facet, incidence.point)) {
@@ -69,34 +69,19 @@ Relaxation::Relaxation(const System& system, const Parameters& parameters)
     points_.resize(points);
     std::iota(points_.begin(), points_.end(), 0);
     choose(system.mesh_shape(), false);
-    if (!system.stone().convex) return;
-    std::vector<int> mark(points, -1);
-    for (std::size_t f = 0; f < facets.size(); ++f) {
-        const int own = static_cast<int>(f);
-        for (int corner : facets[f].corners) mark[corner] = own;
-        std::vector<int> near;
-        for (int corner : facets[f].corners) {
-            for (int g : system.edges().facets_of_vertex[corner]) {
-                for (int c : facets[g].corners) {
-                    if (mark[c] == own) continue;
-                    mark[c] = own;
-                    near.push_back(c);
-                }
-            }
-        }
-        std::sort(near.begin(), near.end());
-        for (int c : near) {
-            if (const int images = hinged.take(own, c)) {
-                hinges_.emplace_back(own, c);
-                hinge_images_.push_back(images);
-            }
+    for (const auto& [f, p] : system.hinges()) {
+        if (const int images = hinged.take(f, p)) {
+            hinges_.emplace_back(f, p);
+            hinge_images_.push_back(images);
         }
     }
 }
 
-void Relaxation::choose(const Shape& shape, bool meets_hold) {
+void Relaxation::choose(const Shape& shape, bool meets_hold,
+                        std::shared_ptr<const Outline> outline) {
     std::vector<Equation> before = std::move(equations_);
-    equations_ = system_.reading_equations(shape, system_.mesh_outline(), true, meets_hold);
+    equations_ = system_.reading_equations(shape, outline ? outline : system_.mesh_outline(), true,
+                                           meets_hold);
     if (std::exchange(begins_, false) || before.size() != equations_.size()) return;
     for (std::size_t i = 0; i < before.size(); ++i) {
         const Equation &was = before[i], &is = equations_[i];
@@ -197,16 +182,25 @@ double Relaxation::expected_misfit(const PenaltyScale& penalty) const {
 
 Eigen::VectorXd Relaxation::metric() const {
     const std::vector<double>& m = parameters_.metric();
-    return Eigen::Map<const Eigen::VectorXd>(m.data(), Eigen::Index(m.size()));
+    Eigen::VectorXd metric = Eigen::Map<const Eigen::VectorXd>(m.data(), Eigen::Index(m.size()));
+    if (!system_.splits()) return metric;
+    const Parameters::TangentBasis basis = parameters_.tangent_basis(system_.mesh_shape());
+    const std::vector<bool> loose = loose_points(system_);
+    for (std::size_t p = 0; p < loose.size(); ++p) {
+        if (loose[p])
+            metric.segment(basis.points[p].column, basis.points[p].count) *= k_loose_point;
+    }
+    return metric;
 }
 
 bool Relaxation::binds(const Shape& shape, const ActiveCorner& held) const {
     return height(shape, held.facet, held.point) > -1.5 * k_hold_below;
 }
 
-bool Relaxation::are_ends_of_one_edge(const ActiveCorner& one, const ActiveCorner& other) const {
+bool are_ends_of_one_edge(const System& system, const ActiveCorner& one,
+                          const ActiveCorner& other) {
     const auto is_corner = [&](int facet, int point) {
-        const std::vector<int>& loop = system_.stone().solid.facets[std::size_t(facet)].corners;
+        const std::vector<int>& loop = system.stone().solid.facets[std::size_t(facet)].corners;
         return std::find(loop.begin(), loop.end(), point) != loop.end();
     };
     return is_corner(one.facet, other.point) && is_corner(other.facet, one.point);
@@ -215,9 +209,9 @@ bool Relaxation::are_ends_of_one_edge(const ActiveCorner& one, const ActiveCorne
 int Relaxation::binding(const Shape& shape, const std::vector<ActiveCorner>& held) const {
     std::vector<ActiveCorner> found;
     for (const ActiveCorner& h : held) {
-        const bool is_known =
-            std::any_of(found.begin(), found.end(),
-                        [&](const ActiveCorner& other) { return are_ends_of_one_edge(other, h); });
+        const bool is_known = std::any_of(
+            found.begin(), found.end(),
+            [&](const ActiveCorner& other) { return are_ends_of_one_edge(system_, other, h); });
         if (!is_known && binds(shape, h)) found.push_back(h);
     }
     return static_cast<int>(found.size());

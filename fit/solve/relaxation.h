@@ -19,8 +19,9 @@ struct PenaltyScale {
     double readings = 0;        ///< added to each reading's own uncertainty
     double hinge = 1e-4;        ///< by how much a corner may stand above a neighbour facet
     bool with_readings = true;  ///< false: only a convex stone of these meets, near the mesh
-    bool with_priors = true;    ///< the mesh's points, as far as a hand-made mesh may be off:
-    double mesh_sigma = 0.4;    ///< up to 20 % of its width
+    bool with_hinges = true;
+    bool with_priors = true;  ///< the mesh's points, as far as a hand-made mesh may be off:
+    double mesh_sigma = 0.4;  ///< up to 20 % of its width
 };
 
 /// A corner held below a facet that it wanted to pass.
@@ -28,6 +29,9 @@ struct ActiveCorner {
     int facet = -1, point = -1;
     bool operator==(const ActiveCorner&) const = default;
 };
+
+/// Each corner lies on the other's facet: of the edge between the facets, or one that they cut.
+bool are_ends_of_one_edge(const System& system, const ActiveCorner& one, const ActiveCorner& other);
 
 /// Two corners that share a caliper's jaw, and are level along its direction.
 struct SharedContact {
@@ -66,7 +70,10 @@ public:
     /// `meets_hold`: of `System::reading_equations`.
     /// Where a jaw would change between two corners for ever, it rests on both: at the bottom of
     /// a kink the two are held level.
-    void choose(const Shape& shape, bool meets_hold);
+    /// `outline`: of a stone whose meets come apart, the corners that its planes give; the mesh's
+    /// where none is given.
+    void choose(const Shape& shape, bool meets_hold,
+                std::shared_ptr<const Outline> outline = nullptr);
     const std::vector<SharedContact>& shared_contacts() const { return shared_contacts_; }
     /// At the end of an earlier fit jaws already rest on corners that are level: each shares its
     /// jaw with the one that is touched.
@@ -117,8 +124,6 @@ public:
                                          const std::vector<ActiveCorner>& held) const;
     /// Positive hinges; with a margin those, too, that it would make positive.
     std::vector<ActiveCorner> above(const Shape& shape, double margin = 0) const;
-    /// Each corner lies on the other's facet: of the edge between the facets, or one that they cut.
-    bool are_ends_of_one_edge(const ActiveCorner& one, const ActiveCorner& other) const;
     /// How many of the held corners lie where they are held, not lower; an edge's two ends are one.
     int binding(const Shape& shape, const std::vector<ActiveCorner>& held) const;
     bool is_convex(const Shape& shape) const { return above(shape).empty(); }

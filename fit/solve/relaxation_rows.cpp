@@ -133,6 +133,7 @@ void Relaxation::Assembly::add_shared_contacts() {
 
 // But those of held corners.
 void Relaxation::Assembly::add_hinges() {
+    if (!penalty_.with_hinges) return;
     for (int i = 0; i < static_cast<int>(of_.hinges_.size()); ++i) {
         const auto& [f, p] = of_.hinges_[std::size_t(i)];
         const double residual = of_.height(shape_, f, p);

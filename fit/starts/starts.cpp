@@ -75,14 +75,14 @@ Starts::Starts(const System& system) : system_(system) {
     }
     // Heights above small facets that were drawn a little askew are large: one of many says little.
     double squares = 0;
-    int hinges = 0;
-    for (const Equation& e : system.hinges()) {
-        const double above = std::max(0.0, e.formula(mesh).value);
+    const std::vector<std::pair<int, int>> hinges = system.hinges();
+    for (const auto& [f, p] : hinges) {
+        const double above =
+            std::max(0.0, glm::dot(mesh.normals[f], mesh.points[p]) - mesh.offsets[f]);
         squares += above * above;
-        ++hinges;
     }
-    mesh_is_good_ =
-        worst < k_drawn_with_care && squares <= k_nearly_convex * k_nearly_convex * double(hinges);
+    mesh_is_good_ = worst < k_drawn_with_care &&
+                    squares <= k_nearly_convex * k_nearly_convex * double(hinges.size());
     find_sides();
 }
 

@@ -13,18 +13,7 @@ namespace {
 
 // Dense algebra grows with the cube of the unknowns; beyond this many it is the slower one.
 constexpr Eigen::Index k_most_dense = 1300;
-
-Eigen::SparseMatrix<double, Eigen::RowMajor> without_hinges(const Linearised& linear) {
-    Eigen::SparseMatrix<double, Eigen::RowMajor> rows = linear.soft_rows;
-    for (std::size_t i = 0; i < linear.soft.size(); ++i) {
-        if (linear.soft[i].role != Equation::Role::hinge) continue;
-        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, Eigen::Index(i));
-             it; ++it) {
-            it.valueRef() = 0;
-        }
-    }
-    return rows;
-}
+constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::RowVectorXd product(const FunctionRow& function, const DenseRows& columns) {
     Eigen::RowVectorXd result = Eigen::RowVectorXd::Zero(columns.cols());
@@ -36,65 +25,67 @@ Eigen::RowVectorXd product(const FunctionRow& function, const DenseRows& columns
 
 }  // namespace
 
-Covariance::Covariance(const Linearised& linear, Algorithm algorithm)
-    : rows_(without_hinges(linear)) {
-    const bool small = linear.layout.size() <= k_most_dense;
+Covariance::Covariance(Linearised linear, Algorithm algorithm)
+    : linear_(std::move(linear)), open_(linear_.layout.size(), 0) {
+    const bool small = linear_.layout.size() <= k_most_dense;
     if (algorithm == Algorithm::dense || (algorithm == Algorithm::by_size && small)) {
-        find_dense(linear);
+        find_dense();
     } else {
-        find_sparse(linear);
+        find_sparse();
     }
-    if (!usable_) {
-        leverages_ =
-            Eigen::VectorXd::Constant(rows_.rows(), std::numeric_limits<double>::quiet_NaN());
-    }
+    if (!usable_) leverages_ = Eigen::VectorXd::Constant(linear_.soft_rows.rows(), k_unknown);
 }
 
 Covariance::~Covariance() = default;
 
-std::optional<DenseRows> Covariance::halves(const std::vector<FunctionRow>& functions) const {
-    if (!usable_ || sparse_) return std::nullopt;
-    DenseRows all(Eigen::Index(functions.size()), held_.cols() + open_.cols());
-    for (std::size_t i = 0; i < functions.size(); ++i) {
-        all.row(Eigen::Index(i)) << product(functions[i], held_), product(functions[i], open_);
-    }
-    return all;
+double Covariance::variance(const FunctionRow& function) const {
+    if (!usable_) return k_unknown;
+    if (!sparse_) return product(function, held_).squaredNorm();
+    return sparse_->has_open
+               ? std::max(0.0, total_variance(function) - sparse_->open_variance(function))
+               : total_variance(function);
 }
 
-double Covariance::variance(const FunctionRow& function) const {
-    if (!usable_) return std::numeric_limits<double>::quiet_NaN();
-    if (!sparse_) return product(function, held_).squaredNorm();
-    const double loose = sparse_->of(sparse_->tight, function);
-    if (!sparse_->has_open) return loose;
-    const double trusted = sparse_->of(sparse_->trusted, function);
-    return std::max(0.0, trusted - std::max(0.0, loose - trusted) * sparse_->prior);
+double Covariance::open_variance(const FunctionRow& function) const {
+    if (!usable_) return k_unknown;
+    return sparse_ ? sparse_->open_variance(function) : product(function, open_).squaredNorm();
 }
 
 double Covariance::total_variance(const FunctionRow& function) const {
-    if (!usable_) return std::numeric_limits<double>::quiet_NaN();
+    if (!usable_) return k_unknown;
     if (!sparse_) return variance(function) + open_variance(function);
     return sparse_->of(sparse_->has_open ? sparse_->trusted : sparse_->tight, function);
 }
 
-double Covariance::open_variance(const FunctionRow& function) const {
-    if (!usable_) return std::numeric_limits<double>::quiet_NaN();
-    if (!sparse_) return product(function, open_).squaredNorm();
-    if (!sparse_->has_open) return 0;
-    // An open direction of length q has the variance q^2 / (lambda + prior): what the two priors
-    // disagree on.
-    const double loose = sparse_->of(sparse_->tight, function),
-                 trusted = sparse_->of(sparse_->trusted, function);
-    return std::max(0.0, loose - trusted) * sparse_->prior;
+Eigen::MatrixXd Covariance::joint(const FunctionRows& functions) const {
+    Eigen::MatrixXd all(functions.rows(), functions.rows());
+    if (!usable_) return Eigen::MatrixXd::Constant(functions.rows(), functions.rows(), k_unknown);
+    if (sparse_) {
+        for (Eigen::Index i = 0; i < functions.rows(); ++i) {
+            all.col(i) = functions * with_all(function_row(functions, i), false);
+        }
+    } else {
+        const DenseRows halves = functions * held_, open = functions * open_;
+        all.noalias() = halves * halves.transpose();
+        all += k_unheld_variance * open * open.transpose();
+    }
+    return 0.5 * (all + all.transpose());
 }
 
 Eigen::VectorXd Covariance::with_all(const FunctionRow& function, bool open) const {
-    if (!sparse_) {
-        Eigen::VectorXd all = held_ * product(function, held_).transpose();
-        if (open) all += open_ * product(function, open_).transpose();
-        return all;
+    if (sparse_) {
+        return sparse_->with_all(open && sparse_->has_open ? sparse_->trusted : sparse_->tight,
+                                 Eigen::VectorXd(function));
     }
-    return sparse_->with_all(open && sparse_->has_open ? sparse_->trusted : sparse_->tight,
-                             function);
+    Eigen::VectorXd all = held_ * product(function, held_).transpose();
+    if (open) all += open_ * product(function, open_).transpose();
+    return all;
+}
+
+Eigen::VectorXd Covariance::step() const {
+    const Eigen::VectorXd& residuals = linear_.soft_residuals;
+    if (sparse_) return -sparse_->with_all(sparse_->tight, sparse_->rows.transpose() * residuals);
+    return -held_ * (seen_.transpose() * residuals);
 }
 
 Eigen::VectorXd Covariance::fitted_part(const Eigen::VectorXd& residuals) const {
@@ -105,8 +96,7 @@ Eigen::VectorXd Covariance::fitted_part(const Eigen::VectorXd& residuals) const 
         }
         return seen_ * along.transpose();
     }
-    const Eigen::VectorXd all = rows_.transpose() * residuals;
-    return rows_ * sparse_->with_all(sparse_->tight, FunctionRow(all.sparseView()));
+    return sparse_->rows * sparse_->with_all(sparse_->tight, sparse_->rows.transpose() * residuals);
 }
 
 double Covariance::fitted_square(const std::vector<std::pair<Eigen::Index, double>>& s) const {
@@ -115,30 +105,18 @@ double Covariance::fitted_square(const std::vector<std::pair<Eigen::Index, doubl
         for (const auto& [i, value] : s) along += value * seen_.row(i);
         return along.squaredNorm();
     }
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(rows_.rows());
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(linear_.soft_rows.rows());
     for (const auto& [i, value] : s) all(i) = value;
     return all.dot(fitted_part(all));
 }
 
 double Covariance::leverage(Eigen::Index equation, Eigen::Index other) const {
-    if (!sparse_) return seen_.row(equation).dot(seen_.row(other));
-    const auto key = std::minmax(equation, other);
-    const auto [found, is_new] = sparse_->leverages.try_emplace(key, 0.0);
-    if (is_new) {
-        const auto part_of = [&](Eigen::Index i) -> const Sparse::Part& {
-            auto [part, unknown] = sparse_->parts.try_emplace(i);
-            if (unknown) part->second = sparse_->part_of(sparse_->tight, function_row(rows_, i));
-            return part->second;
-        };
-        const Sparse::Part &a = part_of(key.first), &b = part_of(key.second);
-        found->second = sparse_->of(sparse_->tight, a, b);
-    }
-    return found->second;
+    return sparse_ ? sparse_->leverage(equation, other) : seen_.row(equation).dot(seen_.row(other));
 }
 
 Eigen::VectorXd Covariance::leverage_column(Eigen::Index equation) const {
     if (!sparse_) return seen_ * seen_.row(equation).transpose();
-    return rows_ * with_all(function_row(rows_, equation), false);
+    return sparse_->rows * with_all(function_row(sparse_->rows, equation), false);
 }
 
 }  // namespace culet

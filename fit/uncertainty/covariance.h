@@ -1,11 +1,15 @@
 #pragma once
-// Covariance of the unknowns of a fit under its hard equations, and what no reading holds.
-// Private to the room: shows Eigen.
+// What the readings say, together, of any quantities of the fitted stone: the covariance of the
+// unknowns of a linear model under its hard equations. Private to the room: shows Eigen.
 //
 // Readings count with their sigma, hard equations hold exactly, and motions of the whole stone that
-// nothing sees are left out (inner constraints). Directions that the readings hold less than twice
-// as tightly as the mesh is trusted (20 % of its width) are `open`; along them the mesh's own
-// uncertainty is reported.
+// nothing sees are left out (inner constraints). What else no reading holds is `open`, in
+// directions of length one in the mesh's metric; along them the mesh's own uncertainty is
+// reported (20 % of its width). The rule, at any number of facets: along a direction v with
+// J'J v = lambda M v the most moved unknown moves by s of the mesh's own uncertainty of it, and the
+// readings leave s / sqrt(lambda) there. Where that is half or more, lambda < 4 s^2, v is open. The
+// mesh's errors are not averaged out over its facets: a modeller's have much in common. Of large
+// stones all with lambda < 4 are, but no more than unknowns that are left as uncertain.
 // Two algorithms: dense algebra in a basis of the free directions (exact but for rounding, also for
 // uncertainties that span many powers of ten), and for large stones sparse factors of the normal
 // equations.
@@ -13,7 +17,6 @@
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,12 +27,17 @@ namespace culet {
 /// Stored row by row: what belongs to one unknown or equation lies together.
 using DenseRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// Of open directions in tests, in the metric: so much more than anything that is measured that
+/// they take no part.
+inline constexpr double k_unheld_variance = 1e3;
+
 class Covariance {
 public:
     enum class Algorithm { by_size, dense, sparse };
-    explicit Covariance(const Linearised& linear, Algorithm algorithm = Algorithm::by_size);
+    explicit Covariance(Linearised linear, Algorithm algorithm = Algorithm::by_size);
     ~Covariance();
 
+    const Linearised& linear() const { return linear_; }
     /// False: the equations could not be factored; every number is then NaN.
     bool usable() const { return usable_; }
     /// Of a function, as far as readings hold it, and the part that comes from open directions.
@@ -37,13 +45,14 @@ public:
     double open_variance(const FunctionRow& function) const;
     /// Both parts together.
     double total_variance(const FunctionRow& function) const;
-    /// A row for each function, so that products of two rows are their covariance, open directions
-    /// included. Nothing for large stones, where there is no such factor.
-    std::optional<DenseRows> halves(const std::vector<FunctionRow>& functions) const;
+    /// Covariance of functions, one a row. Each open direction has `k_unheld_variance`.
+    Eigen::MatrixXd joint(const FunctionRows& functions) const;
     /// Covariance of a function with every unknown (open directions included when asked).
     Eigen::VectorXd with_all(const FunctionRow& function, bool open) const;
+    /// Where the readings would lead from here in the linear model; along open directions nowhere.
+    Eigen::VectorXd step() const;
     /// Variance of every soft equation's fitted value, in units of its own: the diagonal of the hat
-    /// matrix. Hinges: 0.
+    /// matrix.
     const Eigen::VectorXd& leverages() const { return leverages_; }
     /// One entry of the hat matrix.
     double leverage(Eigen::Index equation, Eigen::Index other) const;
@@ -53,26 +62,26 @@ public:
     Eigen::VectorXd fitted_part(const Eigen::VectorXd& residuals) const;
     /// s'Hs with H the hat matrix and s zero but at some equations.
     double fitted_square(const std::vector<std::pair<Eigen::Index, double>>& s) const;
-    int rank_defect() const { return open_freedoms_; }
-    bool is_dense() const { return sparse_ == nullptr; }
-    /// Open directions, of length one in the mesh's metric; dense only (else no columns).
+    int rank_defect() const { return rank_defect_; }
+    /// Open directions; dense only (else no columns).
     const DenseRows& open() const { return open_; }
 
 private:
     struct Sparse;
     struct FreePart;
-    void find_dense(const Linearised& linear);
-    bool find_well_held(const Linearised& linear, const FreePart& free);
-    bool find_loosely_held(const Linearised& linear, const FreePart& free);
-    void find_sparse(const Linearised& linear);
+    void find_dense();
+    bool find_well_held(const FreePart& free);
+    bool find_loosely_held(const FreePart& free);
+    void find_sparse();
 
+    Linearised linear_;
     bool usable_ = false;
-    Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;  // soft, without hinges
     // Dense. The covariance of what is held is held held'; seen: rows * held.
-    DenseRows held_, open_, seen_;
+    DenseRows held_, seen_;
+    DenseRows open_;  // orthonormal in the metric
     std::unique_ptr<Sparse> sparse_;
     Eigen::VectorXd leverages_;
-    int open_freedoms_ = 0;
+    int rank_defect_ = 0;
 };
 
 }  // namespace culet

@@ -20,18 +20,6 @@ constexpr double k_least_of_gauge = 1e3;
 // Of all variances together: what is told of them has three digits.
 constexpr double k_precision = 1e-6;
 
-// Entry by entry of the sparse factor, each times a row of the dense one.
-DenseRows product(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows,
-                  const DenseRows& columns) {
-    DenseRows result = DenseRows::Zero(rows.rows(), columns.cols());
-    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, i); it; ++it) {
-            result.row(i) += it.value() * columns.row(it.col());
-        }
-    }
-    return result;
-}
-
 // The lower half of seen' seen + (weight along)' (weight along).
 Eigen::MatrixXd lower_normal(const Eigen::MatrixXd& seen, const Eigen::MatrixXd& along,
                              double weight) {
@@ -70,40 +58,36 @@ struct Covariance::FreePart {
     Eigen::MatrixXd along;  // its part along each motion that nothing sees
 };
 
-void Covariance::find_dense(const Linearised& linear) {
+void Covariance::find_dense() {
     const DenseRows basis =
-        dense_free_directions(linear.hard_rows, linear.layout.point(0), linear.layout.extra(0));
-    const Eigen::MatrixXd gauge = datum_defect(linear, rows_);
-    held_.resize(linear.layout.size(), 0);
-    open_.resize(linear.layout.size(), 0);
-    seen_.resize(rows_.rows(), 0);
-    leverages_ = Eigen::VectorXd::Zero(rows_.rows());
+        free_directions(linear_.hard_rows, linear_.layout.point(0), linear_.layout.extra(0));
+    const Eigen::MatrixXd gauge = datum_defect(linear_);
+    held_.resize(linear_.layout.size(), 0);
+    seen_.resize(linear_.soft_rows.rows(), 0);
+    leverages_ = Eigen::VectorXd::Zero(linear_.soft_rows.rows());
     usable_ = true;
     if (basis.cols() == 0) return;  // exact readings leave nothing free
 
     // Along the gauge nothing is seen: it counts as held, and is taken out at the end.
-    const FreePart free{basis, product(rows_, basis),
-                        Eigen::MatrixXd((linear.metric.asDiagonal() * gauge).transpose() * basis)};
-    if (!find_well_held(linear, free)) usable_ = find_loosely_held(linear, free);
-    const auto off_gauge = [&](DenseRows& columns) {
-        if (columns.cols() == 0 || gauge.cols() == 0) return;
-        const Eigen::MatrixXd parts = (linear.metric.asDiagonal() * gauge).transpose() * columns;
-        columns.noalias() -= gauge * parts;
-    };
-    off_gauge(held_);
-    off_gauge(open_);
+    const Eigen::MatrixXd gauge_rows = linear_.metric.asDiagonal() * gauge;
+    const FreePart free{basis, linear_.soft_rows * basis, gauge_rows.transpose() * basis};
+    if (!find_well_held(free)) usable_ = find_loosely_held(free);
+    for (DenseRows* columns : {&held_, &open_}) {
+        const Eigen::MatrixXd parts = gauge_rows.transpose() * *columns;
+        columns->noalias() -= gauge * parts;
+    }
     leverages_ = seen_.rowwise().squaredNorm();
 }
 
 // Where readings hold every direction, and none far more tightly than others: Cholesky's factor of
 // the normal equations. False where that cannot be told so.
-bool Covariance::find_well_held(const Linearised& linear, const FreePart& free) {
+bool Covariance::find_well_held(const FreePart& free) {
     double largest = 0;
-    for (Eigen::Index i = 0; i < rows_.rows(); ++i) {
+    for (Eigen::Index i = 0; i < linear_.soft_rows.rows(); ++i) {
         // In the metric no row is longer on directions that are free than on all.
         double square = 0;
-        for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows_, i); it; ++it) {
-            square += it.value() * it.value() / linear.metric(it.col());
+        for (FunctionRows::InnerIterator it(linear_.soft_rows, i); it; ++it) {
+            square += it.value() * it.value() / linear_.metric(it.col());
         }
         largest = std::max(largest, std::sqrt(square));
     }
@@ -114,15 +98,10 @@ bool Covariance::find_well_held(const Linearised& linear, const FreePart& free) 
     if (factor.info() != Eigen::Success) return false;
     const Eigen::MatrixXd upper = factor.matrixU().solve(Eigen::MatrixXd::Identity(size, size));
     held_ = free.basis * upper.triangularView<Eigen::Upper>();  // (S^-1) = U^-1 U^-T
-    seen_ = product(rows_, held_);
-    // No direction's variance is larger than all together.
-    const double variances = held_.rowwise().squaredNorm().dot(linear.metric);
-    if (!linear.has_prior && !(variances < 1 / k_determined)) {
-        Eigen::MatrixXd room = Eigen::MatrixXd::Identity(size, size) / k_determined;
-        room.selfadjointView<Eigen::Lower>().rankUpdate(
-            Eigen::MatrixXd(held_.transpose() * linear.metric.cwiseSqrt().asDiagonal()), -1);
-        if (Eigen::LLT<Eigen::MatrixXd>(room).info() != Eigen::Success) return false;
-    }
+    seen_ = linear_.soft_rows * held_;
+    // An open direction alone would leave some unknown as much.
+    const Eigen::VectorXd left = held_.rowwise().squaredNorm().cwiseProduct(linear_.metric);
+    if (!linear_.has_prior && !(left.maxCoeff() < 1 / k_determined)) return false;
     // Every direction is seen once: the squares of all that is seen add up to their number, unless
     // they are lost in rounding.
     const double squares =
@@ -132,11 +111,11 @@ bool Covariance::find_well_held(const Linearised& linear, const FreePart& free) 
 }
 
 // By QR of what is seen, whitened by the metric so that eigenvalues compare readings with the mesh.
-bool Covariance::find_loosely_held(const Linearised& linear, const FreePart& free) {
+bool Covariance::find_loosely_held(const FreePart& free) {
     const Eigen::Index size = free.basis.cols();
     Eigen::MatrixXd metric = Eigen::MatrixXd::Zero(size, size);
     metric.selfadjointView<Eigen::Lower>().rankUpdate(
-        Eigen::MatrixXd(free.basis.transpose() * linear.metric.cwiseSqrt().asDiagonal()));
+        Eigen::MatrixXd(free.basis.transpose() * linear_.metric.cwiseSqrt().asDiagonal()));
     const Eigen::LLT<Eigen::MatrixXd> chol(metric);
     if (chol.info() != Eigen::Success) return false;
     const auto whitened = [&](const Eigen::MatrixXd& rows) -> Eigen::MatrixXd {
@@ -159,18 +138,25 @@ bool Covariance::find_loosely_held(const Linearised& linear, const FreePart& fre
     };
     Eigen::MatrixXd held_basis = Eigen::MatrixXd::Identity(size, size);
     const Eigen::MatrixXd shifted = normal - k_determined * Eigen::MatrixXd::Identity(size, size);
-    if (!linear.has_prior && Eigen::LLT<Eigen::MatrixXd>(shifted).info() != Eigen::Success) {
+    open_.resize(held_.rows(), 0);
+    if (!linear_.has_prior && Eigen::LLT<Eigen::MatrixXd>(shifted).info() != Eigen::Success) {
         normal = Eigen::MatrixXd(normal.selfadjointView<Eigen::Lower>());
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal);
-        Eigen::Index count = 0;
-        while (count < size && eigen.eigenvalues()(count) < k_determined) ++count;
-        open_freedoms_ = int(count);
-        open_ = unwhitened(eigen.eigenvectors().leftCols(count));
-        held_basis = eigen.eigenvectors().rightCols(size - count);
+        const auto count = (eigen.eigenvalues().array() < k_determined).count();
+        const DenseRows loose = unwhitened(eigen.eigenvectors().leftCols(count));
+        const std::vector<Eigen::Index> open =
+            open_among(loose, eigen.eigenvalues().head(count), linear_.metric);
+        open_ = loose(Eigen::all, open);
+        rank_defect_ = static_cast<int>(open.size());
+        std::vector<Eigen::Index> held;
+        for (Eigen::Index i = 0; i < size; ++i) {
+            if (!std::binary_search(open.begin(), open.end(), i)) held.push_back(i);
+        }
+        held_basis = eigen.eigenvectors()(Eigen::all, held);
     }
     if (held_basis.cols() == 0) {
         held_.resize(held_.rows(), 0);
-        seen_ = DenseRows::Zero(rows_.rows(), 0);
+        seen_.resize(seen_.rows(), 0);
         return true;
     }
     Eigen::MatrixXd stacked(seen.rows() + along.rows(), held_basis.cols());

@@ -163,12 +163,12 @@ void find_facet_sigmas(const System& system, const Shape& shape, const Outline& 
 Diagnosis diagnose(const System& system, const Shape& shape,
                    const std::shared_ptr<const Outline>& outline, const DiagnosisOptions& options) {
     Diagnosis diagnosis;
-    const Linearised linear = linearise(system, shape, outline, false);
+    const auto covariance = std::make_shared<const Covariance>(linearise(system, shape, outline));
+    const Linearised& linear = covariance->linear();
     diagnosis.chi2 = linear.chi2();
     diagnosis.readings.resize(system.readings().size());
     diagnosis.facets.resize(shape.normals.size());
     const std::vector<Observation> observations = observations_of(linear);
-    const auto covariance = std::make_shared<const Covariance>(linear);
     if (!covariance->usable()) {
         residuals_only(system, linear, observations, diagnosis);
         return diagnosis;
@@ -180,13 +180,13 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     diagnosis.suspect_limit = two_sided_normal_quantile(
         options.significance / std::max<double>(1, double(observations.size())));
     check_readings(system, linear, observations, redundancy, diagnosis);
-    find_suspects(system, shape, outline, linear, options, diagnosis);
+    find_suspects(system, shape, outline, options, diagnosis);
     if (linear.worst_hard() > k_hard_limit) {
         diagnosis.disagreeing = inconsistent_exact_readings(system, shape, outline);
     }
     const Vec3 middle = middle_of(shape);
     find_facet_sigmas(system, shape, *outline, *covariance, middle, diagnosis);
-    if (system.has_prior()) find_parts_read(shape, linear, *covariance, middle, diagnosis);
+    if (system.has_prior()) find_parts_read(shape, *covariance, middle, diagnosis);
     find_rank_defect(system, shape, *covariance, middle, diagnosis);
     return diagnosis;
 }

@@ -119,7 +119,7 @@ std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::M
 
 std::vector<int> inconsistent_exact_readings(const System& system, const Shape& shape,
                                              const std::shared_ptr<const Outline>& outline) {
-    const Linearised linear = linearise(system, shape, outline, false);
+    const Linearised linear = linearise(system, shape, outline);
     if (!(linear.worst_hard() > k_hard_limit)) return {};
     const Eigen::Index unknowns = linear.layout.size();
     // Where nothing more can be done, the equations that miss are those that take part.

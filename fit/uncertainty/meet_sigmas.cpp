@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "fit/solve/kkt_solver.h"
+#include "fit/uncertainty/covariance.h"
 #include "fit/uncertainty/diagnostics.h"
-#include "fit/uncertainty/inference.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -57,13 +57,20 @@ void agree_with_residuals(System& system, Finished& finished, const FitOptions& 
     finished.iterations += steps;
 }
 
+void append(const FunctionRows& from, const Eigen::VectorXd& variance, JacobianRows& to) {
+    for (Eigen::Index i = 0; i < from.rows(); ++i) {
+        for (FunctionRows::InnerIterator it(from, i); it; ++it) to.add(int(it.col()), it.value());
+        to.close(0, variance(i));
+    }
+}
+
 // Twice the negative logarithm of the restricted likelihood, but for a constant, as a function of
 // the sigmas, in the linear model about one shape: log det V + log det A'V^-1 A + r'V^-1 r, the
 // first two of which are the determinant of the saddle system [P A'; A -V].
 class RestrictedLikelihood {
 public:
     RestrictedLikelihood(const System& system, const Finished& at)
-        : linear_(linearise(system, at.shape, at.outline, false)),
+        : linear_(linearise(system, at.shape, at.outline)),
           stiffness_(linear_.metric / k_unheld_variance) {
         for (const Equation& e : linear_.soft) {
             if (e.group >= 0) present_[std::size_t(e.group)] = true;
@@ -73,8 +80,7 @@ public:
     bool has(std::size_t group) const { return present_[group]; }
 
     double operator()(const Sigmas& sigmas) {
-        JacobianRows rows = kkt_rows(linear_, true);
-        const Eigen::Index count = linear_.soft_rows.rows(), first = rows.count() - count;
+        const Eigen::Index count = linear_.soft_rows.rows();
         Eigen::VectorXd variance = Eigen::VectorXd::Ones(count);
         double logarithms = 0;
         for (Eigen::Index i = 0; i < count; ++i) {
@@ -82,13 +88,18 @@ public:
             if (e.group < 0) continue;
             // Rows are over the sigmas of the linear model.
             variance(i) = std::pow(sigmas[std::size_t(e.group)] / e.sigma, 2);
-            rows.variance[std::size_t(first + i)] = variance(i);
             logarithms += 2 * std::log(e.sigma);
         }
+        JacobianRows rows;
+        append(linear_.hard_rows, Eigen::VectorXd::Zero(linear_.hard_rows.rows()), rows);
+        for (const Eigen::VectorXd& gauge : linear_.gauge_rows) {
+            append(FunctionRows(gauge.transpose().sparseView()), Eigen::VectorXd::Zero(1), rows);
+        }
+        append(linear_.soft_rows, variance, rows);
         constexpr double k_none = std::numeric_limits<double>::infinity();
         if (!solver_.factor(rows, stiffness_)) return k_none;
         Eigen::VectorXd right = Eigen::VectorXd::Zero(rows.count());
-        right.segment(first, count) = -linear_.soft_residuals;
+        right.tail(count) = -linear_.soft_residuals;
         const auto solved = solver_.solve(Eigen::VectorXd::Zero(linear_.layout.size()), right);
         if (!solved.good) return k_none;
         const Eigen::VectorXd left = linear_.soft_residuals + linear_.soft_rows * solved.unknowns;

@@ -28,8 +28,7 @@ bool readings_hold_all(const Stone& stone, const std::vector<Reading>& readings,
     if (double(values) >= k_most * free) return true;
     constexpr std::size_t k_large = 150;  // facets; there one would wait for it
     if (stone.solid.facets.size() > k_large) return false;
-    const Covariance covariance(
-        linearise(system, system.mesh_shape(), system.mesh_outline(), false));
+    const Covariance covariance(linearise(system, system.mesh_shape(), system.mesh_outline()));
     constexpr int k_few = 4;
     return covariance.usable() && covariance.rank_defect() <= k_few;
 }

@@ -15,10 +15,11 @@ constexpr Eigen::Index k_most_kept = 1000;
 
 }  // namespace
 
-RestrictedResiduals::RestrictedResiduals(const Linearised& linear, const Covariance& covariance)
+RestrictedResiduals::RestrictedResiduals(const Covariance& covariance)
     : covariance_(covariance),
-      count_(linear.soft_residuals.size()),
+      count_(covariance.linear().soft_residuals.size()),
       counted_(Eigen::VectorXd::Zero(count_)) {
+    const Linearised& linear = covariance.linear();
     for (Index i = 0; i < count_; ++i) {
         counted_(i) = linear.soft[std::size_t(i)].is_counted() ? 1 : 0;
     }

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "fit/model/linear.h"
 #include "fit/uncertainty/covariance.h"
 
 namespace culet {
@@ -17,7 +16,7 @@ namespace culet {
 class RestrictedResiduals {
 public:
     using Index = Eigen::Index;
-    RestrictedResiduals(const Linearised& linear, const Covariance& covariance);
+    explicit RestrictedResiduals(const Covariance& covariance);
 
     Index size() const { return count_; }
     const Eigen::VectorXd& values() const { return values_; }

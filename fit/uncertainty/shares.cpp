@@ -12,31 +12,18 @@ namespace {
 // taken for granted.
 Linearised without_readings(const Linearised& linear) {
     Linearised prior = linear;
-    std::vector<Eigen::Index> kept;
     for (std::size_t i = 0; i < linear.soft.size(); ++i) {
-        const Equation& e = linear.soft[i];
-        if (e.role != Equation::Role::reading) kept.push_back(Eigen::Index(i));
+        if (linear.soft[i].role != Equation::Role::reading) continue;
+        prior.soft_rows.innerVector(Eigen::Index(i)) *= 0;
     }
-    prior.soft.clear();
-    prior.soft_rows.resize(Eigen::Index(kept.size()), linear.soft_rows.cols());
-    prior.soft_residuals.resize(Eigen::Index(kept.size()));
-    RowWriter::Triplets entries;
-    for (std::size_t k = 0; k < kept.size(); ++k) {
-        prior.soft.push_back(linear.soft[std::size_t(kept[k])]);
-        prior.soft_residuals(Eigen::Index(k)) = linear.soft_residuals(kept[k]);
-        using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-        for (Rows::InnerIterator it(linear.soft_rows, kept[k]); it; ++it) {
-            entries.emplace_back(int(k), int(it.col()), it.value());
-        }
-    }
-    prior.soft_rows.setFromTriplets(entries.begin(), entries.end());
     return prior;
 }
 
 }  // namespace
 
-void find_parts_read(const Shape& shape, const Linearised& linear, const Covariance& covariance,
-                     const Vec3& middle, Diagnosis& diagnosis) {
+void find_parts_read(const Shape& shape, const Covariance& covariance, const Vec3& middle,
+                     Diagnosis& diagnosis) {
+    const Linearised& linear = covariance.linear();
     const Covariance before(without_readings(linear));
     if (!before.usable()) return;
     for (int f = 0; f < linear.layout.facets; ++f) {

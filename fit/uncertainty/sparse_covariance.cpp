@@ -9,6 +9,9 @@ namespace culet {
 
 namespace {
 
+// Beside what readings hold it changes no digit that is told.
+constexpr double k_weak_prior = 1 / k_unheld_variance;
+
 // Weights on as many unknowns as there are motions, those that move most (elimination with complete
 // pivoting).
 Eigen::VectorXd pins(Eigen::MatrixXd motions, double weight) {
@@ -26,51 +29,113 @@ Eigen::VectorXd pins(Eigen::MatrixXd motions, double weight) {
 
 }  // namespace
 
-FunctionRow function_row(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows, Eigen::Index i) {
-    FunctionRow row(rows.cols());
-    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, i); it; ++it) {
-        row.coeffRef(it.col()) += it.value();
+Covariance::Sparse::Sparse(const Linearised& of)
+    : linear(of), rows(of.soft_rows), sizes(of.soft_rows.rows()), gauge_(datum_defect(of)) {
+    double tightest = 0;
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+        sizes(i) = rows.innerVector(i).norm();
+        if (sizes(i) > k_tight) {
+            rows.innerVector(i) *= k_tight / sizes(i);
+            sizes(i) = k_tight;
+        }
+        tightest = std::max(tightest, sizes(i));
     }
-    return row;
-}
-
-void Covariance::find_sparse(const Linearised& linear) {
     // Hard equations as very tight soft ones: their own variance stays far below the readings', and
     // the matrix positive definite whatever repeats.
-    double tightest = 0;
-    Eigen::SparseMatrix<double, Eigen::RowMajor> rows = rows_;
-    Eigen::VectorXd norms(rows.rows());
-    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-        norms(i) = rows.innerVector(i).norm();
-        if (norms(i) > k_tight) {
-            rows.innerVector(i) *= k_tight / norms(i);
-            norms(i) = k_tight;
-        }
-        tightest = std::max(tightest, norms(i));
+    hard_weight_ = std::clamp(1e3 * tightest, 1e4, 1e6);
+    gauge_rows_ = linear.metric.asDiagonal() * gauge_;
+    pins_ = pins(gauge_, std::max(1e6, tightest * tightest));
+}
+
+NormalEquations Covariance::Sparse::equations(double prior) const {
+    return {rows, linear.hard_rows, hard_weight_, prior * linear.metric + pins_};
+}
+
+bool Covariance::Sparse::compute(PinnedInverse& pinned, double prior) const {
+    if (!pinned.inverse.compute(equations(prior))) return false;
+    pinned.gauge_solved.resize(gauge_.rows(), gauge_.cols());
+    for (Eigen::Index k = 0; k < gauge_.cols(); ++k) {
+        pinned.gauge_solved.col(k) = pinned.inverse.solve(gauge_rows_.col(k));
     }
-    const double hard = std::clamp(1e3 * tightest, 1e4, 1e6);
-    sparse_ = std::make_unique<Sparse>();
-    sparse_->gauge = datum_defect(linear, rows_);
-    sparse_->gauge_rows = linear.metric.asDiagonal() * sparse_->gauge;
-    sparse_->pins = pins(sparse_->gauge, std::max(1e6, tightest * tightest));
-    sparse_->prior = 1e-3;
-    const auto equations = [&](double prior) {
-        return NormalEquations{rows, linear.hard_rows, hard, prior * linear.metric + sparse_->pins};
-    };
-    if (!sparse_->compute(sparse_->tight, equations(sparse_->prior))) return;
-    usable_ = true;
-    rows_ = rows;
-    // By Sylvester's law the number of negative pivots counts the directions below the bound.
-    open_freedoms_ = negative_pivots(equations(-k_determined));
-    if (open_freedoms_ > 0) {
-        sparse_->has_open = sparse_->compute(sparse_->trusted, equations(1.0));
-        usable_ = sparse_->has_open;
+    pinned.gauge_part = gauge_rows_.transpose() * pinned.gauge_solved;
+    return true;
+}
+
+Covariance::Sparse::Part Covariance::Sparse::part_of(const PinnedInverse& pinned,
+                                                     const FunctionRow& function) const {
+    return {pinned.inverse.half(function), gauge_.transpose() * function,
+            pinned.gauge_solved.transpose() * function};
+}
+
+double Covariance::Sparse::product(const PinnedInverse& pinned, const Part& one,
+                                   const Part& other) {
+    return NormalInverse::product(one.half, other.half) +
+           one.along.dot(pinned.gauge_part * other.along) - one.solved.dot(other.along) -
+           other.solved.dot(one.along);
+}
+
+double Covariance::Sparse::of(const PinnedInverse& pinned, const FunctionRow& function) const {
+    const Part own = part_of(pinned, function);
+    return std::max(0.0, product(pinned, own, own));
+}
+
+Eigen::VectorXd Covariance::Sparse::with_all(const PinnedInverse& pinned,
+                                             const Eigen::VectorXd& function) const {
+    const Eigen::VectorXd along = gauge_.transpose() * function;
+    Eigen::VectorXd all = pinned.inverse.solve(function) - pinned.gauge_solved * along;
+    all -= gauge_ * (gauge_rows_.transpose() * all);
+    return all;
+}
+
+double Covariance::Sparse::most_open() const {
+    double most = 0;
+    FunctionRow own(linear.layout.size());
+    for (Eigen::Index i = 0; i < own.size(); ++i) {
+        own.setZero();
+        own.coeffRef(i) = 1;
+        most += std::floor(of(tight, own) * linear.metric(i) * k_determined);
     }
+    return most;
+}
+
+double Covariance::Sparse::open_variance(const FunctionRow& function) const {
+    if (!has_open) return 0;
+    return std::max(0.0, of(tight, function) - of(trusted, function)) * k_weak_prior;
+}
+
+double Covariance::Sparse::leverage(Eigen::Index one, Eigen::Index other) const {
+    const auto key = std::minmax(one, other);
+    const auto [found, is_new] = leverages_.try_emplace(key, 0.0);
+    if (is_new) {
+        const auto part = [&](Eigen::Index i) -> const Part& {
+            auto [known, unknown] = parts_.try_emplace(i);
+            if (unknown) known->second = part_of(tight, function_row(rows, i));
+            return known->second;
+        };
+        found->second = product(tight, part(key.first), part(key.second));
+    }
+    return found->second;
+}
+
+void Covariance::find_sparse() {
+    sparse_ = std::make_unique<Sparse>(linear_);
+    usable_ = sparse_->compute(sparse_->tight, k_weak_prior);
     if (!usable_) return;
-    leverages_.resize(rows_.rows());
-    for (Eigen::Index i = 0; i < rows_.rows(); ++i) {
+    const double most = linear_.has_prior ? 0 : sparse_->most_open();
+    if (most > 0) {
+        // By Sylvester's law the number of negative pivots counts the directions below the bound.
+        const int below = negative_pivots(sparse_->equations(-k_determined));
+        rank_defect_ = static_cast<int>(std::min(most, double(below)));
+        sparse_->has_open = rank_defect_ > 0;
+        if (sparse_->has_open) usable_ = sparse_->compute(sparse_->trusted, 1);
+        if (!usable_) return;
+    }
+    leverages_.resize(sparse_->rows.rows());
+    for (Eigen::Index i = 0; i < leverages_.size(); ++i) {
         leverages_(i) =
-            norms(i) > 0 ? std::min(1.0, sparse_->of(sparse_->tight, function_row(rows_, i))) : 0;
+            sparse_->sizes(i) > 0
+                ? std::min(1.0, sparse_->of(sparse_->tight, function_row(sparse_->rows, i)))
+                : 0;
     }
 }
 

@@ -10,75 +10,52 @@
 
 namespace culet {
 
-/// Row `i`, as a function of the unknowns.
-FunctionRow function_row(const Eigen::SparseMatrix<double, Eigen::RowMajor>& rows, Eigen::Index i);
-
 /// The factor of the penalised normal equations. The gauge is held by pins (as many unknowns as
 /// motions), and inner constraints follow from them (Baarda's S-transformation): the covariance is
 /// P C P' with P = 1 - G G' M.
 struct Covariance::Sparse {
+    explicit Sparse(const Linearised& linear);
+
     /// Under one prior, with the gauge held by pins.
     struct PinnedInverse {
         NormalInverse inverse;
         Eigen::MatrixXd gauge_solved;  // U = C M G
         Eigen::MatrixXd gauge_part;    // G' M U
     };
-    PinnedInverse tight;    // a weak prior: what the readings hold
-    PinnedInverse trusted;  // the mesh's own trust as prior, where something is open
+    bool compute(PinnedInverse& pinned, double prior) const;
+    NormalEquations equations(double prior) const;
+    double of(const PinnedInverse& pinned, const FunctionRow& function) const;
+    Eigen::VectorXd with_all(const PinnedInverse& pinned, const Eigen::VectorXd& function) const;
+    /// How many directions may be open: each leaves some unknown half as uncertain as the mesh.
+    double most_open() const;
+    /// An open direction of length q has the variance q^2 / (lambda + prior): what the two priors
+    /// disagree on.
+    double open_variance(const FunctionRow& function) const;
+    /// An entry of the hat matrix; remembered.
+    double leverage(Eigen::Index one, Eigen::Index other) const;
+
+    const Linearised& linear;
+    FunctionRows rows;      ///< no tighter than is told from what is loose
+    Eigen::VectorXd sizes;  ///< of the rows
+    PinnedInverse tight;    ///< a weak prior: what the readings hold
+    PinnedInverse trusted;  ///< the mesh's own trust as prior, where something is open
     bool has_open = false;
-    Eigen::MatrixXd gauge;       // G, orthonormal in the metric
-    Eigen::MatrixXd gauge_rows;  // M G
-    Eigen::VectorXd pins;
-    double prior = 0;
 
-    bool compute(PinnedInverse& pinned, const NormalEquations& equations) const {
-        if (!pinned.inverse.compute(equations)) return false;
-        pinned.gauge_solved.resize(gauge.rows(), gauge.cols());
-        for (Eigen::Index k = 0; k < gauge.cols(); ++k) {
-            pinned.gauge_solved.col(k) = pinned.inverse.solve(gauge_rows.col(k));
-        }
-        pinned.gauge_part = gauge_rows.transpose() * pinned.gauge_solved;
-        return true;
-    }
-
-    double of(const PinnedInverse& pinned, const FunctionRow& function) const {
-        double value = pinned.inverse.quadratic(function);
-        if (gauge.cols() > 0) {
-            const Eigen::VectorXd along = gauge.transpose() * function;
-            const Eigen::VectorXd solved = pinned.gauge_solved.transpose() * function;
-            value += along.dot(pinned.gauge_part * along) - 2 * solved.dot(along);
-        }
-        return std::max(0.0, value);
-    }
-
+private:
     // A function, and what the gauge has to say of it.
     struct Part {
         NormalInverse::Half half;
         Eigen::VectorXd along, solved;
     };
-    Part part_of(const PinnedInverse& pinned, const FunctionRow& function) const {
-        return {pinned.inverse.half(function), gauge.transpose() * function,
-                pinned.gauge_solved.transpose() * function};
-    }
-    double of(const PinnedInverse& pinned, const Part& one, const Part& other) const {
-        double value = NormalInverse::product(one.half, other.half);
-        if (gauge.cols() > 0) {
-            value += one.along.dot(pinned.gauge_part * other.along) - one.solved.dot(other.along) -
-                     other.solved.dot(one.along);
-        }
-        return value;
-    }
-    // Of the hat matrix, as far as it was asked for.
-    mutable std::map<Eigen::Index, Part> parts;
-    mutable std::map<std::pair<Eigen::Index, Eigen::Index>, double> leverages;
+    Part part_of(const PinnedInverse& pinned, const FunctionRow& function) const;
+    static double product(const PinnedInverse& pinned, const Part& one, const Part& other);
 
-    Eigen::VectorXd with_all(const PinnedInverse& pinned, const FunctionRow& function) const {
-        const Eigen::VectorXd along = gauge.transpose() * function;
-        Eigen::VectorXd all =
-            pinned.inverse.solve(Eigen::VectorXd(function)) - pinned.gauge_solved * along;
-        all -= gauge * (gauge_rows.transpose() * all);
-        return all;
-    }
+    double hard_weight_ = 1;
+    Eigen::MatrixXd gauge_;       // G, orthonormal in the metric
+    Eigen::MatrixXd gauge_rows_;  // M G
+    Eigen::VectorXd pins_;
+    mutable std::map<Eigen::Index, Part> parts_;
+    mutable std::map<std::pair<Eigen::Index, Eigen::Index>, double> leverages_;
 };
 
 }  // namespace culet

@@ -17,8 +17,8 @@ namespace {
 constexpr Eigen::Index k_most_searched = 1500;
 
 // They look at what they are made of as long as columns are asked.
-Residuals residuals_of(const std::vector<Observation>& observations, const Linearised& linear,
-                       const Covariance& covariance) {
+Residuals residuals_of(const std::vector<Observation>& observations, const Covariance& covariance) {
+    const Linearised& linear = covariance.linear();
     const Eigen::Index count = static_cast<Eigen::Index>(observations.size());
     // At the optimum the residuals are R times the errors; elsewhere what a step would take away
     // comes off first.
@@ -68,11 +68,11 @@ void name_suspects(const System& system, const std::vector<Observation>& observa
     }
 }
 
-void snoop(const System& system, const Linearised& linear, const Covariance& covariance,
-           double significance, Diagnosis& diagnosis) {
-    const std::vector<Observation> observations = observations_of(linear);
+void snoop(const System& system, const Covariance& covariance, double significance,
+           Diagnosis& diagnosis) {
+    const std::vector<Observation> observations = observations_of(covariance.linear());
     const Eigen::Index count = static_cast<Eigen::Index>(observations.size());
-    const Residuals residuals = residuals_of(observations, linear, covariance);
+    const Residuals residuals = residuals_of(observations, covariance);
     const double pairs = std::max(1.0, 0.5 * double(count) * double(count - 1));
     const Outliers outliers =
         find_outliers(residuals, diagnosis.suspect_limit, chi2_quantile(significance / pairs, 2),
@@ -95,26 +95,24 @@ void snoop(const System& system, const Linearised& linear, const Covariance& cov
 }  // namespace
 
 void find_suspects(const System& system, const Shape& shape,
-                   const std::shared_ptr<const Outline>& outline, const Linearised& linear,
-                   const DiagnosisOptions& options, Diagnosis& diagnosis) {
+                   const std::shared_ptr<const Outline>& outline, const DiagnosisOptions& options,
+                   Diagnosis& diagnosis) {
     if (options.seen_from) {
-        const Linearised there =
-            linearise(system, options.seen_from->shape, options.seen_from->outline, false);
-        const Covariance from_there(there);
-        snoop(system, there, from_there.usable() ? from_there : *diagnosis.covariance,
+        const Covariance from_there(
+            linearise(system, options.seen_from->shape, options.seen_from->outline));
+        snoop(system, from_there.usable() ? from_there : *diagnosis.covariance,
               options.significance, diagnosis);
         return;
     }
-    snoop(system, linear, *diagnosis.covariance, options.significance, diagnosis);
+    snoop(system, *diagnosis.covariance, options.significance, diagnosis);
     if (diagnosis.suspects.empty() || options.held.empty()) return;
     // What holds a corner bends readings beside it that hardly anything else checks.
-    const Linearised there = linearise(system, shape, outline, false, options.held);
-    const Covariance from_there(there);
+    const Covariance from_there(linearise(system, shape, outline, options.held));
     if (!from_there.usable()) return;
     for (ReadingCheck& c : diagnosis.readings) c.suspect = false;
     diagnosis.suspects.clear();
     diagnosis.suspicions.clear();
-    snoop(system, there, from_there, options.significance, diagnosis);
+    snoop(system, from_there, options.significance, diagnosis);
 }
 
 }  // namespace culet

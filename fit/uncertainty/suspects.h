@@ -1,16 +1,15 @@
 #pragma once
 // Which readings of a fit look wrong. Private to the room: shows Eigen.
 
-#include "fit/model/linear.h"
 #include "fit/uncertainty/diagnostics.h"
 
 namespace culet {
 
 /// Baarda's data snooping (snooping.h), and where chi-square fails an irreducible set of readings
 /// that disagrees. Fills `suspects`, `suspicions`, `throughout` and `disagreeing` of a diagnosis
-/// that holds its covariance, chi-square and limit; `linear` is of the end of the fit.
+/// that holds its covariance, chi-square and limit.
 void find_suspects(const System& system, const Shape& shape,
-                   const std::shared_ptr<const Outline>& outline, const Linearised& linear,
-                   const DiagnosisOptions& options, Diagnosis& diagnosis);
+                   const std::shared_ptr<const Outline>& outline, const DiagnosisOptions& options,
+                   Diagnosis& diagnosis);
 
 }  // namespace culet

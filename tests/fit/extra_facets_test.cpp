@@ -111,7 +111,6 @@ TEST(ExtraFacets, NoneIsSoughtBetweenPlanesThatFaceAwayFromEachOther) {
     const Stone stone = stone_of(mesh);
     const System system(stone, readings_of(mesh, mesh, 1), {});
     Finished finished = finish_from(system, system.mesh_shape(), 100).finished;
-    const Linearised linear = linearise(system, finished.shape, finished.outline, false);
     const Diagnosis diagnosis = diagnose(system, finished.shape, finished.outline);
     const std::vector<int>& facets = system.edges().facets_of_vertex.front();
     ASSERT_GE(facets.size(), 3u);
@@ -119,7 +118,7 @@ TEST(ExtraFacets, NoneIsSoughtBetweenPlanesThatFaceAwayFromEachOther) {
     const Vec3 same = normals[std::size_t(facets.front())];
     for (const int f : facets) normals[std::size_t(f)] = f == facets.back() ? -same : same;
     std::feclearexcept(FE_INVALID);
-    const auto found = suspect_extra_facets(system, finished, linear, diagnosis, 0.001);
+    const auto found = suspect_extra_facets(system, finished, diagnosis, 0.001);
     EXPECT_EQ(std::fetestexcept(FE_INVALID), 0) << "a direction of no length";
     for (const ExtraFacet& f : found) EXPECT_TRUE(std::isfinite(f.depth + f.sigma + f.chi2));
 }
