@@ -12,11 +12,13 @@
 
 #include "render/beams/frame_renderer.h"
 #include "render/colour/colour_error.h"
+#include "render/engine/engine.h"
 #include "render/image/image_io.h"
 #include "render/planner/explain.h"
 #include "render/planner/planner.h"
 #include "render/planner/truth.h"
 #include "render/planner/wavelengths.h"
+#include "render/render.h"
 #include "stone/errors.h"
 #include "tests/bench/cpu_time.h"
 #include "tests/bench/effect_prices.h"
@@ -129,7 +131,7 @@ double seconds_of_chosen(const Scene& whole, const ScenePlan& plan) {
         if (drawn_by_beams(scene.settings))
             FrameRenderer(scene).draw(false);
         else
-            render_with_reference(scene, {});
+            engine_of(scene.settings).draw(scene, {});
     };
     return quickest(draw, 1, 0).cpu;
 }
