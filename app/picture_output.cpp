@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/scratch_folder.h"
 #include "render/image/exposure.h"
 #include "render/scene/light_presets.h"
 #include "stone/errors.h"
@@ -17,28 +18,6 @@ namespace culet {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A file of our own, gone with this.
-class ScratchFile {
-public:
-    explicit ScratchFile(const std::string& ending) {
-        std::string name = (fs::temp_directory_path() / ("culet-XXXXXX" + ending)).string();
-        const int file = mkstemps(name.data(), static_cast<int>(ending.size()));
-        if (file < 0) throw InputError(name, "cannot be made, to write a picture to stdout");
-        close(file);
-        path_ = name;
-    }
-    ~ScratchFile() {
-        std::error_code ignored;
-        fs::remove(path_, ignored);
-    }
-    ScratchFile(const ScratchFile&) = delete;
-    ScratchFile& operator=(const ScratchFile&) = delete;
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
 
 }  // namespace
 
@@ -89,9 +68,10 @@ void PictureOutput::write(const Picture& picture,
     look.exposure = exposure_of(picture);
     look.tone_map = tone_map_;
     if (out_ != "-") return write_picture(picture, out_, look, text);
-    const ScratchFile file(".png");
-    write_picture(picture, file.path(), look, text);
-    const std::string bytes = read_text(file.path());
+    const ScratchFolder folder;
+    const fs::path file = folder.path() / "picture.png";
+    write_picture(picture, file, look, text);
+    const std::string bytes = read_text(file);
     if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() ||
         std::fflush(stdout) != 0)
         throw InputError("stdout took only a part of the picture");

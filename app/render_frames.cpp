@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <numbers>
 
 #include "app/movie.h"
+#include "app/scratch_folder.h"
 #include "app/terminal.h"
 #include "render/render.h"
 #include "render/scene/turntable.h"
@@ -22,27 +22,6 @@ namespace fs = std::filesystem;
 bool is_movie(const std::string& out) {
     return fs::path(out).extension() == ".mp4";
 }
-
-// A folder of our own, gone with this.
-class ScratchFolder {
-public:
-    ScratchFolder() {
-        std::string name = (fs::temp_directory_path() / "culet-XXXXXX").string();
-        if (mkdtemp(name.data()) == nullptr)
-            throw InputError(name, "cannot be made, for the pictures of a film");
-        path_ = name;
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
 
 PictureOutput output_of(const Frames& frames, int frame, const std::string& exposure,
                         const Scene& scene) {
