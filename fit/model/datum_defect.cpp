@@ -1,6 +1,8 @@
 #include "fit/model/datum_defect.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace culet {
@@ -34,13 +36,15 @@ Eigen::MatrixXd datum_defect(const Linearised& linear) {
     return motions.leftCols(count);
 }
 
-std::vector<Eigen::Index> open_among(const Eigen::MatrixXd& directions,
-                                     const Eigen::VectorXd& information,
-                                     const Eigen::VectorXd& metric) {
-    std::vector<Eigen::Index> open;
-    for (Eigen::Index k = 0; k < directions.cols(); ++k) {
-        const double most = directions.col(k).cwiseAbs2().cwiseProduct(metric).maxCoeff();
-        if (information(k) < k_determined * most) open.push_back(k);
+Eigen::Index open_among(const Eigen::MatrixXd& directions, const Eigen::VectorXd& information,
+                        const Eigen::VectorXd& metric) {
+    // The variance that is left of each unknown, over what the mesh leaves.
+    Eigen::VectorXd left = Eigen::VectorXd::Zero(metric.size());
+    Eigen::Index open = directions.cols();
+    for (; open > 0; --open) {
+        left += directions.col(open - 1).cwiseAbs2().cwiseProduct(metric) /
+                std::max(information(open - 1), std::numeric_limits<double>::min());
+        if (!(left.maxCoeff() < 1 / k_determined)) break;
     }
     return open;
 }

@@ -20,10 +20,10 @@ inline constexpr double k_tight = 1e6;
 /// shape.
 Eigen::MatrixXd datum_defect(const Linearised& linear);
 
-/// Which of these directions (columns of length one in the metric, with what the readings say of
-/// each) they leave half as uncertain as the mesh does, at the unknown that it moves most.
-std::vector<Eigen::Index> open_among(const Eigen::MatrixXd& directions,
-                                     const Eigen::VectorXd& information,
-                                     const Eigen::VectorXd& metric);
+/// How many of these directions are open, the loosest first: as many as it takes until the others
+/// together leave no unknown half as uncertain as the mesh does. `directions`: orthonormal in the
+/// metric, all there are, one a column; `information`: what the readings say of each, increasing.
+Eigen::Index open_among(const Eigen::MatrixXd& directions, const Eigen::VectorXd& information,
+                        const Eigen::VectorXd& metric);
 
 }  // namespace culet

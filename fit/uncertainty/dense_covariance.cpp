@@ -142,17 +142,11 @@ bool Covariance::find_loosely_held(const FreePart& free) {
     if (!linear_.has_prior && Eigen::LLT<Eigen::MatrixXd>(shifted).info() != Eigen::Success) {
         normal = Eigen::MatrixXd(normal.selfadjointView<Eigen::Lower>());
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal);
-        const auto count = (eigen.eigenvalues().array() < k_determined).count();
-        const DenseRows loose = unwhitened(eigen.eigenvectors().leftCols(count));
-        const std::vector<Eigen::Index> open =
-            open_among(loose, eigen.eigenvalues().head(count), linear_.metric);
-        open_ = loose(Eigen::all, open);
-        rank_defect_ = static_cast<int>(open.size());
-        std::vector<Eigen::Index> held;
-        for (Eigen::Index i = 0; i < size; ++i) {
-            if (!std::binary_search(open.begin(), open.end(), i)) held.push_back(i);
-        }
-        held_basis = eigen.eigenvectors()(Eigen::all, held);
+        const DenseRows directions = unwhitened(eigen.eigenvectors());
+        const Eigen::Index open = open_among(directions, eigen.eigenvalues(), linear_.metric);
+        open_ = directions.leftCols(open);
+        rank_defect_ = static_cast<int>(open);
+        held_basis = eigen.eigenvectors().rightCols(size - open);
     }
     if (held_basis.cols() == 0) {
         held_.resize(held_.rows(), 0);

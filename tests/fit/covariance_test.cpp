@@ -145,16 +145,30 @@ TEST(Covariance, BothAlgorithmsAgree) {
     }
 }
 
-// By the definition, at any number of unknowns: a direction moves its most moved unknown by s of
-// what the mesh is trusted for, and the readings leave s / sqrt(information) of it there.
+// By the definition: the variance that directions leave of an unknown, over the mesh's, is the sum
+// of the squares of their share in it over what the readings say of them.
 TEST(Covariance, CallsOpenWhatIsLeftHalfAsUncertainAsTheMesh) {
-    constexpr Eigen::Index k_unknowns = 100;
-    Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(k_unknowns, 4);
-    directions(7, 0) = directions(9, 1) = 1;   // s = 1
-    directions.rightCols(2).setConstant(0.1);  // s = 0.1
-    const Eigen::Vector4d information{3.9, 4.1, 0.039, 0.041};
-    EXPECT_EQ(open_among(directions, information, Eigen::VectorXd::Ones(k_unknowns)),
-              (std::vector<Eigen::Index>{0, 2}));
+    // Each moves one unknown: 1/4.1 is below a quarter, 1/3.9 is not.
+    const Eigen::MatrixXd alone = Eigen::MatrixXd::Identity(100, 100);
+    Eigen::VectorXd information = Eigen::VectorXd::Constant(100, 4.1);
+    const Eigen::VectorXd even = Eigen::VectorXd::Ones(100);
+    EXPECT_EQ(open_among(alone, information, even), 0);
+    information.head(2) << 0, 3.9;
+    EXPECT_EQ(open_among(alone, information, even), 2);
+    // Each moves all of 64 unknowns alike (Sylvester's Hadamard matrix), none by more than 1/64.
+    Eigen::MatrixXd hadamard = Eigen::MatrixXd::Ones(1, 1);
+    while (hadamard.rows() < 64) {
+        const Eigen::MatrixXd half = hadamard;
+        hadamard.resize(2 * half.rows(), 2 * half.cols());
+        hadamard << half, half, half, -half;
+    }
+    const Eigen::VectorXd unknowns = Eigen::VectorXd::Ones(64);
+    Eigen::VectorXd told = Eigen::VectorXd::Constant(64, 1e6);
+    told(0) = 0.1;  // 1 / 64 / 0.1 = 0.16: a smooth motion that no unknown feels
+    EXPECT_EQ(open_among(hadamard / 8, told, unknowns), 0);
+    // As little of every direction is too little of the unknowns: 15 of them leave 15 / 64.
+    told.setOnes();
+    EXPECT_EQ(open_among(hadamard / 8, told, unknowns), 64 - 15);
 }
 
 // Parameters by Steinitz: edges + 6, less what is held by the frame and by independent readings.
