@@ -9,6 +9,7 @@
 
 #include "app/scratch_folder.h"
 #include "render/image/exposure.h"
+#include "render/scene/film_io.h"
 #include "render/scene/light_presets.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
@@ -39,7 +40,9 @@ PictureOutput::PictureOutput(std::string out, bool spectral) : out_(std::move(ou
 
 void PictureOutput::look_as(const std::string& exposure, const std::string& tonemap,
                             const Scene& scene) {
-    tone_map_ = tonemap == "reinhard" ? ToneMap::reinhard : ToneMap::none;
+    look_ = scene.film;
+    look_.degrees_per_pixel = degrees_per_pixel(scene.camera);
+    if (const auto map = tone_map_named(tonemap)) look_.tone_map = *map;
     if (exposure.empty()) {
         const LightPreset* preset = find_light_preset(scene.light_preset);
         if (preset != nullptr && !preset->instrument) exposure_.reset();
@@ -64,9 +67,8 @@ double PictureOutput::exposure_of(const Picture& picture) const {
 void PictureOutput::write(const Picture& picture,
                           const std::vector<std::pair<std::string, std::string>>& text) const {
     if (out_.empty()) return;
-    PngLook look;
+    PngLook look = look_;
     look.exposure = exposure_of(picture);
-    look.tone_map = tone_map_;
     if (out_ != "-") return write_picture(picture, out_, look, text);
     const ScratchFolder folder;
     const fs::path file = folder.path() / "picture.png";

@@ -17,7 +17,8 @@ public:
     PictureOutput(std::string out, bool spectral);
 
     /// `exposure`: "auto", a factor, or empty: to the stone in a light that pictures are taken in,
-    /// and 1 where the scene's own lights or an instrument's are shown. Throws InputError.
+    /// and 1 where the scene's own lights or an instrument's are shown. `tonemap`: empty: the
+    /// scene's. Throws InputError.
     void look_as(const std::string& exposure, const std::string& tonemap, const Scene& scene);
 
     /// The factor that a picture is shown with.
@@ -31,7 +32,7 @@ public:
 private:
     std::string out_;
     std::optional<double> exposure_ = 1;  ///< none: to the stone
-    ToneMap tone_map_ = ToneMap::none;
+    PngLook look_;
 };
 
 }  // namespace culet

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "render/image/film_look.h"
 #include "render/scene/engine_name.h"
 #include "render/scene/light_presets.h"
 
@@ -92,8 +93,11 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
                     "for .png: a factor on linear light, or auto: to the stone (which jeweller, "
                     "daylight, lightbox and darkfield are shown with; else 1)")
         ->type_name("auto|FACTOR");
-    command.add_option("--tonemap", options.tonemap, "for .png: none or reinhard")
-        ->check(CLI::IsMember({"none", "reinhard"}));
+    command
+        .add_option("--tonemap", options.tonemap,
+                    fmt::format("for .png: {} (not given: as the scene's [film] says)",
+                                fmt::join(tone_map_names(), ", ")))
+        ->check(CLI::IsMember(tone_map_names()));
     add_common(command, options.common, true);
 }
 

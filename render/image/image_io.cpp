@@ -190,26 +190,27 @@ std::string text_chunk(const std::string& key, const std::string& value) {
 
 std::string png_bytes(const Picture& picture, const PngLook& look,
                       std::vector<std::pair<std::string, std::string>> text) {
-    cv::Mat image(picture.height, picture.width, CV_8UC3);
-    for (int y = 0; y < picture.height; ++y) {
-        for (int x = 0; x < picture.width; ++x) {
-            const float* rgb = picture.at(x, y);
-            for (int c = 0; c < 3; ++c) {
-                double v = std::max(0.0, look.exposure * static_cast<double>(rgb[c]));
-                if (look.tone_map == ToneMap::reinhard && std::isfinite(v))
-                    v = v / (1 + v);  // Reinhard et al. 2002, eq. 3
-                const double encoded = srgb_encoded(std::min(v, 1.0));
-                image.at<cv::Vec3b>(y, x)[2 - c] =
-                    static_cast<unsigned char>(std::lround(255 * encoded));
-            }
-        }
+    const bool alpha = look.alpha && !picture.coverage.empty();
+    const std::vector<float> shown = as_shown(picture, look);
+    const auto byte = [](double v) { return static_cast<unsigned char>(std::lround(255 * v)); };
+    const std::size_t channels = alpha ? 4 : 3;
+    std::vector<unsigned char> values(channels * picture.pixels());
+    for (std::size_t i = 0; i < picture.pixels(); ++i) {
+        for (std::size_t c = 0; c < 3; ++c)
+            values[channels * i + 2 - c] =
+                byte(srgb_encoded(static_cast<double>(shown[3 * i + c])));
+        if (alpha)
+            values[channels * i + 3] =
+                byte(std::clamp(static_cast<double>(picture.coverage[i]), 0.0, 1.0));
     }
+    const cv::Mat image(picture.height, picture.width, alpha ? CV_8UC4 : CV_8UC3, values.data());
     std::vector<unsigned char> encoded;
     cv::imencode(".png", image, encoded);
     std::string bytes(encoded.begin(), encoded.end());
-    text.insert(text.begin(),
-                {{"culet:exposure", fmt::format("{}", look.exposure)},
-                 {"culet:tonemap", look.tone_map == ToneMap::reinhard ? "reinhard" : "none"}});
+    text.insert(text.begin(), {{"culet:exposure", fmt::format("{}", look.exposure)},
+                               {"culet:tonemap", name_of(look.tone_map)}});
+    if (look.glare > 0) text.emplace_back("culet:glare", fmt::format("{}", look.glare));
+    if (look.sparkle > 0) text.emplace_back("culet:sparkle", fmt::format("{}", look.sparkle));
     std::string chunks;
     for (const auto& [key, value] : text) chunks += text_chunk(key, value);
     return bytes.insert(33, chunks);  // behind the signature (8) and the header chunk (25)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "render/image/film_look.h"
 #include "render/image/picture.h"
 
 namespace culet {
@@ -22,16 +23,9 @@ struct ReadPicture {
 /// off, damaged, absurd size (over 2^28 pixels, or more than a file of its length can hold).
 ReadPicture read_picture(const std::filesystem::path& file);
 
-enum class ToneMap { none, reinhard };
-
-struct PngLook {
-    double exposure = 1;  ///< factor on linear light before the encoding
-    ToneMap tone_map = ToneMap::none;
-};
-
 /// By extension: .exr (linear float, half the file's channels named R, G, B, A when coverage is
-/// known, and S0.589,300nm for spectral planes), .hdr, .png (8 bit sRGB, exposure and tone
-/// map in a text chunk). Whole or not at all. `text`: key/value pairs stored in the file where it
+/// known, and S0.589,300nm for spectral planes), .hdr, .png (8 bit sRGB, as looked at, which its
+/// text chunks tell). Whole or not at all. `text`: key/value pairs stored in the file where it
 /// can hold them.
 void write_picture(const Picture& picture, const std::filesystem::path& file,
                    const PngLook& look = {},

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "render/image/film_look.h"
 #include "render/scene/engine_name.h"
 #include "render/scene/lights.h"
 #include "stone/stone.h"
@@ -171,6 +172,8 @@ struct Scene {
     Lights lights;
     double immersion = 1;  ///< refractive index of what surrounds the stone
     RenderSettings settings;
+    /// How its PNGs are looked at; who writes them sets the exposure and the angle of a pixel.
+    PngLook film;
     std::vector<std::string> notes;  ///< said on reading: negative texels clamped, ...
     /// Of its lights, where it names one (light_presets.h).
     std::string light_preset;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/scene/camera_io.h"
+#include "render/scene/film_io.h"
 #include "render/scene/framing.h"
 #include "render/scene/light_io.h"
 #include "render/scene/light_presets.h"
@@ -89,7 +90,7 @@ Stone scene_stone_of(const TomlTable& root, std::vector<std::string>& notes) {
 Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_view light_instead) {
     root.refuse_unknown(
         with_view_keys({"stone", "mesh", "material", "unit", "optic_axis", "principal_axes",
-                        "convex", "name", "camera", "light", "object", "render", "immersion"}));
+                        "convex", "name", "camera", "light", "object", "render", "film", "immersion"}));
     Scene scene;
     if (root.has("object")) root.fail("object", "objects around the stone are not rendered yet");
     if (stone_instead != nullptr) {
@@ -127,6 +128,7 @@ Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_vi
         frame_stone(scene.stone.solid, below ? Facing::pavilion : Facing::crown, scene.camera);
     }
     if (view) apply_view_preset(view->first, view->second, scene);
+    if (const auto film = root.table("film")) scene.film = read_film(*film);
     const auto settings = root.table("render");
     if (settings) scene.settings = read_settings(*settings);
     scene.names_tolerance = settings && settings->has("tolerance");

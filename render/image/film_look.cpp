@@ -1,0 +1,62 @@
+#include "render/image/film_look.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "render/image/glare.h"
+#include "render/image/sparkle.h"
+
+namespace culet {
+
+namespace {
+
+// In the order of `ToneMap`.
+constexpr std::array k_tone_maps{"none", "reinhard", "filmic"};
+
+// Brighter than this nothing differs from it in any picture, and sums stay finite.
+constexpr float k_brightest = 1e30f;
+
+double mapped(double v, ToneMap map) {
+    switch (map) {
+        case ToneMap::reinhard:
+            return v / (1 + v);
+        case ToneMap::filmic:
+            return v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14);
+        case ToneMap::none:
+            break;
+    }
+    return v;
+}
+
+}  // namespace
+
+std::vector<std::string> tone_map_names() {
+    return {k_tone_maps.begin(), k_tone_maps.end()};
+}
+
+std::optional<ToneMap> tone_map_named(const std::string& name) {
+    const auto found = std::find(k_tone_maps.begin(), k_tone_maps.end(), name);
+    if (found == k_tone_maps.end()) return std::nullopt;
+    return static_cast<ToneMap>(found - k_tone_maps.begin());
+}
+
+std::string name_of(ToneMap map) {
+    return k_tone_maps[static_cast<std::size_t>(map)];
+}
+
+std::vector<float> as_shown(const Picture& picture, const PngLook& look) {
+    std::vector<float> rgb(picture.rgb.size());
+    std::transform(picture.rgb.begin(), picture.rgb.end(), rgb.begin(), [&](float v) {
+        const double lit = look.exposure * static_cast<double>(v);
+        return lit > 0 ? static_cast<float>(std::min(lit, double{k_brightest})) : 0.0f;
+    });
+    const PictureSize size{picture.width, picture.height};
+    if (look.glare > 0) add_glare(rgb, size, look.glare, look.degrees_per_pixel);
+    if (look.sparkle > 0) add_sparkle(rgb, size, look.sparkle);
+    for (float& v : rgb)
+        v = static_cast<float>(std::clamp(mapped(static_cast<double>(v), look.tone_map), 0.0, 1.0));
+    return rgb;
+}
+
+}  // namespace culet

@@ -1,0 +1,49 @@
+#include "render/scene/film_io.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace culet {
+
+namespace {
+
+constexpr double k_strongest = 100, k_parallel_view_deg = 20;
+
+// true is 1, false is 0.
+double strength_of(const TomlTable& table, const char* key) {
+    if (table.kind(key) == TomlTable::Kind::boolean) return *table.boolean(key) ? 1 : 0;
+    const double strength = table.number(key).value_or(0);
+    if (!(strength >= 0 && strength <= k_strongest))
+        table.fail(key, fmt::format("{} is true, false or a strength, 0 to {}, found {}", key,
+                                    k_strongest, strength));
+    return strength;
+}
+
+}  // namespace
+
+PngLook read_film(const TomlTable& table) {
+    table.refuse_unknown({"glare", "sparkle", "alpha", "tonemap"});
+    PngLook look;
+    look.glare = strength_of(table, "glare");
+    look.sparkle = strength_of(table, "sparkle");
+    look.alpha = table.boolean("alpha").value_or(false);
+    if (const auto name = table.text("tonemap")) {
+        const auto known = tone_map_named(*name);
+        if (!known)
+            table.fail("tonemap", fmt::format("no tone map \"{}\"; known: {}", *name,
+                                              fmt::join(tone_map_names(), ", ")));
+        look.tone_map = *known;
+    }
+    return look;
+}
+
+double degrees_per_pixel(const Camera& camera) {
+    if (camera.orthographic_width || camera.cone) return k_parallel_view_deg / camera.height;
+    // d tan(angle) = pixel, at the middle.
+    return 2 * std::tan(camera.fov / 2) / camera.height * 180 / std::numbers::pi;
+}
+
+}  // namespace culet
