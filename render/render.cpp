@@ -79,8 +79,7 @@ RenderResult drawn_once(const Scene& scene, const Progress& progress) {
     require_renderable(scene);
     Scene settled = scene;
     RenderSettings& settings = settled.settings;
-    const Engine& beams = engine_named(k_beam_engine);
-    if (settings.engine == k_auto_engine && beams.refuses(scene, make_optical_setup(scene)).empty())
+    if (settings.engine == k_auto_engine && refused_by_beams(scene).empty())
         settings.engine = k_beam_engine;
     // The estimator's own is better.
     settings.check = Check::none;

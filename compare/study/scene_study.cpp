@@ -133,7 +133,7 @@ void SceneStudier::prepare() {
     judge_.emplace(study_.reference.picture);
     Scene by_beams = ground_.scene;
     by_beams.settings = exact_settings(scene_, ground_.tolerance, k_node_counts.front());
-    const std::string refused = refused_by_beams(by_beams, make_optical_setup(by_beams));
+    const std::string refused = refused_by_beams(by_beams);
     ground_.beams = refused.empty();
     if (!ground_.beams) study_.notes.push_back("engines beams and preview: " + refused);
 }

@@ -268,6 +268,10 @@ std::string refused_by_beams(const Scene& scene, const OpticalSetup& setup) {
     return {};
 }
 
+std::string refused_by_beams(const Scene& scene) {
+    return refused_by_beams(scene, make_optical_setup(scene));
+}
+
 bool drawn_by_beams(const RenderSettings& settings) {
     return settings.engine == k_beam_engine || settings.engine == k_preview_engine;
 }

@@ -47,6 +47,7 @@ private:
 
 /// Why beams cannot draw this, in words; empty: they can.
 std::string refused_by_beams(const Scene& scene, const OpticalSetup& setup);
+std::string refused_by_beams(const Scene& scene);
 
 bool drawn_by_beams(const RenderSettings& settings);
 

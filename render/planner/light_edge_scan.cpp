@@ -162,7 +162,7 @@ LightEdgeScan::LightEdgeScan(const Scene& whole, const Brightness& bright, const
     int rows = 0;
     settings.wavelengths_nm = disperses ? k_few_nm : k_one_nm;
     light(apart + pixel());
-    if (refused_by_beams(scene, make_optical_setup(scene)).empty()) {
+    if (refused_by_beams(scene).empty()) {
         const double across = diameter(scene.stone.solid) / pixel_on_stone(scene);
         times = static_cast<int>(std::clamp(across / k_across, 1.0, 100.0));
         // Beams that fill little of a pixel are not split: of smaller pictures, as little of the

@@ -30,7 +30,7 @@ RenderResult draw_quickly(const Scene& scene, const Progress& progress) {
         settings.effects[static_cast<std::size_t>(effect)] = false;
     if (settings.wavelengths_nm.empty()) settings.wavelengths_nm = k_three_nm;
     RenderResult result;
-    if (refused_by_beams(quick, make_optical_setup(quick)).empty()) {
+    if (refused_by_beams(quick).empty()) {
         settings.engine = k_preview_engine;
         FrameRenderer frames(quick);
         frames.report_to(progress);

@@ -9,7 +9,7 @@
 #include "render/optics/eye_optics.h"
 #include "render/reference/crystal_paths.h"
 #include "render/reference/light_paths.h"
-#include "render/reference/surroundings.h"
+#include "render/reference/prepared_scene.h"
 #include "render/setup/scene_checks.h"
 #include "stone/errors.h"
 #include "stone/units.h"
@@ -128,38 +128,37 @@ PolarisationEllipse ellipse_of(const Stokes& s) {
 
 ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progress) {
     require_renderable(scene);
-    const OpticalSetup setup = make_optical_setup(scene);
-    const WavelengthSet colours(setup.wavelengths_nm);
-    const auto surroundings = surroundings_of(scene, colours);
+    PathLimits as_asked;
+    as_asked.depth = scene.settings.depth > 0 ? scene.settings.depth : k_deepest;
+    as_asked.cut_weight = scene.settings.tolerance;
+    as_asked.seed = scene.settings.seed;
+    as_asked.most_splits = k_most_splits;
+    const PreparedScene prepared(scene, k_node_counts[1], as_asked);
+    const PathLimits& limits = prepared.limits;
+    const Surroundings& surroundings = *prepared.surroundings;
     const StoneBody body(scene.stone.solid, scene.stone.convex);
     if (body.contains(ray.origin)) {
         throw InputError(
             "the ray starts inside the stone: rays are followed from the eye, outside");
     }
-    const int nodes = colours.size();
+    const int nodes = prepared.colours.size();
     ProbeResult result;
-    result.wavelengths_nm = setup.wavelengths_nm;
+    result.wavelengths_nm = prepared.setup.wavelengths_nm;
     result.radiance.assign(nodes, 0.0);
     result.remainder = result.absorbed = result.cut = result.radiance;
-    Record record(scene, *surroundings, nodes, progress, result);
+    Record record(scene, surroundings, nodes, progress, result);
     const EyeFrame frame = EyeRays(scene.camera).frame(ray.direction);
     const auto entry = body.entry(ray.origin, ray.direction);
-    if (!entry || surroundings->nearest_distance(ray.origin, ray.direction) < entry->distance) {
-        surroundings->add_direct_stokes(ray, frame, nodes, record.stokes().data());
+    if (!entry || surroundings.nearest_distance(ray.origin, ray.direction) < entry->distance) {
+        surroundings.add_direct_stokes(ray, frame, nodes, record.stokes().data());
         record.finish(scene.camera.optics);
         return result;
     }
     result.hit = true;
-    PathLimits limits;
-    limits.depth = scene.settings.depth > 0 ? scene.settings.depth : k_deepest;
-    limits.cut_weight = scene.settings.tolerance;
-    limits.polarised = setup.polarised;
-    limits.seed = scene.settings.seed;
-    limits.most_splits = k_most_splits;
     result.depth = limits.depth;
-    for (const Band& band : setup.bands) {
+    for (const Band& band : prepared.setup.bands) {
         record.begin(band);
-        if (setup.polarised) {
+        if (prepared.setup.polarised) {
             CrystalPaths<Record> paths(body, band, limits, record);
             paths.trace(ray, frame.x, frame.y, *entry);
             result.sampled = result.sampled || paths.sampled();

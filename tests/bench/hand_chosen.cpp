@@ -118,7 +118,7 @@ std::vector<HandChosen> hand_chosen(const Scene& whole, const Truth& truth, doub
                 for (double cut : k_cuts) {
                     scene.settings = with(whole, hand, nodes, cut);
                     scene.settings.engine = engine;
-                    if (!refused_by_beams(scene, make_optical_setup(scene)).empty()) continue;
+                    if (!refused_by_beams(scene).empty()) continue;
                     if (cut < 0.3 * finest) break;
                     RenderResult drawn;
                     const Clocks took =
