@@ -11,14 +11,13 @@
 namespace culet {
 
 struct SavedPlan {
+    std::filesystem::path file;
     std::vector<std::string> settings;  ///< keys of a scene, "render.engine=..."
     std::string stone_and_light;
     double checked_bound = 0;
 
     /// Throws InputError where the scene has another stone or other lights.
     ScenePlan of(const Scene& scene) const;
-
-    std::filesystem::path file = {};
 };
 
 /// Throws InputError: no JSON, or none with a plan in it.

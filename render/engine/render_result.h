@@ -14,7 +14,7 @@
 namespace culet {
 
 /// How a finished picture compares with the truth: the reference with everything on at some pixels
-/// of the stone. Errors as in plan/scene_plan.h.
+/// of the stone. Errors as in scene_plan.h.
 struct Verification {
     int pixels = 0, samples = 0;
     double difference = 0;                ///< to the truth as drawn

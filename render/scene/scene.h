@@ -111,7 +111,7 @@ enum class CrystalBeams {
     parted   ///< each goes its own way, and their powers are added
 };
 
-/// About ten seconds of two cores, in the nanoseconds of plan/price.h: what `culet render` allows.
+/// About ten seconds of two cores, in the nanoseconds of work/price.h: what `culet render` allows.
 constexpr double k_usual_allowance_ns = 2e10;
 
 /// What is done to find out how near a picture is to the truth, where that is left to culet.
@@ -159,7 +159,7 @@ struct RenderSettings {
     std::uint64_t seed = 1;
     int threads = 0;
     bool spectral = false;  ///< keep spectral planes
-    /// Processor time that a picture may take, in the nanoseconds of plan/price.h, where the scene
+    /// Processor time that a picture may take, in the nanoseconds of work/price.h, where the scene
     /// is planned: the tolerance is then what that allows, `tolerance` at the finest. 0: as long as
     /// it takes.
     double allowed_ns = 0;
