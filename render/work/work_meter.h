@@ -1,5 +1,5 @@
 #pragma once
-// How much work a picture has taken, counted (plan/price.h) and not timed: where it runs over what
+// How much work a picture has taken, counted (price.h) and not timed: where it runs over what
 // is allowed depends on the picture alone, whatever else the machine does.
 
 #include <algorithm>
