@@ -1,6 +1,7 @@
 #include "render/beams/frame_renderer.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -210,11 +211,16 @@ FrameRenderer::FrameRenderer(FrameRenderer&&) noexcept = default;
 
 void FrameRenderer::look_from(const Camera& camera) {
     require_outside(state_->body, camera);
-    Scene changed = state_->scene;
-    changed.camera = camera;
-    require_beams(changed, make_optical_setup(changed, state_->prepared.colours.size()));
-    state_->prepared.look(changed);
-    state_->scene = std::move(changed);
+    Scene& scene = state_->scene;
+    const Camera before = std::exchange(scene.camera, camera);
+    try {
+        OpticalSetup anew = make_optical_setup(scene, state_->prepared.colours.size());
+        require_beams(scene, anew);
+        state_->prepared.look(scene, std::move(anew));
+    } catch (...) {
+        scene.camera = before;
+        throw;
+    }
 }
 
 void FrameRenderer::light_with(const Lights& lights) {

@@ -41,21 +41,6 @@ std::vector<std::size_t> pixels_to_check(const Picture& picture, int wanted, dou
     return pixels;
 }
 
-// `stokes[plane * nodes + node]`, as seen behind the eye's optics, to its first plane.
-void look_through_optics(const Scene& scene, const PreparedScene& prepared, int planes,
-                         std::vector<double>& stokes) {
-    const int nodes = prepared.colours.size();
-    for (int node = 0; node < nodes && planes > 1; ++node) {
-        const Stokes row = response(scene.camera.optics,
-                                    prepared.setup.wavelengths_nm[static_cast<std::size_t>(node)]);
-        double seen = 0;
-        for (int k = 0; k < planes; ++k)
-            seen += row[static_cast<std::size_t>(k)] *
-                    stokes[static_cast<std::size_t>(k * nodes + node)];
-        stokes[static_cast<std::size_t>(node)] = seen;
-    }
-}
-
 }  // namespace
 
 SampledCheck check_against_reference(const Scene& scene, const PreparedScene& prepared,
@@ -68,6 +53,8 @@ SampledCheck check_against_reference(const Scene& scene, const PreparedScene& pr
     const PixelShader shader(scene, prepared, samples);
     const std::vector<std::size_t> pixels =
         pixels_to_check(picture, settings.checked_pixels, filled);
+    const std::vector<Stokes> behind =
+        responses(scene.camera.optics, prepared.setup.wavelengths_nm);
     std::vector<double> errors(pixels.size());
     on_threads(settings.threads, [&] {
         tbb::parallel_for(std::size_t{0}, pixels.size(), [&](std::size_t i) {
@@ -77,7 +64,7 @@ SampledCheck check_against_reference(const Scene& scene, const PreparedScene& pr
             const int x = static_cast<int>(pixels[i] % static_cast<std::size_t>(picture.width)),
                       y = static_cast<int>(pixels[i] / static_cast<std::size_t>(picture.width));
             shader.shade(x, y, 1, pixels[i], stokes.data(), memory);
-            look_through_optics(scene, prepared, shader.planes(), stokes);
+            look_through(behind, shader.planes(), stokes.data());
             const Rgb exact = prepared.colours.rgb_of(stokes.data());
             const float* seen = picture.rgb.data() + 3 * pixels[i];
             errors[i] = std::abs(luminance(exact) - luminance({static_cast<double>(seen[0]),

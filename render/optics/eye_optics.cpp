@@ -22,4 +22,21 @@ Stokes response(const EyeOptics& optics, double wavelength_nm, int window) {
     return {row[0], along * c - turned * s, along * s + turned * c, circular};
 }
 
+std::vector<Stokes> responses(const EyeOptics& optics, const std::vector<double>& wavelengths_nm) {
+    std::vector<Stokes> rows;
+    for (const double nm : wavelengths_nm) rows.push_back(response(optics, nm));
+    return rows;
+}
+
+void look_through(const std::vector<Stokes>& responses, int planes, double* stokes) {
+    if (planes == 1) return;
+    const std::size_t nodes = responses.size();
+    for (std::size_t node = 0; node < nodes; ++node) {
+        double seen = 0;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(planes); ++k)
+            seen += responses[node][k] * stokes[k * nodes + node];
+        stokes[node] = seen;
+    }
+}
+
 }  // namespace culet

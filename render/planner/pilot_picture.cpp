@@ -131,8 +131,7 @@ PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const Pat
     const OpticalSetup& setup = prepared.setup;
     const WavelengthSet& colours = prepared.colours;
     const PixelShader shader(scene, prepared, samples);
-    std::vector<Stokes> behind;
-    for (double nm : setup.wavelengths_nm) behind.push_back(response(scene.camera.optics, nm));
+    const std::vector<Stokes> behind = responses(scene.camera.optics, setup.wavelengths_nm);
 
     PilotDrawing drawing;
     drawing.wavelengths_nm = setup.wavelengths_nm;
@@ -167,13 +166,7 @@ PilotDrawing draw_pilot(const Scene& scene, const StonePixels& pixels, const Pat
                     meter->spend(price_ns(work));
                     if (meter->over()) return;
                 }
-                for (int i = 0; i < wavelengths && shader.planes() > 1; ++i) {
-                    double seen = 0;
-                    for (int k = 0; k < shader.planes(); ++k)
-                        seen += behind[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)] *
-                                stokes[static_cast<std::size_t>(k * wavelengths + i)];
-                    stokes[static_cast<std::size_t>(i)] = seen;
-                }
+                look_through(behind, shader.planes(), stokes.data());
                 drawing.rgb[p] = colours.rgb_of(stokes.data());
                 std::copy_n(stokes.begin(), wavelengths,
                             drawing.spectra.begin() + static_cast<long>(p) * wavelengths);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/reference/pixel_shader.h"
 
@@ -136,8 +137,8 @@ PreparedScene::PreparedScene(const Scene& scene, int nodes, const PathLimits& as
     limits.roulette = limits.roulette && paths_branch(scene, setup);
 }
 
-void PreparedScene::look(const Scene& scene) {
-    setup = make_optical_setup(scene, colours.size());
+void PreparedScene::look(const Scene& scene, OpticalSetup anew) {
+    setup = std::move(anew);
     set_limits(scene, *this);
 }
 

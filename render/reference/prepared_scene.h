@@ -18,8 +18,8 @@ struct PreparedScene {
     /// they are, but for what the setup decides (polarised, roulette).
     PreparedScene(const Scene& scene, int nodes, const PathLimits& limits);
 
-    /// Another camera or another stone, the same lights, and the wavelengths that were chosen.
-    void look(const Scene& scene);
+    /// Another camera: `anew` is its setup, at the wavelengths that were chosen.
+    void look(const Scene& scene, OpticalSetup anew);
 
     OpticalSetup setup;
     WavelengthSet colours;
