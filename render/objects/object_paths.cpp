@@ -13,7 +13,7 @@ namespace culet {
 namespace {
 
 // Rays below this importance are followed in proportion to it.
-constexpr double k_threshold = 0.25;
+constexpr double k_threshold = 0.5;
 // From here on one in twenty ends, so that none goes on for ever between clear surfaces; of those
 // that the last depth cuts off, one in ten thousand would have come that far.
 constexpr int k_sure_bounces = 8, k_last_bounce = 200;
@@ -252,8 +252,9 @@ void ObjectPaths::scatter(const WorldRay& ray, const WorldHit& hit, ArrivingLigh
     next.depth = ray.depth + 1;
     ArrivingLight in;
     const auto take = [&](double density) {
+        const RoughSurface::Spread spread = rough.spread(next.direction);
         for (int i = 0; i < count_; ++i)
-            light[0][i] += rough.value(first_ + i, next.direction) * in[0][i] / density;
+            light[0][i] += rough.value(first_ + i, spread) * in[0][i] / density;
     };
     const auto face = [&](const Vec3& direction) {
         next.direction = direction;
@@ -283,13 +284,15 @@ void ObjectPaths::scatter(const WorldRay& ray, const WorldHit& hit, ArrivingLigh
         return;
     }
     double share = 0;
+    const RoughSurface::Spread spread = rough.spread(*chosen);
     for (int i = 0; i < count_; ++i)
-        share = std::max(share, rough.value(first_ + i, *chosen) / density);
+        share = std::max(share, rough.value(first_ + i, spread) / density);
     next.importance = ray.importance * share;
     const double weight = roulette(next, k_threshold);
     if (weight == 0) return;
     next.importance = std::max(next.importance, k_threshold);
     answer(next, meeting.hit, in);
+    for (int i = 0; i < count_; ++i) in[0][i] = std::min(in[0][i], scene_.most_indirect);
     take(density / weight);
 }
 

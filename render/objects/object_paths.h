@@ -32,6 +32,7 @@ struct FurnishedScene {
     bool polarised_lights = false;
     int nodes = 1;
     double brightest = 0;
+    double most_indirect = std::numeric_limits<double>::infinity();  ///< RenderSettings
     std::uint64_t seed = 1;
 };
 

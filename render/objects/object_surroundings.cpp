@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "render/reference/prepared_scene.h"
 #include "stone/perpendicular.h"
 
 namespace culet {
@@ -20,21 +21,7 @@ Random random_of(std::uint64_t seed, const Vec3& origin, const Vec3& direction) 
 }
 
 // Ways out of the stone that weigh less are followed in proportion to what they weigh.
-constexpr double k_leaf_threshold = 0.1;
-// Of a stone in a furnished scene, what is not worth following, relative to the tolerance.
-constexpr double k_cut = 0.1, k_split_weight = 0.05, k_roulette_weight = 0.01;
-
-PathLimits limits_of(const RenderSettings& settings, const OpticalSetup& setup, bool branch) {
-    PathLimits limits;
-    limits.depth = settings.depth > 0 ? settings.depth : k_deepest;
-    limits.polarised = setup.polarised;
-    if (!(settings.tolerance > 0)) return limits;
-    limits.roulette = branch;
-    limits.split_weight = settings.split_weight.value_or(k_split_weight);
-    limits.cut_weight =
-        settings.cut_weight.value_or(branch ? k_roulette_weight : k_cut * settings.tolerance);
-    return limits;
-}
+constexpr double k_leaf_threshold = 0.25;
 
 }  // namespace
 
@@ -45,6 +32,8 @@ FurnishedScene::FurnishedScene(const Scene& scene, const WavelengthSet& waveleng
       polarised_lights(polarised(scene.lights)),
       nodes(wavelengths.size()),
       brightest(lights.max_radiance()),
+      most_indirect(
+          scene.settings.clamp_indirect.value_or(std::numeric_limits<double>::infinity())),
       seed(scene.settings.seed) {
     for (const SceneObject& object : scene.objects) {
         surfaces.emplace_back(object.material, wavelengths, scene.immersion);
@@ -63,7 +52,7 @@ FurnishedScene::FurnishedScene(const Scene& scene, const WavelengthSet& waveleng
     const auto prepare = [&](const Stone& stone) {
         of_stone.stone = stone;
         ReadyStone& ready = stones.emplace_back(ReadyStone{make_optical_setup(of_stone), {}});
-        ready.limits = limits_of(scene.settings, ready.setup, paths_branch(of_stone, ready.setup));
+        ready.limits = furnished_limits(of_stone, ready.setup);
     };
     if (scene.has_stone()) prepare(scene.stone);
     for (const Stone& stone : scene.more_stones) prepare(stone);

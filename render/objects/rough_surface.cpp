@@ -15,6 +15,7 @@ RoughSurface::RoughSurface(const ReadySurface& surface, const Vec3& side, const 
     x_ = perpendicular_to(z_);
     y_ = glm::cross(z_, x_);
     towards_ = local(towards);
+    if (surface.kind == SurfaceKind::rough_metal) once_ = surface.reflected_once(towards_.z);
 }
 
 Vec3 RoughSurface::local(const Vec3& v) const {
@@ -29,14 +30,20 @@ bool RoughSurface::reflects_to(const Vec3& direction) const {
     return glm::dot(direction, side_) > 0 && glm::dot(direction, z_) > 0;
 }
 
-double RoughSurface::value(int node, const Vec3& direction) const {
+RoughSurface::Spread RoughSurface::spread(const Vec3& direction) const {
     const Vec3 to = local(direction);
-    if (surface_.kind == SurfaceKind::diffuse)
-        return surface_.colour[static_cast<std::size_t>(node)] * to.z / std::numbers::pi;
+    if (surface_.kind == SurfaceKind::diffuse) return {to.z / std::numbers::pi, 1};
     const Vec3 half = glm::normalize(towards_ + to);
-    return surface_.reflectance(node, std::min(1.0, glm::dot(towards_, half))) *
-           surface_.gain(node, towards_.z) * ggx::density(surface_.alpha, half) *
-           ggx::masking_and_shadowing(surface_.alpha, towards_, to) / (4 * towards_.z);
+    return {ggx::density(surface_.alpha, half) *
+                ggx::masking_and_shadowing(surface_.alpha, towards_, to) / (4 * towards_.z),
+            std::min(1.0, glm::dot(towards_, half))};
+}
+
+double RoughSurface::value(int node, const Spread& spread) const {
+    if (surface_.kind == SurfaceKind::diffuse)
+        return surface_.colour[static_cast<std::size_t>(node)] * spread.factor;
+    return surface_.reflectance(node, spread.half_cosine) * surface_.gain(node, once_) *
+           spread.factor;
 }
 
 std::optional<Vec3> RoughSurface::sample(Random& random) const {

@@ -15,9 +15,14 @@ public:
                  const Vec3& towards);
 
     bool reflects_to(const Vec3& direction) const;
-    /// Radiance that is seen for one from `direction`, per solid angle: with the cosine. Of a
-    /// direction that it reflects to.
-    double value(int node, const Vec3& direction) const;
+    /// What the values at all nodes share, for a direction that it reflects to.
+    struct Spread {
+        double factor = 0;
+        double half_cosine = 1;  ///< of incidence on the microfacets that reflect there
+    };
+    Spread spread(const Vec3& direction) const;
+    /// Radiance that is seen for one from there, per solid angle: with the cosine.
+    double value(int node, const Spread& spread) const;
     /// A direction, chosen with `density` per solid angle; nothing: into the surface, where no
     /// light comes from.
     std::optional<Vec3> sample(Random& random) const;
@@ -28,7 +33,8 @@ private:
     Vec3 global(const Vec3& v) const;
     const ReadySurface& surface_;
     Vec3 side_, x_, y_, z_;
-    Vec3 towards_;  // in the surface's frame
+    Vec3 towards_;     // in the surface's frame
+    double once_ = 1;  // ReadySurface::reflected_once
 };
 
 }  // namespace culet

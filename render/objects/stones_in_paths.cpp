@@ -24,6 +24,20 @@ Band part_of(const Band& band, int first, int count) {
     return part;
 }
 
+// Between one of the stones and itself.
+class AroundStone : public Obstacles {
+public:
+    AroundStone(const FurnishedScene& scene, int stone) : scene_(scene), stone_(stone) {}
+    double nearest_distance(const Vec3& origin, const Vec3& direction) const override {
+        return std::min(scene_.world.nearest(origin, direction, {-1, -1, stone_}).distance,
+                        scene_.lights.nearest_distance(origin, direction));
+    }
+
+private:
+    const FurnishedScene& scene_;
+    int stone_;
+};
+
 }  // namespace
 
 // Asks what arrives where light leaves the stone.
@@ -97,6 +111,7 @@ void ObjectPaths::through_stone(const WorldRay& ray, const WorldHit& hit, Arrivi
     const StoneBody& body = scene_.world.stone(hit.stone);
     const BodyHit entry{hit.part, hit.distance};
     const EyeRay eye{ray.origin, ray.direction};
+    const AroundStone around(scene_, hit.stone);
     std::vector<const Band*> bands;
     for (const Band& band : stone.setup.bands) {
         if (band.first + band.count > first_ && band.first < first_ + count_)
@@ -116,6 +131,7 @@ void ObjectPaths::through_stone(const WorldRay& ray, const WorldHit& hit, Arrivi
         StoneSink sink(*this, ray, hit.stone, band, weight, light);
         PathLimits limits = stone.limits;
         limits.seed = random_.next();
+        limits.obstacles = &around;
         if (stone.setup.general) {
             CrystalPaths<StoneSink> paths(body, band, limits, sink);
             paths.trace(eye, ray.u, ray.v, entry);

@@ -11,7 +11,7 @@ namespace culet {
 
 namespace {
 
-constexpr int k_albedo_cosines = 64, k_albedo_side = 64;
+constexpr int k_once_cosines = 64, k_once_azimuths = 32, k_once_heights = 128;
 
 // Few wavelengths stand for some colours with values beyond `most`, or below 0.
 std::vector<double> nodes_of(const SurfaceColour& colour, const WavelengthSet& wavelengths,
@@ -61,7 +61,7 @@ ReadySurface::ReadySurface(const SurfaceMaterial& material, const WavelengthSet&
         }
         for (int i = 0; i < wavelengths.size(); ++i)
             normal_reflectance_.push_back(reflectance(i, 1));
-        if (kind == SurfaceKind::rough_metal) prepare_albedo();
+        if (kind == SurfaceKind::rough_metal) prepare_reflected_once();
     }
 }
 
@@ -79,34 +79,32 @@ MuellerReflection ReadySurface::reflection(int node, double cosine) const {
     return {0.5 * (s + p), 0.5 * (s - p), mixed.real(), mixed.imag()};
 }
 
-void ReadySurface::prepare_albedo() {
-    for (int i = 0; i < k_albedo_cosines; ++i) {
+void ReadySurface::prepare_reflected_once() {
+    for (int i = 0; i < k_once_cosines; ++i) {
         // Finer towards grazing light, where it changes.
-        const double root = (i + 0.5) / k_albedo_cosines, cosine = root * root;
+        const double root = (i + 0.5) / k_once_cosines, cosine = root * root;
         const Vec3 from{std::sqrt(1 - cosine * cosine), 0, cosine};
         double sum = 0;
-        for (int a = 0; a < k_albedo_side; ++a) {
-            for (int b = 0; b < k_albedo_side; ++b) {
+        for (int b = 0; b < k_once_heights; ++b) {
+            // Finer where microfacets are steep: few are, but they lose most. v = 1 - w^3.
+            const double w = (b + 0.5) / k_once_heights, weight = 3 * w * w;
+            for (int a = 0; a < k_once_azimuths; ++a) {
                 const Vec3 to =
-                    ggx::sample(alpha, from, (a + 0.5) / k_albedo_side, (b + 0.5) / k_albedo_side);
-                if (to.z > 0)
-                    sum += ggx::masking_and_shadowing(alpha, from, to) / ggx::masking(alpha, from);
+                    ggx::sample(alpha, from, (a + 0.5) / k_once_azimuths, 1 - w * w * w);
+                if (!(to.z > 0)) continue;
+                sum += weight * ggx::masking_and_shadowing(alpha, from, to) /
+                       ggx::masking(alpha, from);
             }
         }
-        albedo_.push_back(sum / (k_albedo_side * k_albedo_side));
+        reflected_once_.push_back(sum / (k_once_heights * k_once_azimuths));
     }
 }
 
-double ReadySurface::albedo(double cosine) const {
-    const double at = std::sqrt(std::clamp(cosine, 0.0, 1.0)) * k_albedo_cosines - 0.5;
-    const double cell = std::clamp(std::floor(at), 0.0, k_albedo_cosines - 2.0);
+double ReadySurface::reflected_once(double cosine) const {
+    const double at = std::sqrt(std::clamp(cosine, 0.0, 1.0)) * k_once_cosines - 0.5;
+    const double cell = std::clamp(std::floor(at), 0.0, k_once_cosines - 2.0);
     const auto i = static_cast<std::size_t>(cell);
-    return albedo_[i] + (albedo_[i + 1] - albedo_[i]) * (at - cell);
-}
-
-double ReadySurface::gain(int node, double cosine) const {
-    const double once = albedo(cosine);
-    return 1 + normal_reflectance_[static_cast<std::size_t>(node)] * (1 - once) / once;
+    return reflected_once_[i] + (reflected_once_[i + 1] - reflected_once_[i]) * (at - cell);
 }
 
 namespace ggx {

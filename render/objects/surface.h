@@ -35,15 +35,18 @@ public:
     MuellerReflection reflection(int node, double cosine) const;
     /// Mean of s and p, of a metal.
     double reflectance(int node, double cosine) const { return reflection(node, cosine).mean; }
-    /// What a rough surface sends out more than light that is reflected once, because light that
-    /// meets several microfacets is not lost (Turquin 2019, after Kulla & Conty 2017).
-    double gain(int node, double cosine) const;
+    /// Of microfacets that reflect all, what leaves them after one reflection; the rest meets more.
+    double reflected_once(double cosine) const;
+    /// What a rough surface sends out more than light that is reflected `once`, because what meets
+    /// several microfacets is not lost (Turquin 2019, after Kulla & Conty 2017).
+    double gain(int node, double once) const {
+        return 1 + normal_reflectance_[static_cast<std::size_t>(node)] * (1 - once) / once;
+    }
 
 private:
-    void prepare_albedo();
-    double albedo(double cosine) const;
+    void prepare_reflected_once();
     std::vector<double> n_, k_, normal_reflectance_;
-    std::vector<double> albedo_;  ///< of microfacets that reflect all, by the cosine
+    std::vector<double> reflected_once_;  ///< by the cosine
 };
 
 /// Microfacets of Trowbridge & Reitz (GGX), with Smith's height-correlated shadowing (Heitz 2014).

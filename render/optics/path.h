@@ -9,7 +9,20 @@
 
 namespace culet {
 
+/// What may stand between a stone that is not convex and itself.
+class Obstacles {
+public:
+    Obstacles() = default;
+    Obstacles(const Obstacles&) = delete;
+    Obstacles& operator=(const Obstacles&) = delete;
+    virtual ~Obstacles() = default;
+    /// How far along the ray (unit direction) the nearest thing is that hides what lies behind it.
+    /// Infinite when there is none.
+    virtual double nearest_distance(const Vec3& origin, const Vec3& direction) const = 0;
+};
+
 struct PathLimits {
+    const Obstacles* obstacles = nullptr;  ///< none: nothing
     int depth = 64;         ///< depth d has d - 1 inner segments
     double cut_weight = 0;  ///< a path of less weight is not followed; its weight is counted as cut
     /// Trees that double (crystals): below this weight one branch is followed, chosen with the

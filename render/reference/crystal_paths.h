@@ -87,7 +87,10 @@ private:
     int after_hit(CrystalNode& inner, CrystalNode& outer) {
         bool meets = false;
         if (outer.power() > 0) {
-            const auto again = body_.reentry(outer.at, outer.direction, outer.facet);
+            auto again = body_.reentry(outer.at, outer.direction, outer.facet);
+            if (again && limits_.obstacles != nullptr &&
+                limits_.obstacles->nearest_distance(outer.at, outer.direction) < again->distance)
+                again.reset();
             meets = again.has_value();
             if (again) {
                 outer.again = *again;

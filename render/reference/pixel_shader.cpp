@@ -16,7 +16,7 @@ namespace culet {
 
 namespace {
 
-constexpr int k_rays_of_a_wavelength = 8;
+constexpr int k_rays_of_a_wavelength = 4;
 
 class GatherStokes : public Lost {
 public:
@@ -135,6 +135,7 @@ PixelShader::PixelShader(const Scene& scene, const PreparedScene& prepared, int 
       nodes_(prepared.colours.size()),
       rgb_(colour_weights(prepared.colours, scene.camera.optics, planes())),
       usual_(usual_radiance(surroundings_, scene.camera.look_at, nodes_)) {
+    limits_.obstacles = &surroundings_;
     for (const Rgb& rgb : rgb_) luminance_.push_back(luminance(rgb));
     // Where most of the noise is that of the surroundings, a ray need not carry all wavelengths.
     const int usual_turns = furnished_ ? std::max(1, samples / k_rays_of_a_wavelength) : 1;

@@ -13,6 +13,7 @@ namespace {
 // Crystals: a path splits in two at every hit while it carries more than this.
 constexpr double k_split_weight = 0.02;
 constexpr double k_roulette_weight = 1e-3;
+constexpr double k_furnished_cut = 0.1, k_furnished_roulette = 0.01;
 constexpr int k_pilot_pixels = 16;  // along the picture's longer side
 constexpr int k_spectral_pixels = 10, k_spectral_samples = 16;
 constexpr int k_spectral_depth = 12, k_spectral_crystal_depth = 6;  // of trees that double
@@ -48,14 +49,24 @@ double pilot_mean(const Scene& scene, PreparedScene& prepared) {
     return hits > 0 ? sum / hits : 0;
 }
 
+// Depth and seed as the scene has them; nothing is cut.
+PathLimits uncut_limits(const RenderSettings& settings, const OpticalSetup& setup) {
+    PathLimits limits;
+    limits.seed = settings.seed;
+    limits.polarised = setup.polarised;
+    limits.depth = settings.depth > 0 ? settings.depth : k_deepest;
+    return limits;
+}
+
 // As far as the scene says, or its tolerance.
 void set_limits(const Scene& scene, PreparedScene& prepared) {
     const RenderSettings& settings = scene.settings;
     PathLimits& limits = prepared.limits;
-    limits = {};
-    limits.seed = settings.seed;
-    limits.polarised = prepared.setup.polarised;
-    limits.depth = settings.depth > 0 ? settings.depth : k_deepest;
+    if (scene.furnished()) {
+        limits = furnished_limits(scene, prepared.setup);
+        return;
+    }
+    limits = uncut_limits(settings, prepared.setup);
     if (!(settings.tolerance > 0)) return;
     const bool branch = paths_branch(scene, prepared.setup);
     if (settings.cut_weight) {
@@ -120,6 +131,19 @@ OpticalSetup setup_for_tolerance(const Scene& scene) {
 }
 
 }  // namespace
+
+PathLimits furnished_limits(const Scene& scene, const OpticalSetup& setup) {
+    const RenderSettings& settings = scene.settings;
+    PathLimits limits = uncut_limits(settings, setup);
+    if (!(settings.tolerance > 0)) return limits;
+    const bool branch = paths_branch(scene, setup);
+    limits.roulette = branch;
+    limits.split_weight = settings.split_weight.value_or(k_split_weight);
+    const double usual = k_furnished_cut * settings.tolerance;
+    limits.cut_weight =
+        settings.cut_weight.value_or(branch ? std::max(usual, k_furnished_roulette) : usual);
+    return limits;
+}
 
 PreparedScene::PreparedScene(const Scene& scene)
     : setup(setup_for_tolerance(scene)),

@@ -134,10 +134,11 @@ ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progres
     as_asked.seed = scene.settings.seed;
     as_asked.most_splits = k_most_splits;
     const PreparedScene prepared(scene, k_node_counts[1], as_asked);
-    const PathLimits& limits = prepared.limits;
+    PathLimits limits = prepared.limits;
     const Surroundings& surroundings = *prepared.surroundings;
+    limits.obstacles = &surroundings;
     const StoneBody body(scene.stone.solid, scene.stone.convex);
-    if (body.contains(ray.origin)) {
+    if (scene.has_stone() && body.contains(ray.origin)) {
         throw InputError(
             "the ray starts inside the stone: rays are followed from the eye, outside");
     }
@@ -148,7 +149,8 @@ ProbeResult probe(const Scene& scene, const EyeRay& ray, const Progress& progres
     result.remainder = result.absorbed = result.cut = result.radiance;
     Record record(scene, surroundings, nodes, progress, result);
     const EyeFrame frame = EyeRays(scene.camera).frame(ray.direction);
-    const auto entry = body.entry(ray.origin, ray.direction);
+    const auto entry =
+        scene.has_stone() ? body.entry(ray.origin, ray.direction) : std::optional<BodyHit>();
     if (!entry || surroundings.nearest_distance(ray.origin, ray.direction) < entry->distance) {
         surroundings.add_direct_stokes(ray, frame, nodes, record.stokes().data());
         record.finish(scene.camera.optics);

@@ -11,13 +11,8 @@ namespace culet {
 
 /// Made ready for one set of wavelengths ("nodes"). Rays start at `origin` and look along the unit
 /// `direction`. May be asked from any thread.
-class Surroundings {
+class Surroundings : public Obstacles {
 public:
-    Surroundings() = default;
-    Surroundings(const Surroundings&) = delete;
-    Surroundings& operator=(const Surroundings&) = delete;
-    virtual ~Surroundings() = default;
-
     /// Adds `weight` times the radiance that arrives along a ray at node `first` ..
     /// `first + count - 1` to `radiance[0 .. count - 1]`. What is sampled at random is sampled the
     /// less, the smaller the weight.
@@ -30,9 +25,6 @@ public:
     /// The same of light that reaches the eye directly, at all `nodes`.
     virtual void add_direct_stokes(const EyeRay& ray, const EyeFrame& frame, int nodes,
                                    double* stokes) const = 0;
-    /// How far along the ray the nearest thing is that hides what lies behind it. Infinite when
-    /// there is none.
-    virtual double nearest_distance(const Vec3& origin, const Vec3& direction) const = 0;
     /// Whether a thing, and no light, is the nearest.
     virtual bool stands_at(const Vec3& origin, const Vec3& direction) const = 0;
     /// What is seen there, for people: "environment", "sphere 0", ...

@@ -149,6 +149,7 @@ void add_settings(Fingerprint& print, const RenderSettings& settings) {
     print.add(settings.tolerance);
     print.add(settings.cut_weight.value_or(-1));
     print.add(settings.split_weight.value_or(-1));
+    if (settings.clamp_indirect) print.add(*settings.clamp_indirect);
     print.add(settings.wavelength_turns.value_or(1));
     print.add(static_cast<double>(settings.most_beams));
     print.add(static_cast<int>(settings.check));

@@ -137,9 +137,13 @@ struct RenderSettings {
     /// Weight below which a path is not followed (crystals: roulette), and above which both
     /// branches of a crystal's tree are; nothing: by tolerance.
     std::optional<double> cut_weight, split_weight;
+    /// Largest radiance that a diffuse or rough surface is lit with by light that reached it by way
+    /// of other things; nothing: as much as there is. Dots that brighten a dark place by chance go,
+    /// and some light goes with them.
+    std::optional<double> clamp_indirect;
     /// Reference: the rays of a pixel take turns, so that each carries every so manieth of the
     /// wavelengths that go ways of their own; at most `samples`. Nothing: 1, or where things stand
-    /// around the stone, so that each wavelength has eight rays.
+    /// around the stone, so that each wavelength has four rays.
     std::optional<int> wavelength_turns;
     /// Beams of one wavelength's tree, isotropic or merged: what memory they may take, some 100
     /// bytes each. Where there would be more, more of the light is cut.

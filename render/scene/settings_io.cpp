@@ -136,6 +136,12 @@ void read_accuracy(const TomlTable& table, RenderSettings& settings) {
         }
         settings.most_beams = *beams;
     }
+    if (const auto clamp = table.number("clamp_indirect")) {
+        if (!(*clamp > 0))
+            table.fail("clamp_indirect",
+                       fmt::format("clamp_indirect is a radiance over 0, found {}", *clamp));
+        settings.clamp_indirect = *clamp;
+    }
     if (const auto samples = table.integer("samples")) {
         if (*samples < 1 || *samples > 4096)
             table.fail("samples", fmt::format("samples a pixel are 1 to 4096, found {}", *samples));
@@ -214,7 +220,7 @@ RenderSettings read_settings(const TomlTable& table) {
     table.refuse_unknown(with_view_keys(
         {"engine", "depth", "tolerance", "effects", "wavelengths", "samples", "coherence",
          "bandwidth", "filter", "filter_radius", "refraction", "crystal_beams", "cut_weight",
-         "split_weight", "most_beams", "wavelength_turns", "check"}));
+         "split_weight", "most_beams", "wavelength_turns", "check", "clamp_indirect"}));
     RenderSettings settings;
     read_engine(table, settings);
     read_coherence(table, settings);
@@ -240,6 +246,8 @@ std::vector<std::pair<std::string, std::string>> written_settings(const RenderSe
     write("tolerance", fmt::format("{}", settings.tolerance));
     if (settings.cut_weight) write("cut_weight", fmt::format("{}", *settings.cut_weight));
     if (settings.split_weight) write("split_weight", fmt::format("{}", *settings.split_weight));
+    if (settings.clamp_indirect)
+        write("clamp_indirect", fmt::format("{}", *settings.clamp_indirect));
     if (settings.samples > 0) write("samples", std::to_string(settings.samples));
     if (settings.wavelength_turns)
         write("wavelength_turns", std::to_string(*settings.wavelength_turns));

@@ -79,7 +79,8 @@ TEST(Settings, read_back_as_they_were_written) {
         {},
         {"effects=[]", "wavelengths=[589.3]"},
         {"engine=\"beams\"", "effects=[\"dispersion\",\"coherence\"]", "crystal_beams=\"parted\"",
-         "cut_weight=0.1234567890123456", "split_weight=1e-7", "tolerance=0.07"},
+         "cut_weight=0.1234567890123456", "split_weight=1e-7", "tolerance=0.07",
+         "clamp_indirect=12.5"},
         {"engine=\"reference\"", "samples=49", "wavelength_turns=7", "depth=12", "tolerance=0",
          "coherence=true", "bandwidth=3.5", "wavelengths=[450,550.25,610]"},
         {"engine=\"preview\"", "refraction=\"parallel\"", "coherence=false"},
@@ -99,6 +100,7 @@ TEST(Settings, read_back_as_they_were_written) {
         EXPECT_EQ(read.cut_weight, settings.cut_weight);
         EXPECT_EQ(read.split_weight, settings.split_weight);
         EXPECT_EQ(read.tolerance, settings.tolerance);
+        EXPECT_EQ(read.clamp_indirect, settings.clamp_indirect);
         EXPECT_EQ(read.samples, settings.samples);
         EXPECT_EQ(read.wavelength_turns, settings.wavelength_turns);
         EXPECT_EQ(read.coherence, settings.coherence);
@@ -124,6 +126,7 @@ public:
     double nearest_distance(const Vec3&, const Vec3&) const override {
         return std::numeric_limits<double>::infinity();
     }
+    bool stands_at(const Vec3&, const Vec3&) const override { return false; }
     std::string name_at(const Vec3&, const Vec3&) const override { return "glow"; }
     double max_radiance() const override { return radiance_; }
 

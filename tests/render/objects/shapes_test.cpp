@@ -40,7 +40,9 @@ TEST(Shapes, a_ray_from_a_sphere_meets_its_far_side_alone) {
         // A chord is 2 r cos long.
         const double chord = -2 * sphere.radius * glm::dot(n, d);
         ASSERT_EQ(hit.has_value(), chord > 0);
-        if (hit) EXPECT_NEAR(hit->distance, chord, 1e-14);
+        if (hit) {
+            EXPECT_NEAR(hit->distance, chord, 1e-14);
+        }
     }
 }
 

@@ -1,0 +1,304 @@
+// Scenes with objects and several stones, against closed forms and against the same things said in
+// another way. Means of many random rays lie within five of their standard errors, which the
+// pictures' own pixels or seeds tell.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "render/engine/engine.h"
+#include "render/optics/fresnel.h"
+#include "render/render.h"
+#include "stone/errors.h"
+#include "tests/render/ray_stones.h"
+
+namespace culet {
+namespace {
+
+// One wavelength: pictures are grey, and surfaces have one number.
+Scene empty_scene(int side, int samples) {
+    Scene scene;
+    scene.camera.width = scene.camera.height = side;
+    scene.camera.position = {0, 0, 20};
+    scene.camera.look_at = {0, 0, 0};
+    scene.camera.up = {0, 1, 0};
+    scene.settings.samples = samples;
+    scene.settings.wavelengths_nm = {589.3};
+    return scene;
+}
+
+Stone stone_of(Solid solid, double index) {
+    Stone stone;
+    stone.solid = std::move(solid);
+    stone.material.index[0].n = index;
+    return stone;
+}
+
+struct Estimate {
+    double mean = 0, error = 0;
+};
+// Of pixels that all show the same.
+Estimate mean_of(const Scene& scene) {
+    const RenderResult result = render(scene);
+    double sum = 0, squares = 0;
+    const double count = static_cast<double>(result.picture.pixels());
+    for (std::size_t i = 0; i < result.picture.pixels(); ++i) {
+        const auto v = static_cast<double>(result.picture.rgb[3 * i + 1]);
+        sum += v;
+        squares += v * v;
+    }
+    const double mean = sum / count;
+    return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean) / count)};
+}
+
+// Means of each pixel over pictures of several seeds.
+std::vector<Estimate> pixels_of(Scene scene, int seeds) {
+    std::vector<double> sum, squares;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        scene.settings.seed = static_cast<std::uint64_t>(seed);
+        const RenderResult result = render(scene);
+        sum.resize(result.picture.pixels());
+        squares.resize(sum.size());
+        for (std::size_t i = 0; i < sum.size(); ++i) {
+            const auto v = static_cast<double>(result.picture.rgb[3 * i + 1]);
+            sum[i] += v / seeds;
+            squares[i] += v * v / seeds;
+        }
+    }
+    std::vector<Estimate> pixels;
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+        pixels.push_back(
+            {sum[i], std::sqrt(std::max(0.0, squares[i] - sum[i] * sum[i]) / (seeds - 1.0))});
+    }
+    return pixels;
+}
+
+// Pixel by pixel, and on average, where the errors are smaller by the root of their number.
+void expect_same(const std::vector<Estimate>& a, const std::vector<Estimate>& b) {
+    ASSERT_EQ(a.size(), b.size());
+    double apart = 0, variance = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double error = std::hypot(a[i].error, b[i].error);
+        // Estimated from few seeds, an error is itself uncertain: seven for the worst of many.
+        EXPECT_NEAR(a[i].mean, b[i].mean, 7 * error + 1e-6) << i;
+        apart += a[i].mean - b[i].mean;
+        variance += error * error;
+    }
+    EXPECT_NEAR(apart, 0, 5 * std::sqrt(variance) + 1e-6 * static_cast<double>(a.size()));
+}
+
+// Conservation of energy: where the same light comes from everywhere and nothing absorbs, all
+// things look like it.
+TEST(ObjectScenes, vanish_in_a_furnace) {
+    Scene scene = empty_scene(48, 16);
+    scene.lights.constant = 1;
+    std::mt19937_64 random(1);
+    scene.stone = stone_of(random_stone(random, 30), 1.8);
+    Stone second = stone_of(random_stone(random, 30), 2.4);
+    for (Vec3& v : second.solid.vertices) v += Vec3{3, 0, 0};
+    for (Facet& f : second.solid.facets) f.plane.offset += f.plane.normal.x * 3;
+    scene.more_stones = {second};
+    BoxShape box;
+    box.center = {0, 3, 0};
+    scene.objects = {
+        {PlaneShape{{0, 0, -2}, {0, 0, 1}}, DiffuseMaterial{{1.0}}},
+        {SphereShape{{-3, 0, 0}, 1}, MetalMaterial{{1.0}, {0.0}, SurfaceColour{1.0}, 0}},
+        {SphereShape{{-3, 3, 0}, 1}, MetalMaterial{{1.0}, {0.0}, SurfaceColour{1.0}, 0.6}},
+        {SphereShape{{3, 3, 0}, 1}, DielectricMaterial{1.5, {0.0}}},
+        {SphereShape{{-3, -3, 0}, 1}, MirrorMaterial{{1.0}}},
+        {SphereShape{{0, -3, 0}, 1}, DiffuseMaterial{{1.0}}},
+        {box, DielectricMaterial{1.7, {0.0}}},
+    };
+    const Estimate furnace = mean_of(scene);
+    EXPECT_NEAR(furnace.mean, 1, 1e-3);
+    EXPECT_LT(furnace.error, 1e-3);
+}
+
+// Lambert: a cap of half angle a about the normal gives the irradiance pi L sin^2 a.
+TEST(ObjectScenes, a_diffuse_plane_under_a_cap) {
+    Scene scene = empty_scene(32, 16);
+    scene.lights.sources = {DiscLight{{0, 0, 1}, 0, 0.3, {5.0}}};
+    scene.objects = {{PlaneShape{}, DiffuseMaterial{{0.6}}}};
+    const Estimate seen = mean_of(scene);
+    EXPECT_NEAR(seen.mean, 0.6 * 5 * std::pow(std::sin(0.3), 2), 5 * seen.error);
+    EXPECT_LT(seen.error, 0.01 * seen.mean);
+}
+
+// A sphere of radius r at distance d gives pi L (r/d)^2 cos: as a light, and as an emitter.
+TEST(ObjectScenes, a_diffuse_plane_under_a_sphere_that_shines) {
+    const Vec3 center{3, 0, 4};
+    const double wanted = 0.5 * 7 * std::pow(1.5 / 5, 2) * 4 / 5;
+    for (const bool emitter : {false, true}) {
+        Scene scene = empty_scene(32, 16);
+        scene.camera.orthographic_width = 1e-3;
+        scene.objects = {{PlaneShape{}, DiffuseMaterial{{0.5}}}};
+        if (emitter) {
+            scene.objects.push_back({SphereShape{center, 1.5}, EmitterMaterial{{7.0}}});
+        } else {
+            scene.lights.sources = {SphereLight{center, 1.5, {7.0}}};
+        }
+        const Estimate seen = mean_of(scene);
+        EXPECT_NEAR(seen.mean, wanted, 5 * seen.error + 1e-3 * wanted);
+        EXPECT_LT(seen.error, 0.01 * wanted);
+    }
+}
+
+// In the full shadow of a sphere there is no light.
+TEST(ObjectScenes, things_cast_shadows) {
+    Scene scene = empty_scene(8, 4);
+    scene.camera.position = {0, -20, 20};
+    scene.camera.orthographic_width = 0.1;
+    scene.lights.sources = {DiscLight{{0, 0, 1}, 0, 0.01, {5.0}}};
+    scene.objects = {{PlaneShape{}, DiffuseMaterial{{1.0}}},
+                     {SphereShape{{0, 0, 3}, 1}, DiffuseMaterial{{0.0}}}};
+    EXPECT_EQ(mean_of(scene).mean, 0);
+    std::get<SphereShape>(scene.objects[1].shape).center.x = 3;
+    EXPECT_GT(mean_of(scene).mean, 0);
+}
+
+// Polarised at polished surfaces: an analyser across the plane of incidence sees R_s / 2 of an even
+// light, along it R_p / 2 (Born & Wolf, 14.2).
+TEST(ObjectScenes, a_metal_polarises_what_it_reflects) {
+    const double n = 1.2, k = 7.26, angle = 1.2;
+    Scene scene = empty_scene(2, 1);
+    scene.camera.position = 20.0 * Vec3{0, -std::sin(angle), std::cos(angle)};
+    scene.camera.up = {0, 0, 1};
+    scene.camera.orthographic_width = 1e-6;
+    scene.lights.constant = 1;
+    scene.objects = {{PlaneShape{}, MetalMaterial{{n}, {k}, {}, 0}}};
+    const std::complex<double> m(n, k), q = std::sqrt(m * m - std::pow(std::sin(angle), 2));
+    const double cosine = std::cos(angle);
+    const double R_s = std::norm((cosine - q) / (cosine + q)),
+                 R_p = std::norm((m * m * cosine - q) / (m * m * cosine + q));
+    EXPECT_NEAR(mean_of(scene).mean, 0.5 * (R_s + R_p), 1e-6);
+    scene.camera.optics.analyzer = 0;
+    EXPECT_NEAR(mean_of(scene).mean, 0.5 * R_s, 1e-6);
+    scene.camera.optics.analyzer = std::acos(0.0);
+    EXPECT_NEAR(mean_of(scene).mean, 0.5 * R_p, 1e-6);
+    scene.camera.optics.analyzer = std::acos(0.0) / 2;
+    EXPECT_NEAR(mean_of(scene).mean, 0.25 * (R_s + R_p), 1e-6);
+}
+
+// A plate of glass in normal light: (1 - R)^2 a / (1 - R^2 a^2), the sum of all its reflections.
+TEST(ObjectScenes, a_plate_of_coloured_glass) {
+    Scene scene = empty_scene(32, 64);
+    scene.camera.orthographic_width = 0.1;
+    scene.lights.sources = {HemisphereLight{{0, 0, -1}, {1.0}}};
+    BoxShape plate;
+    plate.half = {50, 50, 1};
+    scene.objects = {{plate, DielectricMaterial{2.0, {0.4}}}};
+    const double R = 1.0 / 9, a = std::exp(-0.8);
+    const Estimate seen = mean_of(scene);
+    EXPECT_NEAR(seen.mean, (1 - R) * (1 - R) * a / (1 - R * R * a * a), 5 * seen.error + 1e-6);
+    EXPECT_LT(seen.error, 0.01);
+}
+
+Scene between_two_lights(int side, int samples) {
+    Scene scene = empty_scene(side, samples);
+    scene.camera.position = {3, -14, 9};
+    scene.camera.up = {0, 0, 1};
+    scene.camera.orthographic_width = 5;
+    scene.lights.sources = {HemisphereLight{{0.6, 0, 0.8}, {1.0}},
+                            CosinePowerLight{{0, -0.6, 0.8}, 3, {2.0}}};
+    return scene;
+}
+
+// The same cube as a stone, by the tree of all its paths, and as an object, by chance: two
+// implementations of one thing. With an analyser, so that all four Stokes parameters matter.
+TEST(ObjectScenes, a_cube_of_glass_is_a_stone) {
+    std::vector<NamedPlane> planes;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int sign : {-1, 1}) {
+            Vec3 n{0, 0, 0};
+            n[axis] = sign;
+            planes.push_back({"p", {n, 1}});
+        }
+    }
+    BoxShape box;
+    box.half = {1, 1, 1};
+    for (const bool polarised : {false, true}) {
+        Scene with_stone = between_two_lights(6, 64);
+        if (polarised) {
+            with_stone.camera.optics.analyzer = 0.4;
+            with_stone.lights.sources.push_back(
+                DiscLight{{0, 0, 1}, 0, 0.5, {3.0, LinearPolarisation{{1, 0, 0}, {}, 1}}});
+        }
+        Scene with_object = with_stone;
+        with_stone.stone = stone_of(intersect_half_spaces(planes).solid, 1.6);
+        with_stone.settings.tolerance = 0;
+        with_stone.settings.depth = 60;
+        with_object.objects = {{box, DielectricMaterial{1.6, {0.0}}}};
+        expect_same(pixels_of(with_object, 12), pixels_of(with_stone, 2));
+    }
+}
+
+// Which of two stones a scene is about changes nothing of what is seen; nor does a thing that
+// nothing sees.
+TEST(ObjectScenes, stones_see_each_other) {
+    std::mt19937_64 random(5);
+    Stone a = stone_of(random_stone(random, 20), 1.7), b = stone_of(random_stone(random, 20), 2.2);
+    for (Vec3& v : b.solid.vertices) v += Vec3{2.3, 0, 0};
+    for (Facet& f : b.solid.facets) f.plane.offset += f.plane.normal.x * 2.3;
+    Scene one = between_two_lights(6, 64), other = one;
+    one.stone = a;
+    one.more_stones = {b};
+    other.stone = b;
+    other.more_stones = {a};
+    expect_same(pixels_of(one, 12), pixels_of(other, 12));
+}
+
+TEST(ObjectScenes, a_thing_out_of_sight_changes_nothing) {
+    std::mt19937_64 random(6);
+    Scene alone = between_two_lights(6, 16);
+    alone.stone = stone_of(random_stone(random, 20), 1.7);
+    Scene furnished = alone;
+    // Behind the camera, in the dark half, as small as a grain.
+    furnished.objects = {{SphereShape{{30, -140, -90}, 1e-3}, DiffuseMaterial{}}};
+    expect_same(pixels_of(furnished, 12), pixels_of(alone, 2));
+}
+
+// Same input, same bytes.
+TEST(ObjectScenes, are_the_same_whatever_the_threads) {
+    std::mt19937_64 random(7);
+    Scene scene = between_two_lights(40, 4);
+    scene.stone = stone_of(random_stone(random, 20), 1.7);
+    scene.objects = {{PlaneShape{{0, 0, -2}, {0, 0, 1}}, DiffuseMaterial{}},
+                     {SphereShape{{3, 0, 0}, 1}, DielectricMaterial{}}};
+    scene.settings.threads = 1;
+    const RenderResult one = render(scene);
+    scene.settings.threads = 2;
+    EXPECT_EQ(render(scene).picture.rgb, one.picture.rgb);
+    scene.settings.seed = 2;
+    EXPECT_NE(render(scene).picture.rgb, one.picture.rgb);
+}
+
+// What cannot draw objects says so; nothing is left out in silence.
+TEST(ObjectScenes, are_refused_by_engines_that_do_not_draw_them) {
+    Scene scene = between_two_lights(8, 1);
+    std::mt19937_64 random(8);
+    scene.stone = stone_of(random_stone(random, 20), 1.7);
+    scene.objects = {{SphereShape{}, DiffuseMaterial{}}};
+    scene.settings.engine = k_beam_engine;
+    try {
+        render(scene);
+        FAIL() << "drawn";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("objects"), std::string::npos) << error.what();
+    }
+}
+
+// Alpha is where things stand, where the film asks for it.
+TEST(ObjectScenes, alpha_is_where_things_stand) {
+    Scene scene = empty_scene(16, 4);
+    scene.camera.orthographic_width = 4;
+    scene.lights.constant = 1;
+    scene.objects = {{SphereShape{{0, 0, 0}, 1}, DiffuseMaterial{}}};
+    scene.film.alpha = true;
+    const RenderResult result = render(scene);
+    EXPECT_EQ(result.picture.coverage[0], 0);
+    EXPECT_EQ(result.picture.coverage[8 * 16 + 8], 1);
+}
+
+}  // namespace
+}  // namespace culet
