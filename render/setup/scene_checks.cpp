@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <glm/geometric.hpp>
+
 #include "render/geometry/stone_body.h"
 #include "render/optics/path.h"
 #include "stone/checks.h"
@@ -55,11 +58,48 @@ void require_drawable(const Stone& stone) {
     }
 }
 
+bool holds(const Shape& shape, const Vec3& point) {
+    if (const auto* sphere = std::get_if<SphereShape>(&shape))
+        return glm::length(point - sphere->center) < sphere->radius;
+    const auto* box = std::get_if<BoxShape>(&shape);
+    if (box == nullptr) return false;
+    for (int k = 0; k < 3; ++k) {
+        const Vec3& axis = box->axes[static_cast<std::size_t>(k)];
+        if (!(std::abs(glm::dot(point - box->center, axis)) < box->half[k])) return false;
+    }
+    return true;
+}
+
+// What lies in glass, or looks from there, would be drawn as if it did not.
+void require_nothing_in_glass(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const SceneObject& object = scene.objects[i];
+        if (!std::holds_alternative<DielectricMaterial>(object.material)) continue;
+        if (holds(object.shape, scene.camera.position)) {
+            throw InputError(fmt::format(
+                "the camera is inside object {} of glass: move camera.position out", i));
+        }
+        const auto require_outside_it = [&](const Stone& stone) {
+            for (const Vec3& corner : stone.solid.vertices) {
+                if (!holds(object.shape, corner)) continue;
+                throw InputError(fmt::format(
+                    "{} reaches into object {} of glass: stones are drawn beside glass; "
+                    "immersion = {} surrounds all of the scene",
+                    stone.name.empty() ? "the stone" : stone.name, i,
+                    std::get<DielectricMaterial>(object.material).index));
+            }
+        };
+        require_outside_it(scene.stone);
+        for (const Stone& stone : scene.more_stones) require_outside_it(stone);
+    }
+}
+
 }  // namespace
 
 void require_renderable(const Scene& scene) {
     if (scene.has_stone() || !scene.furnished()) require_drawable(scene.stone);
     for (const Stone& stone : scene.more_stones) require_drawable(stone);
+    require_nothing_in_glass(scene);
     if (scene.settings.depth > PathTrace::k_longest) {
         throw InputError(fmt::format("depth {} is over the longest path, {}", scene.settings.depth,
                                      PathTrace::k_longest));

@@ -91,7 +91,7 @@ void expect_same(const std::vector<Estimate>& a, const std::vector<Estimate>& b)
 // Conservation of energy: where the same light comes from everywhere and nothing absorbs, all
 // things look like it.
 TEST(ObjectScenes, vanish_in_a_furnace) {
-    Scene scene = empty_scene(48, 16);
+    Scene scene = empty_scene(48, 64);
     scene.lights.constant = 1;
     std::mt19937_64 random(1);
     scene.stone = stone_of(random_stone(random, 30), 1.8);
@@ -286,6 +286,76 @@ TEST(ObjectScenes, are_refused_by_engines_that_do_not_draw_them) {
     } catch (const InputError& error) {
         EXPECT_NE(std::string(error.what()).find("objects"), std::string::npos) << error.what();
     }
+}
+
+// A stone in glass would be drawn as in air.
+TEST(ObjectScenes, refuse_stones_and_cameras_inside_glass) {
+    std::mt19937_64 random(9);
+    Scene scene = between_two_lights(8, 1);
+    scene.stone = stone_of(random_stone(random, 20), 1.7);
+    scene.objects = {{SphereShape{{0, 0, 0}, 3}, DielectricMaterial{}}};
+    EXPECT_THROW(render(scene), InputError);
+    std::get<SphereShape>(scene.objects[0].shape).center = scene.camera.position;
+    EXPECT_THROW(render(scene), InputError);
+    std::get<SphereShape>(scene.objects[0].shape).center = {9, 0, 0};
+    EXPECT_NO_THROW(render(scene));
+}
+
+// A notch between two towers; a black ball in it hides one from the other, and a light that shines
+// in the notch alone is seen nowhere else: the ball is seen by light that would have met the stone
+// again. Without the ball that light is there.
+TEST(ObjectScenes, things_stand_between_a_stone_and_itself) {
+    Scene scene = empty_scene(16, 16);
+    scene.stone = stone_of(slab(1), 1.5);
+    Solid& solid = scene.stone.solid;
+    // Two blocks that share no facet, as one stone that is not convex.
+    const auto block = [](double from, double to) {
+        return intersect_half_spaces(std::vector<NamedPlane>{{"a", {{-1, 0, 0}, -from}},
+                                                             {"b", {{1, 0, 0}, to}},
+                                                             {"c", {{0, -1, 0}, 1}},
+                                                             {"d", {{0, 1, 0}, 1}},
+                                                             {"e", {{0, 0, -1}, 1}},
+                                                             {"f", {{0, 0, 1}, 1}}})
+            .solid;
+    };
+    solid = block(-3, -1);
+    const Solid other = block(1, 3);
+    const int shift = static_cast<int>(solid.vertices.size());
+    solid.vertices.insert(solid.vertices.end(), other.vertices.begin(), other.vertices.end());
+    for (Facet facet : other.facets) {
+        facet.name += "2";
+        for (int& corner : facet.corners) corner += shift;
+        solid.facets.push_back(facet);
+    }
+    scene.stone.convex = false;
+    // Along x, through both blocks, to a light behind them.
+    scene.camera.position = {-20, 0, 0};
+    scene.camera.up = {0, 0, 1};
+    scene.camera.orthographic_width = 0.2;
+    scene.lights.sources = {DiscLight{{1, 0, 0}, 0, 0.01, {1.0}}};
+    // Far away: the scene is furnished, and nothing sees it.
+    scene.objects = {{SphereShape{{0, 90, 0}, 1e-3}, DiffuseMaterial{{0.0}}}};
+    // Four faces of 4 % each, and what they reflect to and fro: 2 m R / (1 + (2 m - 1) R) is lost
+    // by m plates.
+    const double R = 0.04, lost = 4 * R / (1 + 3 * R);
+    const Estimate open = mean_of(scene);
+    EXPECT_NEAR(open.mean, 1 - lost, 5 * open.error + 1e-3);
+    std::get<SphereShape>(scene.objects[0].shape) = {{0, 0, 0}, 0.9};
+    EXPECT_EQ(mean_of(scene).mean, 0);
+}
+
+// What a bound on indirect light takes away is told by the bound: nothing where it is not reached.
+TEST(ObjectScenes, clamped_light_is_at_most_the_bound) {
+    Scene scene = empty_scene(16, 16);
+    scene.camera.position = {0, -20, 20};
+    scene.lights.constant = 1;
+    scene.objects = {{PlaneShape{}, DiffuseMaterial{{0.5}}},
+                     {SphereShape{{0, 0, 1}, 1}, DiffuseMaterial{{0.8}}}};
+    const RenderResult whole = render(scene);
+    scene.settings.clamp_indirect = 1;
+    EXPECT_EQ(render(scene).picture.rgb, whole.picture.rgb);
+    scene.settings.clamp_indirect = 0.1;
+    EXPECT_NE(render(scene).picture.rgb, whole.picture.rgb);
 }
 
 // Alpha is where things stand, where the film asks for it.

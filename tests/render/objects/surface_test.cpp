@@ -84,8 +84,8 @@ TEST(Microfacets, fill_what_is_seen_of_them) {
                     seen += ggx::density(alpha, half) * ggx::masking(alpha, from) * along * angle;
                 }
             }
-            // The midpoint rule is off by (step / width)^2 / 24; microfacets are alpha^2 / 2 wide in
-            // height, and those that turn away make kinks in azimuth.
+            // The midpoint rule is off by (step / width)^2 / 24; microfacets are alpha^2 / 2 wide
+            // in height, and those that turn away make kinks in azimuth.
             EXPECT_NEAR(seen, cosine, 1e-4);
             Random random(7);
             double weight = 0;
