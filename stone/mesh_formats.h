@@ -15,9 +15,10 @@ FaceSoup parse_off(std::string_view text, const std::filesystem::path& file);
 FaceSoup parse_ply(std::string_view bytes, const std::filesystem::path& file);
 FaceSoup parse_stl(std::string_view bytes, const std::filesystem::path& file);
 
-std::string obj_text(const Solid& solid);
-std::string off_text(const Solid& solid);
-std::string ply_text(const Solid& solid);
+/// `with_planes`: facet planes in comments.
+std::string obj_text(const Solid& solid, bool with_planes = true);
+std::string off_text(const Solid& solid, bool with_planes = true);
+std::string ply_text(const Solid& solid, bool with_planes = true);
 std::string stl_text(const Solid& solid);
 
 }  // namespace culet
