@@ -11,6 +11,8 @@ find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs video quality pho
 find_package(OpenMesh REQUIRED COMPONENTS Core)
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 find_package(CGAL REQUIRED)
+find_package(embree 3 REQUIRED)
+find_package(TinyGLTF REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(highway REQUIRED IMPORTED_TARGET libhwy)
 pkg_check_modules(libraw REQUIRED IMPORTED_TARGET libraw)

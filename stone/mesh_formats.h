@@ -14,6 +14,8 @@ FaceSoup parse_obj(std::string_view text, const std::filesystem::path& file);
 FaceSoup parse_off(std::string_view text, const std::filesystem::path& file);
 FaceSoup parse_ply(std::string_view bytes, const std::filesystem::path& file);
 FaceSoup parse_stl(std::string_view bytes, const std::filesystem::path& file);
+/// That of the format.
+FaceSoup soup_of(std::string_view bytes, MeshFormat format, const std::filesystem::path& file);
 
 /// `with_planes`: facet planes in comments.
 std::string obj_text(const Solid& solid, bool with_planes = true);

@@ -41,18 +41,22 @@ std::optional<MeshFormat> mesh_format(const std::filesystem::path& file) {
     return std::nullopt;
 }
 
-ReadSolid parse_mesh(std::string_view bytes, MeshFormat format, const std::filesystem::path& file) {
+FaceSoup soup_of(std::string_view bytes, MeshFormat format, const std::filesystem::path& file) {
     switch (format) {
         case MeshFormat::obj:
-            return solid_from_faces(parse_obj(bytes, file));
+            return parse_obj(bytes, file);
         case MeshFormat::off:
-            return solid_from_faces(parse_off(bytes, file));
+            return parse_off(bytes, file);
         case MeshFormat::ply:
-            return solid_from_faces(parse_ply(bytes, file));
+            return parse_ply(bytes, file);
         case MeshFormat::stl:
-            return solid_from_faces(parse_stl(bytes, file));
+            return parse_stl(bytes, file);
     }
     throw InternalError("unknown mesh format");
+}
+
+ReadSolid parse_mesh(std::string_view bytes, MeshFormat format, const std::filesystem::path& file) {
+    return solid_from_faces(soup_of(bytes, format, file));
 }
 
 ReadSolid read_mesh(const std::filesystem::path& file) {

@@ -63,6 +63,63 @@ void add_material(Fingerprint& print, const Material& material) {
     }
 }
 
+struct AddShape {
+    Fingerprint& print;
+    void operator()(const SphereShape& s) const {
+        print.add(s.center);
+        print.add(s.radius);
+    }
+    void operator()(const PlaneShape& s) const {
+        print.add(s.point);
+        print.add(s.normal);
+    }
+    void operator()(const DiscShape& s) const {
+        print.add(s.center);
+        print.add(s.normal);
+        print.add(s.radius);
+    }
+    void operator()(const BoxShape& s) const {
+        print.add(s.center);
+        for (const Vec3& axis : s.axes) print.add(axis);
+        print.add(s.half);
+    }
+    void operator()(const MeshShape& s) const {
+        for (const Vec3& vertex : s.mesh->vertices) print.add(vertex);
+        for (const auto& triangle : s.mesh->triangles) {
+            for (const int corner : triangle) print.add(corner);
+        }
+        for (const auto& corners : s.mesh->corner_normals) {
+            for (const Vec3& normal : corners) print.add(normal);
+        }
+    }
+};
+
+struct AddSurface {
+    Fingerprint& print;
+    void colour(const SurfaceColour& c) const {
+        std::visit([this](const auto& value) { add_colour(print, {value, {}}); }, c.value);
+    }
+    void operator()(const DiffuseMaterial& m) const { colour(m.albedo); }
+    void operator()(const MetalMaterial& m) const {
+        colour(m.n);
+        colour(m.k);
+        print.add(m.roughness);
+    }
+    void operator()(const MirrorMaterial& m) const { colour(m.albedo); }
+    void operator()(const DielectricMaterial& m) const {
+        print.add(m.index);
+        colour(m.absorption);
+    }
+    void operator()(const EmitterMaterial& m) const { add_colour(print, m.radiance); }
+};
+
+void add_object(Fingerprint& print, const SceneObject& object) {
+    print.add(static_cast<int>(object.shape.index()));
+    std::visit(AddShape{print}, object.shape);
+    print.add(static_cast<int>(object.material.index()));
+    std::visit(AddSurface{print}, object.material);
+}
+
 void add_camera(Fingerprint& print, const Camera& camera) {
     print.add(camera.position);
     print.add(camera.look_at);
@@ -152,13 +209,19 @@ void Fingerprint::add(const Solid& solid) {
     for (const Vec3& vertex : solid.vertices) add(vertex);
 }
 
+void Fingerprint::add(const Stone& stone) {
+    add(stone.solid);
+    add(stone.convex ? 1 : 0);
+    add(static_cast<int>(stone.unit));
+    add(stone.up);
+    for (const Vec3& axis : stone.crystal.axes) add(axis);
+    add_material(*this, stone.material);
+}
+
 void Fingerprint::add_stone_and_light(const Scene& scene) {
-    add(scene.stone.solid);
-    add(scene.stone.convex ? 1 : 0);
-    add(static_cast<int>(scene.stone.unit));
-    add(scene.stone.up);
-    for (const Vec3& axis : scene.stone.crystal.axes) add(axis);
-    add_material(*this, scene.stone.material);
+    add(scene.stone);
+    for (const Stone& stone : scene.more_stones) add(stone);
+    for (const SceneObject& object : scene.objects) add_object(*this, object);
     add_lights(*this, scene.lights);
     add(scene.immersion);
 }

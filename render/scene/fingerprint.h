@@ -21,8 +21,9 @@ public:
     void add(const std::vector<double>& values);
     /// Everything that a picture of the scene depends on, threads apart.
     void add(const Scene& scene);
-    /// The same but for the view and the settings.
+    /// The same but for the view and the settings: stones, objects and lights.
     void add_stone_and_light(const Scene& scene);
+    void add(const Stone& stone);
     void add(const Solid& solid);
     std::string hex() const;
 

@@ -8,6 +8,7 @@
 #include "render/image/image_io.h"
 #include "render/scene/environment_layout.h"
 #include "render/scene/light_presets.h"
+#include "render/scene/table_values.h"
 #include "render/scene/view_presets.h"
 #include "stone/errors.h"
 #include "stone/units.h"
@@ -18,28 +19,6 @@ namespace {
 
 // Directions typed with a few digits: a plane's half-extents lie in it to within this sine.
 constexpr double k_in_plane = 0.01;
-
-Vec3 direction_in(const TomlTable& table, const char* key) {
-    const auto value = table.vector(key);
-    if (!value) table.fail("", fmt::format("{} is missing", key));
-    const double length = glm::length(*value);
-    if (!(length > 0) || !std::isfinite(length))
-        table.fail(key, fmt::format("{} must not be the zero vector", key));
-    return *value / length;
-}
-
-Vec3 point_in(const TomlTable& table, const char* key) {
-    const auto value = table.vector(key);
-    if (!value) table.fail("", fmt::format("{} is missing", key));
-    return *value;
-}
-
-double positive_in(const TomlTable& table, const char* key) {
-    const auto value = table.number(key);
-    if (!value) table.fail("", fmt::format("{} is missing", key));
-    if (!(*value > 0)) table.fail(key, fmt::format("{} must be positive, found {}", key, *value));
-    return *value;
-}
 
 std::vector<std::string_view> with_polarisation_keys(std::vector<std::string_view> keys) {
     keys.insert(keys.end(), {"polarization", "degree_of_polarization"});
@@ -70,51 +49,8 @@ std::optional<LinearPolarisation> polarisation_in(const TomlTable& table,
     return polarisation;
 }
 
-// A picture's floats end at 3e38 and lose digits below 1e-38: what several lights add up to, and
-// what is left of it behind a stone, must fit, too.
-constexpr double k_brightest = 1e36, k_dimmest = 1e-36;
-
-double checked_radiance(const TomlTable& table, const char* key, double value) {
-    if (value < 0) table.fail(key, fmt::format("{} must not be negative, found {}", key, value));
-    if (value > k_brightest || (value > 0 && value < k_dimmest)) {
-        table.fail(key,
-                   fmt::format("{} of {:g} is {} than a picture can hold (0, or {:g} to "
-                               "{:g}): scale all lights by one factor",
-                               key, value, value > 1 ? "more" : "less", k_dimmest, k_brightest));
-    }
-    return value;
-}
-
-LightColour radiance_alone_in(const TomlTable& table) {
-    switch (table.kind("radiance")) {
-        case TomlTable::Kind::missing:
-            return {1.0};
-        case TomlTable::Kind::number: {
-            return {checked_radiance(table, "radiance", *table.number("radiance"))};
-        }
-        case TomlTable::Kind::list: {
-            const auto list = *table.numbers("radiance");
-            if (list.size() != 3)
-                table.fail("radiance",
-                           fmt::format("a colour has three numbers, found {}", list.size()));
-            for (double v : list) checked_radiance(table, "radiance", v);
-            return {Rgb{list[0], list[1], list[2]}};
-        }
-        case TomlTable::Kind::text: {
-            const std::string name = *table.text("radiance");
-            if (illuminant(name.c_str()) == nullptr) {
-                table.fail("radiance", fmt::format("no spectrum \"{}\"; known: D65, A", name));
-            }
-            return {name};
-        }
-        default:
-            table.fail("radiance",
-                       "radiance is a number, [r, g, b], or a spectrum by name (D65, A)");
-    }
-}
-
 LightColour radiance_in(const TomlTable& table, const std::optional<Vec3>& normal) {
-    LightColour colour = radiance_alone_in(table);
+    LightColour colour = unpolarised_radiance_in(table);
     colour.polarisation = polarisation_in(table, normal);
     return colour;
 }

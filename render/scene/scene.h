@@ -1,6 +1,6 @@
 #pragma once
-// What is to be rendered: a stone, a camera and lights. Lengths in the stone's unit, angles in
-// radians.
+// What is to be rendered: a stone, what stands around it, a camera and lights. Lengths in the
+// stone's unit, angles in radians.
 
 #include <array>
 #include <cstdint>
@@ -13,6 +13,7 @@
 #include "render/image/film_look.h"
 #include "render/scene/engine_name.h"
 #include "render/scene/lights.h"
+#include "render/scene/objects.h"
 #include "stone/stone.h"
 
 namespace culet {
@@ -167,7 +168,10 @@ struct RenderSettings {
 };
 
 struct Scene {
+    /// The stone that the scene is about. Without facets: there is none, and objects alone.
     Stone stone;
+    std::vector<Stone> more_stones;  ///< beside it, where they stand
+    std::vector<SceneObject> objects;
     Camera camera;
     Lights lights;
     double immersion = 1;  ///< refractive index of what surrounds the stone
@@ -179,6 +183,10 @@ struct Scene {
     std::string light_preset;
     /// A tolerance was asked for; else settings.tolerance is a default.
     bool names_tolerance = false;
+
+    bool has_stone() const { return !stone.solid.facets.empty(); }
+    /// False: the stone stands alone among the lights.
+    bool furnished() const { return !objects.empty() || !more_stones.empty(); }
 };
 
 }  // namespace culet

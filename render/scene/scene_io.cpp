@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -10,7 +11,9 @@
 #include "render/scene/framing.h"
 #include "render/scene/light_io.h"
 #include "render/scene/light_presets.h"
+#include "render/scene/object_io.h"
 #include "render/scene/settings_io.h"
+#include "render/scene/transform.h"
 #include "render/scene/view_presets.h"
 #include "stone/errors.h"
 #include "stone/material_io.h"
@@ -43,6 +46,101 @@ std::optional<std::pair<std::string, TomlTable>> view_in(const TomlTable& root) 
     return view;
 }
 
+// A stone file (under `file_key`) or a mesh, and what the table says beside it.
+Stone stone_in(const TomlTable& table, const char* file_key, std::vector<std::string>& notes) {
+    Stone stone;
+    if (table.has(file_key)) {
+        for (const char* key : {"unit", "convex"}) {
+            if (table.has(key))
+                table.fail(key, fmt::format("{} belongs to the stone file that the scene names, {}",
+                                            key, table.path(file_key)->filename().string()));
+        }
+        StoneFile file = read_stone(*table.path(file_key));
+        if (!table.has("material")) require_material(file, *table.path(file_key));
+        stone = std::move(file.stone);
+        for (std::string& note : file.notes) notes.push_back(std::move(note));
+    } else {
+        SolidFile file = read_solid(*table.path("mesh"));
+        stone.solid = std::move(file.solid);
+        for (std::string& note : file.notes) notes.push_back(std::move(note));
+        stone.name = table.path("mesh")->stem().string();
+        if (const auto unit = table.text("unit")) {
+            const auto known = length_unit(*unit);
+            if (!known)
+                table.fail("unit", fmt::format("unit is \"{}\"; expected mm, cm, m or in", *unit));
+            stone.unit = *known;
+        }
+        stone.convex = table.boolean("convex").value_or(true);
+    }
+    // Beside a stone file these are said of this picture only: the same stone in another material.
+    if (const auto name = table.text("name")) stone.name = *name;
+    if (table.has("material") || table.has("mesh")) {
+        stone.material = table.kind("material") == TomlTable::Kind::table
+                             ? material_of(*table.table("material"))
+                             : material_named_in(table, table);
+    }
+    if (table.has("mesh") || table.has("optic_axis") || table.has("principal_axes"))
+        stone.crystal = crystal_frame_in(table, stone.material.optic);
+    return stone;
+}
+
+void place_stone(const TomlTable& table, Stone& stone) {
+    const Transform transform = transform_in(table);
+    if (!(transform.scale() > 0) || transform.mirrors())
+        table.fail("transform",
+                   "a stone may be turned, moved and scaled alike along all directions");
+    if (table.has("transform")) move_stone(transform, stone);
+}
+
+// One of `[[stone]]`.
+Stone placed_stone(const TomlTable& table, std::vector<std::string>& notes) {
+    table.refuse_unknown({"file", "mesh", "material", "unit", "optic_axis", "principal_axes",
+                          "convex", "name", "transform"});
+    if (table.has("file") == table.has("mesh")) {
+        table.fail("",
+                   "a stone names its file: file = \"stone.toml\", or mesh = \"...\" with "
+                   "material = \"...\"");
+    }
+    Stone stone = stone_in(table, "file", notes);
+    place_stone(table, stone);
+    return stone;
+}
+
+// Its lengths counted in another unit.
+void count_in(LengthUnit unit, Stone& stone) {
+    if (stone.unit == unit) return;
+    Transform transform;
+    transform.linear = glm::dmat3(mm_per(stone.unit) / mm_per(unit));
+    move_stone(transform, stone);
+    stone.unit = unit;
+}
+
+bool lists_stones(const TomlTable& root) {
+    return root.kind("stone") == TomlTable::Kind::list;
+}
+
+bool shines(const std::vector<SceneObject>& objects) {
+    return std::any_of(objects.begin(), objects.end(), [](const SceneObject& object) {
+        return std::holds_alternative<EmitterMaterial>(object.material);
+    });
+}
+
+// The stones of a scene, the one that it is about first; `instead` of that, where it is given.
+void read_stones(const TomlTable& root, const Stone* instead, Scene& scene) {
+    const std::vector<TomlTable> listed =
+        lists_stones(root) ? root.tables("stone") : std::vector<TomlTable>();
+    if (instead != nullptr) {
+        scene.stone = *instead;
+        if (!listed.empty()) place_stone(listed.front(), scene.stone);
+    } else if (root.has("stone") || root.has("mesh") || !root.has("object")) {
+        scene.stone = scene_stone_of(root, scene.notes);
+    }
+    for (std::size_t i = 1; i < listed.size(); ++i) {
+        scene.more_stones.push_back(placed_stone(listed[i], scene.notes));
+        count_in(scene.stone.unit, scene.more_stones.back());
+    }
+}
+
 }  // namespace
 
 Stone scene_stone_of(const TomlTable& root, std::vector<std::string>& notes) {
@@ -51,55 +149,25 @@ Stone scene_stone_of(const TomlTable& root, std::vector<std::string>& notes) {
                   "a scene names its stone: stone = \"stone.toml\", or mesh = \"...\" with "
                   "material = \"...\"");
     }
-    Stone stone;
-    if (root.has("stone")) {
-        for (const char* key : {"unit", "convex"}) {
-            if (root.has(key))
-                root.fail(key, fmt::format("{} belongs to the stone file that the scene names, {}",
-                                           key, root.path("stone")->filename().string()));
-        }
-        StoneFile file = read_stone(*root.path("stone"));
-        if (!root.has("material")) require_material(file, *root.path("stone"));
-        stone = std::move(file.stone);
-        for (std::string& note : file.notes) notes.push_back(std::move(note));
-    } else {
-        SolidFile file = read_solid(*root.path("mesh"));
-        stone.solid = std::move(file.solid);
-        for (std::string& note : file.notes) notes.push_back(std::move(note));
-        stone.name = root.path("mesh")->stem().string();
-        if (const auto unit = root.text("unit")) {
-            const auto known = length_unit(*unit);
-            if (!known)
-                root.fail("unit", fmt::format("unit is \"{}\"; expected mm, cm, m or in", *unit));
-            stone.unit = *known;
-        }
-        stone.convex = root.boolean("convex").value_or(true);
-    }
-    // Beside a stone file these are said of this picture only: the same stone in another material.
-    if (const auto name = root.text("name")) stone.name = *name;
-    if (root.has("material") || root.has("mesh")) {
-        stone.material = root.kind("material") == TomlTable::Kind::table
-                             ? material_of(*root.table("material"))
-                             : material_named_in(root, root);
-    }
-    if (root.has("mesh") || root.has("optic_axis") || root.has("principal_axes"))
-        stone.crystal = crystal_frame_in(root, stone.material.optic);
-    return stone;
+    if (!lists_stones(root)) return stone_in(root, "stone", notes);
+    const std::vector<TomlTable> listed = root.tables("stone");
+    if (listed.empty()) root.fail("stone", "the list of stones is empty");
+    return placed_stone(listed.front(), notes);
 }
 
 Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_view light_instead) {
-    root.refuse_unknown(
-        with_view_keys({"stone", "mesh", "material", "unit", "optic_axis", "principal_axes",
-                        "convex", "name", "camera", "light", "object", "render", "film", "immersion"}));
+    root.refuse_unknown(with_view_keys({"stone", "mesh", "material", "unit", "optic_axis",
+                                        "principal_axes", "convex", "name", "camera", "light",
+                                        "object", "render", "film", "immersion"}));
     Scene scene;
-    if (root.has("object")) root.fail("object", "objects around the stone are not rendered yet");
-    if (stone_instead != nullptr) {
-        scene.stone = *stone_instead;
-    } else {
-        scene.stone = scene_stone_of(root, scene.notes);
-    }
+    read_stones(root, stone_instead, scene);
+    scene.objects = objects_of(root, scene.stone.unit);
     if (std::string missing = missing_colour(scene.stone.material); !missing.empty())
         scene.notes.push_back(std::move(missing));
+    for (const Stone& stone : scene.more_stones) {
+        if (std::string missing = missing_colour(stone.material); !missing.empty())
+            scene.notes.push_back(std::move(missing));
+    }
     if (const auto immersion = root.number("immersion")) {
         if (!(*immersion >= 1 && *immersion <= 4)) {
             root.fail("immersion",
@@ -117,12 +185,15 @@ Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_vi
     } else if (light) {
         scene.lights = lights_of(*light, scene.notes);
         preset = light->text("preset").value_or("");
-    } else if (!view) {
+    } else if (!view && !shines(scene.objects)) {
         root.fail("", "the scene is dark: add a [light] table, e.g. preset = \"jeweller\"");
     }
     const LightPreset* known = find_light_preset(preset);
     if (known != nullptr) scene.light_preset = known->name;
     if (camera) scene.camera = read_camera(*camera);
+    if (!scene.has_stone() && (!camera || !names_a_view(*camera)))
+        root.fail("",
+                  "the scene has no stone to look at: add a [camera] with position and look_at");
     if (!camera || !names_a_view(*camera)) {
         const bool below = known != nullptr && known->from_below;
         frame_stone(scene.stone.solid, below ? Facing::pavilion : Facing::crown, scene.camera);

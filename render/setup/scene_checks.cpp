@@ -18,6 +18,8 @@ constexpr double k_drawn_by_planes = 0.02;
 }  // namespace
 
 void require_renderable(const Scene& scene) {
+    if (scene.furnished() || !scene.has_stone())
+        throw InputError("objects and further stones are read, but not rendered yet");
     const Stone& stone = scene.stone;
     const std::string name = stone.name.empty() ? "stone" : stone.name;
     for (const Fault& fault : find_faults(stone.solid, {.planarity = k_drawn_by_planes})) {

@@ -1,0 +1,139 @@
+#include "stone/surface_mesh.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
+#include <CGAL/utility.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <tuple>
+
+#include "stone/errors.h"
+#include "stone/mesh_formats.h"
+#include "stone/output_file.h"
+
+namespace culet {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+// Whether a fan from the first corner covers a polygon: all of its triangles turn the same way.
+bool fans_out(const std::vector<Vec3>& corners, const Vec3& normal) {
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+        if (!(glm::dot(glm::cross(corners[i] - corners[0], corners[i + 1] - corners[0]), normal) >=
+              0))
+            return false;
+    }
+    return true;
+}
+
+void add_triangles(const std::vector<int>& face, const std::vector<Vec3>& vertices,
+                   std::vector<std::array<int, 3>>& triangles) {
+    if (face.size() == 3) {
+        triangles.push_back({face[0], face[1], face[2]});
+        return;
+    }
+    std::vector<Vec3> corners;
+    for (const int corner : face) corners.push_back(vertices[static_cast<std::size_t>(corner)]);
+    std::vector<CGAL::Triple<int, int, int>> pieces;
+    if (!fans_out(corners, plane_through(corners).normal)) {
+        std::vector<Kernel::Point_3> outline;
+        for (const Vec3& c : corners) outline.emplace_back(c.x, c.y, c.z);
+        CGAL::Polygon_mesh_processing::triangulate_hole_polyline(outline,
+                                                                 std::back_inserter(pieces));
+    }
+    for (const auto& [a, b, c] : pieces) {
+        triangles.push_back({face[static_cast<std::size_t>(a)], face[static_cast<std::size_t>(b)],
+                             face[static_cast<std::size_t>(c)]});
+    }
+    if (!pieces.empty()) return;
+    for (std::size_t i = 1; i + 1 < face.size(); ++i)
+        triangles.push_back({face[0], face[i], face[i + 1]});
+}
+
+TriangleMesh triangles_of(FaceSoup soup) {
+    TriangleMesh mesh;
+    mesh.vertices = std::move(soup.vertices);
+    for (const SoupFace& face : soup.faces) {
+        if (face.corners.size() >= 3) add_triangles(face.corners, mesh.vertices, mesh.triangles);
+    }
+    return mesh;
+}
+
+Vec3 area_vector(const TriangleMesh& mesh, const std::array<int, 3>& t) {
+    const auto at = [&](int k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+    return glm::cross(at(1) - at(0), at(2) - at(0));
+}
+
+}  // namespace
+
+bool is_gltf(const std::filesystem::path& file) {
+    std::string extension = file.extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension == ".gltf" || extension == ".glb";
+}
+
+TriangleMesh read_triangle_mesh(const std::filesystem::path& file) {
+    TriangleMesh mesh;
+    if (is_gltf(file)) {
+        mesh = read_gltf(file);
+    } else {
+        const auto format = mesh_format(file);
+        if (!format) {
+            throw InputError(
+                file,
+                "is of an unknown kind: a mesh ends in .obj, .off, .ply, .stl, .gltf or .glb");
+        }
+        const std::string bytes = read_text(file);
+        if (bytes.empty()) throw InputError(file, "is empty");
+        mesh = triangles_of(soup_of(bytes, *format, file));
+    }
+    std::erase_if(mesh.triangles, [&](const std::array<int, 3>& t) {
+        return !(glm::length(area_vector(mesh, t)) > 0);
+    });
+    if (mesh.triangles.empty()) throw InputError(file, "holds no triangle");
+    return mesh;
+}
+
+void smooth_normals(TriangleMesh& mesh, double crease) {
+    std::map<std::tuple<double, double, double>, std::vector<std::size_t>> around;
+    std::vector<Vec3> unit;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        unit.push_back(glm::normalize(area_vector(mesh, mesh.triangles[i])));
+        for (const int corner : mesh.triangles[i]) {
+            const Vec3& v = mesh.vertices[static_cast<std::size_t>(corner)];
+            around[{v.x, v.y, v.z}].push_back(i);
+        }
+    }
+    const auto angle_at = [&](std::size_t triangle, const Vec3& vertex) {
+        const std::array<int, 3>& t = mesh.triangles[triangle];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto at = [&](std::size_t j) {
+                return mesh.vertices[static_cast<std::size_t>(t[(k + j) % 3])];
+            };
+            if (at(0) == vertex) return angle_between(at(1) - at(0), at(2) - at(0));
+        }
+        return 0.0;
+    };
+    const double least_cosine = std::cos(crease);
+    mesh.corner_normals.assign(mesh.triangles.size(), {});
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3& v = mesh.vertices[static_cast<std::size_t>(mesh.triangles[i][k])];
+            Vec3 sum(0);
+            for (const std::size_t other : around[{v.x, v.y, v.z}]) {
+                if (other == i || glm::dot(unit[other], unit[i]) > least_cosine)
+                    sum += angle_at(other, v) * unit[other];
+            }
+            const double length = glm::length(sum);
+            mesh.corner_normals[i][k] = length > 0 ? sum / length : unit[i];
+        }
+    }
+}
+
+}  // namespace culet
