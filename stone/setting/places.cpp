@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "stone/errors.h"
 #include "stone/units.h"
@@ -25,6 +27,20 @@ double wrapped(double way, double length) {
 double apart(double a, double b, double length) {
     const double d = wrapped(b - a, length);
     return d > 0.5 * length ? d - length : d;
+}
+
+// A cushion: fuller than the ellipse of its extents along x and y.
+bool is_rounded_rectangle(const PlanOutline& outline) {
+    constexpr double k_fuller = 1.03;
+    PlanPoint low = outline[0], high = outline[0];
+    double area = 0;
+    for (std::size_t i = 0; i < outline.size(); ++i) {
+        low = glm::min(low, outline[i]);
+        high = glm::max(high, outline[i]);
+        area += 0.5 * cross(outline[i], outline[(i + 1) % outline.size()]);
+    }
+    const PlanPoint extent = high - low;
+    return area > k_fuller * 0.25 * std::numbers::pi * extent.x * extent.y;
 }
 
 }  // namespace
@@ -96,7 +112,7 @@ void GripOutline::find_corners() {
 int GripOutline::usual_prongs() const {
     switch (corners()) {
         case 0:
-            return 6;
+            return is_rounded_rectangle(hull_) ? 4 : 6;
         case 1:
             return 5;
         case 2:
@@ -164,7 +180,11 @@ std::vector<GirdlePlace> GripOutline::places(int count, double width) const {
                 ways.push_back(wrapped(parts[p].from + before + i * step, length_));
         }
     }
-    std::sort(ways.begin(), ways.end());
+    // From azimuth 0 on; a place that rounding puts just before it is the first.
+    const double first = way_to({1, 0}) - 1e-9 * length_;
+    std::sort(ways.begin(), ways.end(), [&](double a, double b) {
+        return wrapped(a - first, length_) < wrapped(b - first, length_);
+    });
     std::vector<GirdlePlace> places;
     for (const double way : ways) places.push_back(place_at(way, width));
     return places;

@@ -22,13 +22,14 @@ public:
     const PlanOutline& hull() const { return hull_; }
     int corners() const { return static_cast<int>(corners_.size()); }
 
-    /// As the trade has it: a prong at every corner, and as many beside as hold the stone.
+    /// As the trade has it: a prong at every corner, and as many beside as hold the stone. Of
+    /// outlines without corners rounded rectangles have 4, others 6.
     int usual_prongs() const;
 
-    /// `count` places, at least 2, counter-clockwise. First the corners are taken (spread evenly
-    /// where there are more of them than prongs), then the rest stands between them at even
-    /// distances. Without corners they stand evenly about the x axis. Normals are means over
-    /// `width` of outline.
+    /// `count` places, at least 2, counter-clockwise from azimuth 0. First the corners are taken
+    /// (spread evenly where there are more of them than prongs), then the rest stands between them
+    /// at even distances. Without corners they stand evenly about the x axis. Normals are means
+    /// over `width` of outline.
     std::vector<GirdlePlace> places(int count, double width) const;
 
 private:

@@ -112,10 +112,12 @@ std::vector<PlanPoint> taut_path(const std::vector<PlanPoint>& curve, const Plan
         if (curve[i].x < inside && i > tangent && curve[i - 1].x > inside) {
             const double t = (inside - curve[i - 1].x) / (curve[i].x - curve[i - 1].x);
             path.push_back(curve[i - 1] + t * (curve[i] - curve[i - 1]));
-            break;
+            return path;
         }
         path.push_back(curve[i]);
     }
+    // Over a flat top it goes on level.
+    if (path.back().x > inside) path.emplace_back(inside, path.back().y);
     return path;
 }
 
