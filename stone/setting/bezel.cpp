@@ -69,9 +69,9 @@ Bezel make_bezel(const SettingPlan& plan) {
     const PlanPoint inner_foot = section[0], outer_foot = section[1];
     const double radius = std::min(k_leg * plan.wire, 0.45 * (outer_foot.x - inner_foot.x));
     const int count = plan.grip.corners() > 0 ? plan.grip.usual_prongs() : k_usual_legs;
-    for (const GirdlePlace& place : plan.grip.places(count, plan.wire)) {
+    for (const GirdlePlace& usual : plan.grip.places(count, plan.wire)) {
+        const auto [place, foot] = on_base(plan, usual);
         const auto beside = outer_hull(plan.solid, place, radius + plan.clearance);
-        const double foot = distance_along(plan.base, place.at, -place.outward);
         const PlanPoint from{-foot, plan.base_height},
             to{0.5 * (inner_foot.x + outer_foot.x), inner_foot.y};
         std::vector<Vec3> path;

@@ -32,6 +32,14 @@ struct SettingPlan {
 Shell at_clearance(const SettingPlan& plan, const std::function<Shell(double)>& make,
                    const std::string& what);
 
+/// A place, and how far from it, against its outward direction, the base lies. Where the outline's
+/// normal misses the base (near sharp points) the direction is that to the base's middle.
+struct FootedPlace {
+    GirdlePlace place;
+    double to_base = 0;
+};
+FootedPlace on_base(const SettingPlan& plan, GirdlePlace place);
+
 struct Prong {
     Shell shell;
     GirdlePlace place;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "stone/errors.h"
 #include "stone/setting/parts.h"
@@ -11,7 +12,8 @@ namespace culet {
 
 namespace {
 
-constexpr double k_gap_tolerance = 1e-3;  // of the wire
+constexpr double k_gap_tolerance = 1e-3;   // of the wire
+constexpr double k_least_distance = -0.4;  // of the wire, from what hulls say
 constexpr int k_most_tries = 40;
 // How far a claw reaches over the girdle: of the wire, and at most of the stone's inner radius.
 constexpr double k_claw = 0.8, k_longest_claw = 0.4;
@@ -31,7 +33,7 @@ Shell at_clearance(const SettingPlan& plan, const std::function<Shell(double)>& 
                    const std::string& what) {
     const double room = k_gap_tolerance * plan.wire;
     double distance = plan.clearance, near_gap = plan.far();
-    double too_near = 0;  // largest distance that was
+    double too_near = k_least_distance * plan.wire;  // largest distance that was
     std::optional<double> kept_at;
     Shell kept;
     for (int i = 0; i < k_most_tries; ++i) {
@@ -50,9 +52,11 @@ Shell at_clearance(const SettingPlan& plan, const std::function<Shell(double)>& 
         // Where metal moves straight off the stone the gap grows as the distance does.
         double next = distance + plan.clearance + 0.5 * room - gap;
         if (kept_at && (next <= too_near || next >= *kept_at)) next = 0.5 * (too_near + *kept_at);
-        if (!kept_at && next <= too_near) next = 2 * too_near;
+        if (!kept_at && next <= too_near) next = too_near + 0.1 * plan.wire;
         if (next > 2 * plan.wire + plan.clearance) break;
-        distance = std::max(next, 0.0);
+        // A hull is wider than the stone where that falls off beside: negative distances.
+        distance = std::max(next, k_least_distance * plan.wire);
+        if (kept_at == distance) break;
     }
     if (!kept_at || near_gap > plan.clearance + room) {
         throw InputError(
@@ -63,26 +67,35 @@ Shell at_clearance(const SettingPlan& plan, const std::function<Shell(double)>& 
     return kept;
 }
 
+FootedPlace on_base(const SettingPlan& plan, GirdlePlace place) {
+    double way = distance_along(plan.base, place.at, -place.outward);
+    if (way < 0) {
+        place.outward = glm::normalize(place.at - middle_of(plan.base));
+        way = distance_along(plan.base, place.at, -place.outward);
+    }
+    check(way >= 0, "a wire's foot stands on the base");
+    return {place, way};
+}
+
 std::vector<Prong> make_prongs(const SettingPlan& plan, int count) {
     std::vector<Prong> prongs;
     const double radius = 0.5 * plan.wire;
-    for (const GirdlePlace& place : plan.grip.places(count, plan.wire)) {
+    for (const GirdlePlace& usual : plan.grip.places(count, plan.wire)) {
+        const auto [place, foot] = on_base(plan, usual);
         Prong prong;
         prong.place = place;
         const auto hull = outer_hull(plan.solid, place, radius + plan.clearance);
-        const double foot = distance_along(plan.base, place.at, -place.outward);
-        check(foot >= 0, "a prong's foot stands on the base");
         prong.foot = {-foot, plan.base_height};
         const double claw =
             std::min(k_claw * plan.wire, k_longest_claw * inner_radius(plan.grip.hull()));
         const Vec3 aside(-place.outward.y, place.outward.x, 0);
         prong.shell = at_clearance(
             plan,
-            [&](double distance) {
+            [&, at = place](double distance) {
                 const auto curve = curve_beside(hull, radius + distance, 2 * plan.sides);
                 const auto path = taut_path(curve, prong.foot, -std::max(claw - radius, 0.0));
                 prong.shoulder = path[1];
-                return round_wire(in_space(place, path), radius, aside, plan.sides);
+                return round_wire(in_space(at, path), radius, aside, plan.sides);
             },
             fmt::format("prong {}", prongs.size() + 1));
         prongs.push_back(std::move(prong));

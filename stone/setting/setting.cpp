@@ -19,7 +19,7 @@ namespace {
 constexpr double k_wire = 1.0 / 8, k_clearance = 1.0 / 500;  // of the girdle's width
 // The base of the gallery: how far inside the girdle's outline it lies, of the inner radius, and
 // how much of the hoop's radius it may reach aside without leaving the hoop.
-constexpr double k_base_inside = 0.5, k_base_on_hoop = 0.4;
+constexpr double k_base_inside = 0.5, k_base_on_hoop = 0.4, k_furthest_inside = 0.8;
 constexpr double k_shank_wire = 0.105;  // diameter, of the ring's: 1.8 mm on 17 mm
 constexpr int k_hoop_steps = 6;         // for each side of the wire
 
@@ -119,7 +119,13 @@ Setting make_setting(const Solid& solid, const Vec3& up, const SettingOptions& a
     double inside = k_base_inside * inner;
     if (options.shank)
         inside = std::max(inside, inner - k_base_on_hoop * 0.5 * options.ring_diameter);
-    plan.base = moved_outline(grip.hull(), -std::min(inside, 0.9 * inner));
+    if (inside > k_furthest_inside * inner) {
+        throw InputError(fmt::format(
+            "a stone {:.4g} wide does not sit on a ring of {:.4g}: --ring takes a larger one, and "
+            "--no-shank makes the head alone",
+            narrowest(grip.hull()), options.ring_diameter));
+    }
+    plan.base = moved_outline(grip.hull(), -inside);
 
     const auto add = [&](std::string name, Shell shell) {
         setting.parts.push_back({std::move(name), std::move(shell)});
