@@ -213,7 +213,7 @@ int run_render(const RenderOptions& options) {
     Scene scene = scene_of(options, saved ? &*saved : nullptr);
     output.look_as(options.exposure, options.tonemap, scene);
     const bool paced = !saved && !scene.names_tolerance && scene.settings.check == Check::full &&
-                       leaves_something_open(scene.settings);
+                       leaves_something_open(scene);
     if (paced) scene.settings.allowed_ns = k_usual_allowance_ns;
 
     const bool quiet = options.common.quiet;

@@ -18,6 +18,8 @@ namespace culet {
 
 namespace {
 
+constexpr int k_preview_samples = 4;
+
 RenderResult drawn(const Scene& scene, const Progress& progress) {
     return engine_of(scene.settings).draw(scene, progress);
 }
@@ -96,6 +98,17 @@ RenderResult drawn_once(const Scene& scene, const Progress& progress) {
     return result;
 }
 
+// Light that is chosen at random: first a few rays a pixel, to be seen soon.
+RenderResult drawn_with_preview(const Scene& scene, const Progress& progress,
+                                const PictureSink& better) {
+    if (better) {
+        Scene few = scene;
+        few.settings.samples = k_preview_samples;
+        better(drawn(few, progress));
+    }
+    return drawn(scene, progress);
+}
+
 // It was of this drawing alone.
 void forget_meter(RenderStats& stats) {
     if (stats.plan) stats.plan->settings.meter = nullptr;
@@ -103,7 +116,10 @@ void forget_meter(RenderStats& stats) {
 
 }  // namespace
 
-bool leaves_something_open(const RenderSettings& settings) {
+bool leaves_something_open(const Scene& scene) {
+    const RenderSettings& settings = scene.settings;
+    // What stands around the stone is sampled at random: no pilot tells how near it is.
+    if (scene.furnished()) return false;
     if (!engine_of(settings).approaches_truth()) return false;
     return settings.tolerance > 0 && (settings.engine == k_auto_engine || settings.effects_auto ||
                                       settings.wavelengths_nm.empty());
@@ -128,7 +144,8 @@ RenderResult render_as_planned(const Scene& scene, const ScenePlan& plan,
 }
 
 RenderResult render(const Scene& scene, const Progress& progress, const PictureSink& better) {
-    const bool open = leaves_something_open(scene.settings);
+    if (scene.furnished()) return drawn_with_preview(scene, progress, better);
+    const bool open = leaves_something_open(scene);
     const bool planned = open && scene.settings.check == Check::full;
     if (open && !planned) return drawn_once(scene, progress);
     if (planned && scene.settings.allowed_ns > 0) {

@@ -23,7 +23,7 @@ RenderResult render_as_planned(const Scene& scene, const ScenePlan& plan,
                                const Progress& progress = {});
 
 /// Whether `render` chooses anything itself: then `allowed_ns` counts.
-bool leaves_something_open(const RenderSettings& settings);
+bool leaves_something_open(const Scene& scene);
 
 /// STATS.json (docs/rendering.md) as text.
 std::string stats_json(const RenderStats& stats);

@@ -257,6 +257,7 @@ RenderResult FrameRenderer::take() {
 }
 
 std::string refused_by_beams(const Scene& scene, const OpticalSetup& setup) {
+    if (scene.furnished()) return "beams draw one stone alone, without objects around it";
     if (!scene.stone.convex) return "beams are for convex stones only";
     for (const Band& band : setup.bands) {
         if (!(band.n > band.n_outside)) {

@@ -62,6 +62,17 @@ inline Stokes stokes_of_unpolarised(const EyeCoherency& c) {
     return stokes_of(0.5 * c.xx.trace().real(), 0.5 * c.yy.trace().real(), 0.5 * c.xy.trace());
 }
 
+/// At the eye, of light whose Stokes parameters count from the two waves' vibrations (S1 > 0 along
+/// wave 0, and so on).
+inline Stokes stokes_of_light(const EyeCoherency& c, const Stokes& light) {
+    const double j00 = 0.5 * (light[0] + light[1]), j11 = 0.5 * (light[0] - light[1]);
+    const std::complex<double> j01(0.5 * light[2], 0.5 * light[3]);
+    const auto seen = [&](const Eigen::Matrix2cd& m) {
+        return m(0, 0) * j00 + m(1, 1) * j11 + m(0, 1) * j01 + m(1, 0) * std::conj(j01);
+    };
+    return stokes_of(seen(c.xx).real(), seen(c.yy).real(), seen(c.xy));
+}
+
 /// At the eye, of linearly polarised light of radiance 1 with field (e0, e1) in the two waves.
 inline Stokes stokes_of_linear(const EyeCoherency& c, double e0, double e1) {
     const Eigen::Vector2d e(e0, e1);

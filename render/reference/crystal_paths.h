@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "render/optics/random.h"
 #include "render/reference/crystal_node.h"
 #include "render/scene/scene.h"
 
@@ -178,7 +179,7 @@ private:
     void choose(CrystalNode& first, CrystalNode& second) {
         const double power_first = first.power(), power_second = second.power();
         const double whole = power_first + power_second;
-        const bool stay = uniform() * whole < power_first;
+        const bool stay = random_.uniform() * whole < power_first;
         if (!stay) first = second;
         first.c.scale(whole / (stay ? power_first : power_second));
     }
@@ -219,7 +220,7 @@ private:
             return true;
         }
         // Survives with the probability weight / cut_weight, and then weighs cut_weight.
-        if (uniform() * limits_.cut_weight >= weight) {
+        if (random_.uniform() * limits_.cut_weight >= weight) {
             sink_.roulette(weighted(node.power(), node.tau));
             return true;
         }
@@ -229,20 +230,11 @@ private:
         return false;
     }
 
-    // SplitMix64 (Steele, Lea & Flood 2014): a stream fixed by the seed.
-    double uniform() {
-        random_ += 0x9e3779b97f4a7c15ull;
-        std::uint64_t z = random_;
-        z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-        z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-        return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-    }
-
     const StoneBody& body_;
     const Band& band_;
     PathLimits limits_;
     Sink& sink_;
-    std::uint64_t random_;
+    Random random_;
     CrystalSteps steps_;
     PathTrace trace_;
     struct Waiting {

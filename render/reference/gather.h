@@ -42,10 +42,17 @@ public:
                     const PathTrace& trace) {
         seen(trace);
         const int count = single ? 1 : band_.count;
+        if constexpr (single) {
+            surroundings_.add_radiance(at, direction, weight[0], band_.first, 1,
+                                       radiance_ + band_.first);
+            return;
+        }
         NodeWeights radiance;
         std::fill_n(radiance.begin(), count, 0.0);
-        surroundings_.add_radiance(at, direction, 1.0, band_.first, count, radiance.data());
-        for (int i = 0; i < count; ++i) radiance_[band_.first + i] += weight[i] * radiance[i];
+        const double most = *std::max_element(weight.begin(), weight.begin() + count);
+        surroundings_.add_radiance(at, direction, most, band_.first, count, radiance.data());
+        for (int i = 0; i < count; ++i)
+            radiance_[band_.first + i] += weight[i] / most * radiance[i];
     }
 
 private:

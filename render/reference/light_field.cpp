@@ -195,9 +195,4 @@ double LightField::max_radiance() const {
     return ready_->brightest;
 }
 
-std::unique_ptr<const Surroundings> surroundings_of(const Scene& scene,
-                                                    const WavelengthSet& wavelengths) {
-    return std::make_unique<LightField>(scene.lights, wavelengths);
-}
-
 }  // namespace culet

@@ -19,6 +19,7 @@ public:
     void add_direct_stokes(const EyeRay& ray, const EyeFrame& frame, int nodes,
                            double* stokes) const override;
     double nearest_distance(const Vec3& origin, const Vec3& direction) const override;
+    bool stands_at(const Vec3&, const Vec3&) const override { return false; }
     std::string name_at(const Vec3& origin, const Vec3& direction) const override;
     double max_radiance() const override;
 

@@ -16,6 +16,8 @@ namespace culet {
 
 namespace {
 
+constexpr int k_rays_of_a_wavelength = 8;
+
 class GatherStokes : public Lost {
 public:
     GatherStokes(const Surroundings& surroundings, const Band& band,
@@ -103,6 +105,7 @@ std::vector<double> usual_radiance(const Surroundings& surroundings, const Vec3&
 
 PixelSums& PixelSums::operator+=(const PixelSums& more) {
     hit += more.hit;
+    counted += more.counted;
     luminance += more.luminance;
     remainder += more.remainder;
     absorbed += more.absorbed;
@@ -119,7 +122,10 @@ PixelSums& PixelSums::operator+=(const PixelSums& more) {
 }
 
 PixelShader::PixelShader(const Scene& scene, const PreparedScene& prepared, int samples)
-    : body_(scene.stone.solid, scene.stone.convex),
+    : furnished_(scene.furnished()),
+      has_stone_(scene.has_stone()),
+      covers_objects_(furnished_ && scene.film.alpha),
+      body_(scene.stone.solid, scene.stone.convex),
       eyes_(scene.camera),
       setup_(prepared.setup),
       surroundings_(*prepared.surroundings),
@@ -130,7 +136,9 @@ PixelShader::PixelShader(const Scene& scene, const PreparedScene& prepared, int 
       rgb_(colour_weights(prepared.colours, scene.camera.optics, planes())),
       usual_(usual_radiance(surroundings_, scene.camera.look_at, nodes_)) {
     for (const Rgb& rgb : rgb_) luminance_.push_back(luminance(rgb));
-    take_turns(std::clamp(scene.settings.wavelength_turns, 1,
+    // Where most of the noise is that of the surroundings, a ray need not carry all wavelengths.
+    const int usual_turns = furnished_ ? std::max(1, samples / k_rays_of_a_wavelength) : 1;
+    take_turns(std::clamp(scene.settings.wavelength_turns.value_or(usual_turns), 1,
                           static_cast<int>(std::min(pattern_.size(), setup_.bands.size()))));
 }
 
@@ -211,12 +219,16 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
         const SamplePoint& p = pattern_[i];
         if (!eyes_.sees(x + size * p.x, y + size * p.y)) continue;
         const EyeRay ray = eyes_.through(x + size * p.x, y + size * p.y, p.pupil_x, p.pupil_y);
-        const auto entry = body_.entry(ray.origin, ray.direction, memory.entry);
+        const auto entry = has_stone_ ? body_.entry(ray.origin, ray.direction, memory.entry)
+                                      : std::optional<BodyHit>();
         if (!entry || surroundings_.nearest_distance(ray.origin, ray.direction) < entry->distance) {
             background(ray, memory.behind.data() + half_[i] * values);
+            if (covers_objects_ && surroundings_.stands_at(ray.origin, ray.direction))
+                sums.hit += share;
             continue;
         }
         sums.hit += share;
+        if (!furnished_) sums.counted += share;
         double* seen = memory.stone.data() + half_[i] * values;
         for (std::size_t b = 0; b < (k_has_effects ? setup_.bands.size() : 1); ++b) {
             if (k_has_effects && static_cast<int>(b % static_cast<std::size_t>(turns_)) != turn_[i])
@@ -260,22 +272,28 @@ PixelSums PixelShader::shade(double x, double y, double size, std::uint64_t pixe
             ++sums.rays;
         }
     }
+    if (furnished_) sums.counted = 1;
     Rgb apart{};
+    double luminance_apart = 0;
     for (std::size_t i = 0; i < values; ++i) {
         const double *stone = &memory.stone[i], *behind = &memory.behind[i];
         const double of_stone = factor_[i] * (stone[0] + stone[values]);
         const double whole = share * (of_stone + (behind[0] + behind[values]));
         const double difference = of_half_[0][i] * stone[0] - of_half_[1][i] * stone[values] +
                                   behind_half_[0] * behind[0] - behind_half_[1] * behind[values];
-        sums.luminance += share * luminance_[i] * of_stone;
+        sums.luminance += luminance_[i] * (furnished_ ? whole : share * of_stone);
+        luminance_apart += luminance_[i] * difference;
         for (std::size_t c = 0; c < 3; ++c) {
             apart[c] += rgb_[i][c] * difference;
-            if (sums.hit > 0) sums.radiance += rgb_[i][c] * whole / 3;
+            if (sums.counted > 0) sums.radiance += rgb_[i][c] * whole / 3;
         }
         stokes[i] = whole;
     }
-    if (halved_ && sums.hit > 0)
+    if (halved_ && sums.counted > 0)
         sums.halves_apart = (std::abs(apart[0]) + std::abs(apart[1]) + std::abs(apart[2])) / 6;
+    // Every ray is chosen at random: the mean of two independent halves has a quarter of their
+    // difference's variance, which is that much, edges within the pixel included.
+    if (furnished_ && halved_) sums.variance = 0.25 * luminance_apart * luminance_apart;
     return sums;
 }
 

@@ -12,7 +12,10 @@ namespace culet {
 
 /// What is known of a pixel beside its light. Weights are means over its samples and wavelengths.
 struct PixelSums {
-    double hit = 0;        ///< share of samples that meet the stone
+    double hit = 0;  ///< share of samples that meet the stone
+    /// Share of samples that the means below are about: those, or where things stand around the
+    /// stone, all.
+    double counted = 0;
     double luminance = 0;  ///< that these bring, as a share of the pixel
     double remainder = 0, absorbed = 0, cut = 0;
     double variance = 0;  ///< of the luminance, from paths chosen at random
@@ -53,6 +56,7 @@ private:
     void take_turns(int turns);
     void background(const EyeRay& ray, double* stokes) const;
 
+    bool furnished_, has_stone_, covers_objects_;
     StoneBody body_;
     EyeRays eyes_;
     const OpticalSetup& setup_;

@@ -42,7 +42,7 @@ double pilot_mean(const Scene& scene, PreparedScene& prepared) {
     double sum = 0, hits = 0;
     each_pilot_pixel(scene.camera, k_pilot_pixels, [&](double x, double y, double size) {
         const PixelSums pixel = shader.shade(x, y, size, 0, stokes.data(), memory);
-        hits += pixel.hit;
+        hits += pixel.counted;
         sum += pixel.luminance;
     });
     return hits > 0 ? sum / hits : 0;
@@ -95,7 +95,7 @@ OpticalSetup setup_for_tolerance(const Scene& scene) {
     PixelMemory memory;
     std::vector<std::vector<double>> spectra;
     each_pilot_pixel(scene.camera, k_spectral_pixels, [&](double x, double y, double) {
-        if (shader.shade(x, y, 1, 0, stokes.data(), memory).hit > 0)
+        if (shader.shade(x, y, 1, 0, stokes.data(), memory).counted > 0)
             spectra.emplace_back(stokes.begin(), stokes.begin() + static_cast<long>(nodes));
     });
     for (int count : k_node_counts) {

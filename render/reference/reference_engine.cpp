@@ -24,7 +24,7 @@ namespace culet {
 namespace {
 
 constexpr int k_tile = 16;  // pixels
-constexpr int k_samples = 16, k_pupil_samples = 64;
+constexpr int k_samples = 16, k_pupil_samples = 64, k_furnished_samples = 64;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -32,6 +32,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 int samples_of(const Scene& scene, const OpticalSetup& setup) {
     if (scene.settings.samples > 0) return scene.settings.samples;
+    if (scene.furnished()) return k_furnished_samples;
     return setup.on(Effects::aperture) ? k_pupil_samples : k_samples;
 }
 
@@ -101,7 +102,7 @@ void fill_stats(const PixelSums& whole, const PreparedScene& prepared, RenderSta
     stats.rays = whole.rays;
     stats.depth = whole.deepest;
     stats.worst_imbalance = whole.worst_imbalance;
-    const double weight = whole.hit;
+    const double weight = whole.counted;
     if (weight > 0) {
         stats.remainder /= weight;
         stats.cut /= weight;

@@ -19,7 +19,8 @@ public:
     virtual ~Surroundings() = default;
 
     /// Adds `weight` times the radiance that arrives along a ray at node `first` ..
-    /// `first + count - 1` to `radiance[0 .. count - 1]`.
+    /// `first + count - 1` to `radiance[0 .. count - 1]`. What is sampled at random is sampled the
+    /// less, the smaller the weight.
     virtual void add_radiance(const Vec3& origin, const Vec3& direction, double weight, int first,
                               int count, double* radiance) const = 0;
     /// The Stokes parameters that reach the eye through the two waves of a path's end, times its
@@ -32,13 +33,15 @@ public:
     /// How far along the ray the nearest thing is that hides what lies behind it. Infinite when
     /// there is none.
     virtual double nearest_distance(const Vec3& origin, const Vec3& direction) const = 0;
+    /// Whether a thing, and no light, is the nearest.
+    virtual bool stands_at(const Vec3& origin, const Vec3& direction) const = 0;
     /// What is seen there, for people: "environment", "sphere 0", ...
     virtual std::string name_at(const Vec3& origin, const Vec3& direction) const = 0;
     /// Largest radiance at any node, for bounds.
     virtual double max_radiance() const = 0;
 };
 
-/// Of a scene: its lights.
+/// Of a scene: its lights, and what stands around its stone (objects/object_surroundings.cpp).
 std::unique_ptr<const Surroundings> surroundings_of(const Scene& scene,
                                                     const WavelengthSet& wavelengths);
 

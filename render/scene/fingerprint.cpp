@@ -103,6 +103,7 @@ struct AddSurface {
     void operator()(const MetalMaterial& m) const {
         colour(m.n);
         colour(m.k);
+        if (m.f0) colour(*m.f0);
         print.add(m.roughness);
     }
     void operator()(const MirrorMaterial& m) const { colour(m.albedo); }
@@ -148,7 +149,7 @@ void add_settings(Fingerprint& print, const RenderSettings& settings) {
     print.add(settings.tolerance);
     print.add(settings.cut_weight.value_or(-1));
     print.add(settings.split_weight.value_or(-1));
-    print.add(settings.wavelength_turns);
+    print.add(settings.wavelength_turns.value_or(1));
     print.add(static_cast<double>(settings.most_beams));
     print.add(static_cast<int>(settings.check));
     print.add(settings.checked_pixels);

@@ -13,8 +13,6 @@ namespace culet {
 
 namespace {
 
-// A colour as its largest, so that a finite number bounds it.
-constexpr double k_largest_number = 1e9;
 constexpr double k_usual_crease_deg = 30;
 
 Vec3 center_in(const TomlTable& table) {
@@ -138,19 +136,7 @@ MetalMaterial metal_in(const TomlTable& table) {
     if (table.has("f0")) {
         if (table.has("index") || table.has("absorption"))
             table.fail("f0", "a metal has f0, or index and absorption, not both");
-        const SurfaceColour f0 = share_in(table, "f0", 1);
-        metal.n = {1.0};
-        std::visit(
-            [&](const auto& value) {
-                auto k = value;
-                if constexpr (std::is_same_v<decltype(k), double>) {
-                    k = extinction_of_reflectance(value);
-                } else {
-                    for (double& c : k) c = extinction_of_reflectance(c);
-                }
-                metal.k = {k};
-            },
-            f0.value);
+        metal.f0 = share_in(table, "f0", 1);
     } else {
         if (!table.has("index") || !table.has("absorption")) {
             table.fail("",
@@ -203,13 +189,6 @@ SurfaceMaterial material_in(const TomlTable& object) {
 }
 
 }  // namespace
-
-double extinction_of_reflectance(double reflectance) {
-    // r = k^2 / (4 + k^2).
-    const double lost = 1 - reflectance;
-    return lost > 0 ? std::min(2 * std::sqrt(reflectance / lost), k_largest_number)
-                    : k_largest_number;
-}
 
 std::vector<SceneObject> objects_of(const TomlTable& root, LengthUnit unit) {
     std::vector<SceneObject> objects;

@@ -51,10 +51,13 @@ struct DiffuseMaterial {
     static constexpr const char* k_name = "diffuse";
     SurfaceColour albedo;
 };
-/// Fresnel's equations for a complex index n + i k.
+/// Fresnel's equations for a complex index.
 struct MetalMaterial {
     static constexpr const char* k_name = "metal";
-    SurfaceColour n, k;
+    SurfaceColour n, k;  ///< n + i k; or, where there is `f0`, unused
+    /// Reflectance at normal incidence, 0..1: the index is 1 + i k then, with k to match. What that
+    /// reflects at a slant lies between real metals. Of 1: an ideal conductor.
+    std::optional<SurfaceColour> f0;
     /// 0: polished. Else microfacets (GGX) of alpha = roughness^2, as glTF and Blender have it.
     double roughness = 0;
 };
@@ -81,10 +84,5 @@ struct SceneObject {
     Shape shape;
     SurfaceMaterial material;
 };
-
-/// Index and extinction of a metal that is known by its reflectance at normal incidence, 0..1: that
-/// of index 1. What it reflects at a slant lies between those of real metals. Of 1: an ideal
-/// conductor, of infinite k.
-double extinction_of_reflectance(double reflectance);
 
 }  // namespace culet

@@ -138,8 +138,9 @@ struct RenderSettings {
     /// branches of a crystal's tree are; nothing: by tolerance.
     std::optional<double> cut_weight, split_weight;
     /// Reference: the rays of a pixel take turns, so that each carries every so manieth of the
-    /// wavelengths that go ways of their own; at most `samples`.
-    int wavelength_turns = 1;
+    /// wavelengths that go ways of their own; at most `samples`. Nothing: 1, or where things stand
+    /// around the stone, so that each wavelength has eight rays.
+    std::optional<int> wavelength_turns;
     /// Beams of one wavelength's tree, isotropic or merged: what memory they may take, some 100
     /// bytes each. Where there would be more, more of the light is cut.
     long long most_beams = 1 << 23;

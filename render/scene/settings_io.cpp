@@ -241,7 +241,8 @@ std::vector<std::pair<std::string, std::string>> written_settings(const RenderSe
     if (settings.cut_weight) write("cut_weight", fmt::format("{}", *settings.cut_weight));
     if (settings.split_weight) write("split_weight", fmt::format("{}", *settings.split_weight));
     if (settings.samples > 0) write("samples", std::to_string(settings.samples));
-    write("wavelength_turns", std::to_string(settings.wavelength_turns));
+    if (settings.wavelength_turns)
+        write("wavelength_turns", std::to_string(*settings.wavelength_turns));
     if (!settings.effects_auto) {
         std::vector<std::string> on;
         for (int e = 0; e < k_effect_count; ++e) {

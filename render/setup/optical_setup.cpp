@@ -57,6 +57,36 @@ LightNeeds needs_of(const Lights& lights) {
     return most;
 }
 
+LightNeeds needs_of(const SurfaceColour& colour) {
+    return std::holds_alternative<double>(colour.value) ? LightNeeds::one_wavelength
+                                                        : LightNeeds::three_for_rgb;
+}
+
+LightNeeds needs_of(const SurfaceMaterial& material) {
+    return std::visit(
+        [](const auto& m) {
+            using M = std::decay_t<decltype(m)>;
+            if constexpr (std::is_same_v<M, EmitterMaterial>) {
+                return needs_of(m.radiance);
+            } else if constexpr (std::is_same_v<M, DielectricMaterial>) {
+                return needs_of(m.absorption);
+            } else if constexpr (std::is_same_v<M, MetalMaterial>) {
+                return m.f0 ? needs_of(*m.f0) : std::max(needs_of(m.n), needs_of(m.k));
+            } else {
+                return needs_of(m.albedo);
+            }
+        },
+        material);
+}
+
+// Of light and of what it meets on its way.
+LightNeeds needs_of_surroundings(const Scene& scene) {
+    LightNeeds most = needs_of(scene.lights);
+    for (const SceneObject& object : scene.objects)
+        most = std::max(most, needs_of(object.material));
+    return most;
+}
+
 std::vector<double> even_nodes(int count) {
     std::vector<double> nm;
     for (int i = 0; i < count; ++i)
@@ -90,6 +120,16 @@ bool has_polariser(const Scene& scene) {
     return scene.camera.optics.analyzer || polarised(scene.lights);
 }
 
+// What stands around the stone turns unpolarised light into polarised light.
+bool surroundings_polarise(const Scene& scene) {
+    if (!scene.more_stones.empty()) return true;
+    return std::any_of(scene.objects.begin(), scene.objects.end(), [](const SceneObject& object) {
+        const auto* metal = std::get_if<MetalMaterial>(&object.material);
+        return std::holds_alternative<DielectricMaterial>(object.material) ||
+               (metal != nullptr && metal->roughness == 0);
+    });
+}
+
 // What the stone's optics can do over the wavelengths in question.
 struct Optics {
     double span = 0;       // of the indices over wavelength
@@ -120,6 +160,13 @@ Optics optics_of(const Material& material, const std::vector<double>& nm) {
                                     std::abs(material.index[2].at(at) - material.index[1].at(at)));
     }
     return optics;
+}
+
+bool more_stones_need_spectrum(const Scene& scene) {
+    return std::any_of(scene.more_stones.begin(), scene.more_stones.end(), [](const Stone& stone) {
+        const Optics optics = optics_of(stone.material, even_nodes(k_probes));
+        return optics.span > 0 || optics.spectral_absorption;
+    });
 }
 
 // Index and absorption along the crystal's three axes (uniaxial: axis 0 is the optic axis, e).
@@ -208,7 +255,8 @@ OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
     const bool coherent = setup.on(Effects::coherence);
     setup.splits = setup.on(Effects::birefringence);
     setup.stokes =
-        has_polariser(scene) || (scene.settings.spectral && setup.on(Effects::polarization));
+        has_polariser(scene) || (setup.on(Effects::polarization) &&
+                                 (scene.settings.spectral || surroundings_polarise(scene)));
     setup.general = setup.splits || setup.stokes || !scene.stone.convex || scene.immersion != 1;
     setup.polarised = setup.on(Effects::polarization);
     if (setup.general && !setup.polarised) {
@@ -223,11 +271,11 @@ OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
     if (!given.empty()) {
         setup.wavelengths_nm = given;
     } else if (dispersive || (setup.on(Effects::absorption) && optics.spectral_absorption) ||
-               (coherent && has_polariser(scene)) ||
-               needs_of(scene.lights) == LightNeeds::a_spectrum) {
+               (coherent && has_polariser(scene)) || more_stones_need_spectrum(scene) ||
+               needs_of_surroundings(scene) == LightNeeds::a_spectrum) {
         setup.wavelengths_nm =
             even_nodes(coherent ? std::max(nodes, k_least_coherent_nodes) : nodes);
-    } else if (needs_of(scene.lights) == LightNeeds::three_for_rgb) {
+    } else if (needs_of_surroundings(scene) == LightNeeds::three_for_rgb) {
         // Three nodes carry any RGB light exactly.
         setup.wavelengths_nm = {450, 550, 610};
     } else {

@@ -15,12 +15,7 @@ namespace {
 // drawn by its planes, and a note says so.
 constexpr double k_drawn_by_planes = 0.02;
 
-}  // namespace
-
-void require_renderable(const Scene& scene) {
-    if (scene.furnished() || !scene.has_stone())
-        throw InputError("objects and further stones are read, but not rendered yet");
-    const Stone& stone = scene.stone;
+void require_drawable(const Stone& stone) {
     const std::string name = stone.name.empty() ? "stone" : stone.name;
     for (const Fault& fault : find_faults(stone.solid, {.planarity = k_drawn_by_planes})) {
         switch (fault.kind) {
@@ -58,11 +53,21 @@ void require_renderable(const Scene& scene) {
             }
         }
     }
+}
+
+}  // namespace
+
+void require_renderable(const Scene& scene) {
+    if (scene.has_stone() || !scene.furnished()) require_drawable(scene.stone);
+    for (const Stone& stone : scene.more_stones) require_drawable(stone);
     if (scene.settings.depth > PathTrace::k_longest) {
         throw InputError(fmt::format("depth {} is over the longest path, {}", scene.settings.depth,
                                      PathTrace::k_longest));
     }
-    require_outside(StoneBody(stone.solid, stone.convex), scene.camera);
+    if (scene.has_stone())
+        require_outside(StoneBody(scene.stone.solid, scene.stone.convex), scene.camera);
+    for (const Stone& stone : scene.more_stones)
+        require_outside(StoneBody(stone.solid, stone.convex), scene.camera);
 }
 
 void require_outside(const StoneBody& body, const Camera& camera) {
@@ -71,6 +76,7 @@ void require_outside(const StoneBody& body, const Camera& camera) {
 }
 
 std::vector<std::string> notes_on_drawing(const Scene& scene) {
+    if (!scene.has_stone()) return {};
     const double off = planarity(scene.stone.solid) / diameter(scene.stone.solid);
     if (!(off > k_largest_miss)) return {};
     return {

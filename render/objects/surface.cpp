@@ -1,0 +1,155 @@
+#include "render/objects/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <numbers>
+
+namespace culet {
+
+namespace {
+
+constexpr int k_albedo_cosines = 64, k_albedo_side = 64;
+
+// Few wavelengths stand for some colours with values beyond `most`, or below 0.
+std::vector<double> nodes_of(const SurfaceColour& colour, const WavelengthSet& wavelengths,
+                             double most = std::numeric_limits<double>::infinity()) {
+    LightColour light;
+    std::visit([&light](const auto& value) { light.value = value; }, colour.value);
+    std::vector<double> nodes = radiance_of(light, wavelengths);
+    for (double& node : nodes) node = std::clamp(node, 0.0, most);
+    return nodes;
+}
+
+// The index 1 + i k of that reflectance at normal incidence, r = k^2 / (4 + k^2); infinite for 1.
+double extinction_of(double reflectance) {
+    return 2 * std::sqrt(reflectance / (1 - reflectance));
+}
+
+}  // namespace
+
+ReadySurface::ReadySurface(const SurfaceMaterial& material, const WavelengthSet& wavelengths,
+                           double outside) {
+    if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material)) {
+        colour = nodes_of(diffuse->albedo, wavelengths, 1);
+    } else if (const auto* mirror = std::get_if<MirrorMaterial>(&material)) {
+        kind = SurfaceKind::mirror;
+        colour = nodes_of(mirror->albedo, wavelengths, 1);
+    } else if (const auto* glass = std::get_if<DielectricMaterial>(&material)) {
+        kind = SurfaceKind::dielectric;
+        index = glass->index / outside;
+        absorption = nodes_of(glass->absorption, wavelengths);
+    } else if (const auto* emitter = std::get_if<EmitterMaterial>(&material)) {
+        kind = SurfaceKind::emitter;
+        colour = radiance_of(emitter->radiance, wavelengths);
+    } else {
+        const auto& metal = std::get<MetalMaterial>(material);
+        kind = metal.roughness > 0 ? SurfaceKind::rough_metal : SurfaceKind::metal;
+        alpha = metal.roughness * metal.roughness;
+        if (metal.f0) {
+            for (const double r : nodes_of(*metal.f0, wavelengths, 1)) {
+                n_.push_back(1);
+                k_.push_back(extinction_of(r));
+            }
+        } else {
+            n_ = nodes_of(metal.n, wavelengths);
+            k_ = nodes_of(metal.k, wavelengths);
+            for (double& n : n_) n /= outside;
+            for (double& k : k_) k /= outside;
+        }
+        for (int i = 0; i < wavelengths.size(); ++i)
+            normal_reflectance_.push_back(reflectance(i, 1));
+        if (kind == SurfaceKind::rough_metal) prepare_albedo();
+    }
+}
+
+MuellerReflection ReadySurface::reflection(int node, double cosine) const {
+    const auto i = static_cast<std::size_t>(node);
+    if (std::isinf(k_[i])) return {};
+    const std::complex<double> m(n_[i], k_[i]), square = m * m;
+    // The root whose imaginary part decays into the metal: that of a number above the real axis.
+    const std::complex<double> q = std::sqrt(square - (1 - cosine) * (1 + cosine));
+    const std::complex<double> r_s = (cosine - q) / (cosine + q),
+                               r_p = (square * cosine - q) / (square * cosine + q);
+    if (!std::isfinite(r_s.real() + r_p.real())) return {};
+    const double s = std::norm(r_s), p = std::norm(r_p);
+    const std::complex<double> mixed = r_s * std::conj(r_p);
+    return {0.5 * (s + p), 0.5 * (s - p), mixed.real(), mixed.imag()};
+}
+
+void ReadySurface::prepare_albedo() {
+    for (int i = 0; i < k_albedo_cosines; ++i) {
+        // Finer towards grazing light, where it changes.
+        const double root = (i + 0.5) / k_albedo_cosines, cosine = root * root;
+        const Vec3 from{std::sqrt(1 - cosine * cosine), 0, cosine};
+        double sum = 0;
+        for (int a = 0; a < k_albedo_side; ++a) {
+            for (int b = 0; b < k_albedo_side; ++b) {
+                const Vec3 to =
+                    ggx::sample(alpha, from, (a + 0.5) / k_albedo_side, (b + 0.5) / k_albedo_side);
+                if (to.z > 0)
+                    sum += ggx::masking_and_shadowing(alpha, from, to) / ggx::masking(alpha, from);
+            }
+        }
+        albedo_.push_back(sum / (k_albedo_side * k_albedo_side));
+    }
+}
+
+double ReadySurface::albedo(double cosine) const {
+    const double at = std::sqrt(std::clamp(cosine, 0.0, 1.0)) * k_albedo_cosines - 0.5;
+    const double cell = std::clamp(std::floor(at), 0.0, k_albedo_cosines - 2.0);
+    const auto i = static_cast<std::size_t>(cell);
+    return albedo_[i] + (albedo_[i + 1] - albedo_[i]) * (at - cell);
+}
+
+double ReadySurface::gain(int node, double cosine) const {
+    const double once = albedo(cosine);
+    return 1 + normal_reflectance_[static_cast<std::size_t>(node)] * (1 - once) / once;
+}
+
+namespace ggx {
+
+namespace {
+
+// Smith's Lambda: of the slopes that hide a direction, over the visible ones.
+double hidden(double alpha, const Vec3& direction) {
+    const double z = direction.z * direction.z;
+    return 0.5 * (std::sqrt(1 + alpha * alpha * (1 - z) / z) - 1);
+}
+
+}  // namespace
+
+double density(double alpha, const Vec3& half) {
+    const double a2 = alpha * alpha, z = half.z * half.z;
+    // 1 + (a^2 - 1) z^2 without its cancellation for smooth surfaces.
+    const double base = a2 * z + (1 - z);
+    return a2 / (std::numbers::pi * base * base);
+}
+
+double masking(double alpha, const Vec3& direction) {
+    return 1 / (1 + hidden(alpha, direction));
+}
+
+double masking_and_shadowing(double alpha, const Vec3& a, const Vec3& b) {
+    return 1 / (1 + hidden(alpha, a) + hidden(alpha, b));
+}
+
+Vec3 sample(double alpha, const Vec3& from, double u, double v) {
+    const Vec3 stretched = glm::normalize(Vec3{alpha * from.x, alpha * from.y, from.z});
+    const double phi = 2 * std::numbers::pi * u, z = (1 - v) * (1 + stretched.z) - stretched.z;
+    const double r = std::sqrt(std::clamp(1 - z * z, 0.0, 1.0));
+    const Vec3 cap = Vec3{r * std::cos(phi), r * std::sin(phi), z} + stretched;
+    const Vec3 half = glm::normalize(Vec3{alpha * cap.x, alpha * cap.y, cap.z});
+    return glm::normalize(2 * glm::dot(from, half) * half - from);
+}
+
+double sample_density(double alpha, const Vec3& from, const Vec3& to) {
+    const Vec3 half = glm::normalize(from + to);
+    return masking(alpha, from) * density(alpha, half) / (4 * from.z);
+}
+
+}  // namespace ggx
+
+}  // namespace culet

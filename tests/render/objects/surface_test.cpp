@@ -1,0 +1,236 @@
+// What surfaces of objects do to light, and how lights are aimed at.
+
+#include "render/objects/surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "render/objects/light_sampler.h"
+#include "render/objects/rough_surface.h"
+#include "render/optics/fresnel.h"
+
+namespace culet {
+namespace {
+
+const WavelengthSet k_one({589.3});
+
+ReadySurface metal(double n, double k, double roughness = 0) {
+    return ReadySurface(MetalMaterial{{n}, {k}, {}, roughness}, k_one, 1);
+}
+
+ReadySurface metal_of(double f0, double roughness) {
+    return ReadySurface(MetalMaterial{{1.0}, {0.0}, SurfaceColour{f0}, roughness}, k_one, 1);
+}
+
+// Born & Wolf, 14.2: ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2) at normal incidence.
+TEST(Metals, reflect_at_normal_incidence_what_their_index_says) {
+    for (const auto& [n, k] : {std::pair(0.055, 3.32), {1.2, 7.26}, {2.87, 3.36}, {1.5, 0.0}}) {
+        const MuellerReflection r = metal(n, k).reflection(0, 1);
+        const double wanted = ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k);
+        EXPECT_NEAR(r.mean, wanted, 1e-15);
+        EXPECT_NEAR(r.difference, 0, 1e-15);
+        // A mirror's image: s and p frames turn against each other.
+        EXPECT_NEAR(r.re, -wanted, 1e-15);
+        EXPECT_NEAR(r.im, 0, 1e-15);
+    }
+    for (const double f0 : {0.0, 0.04, 0.5, 0.95, 1.0})
+        EXPECT_NEAR(metal_of(f0, 0).reflection(0, 1).mean, f0, 1e-15);
+}
+
+// Without extinction a metal is glass: the same numbers as fresnel.h, which has its own tests.
+TEST(Metals, without_extinction_are_glass) {
+    for (const double n : {1.2, 1.5, 2.4}) {
+        const ReadySurface surface = metal(n, 0);
+        for (double cosine = 0.02; cosine < 1; cosine += 0.02) {
+            const FaceAmplitudes face = fresnel(1, n, cosine);
+            const double s = std::norm(face.r_s), p = std::norm(face.r_p);
+            const MuellerReflection r = surface.reflection(0, cosine);
+            EXPECT_NEAR(r.mean, 0.5 * (s + p), 1e-14);
+            EXPECT_NEAR(r.difference, 0.5 * (s - p), 1e-14);
+            EXPECT_NEAR(r.re, (face.r_s * std::conj(face.r_p)).real(), 1e-14);
+            EXPECT_NEAR(r.im, 0, 1e-14);
+        }
+    }
+}
+
+// Total reflection is the limit of a medium denser than a metal of imaginary index; here its phase:
+// Born & Wolf, 14.4.2 (56): at 45 degrees r_p = -r_s^2 for any index (Abeles' relation, with r_p of
+// the sign of fresnel.h).
+TEST(Metals, keep_abeles_relation_at_45_degrees) {
+    for (const auto& [n, k] : {std::pair(0.055, 3.32), {1.2, 7.26}, {2.87, 3.36}}) {
+        const MuellerReflection r = metal(n, k).reflection(0, std::sqrt(0.5));
+        const double s = r.mean + r.difference, p = r.mean - r.difference;
+        EXPECT_NEAR(p, s * s, 1e-14);
+    }
+}
+
+// Definitions: what a direction sees of the microfacets is its own projection,
+// integral of D G1 max(0, m.v) dm = v.z (Heitz 2014, eq. 15), and the chosen directions' density is
+// one in all.
+TEST(Microfacets, fill_what_is_seen_of_them) {
+    constexpr int k_steps = 2000;
+    for (const double alpha : {0.1, 0.3, 0.8}) {
+        for (const double cosine : {0.2, 0.6, 0.95}) {
+            const Vec3 from{std::sqrt(1 - cosine * cosine), 0, cosine};
+            double seen = 0, chosen = 0;
+            for (int i = 0; i < k_steps; ++i) {
+                const double z = (i + 0.5) / k_steps, r = std::sqrt(1 - z * z);
+                for (int j = 0; j < k_steps; ++j) {
+                    const double azimuth = 2 * std::numbers::pi * (j + 0.5) / k_steps;
+                    const Vec3 half{r * std::cos(azimuth), r * std::sin(azimuth), z};
+                    const double angle = 2 * std::numbers::pi / (1.0 * k_steps * k_steps);
+                    const double along = std::max(0.0, glm::dot(half, from));
+                    seen += ggx::density(alpha, half) * ggx::masking(alpha, from) * along * angle;
+                }
+            }
+            // The midpoint rule on a smooth integrand, of a width of alpha.
+            EXPECT_NEAR(seen, cosine, 1e-4);
+            Random random(7);
+            // Monte Carlo the other way round: the mean of 1 / density over chosen directions is
+            // the solid angle of all directions, 4 pi, downward ones included.
+            (void)chosen;
+            double weight = 0;
+            constexpr int k_samples = 200000;
+            for (int i = 0; i < k_samples; ++i) {
+                const Vec3 to = ggx::sample(alpha, from, random.uniform(), random.uniform());
+                if (to.z <= 0) continue;
+                const Vec3 h = glm::normalize(from + to);
+                // f cos / density = G2 / G1 of a surface that reflects all.
+                const double f = ggx::density(alpha, h) *
+                                 ggx::masking_and_shadowing(alpha, from, to) / (4 * cosine);
+                const double ratio = f / ggx::sample_density(alpha, from, to);
+                const double wanted =
+                    ggx::masking_and_shadowing(alpha, from, to) / ggx::masking(alpha, from);
+                EXPECT_NEAR(ratio, wanted, 1e-9);
+                weight += ratio / k_samples;
+            }
+            EXPECT_LT(weight, 1);
+        }
+    }
+}
+
+// Conservation: a rough metal that reflects all shows an even light as it is. The mean of n samples
+// lies within 5 standard errors, and the table of albedos within 1e-3.
+TEST(Microfacets, lose_nothing_between_them) {
+    Random random(3);
+    for (const double roughness : {0.2, 0.5, 1.0}) {
+        const ReadySurface surface = metal_of(1, roughness);
+        for (const double cosine : {0.05, 0.3, 0.7, 1.0}) {
+            const Vec3 towards{std::sqrt(1 - cosine * cosine), 0, cosine};
+            const RoughSurface rough(surface, {0, 0, 1}, {0, 0, 1}, towards);
+            double sum = 0, squares = 0;
+            constexpr int k_samples = 100000;
+            for (int i = 0; i < k_samples; ++i) {
+                const auto to = rough.sample(random);
+                if (!to) continue;
+                const double share = rough.value(0, *to) / rough.density(*to);
+                sum += share;
+                squares += share * share;
+            }
+            const double mean = sum / k_samples;
+            const double error = std::sqrt((squares / k_samples - mean * mean) / k_samples);
+            EXPECT_NEAR(mean, 1, 5 * error + 1e-3) << roughness << " " << cosine;
+        }
+    }
+}
+
+// What is reflected one way is reflected back, but for what is made up for (Turquin's gain is of
+// one direction alone): 4 cos cos f is symmetric.
+TEST(Microfacets, reflect_both_ways_alike) {
+    const ReadySurface surface = metal(1.2, 7.26, 0.5);
+    const Vec3 a = glm::normalize(Vec3{0.3, -0.5, 0.7}), b = glm::normalize(Vec3{-0.8, 0.1, 0.4});
+    const RoughSurface from_a(surface, {0, 0, 1}, {0, 0, 1}, a),
+        from_b(surface, {0, 0, 1}, {0, 0, 1}, b);
+    EXPECT_NEAR(from_a.value(0, b) / b.z / surface.gain(0, a.z),
+                from_b.value(0, a) / a.z / surface.gain(0, b.z), 1e-14);
+}
+
+Scene lit_by(Light light) {
+    Scene scene;
+    scene.camera.look_at = {0, 0, 0};
+    scene.lights.sources = {std::move(light)};
+    return scene;
+}
+
+// Densities are one over all directions, and what is aimed at is what they say: the mean of
+// 1 / density over aimed directions is the solid angle of the light.
+void expect_sampled(const Scene& scene, double solid_angle) {
+    const LightSampler sampler(scene);
+    ASSERT_FALSE(sampler.empty());
+    const Vec3 from{0.1, 0.2, -0.3};
+    Random random(5);
+    double sum = 0, squares = 0;
+    constexpr int k_samples = 20000;
+    for (int i = 0; i < k_samples; ++i) {
+        const auto direction = sampler.sample(from, random);
+        ASSERT_TRUE(direction);
+        EXPECT_NEAR(glm::length(*direction), 1, 1e-12);
+        const double density = sampler.density(from, *direction);
+        ASSERT_GT(density, 0);
+        sum += 1 / density;
+        squares += 1 / (density * density);
+    }
+    const double mean = sum / k_samples;
+    const double error = std::sqrt(std::max(0.0, squares / k_samples - mean * mean) / k_samples);
+    EXPECT_NEAR(mean, solid_angle, 5 * error + 1e-6 * solid_angle);
+}
+
+TEST(LightSampler, aims_at_spheres_rings_and_panels) {
+    const Vec3 from{0.1, 0.2, -0.3}, center{2, -1, 3};
+    const double radius = 0.7, distance = glm::length(center - from);
+    expect_sampled(lit_by(SphereLight{center, radius, {}}),
+                   2 * std::numbers::pi *
+                       (1 - std::sqrt(1 - radius * radius / (distance * distance))));
+    expect_sampled(lit_by(DiscLight{{0, 0, 1}, 0.2, 0.5, {}}),
+                   2 * std::numbers::pi * (std::cos(0.2) - std::cos(0.5)));
+    // A rectangle seen from below its middle: 4 asin(a b / sqrt((a^2 + h^2) (b^2 + h^2))).
+    const double a = 1.5, b = 0.5, h = 2;
+    expect_sampled(lit_by(PlaneLight{from + Vec3{0, 0, h}, {0, 0, -1}, Vec3{a, 0, 0},
+                                     Vec3{0, b, 0}, {}}),
+                   4 * std::asin(a * b / std::sqrt((a * a + h * h) * (b * b + h * h))));
+}
+
+TEST(LightSampler, aims_at_emitters) {
+    Scene scene;
+    const Vec3 from{0.1, 0.2, -0.3};
+    scene.objects = {{DiscShape{from + Vec3{0, 0, 2}, {0, 0, 1}, 1.0}, EmitterMaterial{}}};
+    // A disc seen along its axis: 2 pi (1 - cos).
+    expect_sampled(scene, 2 * std::numbers::pi * (1 - 2 / std::sqrt(5.0)));
+}
+
+// A sky that is bright in one place: aimed at there. The density is one over the sphere.
+TEST(LightSampler, aims_at_what_is_bright_in_an_environment) {
+    auto map = std::make_shared<EnvironmentMap>();
+    map->width = 64;
+    map->height = 32;
+    map->rgb.assign(3 * 64 * 32, 0.1f);
+    for (int c = 0; c < 3; ++c) map->rgb[static_cast<std::size_t>(3 * (5 * 64 + 17) + c)] = 500;
+    Scene scene;
+    scene.lights.environment = map;
+    const LightSampler sampler(scene);
+    double sum = 0;
+    constexpr int k_steps = 400;
+    for (int i = 0; i < k_steps; ++i) {
+        for (int j = 0; j < 2 * k_steps; ++j) {
+            const double z = 1 - 2 * (i + 0.5) / k_steps, azimuth = std::numbers::pi * (j + 0.5) / k_steps;
+            const double r = std::sqrt(1 - z * z);
+            sum += sampler.density({}, {r * std::cos(azimuth), r * std::sin(azimuth), z}) * 4 *
+                   std::numbers::pi / (2.0 * k_steps * k_steps);
+        }
+    }
+    EXPECT_NEAR(sum, 1, 0.05);  // cells of the sum straddle the bright one
+    Random random(1);
+    int bright = 0;
+    for (int i = 0; i < 1000; ++i) {
+        const auto direction = sampler.sample({}, random);
+        ASSERT_TRUE(direction);
+        bright += map->at(*direction)[0] > 1;
+    }
+    EXPECT_GT(bright, 600);
+}
+
+}  // namespace
+}  // namespace culet
