@@ -60,9 +60,9 @@ TEST_F(SettingCommand, WritesMeshSceneAndNumbers) {
     double lowest = 1e9;
     for (const Vec3& v : metal->mesh->vertices) lowest = std::min(lowest, v.z);
     EXPECT_NEAR(ground->point.z, lowest, 1e-4);
-    // A metal that is known by f0 = r has n = 1 and r = k^2 / (4 + k^2).
-    const auto& k = std::get<Rgb>(std::get<MetalMaterial>(scene.objects[0].material).k.value);
-    EXPECT_NEAR(k[1] * k[1] / (4 + k[1] * k[1]), 0.730, 1e-12);
+    // As metals.h has it.
+    const auto& f0 = *std::get<MetalMaterial>(scene.objects[0].material).f0;
+    EXPECT_NEAR(std::get<Rgb>(f0.value)[1], 0.730, 1e-12);
 }
 
 TEST_F(SettingCommand, IsTheSameEveryTimeAndInEveryFormat) {
