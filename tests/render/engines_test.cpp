@@ -124,6 +124,7 @@ public:
     double nearest_distance(const Vec3&, const Vec3&) const override {
         return std::numeric_limits<double>::infinity();
     }
+    bool stands_at(const Vec3&, const Vec3&) const override { return false; }
     std::string name_at(const Vec3&, const Vec3&) const override { return "glow"; }
     double max_radiance() const override { return radiance_; }
 
