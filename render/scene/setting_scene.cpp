@@ -16,6 +16,8 @@ namespace {
 constexpr double k_fov_deg = 20;
 // Where the eye stands as seen from the middle of the mounting: across the hoop, aside and above.
 const Vec3 k_toward_eye{0.72, -0.42, 0.55};
+// Of a ring's height: where the picture's middle is below its top, and half of what is shown.
+constexpr double k_ring_middle = 0.29, k_ring_shown = 0.385;
 constexpr double k_polished = 0.15;  // roughness of a polish that has been worn
 
 std::string quoted_name(const std::filesystem::path& file, const std::filesystem::path& from) {
@@ -37,7 +39,7 @@ std::string list(Vec3 v) {
     constexpr double k_rounding = 1e-9;
     for (int i = 0; i < 3; ++i)
         if (std::abs(v[i]) < k_rounding) v[i] = 0;
-    return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", v.x, v.y, v.z);
+    return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x, v.y, v.z);
 }
 
 }  // namespace
@@ -49,14 +51,21 @@ std::string setting_scene(const SettingScene& files, const Setting& setting) {
                     quoted_name(files.stone, files.scene));
     if (!is_stone_file) text += fmt::format("material = \"{}\"\n", files.material);
     if (!is_stone_file && !files.convex) text += "convex = false\n";
-    // The ball about the mounting fills the picture's height.
-    const Vec3 middle = 0.5 * (setting.low + setting.high);
-    const double distance =
-        0.5 * glm::length(setting.high - setting.low) / std::sin(radians(0.5 * k_fov_deg));
+    // The ball about a head alone fills the picture's height; of a ring the lower part is left out,
+    // so that the stone is large enough to be looked at.
+    Vec3 middle = 0.5 * (setting.low + setting.high);
+    double shown = 0.5 * glm::length(setting.high - setting.low);
+    if (setting.options.shank) {
+        const double height = setting.high.z - setting.low.z;
+        middle.z = setting.high.z - k_ring_middle * height;
+        shown = k_ring_shown * height;
+    }
+    const double distance = shown / std::sin(radians(0.5 * k_fov_deg));
+    const Vec3 eye = middle + distance * glm::normalize(k_toward_eye);
     text += fmt::format(
-        "\n[camera]\nposition = {}\nlook_at = {}\nup = [0, 0, 1]\nfov = {}\n"
-        "size = [800, 600]\n",
-        list(middle + distance * glm::normalize(k_toward_eye)), list(middle), k_fov_deg);
+        "\n[camera]\nposition = {}\nlook_at = {}\nup = {}\nfov = {}\nsize = [600, 450]\n",
+        list(setting.in_frame_of_stone(eye)), list(setting.in_frame_of_stone(middle)),
+        list(setting.up), k_fov_deg);
     text += "\n[light]\npreset = \"lightbox\"\n";
     text += fmt::format(
         "\n[[object]]  # the mounting, in {}\nshape = \"mesh\"\nfile = {}\nsmooth = true\n"
@@ -64,10 +73,10 @@ std::string setting_scene(const SettingScene& files, const Setting& setting) {
         files.metal.name, quoted_name(files.setting, files.scene), files.metal.f0[0],
         files.metal.f0[1], files.metal.f0[2], k_polished);
     text += fmt::format(
-        "\n[[object]]  # what it stands on\nshape = \"plane\"\npoint = [0, 0, {:.6g}]\n"
-        "normal = [0, 0, 1]\nmaterial = {{ kind = \"diffuse\", albedo = 0.5 }}\n",
-        setting.low.z);
-    text += "\n[render]\nengine = \"reference\"\nsamples = 64\n";
+        "\n[[object]]  # what it stands on\nshape = \"plane\"\npoint = {}\nnormal = {}\n"
+        "material = {{ kind = \"diffuse\", albedo = 0.5 }}\n",
+        list(setting.in_frame_of_stone({0, 0, setting.low.z})), list(setting.up));
+    text += "\n[render]\nsamples = 16\n";
     return text;
 }
 

@@ -19,8 +19,8 @@ struct SettingScene {
     std::string made_by;  ///< a line for people: which command made the files
 };
 
-/// The text: the stone, a camera that looks at it from above and aside with the whole mounting in
-/// the picture, a light by name, the mounting, and a ground that it stands on. Throws InputError
+/// The text: the stone, a camera that looks at it from above and aside (of a ring, at its
+/// upper part), a light by name, the mounting, and a ground that it stands on. Throws InputError
 /// for names that TOML cannot hold.
 std::string setting_scene(const SettingScene& files, const Setting& setting);
 

@@ -9,4 +9,5 @@ mkdir -p "$folder"
 "$culet" cut round-brilliant --diameter 6.5 -q -o "$folder/diamond.obj"
 "$culet" setting "$folder/diamond.obj" --material diamond --prongs 6 --metal platinum --ring 17 \
     -o "$folder/ring.obj" --scene "$folder/scene.toml"
+"$culet" render "$folder/scene.toml" --engine whitted -o "$folder/diamond-solitaire-quick.png"
 "$culet" render "$folder/scene.toml" -o "$folder/diamond-solitaire.png"

@@ -9,4 +9,5 @@ mkdir -p "$folder"
 "$culet" cut oval --width 6 -q -o "$folder/peridot.obj"
 "$culet" setting "$folder/peridot.obj" --material peridot --prongs 4 --metal gold --ring 17 \
     -o "$folder/ring.obj" --scene "$folder/scene.toml"
+"$culet" render "$folder/scene.toml" --engine whitted -o "$folder/peridot-ring-quick.png"
 "$culet" render "$folder/scene.toml" -o "$folder/peridot-ring.png"

@@ -101,6 +101,9 @@ Setting make_setting(const Solid& solid, const Vec3& up, const SettingOptions& a
     const GripOutline grip(girdle.points);
     const StoneSurface surface(stone);
     Setting setting;
+    setting.x = frame.x;
+    setting.y = frame.y;
+    setting.up = up;
     setting.options = asked;
     setting.girdle_height = girdle.height;
     decide(setting.options, narrowest(grip.hull()));
@@ -159,9 +162,9 @@ Setting make_setting(const Solid& solid, const Vec3& up, const SettingOptions& a
         }
         setting.clearance = std::min(setting.clearance, part.gap);
         for (Vec3& v : part.shell.vertices) {
-            v = v.x * frame.x + v.y * frame.y + v.z * up;
             setting.low = glm::min(setting.low, v);
             setting.high = glm::max(setting.high, v);
+            v = setting.in_frame_of_stone(v);
         }
     }
     return setting;

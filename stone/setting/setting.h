@@ -33,10 +33,14 @@ struct SettingPart {
 
 struct Setting {
     std::vector<SettingPart> parts;
-    SettingOptions options;            ///< with everything decided
-    double girdle_height = 0;          ///< along up, of the section whose outline is held
-    double clearance = 0;              ///< the least gap of all parts
-    Vec3 low{0, 0, 0}, high{0, 0, 0};  ///< bounds of the metal
+    SettingOptions options;    ///< with everything decided
+    double girdle_height = 0;  ///< along up, of the section whose outline is held
+    double clearance = 0;      ///< the least gap of all parts
+    /// The plan's directions and up, in the stone's frame, and bounds of the metal along them.
+    Vec3 x{1, 0, 0}, y{0, 1, 0}, up{0, 0, 1};
+    Vec3 low{0, 0, 0}, high{0, 0, 0};
+
+    Vec3 in_frame_of_stone(const Vec3& v) const { return v.x * x + v.y * y + v.z * up; }
 };
 
 /// The mounting of a stone that stands with its table along `up`; the shank's hoop runs across the
