@@ -117,6 +117,9 @@ int run_setting(const SettingCommand& command) {
         throw InputError(command.out,
                          "cannot be written: a setting ends in .obj, .off, .ply or .stl");
     for (const auto& file : {command.out, command.scene, command.json}) require_writable(file);
+    // Names of the catalogue are told from files as scenes tell them.
+    if (!command.material.empty() && extension_of(command.material) != "toml")
+        catalogue_material(command.material);
     if (command.style == "bezel" && command.prongs > 0)
         throw InputError("a bezel has no prongs: leave out --prongs, or say --style prong");
     require_kind(command.stone, {FileKind::solid, FileKind::stone}, "culet setting",
@@ -135,6 +138,7 @@ int run_setting(const SettingCommand& command) {
         SettingScene files;
         files.scene = command.scene;
         files.stone = command.stone;
+        files.is_stone_file = loaded.is_file;
         files.material = command.material;
         files.convex = loaded.stone.convex;
         files.setting = command.out;

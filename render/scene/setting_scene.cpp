@@ -45,12 +45,15 @@ std::string list(Vec3 v) {
 }  // namespace
 
 std::string setting_scene(const SettingScene& files, const Setting& setting) {
-    const bool is_stone_file = files.material.empty();
     std::string text =
-        fmt::format("# {}\n{} = {}\n", files.made_by, is_stone_file ? "stone" : "mesh",
+        fmt::format("# {}\n{} = {}\n", files.made_by, files.is_stone_file ? "stone" : "mesh",
                     quoted_name(files.stone, files.scene));
-    if (!is_stone_file) text += fmt::format("material = \"{}\"\n", files.material);
-    if (!is_stone_file && !files.convex) text += "convex = false\n";
+    if (!files.material.empty()) {
+        const bool is_file = std::filesystem::path(files.material).extension() == ".toml";
+        text += fmt::format("material = {}\n", is_file ? quoted_name(files.material, files.scene)
+                                                       : "\"" + files.material + "\"");
+    }
+    if (!files.is_stone_file && !files.convex) text += "convex = false\n";
     // The ball about a head alone fills the picture's height; of a ring the lower part is left out,
     // so that the stone is large enough to be looked at.
     Vec3 middle = 0.5 * (setting.low + setting.high);

@@ -12,7 +12,8 @@ namespace culet {
 struct SettingScene {
     std::filesystem::path scene;    ///< where the file will stand: others are named from there
     std::filesystem::path stone;    ///< a stone file, or a mesh or cut
-    std::string material;           ///< of a mesh; of a stone file: empty, it has its own
+    bool is_stone_file = false;     ///< else a mesh
+    std::string material;           ///< catalogue name or file; empty: the stone file has its own
     bool convex = true;             ///< of a mesh
     std::filesystem::path setting;  ///< mesh of the mounting
     Metal metal{};

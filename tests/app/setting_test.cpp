@@ -107,6 +107,7 @@ TEST_F(SettingCommand, WhatCannotBeDoneIsOneLineAndLeavesNothing) {
         {"-o", "a.obj", "--smoothness", "10"},
         {"-o", "a.obj", "--scene", "a.toml"},  // a mesh has no material
         {"-o", "a.obj", "--scene", "no/folder.toml", "--material", "peridot"},
+        {"-o", "a.obj", "--scene", "a.toml", "--material", "kryptonite"},
     };
     for (std::vector<std::string> words : cases) {
         for (std::string& word : words) {
@@ -134,6 +135,12 @@ TEST_F(SettingCommand, SceneOfAStoneFileNamesIt) {
     EXPECT_THAT(bytes("scene.toml"), HasSubstr("stone = \"stone.toml\""));
     EXPECT_THAT(bytes("scene.toml"), HasSubstr("file = \"made/bezel.obj\""));
     EXPECT_EQ(read_scene(file("scene.toml")).stone.material.id, "sapphire_blue");
+    // In another material for this picture.
+    ASSERT_EQ(run_culet({"setting", file("stone.toml"), "-q", "--material", "garnet_almandine",
+                         "-o", file("ring.obj"), "--scene", file("red.toml")})
+                  .exit_code,
+              0);
+    EXPECT_EQ(read_scene(file("red.toml")).stone.material.id, "garnet_almandine");
 }
 
 }  // namespace
