@@ -14,6 +14,7 @@
 #include "app/render_options.h"
 #include "app/saved_plan.h"
 #include "app/terminal.h"
+#include "render/engine/engine.h"
 #include "render/planner/explain.h"
 #include "render/planner/quick_picture.h"
 #include "render/planner/verify.h"
@@ -194,7 +195,7 @@ RenderResult draw(const RenderOptions& options, const Scene& scene,
         return result;
     };
     if (options.frames) return draw_frames(frames_of(options), scene, picture, quiet);
-    if (!saved) drafts.first();
+    if (!saved && engine_of(scene.settings).approaches_truth()) drafts.first();
     RenderResult result = picture(scene);
     output.write(result.picture,
                  {{"culet:scene", std::filesystem::path(options.scene).filename().string()},
@@ -212,6 +213,12 @@ int run_render(const RenderOptions& options) {
     if (!options.plan.empty()) saved = read_saved_plan(options.plan);
     Scene scene = scene_of(options, saved ? &*saved : nullptr);
     output.look_as(options.exposure, options.tonemap, scene);
+    const bool nears_truth = engine_of(scene.settings).approaches_truth();
+    if (options.verify && !nears_truth)
+        throw InputError(
+            fmt::format("--verify holds a picture against the truth, which engine {} "
+                        "does not draw",
+                        scene.settings.engine));
     const bool paced = !saved && !scene.names_tolerance && scene.settings.check == Check::full &&
                        leaves_something_open(scene);
     if (paced) scene.settings.allowed_ns = k_usual_allowance_ns;
@@ -228,7 +235,7 @@ int run_render(const RenderOptions& options) {
     }
     const RenderStats& stats = result.stats;
     for (const std::string& note : stats.notes) say(note, quiet);
-    say_how_near(stats, scene.settings.check, quiet);
+    if (nears_truth) say_how_near(stats, scene.settings.check, quiet);
     if (!options.stats.empty()) write_text(options.stats, stats_json(stats));
     if (stats.verification) say_verified(*stats.verification, quiet);
     if (options.common.verbose && !quiet) say_all_about(stats);

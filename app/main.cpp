@@ -65,6 +65,7 @@ int run(int argc, char** argv) {
     add_command_study(program, exit_code);
     add_command_probe(program, exit_code);
     add_command_cut(program, exit_code);
+    add_command_setting(program, exit_code);
     add_command_convert(program, exit_code);
     add_command_info(program, exit_code);
     std::vector<std::string> commands;

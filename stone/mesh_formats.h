@@ -17,9 +17,10 @@ FaceSoup parse_stl(std::string_view bytes, const std::filesystem::path& file);
 /// That of the format.
 FaceSoup soup_of(std::string_view bytes, MeshFormat format, const std::filesystem::path& file);
 
-std::string obj_text(const Solid& solid);
-std::string off_text(const Solid& solid);
-std::string ply_text(const Solid& solid);
+/// `with_planes`: facet planes in comments.
+std::string obj_text(const Solid& solid, bool with_planes = true);
+std::string off_text(const Solid& solid, bool with_planes = true);
+std::string ply_text(const Solid& solid, bool with_planes = true);
 std::string stl_text(const Solid& solid);
 
 }  // namespace culet

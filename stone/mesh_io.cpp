@@ -22,6 +22,14 @@ std::string small_extension(const std::filesystem::path& file) {
     return extension;
 }
 
+MeshFormat format_to_write(const std::filesystem::path& file) {
+    const auto format = mesh_format(file);
+    if (!format) {
+        throw InputError(file, "cannot be written: a mesh must end in .obj, .off, .ply or .stl");
+    }
+    return *format;
+}
+
 }  // namespace
 
 std::optional<MeshFormat> mesh_format(const std::filesystem::path& file) {
@@ -61,14 +69,14 @@ ReadSolid read_mesh(const std::filesystem::path& file) {
     return parse_mesh(bytes, *format, file);
 }
 
-std::string mesh_text(const Solid& solid, MeshFormat format) {
+std::string mesh_text(const Solid& solid, MeshFormat format, bool with_planes) {
     switch (format) {
         case MeshFormat::obj:
-            return obj_text(solid);
+            return obj_text(solid, with_planes);
         case MeshFormat::off:
-            return off_text(solid);
+            return off_text(solid, with_planes);
         case MeshFormat::ply:
-            return ply_text(solid);
+            return ply_text(solid, with_planes);
         case MeshFormat::stl:
             return stl_text(solid);
     }
@@ -104,11 +112,11 @@ std::optional<std::string> design_of(const std::filesystem::path& file) {
 }
 
 void write_mesh(const Solid& solid, const std::filesystem::path& file) {
-    const auto format = mesh_format(file);
-    if (!format) {
-        throw InputError(file, "cannot be written: a mesh must end in .obj, .off, .ply or .stl");
-    }
-    write_text(file, mesh_text(solid, *format));
+    write_text(file, mesh_text(solid, format_to_write(file)));
+}
+
+void write_surface(const Solid& surface, const std::filesystem::path& file) {
+    write_text(file, mesh_text(surface, format_to_write(file), false));
 }
 
 }  // namespace culet

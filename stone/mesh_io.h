@@ -52,11 +52,15 @@ void write_mesh(const Solid& solid, const std::filesystem::path& file);
 /// no place for it.
 void write_design(const Solid& solid, const std::string& design, const std::filesystem::path& file);
 
+/// The same for a surface that is curved, such as a ring: triangles, whose planes are those through
+/// their corners, so that none is stated. Neighbours of one name share it.
+void write_surface(const Solid& surface, const std::filesystem::path& file);
+
 /// The design whose mesh a file holds: as `write_design` named it, `GemCad` for .asc and .gem;
 /// nothing for a drawing, a fitted stone, or a file that cannot be read.
 std::optional<std::string> design_of(const std::filesystem::path& file);
 
 /// What `write_mesh` writes.
-std::string mesh_text(const Solid& solid, MeshFormat format);
+std::string mesh_text(const Solid& solid, MeshFormat format, bool with_planes = true);
 
 }  // namespace culet

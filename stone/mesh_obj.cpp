@@ -140,11 +140,16 @@ FaceSoup parse_obj(std::string_view text, const std::filesystem::path& file) {
     return ObjParser(text, file).parse();
 }
 
-std::string obj_text(const Solid& solid) {
-    std::string text = plane_comments(solid, "# ");
+std::string obj_text(const Solid& solid, bool with_planes) {
+    std::string text = with_planes ? plane_comments(solid, "# ") : std::string();
     for (const Vec3& v : solid.vertices) text += fmt::format("v {} {} {}\n", v.x, v.y, v.z);
+    const Facet* before = nullptr;
     for (const Facet& facet : solid.facets) {
-        text += fmt::format("g {}\nf", writable_name(facet.name));
+        // A group goes on until the next one.
+        if (!before || before->name != facet.name)
+            text += fmt::format("g {}\n", writable_name(facet.name));
+        before = &facet;
+        text += 'f';
         for (const int corner : facet.corners) text += fmt::format(" {}", corner + 1);
         text += '\n';
     }

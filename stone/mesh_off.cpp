@@ -135,8 +135,9 @@ FaceSoup parse_off(std::string_view text, const std::filesystem::path& file) {
     return OffParser(text, file).parse();
 }
 
-std::string off_text(const Solid& solid) {
-    std::string text = "OFF\n" + plane_comments(solid, "# ");
+std::string off_text(const Solid& solid, bool with_planes) {
+    std::string text = "OFF\n";
+    if (with_planes) text += plane_comments(solid, "# ");
     text +=
         fmt::format("{} {} {}\n", solid.vertices.size(), solid.facets.size(), edge_count(solid));
     for (const Vec3& v : solid.vertices) text += fmt::format("{} {} {}\n", v.x, v.y, v.z);

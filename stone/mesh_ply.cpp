@@ -331,8 +331,9 @@ FaceSoup parse_ply(std::string_view bytes, const std::filesystem::path& file) {
     return PlyParser(bytes, file).parse();
 }
 
-std::string ply_text(const Solid& solid) {
-    std::string text = "ply\nformat ascii 1.0\n" + plane_comments(solid, "comment ");
+std::string ply_text(const Solid& solid, bool with_planes) {
+    std::string text = "ply\nformat ascii 1.0\n";
+    if (with_planes) text += plane_comments(solid, "comment ");
     text += fmt::format(
         "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
         "element face {}\nproperty list int int vertex_indices\nend_header\n",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <iterator>
@@ -11,6 +12,7 @@
 #include "render/setup/optical_setup.h"
 #include "render/setup/scene_checks.h"
 #include "stone/errors.h"
+#include "stone/facet_triangles.h"
 
 namespace culet {
 
@@ -44,41 +46,6 @@ void refuse_what_has_no_picture(const Scene& scene) {
         refuse(
             "an environment map (its texels would be looked up differently; use lobes, caps and "
             "hemispheres)");
-}
-
-// Ear clipping (Meisters 1975) in the facet's plane; convex facets come out as fans.
-std::vector<std::array<int, 3>> triangles_of(const Solid& solid, const Facet& facet) {
-    std::vector<int> left = facet.corners;
-    std::vector<std::array<int, 3>> triangles;
-    const auto turn = [&](int a, int b, int c) {
-        const Vec3 &A = solid.vertices[a], &B = solid.vertices[b], &C = solid.vertices[c];
-        return glm::dot(facet.plane.normal, glm::cross(B - A, C - B));
-    };
-    const auto is_ear = [&](std::size_t i) {
-        const int a = left[(i + left.size() - 1) % left.size()], b = left[i],
-                  c = left[(i + 1) % left.size()];
-        if (!(turn(a, b, c) > 0)) return false;
-        return std::none_of(left.begin(), left.end(), [&](int p) {
-            return p != a && p != b && p != c && turn(a, b, p) >= 0 && turn(b, c, p) >= 0 &&
-                   turn(c, a, p) >= 0;
-        });
-    };
-    while (left.size() > 3) {
-        // From the second corner, so that a convex facet is a fan about its first one. Where
-        // rounding leaves no ear what is left has no width, and any corner does.
-        std::size_t ear = 1;
-        for (std::size_t i = 0; i < left.size(); ++i) {
-            if (is_ear((1 + i) % left.size())) {
-                ear = (1 + i) % left.size();
-                break;
-            }
-        }
-        triangles.push_back({left[(ear + left.size() - 1) % left.size()], left[ear],
-                             left[(ear + 1) % left.size()]});
-        left.erase(left.begin() + static_cast<std::ptrdiff_t>(ear));
-    }
-    if (left.size() == 3) triangles.push_back({left[0], left[1], left[2]});
-    return triangles;
 }
 
 // What the renderer draws: of a convex stone the planes, whose corners are here computed anew where
@@ -330,7 +297,8 @@ private:
         for (const Vec3& vertex : solid.vertices) line("    {}", vector_text(scale_ * vertex));
         std::vector<std::array<int, 3>> triangles;
         for (const Facet& facet : solid.facets) {
-            for (const auto& triangle : triangles_of(solid, facet)) triangles.push_back(triangle);
+            for (const auto& triangle : facet_triangles(solid, facet))
+                triangles.push_back(triangle);
         }
         line("  }} face_indices {{ {}", triangles.size());
         for (const auto& t : triangles) line("    <{}, {}, {}>", t[0], t[1], t[2]);

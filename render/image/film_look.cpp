@@ -12,7 +12,7 @@ namespace culet {
 namespace {
 
 // In the order of `ToneMap`.
-constexpr std::array k_tone_maps{"none", "reinhard", "filmic"};
+constexpr std::array k_tone_maps{"none", "reinhard", "filmic", "gamma2"};
 
 // Brighter than this nothing differs from it in any picture, and sums stay finite.
 constexpr float k_brightest = 1e30f;
@@ -23,6 +23,9 @@ double mapped(double v, ToneMap map) {
             return v / (1 + v);
         case ToneMap::filmic:
             return v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14);
+        case ToneMap::gamma2:
+            // What sRGB encodes as the root.
+            return srgb_decoded(std::sqrt(std::min(v, 1.0)));
         case ToneMap::none:
             break;
     }

@@ -13,7 +13,8 @@ namespace culet {
 enum class ToneMap {
     none,
     reinhard,  ///< L / (1 + L) (Reinhard et al. 2002, eq. 3)
-    filmic     ///< a film's curve with toe and shoulder (Narkowicz 2015, a fit to ACES)
+    filmic,    ///< a film's curve with toe and shoulder (Narkowicz 2015, a fit to ACES)
+    gamma2     ///< a display of gamma 2, for sRGB's: the file holds the square root of the light
 };
 /// As scenes and `--tonemap` have them.
 std::vector<std::string> tone_map_names();

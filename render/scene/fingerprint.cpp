@@ -141,6 +141,14 @@ void add_camera(Fingerprint& print, const Camera& camera) {
     }
 }
 
+void add_shading(Fingerprint& print, const PlainShading& shading) {
+    print.add(shading.ambient);
+    print.add(shading.diffuse);
+    print.add(shading.specular);
+    print.add(shading.exponent);
+    for (const double part : shading.attenuation) print.add(part);
+}
+
 void add_settings(Fingerprint& print, const RenderSettings& settings) {
     print.add(settings.engine);
     print.add(static_cast<int>(settings.refraction));
@@ -232,6 +240,7 @@ void Fingerprint::add(const Scene& scene) {
     add_stone_and_light(scene);
     add_camera(*this, scene.camera);
     add_settings(*this, scene.settings);
+    add_shading(*this, scene.shading);
 }
 
 std::string Fingerprint::hex() const {

@@ -14,6 +14,7 @@
 #include "render/scene/engine_name.h"
 #include "render/scene/lights.h"
 #include "render/scene/objects.h"
+#include "render/scene/plain_shading.h"
 #include "stone/stone.h"
 
 namespace culet {
@@ -181,6 +182,7 @@ struct Scene {
     Lights lights;
     double immersion = 1;  ///< refractive index of what surrounds the stone
     RenderSettings settings;
+    PlainShading shading;  ///< of the engines that are plain shadings
     /// How its PNGs are looked at; who writes them sets the exposure and the angle of a pixel.
     PngLook film;
     std::vector<std::string> notes;  ///< said on reading: negative texels clamped, ...

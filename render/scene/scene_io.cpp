@@ -158,7 +158,7 @@ Stone scene_stone_of(const TomlTable& root, std::vector<std::string>& notes) {
 Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_view light_instead) {
     root.refuse_unknown(with_view_keys({"stone", "mesh", "material", "unit", "optic_axis",
                                         "principal_axes", "convex", "name", "camera", "light",
-                                        "object", "render", "film", "immersion"}));
+                                        "object", "render", "shading", "film", "immersion"}));
     Scene scene;
     read_stones(root, stone_instead, scene);
     scene.objects = objects_of(root, scene.stone.unit);
@@ -199,6 +199,7 @@ Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_vi
         frame_stone(scene.stone.solid, below ? Facing::pavilion : Facing::crown, scene.camera);
     }
     if (view) apply_view_preset(view->first, view->second, scene);
+    if (const auto shading = root.table("shading")) scene.shading = read_shading(*shading);
     if (const auto film = root.table("film")) scene.film = read_film(*film);
     const auto settings = root.table("render");
     if (settings) scene.settings = read_settings(*settings);

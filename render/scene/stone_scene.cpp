@@ -78,8 +78,7 @@ std::string materials_of_index(double index) {
 }
 
 double width_mm(const Stone& stone) {
-    return mm_per(stone.unit) *
-           std::min(width_along(stone.solid, {1, 0, 0}), width_along(stone.solid, {0, 1, 0}));
+    return mm_per(stone.unit) * outline_width(stone.solid);
 }
 
 void scale(Solid& solid, double factor) {
@@ -92,11 +91,10 @@ void set_size(const std::filesystem::path& file, Kind kind, const std::optional<
     const double width = width_mm(stone);
     if (!(width > 0) || !std::isfinite(width)) return;
     const std::string name = file.filename().string();
-    const bool has_size =
-        kind == Kind::stone || (kind == Kind::mesh && width > k_widest_of_no_size);
+    const bool is_sized = kind == Kind::stone || (kind == Kind::mesh && has_size(stone.solid));
     if (wanted) {
         scale(stone.solid, *wanted / width);
-    } else if (!has_size) {
+    } else if (!is_sized) {
         scale(stone.solid, k_usual_width_mm / width);
         notes.push_back(fmt::format("{} has no size: drawn {:g} mm wide (--width MM for another)",
                                     name, k_usual_width_mm));
@@ -107,6 +105,14 @@ void set_size(const std::filesystem::path& file, Kind kind, const std::optional<
 }
 
 }  // namespace
+
+double outline_width(const Solid& solid) {
+    return std::min(width_along(solid, {1, 0, 0}), width_along(solid, {0, 1, 0}));
+}
+
+bool has_size(const Solid& solid) {
+    return outline_width(solid) > k_widest_of_no_size;
+}
 
 Scene read_any_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                      const StoneScene& choices) {

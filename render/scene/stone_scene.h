@@ -15,6 +15,12 @@ constexpr const char* k_usual_light = "jeweller";
 /// Of a design without a size, mm: a stone of about a carat. What is absorbed depends on it.
 constexpr double k_usual_width_mm = 6.5;
 
+/// Of a stone's outline the narrower of its extents along x and y.
+double outline_width(const Solid& solid);
+
+/// False for what is no wider than 2: GemCad's designs, unit spheres.
+bool has_size(const Solid& solid);
+
 struct StoneScene {
     std::string material;            ///< catalogue name or material file; empty: the file's own
     std::string light;               ///< preset or view; empty: the file's, else the usual one

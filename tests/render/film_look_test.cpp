@@ -145,5 +145,21 @@ TEST(Film, is_read_from_a_scene_and_written_to_its_png) {
     EXPECT_NEAR(read.picture.rgb[1], 0.5f, 0.005f);
 }
 
+// A display of gamma 2 shows light v for a code of sqrt(v): a quarter of white is code 0.5. The
+// file is encoded as sRGB afterwards, so that its code is the root.
+TEST(ToneMaps, gamma2_writes_the_root_of_the_light) {
+    Picture picture;
+    picture.width = 3;
+    picture.height = 1;
+    picture.rgb = {0.25f, 0.01f, 1.0f, 0.5f, 0.0f, 4.0f, 0.04f, 0.81f, 1e-4f};
+    PngLook look;
+    look.tone_map = *tone_map_named("gamma2");
+    const std::vector<float> shown = as_shown(picture, look);
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const double light = std::min(1.0, static_cast<double>(picture.rgb[i]));
+        EXPECT_NEAR(srgb_encoded(static_cast<double>(shown[i])), std::sqrt(light), 1e-5);
+    }
+}
+
 }  // namespace
 }  // namespace culet

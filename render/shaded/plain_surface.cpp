@@ -1,0 +1,96 @@
+#include "render/shaded/plain_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "render/colour/material_colour.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+constexpr double k_darkest = 1e-4;  // of a body colour; deeper ones are as black
+
+Rgb white() {
+    return {1, 1, 1};
+}
+
+double width_mm(const Stone& stone) {
+    return mm_per(stone.unit) *
+           std::min(width_along(stone.solid, {1, 0, 0}), width_along(stone.solid, {0, 1, 0}));
+}
+
+Rgb shown_colour(const Stone& stone) {
+    Rgb rgb = body_colour(stone.material, width_mm(stone)).rgb;
+    for (double& c : rgb) c = std::clamp(c, k_darkest, 1.0);
+    return rgb;
+}
+
+PlainSurface surface_of(const DiffuseMaterial& material, double) {
+    return {rgb_of(material.albedo), white(), false};
+}
+
+PlainSurface surface_of(const MetalMaterial& metal, double) {
+    const MetalIndex index = index_of(metal);
+    Rgb f0;
+    for (std::size_t c = 0; c < 3; ++c) f0[c] = conductor_reflectance(index.n[c], index.k[c], 1);
+    return {f0, f0, false};
+}
+
+PlainSurface surface_of(const MirrorMaterial& mirror, double) {
+    return {rgb_of(mirror.albedo), rgb_of(mirror.albedo), false};
+}
+
+PlainSurface surface_of(const DielectricMaterial& glass, double thickness) {
+    Rgb colour = rgb_of(glass.absorption);
+    for (double& c : colour) c = std::exp(-c * thickness);
+    return {colour, white(), false};
+}
+
+PlainSurface surface_of(const EmitterMaterial& emitter, double) {
+    static const WavelengthSet wavelengths({400, 430, 460, 490, 520, 550, 580, 610, 640, 670, 700});
+    return {wavelengths.rgb_of(radiance_of(emitter.radiance, wavelengths).data()), white(), true};
+}
+
+}  // namespace
+
+Rgb rgb_of(const SurfaceColour& colour) {
+    if (const double* grey = std::get_if<double>(&colour.value)) return {*grey, *grey, *grey};
+    return std::get<Rgb>(colour.value);
+}
+
+PlainSurface plain_surface(const SurfaceMaterial& material, double thickness) {
+    return std::visit([&](const auto& m) { return surface_of(m, thickness); }, material);
+}
+
+PlainSurface plain_surface(const Stone& stone) {
+    return {shown_colour(stone), white(), false};
+}
+
+Rgb stone_absorption(const Stone& stone) {
+    Rgb absorption = shown_colour(stone);
+    const double path = light_path_mm(width_mm(stone)) / mm_per(stone.unit);
+    for (double& c : absorption) c = -std::log(c) / path;
+    return absorption;
+}
+
+MetalIndex index_of(const MetalMaterial& metal) {
+    if (!metal.f0) return {rgb_of(metal.n), rgb_of(metal.k)};
+    // Index 1: r = k^2 / (4 + k^2).
+    constexpr double k_ideal = 1e6;
+    MetalIndex index{white(), rgb_of(*metal.f0)};
+    for (double& c : index.k) c = c < 1 ? std::min(2 * std::sqrt(c / (1 - c)), k_ideal) : k_ideal;
+    return index;
+}
+
+double conductor_reflectance(double n, double k, double cosine) {
+    const std::complex<double> index(n, k), square = index * index;
+    const std::complex<double> inside = std::sqrt(square - (1 - cosine * cosine));
+    const double s = std::norm((cosine - inside) / (cosine + inside)),
+                 p = std::norm((square * cosine - inside) / (square * cosine + inside));
+    return 0.5 * (s + p);
+}
+
+}  // namespace culet
