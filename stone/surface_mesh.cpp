@@ -1,10 +1,5 @@
 #include "stone/surface_mesh.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
-#include <CGAL/utility.h>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -13,6 +8,7 @@
 #include <tuple>
 
 #include "stone/errors.h"
+#include "stone/facet_triangles.h"
 #include "stone/mesh_formats.h"
 #include "stone/output_file.h"
 
@@ -20,48 +16,20 @@ namespace culet {
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-// Whether a fan from the first corner covers a polygon: all of its triangles turn the same way.
-bool fans_out(const std::vector<Vec3>& corners, const Vec3& normal) {
-    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-        if (!(glm::dot(glm::cross(corners[i] - corners[0], corners[i + 1] - corners[0]), normal) >=
-              0))
-            return false;
-    }
-    return true;
-}
-
-void add_triangles(const std::vector<int>& face, const std::vector<Vec3>& vertices,
-                   std::vector<std::array<int, 3>>& triangles) {
-    if (face.size() == 3) {
-        triangles.push_back({face[0], face[1], face[2]});
-        return;
-    }
-    std::vector<Vec3> corners;
-    for (const int corner : face) corners.push_back(vertices[static_cast<std::size_t>(corner)]);
-    std::vector<CGAL::Triple<int, int, int>> pieces;
-    if (!fans_out(corners, plane_through(corners).normal)) {
-        std::vector<Kernel::Point_3> outline;
-        for (const Vec3& c : corners) outline.emplace_back(c.x, c.y, c.z);
-        CGAL::Polygon_mesh_processing::triangulate_hole_polyline(outline,
-                                                                 std::back_inserter(pieces));
-    }
-    for (const auto& [a, b, c] : pieces) {
-        triangles.push_back({face[static_cast<std::size_t>(a)], face[static_cast<std::size_t>(b)],
-                             face[static_cast<std::size_t>(c)]});
-    }
-    if (!pieces.empty()) return;
-    for (std::size_t i = 1; i + 1 < face.size(); ++i)
-        triangles.push_back({face[0], face[i], face[i + 1]});
-}
-
 TriangleMesh triangles_of(FaceSoup soup) {
     TriangleMesh mesh;
-    mesh.vertices = std::move(soup.vertices);
-    for (const SoupFace& face : soup.faces) {
-        if (face.corners.size() >= 3) add_triangles(face.corners, mesh.vertices, mesh.triangles);
+    Solid faces;
+    faces.vertices = std::move(soup.vertices);
+    for (SoupFace& face : soup.faces) {
+        if (face.corners.size() < 3) continue;
+        std::vector<Vec3> loop;
+        for (const int corner : face.corners)
+            loop.push_back(faces.vertices[static_cast<std::size_t>(corner)]);
+        const Facet facet{"", plane_through(loop), std::move(face.corners)};
+        for (const auto& triangle : facet_triangles(faces, facet))
+            mesh.triangles.push_back(triangle);
     }
+    mesh.vertices = std::move(faces.vertices);
     return mesh;
 }
 
