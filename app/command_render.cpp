@@ -77,8 +77,11 @@ Scene scene_of(const RenderOptions& options, const SavedPlan* plan = nullptr) {
 
 int explain_plan(const RenderOptions& options) {
     require_writable(options.stats);
-    const ScenePlan plan =
-        plan_to_explain(scene_of(options), progress_line("planning", options.common.quiet));
+    const Scene scene = scene_of(options);
+    if (!engine_of(scene.settings).approaches_truth())
+        throw InputError(fmt::format("--explain tells what is planned, and engine {} never is",
+                                     scene.settings.engine));
+    const ScenePlan plan = plan_to_explain(scene, progress_line("planning", options.common.quiet));
     if (options.stats != "-") print_lines(explain(plan));
     if (!options.stats.empty()) write_text(options.stats, plan_json(plan));
     return exit_good;

@@ -152,6 +152,11 @@ int run_setting(const SettingCommand& command) {
     const bool quiet = command.common.quiet;
     for (const std::string& note : loaded.notes)
         say(fmt::format("{}: {}", command.stone.string(), note), quiet);
+    if (!loaded.has_size)
+        say(fmt::format("{} has no size: the metal is in proportion to it, as for a stone {:g} mm "
+                        "wide (culet convert --width 6.5mm gives it one)",
+                        command.stone.filename().string(), k_usual_width_mm),
+            quiet);
     const SettingOptions& made = setting.options;
     const std::string_view unit = name_of(loaded.stone.unit);
     const std::string holds =

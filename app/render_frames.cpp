@@ -8,6 +8,7 @@
 #include "app/movie.h"
 #include "app/scratch_folder.h"
 #include "app/terminal.h"
+#include "render/engine/engine.h"
 #include "render/render.h"
 #include "render/scene/turntable.h"
 #include "stone/errors.h"
@@ -95,7 +96,7 @@ RenderResult draw_frames(const Frames& frames, const Scene& scene,
             kept = std::move(result);
         }
     }
-    if (frames.count > 1) {
+    if (frames.count > 1 && engine_of(plan.settings).approaches_truth()) {
         kept.stats.notes.push_back(
             fmt::format("settings and error bound are those of the first of {} frames, which was "
                         "planned and checked for all",

@@ -124,5 +124,27 @@ TEST_F(RenderStone, RefusesInOneLineAndWritesNothing) {
     refused({stone, "--material", "diamond"}, "-o IMAGE");
 }
 
+// A plain shading is never planned nor held against the truth: what asks for that is refused.
+TEST_F(RenderStone, PlainShadingsAreDrawnAndSayWhatTheyAre) {
+    for (const char* engine : {"flat", "gouraud", "phong", "whitted"}) {
+        const ProgramRun run =
+            run_culet({"render", file("stone.toml"), "--engine", engine, "--size", "32", "-o",
+                       file("a.png"), "--stats", file("a.json")});
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_THAT(run.err, HasSubstr("plain shading"));
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        const nlohmann::json stats = nlohmann::json::parse(bytes("a.json"));
+        EXPECT_EQ(stats["engine"], engine);
+        EXPECT_TRUE(stats["error_bound"].is_null());
+    }
+    for (const char* option : {"--explain", "--verify"}) {
+        const ProgramRun refused = run_culet(
+            {"render", file("stone.toml"), "--engine", "phong", option, "-o", file("b.png")});
+        EXPECT_EQ(refused.exit_code, 2) << option;
+        EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+        EXPECT_FALSE(fs::exists(file("b.png")));
+    }
+}
+
 }  // namespace
 }  // namespace culet
