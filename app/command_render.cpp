@@ -70,6 +70,7 @@ Scene scene_of(const RenderOptions& options, const SavedPlan* plan = nullptr) {
     scene.settings.threads = options.common.threads;
     scene.settings.seed = options.common.seed;
     scene.settings.spectral = options.spectral;
+    scene.settings.ray_table = options.table;
     for (const std::string& note : scene.notes) say(note, options.common.quiet);
     return scene;
 }
@@ -165,6 +166,8 @@ private:
 void require_sense(const RenderOptions& options) {
     if (options.out.empty() && options.stats.empty())
         throw InputError("render needs -o IMAGE, --stats FILE, or --explain");
+    if (!options.table.empty() && options.frames)
+        throw InputError("a ray table is of one view: leave out --table, or --frames");
     if (options.out == "-" && options.stats == "-")
         throw InputError("stdout takes the picture or the stats, not both");
     if (!options.plan.empty() &&
@@ -211,6 +214,8 @@ int run_render(const RenderOptions& options) {
     std::optional<SavedPlan> saved;
     if (!options.plan.empty()) saved = read_saved_plan(options.plan);
     Scene scene = scene_of(options, saved ? &*saved : nullptr);
+    if (!options.table.empty() && scene.settings.engine != k_raytable_engine)
+        throw InputError("--table is for ray tables: add --engine raytable");
     output.look_as(options.exposure, options.tonemap, scene);
     const bool paced = !saved && !scene.names_tolerance && scene.settings.check == Check::full &&
                        leaves_something_open(scene.settings);

@@ -59,6 +59,11 @@ void add_render_options(CLI::App& command, RenderOptions& options) {
         .add_option("--engine", options.engine, fmt::format("{}", fmt::join(engine_names(), ", ")))
         ->excludes(plan);
     command
+        .add_option("--table", options.table,
+                    "ray table of the engine raytable: written where there is none, else read, "
+                    "for other lights and body colours without tracing")
+        ->type_name("FILE.rays");
+    command
         .add_option("--effects", options.effects,
                     "auto, all, none, or a list: dispersion,absorption,...")
         ->excludes(plan);

@@ -11,7 +11,7 @@ namespace culet {
 
 struct RenderOptions {
     CommonOptions common;
-    std::string scene, out, stats, plan, engine, effects, check, exposure, size, tonemap;
+    std::string scene, out, stats, plan, engine, effects, check, exposure, size, tonemap, table;
     StoneScene stone;
     std::optional<int> depth, frames;
     double turn_deg = 360;

@@ -12,10 +12,11 @@ namespace culet {
 const Engine& reference_engine();  // reference/reference_engine.cpp
 const Engine& beam_engine();       // beams/beam_engine.cpp
 const Engine& preview_engine();    // beams/beam_engine.cpp
+const Engine& raytable_engine();   // raytable/raytable_engine.cpp
 
 const std::vector<const Engine*>& engines() {
     static const std::vector<const Engine*> all{&reference_engine(), &beam_engine(),
-                                                &preview_engine()};
+                                                &preview_engine(), &raytable_engine()};
     return all;
 }
 

@@ -1,0 +1,319 @@
+#include "render/raytable/leaf_lights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/optics/band.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "render/raytable/leaf_lights.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, each after the one before; clang-format must not sort them.
+// clang-format off
+#include "render/beams/vectors-inl.h"
+#include "render/beams/lights-inl.h"
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace culet {
+namespace HWY_NAMESPACE {
+
+using Ints = hn::Rebind<std::int32_t, Floats>;
+using Shorts = hn::Rebind<std::uint16_t, Floats>;
+constexpr Ints k_ints;
+constexpr Shorts k_shorts;
+
+HWY_INLINE hn::Vec<Ints> whole_at(const std::uint16_t* p) {
+    return hn::PromoteTo(k_ints, hn::LoadU(k_shorts, p));
+}
+HWY_INLINE V number_at(const std::uint16_t* p) {
+    return hn::ConvertTo(k_floats, whole_at(p));
+}
+
+// As octahedral_codes.h has it. Single precision leaves each coordinate off by 2^-24.
+HWY_INLINE V3 direction_at(const std::int32_t* first, const std::int32_t* second) {
+    const V step = number(1 / 2147483648.0f), zero = number(0.0f);
+    V x = step * hn::ConvertTo(k_floats, hn::LoadU(k_ints, first)),
+      y = step * hn::ConvertTo(k_floats, hn::LoadU(k_ints, second));
+    const V z = number(1.0f) - hn::Abs(x) - hn::Abs(y);
+    const V below = hn::Max(hn::Neg(z), zero);
+    x = x - hn::CopySign(below, x);
+    y = y - hn::CopySign(below, y);
+    const V3 d{x, y, z};
+    return number(1.0f) / length_of(d) * d;
+}
+
+HWY_INLINE V3 point_at(const LeafFrames& frames, const LeafRun& run, int i) {
+    const V step = number(1 / 65535.0f);
+    const V s = step * number_at(run.point[0] + i), t = step * number_at(run.point[1] + i);
+    const auto facet = whole_at(run.facet + i);
+    const float* plane = frames.numbers.data();
+    const auto next = [&]() HWY_ATTR {
+        const V of = hn::GatherIndex(k_floats, plane, facet);
+        plane += frames.facets;
+        return of;
+    };
+    V3 at, u, v;
+    for (V3* vector : {&at, &u, &v}) {
+        vector->x = next();
+        vector->y = next();
+        vector->z = next();
+    }
+    return plus(plus(at, s, u), t, v);
+}
+
+// Adds light to the nodes' sums.
+struct Sums {
+    V* of;
+    int nodes;
+    HWY_INLINE void operator()(const V& factor, const float* radiance,
+                               const ShadedLights::Polarised&) const {
+        for (int i = 0; i < nodes; ++i) of[i] = hn::MulAdd(factor, number(radiance[i]), of[i]);
+    }
+};
+
+// Angle of the vector (along, across), across >= 0: 0 .. pi.
+HWY_INLINE V angle_of(const V& along, const V& across) {
+    const V size = hn::Abs(along);
+    const V low = hn::Min(size, across), high = hn::Max(size, across);
+    const V small = hn::Atan(k_floats, low / hn::Max(high, number(1e-30f)));
+    const V acute = hn::IfThenElse(across > size, number(1.57079633f) - small, small);
+    return hn::IfThenElse(along < number(0.0f), number(3.14159265f) - acute, acute);
+}
+
+// EnvironmentMap::at.
+HWY_INLINE void environment_light(const LeafLights& lights, const V3& d, const V& unhidden,
+                                  V* sum) {
+    const EnvironmentMap& map = *lights.environment;
+    const V zero = number(0.0f), half = number(0.5f);
+    const V azimuth = hn::CopySign(angle_of(d.x, hn::Abs(d.y)), d.y);
+    const V polar = angle_of(d.z, hn::Sqrt(hn::MulAdd(d.x, d.x, d.y * d.y)));
+    const float width = static_cast<float>(map.width), height = static_cast<float>(map.height);
+    const V x = hn::NegMulAdd(azimuth, number(width * 0.159154943f), number(0.5f * width)) - half;
+    const V y = hn::Clamp(polar * number(height * 0.318309886f) - half, zero, number(height - 1));
+    const V x0 = hn::Floor(x), y0 = hn::Floor(y);
+    const V tx = x - x0, ty = y - y0;
+    const auto wide = hn::Set(k_ints, map.width), one = hn::Set(k_ints, 1);
+    const auto wrapped = [&](hn::Vec<Ints> column) HWY_ATTR {
+        column = hn::IfThenElse(column < hn::Zero(k_ints), column + wide, column);
+        return hn::IfThenElse(wide > column, column, column - wide);
+    };
+    const auto left = wrapped(hn::ConvertTo(k_ints, x0));
+    const auto right = wrapped(hn::ConvertTo(k_ints, x0) + one);
+    const auto upper = hn::ConvertTo(k_ints, y0);
+    const auto lower = hn::Min(upper + one, hn::Set(k_ints, map.height - 1));
+    const auto texel = [&](const hn::Vec<Ints>& column, const hn::Vec<Ints>& row) HWY_ATTR {
+        return hn::Set(k_ints, 3) * (row * wide + column);
+    };
+    const auto a = texel(left, upper), b = texel(right, upper), c = texel(left, lower),
+               e = texel(right, lower);
+    V rgb[3];
+    for (int channel = 0; channel < 3; ++channel) {
+        const float* plane = map.rgb.data() + channel;
+        const V p = hn::GatherIndex(k_floats, plane, a), q = hn::GatherIndex(k_floats, plane, b),
+                r = hn::GatherIndex(k_floats, plane, c), s = hn::GatherIndex(k_floats, plane, e);
+        const V top = hn::MulAdd(tx, q - p, p), bottom = hn::MulAdd(tx, s - r, r);
+        rgb[channel] = unhidden * hn::MulAdd(ty, bottom - top, top);
+    }
+    const V more_red = rgb[0] - rgb[1], more_blue = rgb[2] - rgb[1];
+    for (int i = 0; i < lights.nodes; ++i) {
+        const auto at = static_cast<size_t>(i);
+        sum[i] = sum[i] + hn::MulAdd(more_red, number(lights.red[at]),
+                                     hn::MulAdd(more_blue, number(lights.blue[at]), rgb[1]));
+    }
+}
+
+HWY_INLINE void all_light(const LeafLights& lights, const Ray& ray, V* sum) {
+    for (int i = 0; i < lights.nodes; ++i) sum[i] = number(0.0f);
+    const Sums sums{sum, lights.nodes};
+    V unhidden = number(1.0f);
+    if (lights.any_near)
+        unhidden = near_light<false>(lights.others, ray, number(3e38f), sums);
+    distant_light<false>(lights.others, ray, unhidden, sums);
+    for (const LeafLights::Cap& cap : lights.caps) {
+        const V3 beside = plus(vector(cap.axis), number(-1.0f), ray.direction);
+        const V chord = dot(beside, beside);
+        const M within = hn::And(chord < number(cap.outer), chord >= number(cap.inner));
+        sums(hn::IfThenElseZero(within, unhidden), cap.radiance.data(), {});
+    }
+    if (lights.environment) environment_light(lights, ray.direction, unhidden, sum);
+}
+
+// Shades the leaves i .. i + lanes - 1, to out[node * stride]. Adds what they weigh after
+// absorption, of all nodes.
+HWY_INLINE void shade_vector(const LeafLights& lights, const LeafFrames& frames,
+                             const LeafRun& run, const LeafAbsorption& absorption, int i,
+                             float* out, int stride, V& weighed) {
+    const V3 none{number(0.0f), number(0.0f), number(0.0f)};
+    Ray ray{none, direction_at(run.direction[0] + i, run.direction[1] + i), none, none, none,
+            none};
+    if (lights.any_near) ray.point = point_at(frames, run, i);
+    V sum[k_band_nodes];
+    all_light(lights, ray, sum);
+    const V weight = hn::LoadU(k_floats, run.weight + i);
+    V length[3];
+    int lengths = 0;
+    for (; lengths < 3 && run.length[lengths] != nullptr; ++lengths)
+        length[lengths] = number_at(run.length[lengths] + i);
+    for (int node = 0; node < lights.nodes; ++node) {
+        V brings = weight;
+        if (lengths > 0) {
+            V exponent = number(0.0f);
+            for (int k = 0; k < lengths; ++k)
+                exponent = hn::NegMulAdd(length[k], number(absorption[k][node]), exponent);
+            brings = weight * decayed(exponent);
+        }
+        weighed = weighed + brings;
+        hn::StoreU(brings * sum[node], k_floats, out + node * stride);
+    }
+}
+
+// What is left over when full vectors are done, filled up with leaves of no weight.
+struct Tail {
+    float weight[k_most_lanes] = {};
+    std::int32_t direction[2][k_most_lanes] = {};
+    std::uint16_t point[2][k_most_lanes] = {}, facet[k_most_lanes] = {},
+                  length[3][k_most_lanes] = {};
+    float out[k_band_nodes * k_most_lanes];
+
+    LeafRun of(const LeafRun& run, int from) {
+        const int count = run.count - from;
+        LeafRun tail;
+        const auto copy = [&](auto* to, const auto* list) {
+            std::copy_n(list + from, count, to);
+            return to;
+        };
+        tail.weight = copy(weight, run.weight);
+        for (size_t k = 0; k < 2; ++k) {
+            tail.direction[k] = copy(direction[k], run.direction[k]);
+            tail.point[k] = copy(point[k], run.point[k]);
+        }
+        tail.facet = copy(facet, run.facet);
+        for (size_t k = 0; k < 3; ++k) {
+            if (run.length[k] != nullptr) tail.length[k] = copy(length[k], run.length[k]);
+        }
+        return tail;
+    }
+};
+
+double ShadeLeaves(const LeafLights& lights, const LeafFrames& frames, const LeafRun& run,
+                   const LeafAbsorption& absorption, float* radiance, int stride) {
+    const int lanes = static_cast<int>(hn::Lanes(k_floats));
+    V weighed = number(0.0f);
+    int i = 0;
+    for (; i + lanes <= run.count; i += lanes)
+        shade_vector(lights, frames, run, absorption, i, radiance + i, stride, weighed);
+    if (i < run.count) {
+        Tail tail;
+        const LeafRun rest = tail.of(run, i);
+        shade_vector(lights, frames, rest, absorption, 0, tail.out, lanes, weighed);
+        for (int node = 0; node < lights.nodes; ++node)
+            std::copy_n(tail.out + node * lanes, run.count - i, radiance + node * stride + i);
+    }
+    HWY_ALIGN float part[k_most_lanes];
+    hn::Store(weighed, k_floats, part);
+    double sum = 0;
+    for (int lane = 0; lane < lanes; ++lane) sum += static_cast<double>(part[lane]);
+    return sum / lights.nodes;
+}
+
+void ShadeRays(const LeafLights& lights, const AirRays& rays, float* radiance, int stride) {
+    const int lanes = static_cast<int>(hn::Lanes(k_floats));
+    const V3 none{number(0.0f), number(0.0f), number(0.0f)};
+    V sum[k_band_nodes];
+    for (int i = 0; i < rays.count; i += lanes) {
+        const int here = std::min(lanes, rays.count - i);
+        HWY_ALIGN float part[k_most_lanes];
+        const auto load = [&](const std::vector<float>& list) HWY_ATTR {
+            if (here == lanes) return hn::LoadU(k_floats, list.data() + i);
+            std::copy_n(list.data() + i, here, part);
+            std::fill(part + here, part + lanes, 0.5f);
+            return hn::Load(k_floats, part);
+        };
+        const auto load3 = [&](const std::array<std::vector<float>, 3>& of) HWY_ATTR {
+            return V3{load(of[0]), load(of[1]), load(of[2])};
+        };
+        const Ray ray{load3(rays.origin), load3(rays.direction), none, none, none, none};
+        all_light(lights, ray, sum);
+        for (int node = 0; node < lights.nodes; ++node) {
+            float* out = radiance + node * stride + i;
+            if (here == lanes) {
+                hn::StoreU(sum[node], k_floats, out);
+            } else {
+                hn::Store(sum[node], k_floats, part);
+                std::copy_n(part, here, out);
+            }
+        }
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace culet
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace culet {
+
+HWY_EXPORT(ShadeLeaves);
+HWY_EXPORT(ShadeRays);
+
+double shade_leaves(const LeafLights& lights, const LeafFrames& frames, const LeafRun& run,
+                    const LeafAbsorption& absorption, float* radiance, int stride) {
+    return HWY_DYNAMIC_DISPATCH(ShadeLeaves)(lights, frames, run, absorption, radiance, stride);
+}
+
+void shade_rays(const LeafLights& lights, const AirRays& rays, float* radiance, int stride) {
+    HWY_DYNAMIC_DISPATCH(ShadeRays)(lights, rays, radiance, stride);
+}
+
+namespace {
+
+// Of an angle from the axis; beyond all directions where there is no rim.
+float chord_squared(double angle) {
+    if (angle >= std::numbers::pi) return 5;
+    const double half = 2 * std::sin(angle / 2);
+    return static_cast<float>(half * half);
+}
+
+}  // namespace
+
+bool LeafLights::too_many(const Lights& lights) {
+    return std::count_if(lights.sources.begin(), lights.sources.end(),
+                         [](const Light& light) { return is_near(light); }) > k_most_near_lights;
+}
+
+LeafLights::LeafLights(const Lights& lights, const WavelengthSet& colours, const Band& band,
+                       const Vec3& middle)
+    : environment(lights.environment), nodes(band.count) {
+    Lights rest;
+    rest.constant = lights.constant;
+    const auto add_cap = [&](const Vec3& axis, double from, double to, const LightColour& colour) {
+        Cap cap{{static_cast<float>(axis.x), static_cast<float>(axis.y),
+                 static_cast<float>(axis.z)},
+                chord_squared(to),
+                from > 0 ? chord_squared(from) : -1,
+                {}};
+        const std::vector<double> all = radiance_of(colour, colours);
+        cap.radiance.assign(all.begin() + band.first, all.begin() + band.first + band.count);
+        caps.push_back(std::move(cap));
+    };
+    for (const Light& light : lights.sources) {
+        any_near = any_near || is_near(light);
+        if (const auto* disc = std::get_if<DiscLight>(&light)) {
+            add_cap(disc->direction, disc->from, disc->to, disc->radiance);
+        } else if (const auto* half = std::get_if<HemisphereLight>(&light)) {
+            add_cap(half->direction, 0, std::numbers::pi / 2, half->radiance);
+        } else {
+            rest.sources.push_back(light);
+        }
+    }
+    others = ShadedLights(rest, colours, band.first, band.count, middle, nullptr);
+    for (int i = band.first; environment && i < band.first + band.count; ++i) {
+        red.push_back(static_cast<float>(colours.primaries()[0][static_cast<std::size_t>(i)]));
+        blue.push_back(static_cast<float>(colours.primaries()[2][static_cast<std::size_t>(i)]));
+    }
+}
+
+}  // namespace culet
+#endif
