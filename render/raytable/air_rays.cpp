@@ -1,5 +1,6 @@
 #include "render/raytable/air_rays.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -16,8 +17,8 @@ std::array<float, 3> floats(const Vec3& v) {
 AirRayMaker::AirRayMaker(const Scene& scene, const TableRays& rays, const Vec3& middle)
     : camera_(scene.camera),
       eyes_(scene.camera),
-      pattern_(sample_pattern(rays.samples, rays.setup.on(Effects::aperture),
-                              scene.settings.filter, scene.settings.filter_radius)),
+      pattern_(sample_pattern(rays.samples, rays.setup.on(Effects::aperture), scene.settings.filter,
+                              scene.settings.filter_radius)),
       middle_(middle),
       plain_(!camera_.cone && !(camera_.aperture_radius > 0)) {
     if (!plain_) return;
@@ -45,36 +46,50 @@ EyeRay AirRayMaker::eye_ray(std::uint32_t ray) const {
     return eyes_.through(pixel % width + p.x, pixel / width + p.y, p.pupil_x, p.pupil_y);
 }
 
-void AirRayMaker::start(AirRays& rays, std::size_t most) const {
-    rays.count = 0;
+void AirRayMaker::make(int y, std::vector<RaySample>& samples, bool origins, AirRays& rays) const {
+    const std::size_t count = samples.size();
+    rays.count = static_cast<int>(count);
     for (auto* of : {&rays.origin, &rays.direction}) {
-        for (std::vector<float>& list : *of) list.resize(most);
+        for (std::vector<float>& list : *of) list.resize(std::max(list.size(), count));
     }
-}
-
-bool AirRayMaker::add(int x, int y, int sample, AirRays& rays) const {
-    const SamplePoint& p = pattern_[static_cast<std::size_t>(sample)];
-    const auto i = static_cast<std::size_t>(rays.count);
     if (plain_) {
-        const float right = static_cast<float>(x + p.x), down = static_cast<float>(y + p.y);
-        std::array<float, 3> d;
-        for (std::size_t k = 0; k < 3; ++k) {
-            d[k] = direction_[k] + right * direction_x_[k] + down * direction_y_[k];
-            rays.origin[k][i] = origin_[k] + right * origin_x_[k] + down * origin_y_[k];
-        }
-        const float over = 1 / std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-        for (std::size_t k = 0; k < 3; ++k) rays.direction[k][i] = over * d[k];
-    } else {
-        if (!eyes_.sees(x + p.x, y + p.y)) return false;
-        const EyeRay ray = eyes_.through(x + p.x, y + p.y, p.pupil_x, p.pupil_y);
+        make_plain(y, samples, origins, rays);
+        return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        const SamplePoint& p = pattern_[static_cast<std::size_t>(samples[i].sample)];
+        const double x = samples[i].x + p.x, down = y + p.y;
+        const bool sees = eyes_.sees(x, down);
+        const EyeRay ray =
+            sees ? eyes_.through(x, down, p.pupil_x, p.pupil_y) : EyeRay{middle_, Vec3(0, 0, 1)};
+        if (!sees) samples[i].x = -1;
         const auto origin = floats(ray.origin - middle_), direction = floats(ray.direction);
         for (std::size_t k = 0; k < 3; ++k) {
             rays.origin[k][i] = origin[k];
             rays.direction[k][i] = direction[k];
         }
     }
-    ++rays.count;
-    return true;
+}
+
+void AirRayMaker::make_plain(int y, const std::vector<RaySample>& samples, bool origins,
+                             AirRays& rays) const {
+    const std::size_t count = samples.size();
+    float *dx = rays.direction[0].data(), *dy = rays.direction[1].data(),
+          *dz = rays.direction[2].data();
+    for (std::size_t i = 0; i < count; ++i) {
+        const SamplePoint& p = pattern_[static_cast<std::size_t>(samples[i].sample)];
+        const float right = static_cast<float>(samples[i].x + p.x),
+                    down = static_cast<float>(y + p.y);
+        const float x = direction_[0] + right * direction_x_[0] + down * direction_y_[0],
+                    up = direction_[1] + right * direction_x_[1] + down * direction_y_[1],
+                    z = direction_[2] + right * direction_x_[2] + down * direction_y_[2];
+        const float over = 1 / std::sqrt(x * x + up * up + z * z);
+        dx[i] = over * x;
+        dy[i] = over * up;
+        dz[i] = over * z;
+        for (std::size_t k = 0; origins && k < 3; ++k)
+            rays.origin[k][i] = origin_[k] + right * origin_x_[k] + down * origin_y_[k];
+    }
 }
 
 }  // namespace culet

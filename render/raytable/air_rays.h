@@ -7,6 +7,12 @@
 
 namespace culet {
 
+/// A ray of a row: its pixel, and its place in the pattern. After AirRayMaker::make x is below 0
+/// where the camera has no ray there.
+struct RaySample {
+    int x = 0, sample = 0;
+};
+
 class AirRayMaker {
 public:
     /// Keeps a reference to the camera. `middle`: of the origins.
@@ -15,12 +21,13 @@ public:
     /// Ray of the table, about the stone's own origin.
     EyeRay eye_ray(std::uint32_t ray) const;
 
-    /// Makes room for so many rays, and has none.
-    void start(AirRays& rays, std::size_t most) const;
-    /// Adds a pixel's ray; false where the camera has none there.
-    bool add(int x, int y, int sample, AirRays& rays) const;
+    /// The rays of some samples of a row, in their order; origins only where they are asked for.
+    void make(int y, std::vector<RaySample>& samples, bool origins, AirRays& rays) const;
 
 private:
+    void make_plain(int y, const std::vector<RaySample>& samples, bool origins,
+                    AirRays& rays) const;
+
     const Camera& camera_;
     EyeRays eyes_;
     std::vector<SamplePoint> pattern_;

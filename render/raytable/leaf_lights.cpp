@@ -103,9 +103,8 @@ HWY_INLINE void environment_light(const LeafLights& lights, const V3& d, const V
     const auto right = wrapped(hn::ConvertTo(k_ints, x0) + one);
     const auto upper = hn::ConvertTo(k_ints, y0);
     const auto lower = hn::Min(upper + one, hn::Set(k_ints, map.height - 1));
-    const auto texel = [&](const hn::Vec<Ints>& column, const hn::Vec<Ints>& row) HWY_ATTR {
-        return hn::Set(k_ints, 3) * (row * wide + column);
-    };
+    const auto texel = [&](const hn::Vec<Ints>& column, const hn::Vec<Ints>& row)
+                           HWY_ATTR { return hn::Set(k_ints, 3) * (row * wide + column); };
     const auto a = texel(left, upper), b = texel(right, upper), c = texel(left, lower),
                e = texel(right, lower);
     V rgb[3];
@@ -128,8 +127,7 @@ HWY_INLINE void all_light(const LeafLights& lights, const Ray& ray, V* sum) {
     for (int i = 0; i < lights.nodes; ++i) sum[i] = number(0.0f);
     const Sums sums{sum, lights.nodes};
     V unhidden = number(1.0f);
-    if (lights.any_near)
-        unhidden = near_light<false>(lights.others, ray, number(3e38f), sums);
+    if (lights.any_near) unhidden = near_light<false>(lights.others, ray, number(3e38f), sums);
     distant_light<false>(lights.others, ray, unhidden, sums);
     for (const LeafLights::Cap& cap : lights.caps) {
         const V3 beside = plus(vector(cap.axis), number(-1.0f), ray.direction);
@@ -142,12 +140,11 @@ HWY_INLINE void all_light(const LeafLights& lights, const Ray& ray, V* sum) {
 
 // Shades the leaves i .. i + lanes - 1, to out[node * stride]. Adds what they weigh after
 // absorption, of all nodes.
-HWY_INLINE void shade_vector(const LeafLights& lights, const LeafFrames& frames,
-                             const LeafRun& run, const LeafAbsorption& absorption, int i,
-                             float* out, int stride, V& weighed) {
+HWY_INLINE void shade_vector(const LeafLights& lights, const LeafFrames& frames, const LeafRun& run,
+                             const LeafAbsorption& absorption, int i, float* out, int stride,
+                             V& weighed) {
     const V3 none{number(0.0f), number(0.0f), number(0.0f)};
-    Ray ray{none, direction_at(run.direction[0] + i, run.direction[1] + i), none, none, none,
-            none};
+    Ray ray{none, direction_at(run.direction[0] + i, run.direction[1] + i), none, none, none, none};
     if (lights.any_near) ray.point = point_at(frames, run, i);
     V sum[k_band_nodes];
     all_light(lights, ray, sum);
@@ -289,11 +286,11 @@ LeafLights::LeafLights(const Lights& lights, const WavelengthSet& colours, const
     Lights rest;
     rest.constant = lights.constant;
     const auto add_cap = [&](const Vec3& axis, double from, double to, const LightColour& colour) {
-        Cap cap{{static_cast<float>(axis.x), static_cast<float>(axis.y),
-                 static_cast<float>(axis.z)},
-                chord_squared(to),
-                from > 0 ? chord_squared(from) : -1,
-                {}};
+        Cap cap{
+            {static_cast<float>(axis.x), static_cast<float>(axis.y), static_cast<float>(axis.z)},
+            chord_squared(to),
+            from > 0 ? chord_squared(from) : -1,
+            {}};
         const std::vector<double> all = radiance_of(colour, colours);
         cap.radiance.assign(all.begin() + band.first, all.begin() + band.first + band.count);
         caps.push_back(std::move(cap));

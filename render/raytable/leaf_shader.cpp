@@ -110,8 +110,7 @@ public:
         }
         return weighed / band.count;
     }
-    void rays(std::size_t number, const AirRays& rays, float* radiance,
-              int stride) const override {
+    void rays(std::size_t number, const AirRays& rays, float* radiance, int stride) const override {
         const Band& band = bands_[number];
         const auto vector = [](const std::array<std::vector<float>, 3>& of, std::size_t i) {
             return Vec3(of[0][i], of[1][i], of[2][i]);

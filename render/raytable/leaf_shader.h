@@ -20,8 +20,7 @@ public:
     /// As shade_leaves and shade_rays, at the nodes of a band of the scene's setup.
     virtual double leaves(std::size_t band, const LeafRun& run, float* radiance,
                           int stride) const = 0;
-    virtual void rays(std::size_t band, const AirRays& rays, float* radiance,
-                      int stride) const = 0;
+    virtual void rays(std::size_t band, const AirRays& rays, float* radiance, int stride) const = 0;
     /// Origins of AirRays are about this point.
     virtual Vec3 middle() const = 0;
 };

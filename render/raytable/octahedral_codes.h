@@ -2,9 +2,9 @@
 // Unit directions as two whole numbers: octahedral coordinates (Meyer et al. 2010; Cigolle et al.
 // 2014), the square -1..1 in steps of 1 / (2^31 - 1).
 //
-// Each coordinate is off by at most half a step, d = 2^-32; the point on the octahedron then moves by
-// at most |(d, d, 2 d)| = sqrt(6) d, and lies at least 1 / sqrt(3) from the middle: the direction is
-// off by at most sqrt(18) d, 1e-9 radians.
+// Each coordinate is off by at most half a step, d = 2^-32; the point on the octahedron then moves
+// by at most |(d, d, 2 d)| = sqrt(6) d, and lies at least 1 / sqrt(3) from the middle: the
+// direction is off by at most sqrt(18) d, 1e-9 radians.
 
 #include <algorithm>
 #include <array>

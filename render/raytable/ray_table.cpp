@@ -62,10 +62,9 @@ bool sane(const RayTableHeader& h) {
            static_cast<std::uint64_t>(h.width) * h.height * h.samples <= k_most &&
            within(h.bands, k_most_bands) && within(h.facets, k_most_facets) &&
            (h.lengths == 1 || h.lengths == 3) &&
-           (h.wavelengths == h.bands || (h.wavelengths == 0 && h.bands == 1)) &&
-           h.hits <= k_most && h.leaves <= k_most && h.branches <= 1 &&
-           std::isfinite(h.length_step) && h.length_step >= 0 && std::isfinite(h.remainder) &&
-           std::isfinite(h.cut);
+           (h.wavelengths == h.bands || (h.wavelengths == 0 && h.bands == 1)) && h.hits <= k_most &&
+           h.leaves <= k_most && h.branches <= 1 && std::isfinite(h.length_step) &&
+           h.length_step >= 0 && std::isfinite(h.remainder) && std::isfinite(h.cut);
 }
 
 // What is wrong with lists whose places are right; empty: nothing.

@@ -1,6 +1,6 @@
 #pragma once
-// A ray table (Lee, Interactive refractive rendering for gemstones, 2004, chapter 5): of one view of
-// a stone, where the light paths behind each pixel leave the stone, in which direction, and with
+// A ray table (Lee, Interactive refractive rendering for gemstones, 2004, chapter 5): of one view
+// of a stone, where the light paths behind each pixel leave the stone, in which direction, and with
 // which weight. Pictures in any light follow from it without tracing. docs/ray-tables.md describes
 // the file, which is this table byte by byte.
 //
@@ -35,8 +35,8 @@ struct RayTableHeader {
     std::uint32_t deepest = 0;      ///< faces on the longest path
     std::uint32_t branches = 0;     ///< 1: paths are trees; 0: leaf k of a ray has k reflections
     std::uint64_t hits = 0, leaves = 0;
-    double length_step = 0;            ///< of the lengths, in the stone's unit
-    double remainder = 0, cut = 0;     ///< weight that no leaf has, mean over hits and bands
+    double length_step = 0;         ///< of the lengths, in the stone's unit
+    double remainder = 0, cut = 0;  ///< weight that no leaf has, mean over hits and bands
     TableKey stone{}, optics{}, view{}, rays{};
     std::array<char, 24> reserved{};
 };
@@ -54,11 +54,11 @@ static_assert(sizeof(FacetFrame) == 72);
 template <template <class> class List>
 struct RayTableParts {
     List<double> wavelengths_nm;
-    List<FacetFrame> frames;              ///< of each facet
-    List<std::uint32_t> hit_ray;          ///< of each hit: pixel x samples + sample; increasing
-    List<float> hit_distance;             ///< from the eye to the stone
-    List<std::uint32_t> leaf_end;         ///< of band x hits + hit: the leaf after its last
-    List<float> weight;                   ///< of each leaf
+    List<FacetFrame> frames;       ///< of each facet
+    List<std::uint32_t> hit_ray;   ///< of each hit: pixel x samples + sample; increasing
+    List<float> hit_distance;      ///< from the eye to the stone
+    List<std::uint32_t> leaf_end;  ///< of band x hits + hit: the leaf after its last
+    List<float> weight;            ///< of each leaf
     std::array<List<std::int32_t>, 2> direction;
     std::array<List<std::uint16_t>, 2> point;
     List<std::uint16_t> facet;

@@ -1,5 +1,6 @@
 #include "render/raytable/relighting.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -21,18 +22,18 @@ namespace {
 
 // What rows of the picture add up to.
 struct RowSums {
-    double hit = 0;        // rays
-    double luminance = 0;  // of the stone's, over pixels
-    double weighed = 0;    // weight of leaves after absorption, over bands
+    double hit = 0;      // rays
+    Rgb stone{};         // over pixels
+    double weighed = 0;  // weight of leaves after absorption, over bands
 };
 
-// Room of one row.
+// What one thread keeps from row to row: room.
 struct RowMemory {
     std::vector<float> stone, air, block, weight;
-    std::vector<int> stone_rays;        // of each pixel
-    std::vector<unsigned char> hidden;  // of each hit: something is nearer than the stone
+    std::vector<int> stone_rays;  // of each pixel
+    std::vector<int> hit_pixel;   // of each hit; -1: something is nearer than the stone
+    std::vector<RaySample> bare_samples;
     AirRays bare;
-    std::vector<int> bare_pixel;
 };
 
 class Relighting {
@@ -66,14 +67,11 @@ public:
     RenderResult draw() {
         const int height = scene_.camera.height;
         std::vector<RowSums> rows(static_cast<std::size_t>(height));
-        constexpr int k_rows = 8;
+        tbb::enumerable_thread_specific<RowMemory> memories;
         on_threads(scene_.settings.threads, [&] {
-            tbb::parallel_for(tbb::blocked_range<int>(0, height, k_rows), [&](const auto& range) {
-                RowMemory memory;
-                for (int y = range.begin(); y != range.end(); ++y) {
-                    if (!listener_.goes_on()) return;
-                    rows[static_cast<std::size_t>(y)] = draw_row(y, memory);
-                }
+            tbb::parallel_for(0, height, [&](int y) {
+                if (listener_.goes_on())
+                    rows[static_cast<std::size_t>(y)] = draw_row(y, memories.local());
             });
         });
         if (listener_.stopped()) throw Interrupted();
@@ -81,7 +79,7 @@ public:
         RowSums whole;
         for (const RowSums& row : rows) {
             whole.hit += row.hit;
-            whole.luminance += row.luminance;
+            for (std::size_t c = 0; c < 3; ++c) whole.stone[c] += row.stone[c];
             whole.weighed += row.weighed;
         }
         fill_stats(whole);
@@ -127,135 +125,145 @@ private:
         const std::size_t values =
             static_cast<std::size_t>(nodes_) * static_cast<std::size_t>(width_);
         memory.stone.assign(values, 0.0f);
-        memory.stone_rays.assign(static_cast<std::size_t>(width_), 0);
-        find_hidden(first, last, memory);
+        sort_rays(first, last, y, memory);
         RowSums sums;
         for (std::size_t b = 0; b < rays_.setup.bands.size(); ++b)
-            sums.weighed += add_leaves(b, first, last, y, memory);
-        find_bare_rays(first, last, y, memory);
+            sums.weighed += add_leaves(b, first, last, memory);
         memory.air.assign(values, 0.0f);
-        if (memory.bare.count > 0) add_air(memory);
+        if (!memory.bare_samples.empty()) add_air(y, memory);
         put_row(y, memory, sums);
         return sums;
     }
 
-    int pixel_of(std::size_t hit, int y) const {
-        return static_cast<int>(table_.parts().hit_ray[hit] /
-                                static_cast<std::uint32_t>(samples_)) -
-               y * width_;
+    // What stands before the stone hides it; the reference asks the same.
+    bool hidden(std::size_t hit) const {
+        if (!something_near_) return false;
+        const EyeRay ray = air_.eye_ray(table_.parts().hit_ray[hit]);
+        return surroundings_->nearest_distance(ray.origin, ray.direction) <
+               static_cast<double>(table_.parts().hit_distance[hit]);
     }
 
-    // What stands before the stone hides it; the reference asks the same.
-    void find_hidden(std::size_t first, std::size_t last, RowMemory& memory) const {
-        memory.hidden.assign(last - first, 0);
-        if (!something_near_) return;
-        for (std::size_t hit = first; hit < last; ++hit) {
-            const EyeRay ray = air_.eye_ray(table_.parts().hit_ray[hit]);
-            memory.hidden[hit - first] =
-                surroundings_->nearest_distance(ray.origin, ray.direction) <
-                static_cast<double>(table_.parts().hit_distance[hit]);
+    // Which rays of a row see the stone, and which see past it.
+    void sort_rays(std::size_t first, std::size_t last, int y, RowMemory& memory) const {
+        memory.stone_rays.assign(static_cast<std::size_t>(width_), 0);
+        memory.hit_pixel.assign(last - first, -1);
+        memory.bare_samples.clear();
+        const auto& rays = table_.parts().hit_ray;
+        std::size_t hit = first;
+        std::uint32_t ray =
+            static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_ * samples_);
+        for (int x = 0; x < width_; ++x) {
+            for (int sample = 0; sample < samples_; ++sample, ++ray) {
+                const bool meets = hit < last && rays[hit] == ray;
+                if (meets && !hidden(hit)) {
+                    memory.hit_pixel[hit - first] = x;
+                    ++memory.stone_rays[static_cast<std::size_t>(x)];
+                } else {
+                    memory.bare_samples.push_back({x, sample});
+                }
+                hit += meets;
+            }
         }
     }
 
     // Constant factors instead of Fresnel's. The first leaf was reflected once; the one behind it
     // was let in and out, and each later one reflected once more in between.
-    void use_factors(std::size_t first_end, std::size_t hits, std::uint32_t begin,
+    void use_factors(const std::uint32_t* end, std::size_t hits, std::uint32_t begin,
                      RowMemory& memory) const {
         const RenderSettings& settings = scene_.settings;
         const float R = static_cast<float>(settings.reflection_factor.value_or(1)),
                     T = static_cast<float>(settings.transmission_factor.value_or(1));
-        const auto& ends = table_.parts().leaf_end;
-        std::uint32_t leaf = begin;
-        for (std::size_t i = 0; i < hits; ++i) {
+        memory.weight.clear();
+        for (std::size_t hit = 0; hit < hits; ++hit) {
             float next = T * T;
-            for (std::uint32_t k = leaf; leaf < ends[first_end + i]; ++leaf) {
-                memory.weight[leaf - begin] = leaf == k ? R : next;
-                if (leaf != k) next *= R;
+            const std::uint32_t first = begin + static_cast<std::uint32_t>(memory.weight.size());
+            for (std::uint32_t leaf = first; leaf < end[hit]; ++leaf) {
+                memory.weight.push_back(leaf == first ? R : next);
+                if (leaf != first) next *= R;
             }
         }
     }
 
+    // The leaves from .. to - 1 of the table.
+    LeafRun run_of(std::uint32_t from, std::uint32_t to) const {
+        const auto& parts = table_.parts();
+        LeafRun run;
+        run.weight = &parts.weight[from];
+        for (std::size_t k = 0; k < 2; ++k) {
+            run.direction[k] = &parts.direction[k][from];
+            run.point[k] = &parts.point[k][from];
+        }
+        run.facet = &parts.facet[from];
+        for (std::uint32_t k = 0; k < table_.header().lengths; ++k)
+            run.length[k] = &parts.length[k][from];
+        run.count = static_cast<int>(to - from);
+        return run;
+    }
+
     // Adds what the leaves of a row's hits bring at the nodes of a band; returns their weight.
-    double add_leaves(std::size_t number, std::size_t first, std::size_t last, int y,
+    double add_leaves(std::size_t number, std::size_t first, std::size_t last,
                       RowMemory& memory) const {
         constexpr std::uint32_t k_block = 512;
+        if (first == last) return 0;
         const Band& band = rays_.setup.bands[number];
         const auto& parts = table_.parts();
         const std::size_t in_table = table_.header().bands > 1 ? number : 0;
-        const std::size_t ends = in_table * table_.header().hits;
-        if (first == last) return 0;
-        const std::uint32_t begin = ends + first == 0 ? 0 : parts.leaf_end[ends + first - 1];
-        const std::uint32_t end = parts.leaf_end[ends + last - 1];
+        const std::uint32_t* end = parts.leaf_end.data() + in_table * table_.header().hits;
+        const std::uint32_t begin = end + first == parts.leaf_end.data() ? 0 : *(end + first - 1);
         const bool factors =
             scene_.settings.reflection_factor || scene_.settings.transmission_factor;
-        if (factors) {
-            memory.weight.resize(end - begin);
-            use_factors(ends + first, last - first, begin, memory);
-        }
-        memory.block.resize(k_block * static_cast<std::size_t>(band.count));
+        if (factors) use_factors(end + first, last - first, begin, memory);
         double weighed = 0;
-        std::size_t hit = first;
-        for (std::uint32_t from = begin; from < end; from += k_block) {
-            const std::uint32_t to = std::min(from + k_block, end);
-            LeafRun run;
-            run.weight = factors ? memory.weight.data() + (from - begin) : &parts.weight[from];
-            for (std::size_t k = 0; k < 2; ++k) {
-                run.direction[k] = &parts.direction[k][from];
-                run.point[k] = &parts.point[k][from];
+        std::uint32_t from = begin;
+        // As many whole hits as make a block.
+        for (std::size_t hit = first; hit < last;) {
+            std::size_t behind = hit + 1;
+            while (behind < last && end[behind] - from <= k_block) ++behind;
+            const std::uint32_t to = end[behind - 1], stride = to - from;
+            if (stride > 0) {
+                memory.block.resize(std::max<std::size_t>(
+                    memory.block.size(), stride * static_cast<std::size_t>(band.count)));
+                LeafRun run = run_of(from, to);
+                if (factors) run.weight = memory.weight.data() + (from - begin);
+                weighed += band.count * shader_->leaves(number, run, memory.block.data(),
+                                                        static_cast<int>(stride));
             }
-            run.facet = &parts.facet[from];
-            for (std::uint32_t k = 0; k < table_.header().lengths; ++k)
-                run.length[k] = &parts.length[k][from];
-            run.count = static_cast<int>(to - from);
-            weighed += band.count *
-                       shader_->leaves(number, run, memory.block.data(), static_cast<int>(k_block));
-            for (std::uint32_t leaf = from; leaf < to; ++leaf) {
-                while (leaf >= parts.leaf_end[ends + hit]) ++hit;
-                if (memory.hidden[hit - first] != 0) continue;
-                float* sum = &memory.stone[static_cast<std::size_t>(pixel_of(hit, y) * nodes_ +
-                                                                    band.first)];
-                for (int node = 0; node < band.count; ++node)
-                    sum[node] += memory.block[static_cast<std::size_t>(node) * k_block +
-                                              (leaf - from)];
+            const float* seen = memory.block.data();
+            std::uint32_t leaf = from;
+            for (; hit < behind; ++hit) {
+                const std::uint32_t next = end[hit], count = next - leaf;
+                const int pixel = memory.hit_pixel[hit - first];
+                float* sum =
+                    pixel < 0
+                        ? nullptr
+                        : &memory.stone[static_cast<std::size_t>(pixel * nodes_ + band.first)];
+                for (int node = 0; sum != nullptr && node < band.count; ++node) {
+                    const float* of = seen + static_cast<std::size_t>(node) * stride;
+                    for (std::uint32_t i = 0; i < count; ++i) sum[node] += of[i];
+                }
+                seen += count;
+                leaf = next;
             }
+            from = to;
         }
         return weighed;
     }
 
-    // Rays of a row that see no stone.
-    void find_bare_rays(std::size_t first, std::size_t last, int y, RowMemory& memory) const {
-        memory.bare_pixel.clear();
-        air_.start(memory.bare, static_cast<std::size_t>(width_) *
-                                    static_cast<std::size_t>(samples_));
-        const auto& rays = table_.parts().hit_ray;
-        std::size_t hit = first;
-        const std::uint32_t row = static_cast<std::uint32_t>(y) *
-                                  static_cast<std::uint32_t>(width_ * samples_);
-        for (int x = 0; x < width_; ++x) {
-            for (int sample = 0; sample < samples_; ++sample) {
-                const std::uint32_t ray = row + static_cast<std::uint32_t>(x * samples_ + sample);
-                const bool meets = hit < last && rays[hit] == ray;
-                if (meets && memory.hidden[hit++ - first] == 0) {
-                    ++memory.stone_rays[static_cast<std::size_t>(x)];
-                } else if (air_.add(x, y, sample, memory.bare)) {
-                    memory.bare_pixel.push_back(x);
-                }
-            }
-        }
-    }
-
-    void add_air(RowMemory& memory) const {
-        const int count = memory.bare.count;
+    void add_air(int y, RowMemory& memory) const {
+        air_.make(y, memory.bare_samples, something_near_, memory.bare);
+        const std::size_t count = memory.bare_samples.size();
         for (std::size_t b = 0; b < rays_.setup.bands.size(); ++b) {
             const Band& band = rays_.setup.bands[b];
-            memory.block.resize(static_cast<std::size_t>(count) *
-                                static_cast<std::size_t>(band.count));
-            shader_->rays(b, memory.bare, memory.block.data(), count);
-            for (int i = 0; i < count; ++i) {
-                float* sum = &memory.air[static_cast<std::size_t>(
-                    memory.bare_pixel[static_cast<std::size_t>(i)] * nodes_ + band.first)];
-                for (int node = 0; node < band.count; ++node)
-                    sum[node] += memory.block[static_cast<std::size_t>(node * count + i)];
+            memory.block.resize(
+                std::max(memory.block.size(), count * static_cast<std::size_t>(band.count)));
+            shader_->rays(b, memory.bare, memory.block.data(), static_cast<int>(count));
+            for (int node = 0; node < band.count; ++node) {
+                const float* seen = memory.block.data() + static_cast<std::size_t>(node) * count;
+                float* sum = memory.air.data() + band.first + node;
+                for (const RaySample& sample : memory.bare_samples) {
+                    if (sample.x >= 0) sum[sample.x * nodes_] += *seen;
+                    ++seen;
+                }
             }
         }
     }
@@ -284,7 +292,9 @@ private:
             picture.coverage[pixel] = share * static_cast<float>(rays);
             if (rays == 0) continue;
             sums.hit += rays;
-            sums.luminance += luminance(Rgb{of_stone.r, of_stone.g, of_stone.b});
+            sums.stone[0] += static_cast<double>(of_stone.r);
+            sums.stone[1] += static_cast<double>(of_stone.g);
+            sums.stone[2] += static_cast<double>(of_stone.b);
         }
     }
 
@@ -303,10 +313,10 @@ private:
             // What a clear stone's leaves weigh is all that the table did not leave out.
             stats.absorbed = 1 - header.remainder - header.cut - whole.weighed / hits / nodes_;
         }
-        if (whole.hit > 0) stats.mean_radiance = whole.luminance / whole.hit * samples_;
+        if (whole.hit > 0) stats.mean_radiance = luminance(whole.stone) / whole.hit * samples_;
         if (stats.mean_radiance > 0) {
-            stats.error_bound = (stats.remainder + stats.cut) * surroundings_->max_radiance() /
-                                stats.mean_radiance;
+            stats.error_bound =
+                (stats.remainder + stats.cut) * surroundings_->max_radiance() / stats.mean_radiance;
         }
     }
 

@@ -15,7 +15,6 @@ namespace culet {
 ///
 /// `stats.remainder` is that of the table, which a stone that absorbs does not exceed.
 RenderResult relit(const RayTable& table, const Scene& scene, const TableRays& rays,
-                   const Progress& progress,
-                   LeafPrecision precision = LeafPrecision::fastest);
+                   const Progress& progress, LeafPrecision precision = LeafPrecision::fastest);
 
 }  // namespace culet

@@ -95,8 +95,9 @@ TableRays table_rays(const Scene& scene, std::span<const double> wavelengths_nm)
     if (settings.tolerance > 0) {
         // The lights, which the reference looks at here, are not known. One path in a convex stone
         // may well be followed far.
-        const double usual =
-            paths_branch(scene, setup) ? k_table_cut : std::min(k_table_cut, 0.05 * settings.tolerance);
+        const double usual = paths_branch(scene, setup)
+                                 ? k_table_cut
+                                 : std::min(k_table_cut, 0.05 * settings.tolerance);
         limits.cut_weight = settings.cut_weight.value_or(usual);
         limits.split_weight = settings.split_weight.value_or(0);
     }
@@ -113,8 +114,7 @@ std::string refused_by_table(const Scene& scene, const OpticalSetup& setup) {
     const double samples = scene.settings.samples > 0 ? scene.settings.samples : k_table_samples;
     if (samples > 65535 || samples * scene.camera.width * scene.camera.height > 4294967295.0)
         return "a ray table holds up to 65535 samples a pixel and 4294967295 rays";
-    const bool factors =
-        scene.settings.reflection_factor || scene.settings.transmission_factor;
+    const bool factors = scene.settings.reflection_factor || scene.settings.transmission_factor;
     if (factors && paths_branch(scene, setup))
         return "reflection_factor and transmission_factor are for convex stones of one wave: the "
                "paths of others branch";
@@ -163,8 +163,9 @@ std::string difference_to(const RayTableHeader& table, const Scene& scene, const
         return fmt::format("{} samples a pixel, this scene asks for {}", table.samples,
                            own.samples);
     }
-    if (own.rays != table.rays) return "rays that are chosen otherwise (tolerance, cut_weight, "
-                                       "split_weight, filter, seed)";
+    if (own.rays != table.rays)
+        return "rays that are chosen otherwise (tolerance, cut_weight, "
+               "split_weight, filter, seed)";
     return {};
 }
 

@@ -12,8 +12,8 @@ namespace culet {
 /// Of the band of wavelengths, or of each where they go different ways, the optics that paths
 /// depend on.
 struct TableRays {
-    OpticalSetup setup;        ///< of the scene that is drawn
-    std::vector<Band> bands;   ///< of the table: one where all wavelengths go the same way
+    OpticalSetup setup;       ///< of the scene that is drawn
+    std::vector<Band> bands;  ///< of the table: one where all wavelengths go the same way
     PathLimits limits;
     int samples = 1;
 };

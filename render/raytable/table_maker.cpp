@@ -212,8 +212,7 @@ private:
     std::vector<RowLeaves> leaves_of(const Band& of) {
         std::vector<RowLeaves> rows(hits_.size());
         const Band band = with_lengths(of, lengths_, absorption_);
-        const bool general =
-            rays_.setup.splits || !scene_.stone.convex || scene_.immersion != 1;
+        const bool general = rays_.setup.splits || !scene_.stone.convex || scene_.immersion != 1;
         // Where paths branch, small leaves are many; a single path keeps all, whose order tells
         // how often they were reflected.
         const double least = header_.branches != 0 ? rays_.limits.cut_weight : 0;
@@ -281,7 +280,8 @@ private:
 
     FacetFrame frame_of(std::size_t facet, const std::array<double, 4>& box) const {
         const PlaneAxes& axes = axes_[facet];
-        const Vec3 corner = body_.on_facet(static_cast<int>(facet), box[0] * axes.u + box[1] * axes.v);
+        const Vec3 corner =
+            body_.on_facet(static_cast<int>(facet), box[0] * axes.u + box[1] * axes.v);
         const Vec3 u = (box[2] - box[0]) * axes.u, v = (box[3] - box[1]) * axes.v;
         return {{corner.x, corner.y, corner.z}, {u.x, u.y, u.z}, {v.x, v.y, v.z}};
     }
