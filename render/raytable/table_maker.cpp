@@ -9,113 +9,21 @@
 #include <glm/geometric.hpp>
 
 #include "render/geometry/stone_body.h"
-#include "render/raytable/octahedral_codes.h"
+#include "render/raytable/leaf_sink.h"
 #include "render/reference/crystal_paths.h"
 #include "render/reference/light_paths.h"
 #include "render/reference/sampling.h"
 #include "render/work/listener.h"
 #include "render/work/threads.h"
 #include "stone/errors.h"
-#include "stone/perpendicular.h"
 
 namespace culet {
 
 namespace {
 
-struct Leaf {
-    float weight = 0;
-    int facet = 0;
-    DirectionCode direction{};
-    double s = 0, t = 0;  // coordinates in the facet's plane, lengths
-    std::array<double, 3> length{};
-};
-
-// In-plane axes of a facet.
-struct PlaneAxes {
-    Vec3 u, v;
-    explicit PlaneAxes(const Vec3& normal)
-        : u(perpendicular_to(normal)), v(glm::cross(normal, u)) {}
-};
-
 struct Hit {
     std::uint32_t ray = 0;
     BodyHit entry;
-};
-
-// What a row of pixels has, in one band.
-struct RowLeaves {
-    std::vector<Leaf> leaves;
-    std::vector<std::uint32_t> count;  // of each of the row's hits
-    double remainder = 0, cut = 0;
-    int deepest = 0;
-};
-
-// Path lengths are read off the transmissions of wavelengths that absorb along one axis each; the
-// first absorbs nothing, and has the weight of a clear stone.
-Band with_lengths(Band band, int lengths, double absorption) {
-    band.absorbs = true;
-    band.first = 0;
-    band.count = 1 + lengths;
-    for (int axis = 0; axis < 3; ++axis) {
-        band.absorption[axis].fill(0);
-        if (lengths == 1) {
-            band.absorption[axis][1] = absorption;
-        } else {
-            band.absorption[axis][1 + axis] = absorption;
-        }
-    }
-    return band;
-}
-
-// A sink of the tracers, see light_paths.h and crystal_paths.h.
-class LeafSink {
-public:
-    LeafSink(const std::vector<PlaneAxes>& axes, int lengths, double absorption, double least,
-             RowLeaves& row)
-        : axes_(axes), lengths_(lengths), absorption_(absorption), least_(least), row_(row) {}
-
-    void path_exits(const Vec3& at, const Vec3& direction, const NodeWeights& weight,
-                    const PathTrace& trace) {
-        keep(at, direction, weight[0], weight, trace);
-    }
-    void path_exits(const PathEnd& end, const PathTrace& trace) {
-        keep(end.at, end.direction, end.coherency.power(), end.transmitted, trace);
-    }
-    void remainder(const NodeWeights& weight) { row_.remainder += weight[0]; }
-    void cut(const NodeWeights& weight) { row_.cut += weight[0]; }
-    void absorbed(const NodeWeights&) {}
-    void roulette(const NodeWeights&) {}
-    void choice_begins() {}
-    void choice_ends(bool) {}
-
-private:
-    // `transmitted`: in the ratio of its wavelengths.
-    void keep(const Vec3& at, const Vec3& direction, double weight, const NodeWeights& transmitted,
-              const PathTrace& trace) {
-        row_.deepest = std::max(row_.deepest, trace.length);
-        if (weight < least_) {
-            row_.cut += weight;
-            return;
-        }
-        Leaf leaf;
-        leaf.weight = static_cast<float>(weight);
-        leaf.facet = trace.facets[trace.length - 1];
-        leaf.direction = octahedral_code(direction);
-        const PlaneAxes& axes = axes_[static_cast<std::size_t>(leaf.facet)];
-        leaf.s = glm::dot(axes.u, at);
-        leaf.t = glm::dot(axes.v, at);
-        for (int k = 0; k < lengths_; ++k) {
-            const double ratio = transmitted[1 + k] / transmitted[0];
-            leaf.length[k] = std::max(0.0, -std::log(ratio) / absorption_);
-        }
-        row_.leaves.push_back(leaf);
-        ++row_.count.back();
-    }
-
-    const std::vector<PlaneAxes>& axes_;
-    int lengths_;
-    double absorption_, least_;
-    RowLeaves& row_;
 };
 
 class Maker {
