@@ -38,14 +38,6 @@ AirRayMaker::AirRayMaker(const Scene& scene, const TableRays& rays, const Vec3& 
     origin_y_ = floats((down.origin - corner.origin) / h);
 }
 
-EyeRay AirRayMaker::eye_ray(std::uint32_t ray) const {
-    const auto samples = static_cast<std::uint32_t>(pattern_.size());
-    const auto width = static_cast<std::uint32_t>(camera_.width);
-    const SamplePoint& p = pattern_[ray % samples];
-    const std::uint32_t pixel = ray / samples;
-    return eyes_.through(pixel % width + p.x, pixel / width + p.y, p.pupil_x, p.pupil_y);
-}
-
 void AirRayMaker::make(int y, std::vector<RaySample>& samples, bool origins, AirRays& rays) const {
     const std::size_t count = samples.size();
     rays.count = static_cast<int>(count);
@@ -87,8 +79,14 @@ void AirRayMaker::make_plain(int y, const std::vector<RaySample>& samples, bool 
         dx[i] = over * x;
         dy[i] = over * up;
         dz[i] = over * z;
-        for (std::size_t k = 0; origins && k < 3; ++k)
-            rays.origin[k][i] = origin_[k] + right * origin_x_[k] + down * origin_y_[k];
+    }
+    for (std::size_t k = 0; origins && k < 3; ++k) {
+        float* at = rays.origin[k].data();
+        for (std::size_t i = 0; i < count; ++i) {
+            const SamplePoint& p = pattern_[static_cast<std::size_t>(samples[i].sample)];
+            at[i] = origin_[k] + static_cast<float>(samples[i].x + p.x) * origin_x_[k] +
+                    static_cast<float>(y + p.y) * origin_y_[k];
+        }
     }
 }
 

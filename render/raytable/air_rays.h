@@ -18,9 +18,6 @@ public:
     /// Keeps a reference to the camera. `middle`: of the origins.
     AirRayMaker(const Scene& scene, const TableRays& rays, const Vec3& middle);
 
-    /// Ray of the table, about the stone's own origin.
-    EyeRay eye_ray(std::uint32_t ray) const;
-
     /// The rays of some samples of a row, in their order; origins only where they are asked for.
     void make(int y, std::vector<RaySample>& samples, bool origins, AirRays& rays) const;
 

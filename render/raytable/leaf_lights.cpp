@@ -164,10 +164,11 @@ double ShadeLeaves(const LeafLights& lights, const LeafFrames& frames, const Lea
     return sum / lights.nodes;
 }
 
-void ShadeRays(const LeafLights& lights, const AirRays& rays, float* radiance, int stride) {
+// Calls of(ray, first, count) for so many rays at a time as there are lanes.
+template <class Visit>
+HWY_INLINE void each_ray(const AirRays& rays, Visit&& visit) {
     const int lanes = static_cast<int>(hn::Lanes(k_floats));
     const V3 none{number(0.0f), number(0.0f), number(0.0f)};
-    V sum[k_band_nodes];
     for (int i = 0; i < rays.count; i += lanes) {
         const int here = std::min(lanes, rays.count - i);
         HWY_ALIGN float part[k_most_lanes];
@@ -180,18 +181,39 @@ void ShadeRays(const LeafLights& lights, const AirRays& rays, float* radiance, i
         const auto load3 = [&](const std::array<std::vector<float>, 3>& of) HWY_ATTR {
             return V3{load(of[0]), load(of[1]), load(of[2])};
         };
-        const Ray ray{load3(rays.origin), load3(rays.direction), none, none, none, none};
-        all_light(lights, ray, sum);
-        for (int node = 0; node < lights.nodes; ++node) {
-            float* out = radiance + node * stride + i;
-            if (here == lanes) {
-                hn::StoreU(sum[node], k_floats, out);
-            } else {
-                hn::Store(sum[node], k_floats, part);
-                std::copy_n(part, here, out);
-            }
-        }
+        visit(Ray{load3(rays.origin), load3(rays.direction), none, none, none, none}, i, here);
     }
+}
+
+HWY_INLINE void store_some(const V& v, int count, float* to) {
+    if (count == static_cast<int>(hn::Lanes(k_floats))) return hn::StoreU(v, k_floats, to);
+    HWY_ALIGN float part[k_most_lanes];
+    hn::Store(v, k_floats, part);
+    std::copy_n(part, count, to);
+}
+
+void ShadeRays(const LeafLights& lights, const AirRays& rays, float* radiance, int stride) {
+    V sum[k_band_nodes];
+    each_ray(rays, [&](const Ray& ray, int first, int count) HWY_ATTR {
+        all_light(lights, ray, sum);
+        for (int node = 0; node < lights.nodes; ++node)
+            store_some(sum[node], count, radiance + node * stride + first);
+    });
+}
+
+void NearestLights(const LeafLights& lights, const AirRays& rays, float* distance) {
+    const V far = number(3e38f);
+    each_ray(rays, [&](const Ray& ray, int first, int count) HWY_ATTR {
+        V nearest = far;
+        const auto look = [&](const V& share, const V& at) HWY_ATTR {
+            nearest = hn::Min(nearest, hn::IfThenElse(share > number(0.0f), at, far));
+        };
+        V at = far;
+        for (const auto& sphere : lights.others.spheres)
+            look(sphere_share<false>(sphere, ray, at), at);
+        for (const auto& plane : lights.others.planes) look(plane_share<false>(plane, ray, at), at);
+        store_some(nearest, count, distance + first);
+    });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -203,6 +225,7 @@ namespace culet {
 
 HWY_EXPORT(ShadeLeaves);
 HWY_EXPORT(ShadeRays);
+HWY_EXPORT(NearestLights);
 
 double shade_leaves(const LeafLights& lights, const LeafFrames& frames, const LeafRun& run,
                     const LeafAbsorption& absorption, float* radiance, int stride) {
@@ -211,6 +234,10 @@ double shade_leaves(const LeafLights& lights, const LeafFrames& frames, const Le
 
 void shade_rays(const LeafLights& lights, const AirRays& rays, float* radiance, int stride) {
     HWY_DYNAMIC_DISPATCH(ShadeRays)(lights, rays, radiance, stride);
+}
+
+void nearest_lights(const LeafLights& lights, const AirRays& rays, float* distance) {
+    HWY_DYNAMIC_DISPATCH(NearestLights)(lights, rays, distance);
 }
 
 namespace {

@@ -63,6 +63,8 @@ struct AirRays {
     std::array<std::vector<float>, 3> origin, direction;
     int count = 0;
 };
+/// How far along them the nearest near light is; beyond all lengths where there is none.
+void nearest_lights(const LeafLights& lights, const AirRays& rays, float* distance);
 /// Radiance along them, to `radiance[node * stride + ray]`.
 void shade_rays(const LeafLights& lights, const AirRays& rays, float* radiance, int stride);
 

@@ -70,6 +70,9 @@ public:
     void rays(std::size_t band, const AirRays& rays, float* radiance, int stride) const override {
         shade_rays(lights_[band], rays, radiance, stride);
     }
+    void nearest(const AirRays& rays, float* distance) const override {
+        nearest_lights(lights_.front(), rays, distance);
+    }
     Vec3 middle() const override { return middle_; }
 
 private:
@@ -112,22 +115,29 @@ public:
     }
     void rays(std::size_t number, const AirRays& rays, float* radiance, int stride) const override {
         const Band& band = bands_[number];
-        const auto vector = [](const std::array<std::vector<float>, 3>& of, std::size_t i) {
-            return Vec3(of[0][i], of[1][i], of[2][i]);
-        };
         for (int i = 0; i < rays.count; ++i) {
-            const auto at = static_cast<std::size_t>(i);
             NodeWeights seen{};
-            surroundings_.add_radiance(vector(rays.origin, at),
-                                       glm::normalize(vector(rays.direction, at)), 1.0, band.first,
+            surroundings_.add_radiance(vector(rays.origin, i),
+                                       glm::normalize(vector(rays.direction, i)), 1.0, band.first,
                                        band.count, seen.data());
             for (int node = 0; node < band.count; ++node)
                 radiance[node * stride + i] = static_cast<float>(seen[node]);
         }
     }
+    void nearest(const AirRays& rays, float* distance) const override {
+        for (int i = 0; i < rays.count; ++i) {
+            distance[i] = static_cast<float>(surroundings_.nearest_distance(
+                vector(rays.origin, i), glm::normalize(vector(rays.direction, i))));
+        }
+    }
     Vec3 middle() const override { return Vec3(0); }
 
 private:
+    static Vec3 vector(const std::array<std::vector<float>, 3>& of, int i) {
+        const auto at = static_cast<std::size_t>(i);
+        return {of[0][at], of[1][at], of[2][at]};
+    }
+
     const std::vector<Band>& bands_;
     const Surroundings& surroundings_;
     const RayTable& table_;

@@ -21,6 +21,8 @@ public:
     virtual double leaves(std::size_t band, const LeafRun& run, float* radiance,
                           int stride) const = 0;
     virtual void rays(std::size_t band, const AirRays& rays, float* radiance, int stride) const = 0;
+    /// How far along rays the nearest thing is that hides what lies behind it.
+    virtual void nearest(const AirRays& rays, float* distance) const = 0;
     /// Origins of AirRays are about this point.
     virtual Vec3 middle() const = 0;
 };

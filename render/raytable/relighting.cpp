@@ -124,34 +124,44 @@ private:
         return sums;
     }
 
-    // What stands before the stone hides it; the reference asks the same.
-    bool hidden(std::size_t hit) const {
-        if (!something_near_) return false;
-        const EyeRay ray = light_.air().eye_ray(table_.parts().hit_ray[hit]);
-        return surroundings_->nearest_distance(ray.origin, ray.direction) <
-               static_cast<double>(table_.parts().hit_distance[hit]);
-    }
-
     // Which rays of a row see the stone, and which see past it.
     void sort_rays(std::size_t first, std::size_t last, int y, RowMemory& memory) const {
         memory.stone_rays.assign(static_cast<std::size_t>(width_), 0);
         memory.hit_pixel.assign(last - first, -1);
-        memory.bare_samples.clear();
-        const auto& rays = table_.parts().hit_ray;
-        std::size_t hit = first;
-        std::uint32_t ray =
+        memory.bare_samples.resize(static_cast<std::size_t>(width_ * samples_));
+        const std::uint32_t begin =
             static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_ * samples_);
-        for (int x = 0; x < width_; ++x) {
-            for (int sample = 0; sample < samples_; ++sample, ++ray) {
-                const bool meets = hit < last && rays[hit] == ray;
-                if (meets && !hidden(hit)) {
-                    memory.hit_pixel[hit - first] = x;
-                    ++memory.stone_rays[static_cast<std::size_t>(x)];
-                } else {
-                    memory.bare_samples.push_back({x, sample});
-                }
-                hit += meets;
-            }
+        const std::uint32_t* rays = table_.parts().hit_ray.data();
+        memory.hit_samples.clear();
+        RaySample *bare = memory.bare_samples.data(), next{0, 0};
+        const auto step = [this, &next] {
+            if (++next.sample < samples_) return;
+            next.sample = 0;
+            ++next.x;
+        };
+        std::uint32_t ray = begin;
+        for (std::size_t hit = first; hit < last; ++hit, ++ray, step()) {
+            for (; ray < rays[hit]; ++ray, step()) *bare++ = next;
+            memory.hit_pixel[hit - first] = next.x;
+            ++memory.stone_rays[static_cast<std::size_t>(next.x)];
+            if (something_near_) memory.hit_samples.push_back(next);
+        }
+        for (; next.x < width_; step()) *bare++ = next;
+        memory.bare_samples.resize(static_cast<std::size_t>(bare - memory.bare_samples.data()));
+        if (something_near_) hide(first, y, memory);
+    }
+
+    // What stands before the stone hides it: such rays see past it, so to say.
+    void hide(std::size_t first, int y, RowMemory& memory) const {
+        std::vector<RaySample>& samples = memory.hit_samples;
+        light_.air().make(y, samples, true, memory.bare);
+        memory.block.resize(std::max(memory.block.size(), samples.size()));
+        shader_->nearest(memory.bare, memory.block.data());
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            if (!(memory.block[i] < table_.parts().hit_distance[first + i])) continue;
+            memory.hit_pixel[i] = -1;
+            --memory.stone_rays[static_cast<std::size_t>(samples[i].x)];
+            memory.bare_samples.push_back(samples[i]);
         }
     }
 

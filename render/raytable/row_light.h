@@ -13,7 +13,7 @@ struct RowMemory {
     std::vector<float> block, weight, colour;
     std::vector<int> stone_rays;  // of each pixel
     std::vector<int> hit_pixel;   // of each hit; -1: something is nearer than the stone
-    std::vector<RaySample> bare_samples;
+    std::vector<RaySample> bare_samples, hit_samples;
     AirRays bare;
 };
 
