@@ -88,9 +88,9 @@ Stone scene_stone_of(const TomlTable& root, std::vector<std::string>& notes) {
 }
 
 Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_view light_instead) {
-    root.refuse_unknown(
-        with_view_keys({"stone", "mesh", "material", "unit", "optic_axis", "principal_axes",
-                        "convex", "name", "camera", "light", "object", "render", "film", "immersion"}));
+    root.refuse_unknown(with_view_keys(
+        {"stone", "mesh", "material", "unit", "optic_axis", "principal_axes", "convex", "name",
+         "camera", "light", "object", "render", "film", "immersion", "absorption_scale"}));
     Scene scene;
     if (root.has("object")) root.fail("object", "objects around the stone are not rendered yet");
     if (stone_instead != nullptr) {
@@ -100,6 +100,16 @@ Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_vi
     }
     if (std::string missing = missing_colour(scene.stone.material); !missing.empty())
         scene.notes.push_back(std::move(missing));
+    if (const auto scale = root.number("absorption_scale")) {
+        if (!(*scale >= 0 && *scale <= 1000)) {
+            root.fail("absorption_scale",
+                      fmt::format("absorption_scale is a factor on the material's absorption, 0 to "
+                                  "1000, found {}",
+                                  *scale));
+        }
+        for (Spectrum& absorption : scene.stone.material.absorption_per_mm)
+            absorption = absorption.scaled(*scale);
+    }
     if (const auto immersion = root.number("immersion")) {
         if (!(*immersion >= 1 && *immersion <= 4)) {
             root.fail("immersion",
