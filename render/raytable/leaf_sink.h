@@ -17,8 +17,8 @@ struct Leaf {
     float weight = 0;
     int facet = 0;
     DirectionCode direction{};
-    double s = 0, t = 0;  // coordinates in the facet's plane, lengths
-    std::array<double, 3> length{};
+    float s = 0, t = 0;  // coordinates in the facet's plane, lengths
+    std::array<float, 3> length{};
 };
 
 // In-plane axes of a facet.
@@ -88,11 +88,11 @@ private:
         leaf.facet = trace.facets[trace.length - 1];
         leaf.direction = octahedral_code(direction);
         const PlaneAxes& axes = axes_[static_cast<std::size_t>(leaf.facet)];
-        leaf.s = glm::dot(axes.u, at);
-        leaf.t = glm::dot(axes.v, at);
+        leaf.s = static_cast<float>(glm::dot(axes.u, at));
+        leaf.t = static_cast<float>(glm::dot(axes.v, at));
         for (int k = 0; k < lengths_; ++k) {
             const double ratio = transmitted[1 + k] / transmitted[0];
-            leaf.length[k] = std::max(0.0, -std::log(ratio) / absorption_);
+            leaf.length[k] = static_cast<float>(std::max(0.0, -std::log(ratio) / absorption_));
         }
         row_.leaves.push_back(leaf);
         ++row_.count.back();

@@ -8,7 +8,7 @@
 namespace culet {
 
 /// A table is no larger, in bytes; a scene that asks for more is refused.
-constexpr double k_most_table_bytes = 4e9;
+constexpr double k_most_table_bytes = 1e9;
 
 /// Follows the paths behind every pixel of a scene that is renderable and not refused. The same
 /// table whatever the number of threads. Throws InputError where it would be too large, and

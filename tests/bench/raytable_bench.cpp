@@ -12,11 +12,14 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <glm/geometric.hpp>
+#include <numbers>
 #include <string>
 
 #include "render/engine/engine.h"
 #include "render/raytable/relighting.h"
 #include "render/raytable/table_maker.h"
+#include "render/raytable/view_interpolation.h"
 #include "render/scene/light_presets.h"
 #include "stone/cuts/cuts.h"
 #include "stone/material_io.h"
@@ -138,6 +141,66 @@ Lights near_lights(const Scene& scene) {
     return lights;
 }
 
+// Between stored views: at the middle of a cell of the grid, where it is farthest from all.
+void measure_views(Scene scene) {
+    scene.settings.samples = 1;
+    scene.settings.threads = 1;
+    fmt::print(
+        "between views, {} x {} pixels\n  {:<8} {:>6} {:>9} {:>16} {:>9} {:>10} {:>14} {:>12}\n",
+        scene.camera.width, scene.camera.height, "step", "views", "MB of all", "interpolated ms",
+        "relit ms", "error", "off over 0.05", "plain mean");
+    const double distance = glm::length(scene.camera.position - scene.camera.look_at);
+    for (const double step : {0.1, 0.05, 0.025, 0.0125}) {
+        const double polar = std::numbers::pi / std::ceil(std::numbers::pi / step),
+                     azimuth = 2 * std::numbers::pi / std::ceil(2 * std::numbers::pi / step);
+        const double theta = (std::floor(0.35 / polar) + 0.5) * polar,
+                     phi = (std::floor(0.3 / azimuth) + 0.5) * azimuth;
+        Scene between = scene;
+        between.camera.position = between.camera.look_at +
+                                  distance * Vec3{std::sin(theta) * std::cos(phi),
+                                                  std::sin(theta) * std::sin(phi), std::cos(theta)};
+        const TableRays rays = table_rays(between);
+        std::vector<ViewTable> tables;
+        double bytes = 0;
+        for (const StoredView& view : stored_views(between.camera, step)) {
+            Scene seen = between;
+            seen.camera = view.camera;
+            tables.push_back({view, make_ray_table(seen, rays, {})});
+            bytes += static_cast<double>(tables.back().table.bytes());
+        }
+        const Clocks start = clocks();
+        const RayTable table = interpolated(between, rays, tables, {});
+        const double made = clocks().cpu - start.cpu;
+        RenderResult result;
+        const Clocks relight = quickest([&] { result = relit(table, between, rays, {}); }, 3, 0.1);
+        Picture truth;
+        reference_ms(between, truth);
+        const PictureError error = error_of(result.picture, truth);
+        // What the mean of the stored views' pictures is off by.
+        Picture mix = truth;
+        std::fill(mix.rgb.begin(), mix.rgb.end(), 0.0f);
+        for (const ViewTable& stored : tables) {
+            Scene seen = between;
+            seen.camera = stored.view.camera;
+            const Picture one = relit(stored.table, seen, rays, {}).picture;
+            for (std::size_t i = 0; i < one.rgb.size(); ++i)
+                mix.rgb[i] += static_cast<float>(stored.view.share) * one.rgb[i];
+        }
+        double mean = 0, hits = 0, off = 0;
+        for (std::size_t i = 0; i < truth.pixels(); ++i) {
+            if (!(truth.coverage[i] > 0)) continue;
+            mean += static_cast<double>(truth.rgb[3 * i]);
+            hits += 1;
+        }
+        for (std::size_t i = 0; i < truth.pixels(); ++i)
+            off += std::abs(static_cast<double>(result.picture.rgb[3 * i] - truth.rgb[3 * i])) >
+                   0.05 * mean / hits;
+        fmt::print("  {:<8} {:6} {:9.1f} {:16.0f} {:9.2f} {:10.3f} {:13.1f}% {:12.3f}\n", step,
+                   tables.size(), bytes / 1e6, 1e3 * made, 1e3 * relight.cpu, error.mean,
+                   100 * off / hits, error_of(mix, truth).mean);
+    }
+}
+
 void run(int pixels) {
     fmt::print("{} x {} pixels, one thread, quickest of ten and more\n", pixels, pixels);
     Scene brilliant = base_scene(pixels);
@@ -151,6 +214,7 @@ void run(int pixels) {
         {"two balls and a panel", near_lights(brilliant)},
         {"environment 1024 x 512", with_environment()}};
     measure("diamond, depth 5", brilliant, all);
+    measure_views(brilliant);
     Scene colours = brilliant;
     colours.settings.wavelengths_nm = {450, 550, 610};
     colours.settings.effects[static_cast<std::size_t>(Effects::dispersion)] = false;
