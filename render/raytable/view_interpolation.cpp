@@ -87,8 +87,13 @@ private:
     // Its leaves in every band.
     void put(const TableHit& hit, std::size_t y) {
         const EyeRay eye = eyes_.ray(hit.ray);
-        const Vec3 at =
-            body_.on_facet(hit.entry.facet, eye.origin + hit.entry.distance * eye.direction);
+        // Where it meets the plane through the middle across the line of sight: of the planes that
+        // were tried, from the front facets to the far side, what is seen inside moves least
+        // against this one.
+        const Camera& camera = scene_.camera;
+        const Vec3 forward = glm::normalize(camera.look_at - camera.position);
+        const Vec3 at = eye.origin + glm::dot(camera.look_at - eye.origin, forward) /
+                                         glm::dot(eye.direction, forward) * eye.direction;
         std::vector<Source> sources;
         double whole = 0;
         for (std::size_t v = 0; v < tables_.size(); ++v) {

@@ -1,8 +1,9 @@
 #pragma once
 // The ray table of a view between others (after Lee 2004, chapter 6).
 //
-// Each eye ray of the view meets a front facet at a point; each stored view has a ray to about that
-// point. Where these rays go by the same facets, their leaves are one each: directions, points,
+// Each eye ray of the view passes a point of the plane through the camera's look_at across the line
+// of sight; each stored view has a ray to about that point, through the same front facet if one is
+// near. Where these rays go by the same facets, their leaves are one each: directions, points,
 // lengths and weights between. Where not, the leaves of each are kept with its share. Nothing is
 // traced but where eye rays meet the stone. The error is not bounded; docs/ray-tables.md has what
 // was measured.
