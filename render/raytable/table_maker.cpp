@@ -63,9 +63,21 @@ private:
         }
     }
 
+    void watch_size(long long leaves) {
+        const std::size_t bytes = leaf_bytes(static_cast<unsigned>(lengths_));
+        if (static_cast<double>(leaves) * static_cast<double>(bytes) > k_most_table_bytes)
+            too_large_ = true;
+    }
+
     void find_hits() {
         hits_.resize(static_cast<std::size_t>(scene_.camera.height));
-        each_row([&](std::size_t y) { hits_[y] = eyes_.hits(static_cast<int>(y), body_); });
+        // Each hit has a leaf in each band.
+        std::atomic<long long> count{0};
+        each_row([&](std::size_t y) {
+            hits_[y] = eyes_.hits(static_cast<int>(y), body_);
+            count += static_cast<long long>(hits_[y].size() * rays_.bands.size());
+            watch_size(count);
+        });
         for (const std::vector<TableHit>& row : hits_) {
             for (const TableHit& hit : row) {
                 content_.hit_ray.push_back(hit.ray);
@@ -102,9 +114,7 @@ private:
                 }
             }
             leaves_ += static_cast<long long>(row.leaves.size());
-            const double bytes = static_cast<double>(leaves_) *
-                                 static_cast<double>(leaf_bytes(static_cast<unsigned>(lengths_)));
-            if (bytes > k_most_table_bytes) too_large_ = true;
+            watch_size(leaves_);
         });
         return rows;
     }

@@ -139,6 +139,14 @@ TEST_F(RayTableEngine, refuses_in_one_line) {
     EXPECT_FALSE(std::filesystem::exists(file_));
 }
 
+TEST_F(RayTableEngine, refuses_tables_beyond_its_limit_before_memory_runs_out) {
+    Scene large = scene(3000);
+    large.settings.samples = 16;
+    large.settings.wavelengths_nm = {450, 500, 550, 600, 650};
+    EXPECT_NE(refusal(large).find("more than 1 GB"), std::string::npos);
+    EXPECT_FALSE(std::filesystem::exists(file_));
+}
+
 TEST_F(RayTableEngine, stops_when_it_is_told) {
     EXPECT_THROW((void)render(scene(), [](double) { return false; }), Interrupted);
     EXPECT_FALSE(std::filesystem::exists(file_));

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "render/beams/beam_shading.h"
 #include "render/scene/light_presets.h"
 #include "tests/render/raytable/table_scenes.h"
 
@@ -88,6 +89,23 @@ TEST(Relighting, of_one_table_is_drawing_anew_in_every_preset) {
             expect_equal_but_for_rounding(now, table, 6);
         }
     }
+}
+
+// Every instruction set of this processor keeps the bounds.
+TEST(Relighting, keeps_the_bounds_whatever_the_processor_has) {
+    Scene scene = brilliant();
+    scene.settings.wavelengths_nm = {450, 550, 610};
+    scene.settings.effects[static_cast<std::size_t>(Effects::dispersion)] = false;
+    scene.stone.material.absorption_per_mm[0] = Spectrum(0.2);
+    const RayTable table = table_of(scene);
+    const Picture truth = by_reference(scene).picture;
+    const double absorption = 0.2 * 0.5 * table.header().length_step * 7.8;
+    for (const std::string& target : shading_targets()) {
+        ASSERT_TRUE(use_shading_target(target));
+        EXPECT_LT(apart(relit_by(table, scene).picture, truth).worst, bound_of_lobes() + absorption)
+            << target;
+    }
+    use_shading_target(shading_targets().front());
 }
 
 TEST(Relighting, sees_near_lights_one_before_the_other_and_before_the_stone) {
