@@ -27,7 +27,7 @@ public:
     virtual Vec3 middle() const = 0;
 };
 
-/// Which of the two: tests compare them.
+/// Which of the two: tests compare them. Rays past the stone are single precision in both.
 enum class LeafPrecision { fastest, double_precision };
 
 /// `surroundings` must outlive it, as `table`.

@@ -13,31 +13,32 @@
 
 namespace culet {
 
+/// The end of a light path. Lengths in the stone's unit.
 struct Leaf {
-    float weight = 0;
+    float weight = 0;  ///< of a clear stone
     int facet = 0;
     DirectionCode direction{};
-    float s = 0, t = 0;  // coordinates in the facet's plane, lengths
-    std::array<float, 3> length{};
+    float s = 0, t = 0;             ///< the point, along the facet's axes
+    std::array<float, 3> length{};  ///< inside the stone, for each axis of a crystal
 };
 
-// In-plane axes of a facet.
+/// In-plane axes of a facet, orthonormal.
 struct PlaneAxes {
     Vec3 u, v;
     explicit PlaneAxes(const Vec3& normal)
         : u(perpendicular_to(normal)), v(glm::cross(normal, u)) {}
 };
 
-// What a row of pixels has, in one band.
+/// What a row of pixels has, in one band.
 struct RowLeaves {
     std::vector<Leaf> leaves;
-    std::vector<std::uint32_t> count;  // of each of the row's hits
-    double remainder = 0, cut = 0;
+    std::vector<std::uint32_t> count;  ///< of each of the row's hits
+    double remainder = 0, cut = 0;     ///< sums over hits
     int deepest = 0;
 };
 
-// Path lengths are read off the transmissions of wavelengths that absorb along one axis each; the
-// first absorbs nothing, and has the weight of a clear stone.
+/// Path lengths are read off the transmissions of wavelengths that absorb along one axis each, by
+/// `absorption` per length; the first absorbs nothing, and has the weight of a clear stone.
 inline Band with_lengths(Band band, int lengths, double absorption) {
     band.absorbs = true;
     band.first = 0;

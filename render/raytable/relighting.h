@@ -13,7 +13,8 @@ namespace culet {
 /// the absorption of its stone. Nothing is traced. The same bytes whatever the number of threads;
 /// processors of another instruction set differ in last digits. Throws Interrupted.
 ///
-/// `stats.remainder` is that of the table, which a stone that absorbs does not exceed.
+/// `stats.remainder` and `cut` are those of the table, of a clear stone, which one that absorbs
+/// does not exceed; `absorbed` is what leaves lose on the way to where they leave.
 RenderResult relit(const RayTable& table, const Scene& scene, const TableRays& rays,
                    const Progress& progress, LeafPrecision precision = LeafPrecision::fastest);
 

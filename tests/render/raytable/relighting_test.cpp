@@ -134,6 +134,19 @@ TEST(Relighting, sees_near_lights_one_before_the_other_and_before_the_stone) {
               std::accumulate(bare.coverage.begin(), bare.coverage.end(), 0.0) - 20);
 }
 
+// Lights that are too many for the vectors are asked for one by one.
+TEST(Relighting, sees_any_number_of_near_lights) {
+    const Scene scene = brilliant(24);
+    const RayTable table = table_of(scene);
+    Lights lights;
+    for (int i = 0; i < 20; ++i) {
+        const double azimuth = 2 * std::numbers::pi * i / 20;
+        lights.sources.push_back(SphereLight{
+            Vec3{6 * std::cos(azimuth), 6 * std::sin(azimuth), 5}, 0.9, {1.0 + 0.1 * i}});
+    }
+    expect_equal_but_for_rounding(lit(scene, lights), table, 3);
+}
+
 TEST(Relighting, sees_an_environment_as_the_reference_does) {
     Scene scene = brilliant();
     scene.settings.wavelengths_nm = {450, 550, 610};
