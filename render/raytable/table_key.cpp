@@ -160,8 +160,7 @@ std::string difference_to(const RayTableHeader& table, const Scene& scene, const
         return fmt::format("paths of depth {}, this scene asks for {}", table.depth, own.depth);
     }
     if (own.samples != table.samples) {
-        return fmt::format("{} samples a pixel, this scene asks for {}", table.samples,
-                           own.samples);
+        return fmt::format("samples = {}, this scene asks for {}", table.samples, own.samples);
     }
     if (own.rays != table.rays)
         return "rays that are chosen otherwise (tolerance, cut_weight, "

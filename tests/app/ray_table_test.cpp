@@ -61,6 +61,9 @@ TEST_F(RayTables, ArePutIntoAFileAndLitAnew) {
     EXPECT_EQ(table.substr(0, 8), "culetray");
     std::ifstream stats(folder_ / "a.json");
     EXPECT_EQ(nlohmann::json::parse(stats)["engine"], "raytable");
+    const ProgramRun info = run_culet({"info", file("stone.rays")});
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_THAT(info.out, HasSubstr("32 x 32 pixels, samples 1, depth 5"));
     const ProgramRun again = by_table({"-o", file("b.png")});
     EXPECT_EQ(again.exit_code, 0) << again.err;
     EXPECT_EQ(bytes("a.png"), bytes("b.png"));
@@ -107,6 +110,7 @@ TEST_F(RayTables, AreRefusedInALineAndLeaveNoPicture) {
                    "add --engine raytable");
     std::ofstream(folder_ / "stone.rays", std::ios::binary) << table.substr(0, table.size() / 2);
     expect_refusal(by_table({"-o", file("b.png")}), "cut off");
+    expect_refusal(run_culet({"info", file("stone.rays")}), "cut off");
     EXPECT_FALSE(fs::exists(folder_ / "b.png"));
     EXPECT_EQ(bytes("stone.rays"), table.substr(0, table.size() / 2));
 }

@@ -82,7 +82,7 @@ TEST_F(RayTableEngine, says_what_of_another_scene_does_not_fit) {
     expect(other, "paths of depth 6, this scene asks for 7");
     other = scene();
     other.settings.samples = 4;
-    expect(other, "1 samples a pixel, this scene asks for 4");
+    expect(other, "samples = 1, this scene asks for 4");
     other = scene();
     other.settings.tolerance = 0.01;
     other.settings.cut_weight = 0.1;
