@@ -18,7 +18,8 @@ HWY_INLINE V angle_of(const V& along, const V& across) {
     return hn::IfThenElse(along < number(0.0f), number(3.14159265f) - acute, acute);
 }
 
-// EnvironmentMap::at.
+// EnvironmentMap::at, to the sums of so many nodes; `kNodes` 0: of all.
+template <int kNodes>
 HWY_INLINE void environment_light(const LeafLights& lights, const V3& d, const V& unhidden,
                                   V* sum) {
     const EnvironmentMap& map = *lights.environment;
@@ -52,7 +53,8 @@ HWY_INLINE void environment_light(const LeafLights& lights, const V3& d, const V
         rgb[channel] = unhidden * hn::MulAdd(ty, bottom - top, top);
     }
     const V more_red = rgb[0] - rgb[1], more_blue = rgb[2] - rgb[1];
-    for (int i = 0; i < lights.nodes; ++i) {
+    const int nodes = kNodes > 0 ? kNodes : lights.nodes;
+    for (int i = 0; i < nodes; ++i) {
         const auto at = static_cast<size_t>(i);
         sum[i] = sum[i] + hn::MulAdd(more_red, number(lights.red[at]),
                                      hn::MulAdd(more_blue, number(lights.blue[at]), rgb[1]));

@@ -83,7 +83,7 @@ HWY_INLINE void all_light(const LeafLights& lights, const Ray& ray, V* sum) {
         const M within = hn::And(chord < number(cap.outer), chord >= number(cap.inner));
         sums(hn::IfThenElseZero(within, unhidden), cap.radiance.data(), {});
     }
-    if (lights.environment) environment_light(lights, ray.direction, unhidden, sum);
+    if (lights.environment) environment_light<kNodes>(lights, ray.direction, unhidden, sum);
 }
 
 // Shades the leaves i .. i + lanes - 1, to out[node * stride]. Adds what they weigh after
@@ -201,13 +201,21 @@ HWY_INLINE void store_some(const V& v, int count, float* to) {
     std::copy_n(part, count, to);
 }
 
-void ShadeRays(const LeafLights& lights, const AirRays& rays, float* radiance, int stride) {
-    V sum[k_band_nodes];
+template <int kNodes>
+void shade_all_rays(const LeafLights& lights, const AirRays& rays, float* radiance, int stride) {
+    V sum[kNodes > 0 ? kNodes : k_band_nodes];
     each_ray(rays, [&](const Ray& ray, int first, int count) HWY_ATTR {
-        all_light<0>(lights, ray, sum);
+        all_light<kNodes>(lights, ray, sum);
         for (int node = 0; node < lights.nodes; ++node)
             store_some(sum[node], count, radiance + node * stride + first);
     });
+}
+
+void ShadeRays(const LeafLights& lights, const AirRays& rays, float* radiance, int stride) {
+    const auto shade = lights.nodes == 1   ? shade_all_rays<1>
+                       : lights.nodes == 3 ? shade_all_rays<3>
+                                           : shade_all_rays<0>;
+    shade(lights, rays, radiance, stride);
 }
 
 void NearestLights(const LeafLights& lights, const AirRays& rays, float* distance) {

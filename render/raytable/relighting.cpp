@@ -181,10 +181,13 @@ private:
             sums.stone[0] += static_cast<double>(one.r) * stone;
             sums.stone[1] += static_cast<double>(one.g) * stone;
             sums.stone[2] += static_cast<double>(one.b) * stone;
-            for (std::size_t x = 0; x < width; ++x) light[x] = share * (light[x] + air[x]);
-            for (std::size_t x = 0; x < width; ++x) r[x] += one.r * light[x];
-            for (std::size_t x = 0; x < width; ++x) g[x] += one.g * light[x];
-            for (std::size_t x = 0; x < width; ++x) b[x] += one.b * light[x];
+            for (std::size_t x = 0; x < width; ++x) {
+                const float all = share * (light[x] + air[x]);
+                light[x] = all;
+                r[x] += one.r * all;
+                g[x] += one.g * all;
+                b[x] += one.b * all;
+            }
             if (!picture.spectral.empty())
                 std::copy_n(light, width, picture.spectral[node].data() + first);
         }
