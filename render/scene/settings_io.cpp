@@ -132,8 +132,8 @@ void read_accuracy(const TomlTable& table, RenderSettings& settings) {
     const auto factor_in = [&](const char* key) -> std::optional<double> {
         const auto factor = table.number(key);
         if (factor && !(*factor >= 0 && *factor <= 1))
-            table.fail(key, fmt::format("{} is a share of the light, 0 to 1, found {}", key,
-                                        *factor));
+            table.fail(key,
+                       fmt::format("{} is a share of the light, 0 to 1, found {}", key, *factor));
         return factor;
     };
     settings.reflection_factor = factor_in("reflection_factor");
@@ -220,11 +220,11 @@ std::string quoted(const std::string& word) {
 }  // namespace
 
 RenderSettings read_settings(const TomlTable& table) {
-    table.refuse_unknown(with_view_keys(
-        {"engine", "depth", "tolerance", "effects", "wavelengths", "samples", "coherence",
-         "bandwidth", "filter", "filter_radius", "refraction", "crystal_beams", "cut_weight",
-         "split_weight", "most_beams", "wavelength_turns", "check", "reflection_factor",
-         "transmission_factor"}));
+    table.refuse_unknown(
+        with_view_keys({"engine", "depth", "tolerance", "effects", "wavelengths", "samples",
+                        "coherence", "bandwidth", "filter", "filter_radius", "refraction",
+                        "crystal_beams", "cut_weight", "split_weight", "most_beams",
+                        "wavelength_turns", "check", "reflection_factor", "transmission_factor"}));
     RenderSettings settings;
     read_engine(table, settings);
     read_coherence(table, settings);
