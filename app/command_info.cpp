@@ -120,6 +120,7 @@ Description describe_job_file(const TomlTable& root) {
 
 Description describe_file(const DescribeOptions& options) {
     if (is_solid_file(options.file)) return describe_solid_file(options);
+    if (extension_of(options.file) == "rays") return describe_ray_table(options);
     switch (kind_of(options.file, options.overrides)) {
         case FileKind::job:
             return describe_job_file(read_toml(options.file, options.overrides));
@@ -139,8 +140,8 @@ Description describe_file(const DescribeOptions& options) {
     }
     throw InputError(options.file,
                      "is of an unknown kind: info reads meshes and cuts (.obj .off .ply .stl .asc "
-                     ".gem), stones, scenes and materials (.toml), and pictures (.exr .hdr .png "
-                     ".jpg)");
+                     ".gem), stones, scenes and materials (.toml), pictures (.exr .hdr .png "
+                     ".jpg), and ray tables (.rays)");
 }
 
 void add_command_info(CLI::App& program, int& exit_code) {
@@ -150,7 +151,7 @@ void add_command_info(CLI::App& program, int& exit_code) {
     auto materials = std::make_shared<std::optional<std::string>>();
     auto page = std::make_shared<std::filesystem::path>();
     command->add_option("FILE", options->describe.file,
-                        "mesh, cut, stone, scene, job, material or picture");
+                        "mesh, cut, stone, scene, job, material, picture or ray table");
     command
         ->add_option_function<std::vector<std::string>>(
             "--materials",

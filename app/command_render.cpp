@@ -71,6 +71,9 @@ Scene scene_of(const RenderOptions& options, const SavedPlan* plan = nullptr) {
     scene.settings.threads = options.common.threads;
     scene.settings.seed = options.common.seed;
     scene.settings.spectral = options.spectral;
+    scene.settings.ray_table = options.table;
+    scene.settings.ray_views = options.views;
+    scene.settings.view_step = options.view_step;
     for (const std::string& note : scene.notes) say(note, options.common.quiet);
     return scene;
 }
@@ -88,12 +91,13 @@ int explain_plan(const RenderOptions& options) {
 }
 
 // How near the picture is, where that was left to culet.
-void say_how_near(const RenderStats& stats, Check check, bool quiet) {
+void say_how_near(const RenderStats& stats, Check check, bool paced, bool quiet) {
     if (std::isnan(stats.error_bound) && check == Check::none) {
         say("not checked: nobody knows how near the picture is", quiet);
         return;
     }
     if (std::isnan(stats.error_bound)) {
+        if (!paced) return;  // a note says why
         say(fmt::format(
                 "a rough picture, nobody knows how near: one that is checked takes more than "
                 "about {} s; --tolerance 0.2 draws it",
@@ -169,6 +173,8 @@ private:
 void require_sense(const RenderOptions& options) {
     if (options.out.empty() && options.stats.empty())
         throw InputError("render needs -o IMAGE, --stats FILE, or --explain");
+    if (!options.table.empty() && options.frames)
+        throw InputError("a ray table is of one view: leave out --table, or --frames");
     if (options.out == "-" && options.stats == "-")
         throw InputError("stdout takes the picture or the stats, not both");
     if (!options.plan.empty() &&
@@ -215,6 +221,9 @@ int run_render(const RenderOptions& options) {
     std::optional<SavedPlan> saved;
     if (!options.plan.empty()) saved = read_saved_plan(options.plan);
     Scene scene = scene_of(options, saved ? &*saved : nullptr);
+    if (!(options.table.empty() && options.views.empty()) &&
+        scene.settings.engine != k_raytable_engine)
+        throw InputError("--table and --views are for ray tables: add --engine raytable");
     output.look_as(options.exposure, options.tonemap, scene);
     const bool nears_truth = engine_of(scene.settings).approaches_truth();
     if (options.verify && !nears_truth)
@@ -238,7 +247,7 @@ int run_render(const RenderOptions& options) {
     }
     const RenderStats& stats = result.stats;
     for (const std::string& note : stats.notes) say(note, quiet);
-    if (nears_truth) say_how_near(stats, scene.settings.check, quiet);
+    if (nears_truth) say_how_near(stats, scene.settings.check, paced, quiet);
     if (!options.stats.empty()) write_text(options.stats, stats_json(stats));
     if (stats.verification) say_verified(*stats.verification, quiet);
     if (options.common.verbose && !quiet) say_all_about(stats);

@@ -39,6 +39,7 @@ Description describe_stone_file(const DescribeOptions& options);
 Description describe_scene_file(const DescribeOptions& options);
 Description describe_material_file(const DescribeOptions& options);
 Description describe_image_file(const DescribeOptions& options);
+Description describe_ray_table(const DescribeOptions& options);
 
 /// Adds a solid's figures and facets, and its faults. `must_be_convex` as the stone says.
 void describe_solid(const Solid& solid, bool must_be_convex, bool facet_table, Description& about);

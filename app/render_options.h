@@ -11,7 +11,9 @@ namespace culet {
 
 struct RenderOptions {
     CommonOptions common;
-    std::string scene, out, stats, plan, engine, effects, check, exposure, size, tonemap;
+    std::string scene, out, stats, plan, engine, effects, check, exposure, size, tonemap, table,
+        views;
+    double view_step = 0.1;
     StoneScene stone;
     std::optional<int> depth, frames;
     double turn_deg = 360;

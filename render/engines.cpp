@@ -12,6 +12,7 @@ namespace culet {
 const Engine& reference_engine();  // reference/reference_engine.cpp
 const Engine& beam_engine();       // beams/beam_engine.cpp
 const Engine& preview_engine();    // beams/beam_engine.cpp
+const Engine& raytable_engine();   // raytable/raytable_engine.cpp
 const Engine& flat_engine();       // shaded/local_engines.cpp
 const Engine& gouraud_engine();    // shaded/local_engines.cpp
 const Engine& phong_engine();      // shaded/local_engines.cpp
@@ -20,7 +21,7 @@ const Engine& whitted_engine();    // shaded/whitted_engine.cpp
 const std::vector<const Engine*>& engines() {
     static const std::vector<const Engine*> all{
         &reference_engine(), &beam_engine(),  &preview_engine(), &flat_engine(),
-        &gouraud_engine(),   &phong_engine(), &whitted_engine()};
+        &gouraud_engine(),   &phong_engine(), &whitted_engine(), &raytable_engine()};
     return all;
 }
 

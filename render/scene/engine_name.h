@@ -1,6 +1,6 @@
 #pragma once
 // Engines by name. All of them are listed in render/engines.cpp; those below are the ones that the
-// program chooses itself.
+// program chooses itself, or asks for by name.
 
 #include <string>
 #include <vector>
@@ -11,6 +11,7 @@ inline constexpr const char* k_auto_engine = "auto";  ///< whichever the scene c
 inline constexpr const char* k_reference_engine = "reference";
 inline constexpr const char* k_beam_engine = "beams";
 inline constexpr const char* k_preview_engine = "preview";
+inline constexpr const char* k_raytable_engine = "raytable";
 
 /// Every name that a scene may give, "auto" first.
 std::vector<std::string> engine_names();

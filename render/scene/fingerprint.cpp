@@ -172,6 +172,10 @@ void add_settings(Fingerprint& print, const RenderSettings& settings) {
     print.add(static_cast<int>(settings.filter));
     print.add(settings.filter_radius);
     print.add(static_cast<double>(settings.seed));
+    if (settings.reflection_factor || settings.transmission_factor) {
+        print.add(settings.reflection_factor.value_or(-1));
+        print.add(settings.transmission_factor.value_or(-1));
+    }
 }
 
 }  // namespace

@@ -156,9 +156,10 @@ Stone scene_stone_of(const TomlTable& root, std::vector<std::string>& notes) {
 }
 
 Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_view light_instead) {
-    root.refuse_unknown(with_view_keys({"stone", "mesh", "material", "unit", "optic_axis",
-                                        "principal_axes", "convex", "name", "camera", "light",
-                                        "object", "render", "shading", "film", "immersion"}));
+    root.refuse_unknown(
+        with_view_keys({"stone", "mesh", "material", "unit", "optic_axis", "principal_axes",
+                        "convex", "name", "camera", "light", "object", "render", "shading", "film",
+                        "immersion", "absorption_scale"}));
     Scene scene;
     read_stones(root, stone_instead, scene);
     scene.objects = objects_of(root, scene.stone.unit);
@@ -167,6 +168,16 @@ Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_vi
     for (const Stone& stone : scene.more_stones) {
         if (std::string missing = missing_colour(stone.material); !missing.empty())
             scene.notes.push_back(std::move(missing));
+    }
+    if (const auto scale = root.number("absorption_scale")) {
+        if (!(*scale >= 0 && *scale <= 1000)) {
+            root.fail("absorption_scale",
+                      fmt::format("absorption_scale is a factor on the material's absorption, 0 to "
+                                  "1000, found {}",
+                                  *scale));
+        }
+        for (Spectrum& absorption : scene.stone.material.absorption_per_mm)
+            absorption = absorption.scaled(*scale);
     }
     if (const auto immersion = root.number("immersion")) {
         if (!(*immersion >= 1 && *immersion <= 4)) {

@@ -129,6 +129,15 @@ void read_accuracy(const TomlTable& table, RenderSettings& settings) {
     };
     settings.cut_weight = weight_in("cut_weight");
     settings.split_weight = weight_in("split_weight");
+    const auto factor_in = [&](const char* key) -> std::optional<double> {
+        const auto factor = table.number(key);
+        if (factor && !(*factor >= 0 && *factor <= 1))
+            table.fail(key,
+                       fmt::format("{} is a share of the light, 0 to 1, found {}", key, *factor));
+        return factor;
+    };
+    settings.reflection_factor = factor_in("reflection_factor");
+    settings.transmission_factor = factor_in("transmission_factor");
     if (const auto beams = table.integer("most_beams")) {
         if (*beams < 1000 || *beams > (1 << 28)) {
             table.fail("most_beams",
@@ -218,9 +227,11 @@ std::string quoted(const std::string& word) {
 
 RenderSettings read_settings(const TomlTable& table) {
     table.refuse_unknown(with_view_keys(
-        {"engine", "depth", "tolerance", "effects", "wavelengths", "samples", "coherence",
-         "bandwidth", "filter", "filter_radius", "refraction", "crystal_beams", "cut_weight",
-         "split_weight", "most_beams", "wavelength_turns", "check", "clamp_indirect"}));
+        {"engine",      "depth",          "tolerance",         "effects",
+         "wavelengths", "samples",        "coherence",         "bandwidth",
+         "filter",      "filter_radius",  "refraction",        "crystal_beams",
+         "cut_weight",  "split_weight",   "most_beams",        "wavelength_turns",
+         "check",       "clamp_indirect", "reflection_factor", "transmission_factor"}));
     RenderSettings settings;
     read_engine(table, settings);
     read_coherence(table, settings);
@@ -249,6 +260,10 @@ std::vector<std::pair<std::string, std::string>> written_settings(const RenderSe
     if (settings.clamp_indirect)
         write("clamp_indirect", fmt::format("{}", *settings.clamp_indirect));
     if (settings.samples > 0) write("samples", std::to_string(settings.samples));
+    if (settings.reflection_factor)
+        write("reflection_factor", fmt::format("{}", *settings.reflection_factor));
+    if (settings.transmission_factor)
+        write("transmission_factor", fmt::format("{}", *settings.transmission_factor));
     if (settings.wavelength_turns)
         write("wavelength_turns", std::to_string(*settings.wavelength_turns));
     if (!settings.effects_auto) {

@@ -92,6 +92,18 @@ TEST_F(SceneStones, a_mesh_takes_a_material_table_unit_and_name) {
     EXPECT_EQ(stone.material.index[0].at(550), 1.5);
 }
 
+TEST_F(SceneStones, a_scene_may_scale_what_the_material_absorbs) {
+    const std::string stone = "stone = \"stone.toml\"\nmaterial = \"sapphire_blue\"\n";
+    const auto absorption = [&](const std::string& scale) {
+        return read(stone + scale + k_light).stone.material.absorption_per_mm[0].at(580);
+    };
+    const double whole = absorption("");
+    EXPECT_GT(whole, 0);
+    EXPECT_EQ(absorption("absorption_scale = 2.5\n"), 2.5 * whole);
+    EXPECT_EQ(absorption("absorption_scale = 0\n"), 0);
+    EXPECT_NE(refusal(stone + "absorption_scale = -1\n" + k_light).find(":3:"), std::string::npos);
+}
+
 TEST_F(SceneStones, keys_that_would_be_ignored_are_refused) {
     EXPECT_NE(refusal("stone = \"stone.toml\"\nunit = \"mm\"\n" + k_light).find(":2:"),
               std::string::npos);

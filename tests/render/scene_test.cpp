@@ -357,7 +357,7 @@ TEST_F(SceneFiles, every_mistake_is_answered_with_its_line) {
          ":6:"},
         {head + "[light]\nconstant = 1\n[[light.sphere]]\ncenter = [0,0,9]\nradius = 0\n",
          "positive"},
-        {head + "[[object]]\nkind = \"sphere\"\n[light]\nconstant = 1\n", "not rendered yet"},
+        {head + "[[object]]\nkind = \"sphere\"\n[light]\nconstant = 1\n", "shape is missing"},
         {"[broken\n", "TOML"},
     };
     for (const auto& [text, expected] : cases) {

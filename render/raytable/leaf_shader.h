@@ -1,0 +1,39 @@
+#pragma once
+// The light that leaves of a ray table see in one scene, run by run: in single precision and many
+// at once where lights alone stand around the stone, else by asking the surroundings leaf by leaf.
+
+#include <memory>
+
+#include "render/raytable/leaf_lights.h"
+#include "render/raytable/table_key.h"
+#include "render/reference/surroundings.h"
+
+namespace culet {
+
+class LeafShader {
+public:
+    LeafShader() = default;
+    LeafShader(const LeafShader&) = delete;
+    LeafShader& operator=(const LeafShader&) = delete;
+    virtual ~LeafShader() = default;
+
+    /// As shade_leaves and shade_rays, at the nodes of a band of the scene's setup.
+    virtual double leaves(std::size_t band, const LeafRun& run, float* radiance,
+                          int stride) const = 0;
+    virtual void rays(std::size_t band, const AirRays& rays, float* radiance, int stride) const = 0;
+    /// How far along rays the nearest thing is that hides what lies behind it.
+    virtual void nearest(const AirRays& rays, float* distance) const = 0;
+    /// Origins of AirRays are about this point.
+    virtual Vec3 middle() const = 0;
+};
+
+/// Which of the two: tests compare them. Rays past the stone are single precision in both.
+enum class LeafPrecision { fastest, double_precision };
+
+/// `surroundings` must outlive it, as `table`.
+std::unique_ptr<const LeafShader> leaf_shader(const Scene& scene, const TableRays& rays,
+                                              const WavelengthSet& colours,
+                                              const Surroundings& surroundings,
+                                              const RayTable& table, LeafPrecision precision);
+
+}  // namespace culet

@@ -1,0 +1,108 @@
+#pragma once
+// Keeps the ends of light paths, for a ray table.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "render/optics/path.h"
+#include "render/raytable/octahedral_codes.h"
+#include "stone/perpendicular.h"
+
+namespace culet {
+
+/// The end of a light path. Lengths in the stone's unit.
+struct Leaf {
+    float weight = 0;  ///< of a clear stone
+    int facet = 0;
+    DirectionCode direction{};
+    float s = 0, t = 0;             ///< the point, along the facet's axes
+    std::array<float, 3> length{};  ///< inside the stone, for each axis of a crystal
+};
+
+/// In-plane axes of a facet, orthonormal.
+struct PlaneAxes {
+    Vec3 u, v;
+    explicit PlaneAxes(const Vec3& normal)
+        : u(perpendicular_to(normal)), v(glm::cross(normal, u)) {}
+};
+
+/// What a row of pixels has, in one band.
+struct RowLeaves {
+    std::vector<Leaf> leaves;
+    std::vector<std::uint32_t> count;  ///< of each of the row's hits
+    double remainder = 0, cut = 0;     ///< sums over hits
+    int deepest = 0;
+};
+
+/// Path lengths are read off the transmissions of wavelengths that absorb along one axis each, by
+/// `absorption` per length; the first absorbs nothing, and has the weight of a clear stone.
+inline Band with_lengths(Band band, int lengths, double absorption) {
+    band.absorbs = true;
+    band.first = 0;
+    band.count = 1 + lengths;
+    for (int axis = 0; axis < 3; ++axis) {
+        band.absorption[axis].fill(0);
+        if (lengths == 1) {
+            band.absorption[axis][1] = absorption;
+        } else {
+            band.absorption[axis][1 + axis] = absorption;
+        }
+    }
+    return band;
+}
+
+// A sink of the tracers, see light_paths.h and crystal_paths.h.
+class LeafSink {
+public:
+    LeafSink(const std::vector<PlaneAxes>& axes, int lengths, double absorption, double least,
+             RowLeaves& row)
+        : axes_(axes), lengths_(lengths), absorption_(absorption), least_(least), row_(row) {}
+
+    void path_exits(const Vec3& at, const Vec3& direction, const NodeWeights& weight,
+                    const PathTrace& trace) {
+        keep(at, direction, weight[0], weight, trace);
+    }
+    void path_exits(const PathEnd& end, const PathTrace& trace) {
+        keep(end.at, end.direction, end.coherency.power(), end.transmitted, trace);
+    }
+    void remainder(const NodeWeights& weight) { row_.remainder += weight[0]; }
+    void cut(const NodeWeights& weight) { row_.cut += weight[0]; }
+    void absorbed(const NodeWeights&) {}
+    void roulette(const NodeWeights&) {}
+    void choice_begins() {}
+    void choice_ends(bool) {}
+
+private:
+    // `transmitted`: in the ratio of its wavelengths.
+    void keep(const Vec3& at, const Vec3& direction, double weight, const NodeWeights& transmitted,
+              const PathTrace& trace) {
+        row_.deepest = std::max(row_.deepest, trace.length);
+        if (weight < least_) {
+            row_.cut += weight;
+            return;
+        }
+        Leaf leaf;
+        leaf.weight = static_cast<float>(weight);
+        leaf.facet = trace.facets[trace.length - 1];
+        leaf.direction = octahedral_code(direction);
+        const PlaneAxes& axes = axes_[static_cast<std::size_t>(leaf.facet)];
+        leaf.s = static_cast<float>(glm::dot(axes.u, at));
+        leaf.t = static_cast<float>(glm::dot(axes.v, at));
+        for (int k = 0; k < lengths_; ++k) {
+            const double ratio = transmitted[1 + k] / transmitted[0];
+            leaf.length[k] = static_cast<float>(std::max(0.0, -std::log(ratio) / absorption_));
+        }
+        row_.leaves.push_back(leaf);
+        ++row_.count.back();
+    }
+
+    const std::vector<PlaneAxes>& axes_;
+    int lengths_;
+    double absorption_, least_;
+    RowLeaves& row_;
+};
+
+}  // namespace culet

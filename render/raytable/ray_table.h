@@ -1,0 +1,103 @@
+#pragma once
+// A ray table (Lee, Interactive refractive rendering for gemstones, 2004, chapter 5): of one view
+// of a stone, where the light paths behind each pixel leave the stone, in which direction, and with
+// which weight. Pictures in any light follow from it without tracing. docs/ray-tables.md describes
+// the file, which is this table byte by byte.
+//
+// A "hit" is an eye ray that meets the stone; a "leaf" is the end of one of its light paths. A
+// "band" is a set of wavelengths that go the same way; each has its own leaves.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace culet {
+
+/// 32 hexadecimal digits, of Fingerprint.
+using TableKey = std::array<char, 32>;
+
+struct RayTableHeader {
+    std::array<char, 8> magic{};
+    std::uint32_t version = 0;
+    std::uint32_t checksum = 0;  ///< CRC-32 of all bytes behind it
+    std::uint64_t file_bytes = 0;
+    std::uint32_t width = 0, height = 0;  ///< pixels
+    std::uint32_t samples = 1;            ///< rays of a pixel
+    std::uint32_t bands = 1;
+    std::uint32_t facets = 0;
+    std::uint32_t lengths = 1;      ///< of a leaf: 1, or one for each axis of a crystal
+    std::uint32_t wavelengths = 0;  ///< as many as bands; 0: any, they all go the same way
+    std::uint32_t depth = 0;        ///< limit of the paths
+    std::uint32_t deepest = 0;      ///< faces on the longest path
+    std::uint32_t branches = 0;     ///< 1: paths are trees; 0: leaf k of a ray has k reflections
+    std::uint64_t hits = 0, leaves = 0;
+    double length_step = 0;         ///< of the lengths, in the stone's unit
+    double remainder = 0, cut = 0;  ///< weight that no leaf has, mean over hits and bands
+    TableKey stone{}, optics{}, view{}, rays{};
+    std::array<char, 24> reserved{};
+};
+static_assert(sizeof(RayTableHeader) == 256);
+
+/// The plane coordinates of a facet's leaves: point = corner + s u + t v with s, t in 0..1.
+struct FacetFrame {
+    std::array<double, 3> corner{}, u{}, v{};
+};
+static_assert(sizeof(FacetFrame) == 72);
+
+/// What a table consists of, in the order of the file. Of leaves: weight of a clear stone;
+/// direction as octahedral_codes.h has it; point in the facet's frame in steps of 1/65535; path
+/// length inside the stone in steps of `length_step`.
+template <template <class> class List>
+struct RayTableParts {
+    List<double> wavelengths_nm;
+    List<FacetFrame> frames;       ///< of each facet
+    List<std::uint32_t> hit_ray;   ///< of each hit: pixel x samples + sample; increasing
+    List<float> hit_distance;      ///< from the eye to the stone
+    List<std::uint32_t> leaf_end;  ///< of band x hits + hit: the leaf after its last
+    List<float> weight;            ///< of each leaf
+    std::array<List<std::int32_t>, 2> direction;
+    std::array<List<std::uint16_t>, 2> point;
+    List<std::uint16_t> facet;
+    std::array<List<std::uint16_t>, 3> length;
+};
+
+template <class T>
+using TableSpan = std::span<const T>;
+template <class T>
+using TableVector = std::vector<T>;
+
+class RayTable {
+public:
+    /// Maps a file and checks all of it. Throws InputError in one line where it is missing, cut
+    /// off, damaged, of another version, or no ray table.
+    static RayTable open(const std::filesystem::path& file);
+    /// Of `header` the counts, bytes and checksum are filled in. Throws InternalError where the
+    /// parts do not fit together.
+    RayTable(RayTableHeader header, const RayTableParts<TableVector>& parts);
+
+    /// Whole or not at all. Throws InputError where it cannot be written.
+    void write(const std::filesystem::path& file) const;
+
+    const RayTableHeader& header() const { return header_; }
+    const RayTableParts<TableSpan>& parts() const { return parts_; }
+    std::size_t bytes() const { return bytes_.size(); }
+
+private:
+    explicit RayTable(std::span<const std::byte> bytes, std::shared_ptr<const void> kept);
+
+    std::shared_ptr<const void> kept_;  // the mapping, or the memory
+    std::span<const std::byte> bytes_;
+    RayTableHeader header_;
+    RayTableParts<TableSpan> parts_;
+};
+
+/// Bytes of one leaf in the file.
+constexpr std::size_t leaf_bytes(unsigned lengths) {
+    return 4 + 2 * 4 + 2 * 2 + 2 + 2 * static_cast<std::size_t>(lengths);
+}
+
+}  // namespace culet

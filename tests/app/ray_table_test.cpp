@@ -1,0 +1,119 @@
+// culet render --engine raytable --table as a user runs it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "render/image/image_io.h"
+#include "tests/app/run_program.h"
+#include "tests/scratch_folder.h"
+
+namespace culet {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ProgramRun;
+using test::run_culet;
+using ::testing::HasSubstr;
+
+class RayTables : public testing::Test {
+protected:
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    std::string bytes(const std::string& name) const {
+        std::ifstream stream(folder_ / name, std::ios::binary);
+        return std::string{std::istreambuf_iterator<char>(stream), {}};
+    }
+    ProgramRun render(std::vector<std::string> more) const {
+        std::vector<std::string> arguments{
+            "render",      CULET_SOURCE_DIR "/samples/effects/garnet-depth.toml",
+            "--size",      "32",
+            "--depth",     "5",
+            "--effects",   "polarization,absorption",
+            "--tolerance", "0"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run_culet(arguments);
+    }
+    ProgramRun by_table(std::vector<std::string> more) const {
+        more.insert(more.end(), {"--engine", "raytable", "--table", file("stone.rays")});
+        return render(std::move(more));
+    }
+    // One line that names what is wrong.
+    static void expect_refusal(const ProgramRun& run, const std::string& words) {
+        EXPECT_EQ(run.exit_code, 2) << run.err;
+        EXPECT_EQ(run.out, "");
+        const std::size_t at = run.err.find("culet: error: ");
+        ASSERT_NE(at, std::string::npos) << run.err;
+        EXPECT_EQ(std::count(run.err.begin() + std::ptrdiff_t(at), run.err.end(), '\n'), 1)
+            << run.err;
+        EXPECT_THAT(run.err, HasSubstr(words));
+    }
+    test::ScratchFolder folder_;
+};
+
+TEST_F(RayTables, ArePutIntoAFileAndLitAnew) {
+    const ProgramRun first = by_table({"-o", file("a.png"), "--stats", file("a.json")});
+    EXPECT_EQ(first.exit_code, 0) << first.err;
+    const std::string table = bytes("stone.rays");
+    EXPECT_EQ(table.substr(0, 8), "culetray");
+    std::ifstream stats(folder_ / "a.json");
+    EXPECT_EQ(nlohmann::json::parse(stats)["engine"], "raytable");
+    const ProgramRun info = run_culet({"info", file("stone.rays")});
+    EXPECT_EQ(info.exit_code, 0) << info.err;
+    EXPECT_THAT(info.out, HasSubstr("32 x 32 pixels, samples 1, depth 5"));
+    const ProgramRun again = by_table({"-o", file("b.png")});
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(bytes("a.png"), bytes("b.png"));
+    const ProgramRun aset = by_table({"-o", file("c.exr"), "--light", "aset"});
+    EXPECT_EQ(aset.exit_code, 0) << aset.err;
+    EXPECT_EQ(bytes("stone.rays"), table);
+    // The same drawn anew along the same rays: single precision is all that lies between.
+    const ProgramRun anew = render({"-o", file("d.exr"), "--light", "aset", "--engine", "reference",
+                                    "--set", "render.samples=1"});
+    EXPECT_EQ(anew.exit_code, 0) << anew.err;
+    const Picture lit = read_picture(folder_ / "c.exr").picture,
+                  by_reference = read_picture(folder_ / "d.exr").picture;
+    ASSERT_EQ(lit.rgb.size(), by_reference.rgb.size());
+    for (std::size_t i = 0; i < lit.rgb.size(); ++i)
+        EXPECT_NEAR(lit.rgb[i], by_reference.rgb[i], 1e-6);
+}
+
+TEST_F(RayTables, OfViewsAroundStandInAFolder) {
+    const std::vector<std::string> views{"--engine", "raytable", "--views", file("views")};
+    const auto between = [&](std::vector<std::string> more) {
+        more.insert(more.end(), views.begin(), views.end());
+        return render(std::move(more));
+    };
+    const ProgramRun first = between({"-o", file("a.png")});
+    EXPECT_EQ(first.exit_code, 0) << first.err;
+    EXPECT_THAT(first.err, HasSubstr("between views in steps of 0.1 radians"));
+    // The sample looks down from 5 degrees: between the pole and two of the first ring.
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "views"), {}), 3);
+    const ProgramRun again = between({"-o", file("b.png")});
+    EXPECT_EQ(again.exit_code, 0) << again.err;
+    EXPECT_EQ(bytes("a.png"), bytes("b.png"));
+    expect_refusal(between({"-o", file("c.png"), "--table", file("stone.rays")}), "excludes");
+    expect_refusal(render({"-o", file("c.png"), "--view-step", "0.2"}), "requires");
+    EXPECT_FALSE(fs::exists(folder_ / "c.png"));
+}
+
+TEST_F(RayTables, AreRefusedInALineAndLeaveNoPicture) {
+    EXPECT_EQ(by_table({"-o", file("a.png")}).exit_code, 0);
+    const std::string table = bytes("stone.rays");
+    expect_refusal(by_table({"-o", file("b.png"), "--set", "camera.fov=11"}), "another view");
+    expect_refusal(by_table({"-o", file("b.png"), "--material", "diamond"}), "refractive indices");
+    expect_refusal(by_table({"-o", file("b-#.png"), "--frames", "3"}), "one view");
+    expect_refusal(render({"-o", file("b.png"), "--table", file("stone.rays")}),
+                   "add --engine raytable");
+    std::ofstream(folder_ / "stone.rays", std::ios::binary) << table.substr(0, table.size() / 2);
+    expect_refusal(by_table({"-o", file("b.png")}), "cut off");
+    expect_refusal(run_culet({"info", file("stone.rays")}), "cut off");
+    EXPECT_FALSE(fs::exists(folder_ / "b.png"));
+    EXPECT_EQ(bytes("stone.rays"), table.substr(0, table.size() / 2));
+}
+
+}  // namespace
+}  // namespace culet
