@@ -9,6 +9,7 @@
 #include <iterator>
 #include <numbers>
 
+#include "render/export/povray_objects.h"
 #include "render/setup/optical_setup.h"
 #include "render/setup/scene_checks.h"
 #include "stone/errors.h"
@@ -25,13 +26,6 @@ constexpr double k_single_precision = 1e-7;
 constexpr double k_stone_size = 1024;
 constexpr int k_highest_level = 256;      // that POV-Ray accepts
 constexpr int k_depth_by_tolerance = 64;  // written where the tolerance decides
-
-std::string vector_text(const Vec3& v) {
-    return fmt::format("<{}, {}, {}>", v.x, v.z, v.y);
-}
-std::string colour_text(const Rgb& rgb) {
-    return fmt::format("rgb <{}, {}, {}>", rgb[0], rgb[1], rgb[2]);
-}
 
 void refuse_what_has_no_picture(const Scene& scene) {
     const Camera& camera = scene.camera;
@@ -58,6 +52,12 @@ Solid drawn_solid(const Stone& stone) {
     return contract_near_meets(intersect_half_spaces(planes).solid, tolerance).solid;
 }
 
+// Of the stone, or how far the eye is from what it looks at.
+double size_of(const Scene& scene) {
+    if (scene.has_stone()) return diameter(scene.stone.solid);
+    return glm::length(scene.camera.look_at - scene.camera.position);
+}
+
 class PovrayWriter {
 public:
     explicit PovrayWriter(const Scene& scene)
@@ -65,14 +65,17 @@ public:
           setup_(make_optical_setup(scene)),
           colours_(one_wavelength() ? scene.settings.wavelengths_nm
                                     : std::vector<double>{450, 500, 550, 610, 650}),
-          scale_(std::exp2(std::ceil(std::log2(k_stone_size / diameter(scene.stone.solid))))) {}
+          scale_(std::exp2(std::ceil(std::log2(k_stone_size / size_of(scene))))) {}
 
     PovrayScene write() {
         header();
         camera();
         distant_lights();
         near_lights();
-        stone();
+        if (scene_.has_stone()) stone(scene_.stone);
+        for (const Stone& more : scene_.more_stones) stone(more);
+        for (const SceneObject& object : scene_.objects)
+            line("{}", povray_object(object, scale_, scene_.immersion, result_.notes));
         for (const std::string& note : result_.notes) line("// Not carried: {}", note);
         return std::move(result_);
     }
@@ -129,9 +132,9 @@ private:
         const bool parallel = camera.orthographic_width.has_value();
         line("camera {{\n  {}\n  location {}\n  direction {}\n  right {}\n  up {}\n}}",
              parallel ? "orthographic" : "perspective",
-             vector_text(scale_ * camera.position + (parallel ? to_middle : Vec3(0))),
-             vector_text(parallel ? forward : forward + to_middle), vector_text(width * right),
-             vector_text(height * up));
+             povray_vector(scale_ * camera.position + (parallel ? to_middle : Vec3(0))),
+             povray_vector(parallel ? forward : forward + to_middle), povray_vector(width * right),
+             povray_vector(height * up));
         if (setup_.on(Effects::aperture)) note("the lens: the picture is that of a pinhole");
     }
 
@@ -225,7 +228,7 @@ private:
         const double range = 2 * most;
         line("    function {{ ({}) / {} }}", sum, range);
         line("    color_map {{ [0 rgb 0] [1 {}] }}",
-             colour_text({range * unit[0], range * unit[1], range * unit[2]}));
+             povray_colour({range * unit[0], range * unit[1], range * unit[2]}));
     }
 
     void near_lights() {
@@ -242,7 +245,7 @@ private:
         // Seen from within a body POV-Ray 3.7 reflects nothing inside a second one: a dome round
         // the camera is turned inside out, so that the camera is outside.
         const bool inside = glm::length(scene_.camera.position - sphere.center) < sphere.radius;
-        line("sphere {{ {}, {} {}{} }}", vector_text(scale_ * sphere.center),
+        line("sphere {{ {}, {} {}{} }}", povray_vector(scale_ * sphere.center),
              scale_ * sphere.radius, glowing(sphere.radiance), inside ? " inverse" : "");
     }
 
@@ -268,7 +271,7 @@ private:
             note("that the back of a plane light is not there: rays through it lose a level");
         }
         if (!plane.u || !plane.v) {
-            line("plane {{ {}, {} {}{} }}", vector_text(plane.normal),
+            line("plane {{ {}, {} {}{} }}", povray_vector(plane.normal),
                  scale_ * glm::dot(plane.point, plane.normal), glowing(plane.radiance), back);
             return;
         }
@@ -279,7 +282,7 @@ private:
         const Vec3 corners[4] = {plane.point - u - v, plane.point + u - v, plane.point + u + v,
                                  plane.point - u + v};
         line("mesh2 {{ vertex_vectors {{ 4");
-        for (const Vec3& corner : corners) line("    {}", vector_text(scale_ * corner));
+        for (const Vec3& corner : corners) line("    {}", povray_vector(scale_ * corner));
         line("  }} face_indices {{ 2 {} }}", swap ? "<0, 2, 1> <0, 3, 2>" : "<0, 1, 2> <0, 2, 3>");
         line("  {}{} }}", glowing(plane.radiance), back);
     }
@@ -289,12 +292,12 @@ private:
     }
     std::string glowing(const LightColour& radiance) {
         return fmt::format("pigment {{ {} }} finish {{ ambient 0 diffuse 0 emission 1 }}",
-                           colour_text(rgb_of(radiance)));
+                           povray_colour(rgb_of(radiance)));
     }
-    void stone() {
-        const Solid solid = drawn_solid(scene_.stone);
+    void stone(const Stone& stone) {
+        const Solid solid = drawn_solid(stone);
         line("mesh2 {{ vertex_vectors {{ {}", solid.vertices.size());
-        for (const Vec3& vertex : solid.vertices) line("    {}", vector_text(scale_ * vertex));
+        for (const Vec3& vertex : solid.vertices) line("    {}", povray_vector(scale_ * vertex));
         std::vector<std::array<int, 3>> triangles;
         for (const Facet& facet : solid.facets) {
             for (const auto& triangle : facet_triangles(solid, facet))
@@ -306,13 +309,13 @@ private:
         line("  pigment {{ rgbt 1 }}");
         line("  finish {{ ambient 0 diffuse 0 specular 0");
         line("    reflection {{ 0, 1 fresnel on }} conserve_energy }}");
-        interior();
+        interior(stone);
         line("}}");
     }
 
-    void interior() {
+    void interior(const Stone& stone) {
         constexpr double k_d_line_nm = 589.3, k_red_nm = 610, k_green_nm = 545, k_blue_nm = 465;
-        const Material& material = scene_.stone.material;
+        const Material& material = stone.material;
         const int rays = ray_count(material.optic);
         const double nm = one_wavelength() ? scene_.settings.wavelengths_nm[0] : k_d_line_nm;
         // As the renderer does where double refraction is left out; uniaxial stones have two
@@ -332,7 +335,7 @@ private:
             return;
         }
         // As a medium, because POV-Ray's fade_distance spares the partly reflected rays.
-        const double per_unit = mm_per(scene_.stone.unit) / scale_;
+        const double per_unit = mm_per(stone.unit) / scale_;
         Rgb absorption{};
         for (int c = 0; c < 3; ++c) {
             const double at =
@@ -347,7 +350,7 @@ private:
             break;
         }
         line("  hollow interior {{ ior {} media {{ absorption {} }} }}", n / scene_.immersion,
-             colour_text(absorption));
+             povray_colour(absorption));
     }
 
     const Scene& scene_;

@@ -26,12 +26,12 @@ struct PovrayScene {
 ///
 /// Carried: convex and other stones as `mesh2` (POV-Ray holds corners and normals in single
 /// precision), the refractive index over that of the immersion, absorption, orthographic and
-/// perspective cameras, constant, lobe, hemisphere, cap, sphere and plane lights, colours as RGB.
-/// Left out with a note: polarisation by the faces, double refraction, dispersion, spectra beyond
-/// RGB, the lens, and the level that the back of a plane light takes up.
-/// Throws InputError where no picture of sense would be left: polarised lights, optics before the
-/// eye, conoscopes, environment maps, a plane light seen from behind, and what the renderer
-/// refuses.
+/// perspective cameras, objects, constant, lobe, hemisphere, cap, sphere and plane lights, colours
+/// as RGB. Left out with a note: polarisation by the faces, double refraction, dispersion, spectra
+/// beyond RGB, the lens, the level that the back of a plane light takes up, light on diffuse
+/// objects and how metals reflect at a slant (povray_objects.h). Throws InputError where no picture
+/// of sense would be left: polarised lights, optics before the eye, conoscopes, environment maps, a
+/// plane light seen from behind, and what the renderer refuses.
 PovrayScene povray_scene(const Scene& scene);
 
 }  // namespace culet

@@ -79,6 +79,21 @@ MuellerReflection ReadySurface::reflection(int node, double cosine) const {
     return {0.5 * (s + p), 0.5 * (s - p), mixed.real(), mixed.imag()};
 }
 
+double ReadySurface::reflectance(int node, double cosine) const {
+    const auto i = static_cast<std::size_t>(node);
+    if (std::isinf(k_[i])) return 1;
+    // The same without phases: with a + i b the root above, a^2 + b^2 = |a + i b|^2.
+    const double c2 = cosine * cosine, s2 = (1 - cosine) * (1 + cosine);
+    const double re = (n_[i] - k_[i]) * (n_[i] + k_[i]) - s2, im = 2 * n_[i] * k_[i];
+    const double squares = std::sqrt(re * re + im * im);
+    const double a = std::sqrt(std::max(0.0, 0.5 * (squares + re)));
+    const double sum = squares + c2, mixed = 2 * a * cosine;
+    const double R_s = (sum - mixed) / (sum + mixed);
+    const double p_sum = c2 * squares + s2 * s2, p_mixed = mixed * s2;
+    const double R_p = p_sum + p_mixed > 0 ? R_s * (p_sum - p_mixed) / (p_sum + p_mixed) : R_s;
+    return std::isfinite(R_s + R_p) ? 0.5 * (R_s + R_p) : 1;
+}
+
 void ReadySurface::prepare_reflected_once() {
     for (int i = 0; i < k_once_cosines; ++i) {
         // Finer towards grazing light, where it changes.

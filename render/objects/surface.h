@@ -34,7 +34,7 @@ public:
     /// Of a metal at a node, for the cosine of incidence.
     MuellerReflection reflection(int node, double cosine) const;
     /// Mean of s and p, of a metal.
-    double reflectance(int node, double cosine) const { return reflection(node, cosine).mean; }
+    double reflectance(int node, double cosine) const;
     /// Of microfacets that reflect all, what leaves them after one reflection; the rest meets more.
     double reflected_once(double cosine) const;
     /// What a rough surface sends out more than light that is reflected `once`, because what meets

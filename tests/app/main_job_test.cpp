@@ -111,7 +111,7 @@ TEST_F(MainJob, WhatCannotBeDoneIsOneLineAndLeavesNothing) {
         {"fit", stone, "-o", file("old.obj"), "--set", "stone.unit=parsec"},
         {"render", small_scene(), "-o", file("a.gif")},
         {"render", small_scene(), "-o", file("a.png"), "--set", "camera.fov=-1"},
-        {"render", small_scene(), "-o", file("a.png"), "--engine", "raytable"},
+        {"render", small_scene(), "-o", file("a.png"), "--engine", "warp"},
         {"run", file("missing.toml"), "-o", file("out")},
         {"cut", "round-brilliant"},
         {"cut", "round-brilliant", "-o", file("a.obj"), "--json", file("no/folder.json")},

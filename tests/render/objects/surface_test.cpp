@@ -40,6 +40,16 @@ TEST(Metals, reflect_at_normal_incidence_what_their_index_says) {
         EXPECT_NEAR(metal_of(f0, 0).reflection(0, 1).mean, f0, 1e-15);
 }
 
+// Without phases: the same by real numbers alone.
+TEST(Metals, reflect_the_mean_of_s_and_p) {
+    for (const auto& [n, k] : {std::pair(0.055, 3.32), {1.2, 7.26}, {2.87, 3.36}, {1.5, 0.0}}) {
+        const ReadySurface surface = metal(n, k);
+        for (double cosine = 0; cosine <= 1; cosine += 0.01) {
+            EXPECT_NEAR(surface.reflectance(0, cosine), surface.reflection(0, cosine).mean, 1e-13);
+        }
+    }
+}
+
 // Without extinction a metal is glass: the same numbers as fresnel.h, which has its own tests.
 TEST(Metals, without_extinction_are_glass) {
     for (const double n : {1.2, 1.5, 2.4}) {
