@@ -84,6 +84,10 @@ int explain_plan(const RenderOptions& options) {
     if (!engine_of(scene.settings).approaches_truth())
         throw InputError(fmt::format("--explain tells what is planned, and engine {} never is",
                                      scene.settings.engine));
+    if (scene.furnished())
+        throw InputError(
+            "--explain tells what is planned, and scenes with objects or several stones are not: "
+            "they are drawn with the settings as they are (docs/objects.md)");
     const ScenePlan plan = plan_to_explain(scene, progress_line("planning", options.common.quiet));
     if (options.stats != "-") print_lines(explain(plan));
     if (!options.stats.empty()) write_text(options.stats, plan_json(plan));
@@ -231,6 +235,10 @@ int run_render(const RenderOptions& options) {
             fmt::format("--verify holds a picture against the truth, which engine {} "
                         "does not draw",
                         scene.settings.engine));
+    if (options.verify && scene.furnished())
+        throw InputError(
+            "--verify holds a picture against the truth at some pixels; with objects or several "
+            "stones that is as noisy as the picture: say --set render.samples=256");
     const bool paced = !saved && !scene.names_tolerance && scene.settings.check == Check::full &&
                        leaves_something_open(scene);
     if (paced) scene.settings.allowed_ns = k_usual_allowance_ns;

@@ -106,7 +106,14 @@ RenderResult drawn_with_preview(const Scene& scene, const Progress& progress,
         few.settings.samples = k_preview_samples;
         better(drawn(few, progress));
     }
-    return drawn(scene, progress);
+    RenderResult result = drawn(scene, progress);
+    if (result.stats.standard_error > 0) {
+        result.stats.notes.push_back(
+            fmt::format("noise: a pixel is off by {:.2g} of the mean radiance, root mean square; "
+                        "four times the samples halve it",
+                        result.stats.standard_error));
+    }
+    return result;
 }
 
 // It was of this drawing alone.

@@ -28,6 +28,13 @@ protected:
         return {std::istreambuf_iterator<char>(stream), {}};
     }
     // The sample's scene, small enough for a test.
+    std::string scene_with_objects() const {
+        std::ofstream(file("objects.toml"))
+            << "[camera]\nposition = [0, -9, 5]\nlook_at = [0, 0, 0]\nsize = [16, 16]\n"
+               "[light]\nconstant = 1\n[[object]]\nshape = \"sphere\"\nradius = 1\n"
+               "material = { kind = \"diffuse\" }\n";
+        return file("objects.toml");
+    }
     std::string small_scene() const {
         std::string scene = text((k_samples / "dravite-step/scene.toml").string());
         const auto replace = [&scene](const std::string& from, const std::string& to) {
@@ -112,6 +119,9 @@ TEST_F(MainJob, WhatCannotBeDoneIsOneLineAndLeavesNothing) {
         {"render", small_scene(), "-o", file("a.gif")},
         {"render", small_scene(), "-o", file("a.png"), "--set", "camera.fov=-1"},
         {"render", small_scene(), "-o", file("a.png"), "--engine", "warp"},
+        {"render", scene_with_objects(), "--explain"},
+        {"render", scene_with_objects(), "-o", file("a.png"), "--verify"},
+        {"render", scene_with_objects(), "-o", file("a.png"), "--engine", "beams"},
         {"run", file("missing.toml"), "-o", file("out")},
         {"cut", "round-brilliant"},
         {"cut", "round-brilliant", "-o", file("a.obj"), "--json", file("no/folder.json")},

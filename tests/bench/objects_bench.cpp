@@ -50,20 +50,14 @@ Scene ring(int width, int height, int samples) {
     return scene;
 }
 
-constexpr int k_levels = 12;
+constexpr int k_levels = 16;
 
 Scene spheres(int pixels) {
     Scene scene;
-    BoxShape box;
-    box.center = {0, 2.5, 0.2};
-    box.half = {1, 1, 1.2};
-    box.axes[0] = glm::normalize(Vec3{1, 0.5, 0});
-    box.axes[1] = glm::normalize(Vec3{-0.5, 1, 0});
     scene.objects = {{PlaneShape{{0, 0, -1}, {0, 0, 1}}, MirrorMaterial{{0.5}}},
-                     {SphereShape{{-2.2, 0, 0}, 1}, MirrorMaterial{{0.8}}},
+                     {SphereShape{{-3, 0, 0}, 1}, MirrorMaterial{{0.8}}},
                      {SphereShape{{0, -0.5, 0}, 1}, DielectricMaterial{1.5, {0.0}}},
-                     {SphereShape{{2.2, 0, 0}, 1}, DielectricMaterial{1.5, {0.5}}},
-                     {box, DielectricMaterial{1.7, {0.0}}},
+                     {SphereShape{{3, 0, 0}, 1}, DielectricMaterial{1.5, {0.5}}},
                      {SphereShape{{3, 4, 1}, 0.8}, EmitterMaterial{{0.9}}},
                      {DiscShape{{-3, 3, 2}, {0, -1, 0}, 1}, EmitterMaterial{{0.7}}}};
     scene.camera.position = {0, -11, 5};
@@ -109,7 +103,8 @@ void beside_povray() {
     }
     const auto count = static_cast<double>(sum.size());
     fmt::print(
-        "spheres, a box and a disc beside POV-Ray, {0} x {0}, the mean of {1} seeds: mean {2:.4f}, "
+        "spheres and a disc on a mirror beside POV-Ray, {0} x {0}, the mean of {1} seeds: mean "
+        "{2:.4f}, "
         "RMSE {3:.2e}; without the {4:.2f} % of the pixels that differ by over 0.02 {5:.2e}\n",
         k_pixels, k_seeds, mean / count, std::sqrt(squares / count), 100 * over / count,
         std::sqrt(inside / count));

@@ -294,4 +294,38 @@ TEST_F(PovrayPictures, absorption_in_a_dome_with_near_lights) {
     EXPECT_LT(rmse(scene), k_same_picture);
 }
 
+// Mirrors and what shines: nothing of that is left to chance.
+TEST_F(PovrayPictures, mirrors_and_things_that_shine) {
+    Scene scene;
+    scene.camera.position = {1, -9, 5};
+    scene.camera.up = {0, 0, 1};
+    scene.camera.fov = 0.7;
+    scene.camera.width = 96;
+    scene.camera.height = 72;
+    scene.settings = stone_scene().settings;
+    // POV-Ray's levels count mirrors, too.
+    scene.settings.depth = 60;
+    scene.lights.constant = 0.1;
+    scene.lights.sources = {HemisphereLight{glm::normalize(Vec3{0.2, 0.1, 1}), {0.3}},
+                            CosinePowerLight{glm::normalize(Vec3{0.5, -0.5, 0.7}), 4, {0.4}}};
+    BoxShape box;
+    box.center = {0.2, 2, 0.2};
+    box.half = {0.6, 0.9, 1.2};
+    box.axes[0] = glm::normalize(Vec3{1, 0.5, 0.3});
+    box.axes[1] = glm::normalize(glm::cross(Vec3{0, 0, 1}, box.axes[0]));
+    box.axes[2] = glm::cross(box.axes[0], box.axes[1]);
+    auto mesh = std::make_shared<TriangleMesh>();
+    mesh->vertices = {{-1, -1.5, 0.5}, {1, -1.5, 0}, {0, -1, 1.5}, {0, -0.2, 0.3}};
+    mesh->triangles = {{0, 1, 2}, {1, 3, 2}, {3, 0, 2}, {0, 3, 1}};
+    scene.objects = {
+        {PlaneShape{{0, 0, -1}, {0, 0, 1}}, MirrorMaterial{{0.9}}},
+        {SphereShape{{-2.4, 0, 0}, 1}, MirrorMaterial{{1.0}}},
+        {box, EmitterMaterial{{Rgb{0.6, 0.5, 0.2}}}},
+        {DiscShape{{2.5, 2, 1}, glm::normalize(Vec3{-0.3, -1, 0.2}), 0.9}, EmitterMaterial{{0.8}}},
+        {MeshShape{mesh}, EmitterMaterial{{Rgb{0.2, 0.5, 0.7}}}}};
+    EXPECT_LT(rmse(scene), k_same_picture);
+    scene.objects[1].material = DiffuseMaterial{};
+    EXPECT_TRUE(noted(povray_scene(scene), "light_source"));
+}
+
 }  // namespace
