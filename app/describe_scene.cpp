@@ -11,6 +11,34 @@
 
 namespace culet {
 
+namespace {
+
+// What stands in the scene beside its stone.
+void describe_objects(const Scene& scene, Description& about) {
+    auto& list = about.object["objects"] = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const auto name = [](const auto& kind) { return kind.k_name; };
+        const SceneObject& object = scene.objects[i];
+        const char* shape = std::visit(name, object.shape);
+        const char* material = std::visit(name, object.material);
+        list.push_back({{"shape", shape}, {"material", material}});
+        std::string line = fmt::format("object {}: {}, {}", i, shape, material);
+        if (const auto* mesh = std::get_if<MeshShape>(&object.shape)) {
+            line += fmt::format(", {} triangles", mesh->mesh->triangles.size());
+            list.back()["triangles"] = mesh->mesh->triangles.size();
+        }
+        about.lines.push_back(std::move(line));
+    }
+    auto& stones = about.object["more_stones"] = nlohmann::ordered_json::array();
+    for (const Stone& stone : scene.more_stones) {
+        stones.push_back({{"name", stone.name}, {"material", stone.material.id}});
+        about.lines.push_back(fmt::format("beside it: \"{}\", {}, {} facets", stone.name,
+                                          stone.material.id, stone.solid.facets.size()));
+    }
+}
+
+}  // namespace
+
 Description describe_scene_file(const DescribeOptions& options) {
     const Scene scene = read_scene(options.file, options.overrides);
     Description about;
@@ -39,9 +67,9 @@ Description describe_scene_file(const DescribeOptions& options) {
     object["engine"] = scene.settings.engine;
     object["depth"] = scene.settings.depth;
     object["tolerance"] = scene.settings.tolerance;
-    about.lines.push_back(fmt::format("{}: scene, {} x {} pixels, stone \"{}\"",
-                                      options.file.string(), camera.width, camera.height,
-                                      scene.stone.name));
+    about.lines.push_back(fmt::format(
+        "{}: scene, {} x {} pixels, {}", options.file.string(), camera.width, camera.height,
+        scene.has_stone() ? fmt::format("stone \"{}\"", scene.stone.name) : "no stone"));
     about.lines.push_back(fmt::format("lights: {}{}",
                                       lights.environment
                                           ? "an environment, "
@@ -55,6 +83,8 @@ Description describe_scene_file(const DescribeOptions& options) {
     }
     if (scene.immersion != 1)
         about.lines.push_back(fmt::format("in a liquid of index {:g}", scene.immersion));
+    describe_objects(scene, about);
+    if (!scene.has_stone()) return about;
     describe_material(scene.stone.material, about);
     describe_solid(scene.stone.solid, scene.stone.convex && !options.may_be_concave,
                    options.facet_table, about);

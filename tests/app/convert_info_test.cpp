@@ -144,6 +144,20 @@ TEST_F(ConvertInfo, StoneAndMaterialFiles) {
     EXPECT_EQ(nlohmann::json::parse(glass.out).at("material").at("optic"), "isotropic");
 }
 
+TEST_F(ConvertInfo, SceneOfObjectsAlone) {
+    write("scene.toml",
+          "[camera]\nposition = [0, -9, 5]\nlook_at = [0, 0, 0]\n[light]\nconstant = 1\n"
+          "[[object]]\nshape = \"sphere\"\nradius = 1\nmaterial = { kind = \"mirror\" }\n"
+          "[[object]]\nshape = \"plane\"\nmaterial = { kind = \"diffuse\" }\n");
+    const ProgramRun info = run_culet({"info", file("scene.toml"), "--json", "-"});
+    EXPECT_EQ(info.exit_code, 0) << info.err << info.out;
+    const auto object = nlohmann::json::parse(info.out);
+    EXPECT_EQ(object.at("format"), "scene");
+    ASSERT_EQ(object.at("objects").size(), 2u);
+    EXPECT_EQ(object.at("objects")[0].at("shape"), "sphere");
+    EXPECT_EQ(object.at("objects")[0].at("material"), "mirror");
+}
+
 TEST_F(ConvertInfo, SceneGoesToPovray) {
     EXPECT_EQ(run_culet({"convert", k_design, file("stone.obj"), "-q"}).exit_code, 0);
     write("scene.toml",
