@@ -14,7 +14,6 @@
 #include "render/raytable/table_maker.h"
 #include "render/raytable/view_interpolation.h"
 #include "render/setup/scene_checks.h"
-#include "render/work/price.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 
@@ -93,14 +92,9 @@ public:
     std::string refuses(const Scene& scene, const OpticalSetup& setup) const override {
         return refused_by_table(scene, setup);
     }
+    // Its paths are the reference's.
     double cost_ns(const DrawingWork& work) const override {
-        PathWork paths;
-        paths.rays = work.pixels * work.views * work.bands;
-        paths.events = paths.rays * work.faces_per_ray;
-        paths.general = work.general;
-        paths.polarised = work.polarised;
-        paths.nodes = work.nodes;
-        return price_ns(paths);
+        return engine_named(k_reference_engine).cost_ns(work);
     }
     // Fresnel factors and lengths are the reference's; what is cut does not know the lights.
     bool approaches_truth() const override { return false; }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "render/setup/light_needs.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -41,52 +42,6 @@ constexpr int k_least_coherent_nodes = 29;
 constexpr int k_probes = 15;
 constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 
-// What of a scene's light depends on wavelength. D65 is flat here (colour.h).
-enum class LightNeeds { one_wavelength, three_for_rgb, a_spectrum };
-
-LightNeeds needs_of(const LightColour& light) {
-    if (std::holds_alternative<double>(light.value)) return LightNeeds::one_wavelength;
-    if (std::holds_alternative<Rgb>(light.value)) return LightNeeds::three_for_rgb;
-    return std::get<std::string>(light.value) == "D65" ? LightNeeds::one_wavelength
-                                                       : LightNeeds::a_spectrum;
-}
-
-LightNeeds needs_of(const Lights& lights) {
-    LightNeeds most = lights.environment ? LightNeeds::three_for_rgb : LightNeeds::one_wavelength;
-    for (const Light& light : lights.sources) most = std::max(most, needs_of(colour_of(light)));
-    return most;
-}
-
-LightNeeds needs_of(const SurfaceColour& colour) {
-    return std::holds_alternative<double>(colour.value) ? LightNeeds::one_wavelength
-                                                        : LightNeeds::three_for_rgb;
-}
-
-LightNeeds needs_of(const SurfaceMaterial& material) {
-    return std::visit(
-        [](const auto& m) {
-            using M = std::decay_t<decltype(m)>;
-            if constexpr (std::is_same_v<M, EmitterMaterial>) {
-                return needs_of(m.radiance);
-            } else if constexpr (std::is_same_v<M, DielectricMaterial>) {
-                return needs_of(m.absorption);
-            } else if constexpr (std::is_same_v<M, MetalMaterial>) {
-                return m.f0 ? needs_of(*m.f0) : std::max(needs_of(m.n), needs_of(m.k));
-            } else {
-                return needs_of(m.albedo);
-            }
-        },
-        material);
-}
-
-// Of light and of what it meets on its way.
-LightNeeds needs_of_surroundings(const Scene& scene) {
-    LightNeeds most = needs_of(scene.lights);
-    for (const SceneObject& object : scene.objects)
-        most = std::max(most, needs_of(object.material));
-    return most;
-}
-
 std::vector<double> even_nodes(int count) {
     std::vector<double> nm;
     for (int i = 0; i < count; ++i)
@@ -118,16 +73,6 @@ namespace {
 
 bool has_polariser(const Scene& scene) {
     return scene.camera.optics.analyzer || polarised(scene.lights);
-}
-
-// What stands around the stone turns unpolarised light into polarised light.
-bool surroundings_polarise(const Scene& scene) {
-    if (!scene.more_stones.empty()) return true;
-    return std::any_of(scene.objects.begin(), scene.objects.end(), [](const SceneObject& object) {
-        const auto* metal = std::get_if<MetalMaterial>(&object.material);
-        return std::holds_alternative<DielectricMaterial>(object.material) ||
-               (metal != nullptr && metal->roughness == 0);
-    });
 }
 
 // What the stone's optics can do over the wavelengths in question.
@@ -272,10 +217,10 @@ OpticalSetup make_optical_setup(const Scene& scene, int nodes) {
         setup.wavelengths_nm = given;
     } else if (dispersive || (setup.on(Effects::absorption) && optics.spectral_absorption) ||
                (coherent && has_polariser(scene)) || more_stones_need_spectrum(scene) ||
-               needs_of_surroundings(scene) == LightNeeds::a_spectrum) {
+               light_needs(scene) == LightNeeds::a_spectrum) {
         setup.wavelengths_nm =
             even_nodes(coherent ? std::max(nodes, k_least_coherent_nodes) : nodes);
-    } else if (needs_of_surroundings(scene) == LightNeeds::three_for_rgb) {
+    } else if (light_needs(scene) == LightNeeds::three_for_rgb) {
         // Three nodes carry any RGB light exactly.
         setup.wavelengths_nm = {450, 550, 610};
     } else {
