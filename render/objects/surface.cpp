@@ -11,6 +11,9 @@ namespace culet {
 
 namespace {
 
+// Squares of slopes are differences from 1 of cosines, which are rounded by 2^-52: of these three
+// digits are left. Flatter ones are a polished surface.
+constexpr double k_flattest = 0x1p-42;
 constexpr int k_once_cosines = 64, k_once_azimuths = 32, k_once_heights = 128;
 
 // Few wavelengths stand for some colours with values beyond `most`, or below 0.
@@ -46,8 +49,8 @@ ReadySurface::ReadySurface(const SurfaceMaterial& material, const WavelengthSet&
         colour = radiance_of(emitter->radiance, wavelengths);
     } else {
         const auto& metal = std::get<MetalMaterial>(material);
-        kind = metal.roughness > 0 ? SurfaceKind::rough_metal : SurfaceKind::metal;
         alpha = metal.roughness * metal.roughness;
+        kind = alpha * alpha > k_flattest ? SurfaceKind::rough_metal : SurfaceKind::metal;
         if (metal.f0) {
             for (const double r : nodes_of(*metal.f0, wavelengths, 1)) {
                 n_.push_back(1);

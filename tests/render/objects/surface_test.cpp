@@ -143,6 +143,28 @@ TEST(Microfacets, lose_nothing_between_them) {
     }
 }
 
+// Flatter than the rounding of directions: polished, and never a number that is none.
+TEST(Microfacets, of_no_slope_are_a_polished_surface) {
+    for (const double roughness : {1e-200, 1e-80, 1e-9, 1e-4}) {
+        const ReadySurface surface = metal_of(0.9, roughness);
+        EXPECT_EQ(surface.kind, SurfaceKind::metal) << roughness;
+        EXPECT_NEAR(surface.reflectance(0, 1), 0.9, 1e-15);
+    }
+    const ReadySurface finest = metal_of(1, 1e-3 * 1.2);
+    ASSERT_EQ(finest.kind, SurfaceKind::rough_metal);
+    Random random(1);
+    for (const double cosine : {0.01, 0.5, 1.0}) {
+        const RoughSurface rough(finest, {0, 0, 1}, {0, 0, 1},
+                                 {std::sqrt(1 - cosine * cosine), 0, cosine});
+        for (int i = 0; i < 1000; ++i) {
+            const auto to = rough.sample(random);
+            if (!to) continue;
+            const double share = rough.value(0, rough.spread(*to)) / rough.density(*to);
+            EXPECT_NEAR(share, 1, 1e-2);
+        }
+    }
+}
+
 // What is reflected one way is reflected back, but for what is made up for (Turquin's gain is of
 // one direction alone): 4 cos cos f is symmetric.
 TEST(Microfacets, reflect_both_ways_alike) {
