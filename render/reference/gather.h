@@ -50,6 +50,7 @@ public:
         NodeWeights radiance;
         std::fill_n(radiance.begin(), count, 0.0);
         const double most = *std::max_element(weight.begin(), weight.begin() + count);
+        if (!(most > 0)) return;  // absorbed to nothing at every node
         surroundings_.add_radiance(at, direction, most, band_.first, count, radiance.data());
         for (int i = 0; i < count; ++i)
             radiance_[band_.first + i] += weight[i] / most * radiance[i];

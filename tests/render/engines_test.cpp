@@ -6,6 +6,7 @@
 #include <set>
 
 #include "render/engine/engine.h"
+#include "render/reference/gather.h"
 #include "render/reference/pixel_shader.h"
 #include "render/render.h"
 #include "render/scene/engine_name.h"
@@ -154,6 +155,21 @@ TEST(Surroundings, are_asked_by_every_path_that_leaves_the_stone) {
         EXPECT_NEAR(mean, 2 * (1 - sums.remainder - sums.cut - sums.absorbed), 1e-12);
     }
     EXPECT_GT(hits, 100);
+}
+
+// Weights that fall below the smallest number are none, and no division by them.
+TEST(Gather, leaves_out_what_is_absorbed_to_nothing) {
+    const EvenGlow glow(2);
+    Band band;
+    band.count = 2;
+    std::vector<double> radiance(2, 0.0);
+    Gather<false> gather(glow, band, radiance.data());
+    gather.path_exits({0, 0, 0}, {0, 0, 1}, NodeWeights{}, PathTrace{});
+    EXPECT_EQ(radiance, (std::vector<double>{0, 0}));
+    NodeWeights weight{};
+    weight[1] = 0.25;
+    gather.path_exits({0, 0, 0}, {0, 0, 1}, weight, PathTrace{});
+    EXPECT_EQ(radiance, (std::vector<double>{0, 0.5}));
 }
 
 TEST(Turntable, keeps_the_stone_and_comes_round) {
