@@ -6,15 +6,12 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 
+#include "render/optics/conductor.h"
+#include "render/scene/surface_colour.h"
+
 namespace culet {
 
 namespace {
-
-Rgb rgb_of(const SurfaceColour& colour) {
-    if (const double* number = std::get_if<double>(&colour.value))
-        return {*number, *number, *number};
-    return std::get<Rgb>(colour.value);
-}
 
 struct ShapeText {
     double scale;
@@ -74,9 +71,7 @@ struct SurfaceText {
             f0 = rgb_of(*m.f0);
         } else {
             const Rgb n = rgb_of(m.n), k = rgb_of(m.k);
-            for (std::size_t c = 0; c < 3; ++c)
-                f0[c] = ((n[c] - 1) * (n[c] - 1) + k[c] * k[c]) /
-                        ((n[c] + 1) * (n[c] + 1) + k[c] * k[c]);
+            for (std::size_t c = 0; c < 3; ++c) f0[c] = conductor_reflectance(n[c], k[c], 1);
         }
         return mirror(f0);
     }

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "render/optics/conductor.h"
+
 namespace culet {
 
 namespace {
@@ -24,11 +26,6 @@ std::vector<double> nodes_of(const SurfaceColour& colour, const WavelengthSet& w
     std::vector<double> nodes = radiance_of(light, wavelengths);
     for (double& node : nodes) node = std::clamp(node, 0.0, most);
     return nodes;
-}
-
-// The index 1 + i k of that reflectance at normal incidence, r = k^2 / (4 + k^2); infinite for 1.
-double extinction_of(double reflectance) {
-    return 2 * std::sqrt(reflectance / (1 - reflectance));
 }
 
 }  // namespace
@@ -54,7 +51,7 @@ ReadySurface::ReadySurface(const SurfaceMaterial& material, const WavelengthSet&
         if (metal.f0) {
             for (const double r : nodes_of(*metal.f0, wavelengths, 1)) {
                 n_.push_back(1);
-                k_.push_back(extinction_of(r));
+                k_.push_back(extinction_of_reflectance(r));
             }
         } else {
             n_ = nodes_of(metal.n, wavelengths);
@@ -84,17 +81,7 @@ MuellerReflection ReadySurface::reflection(int node, double cosine) const {
 
 double ReadySurface::reflectance(int node, double cosine) const {
     const auto i = static_cast<std::size_t>(node);
-    if (std::isinf(k_[i])) return 1;
-    // The same without phases: with a + i b the root above, a^2 + b^2 = |a + i b|^2.
-    const double c2 = cosine * cosine, s2 = (1 - cosine) * (1 + cosine);
-    const double re = (n_[i] - k_[i]) * (n_[i] + k_[i]) - s2, im = 2 * n_[i] * k_[i];
-    const double squares = std::sqrt(re * re + im * im);
-    const double a = std::sqrt(std::max(0.0, 0.5 * (squares + re)));
-    const double sum = squares + c2, mixed = 2 * a * cosine;
-    const double R_s = (sum - mixed) / (sum + mixed);
-    const double p_sum = c2 * squares + s2 * s2, p_mixed = mixed * s2;
-    const double R_p = p_sum + p_mixed > 0 ? R_s * (p_sum - p_mixed) / (p_sum + p_mixed) : R_s;
-    return std::isfinite(R_s + R_p) ? 0.5 * (R_s + R_p) : 1;
+    return conductor_reflectance(n_[i], k_[i], cosine);
 }
 
 void ReadySurface::prepare_reflected_once() {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 #include "render/colour/material_colour.h"
+#include "render/optics/conductor.h"
 #include "stone/units.h"
 
 namespace culet {
@@ -56,11 +56,6 @@ PlainSurface surface_of(const EmitterMaterial& emitter, double) {
 
 }  // namespace
 
-Rgb rgb_of(const SurfaceColour& colour) {
-    if (const double* grey = std::get_if<double>(&colour.value)) return {*grey, *grey, *grey};
-    return std::get<Rgb>(colour.value);
-}
-
 PlainSurface plain_surface(const SurfaceMaterial& material, double thickness) {
     return std::visit([&](const auto& m) { return surface_of(m, thickness); }, material);
 }
@@ -78,19 +73,9 @@ Rgb stone_absorption(const Stone& stone) {
 
 MetalIndex index_of(const MetalMaterial& metal) {
     if (!metal.f0) return {rgb_of(metal.n), rgb_of(metal.k)};
-    // Index 1: r = k^2 / (4 + k^2).
-    constexpr double k_ideal = 1e6;
     MetalIndex index{white(), rgb_of(*metal.f0)};
-    for (double& c : index.k) c = c < 1 ? std::min(2 * std::sqrt(c / (1 - c)), k_ideal) : k_ideal;
+    for (double& c : index.k) c = extinction_of_reflectance(c);
     return index;
-}
-
-double conductor_reflectance(double n, double k, double cosine) {
-    const std::complex<double> index(n, k), square = index * index;
-    const std::complex<double> inside = std::sqrt(square - (1 - cosine * cosine));
-    const double s = std::norm((cosine - inside) / (cosine + inside)),
-                 p = std::norm((square * cosine - inside) / (square * cosine + inside));
-    return 0.5 * (s + p);
 }
 
 }  // namespace culet

@@ -2,6 +2,7 @@
 // Colours of surfaces for the plain shadings.
 
 #include "render/scene/scene.h"
+#include "render/scene/surface_colour.h"
 
 namespace culet {
 
@@ -21,14 +22,10 @@ PlainSurface plain_surface(const Stone& stone);
 /// The two parts of `body_colour` as one absorption for each primary, Napierian, per length.
 Rgb stone_absorption(const Stone& stone);
 
-Rgb rgb_of(const SurfaceColour& colour);
-
-/// n and k of a metal for each primary.
+/// n and k of a metal for each primary; k is infinite where all is reflected.
 struct MetalIndex {
     Rgb n, k;
 };
 MetalIndex index_of(const MetalMaterial& metal);
-/// Mean of s and p of a conductor of index n + i k beside a medium of index 1 (Born & Wolf, 14.2).
-double conductor_reflectance(double n, double k, double cosine);
 
 }  // namespace culet

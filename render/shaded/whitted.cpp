@@ -4,7 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "render/optics/conductor.h"
 #include "render/optics/fresnel.h"
+#include "render/optics/random.h"
 #include "render/shaded/faceted_bodies.h"
 
 namespace culet {
@@ -29,24 +31,15 @@ Rgb left_after(const Rgb& absorption, double distance) {
     return left;
 }
 
-// Splitmix64 (Steele, Lea & Flood 2014): a number from a number.
-std::uint64_t mixed(std::uint64_t x) {
-    x += 0x9e3779b97f4a7c15;
-    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-    x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-    return x ^ (x >> 31);
-}
-
-double unit_number(std::uint64_t& state) {
-    state = mixed(state);
-    return static_cast<double>(state >> 11) * 0x1p-53;
+std::uint64_t first_random(std::uint64_t seed) {
+    return Random(seed).next();
 }
 
 // Evenly in the unit ball.
-Vec3 point_in_ball(std::uint64_t state) {
+Vec3 point_in_ball(std::uint64_t seed) {
+    Random random(seed);
     while (true) {
-        const Vec3 p{2 * unit_number(state) - 1, 2 * unit_number(state) - 1,
-                     2 * unit_number(state) - 1};
+        const Vec3 p{2 * random.uniform() - 1, 2 * random.uniform() - 1, 2 * random.uniform() - 1};
         if (glm::dot(p, p) <= 1) return p;
     }
 }
@@ -97,7 +90,7 @@ WhittedTracer::WhittedTracer(const Scene& scene, int depth)
 }
 
 WhittedTracer::Seen WhittedTracer::trace(const EyeRay& eye, std::uint64_t number) const {
-    Ray ray{eye.origin, eye.direction, {}, -1, 0, 1, mixed(seed_ ^ mixed(number))};
+    Ray ray{eye.origin, eye.direction, {}, -1, 0, 1, first_random(seed_ ^ first_random(number))};
     const WorldHit hit = world_.nearest(ray.origin, ray.direction, {});
     const bool met =
         hit.met() && !(lights_.nearest_distance(ray.origin, ray.direction) < hit.distance);
@@ -111,7 +104,7 @@ WhittedTracer::Ray WhittedTracer::next(const Ray& ray, const Vec3& at, const Vec
     next.direction = direction;
     ++next.faces;
     next.weight *= share;
-    next.seed = mixed(ray.seed + static_cast<std::uint64_t>(branch));
+    next.seed = first_random(ray.seed + static_cast<std::uint64_t>(branch));
     return next;
 }
 

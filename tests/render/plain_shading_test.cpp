@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "render/optics/conductor.h"
 #include "render/render.h"
 #include "render/scene/framing.h"
 #include "render/shaded/local_shading.h"

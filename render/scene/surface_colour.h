@@ -1,0 +1,13 @@
+#pragma once
+// A surface's colour as red, green and blue.
+
+#include "render/scene/objects.h"
+
+namespace culet {
+
+inline Rgb rgb_of(const SurfaceColour& colour) {
+    if (const double* grey = std::get_if<double>(&colour.value)) return {*grey, *grey, *grey};
+    return std::get<Rgb>(colour.value);
+}
+
+}  // namespace culet
