@@ -53,7 +53,7 @@ struct GpuTexture {
     int width = 0, height = 0;
     std::vector<float> rgba;  ///< the first row first
 };
-constexpr int k_gpu_sum_unit = 0;
+constexpr int k_gpu_sum_unit = 0, k_gpu_balance_unit = 1, k_gpu_length_unit = 2;
 
 /// One draw of each sample: some of the wavelengths.
 struct GpuPass {
@@ -72,10 +72,10 @@ struct GpuProgram {
 struct GpuOptions {
     int depth = 8;          ///< faces of a path at most; depth d has d - 1 inner segments
     double cut_weight = 0;  ///< a path of less weight is not followed
-    /// A second target, RGBA32F, of which the second sum is `u_balance` on the unit after the
-    /// first's: what of the eye's light was left at the depth limit, absorbed and cut, summed over
-    /// the stone's samples and meant over all wavelengths (passes add up to 1); and the faces of
-    /// the longest path that brought light.
+    /// Two more targets and what they held before, as for the sum: RGBA32F (`u_balance`), what of
+    /// the eye's light was left at the depth limit, absorbed and cut, meant over all wavelengths,
+    /// and the luminance, all of the stone alone and summed; R32F (`u_length`), the faces of the
+    /// longest path that brought light.
     bool balance = false;
     /// Wavelengths of one pass at most; fewer where many lights leave no room for uniforms. A pass
     /// of several finds the first face once.
