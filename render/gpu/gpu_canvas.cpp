@@ -116,11 +116,6 @@ GpuCanvas::GpuCanvas(const GlContext& context, const GpuProgram& program, int wi
     gl.UseProgram(o.program);
     gl.GenVertexArrays(1, &o.vertices);
     gl.BindVertexArray(o.vertices);
-    for (const GpuTexture& texture : program.textures) {
-        require_size("an environment", texture.width, texture.height);
-        o.texture(texture.unit, GL_RGBA32F, texture.width, texture.height, texture.rgba.data());
-        o.set_int(texture.name.c_str(), texture.unit);
-    }
     o.target_count = balance ? k_targets : 1;
     gl.GenFramebuffers(2, o.framebuffers.data());
     constexpr std::array<GLenum, k_targets> k_attachments{
@@ -141,6 +136,11 @@ GpuCanvas::GpuCanvas(const GlContext& context, const GpuProgram& program, int wi
     }
     for (int t = 0; t < o.target_count; ++t)
         o.set_int(k_sum_samplers[static_cast<std::size_t>(t)], t);
+    for (const GpuTexture& texture : program.textures) {
+        require_size("an environment", texture.width, texture.height);
+        o.texture(texture.unit, GL_RGBA32F, texture.width, texture.height, texture.rgba.data());
+        o.set_int(texture.name.c_str(), texture.unit);
+    }
     gl.Viewport(0, 0, width, height);
     gl.Enable(GL_SCISSOR_TEST);
     set(program.uniforms);

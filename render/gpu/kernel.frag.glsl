@@ -105,26 +105,24 @@ Hit entry(vec3 p, vec3 d) {
     return hit;
 }
 
-// Where a ray from inside leaves: of the planes that it runs towards, the nearest. The facet just
-// left drops out by its sign. Fractions below / t are compared without a division; a start that
-// rounding put outside a plane is taken as on it.
+// Where a ray from inside leaves: of the planes that it runs towards, the nearest, which has the
+// largest t / below. The facet just left drops out by the sign of t. A start that rounding put
+// outside a plane is taken as next to nothing inside it.
 Hit way_out(vec3 p, vec3 d) {
-    float best = 1.0, best_t = 0.0;
+    float most = 0.0, offset = 0.0;
     vec3 normal = vec3(0.0);
-    float offset = 0.0;
-#define PLANE(n, o)                                            \
-    {                                                          \
-        float t = dot(n, d), below = max(o - dot(n, p), 0.0);  \
-        if (t > 0.0 && below * best_t < best * t) {            \
-            best = below;                                      \
-            best_t = t;                                        \
-            normal = n;                                        \
-            offset = o;                                        \
-        }                                                      \
+#define PLANE(n, o)                                         \
+    {                                                       \
+        float near = dot(n, d) / max(o - dot(n, p), 1e-30); \
+        if (near > most) {                                  \
+            most = near;                                    \
+            normal = n;                                     \
+            offset = o;                                     \
+        }                                                   \
     }
     //! planes
 #undef PLANE
-    return Hit(best / best_t, normal, offset);
+    return Hit(1.0 / most, normal, offset);
 }
 
 // -------------------------------------------------------------------------------------- one face

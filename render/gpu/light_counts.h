@@ -14,12 +14,17 @@ struct LightCounts {
 };
 
 inline LightCounts count_lights(const Lights& lights) {
-    const auto count = []<class L>(const Lights& of) {
-        return static_cast<int>(count_lights<L>(of));
+    LightCounts counts;
+    struct Count {
+        LightCounts& counts;
+        void operator()(const SphereLight&) const { ++counts.spheres; }
+        void operator()(const PlaneLight&) const { ++counts.planes; }
+        void operator()(const CosinePowerLight&) const { ++counts.lobes; }
+        void operator()(const HemisphereLight&) const { ++counts.caps; }
+        void operator()(const DiscLight&) const { ++counts.caps; }
     };
-    return {count.operator()<SphereLight>(lights), count.operator()<PlaneLight>(lights),
-            count.operator()<CosinePowerLight>(lights),
-            count.operator()<HemisphereLight>(lights) + count.operator()<DiscLight>(lights)};
+    for (const Light& light : lights.sources) std::visit(Count{counts}, light);
+    return counts;
 }
 
 }  // namespace culet
