@@ -140,7 +140,13 @@ Face face_of(float e1, float e2, float step, float q1) {
     float squared = q1 * q1 + step;
     if (squared > 0.0) {
         float q2 = sqrt(squared);
-        float rs = (q1 - q2) / (q1 + q2), rp = (e2 * q1 - e1 * q2) / (e2 * q1 + e1 * q2);
+        // q1 - q2 is -step / (q1 + q2), which keeps its digits where the two media are alike; for p
+        // likewise where the plain difference is small.
+        float s = q1 + q2, p = e2 * q1 + e1 * q2, apart = e2 * q1 - e1 * q2;
+        float rs = -step / (s * s),
+              rp = abs(apart) > 0.1 * p
+                       ? apart / p
+                       : step * (e1 * e2 - (e1 - q1 * q1) * (e1 + e2)) / (p * p);
         return Face(rs * rs, rp * rp, rs * rp, 0.0, q2, false);
     }
     // Total: r_s r_p* turns by twice the angle of A + i B.

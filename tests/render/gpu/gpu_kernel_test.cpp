@@ -1,9 +1,12 @@
 // The GPU kernel against the reference, along the same rays.
 //
-// The bound of 2e-3 of the mean outside pixels at facet edges is that of the task; what single
-// precision must reach is far less, and pictures of smooth lights are held to that: a path of d
-// faces turns a rounding of 6e-8 into some 1e-7 times its length in stones, at most some 1e-5 after
-// the spreading of a few inner reflections, and the light's slope over radians is of order 1.
+// Bounds. Outside pixels at edges of the path pattern 2e-3 of the mean is what is asked for; single
+// precision must reach far less where lights are smooth: a path of seven faces turns a rounding of
+// 6e-8 of the stone's size into some 1e-6 in place and angle, after the spreading of the inner
+// reflections, and the light's slope over radians is of order 1 to 10.
+// Of all pixels some may be decided otherwise: those whose ray passes an edge, of a facet or of a
+// light, by less than that rounding. A pixel is some 1/80 of the stone here, so that this is 1e-4
+// of a pixel beside an edge; with some ten edges through every pixel it is one pixel in a thousand.
 
 #include "tests/render/gpu/gpu_scenes.h"
 
@@ -16,7 +19,8 @@ namespace culet {
 namespace {
 
 constexpr double k_bound = 2e-3;
-constexpr double k_single_precision = 1e-4;
+constexpr double k_single_precision = 2e-5;
+constexpr double k_decided_otherwise = 1e-3;
 
 Scene facing(const Solid& solid) {
     Scene scene = plain_scene(solid);
@@ -40,9 +44,11 @@ PixelErrors gpu_against(const Scene& scene, const std::string& engine) {
                      inner_pixels(scene));
 }
 
+// `pixels`: that are left beside edges, at least; what is measured there would else say little.
 void expect_near(const PixelErrors& errors, double bound, int pixels) {
     EXPECT_LE(errors.inner_rms, bound) << errors;
     EXPECT_GE(errors.inner, pixels) << errors;
+    EXPECT_LE(errors.off, 1 + k_decided_otherwise * errors.stone) << errors;
     EXPECT_EQ(errors.not_finite, 0);
 }
 
@@ -52,10 +58,9 @@ TEST_F(GpuKernel, draws_a_round_brilliant_as_the_reference_does) {
     for (const bool polarised : {false, true}) {
         SCOPED_TRACE(polarised ? "polarised" : "not polarised");
         Scene scene = facing(round_brilliant());
+        scene.camera.width = scene.camera.height = 320;
         set_polarised(scene, polarised);
-        const PixelErrors errors = gpu_against(scene, k_reference_engine);
-        expect_near(errors, k_single_precision, 3000);
-        RecordProperty(polarised ? "polarised" : "plain", fmt::format("{:.3g}", errors.inner_rms));
+        expect_near(gpu_against(scene, k_reference_engine), k_single_precision, 10000);
     }
 }
 
@@ -66,29 +71,32 @@ TEST_F(GpuKernel, takes_every_wavelength_its_own_way) {
              {450, 550, 610}, {410, 450, 490, 530, 570, 610, 650, 690}}) {
         SCOPED_TRACE(nm.size());
         scene.settings.wavelengths_nm = nm;
-        expect_near(gpu_against(scene, k_reference_engine), k_single_precision, 1000);
+        expect_near(gpu_against(scene, k_reference_engine), k_single_precision, 500);
     }
 }
 
-TEST_F(GpuKernel, draws_every_light_and_every_optics) {
+void expect_as_reference(const NamedChange& light, const NamedChange& change) {
+    SCOPED_TRACE(light.name + ", " + change.name);
+    Scene scene = facing(round_brilliant());
+    scene.camera.width = scene.camera.height = 80;
+    scene.settings.depth = 5;
+    light.make(scene);
+    change.make(scene);
+    expect_near(gpu_against(scene, k_reference_engine), k_bound, 50);
+}
+
+TEST_F(GpuKernel, draws_every_light) {
+    const std::vector<NamedChange> all = optics();
     for (const std::vector<NamedChange>& lights : {smooth_lights(), edged_lights()}) {
         for (const NamedChange& light : lights) {
-            for (const NamedChange& change : optics()) {
-                SCOPED_TRACE(light.name + ", " + change.name);
-                Scene scene = facing(round_brilliant());
-                scene.camera.width = scene.camera.height = 80;
-                scene.settings.depth = 5;
-                light.make(scene);
-                change.make(scene);
-                // One pixel in a thousand may see the edge of a light within a rounding of a ray.
-                const Difference d = difference(with_engine(scene, "gpu", 1).picture,
-                                                with_engine(scene, "reference", 1).picture, 1e-3);
-                EXPECT_LE(d.share_off(), 1e-3) << d;
-                EXPECT_EQ(d.not_finite, 0);
-                expect_near(gpu_against(scene, k_reference_engine), k_bound, 400);
-            }
+            expect_as_reference(light, all[0]);
+            expect_as_reference(light, all[4]);
         }
     }
+}
+
+TEST_F(GpuKernel, draws_every_optics) {
+    for (const NamedChange& change : optics()) expect_as_reference(edged_lights().back(), change);
 }
 
 TEST_F(GpuKernel, sees_an_environment) {
@@ -96,7 +104,7 @@ TEST_F(GpuKernel, sees_an_environment) {
     scene.lights = {};
     scene.lights.environment = smooth_environment();
     scene.settings.wavelengths_nm = {450, 550, 610};
-    expect_near(gpu_against(scene, k_reference_engine), k_single_precision, 3000);
+    expect_near(gpu_against(scene, k_reference_engine), k_single_precision, 1000);
 }
 
 TEST_F(GpuKernel, absorbs_as_garnet_does) {
@@ -109,7 +117,7 @@ TEST_F(GpuKernel, absorbs_as_garnet_does) {
     scene.settings.effects.fill(true);
     scene.settings.effects[static_cast<std::size_t>(Effects::dispersion)] = false;
     SCOPED_TRACE("five wavelengths on one way");
-    expect_near(gpu_against(scene, k_reference_engine), k_single_precision, 3000);
+    expect_near(gpu_against(scene, k_reference_engine), k_single_precision, 1000);
 }
 
 TEST_F(GpuKernel, draws_random_stones_of_any_view) {
@@ -148,11 +156,11 @@ Scene polarised_scene() {
 
 TEST_F(GpuKernel, sees_polarised_light_through_an_analyser_and_a_plate) {
     Scene scene = polarised_scene();
-    expect_near(gpu_against(scene, k_reference_engine), k_bound, 3000);
+    expect_near(gpu_against(scene, k_reference_engine), k_bound, 1000);
     // Every ray along the table's normal: no plane of incidence at the first face.
     look(scene, {0, 0, 1}, 10);
     scene.camera.orthographic_width = 2.2;
-    expect_near(gpu_against(scene, k_reference_engine), k_bound, 3000);
+    expect_near(gpu_against(scene, k_reference_engine), k_bound, 1000);
 }
 
 TEST_F(GpuKernel, has_all_four_stokes_parameters) {
@@ -215,7 +223,7 @@ TEST_F(GpuKernel, merges_a_crystals_waves_as_beams_do) {
                 scene.settings.bandwidth_nm = 10;
             }
             scene.settings.crystal_beams = CrystalBeams::merged;
-            expect_near(gpu_against(scene, k_beam_engine), k_bound, 3000);
+            expect_near(gpu_against(scene, k_beam_engine), k_bound, 1000);
         }
     }
 }
@@ -228,7 +236,9 @@ TEST_F(GpuKernel, averages_samples_and_pupils_as_the_reference_does) {
     scene.settings.filter_radius = 1;
     const Difference plain = difference(with_engine(scene, "gpu", 9).picture,
                                         with_engine(scene, "reference", 9).picture);
-    EXPECT_LE(plain.rms, 1e-3 * plain.brightness) << plain;
+    // One ray of nine, here and there, on the other side of an edge.
+    EXPECT_LE(plain.off, 3) << plain;
+    EXPECT_LE(plain.mean, 1e-4) << plain;
     scene.camera.aperture_radius = 0.4;
     scene.camera.focus_distance = 9.5;
     for (const bool parallel : {false, true}) {
@@ -236,7 +246,8 @@ TEST_F(GpuKernel, averages_samples_and_pupils_as_the_reference_does) {
         const RenderResult gpu = with_engine(scene, "gpu", 12),
                            reference = with_engine(scene, "reference", 12);
         const Difference pupil = difference(gpu.picture, reference.picture);
-        EXPECT_LE(pupil.rms, 1e-3 * pupil.brightness) << pupil;
+        EXPECT_LE(pupil.off, 3) << pupil;
+        EXPECT_LE(pupil.mean, 1e-4) << pupil;
         EXPECT_NEAR(gpu.stats.remainder, reference.stats.remainder, 1e-5);
         EXPECT_NEAR(gpu.stats.mean_radiance, reference.stats.mean_radiance,
                     1e-4 * reference.stats.mean_radiance);

@@ -92,20 +92,24 @@ inline std::vector<bool> inner_pixels(const Scene& scene) {
 /// and the same over all of the stone's pixels.
 struct PixelErrors {
     int inner = 0, stone = 0, not_finite = 0;
+    int off = 0;  ///< pixels of the stone that are off by more than a hundredth of the mean
     double inner_rms = 0, whole_rms = 0, inner_worst = 0;
 };
 inline PixelErrors errors_of(const Picture& picture, const Picture& truth,
                              const std::vector<bool>& inner) {
     PixelErrors errors;
     double inner_squares = 0, inner_sum = 0, whole_squares = 0, whole_sum = 0, worst = 0;
+    std::vector<double> differences;  // largest of each pixel
     for (std::size_t i = 0; i < truth.pixels(); ++i) {
         if (!(truth.coverage[i] > 0)) continue;
         ++errors.stone;
         if (inner[i]) ++errors.inner;
+        double& largest = differences.emplace_back(0.0);
         for (std::size_t c = 3 * i; c < 3 * i + 3; ++c) {
             const double exact = static_cast<double>(truth.rgb[c]),
                          off = static_cast<double>(picture.rgb[c]) - exact;
             if (!std::isfinite(off)) ++errors.not_finite;
+            largest = std::max(largest, std::abs(off));
             whole_squares += off * off;
             whole_sum += exact;
             if (!inner[i]) continue;
@@ -120,11 +124,13 @@ inline PixelErrors errors_of(const Picture& picture, const Picture& truth,
         errors.inner_rms = std::sqrt(inner_squares * some) / inner_sum;
         errors.inner_worst = worst * some / inner_sum;
     }
+    for (const double off : differences) errors.off += !(off * whole <= 0.01 * whole_sum);
     return errors;
 }
 inline std::ostream& operator<<(std::ostream& out, const PixelErrors& e) {
     return out << "RMSE " << e.inner_rms << " of the mean over " << e.inner << " of " << e.stone
-               << " pixels, worst " << e.inner_worst << "; over all pixels " << e.whole_rms;
+               << " pixels, worst " << e.inner_worst << "; over all pixels " << e.whole_rms << ", "
+               << e.off << " off by a hundredth";
 }
 
 }  // namespace culet
