@@ -84,7 +84,9 @@ struct GpuOptions {
 
 /// Why the kernel cannot draw this scene, in words that go on with ": say engine = ..."; empty: it
 /// can.
-std::string refused_by_gpu(const Scene& scene, const OpticalSetup& setup);
+std::string refused_by_gpu(const Scene& scene);
+/// Throws InputError where it cannot.
+void require_drawn_by_gpu(const Scene& scene);
 
 /// `colours`: of the setup's wavelengths. Throws InputError for what is refused.
 GpuProgram gpu_program(const Scene& scene, const OpticalSetup& setup, const WavelengthSet& colours,

@@ -3,7 +3,9 @@
 // A round brilliant of 73 facets at depth 7, one ray a pixel, the same rays for all three. A frame
 // of the kernel is one pass of all wavelengths with the program compiled; processor time is that of
 // all threads of the driver, which computes on the processor (Mesa's llvmpipe) or not at all.
-// Errors are over the stone's pixels, relative to their mean.
+// RMSE is relative to the mean, over pixels that are not at an edge of the path pattern ("inner" of
+// all "pixels" of the stone: tests/render/gpu/path_pattern.h). "off" are pixels of all that differ
+// by more than a hundredth of the mean: rays that pass an edge within single precision.
 
 #include <fmt/format.h>
 
@@ -19,6 +21,7 @@
 #include "tests/bench/bench_scenes.h"
 #include "tests/bench/bench_table.h"
 #include "tests/bench/cpu_time.h"
+#include "tests/render/gpu/path_pattern.h"
 
 namespace culet {
 namespace {
@@ -84,19 +87,11 @@ Frame gpu_frame(const Scene& scene, const GlContext& context) {
     return frame;
 }
 
-double root_mean_square(const std::vector<float>& rgba, const Picture& truth) {
-    double squares = 0, sum = 0, count = 0;
-    for (std::size_t i = 0; i < truth.pixels(); ++i) {
-        if (!(truth.coverage[i] > 0)) continue;
-        for (std::size_t c = 0; c < 3; ++c) {
-            const double exact = static_cast<double>(truth.rgb[3 * i + c]),
-                         off = static_cast<double>(rgba[4 * i + c]) - exact;
-            squares += off * off;
-            sum += exact;
-            count += 1;
-        }
-    }
-    return std::sqrt(squares / count) / (sum / count);
+Picture picture_of(const std::vector<float>& rgba) {
+    Picture picture;
+    for (std::size_t i = 0; i < rgba.size(); i += 4)
+        picture.rgb.insert(picture.rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
+    return picture;
 }
 
 Clocks drawn_by(const std::string& engine, Scene scene, Picture& picture) {
@@ -112,7 +107,7 @@ void run(int pixels, const std::string& json) {
         fmt::format("{} x {} pixels, depth 7, 73 facets", pixels, pixels),
         fmt::format("one ray a pixel; driver {}; times in ms, all threads", context.renderer()),
         {"gpu CPU", "gpu wall", "start wall", "reference CPU", "beams CPU", "gpu RMSE",
-         "beams RMSE"});
+         "beams RMSE", "inner", "gpu off", "beams off", "pixels"});
     for (const Case& one : cases(pixels)) {
         const Frame frame = gpu_frame(one.scene, context);
         // A crystal's reference is the other engine that merges.
@@ -122,15 +117,17 @@ void run(int pixels, const std::string& json) {
         const Clocks by_reference =
             crystal ? Clocks{} : drawn_by(k_reference_engine, one.scene, truth);
         if (crystal) truth = beams;
-        std::vector<float> rgba;
-        for (std::size_t i = 0; i < beams.rgb.size(); i += 3)
-            rgba.insert(rgba.end(), {beams.rgb[i], beams.rgb[i + 1], beams.rgb[i + 2], 1.0f});
+        const std::vector<bool> inner = inner_pixels(one.scene);
+        const PixelErrors gpu = errors_of(picture_of(frame.rgba), truth, inner),
+                          rival = errors_of(beams, truth, inner);
         const auto ms = [](double seconds) { return fmt::format("{:.1f}", 1e3 * seconds); };
         const auto error = [](double v) { return fmt::format("{:.2g}", v); };
-        tables.line(one.name, {ms(frame.draw.cpu), ms(frame.draw.wall), ms(frame.start.wall),
-                               crystal ? "" : ms(by_reference.cpu), ms(by_beams.cpu),
-                               error(root_mean_square(frame.rgba, truth)),
-                               crystal ? "" : error(root_mean_square(rgba, truth))});
+        tables.line(one.name,
+                    {ms(frame.draw.cpu), ms(frame.draw.wall), ms(frame.start.wall),
+                     crystal ? "" : ms(by_reference.cpu), ms(by_beams.cpu), error(gpu.inner_rms),
+                     crystal ? "" : error(rival.inner_rms), fmt::format("{}", gpu.inner),
+                     fmt::format("{}", gpu.off), crystal ? "" : fmt::format("{}", rival.off),
+                     fmt::format("{}", gpu.stone)});
     }
     if (!json.empty())
         write_text(json, tables.json({{"bench", "gpu"}, {"driver", context.renderer()}}));

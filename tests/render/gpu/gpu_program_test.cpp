@@ -102,12 +102,12 @@ TEST(GpuProgram, covers_all_wavelengths_in_passes_of_what_fits) {
 
 TEST(GpuProgram, says_what_it_does_not_draw) {
     const auto refused = [](const Scene& scene, const std::string& words) {
-        const std::string why = refused_by_gpu(scene, make_optical_setup(scene));
+        const std::string why = refused_by_gpu(scene);
         EXPECT_THAT(why, HasSubstr(words));
         EXPECT_THROW(program_of(scene), InputError);
     };
     Scene scene = lit_scene();
-    EXPECT_EQ(refused_by_gpu(scene, make_optical_setup(scene)), "");
+    EXPECT_EQ(refused_by_gpu(scene), "");
     Scene carved = scene;
     carved.stone.convex = false;
     refused(carved, "convex");
