@@ -18,6 +18,7 @@
 #include "render/colour/colour.h"
 #include "render/image/image_exr.h"
 #include "render/image/picture_header.h"
+#include "render/image/shown_bytes.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 
@@ -191,18 +192,11 @@ std::string text_chunk(const std::string& key, const std::string& value) {
 std::string png_bytes(const Picture& picture, const PngLook& look,
                       std::vector<std::pair<std::string, std::string>> text) {
     const bool alpha = look.alpha && !picture.coverage.empty();
-    const std::vector<float> shown = as_shown(picture, look);
-    const auto byte = [](double v) { return static_cast<unsigned char>(std::lround(255 * v)); };
+    std::vector<unsigned char> values = shown_bytes(picture, look, alpha);
+    // OpenCV's order is blue, green, red.
     const std::size_t channels = alpha ? 4 : 3;
-    std::vector<unsigned char> values(channels * picture.pixels());
-    for (std::size_t i = 0; i < picture.pixels(); ++i) {
-        for (std::size_t c = 0; c < 3; ++c)
-            values[channels * i + 2 - c] =
-                byte(srgb_encoded(static_cast<double>(shown[3 * i + c])));
-        if (alpha)
-            values[channels * i + 3] =
-                byte(std::clamp(static_cast<double>(picture.coverage[i]), 0.0, 1.0));
-    }
+    for (std::size_t i = 0; i < picture.pixels(); ++i)
+        std::swap(values[channels * i], values[channels * i + 2]);
     const cv::Mat image(picture.height, picture.width, alpha ? CV_8UC4 : CV_8UC3, values.data());
     std::vector<unsigned char> encoded;
     cv::imencode(".png", image, encoded);
@@ -234,8 +228,11 @@ std::string hdr_bytes(const Picture& picture) {
 }  // namespace
 
 ReadPicture read_picture(const std::filesystem::path& file) {
+    return picture_of_bytes(read_text(file, k_most_bytes), file);
+}
+
+ReadPicture picture_of_bytes(const std::string& bytes, const std::filesystem::path& file) {
     silence_opencv();
-    const std::string bytes = read_text(file, k_most_bytes);
     if (bytes.empty()) throw InputError(file, "is empty: expected a picture");
     ReadPicture result;
     const PictureHeader header = picture_header(bytes);

@@ -60,7 +60,8 @@ std::shared_ptr<const EnvironmentMap> read_environment(const TomlTable& table,
     const auto path = *table.path("environment");
     ReadPicture read = [&] {
         try {
-            return read_picture(path);
+            const std::string* const held = table.held_file("environment");
+            return held != nullptr ? picture_of_bytes(*held, path) : read_picture(path);
         } catch (const InputError& error) {
             table.fail("environment", error.what());
         }

@@ -72,15 +72,7 @@ Stone stone_in(const TomlTable& table, const char* file_key, std::vector<std::st
         }
         stone.convex = table.boolean("convex").value_or(true);
     }
-    // Beside a stone file these are said of this picture only: the same stone in another material.
-    if (const auto name = table.text("name")) stone.name = *name;
-    if (table.has("material") || table.has("mesh")) {
-        stone.material = table.kind("material") == TomlTable::Kind::table
-                             ? material_of(*table.table("material"))
-                             : material_named_in(table, table);
-    }
-    if (table.has("mesh") || table.has("optic_axis") || table.has("principal_axes"))
-        stone.crystal = crystal_frame_in(table, stone.material.optic);
+    apply_words_beside(table, stone);
     return stone;
 }
 
@@ -142,6 +134,18 @@ void read_stones(const TomlTable& root, const Stone* instead, Scene& scene) {
 }
 
 }  // namespace
+
+void apply_words_beside(const TomlTable& table, Stone& stone) {
+    // Beside a stone file these are said of this picture only: the same stone in another material.
+    if (const auto name = table.text("name")) stone.name = *name;
+    if (table.has("material") || table.has("mesh")) {
+        stone.material = table.kind("material") == TomlTable::Kind::table
+                             ? material_of(*table.table("material"))
+                             : material_named_in(table, table);
+    }
+    if (table.has("mesh") || table.has("optic_axis") || table.has("principal_axes"))
+        stone.crystal = crystal_frame_in(table, stone.material.optic);
+}
 
 Stone scene_stone_of(const TomlTable& root, std::vector<std::string>& notes) {
     if (root.has("stone") == root.has("mesh")) {
