@@ -180,7 +180,7 @@ PlaneLight source_of(const TomlTable& t, const PlaneLight*) {
 }  // namespace
 
 Lights lights_of(const TomlTable& table, std::vector<std::string>& notes) {
-    std::vector<std::string_view> keys{"environment", "constant"};
+    std::vector<std::string_view> keys{"environment", "constant", "rotate"};
     for_each_light_type([&]<class L>() { keys.push_back(L::k_name); });
     table.refuse_unknown(with_view_keys(with_polarisation_keys(std::move(keys))));
     Lights lights;

@@ -14,6 +14,7 @@
 #include "render/scene/object_io.h"
 #include "render/scene/settings_io.h"
 #include "render/scene/transform.h"
+#include "render/scene/turned_lights.h"
 #include "render/scene/view_presets.h"
 #include "stone/errors.h"
 #include "stone/material_io.h"
@@ -199,6 +200,11 @@ Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_vi
         scene.lights = *lights;
     } else if (light) {
         scene.lights = lights_of(*light, scene.notes);
+        if (const auto degrees = light->vector("rotate")) {
+            const Vec3 middle =
+                scene.has_stone() ? centroid(scene.stone.solid) : Vec3{0, 0, 0};
+            scene.lights = turned_lights(scene.lights, rotation_of(*degrees), middle);
+        }
         preset = light->text("preset").value_or("");
     } else if (!view && !shines(scene.objects)) {
         root.fail("", "the scene is dark: add a [light] table, e.g. preset = \"jeweller\"");

@@ -43,7 +43,7 @@ class EngineWorker {
             const lost = problem instanceof WebAssembly.RuntimeError || problem instanceof RangeError;
             if (lost) this.engine = null;
             const words = lost ? `the engine stopped: ${problem.message}` : problem.message;
-            this.post({ id, ok: false, error: words, lost }, []);
+            this.post({ id, ok: false, error: words, died: lost }, []);
         }
     }
 
