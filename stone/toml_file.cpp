@@ -189,6 +189,22 @@ toml::table parsed(const std::filesystem::path& file, const std::vector<std::str
     return parsed_text(read_text(file, k_limit_bytes), file, overrides);
 }
 
+void erase_keys(toml::table& root, const std::vector<std::string>& keys) {
+    for (const std::string& key : keys) {
+        const std::vector<std::string> path = split(key, '.');
+        toml::table* table = &root;
+        for (std::size_t i = 0; i + 1 < path.size() && table != nullptr; ++i)
+            table = (*table)[path[i]].as_table();
+        if (table != nullptr) table->erase(path.back());
+    }
+}
+
+std::string formatted(const toml::table& root) {
+    std::ostringstream text;
+    text << toml::toml_formatter{root} << "\n";
+    return text.str();
+}
+
 /// Every text below `node` that names a file in `from` names it as seen from `to`.
 void move_paths(toml::node& node, const std::filesystem::path& from,
                 const std::filesystem::path& to) {
@@ -286,17 +302,17 @@ std::string rewritten_toml(const std::filesystem::path& file,
                            const std::vector<std::string>& without,
                            const std::filesystem::path& folder) {
     toml::table root = parsed(file, overrides);
-    for (const std::string& key : without) {
-        const std::vector<std::string> path = split(key, '.');
-        toml::table* table = &root;
-        for (std::size_t i = 0; i + 1 < path.size() && table != nullptr; ++i)
-            table = (*table)[path[i]].as_table();
-        if (table != nullptr) table->erase(path.back());
-    }
+    erase_keys(root, without);
     move_paths(root, file.parent_path(), folder);
-    std::ostringstream text;
-    text << toml::toml_formatter{root} << "\n";
-    return text.str();
+    return formatted(root);
+}
+
+std::string rewritten_text(std::string_view text, const std::filesystem::path& name,
+                           const std::vector<std::string>& overrides,
+                           const std::vector<std::string>& without) {
+    toml::table root = parsed_text(text, name, overrides);
+    erase_keys(root, without);
+    return formatted(root);
 }
 
 const std::filesystem::path& TomlTable::file() const {

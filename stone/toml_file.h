@@ -99,6 +99,11 @@ std::string rewritten_toml(const std::filesystem::path& file,
                            const std::vector<std::string>& without,
                            const std::filesystem::path& folder);
 
+/// The same of a text that is no file, whose paths stay as they are; errors call it `name`.
+std::string rewritten_text(std::string_view text, const std::filesystem::path& name,
+                           const std::vector<std::string>& overrides,
+                           const std::vector<std::string>& without);
+
 /// Levenshtein (1966): fewest insertions, deletions and replacements from one word to the other.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 

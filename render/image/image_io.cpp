@@ -189,8 +189,25 @@ std::string text_chunk(const std::string& key, const std::string& value) {
            be32(crc32(body.data(), body.size()));
 }
 
-std::string png_bytes(const Picture& picture, const PngLook& look,
-                      std::vector<std::pair<std::string, std::string>> text) {
+std::string hdr_bytes(const Picture& picture) {
+    cv::Mat image(picture.height, picture.width, CV_32FC3);
+    for (int y = 0; y < picture.height; ++y) {
+        for (int x = 0; x < picture.width; ++x) {
+            const float* rgb = picture.at(x, y);
+            // The format's shared exponent ends below 2^127; NaN and negative become 0.
+            for (int c = 0; c < 3; ++c)
+                image.at<cv::Vec3f>(y, x)[2 - c] = std::min(std::max(0.0f, rgb[c]), 1.6e38f);
+        }
+    }
+    std::vector<unsigned char> encoded;
+    cv::imencode(".hdr", image, encoded);
+    return {encoded.begin(), encoded.end()};
+}
+
+}  // namespace
+
+std::string png_of(const Picture& picture, const PngLook& look,
+                   std::vector<std::pair<std::string, std::string>> text) {
     const bool alpha = look.alpha && !picture.coverage.empty();
     std::vector<unsigned char> values = shown_bytes(picture, look, alpha);
     // OpenCV's order is blue, green, red.
@@ -209,23 +226,6 @@ std::string png_bytes(const Picture& picture, const PngLook& look,
     for (const auto& [key, value] : text) chunks += text_chunk(key, value);
     return bytes.insert(33, chunks);  // behind the signature (8) and the header chunk (25)
 }
-
-std::string hdr_bytes(const Picture& picture) {
-    cv::Mat image(picture.height, picture.width, CV_32FC3);
-    for (int y = 0; y < picture.height; ++y) {
-        for (int x = 0; x < picture.width; ++x) {
-            const float* rgb = picture.at(x, y);
-            // The format's shared exponent ends below 2^127; NaN and negative become 0.
-            for (int c = 0; c < 3; ++c)
-                image.at<cv::Vec3f>(y, x)[2 - c] = std::min(std::max(0.0f, rgb[c]), 1.6e38f);
-        }
-    }
-    std::vector<unsigned char> encoded;
-    cv::imencode(".hdr", image, encoded);
-    return {encoded.begin(), encoded.end()};
-}
-
-}  // namespace
 
 ReadPicture read_picture(const std::filesystem::path& file) {
     return picture_of_bytes(read_text(file, k_most_bytes), file);
@@ -320,7 +320,7 @@ void write_picture(const Picture& picture, const std::filesystem::path& file, co
         write_exr(picture, output.path(), text);
         output.commit();
     } else if (extension == ".png") {
-        write_text(file, png_bytes(picture, look, text));
+        write_text(file, png_of(picture, look, text));
     } else if (extension == ".hdr") {
         write_text(file, hdr_bytes(picture));
     } else {

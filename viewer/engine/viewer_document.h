@@ -8,21 +8,11 @@
 #include <string_view>
 #include <vector>
 
+#include "page/fit_facts.h"
 #include "stone/stone.h"
 #include "stone/toml_file.h"
 
 namespace culet {
-
-/// Of a facet, what a fit report says (page/fit_facts.h). Degrees; nothing: not known.
-struct FacetFacts {
-    std::optional<double> inclination_deg, azimuth_deg;
-    std::optional<double> inclination_sigma_deg, azimuth_sigma_deg, direction_sigma_deg;
-    std::optional<double> residual;  ///< of its worst reading, in standard uncertainties
-    std::string reading;             ///< id of that one; empty: no reading speaks of the facet
-    int readings = 0;
-    bool suspect = false;
-    bool determined = true;
-};
 
 /// The standard cut that a stone is, by `cut_kinds()`.
 struct CutChoice {
