@@ -3,6 +3,7 @@
 // room.
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,7 +48,6 @@ public:
 private:
     struct Drawer {
         FrameRenderer frames;
-        std::array<double, 9> turn;
         std::optional<int> samples;
         bool stale = false;  ///< the scene's keys have changed since
     };
@@ -55,7 +55,8 @@ private:
     ViewedStone viewed_;
     Scene scene_;
     std::string refused_, body_;
-    std::array<std::optional<Drawer>, 2> drawers_;  ///< beams, preview
+    mutable std::shared_ptr<const EnvironmentMap> coarse_map_;
+    std::array<std::unique_ptr<Drawer>, 2> drawers_;  ///< beams, preview
 };
 
 }  // namespace culet
