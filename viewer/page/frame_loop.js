@@ -78,17 +78,18 @@ class FrameLoop {
 
   // Tells the engine which stone and scene, if it does not know.
   async prepare(stone, settings) {
-    const key = JSON.stringify([stone, settings, this.page.scene_version]);
+    const held = this.page.engine_stone(stone);
+    const key = JSON.stringify([held, settings, this.page.scene_version]);
     if (key === this.set_key) return;
     this.set_key = "";
-    const answer = await this.page.engine.call("set", { stone, settings });
+    const answer = await this.page.engine.call("set", { stone: held, settings });
     this.set_key = key;
     this.page.took_settings(answer);
   }
 
   async draw(quick) {
     const page = this.page, values = page.state.values;
-    const sides = values.compare === "one" ? [["left", values.stone]] : [["left", 0], ["right", 1]];
+    const sides = values.compare === "one" ? [["left", page.shown_index()]] : [["left", 0], ["right", 1]];
     const [width, height] = page.picture.size(quick ? this.scale : 1);
     let spent = 0, exposure = this.exposure_for(quick);
     for (const [side, stone] of sides) {
@@ -100,7 +101,7 @@ class FrameLoop {
       }
       const drawn = await page.engine.call("draw", {
         ...page.drawing(stone, width, height), engine: quick ? "preview" : "beams", exposure,
-        tonemap: values.tonemap,
+        tonemap: page.tonemap(),
       });
       spent += drawn.milliseconds;
       page.picture.take(drawn, side);

@@ -17,7 +17,7 @@ class Hand {
     surface.addEventListener("pointerleave", () => page.point_at(null));
     surface.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     surface.addEventListener("contextmenu", (event) => event.preventDefault());
-    surface.addEventListener("dblclick", () => page.look("home"));
+    surface.addEventListener("dblclick", () => page.ready() && page.look("home"));
   }
 
   place(event) {
@@ -31,6 +31,7 @@ class Hand {
   }
 
   down(event) {
+    if (!this.page.ready()) return;
     if (event.button > 0 && event.pointerType === "mouse" && event.button !== 2) return;
     this.surface.setPointerCapture(event.pointerId);
     const at = this.place(event);
@@ -111,6 +112,7 @@ class Hand {
 
   wheel(event) {
     event.preventDefault();
+    if (!this.page.ready()) return;
     const lines = event.deltaMode === 1 ? 16 : event.deltaMode === 2 ? 100 : 1;
     const view = this.page.view();
     const at = this.place(event);

@@ -36,7 +36,7 @@ class Keys {
   }
 
   on_stone(event) {
-    if (event.altKey || event.metaKey) return;
+    if (event.altKey || event.metaKey || !this.page.ready()) return;
     const page = this.page;
     const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
     if (way && event.shiftKey) {
@@ -58,6 +58,7 @@ class Keys {
 
   anywhere(event) {
     if (event.altKey || event.metaKey || event.ctrlKey) return;
+    if (!this.page.ready() && !["?", "f", "F", "PageUp", "PageDown"].includes(event.key)) return;
     const typing = event.target instanceof Element
       && event.target.closest("input:not([type=checkbox]):not([type=radio]):not([type=range]), textarea, select");
     if (typing || this.dialog.open && event.key !== "?") return;

@@ -16,6 +16,7 @@ class Page {
     this.card = new FacetCard(this, by_id("facet-card"));
     this.engine = new EngineClient((line) => this.engine_died(line));
     this.stones = [];
+    this.designs = new Map();  // by a stone's index, under which number the engine holds its changed cut
     this.info = null;       // what the engine told of the item
     this.refused = "";      // why beams cannot draw what is set
     this.scene_version = 0; // of what the engine holds beside stone and settings: cut, panorama
@@ -33,14 +34,17 @@ class Page {
     const values = this.state.values;
     if (values.compare === "blink") return this.fit ? this.fit.blink_side : 0;
     if (values.compare === "split") return 0;
-    return Math.min(values.stone, this.item().stones.length - 1);
+    const last = this.item().stones.length - 1;
+    return Math.min(last, Math.max(0, values.stone ?? last));
   }
   shown_stone() { return this.stones[this.shown_index()]; }
   shown_name() { return this.item().name || this.document.title; }
   own_material() {
     const material = this.document_stone().material;
-    return typeof material === "string" ? material : material && material.name || "";
+    return (material && (material.id || material.name)) || "";
   }
+  // Under which number the engine holds a stone: a cut that was changed is one of its own.
+  engine_stone(index) { return this.designs.get(index) ?? index; }
   optic() {
     const name = this.state.get("material");
     if (name) return (this.info.materials.find((m) => m.name === name) || {}).optic;
@@ -48,7 +52,7 @@ class Page {
     return (material && material.optic) || (this.info.materials.find((m) => m.name === this.own_material()) || {}).optic;
   }
   // The preset that the scene itself names; empty: lights of its own.
-  own_light() { return (this.info && this.info.settings && this.info.settings.light) || ""; }
+  own_light() { return (this.info && this.info.settings && this.info.settings.light_preset) || ""; }
   light_preset() {
     const { light, polariser } = this.state.values;
     if (polariser !== null || light === "panorama") return null;
@@ -78,11 +82,13 @@ class Page {
     const preset = this.light_preset();
     return preset && !preset.instrument ? "auto" : 1;
   }
-  settings(stone) { return settings_of(this.state.values, this.optic(stone)); }
+  tonemap() { return this.state.get("tonemap") ?? (this.info.settings && this.info.settings.tonemap) ?? "none"; }
+  settings(stone) { return settings_of(this.state.values, this.optic(stone), this.panorama_setting); }
   // What every call of the engine about a view begins with.
   drawing(stone, width, height, view = this.view()) {
     return {
-      camera: camera_of(this.base, view, this.stones[stone].center, width, height),
+      stone: this.engine_stone(stone),
+      camera: camera_of(this.base, view, this.base.center, width, height),
       turn: Turn.matrix(this.lights_turn(view.turn)), width, height,
     };
   }
@@ -257,8 +263,9 @@ class Page {
     try {
       this.say(`Reading ${file.name}\u2026`);
       const bytes = new Uint8Array(await file.arrayBuffer());
-      await this.engine.call("panorama", { name: file.name, bytes }, [bytes.buffer]);
+      const answer = await this.engine.call("panorama", { name: file.name, bytes }, [bytes.buffer]);
       this.panorama_name = file.name;
+      this.panorama_setting = answer.setting;
       ++this.scene_version;
       this.state.set({ light: "panorama", polariser: null });
       this.panels.light.update();
@@ -326,8 +333,9 @@ class Page {
     const [width, height] = this.picture.size(), stone = this.shown_index();
     return command_line({
       command: this.item().command || "culet render " + quoted(this.shown_name()), settings: this.settings(stone),
+      stone: this.engine_stone(stone),
       camera: this.drawing(stone, width, height).camera, size: [width, height],
-      exposure: this.exposure(), tonemap: this.state.get("tonemap"), engine: "beams",
+      exposure: this.exposure(), tonemap: this.tonemap(), engine: "beams",
       lights_turned: this.lights_turn(),
     });
   }

@@ -114,7 +114,7 @@ function base_of(camera, center) {
   const half_width = camera.width ? camera.width / 2
     : eye[2] * Math.tan(camera.fov_deg * Math.PI / 360) * pixels_x / pixels_y;
   return {
-    home, orthographic: Boolean(camera.width), distance: eye[2],
+    home, center, orthographic: Boolean(camera.width), distance: eye[2],
     pan: [-eye[0], -eye[1]], half_width, half_height: half_width * pixels_y / pixels_x,
   };
 }

@@ -87,7 +87,8 @@ Object.assign(Page.prototype, {
     this.loop.forget();
     this.opened_item = item;
     this.stones = this.item().stones.map((stone) => new ShownStone(stone));
-    this.base = base_of(info.camera, this.stones[0].center);
+    this.designs.clear();
+    this.base = base_of(info.camera, this.stones[info.stone ?? this.stones.length - 1].center);
     this.info = info;
     this.refused = this.item().refused || "";
     ++this.scene_version;
@@ -136,7 +137,7 @@ Object.assign(Page.prototype, {
   },
   subtitle(item) {
     const stone = item.stones[item.stones.length - 1] || {};
-    const material = typeof stone.material === "string" ? stone.material : stone.material && stone.material.name || "";
+    const material = (stone.material && (stone.material.title || stone.material.name || stone.material.id)) || "";
     const parts = [material.replace(/_/g, " "), stone.facets ? stone.facets.length + " facets" : ""];
     if (item.stones.length > 1) parts.push("fitted, beside the catalogue\u2019s");
     return parts.filter(Boolean).join(" \u00b7 ");
@@ -209,12 +210,13 @@ Object.assign(Page.prototype, {
     const values = this.state.get("cut"), index = this.shown_index(), stone = this.document_stone();
     if (!stone.cut) return;
     if (values) {
-      const answer = await this.engine.call("cut", { kind: stone.cut.kind, values: { ...stone.cut.values, ...values }, stone: index });
-      this.stones[index] = new ShownStone(answer.stone || answer);
+      const answer = await this.engine.call("cut", { kind: stone.cut.kind, values: { ...stone.cut.values, ...values } });
+      this.stones[index] = new ShownStone(answer.geometry);
+      this.designs.set(index, answer.stone);
       by_id("trouble").hidden = true;
     } else {
-      await this.engine.call("open", { document: this.document, item: this.state.get("item") });
       this.stones[index] = new ShownStone(stone);
+      this.designs.delete(index);
     }
     ++this.scene_version;
     this.loop.forget();

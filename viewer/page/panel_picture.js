@@ -71,7 +71,7 @@ class PanelPicture {
     this.auto.show(exposure === "auto");
     const factor = typeof exposure === "number" ? exposure : this.page.loop.exposure || 1;
     this.exposure.show(Math.min(5, Math.max(-5, Math.log2(factor))));
-    this.tonemap.show(values.tonemap);
+    this.tonemap.show(this.page.tonemap());
     this.wire.show(values.wire);
     this.names.show(values.names);
     this.spin.show(this.page.keeps_turning);

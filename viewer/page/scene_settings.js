@@ -21,15 +21,16 @@ function wavelengths_nm(count) {
   return Array.from({ length: count }, (_, i) => 410 + 280 * i / (count - 1));
 }
 
-// `values` of the state; `optic` of the material shown: isotropic, uniaxial, biaxial.
-function light_settings(values) {
+// `panorama`: the setting that the engine gave for the file that was dropped.
+function light_settings(values, panorama) {
   if (values.polariser !== null) {
     const settings = [`light={preset="polariscope",polarizer=${toml_number(values.polariser)}}`];
     settings.push(`camera.analyzer=${toml_number(values.analyser === null ? values.polariser + 90 : values.analyser)}`);
     return settings;
   }
   const settings = [];
-  if (values.light && values.light !== "panorama") settings.push(`light={preset=${toml_text(values.light)}}`);
+  if (values.light === "panorama" && panorama) settings.push(panorama);
+  else if (values.light && values.light !== "panorama") settings.push(`light={preset=${toml_text(values.light)}}`);
   if (values.analyser !== null) settings.push(`camera.analyzer=${toml_number(values.analyser)}`);
   return settings;
 }
@@ -47,8 +48,9 @@ function stone_settings(values, optic) {
   return settings;
 }
 
-function settings_of(values, optic) {
-  const settings = [...stone_settings(values, optic), ...light_settings(values)];
+// `values` of the state; `optic` of the material shown: isotropic, uniaxial, biaxial.
+function settings_of(values, optic, panorama = "") {
+  const settings = [...stone_settings(values, optic), ...light_settings(values, panorama)];
   if (values.retarder !== null && (values.analyser !== null || values.polariser !== null)) {
     settings.push(`camera.retarder_nm=${toml_number(values.retarder)}`);
     settings.push(`camera.retarder_angle=${toml_number((values.polariser || 0) + 45)}`);

@@ -5,7 +5,7 @@
 // Names are those of the link; `null` means as the file says.
 const k_state_defaults = {
   item: 0,            // of the gallery
-  stone: 0,           // of the item's stones
+  stone: null,        // of the item's stones; null: the last, which is the fitted one
   turn: null,         // quaternion, from the stone's frame to the eye's; null: the view of the light
   zoom: 1,
   pan: null,          // stone's unit, right and up; null: as the scene's camera
@@ -29,7 +29,7 @@ const k_state_defaults = {
   names: false,
   tilts: false,
   exposure: null,     // "auto" or a factor
-  tonemap: "none",
+  tonemap: null,      // none, reinhard, filmic, gamma2
   drawn_by: "fastest",  // beams, gpu
 };
 
@@ -94,7 +94,7 @@ class State {
   listen(listener) { this.listeners.push(listener); }
   // What belongs to one stone goes with it.
   forget_stone() {
-    this.set({ stone: 0, turn: null, zoom: 1, pan: null, material: null, axis: null, colour: 1,
+    this.set({ stone: null, turn: null, zoom: 1, pan: null, material: null, axis: null, colour: 1,
       cut: null, compare: "one", facets: "none" });
   }
 
