@@ -74,12 +74,12 @@ class PageTest(unittest.TestCase):
         self.open()
         turn = "const p = culet_page, b = p.ball(); return [p.view().turn, b.middle, b.radius]"
         before, middle, radius = self.browser.run(turn)
-        self.drag(90, -60)
+        self.drag(60, -40)
         after, _, _ = self.browser.run(turn)
         box = self.browser.run("const r = document.getElementById('hand').getBoundingClientRect(); return [r.width, r.height]")
         # Where the drag began and ended, on the ball; that point of the stone must have gone along.
         start = [(box[0] / 2 + 20 - middle[0]) / radius, (middle[1] - box[1] / 2 - 10) / radius]
-        end = [start[0] + 90 / radius, start[1] + 60 / radius]
+        end = [start[0] + 60 / radius, start[1] + 40 / radius]
         moved = self.browser.run("""const [q0, q1, a] = arguments; const p = Turn.back(q0, Turn.on_ball(...a)); return Turn.of(q1, p);""", before, after, start)
         # A pixel of the screen: pointers move by whole ones.
         self.assertAlmostEqual(moved[0], end[0], delta=1.5 / radius)

@@ -63,7 +63,7 @@ class LightPath {
     const share = path.weight;
     const crossed = path.facets.map((name, i) => {
       const last = i === path.facets.length - 1;
-      const what = path.facets.length === 1 ? "mirrors" : i === 0 ? "in" : last ? "out" : "reflects";
+      const what = path.facets.length === 1 ? "mirrors it" : i === 0 ? "in" : last ? "out" : "reflects";
       return element("li", {}, element("b", {}, name), " ", element("span", { class: "soft" }, what));
     });
     return element("div", { class: "path-item" },

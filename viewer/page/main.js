@@ -260,13 +260,10 @@ class Page {
     }
   }
   async take_panorama(file) {
+    if (!this.ready()) return;
     try {
       this.say(`Reading ${file.name}\u2026`);
-      const bytes = new Uint8Array(await file.arrayBuffer());
-      const answer = await this.engine.call("panorama", { name: file.name, bytes }, [bytes.buffer]);
-      this.panorama_name = file.name;
-      this.panorama_setting = answer.setting;
-      ++this.scene_version;
+      await this.send_panorama(file);
       this.state.set({ light: "panorama", polariser: null });
       this.panels.light.update();
       this.loop.changed();
@@ -274,6 +271,17 @@ class Page {
     } catch (error) {
       this.failed(error);
     }
+  }
+
+  // Kept, because an engine that is started anew knows nothing of it.
+  async send_panorama(file) {
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    const stone = this.shown_index();
+    await this.loop.prepare(stone, this.settings(stone));
+    const answer = await this.engine.call("panorama", { name: file.name, bytes }, [bytes.buffer]);
+    this.panorama = file;
+    this.panorama_setting = answer.setting;
+    ++this.scene_version;
   }
 
   // --- Drawing
@@ -307,7 +315,12 @@ class Page {
 
   // --- Words
 
-  say(line) { by_id("say").textContent = line; }
+  // For a while: who looks away reads it again in the panel it is about.
+  say(line) {
+    clearTimeout(this.saying);
+    by_id("say").textContent = line;
+    this.saying = setTimeout(() => { by_id("say").textContent = ""; }, 4500);
+  }
   trouble(line, button_text = "", act = null) {
     by_id("trouble").hidden = false;
     by_id("trouble-text").textContent = line;
@@ -323,7 +336,7 @@ class Page {
   engine_died(line) {
     this.info = null;
     this.loop.forget();
-    this.trouble(`The engine stopped (${line}).`, "Start it again", () => {
+    this.trouble(`The engine stopped: ${line.replace(/^the engine stopped:?\s*/, "") || "no reason is known"}.`, "Start it again", () => {
       by_id("trouble").hidden = true;
       this.start_engine();
     });

@@ -116,13 +116,14 @@ function base_of(camera, center) {
   return {
     home, center, orthographic: Boolean(camera.width), distance: eye[2],
     pan: [-eye[0], -eye[1]], half_width, half_height: half_width * pixels_y / pixels_x,
+    free_height: 1,  // share of the picture's height that nothing is laid over
   };
 }
 
 // What the picture of width x height pixels shows: half its height, in the stone's unit at the
 // distance of the stone's middle.
 function half_height_of(base, zoom, width, height) {
-  return Math.max(base.half_height, base.half_width * height / width) / zoom;
+  return Math.max(base.half_height / base.free_height, base.half_width * height / width) / zoom;
 }
 
 // The camera for the engine. `view`: {turn, zoom, pan}; pan is how far the stone's middle lies from

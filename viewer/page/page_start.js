@@ -89,6 +89,7 @@ Object.assign(Page.prototype, {
     this.stones = this.item().stones.map((stone) => new ShownStone(stone));
     this.designs.clear();
     this.base = base_of(info.camera, this.stones[info.stone ?? this.stones.length - 1].center);
+    this.fit_stage();
     this.info = info;
     this.refused = this.item().refused || "";
     ++this.scene_version;
@@ -96,6 +97,11 @@ Object.assign(Page.prototype, {
     if (this.refused) {
       this.show_refused();
       return;
+    }
+    if (this.state.get("light") === "panorama") {
+      this.panorama_setting = "";
+      if (this.panorama) await this.send_panorama(this.panorama);
+      else this.state.set({ light: null });
     }
     if (this.state.get("cut")) await this.make_cut();
     this.overlay.draw();
@@ -244,6 +250,7 @@ Object.assign(Page.prototype, {
     this.wire_drop();
     new ResizeObserver(() => {
       if (!this.ready()) return;
+      this.fit_stage();
       this.overlay.draw();
       this.loop.moved();
     }).observe(this.stage);
@@ -257,6 +264,11 @@ Object.assign(Page.prototype, {
         this.open_engine().catch((error) => this.failed(error));
       }
     });
+  },
+  // On a low stage the names and buttons over it would cover the stone.
+  fit_stage() {
+    const { height } = this.stage.getBoundingClientRect();
+    this.base.free_height = height < 520 ? Math.max(0.5, 1 - 84 / Math.max(1, height)) : 1;
   },
   wire_divider(divider) {
     const to = (percent) => this.state.set({ divider: Math.min(100, Math.max(0, percent)) });

@@ -47,6 +47,6 @@ class PanelLight {
     this.by_hand.show(this.page.hand_turns_light);
     this.stay.show(values.lights_with);
     this.reset.disabled = Turn.apart(values.light_turn, Turn.none) < 1e-6;
-    if (this.page.panorama_name) this.panorama_note.textContent = "Shown: " + this.page.panorama_name;
+    if (this.page.panorama) this.panorama_note.textContent = "Read: " + this.page.panorama.name;
   }
 }
