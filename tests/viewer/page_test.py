@@ -15,29 +15,9 @@ from selenium.webdriver.common.keys import Keys
 import viewer_pages
 from viewer_pages import Browser, made_up_document, page_text
 
-SHOTS = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 and not sys.argv[1].startswith("-") else pathlib.Path(tempfile.gettempdir())
 
-
-class PageTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.browser = Browser(760, 460).__enter__()
-        cls.folder = tempfile.mkdtemp(prefix="culet-viewer-pages-")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.__exit__()
-
-    def tearDown(self):
-        self.assertEqual(self.browser.errors(), [], "the console")
-
-    def open(self, document=None, fragment="", **how):
-        path = pathlib.Path(self.folder) / (self._testMethodName + ".html")
-        path.write_text(page_text(document or made_up_document(), **how))
-        self.browser.resize(900, 460)
-        self.browser.open(path, fragment)
-        self.browser.rest()
-        return path
+class PageActions:
+    """What a person does with a page; `self.browser` has it open."""
 
     def seen(self):
         """Whatever a person sees of the stone: pixels, and what is drawn over them."""
@@ -65,6 +45,82 @@ class PageTest(unittest.TestCase):
         if key: chain.key_up(key)
         chain.perform()
 
+    def check_controls(self, cut="crown-angle"):
+        """Each control in turn: the picture, or what is drawn over it, must change."""
+        for switch in ["light-by-hand"]:
+            self.click(f"[data-name={switch}]")
+            before = self.seen()
+            self.drag(60, 20)
+            self.assertNotEqual(before, self.seen(), switch)
+            self.click(f"[data-name={switch}]")
+        before = self.seen()
+        changes = [
+            ("reset-light", lambda: self.click("[data-name=reset-light]")),
+            ("daylight", lambda: self.click("[data-name=light] input[value=daylight]")),
+            ("aset", lambda: self.click("[data-name=instrument] input[value=aset]")),
+            ("hearts", lambda: self.click("[data-name=instrument] input[value=hearts]")),
+            ("jeweller", lambda: self.click("[data-name=light] input[value=jeweller]")),
+            ("turn", lambda: self.drag(50, 50)),
+            ("lights with the stone", lambda: self.click("[data-name=lights-with] input[value=stone]")),
+            ("material", lambda: self.click("#material-sapphire_blue")),
+            ("axis", lambda: self.slide("axis-tilt", 40)),
+            ("axis azimuth", lambda: self.slide("axis-azimuth", 100)),
+            ("own axis", lambda: self.click("[data-name=own-axis]")),
+            ("colour", lambda: self.slide("colour", 2)),
+            ("polariser", lambda: self.click("[data-name=polariser]")),
+            ("angle", lambda: self.browser.run("const i = document.querySelector('[data-name=polariser-angle]'); i.value = 30; i.dispatchEvent(new Event('change'))")),
+            ("parallel", lambda: self.click("[data-name=parallel]")),
+            ("cross", lambda: self.click("[data-name=cross]")),
+            ("plate", lambda: self.click("[data-name=retarder]")),
+            ("polariser off", lambda: self.click("[data-name=polariser]")),
+            ("stone", lambda: self.click("[data-name=stone] input[value='0']")),
+            ("fitted", lambda: self.click("[data-name=stone] input[value='1']")),
+            ("residual", lambda: self.click("[data-name=facets] input[value=residual]")),
+            ("sigma", lambda: self.click("[data-name=facets] input[value=sigma]")),
+            ("none", lambda: self.click("[data-name=facets] input[value=none]")),
+            ("split", lambda: self.click("[data-name=compare] input[value=split]")),
+            ("divider", lambda: self.browser.run("culet_page.state.set({divider: 30})")),
+            ("one", lambda: self.click("[data-name=compare] input[value=one]")),
+            ("exposure", lambda: self.slide("exposure", 1)),
+            ("exposure auto", lambda: self.click("[data-name=exposure-auto]")),
+            ("tone", lambda: self.click("[data-name=tonemap] input[value=filmic]")),
+            ("wire", lambda: self.click("[data-name=wire]")),
+            ("names", lambda: self.click("[data-name=names]")),
+            ("no dispersion", lambda: (self.click("[data-name=effects-auto]"), self.click("[data-name=effect-dispersion]"))),
+            ("wavelengths", lambda: self.click("[data-name=wavelengths] input[value='3']")),
+            ("depth", lambda: self.slide("depth", 5)),
+        ]
+        if cut:
+            changes += [("cut", lambda: self.slide("cut-" + cut, 44)), ("cut back", lambda: self.click("[data-name=reset-cut]"))]
+        for name, change in changes:
+            change()
+            after = self.seen()
+            self.assertNotEqual(before, after, name)
+            before = after
+        self.assertTrue(self.browser.run("return document.getElementById('trouble').hidden"))
+
+
+class PageTest(PageActions, unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = Browser(760, 460).__enter__()
+        cls.folder = tempfile.mkdtemp(prefix="culet-viewer-pages-")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.__exit__()
+
+    def tearDown(self):
+        self.assertEqual(self.browser.errors(), [], "the console")
+
+    def open(self, document=None, fragment="", **how):
+        path = pathlib.Path(self.folder) / (self._testMethodName + ".html")
+        path.write_text(page_text(document or made_up_document(), **how))
+        self.browser.resize(900, 460)
+        self.browser.open(path, fragment)
+        self.browser.rest()
+        return path
+
     def test_opens_from_a_file_and_shows_the_still_at_once(self):
         self.open()
         self.assertTrue(self.browser.run("return location.protocol") == "file:")
@@ -77,7 +133,7 @@ class PageTest(unittest.TestCase):
         self.drag(60, -40)
         after, _, _ = self.browser.run(turn)
         box = self.browser.run("const r = document.getElementById('hand').getBoundingClientRect(); return [r.width, r.height]")
-        # Where the drag began and ended, on the ball; that point of the stone must have gone along.
+        # Where the drag began and ended, on the ball (within 0.7 of its radius; beyond, a hyperbola); that point of the stone must have gone along.
         start = [(box[0] / 2 + 20 - middle[0]) / radius, (middle[1] - box[1] / 2 - 10) / radius]
         end = [start[0] + 60 / radius, start[1] + 40 / radius]
         moved = self.browser.run("""const [q0, q1, a] = arguments; const p = Turn.back(q0, Turn.on_ball(...a)); return Turn.of(q1, p);""", before, after, start)
@@ -101,58 +157,7 @@ class PageTest(unittest.TestCase):
 
     def test_every_control_changes_what_is_seen(self):
         self.open(made_up_document(two=True))
-        for switch in ["light-by-hand"]:
-            self.click(f"[data-name={switch}]")
-            before = self.seen()
-            self.drag(60, 20)
-            self.assertNotEqual(before, self.seen(), switch)
-            self.click(f"[data-name={switch}]")
-        before = self.seen()
-        changes = [
-            ("reset-light", lambda: self.click("[data-name=reset-light]")),
-            ("daylight", lambda: self.click("[data-name=light] input[value=daylight]")),
-            ("aset", lambda: self.click("[data-name=instrument] input[value=aset]")),
-            ("hearts", lambda: self.click("[data-name=instrument] input[value=hearts]")),
-            ("jeweller", lambda: self.click("[data-name=light] input[value=jeweller]")),
-            ("turn", lambda: self.drag(50, 50)),
-            ("lights with the stone", lambda: self.click("[data-name=lights-with] input[value=stone]")),
-            ("material", lambda: self.click("#material-sapphire_blue")),
-            ("axis", lambda: self.slide("axis-tilt", 40)),
-            ("axis azimuth", lambda: self.slide("axis-azimuth", 100)),
-            ("own axis", lambda: self.click("[data-name=own-axis]")),
-            ("colour", lambda: self.slide("colour", 2)),
-            ("cut", lambda: self.slide("cut-crown-angle", 44)),
-            ("cut back", lambda: self.click("[data-name=reset-cut]")),
-            ("polariser", lambda: self.click("[data-name=polariser]")),
-            ("angle", lambda: self.browser.run("const i = document.querySelector('[data-name=polariser-angle]'); i.value = 30; i.dispatchEvent(new Event('change'))")),
-            ("parallel", lambda: self.click("[data-name=parallel]")),
-            ("cross", lambda: self.click("[data-name=cross]")),
-            ("plate", lambda: self.click("[data-name=retarder]")),
-            ("polariser off", lambda: self.click("[data-name=polariser]")),
-            ("stone", lambda: self.click("[data-name=stone] input[value='0']")),
-            ("fitted", lambda: self.click("[data-name=stone] input[value='1']")),
-            ("residual", lambda: self.click("[data-name=facets] input[value=residual]")),
-            ("sigma", lambda: self.click("[data-name=facets] input[value=sigma]")),
-            ("none", lambda: self.click("[data-name=facets] input[value=none]")),
-            ("split", lambda: self.click("[data-name=compare] input[value=split]")),
-            ("divider", lambda: self.browser.run("culet_page.state.set({divider: 30})")),
-            ("one", lambda: self.click("[data-name=compare] input[value=one]")),
-            ("exposure", lambda: self.slide("exposure", 1)),
-            ("exposure auto", lambda: self.click("[data-name=exposure-auto]")),
-            ("tone", lambda: self.click("[data-name=tonemap] input[value=filmic]")),
-            ("wire", lambda: self.click("[data-name=wire]")),
-            ("names", lambda: self.click("[data-name=names]")),
-            ("effects", lambda: self.click("[data-name=effects-auto]")),
-            ("dispersion", lambda: self.click("[data-name=effect-dispersion]")),
-            ("wavelengths", lambda: self.click("[data-name=wavelengths] input[value='3']")),
-            ("depth", lambda: self.slide("depth", 5)),
-        ]
-        for name, change in changes:
-            change()
-            after = self.seen()
-            self.assertNotEqual(before, after, name)
-            before = after
-        self.assertTrue(self.browser.run("return document.getElementById('trouble').hidden"))
+        self.check_controls()
 
     def test_blink_shows_one_then_the_other(self):
         self.open(made_up_document(two=True))
@@ -175,7 +180,7 @@ class PageTest(unittest.TestCase):
         self.assertIn("34.500\u00b0 \u00b1 0.020\u00b0", card)
         self.assertIn("none: it is level", card)
         # P8 of the fit is suspect: said in words, not by a colour.
-        self.browser.run("culet_page.point(20)")
+        self.browser.run("culet_page.pointing.point(20)")
         self.assertIn("suspect", self.browser.run("return document.getElementById('facet-card').innerText"))
 
     def test_light_path_of_a_click(self):
@@ -268,7 +273,7 @@ class PageTest(unittest.TestCase):
             stone["name"] = evil
             for facet in stone["facets"]: facet["name"] = evil
         self.open(document)
-        self.browser.run("culet_page.point(0)")
+        self.browser.run("culet_page.pointing.point(0)")
         self.click("[data-name=names]")
         self.assertNotEqual(self.browser.run("return document.title"), "hit")
         self.assertEqual(self.browser.run("return document.querySelectorAll('main b, main img:not(#still):not(.thumb img)').length"), 0)
@@ -342,7 +347,7 @@ class PageTest(unittest.TestCase):
         self.click("[data-name=instrument] input[value=aset]")
         self.click("#material-sapphire_blue")
         self.slide("axis-tilt", 90)
-        command = self.browser.run("return culet_page.command()")
+        command = self.browser.run("return culet_page.command.line()")
         self.assertTrue(command.startswith("culet render eight.obj -o picture.png"))
         for part in ["'light={preset=\"aset\"}'", "'material=\"sapphire_blue\"'", "'optic_axis=[1,0,", "--exposure 1", "camera.orthographic_width="]:
             self.assertIn(part, command)
@@ -356,8 +361,8 @@ class PageTest(unittest.TestCase):
                 self.browser.run("document.documentElement.dataset.theme = arguments[0]", theme)
                 for tab in ["light", "stone", "polarisers", "fit", "path", "picture", "save"]:
                     self.browser.run("culet_page.tabs.open(arguments[0])", tab)
-                    self.browser.run("culet_page.state.set({facets: arguments[0] === 'fit' ? 'residual' : 'none', tilts: arguments[0] === 'picture'}); culet_page.point(arguments[0] === 'fit' ? 5 : null)", tab)
-                    if tab == "path": self.browser.wait("const b = culet_page.stage.getBoundingClientRect(); await culet_page.click([b.width / 2 + 30, b.height / 2 + 20]);")
+                    self.browser.run("culet_page.state.set({facets: arguments[0] === 'fit' ? 'residual' : 'none', tilts: arguments[0] === 'picture'}); culet_page.pointing.point(arguments[0] === 'fit' ? 5 : null)", tab)
+                    if tab == "path": self.browser.wait("const b = culet_page.stage.getBoundingClientRect(); await culet_page.pointing.click([b.width / 2 + 30, b.height / 2 + 20]);")
                     else: self.browser.run("culet_page.put_away()") if tab != "fit" else None
                     self.browser.wait("await new Promise((r) => setTimeout(r, 250));")
                     self.browser.rest()
@@ -367,4 +372,5 @@ class PageTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    SHOTS = pathlib.Path(sys.argv.pop(1))
     unittest.main(verbosity=2)

@@ -2,7 +2,6 @@
 // The page: puts the parts together and says what each of them asks of the others.
 
 function by_id(id) { return document.getElementById(id); }
-function less_motion() { return matchMedia("(prefers-reduced-motion: reduce)").matches; }
 
 class Page {
   constructor() {
@@ -21,8 +20,9 @@ class Page {
     this.refused = "";      // why beams cannot draw what is set
     this.scene_version = 0; // of what the engine holds beside stone and settings: cut, panorama
     this.hand_turns_light = false;
-    this.keeps_turning = false;
-    this.motion = 0;
+    this.motion = new Motion(this);
+    this.pointing = new Pointing(this);
+    this.command = new Command(this);
   }
 
   // --- What is shown
@@ -71,7 +71,9 @@ class Page {
   }
   // How the lights are turned in the stone's frame.
   lights_turn(turn = this.view().turn) {
-    const { light_turn, lights_with } = this.state.values;
+    const { light_turn, lights_with, polariser } = this.state.values;
+    // A polariscope's light is always behind the stone.
+    if (polariser !== null) return Turn.after(Turn.inverse(turn), this.base.home);
     if (lights_with === "stone") return light_turn;
     return Turn.after(Turn.after(Turn.inverse(turn), this.home()), light_turn);
   }
@@ -102,146 +104,21 @@ class Page {
     };
   }
 
-  // --- Moving
+  // --- Choices
 
-  turn_to(turn) {
-    this.loop.last_move = performance.now();
-    this.state.set({ turn }, "hand");
-  }
-  turn_light(gesture, drag) {
-    const before = this.state.get("lights_with") === "stone" ? gesture.turn : this.home();
-    const turn = Turn.after(Turn.inverse(before), Turn.after(drag, before));
-    this.loop.last_move = performance.now();
-    this.state.set({ light_turn: Turn.after(turn, gesture.light_turn) }, "hand");
-  }
-  pan_by(gesture, x, y) {
-    const { scale } = this.ball();
-    this.loop.last_move = performance.now();
-    this.state.set({ pan: [gesture.pan[0] + x / scale, gesture.pan[1] - y / scale] }, "hand");
-  }
-  // `at` stays where it is; `from`: {at, zoom, pan} when the gesture began.
-  zoom_about(at, from, factor) {
-    const box = this.stage.getBoundingClientRect();
-    const zoom = Math.min(50, Math.max(0.2, from.zoom * factor));
-    const unit = (point, z) => {
-      const scale = box.height / 2 / half_height_of(this.base, z, box.width, box.height);
-      return [(point[0] - box.width / 2) / scale, (box.height / 2 - point[1]) / scale];
-    };
-    const before = unit(from.at, from.zoom), after = unit(at, zoom);
-    this.loop.last_move = performance.now();
-    this.state.set({ zoom, pan: [0, 1].map((i) => after[i] - (before[i] - from.pan[i])) }, "hand");
-  }
-  zoom_by(factor) {
-    const box = this.stage.getBoundingClientRect(), { zoom, pan } = this.view();
-    const at = [box.width / 2, box.height / 2];
-    this.zoom_about(at, { at, zoom, pan }, factor);
-  }
-  // A control that is dragged: quick frames until it rests.
-  slide(changes) {
-    this.loop.last_move = performance.now();
-    this.state.set(changes);
-  }
-
-  stop_motion() {
-    cancelAnimationFrame(this.motion);
-    this.motion = 0;
-  }
-  go_to(turn) {
-    this.stop_motion();
-    const from = this.view().turn, way = Turn.after(turn, Turn.inverse(from));
-    const sign = way[3] < 0 ? -1 : 1, angle = Turn.apart(turn, from);
-    if (less_motion() || angle < 1e-4) {
-      this.state.set({ turn });
-      return;
-    }
-    const axis = way.slice(0, 3).map((v) => sign * v), begin = performance.now(), lasts = 260;
-    const step = () => {
-      const t = Math.min(1, (performance.now() - begin) / lasts), eased = t * t * (3 - 2 * t);
-      if (t < 1) {
-        this.turn_to(Turn.after(Turn.about(axis, angle * eased), from));
-        this.motion = requestAnimationFrame(step);
-      } else {
-        this.state.set({ turn });
-      }
-    };
-    this.motion = requestAnimationFrame(step);
-  }
-  // After a drag: `speed` is axis times radians a millisecond.
-  let_go(speed) {
-    const fast = Turn.length(speed);
-    if (!this.keeps_turning || less_motion() || fast < 1e-4) return;
-    let last = performance.now(), now_fast = fast;
-    const step = () => {
-      const now = performance.now();
-      now_fast *= Math.exp((last - now) / 900);
-      this.turn_to(Turn.after(Turn.about(speed, now_fast * (now - last)), this.view().turn));
-      last = now;
-      this.motion = now_fast > 2e-5 ? requestAnimationFrame(step) : 0;
-    };
-    this.motion = requestAnimationFrame(step);
-  }
-  look(name) {
-    if (name === "home") this.state.set({ zoom: 1, pan: null });
-    this.go_to(name === "home" ? this.home()
-      : named_view(name, this.shown_stone().up, Turn.back(this.base.home, [0, 1, 0])));
-  }
-
-  // --- Pointing at facets
-
-  polygons() {
-    const box = this.stage.getBoundingClientRect();
-    return this.shown_stone().polygons(this.base, this.view(), box.width, box.height);
-  }
-  point_at(at) {
-    if (!this.ready()) return;
-    const polygons = at ? this.polygons() : [];
-    const found = at ? polygon_at(polygons.map(({ points }) => points), ...at) : -1;
-    this.point(found < 0 ? null : polygons[found].facet.index);
-  }
-  point(index) {
-    if (index === this.overlay.pointed) return;
-    this.overlay.pointed = index;
-    this.card.show(this.shown_stone(), index);
-    this.overlay.draw();
-  }
-  point_next(step) {
-    const polygons = this.polygons();
-    const now = polygons.findIndex(({ facet }) => facet.index === this.overlay.pointed);
-    const next = now < 0 ? (step > 0 ? 0 : polygons.length - 1) : (now + step + polygons.length) % polygons.length;
-    this.point(polygons[next].facet.index);
-    const { facet } = polygons[next], { inclination } = this.shown_stone().angles_of(facet);
-    this.say(`${facet.name}, inclination ${inclination.toFixed(2)} degrees`);
-  }
-  async click(at) {
-    this.point_at(at);
-    if (!this.ready() || this.refused) return;
-    try {
-      await this.light_path.probe(at);
-      this.tabs.open("path", false);
-    } catch (error) {
-      this.failed(error);
-    }
-  }
-  path_of_pointed() {
-    const polygon = this.polygons().find(({ facet }) => facet.index === this.overlay.pointed);
-    if (polygon) this.click(middle_of(polygon.points));
-    else this.say("Choose a facet first: N.");
-  }
   put_away() {
     this.light_path.clear();
-    this.point(null);
+    this.pointing.point(null);
     this.overlay.draw();
     by_id("trouble").hidden = true;
   }
-
-  // --- Choices of the panels
 
   choose_light(name) {
     const before = this.ready() && this.home();
     this.state.set({ light: name, polariser: null, analyser: null, retarder: null });
     const preset = this.light_preset(), turned = Turn.apart(before, this.home()) > 1e-6;
     // An instrument is looked through straight on.
-    if (turned || (preset && preset.instrument)) this.go_to(this.home());
+    if (turned || (preset && preset.instrument)) this.motion.go_to(this.home());
   }
   turn_light_by_hand(on) {
     this.hand_turns_light = on;
@@ -297,6 +174,7 @@ class Page {
     this.picture.show(compare === "blink" && this.fit.blink_side ? "right" : "left", compare === "split" ? divider / 100 : null);
   }
   show_refused() {
+    this.says_refused = true;
     this.gpu.hide();
     this.picture.canvas.hidden = true;
     this.picture.still.hidden = false;
@@ -307,6 +185,8 @@ class Page {
     const ms = this.gpu.shown ? gpu : quick ? preview : beams;
     by_id("timing").textContent = `${this.gpu.shown ? "GPU" : quick ? "quick" : "beams"} ${ms.toFixed(0)} ms`;
     this.stage.dataset.drawn = quick ? "quick" : "full";
+    if (this.says_refused) by_id("trouble").hidden = true;
+    this.says_refused = false;
     if (!this.first_picture_ms) this.stage.dataset.firstPictureMs = this.first_picture_ms = Math.round(performance.now());
     if (quick) return;
     this.panels.picture.update();
@@ -340,24 +220,5 @@ class Page {
       by_id("trouble").hidden = true;
       this.start_engine();
     });
-  }
-  command() {
-    if (!this.ready()) return "";
-    const [width, height] = this.picture.size(), stone = this.shown_index();
-    return command_line({
-      command: this.item().command || "culet render " + quoted(this.shown_name()), settings: this.settings(stone),
-      stone: this.engine_stone(stone),
-      camera: this.drawing(stone, width, height).camera, size: [width, height],
-      exposure: this.exposure(), tonemap: this.tonemap(), engine: "beams",
-      lights_turned: this.lights_turn(),
-    });
-  }
-  // What the command does not say.
-  command_limits() {
-    const values = this.state.values, limits = [];
-    if (values.light === "panorama") limits.push("the panorama: put --set light.environment=FILE in place of it");
-    if (values.cut) limits.push("the changed proportions: culet cut makes that stone");
-    if (this.document_stone().role === "catalogue") limits.push("that this is the catalogue\u2019s stone, not the fitted one");
-    return limits.length ? "It does not say: " + limits.join("; ") + "." : "";
   }
 }

@@ -17,7 +17,7 @@ class PanelMaterial {
     const axis = (index, value) => {
       const now = (this.page.state.get("axis") || [0, 0]).slice();
       now[index] = value;
-      page.slide({ axis: now });
+      page.motion.slide({ axis: now });
     };
     this.tilt = slider({ name: "axis-tilt", label: "Optic axis, from straight up", least: 0, most: 90, step: 1, unit: "\u00b0", value: 0,
       onchange: (value) => axis(0, value) });
@@ -25,7 +25,7 @@ class PanelMaterial {
       onchange: (value) => axis(1, value) });
     this.own_axis = button("As in the file", () => page.state.set({ axis: null }), { class: "wide", "data-name": "own-axis" });
     this.colour = slider({ name: "colour", label: "Depth of colour", least: 0, most: 4, step: 0.05, digits: 2, unit: " times", value: 1,
-      onchange: (value) => page.slide({ colour: value }) });
+      onchange: (value) => page.motion.slide({ colour: value }) });
     this.axis_group = group("Crystal", null, this.axis_note, this.tilt, this.azimuth, this.own_axis);
     this.node = element("div", {},
       group("Material", null, element("label", { class: "unseen", for: field_id }, "Search a material"), this.field, this.list, this.colour),

@@ -82,7 +82,7 @@ function command_line(drawing) {
   if (drawing.lights_turned && Turn.apart(drawing.lights_turned, Turn.none) > 1e-6) {
     settings.push(`light.rotate=${toml_list(Turn.angles(drawing.lights_turned))}`);
   }
-  const words = ["-o", "picture.png", "--size", drawing.size.join(","), "--engine", drawing.engine];
+  const words = ["-o", "picture.png", "--size", drawing.size.join(","), "--engine", drawing.engine, "--check", "none"];
   for (const setting of settings) words.push("--set", setting);
   words.push("--exposure", typeof drawing.exposure === "number" ? toml_number(drawing.exposure) : "auto");
   if (drawing.tonemap && drawing.tonemap !== "none") words.push("--tonemap", drawing.tonemap);

@@ -10,7 +10,7 @@ class TiltStrip {
     this.drawn_key = "";
     this.pictures = k_tilts_deg.map((tilt) => {
       const canvas = element("canvas", { width: 96, height: 96, "aria-hidden": "true" });
-      const one = button("", () => page.go_to(this.turn_at(tilt)),
+      const one = button("", () => page.motion.go_to(this.turn_at(tilt)),
         { title: `Tilt the stone by ${tilt} degrees`, "aria-label": `Tilt by ${tilt} degrees` });
       one.append(canvas, element("span", {}, (tilt > 0 ? "+" : "") + tilt + "\u00b0"));
       strip.append(one);
