@@ -299,6 +299,42 @@ class PageTest(PageActions, unittest.TestCase):
         self.drag(50, 20)
         self.assertNotEqual(before, self.seen())
 
+    def gpu_page(self):
+        document = made_up_document()
+        document["title"] = "with a GPU"
+        self.open(document)
+        self.browser.run("culet_page.state.set({drawn_by: 'gpu'})")
+        self.browser.rest()
+
+    def test_gpu_sums_its_passes_and_samples(self):
+        """The stand-in's kernel is known: its middle is 0.2, 0.4, 0.8 times a half, from two passes, and the
+        mean over samples is what each of them is."""
+        self.gpu_page()
+        self.assertTrue(self.browser.run("return culet_page.gpu.shown"), self.browser.run("return culet_page.gpu.refusal()"))
+        pixels = self.browser.run("""const c = document.getElementById('gpu-picture'), copy = document.createElement('canvas');
+            copy.width = c.width; copy.height = c.height; const t = copy.getContext('2d', {willReadFrequently: true}); t.drawImage(c, 0, 0);
+            const m = (x) => [...t.getImageData(x, c.height / 2, 1, 1).data]; return [m(c.width / 2 - 2), m(c.width / 2 + 2), m(1)];""")
+        for middle in pixels[:2]:
+            for value, expected in zip(middle, [0.1 * 255, 0.2 * 255, 0.4 * 255]): self.assertAlmostEqual(value, expected, delta=3)
+        before = self.seen()
+        self.drag(70, 20)
+        self.assertNotEqual(before, self.seen())
+        self.browser.run("culet_page.state.set({tonemap: 'reinhard'})")
+        self.assertNotEqual(before, self.seen())
+
+    def test_lost_context_comes_back(self):
+        self.gpu_page()
+        before = self.seen()
+        self.browser.wait("""const lose = culet_page.gpu.gl.getExtension('WEBGL_lose_context'), canvas = document.getElementById('gpu-picture');
+            const lost = new Promise((r) => canvas.addEventListener('webglcontextlost', r, {once: true})); lose.loseContext(); await lost;
+            await new Promise((r) => setTimeout(r, 50)); await culet_page.loop.idle();
+            if (culet_page.gpu.shown) throw new Error('a lost context shows nothing');
+            if (document.getElementById('picture').hidden) throw new Error('the engine takes over');
+            const back = new Promise((r) => canvas.addEventListener('webglcontextrestored', r, {once: true})); lose.restoreContext(); await back;
+            await new Promise((r) => setTimeout(r, 50)); await culet_page.loop.idle();""")
+        self.assertTrue(self.browser.run("return culet_page.gpu.shown"))
+        self.assertEqual(before[0], self.browser.picture())
+
     def test_panorama_by_its_button_and_a_wrong_file(self):
         self.open()
         before = self.seen()

@@ -1,7 +1,7 @@
 "use strict";
 // Stands in for the engine where the page alone is tested: answers every call by the protocol, and
 // draws a convex stone whose facets are plainly shaded, so that whatever a call says changes the picture.
-let stones = [], shown = 0, settings = [];
+let stones = [], shown = 0, settings = [], with_gpu = false;
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -50,9 +50,42 @@ function draw({ camera, turn, width, height, engine, exposure, tonemap }) {
   return { width, height, pixels, exposure: bright, milliseconds: performance.now() - begin, beams: stone.facets.length, remainder: 0 };
 }
 
+// A kernel of that interface (render/gpu/gpu_program.h): a ball that the light's turn shades, one half
+// of it in each of two passes, so that both must have been summed.
+const gpu_program = {
+  vertex: "void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }",
+  kernel: `precision highp float; precision highp sampler2D;
+    uniform sampler2D u_sum; uniform sampler2D u_table; uniform float u_keep; uniform float u_half; uniform vec2 u_size;
+    uniform mat3 u_light_turn; uniform int u_shift[2]; out vec4 out_sum;
+    void main() {
+      vec2 p = 2.0 * gl_FragCoord.xy / u_size - 1.0;
+      float z = 1.0 - dot(p, p);
+      vec3 n = vec3(p, sqrt(max(0.0, z)));
+      float lit = z > 0.0 && p.x * u_half > 0.0 ? 0.5 + 0.5 * (u_light_turn * n).x : 0.0;
+      vec4 own = vec4(lit * texelFetch(u_table, ivec2(u_shift[1], 0), 0).rgb, 1.0);
+      out_sum = own + u_keep * texelFetch(u_sum, ivec2(gl_FragCoord.xy), 0);
+    }`,
+  display: `precision highp float; precision highp sampler2D;
+    uniform sampler2D u_sum; uniform float u_exposure; uniform int u_tone_map; out vec4 colour;
+    void main() { vec3 v = u_exposure * texelFetch(u_sum, ivec2(gl_FragCoord.xy), 0).rgb;
+      colour = vec4(u_tone_map == 1 ? v / (1.0 + v) : v, 1.0); }`,
+};
+function gpu({ width, height, turn, samples }) {
+  const one = (name, components, values, whole = false) => ({ name, components, whole, values });
+  return {
+    ...gpu_program, key: "the only one",
+    uniforms: [one("u_light_turn", 9, [turn[0], turn[3], turn[6], turn[1], turn[4], turn[7], turn[2], turn[5], turn[8]]), one("u_shift", 1, [0, 1], true)],
+    passes: [{ uniforms: [one("u_half", 1, [-1])] }, { uniforms: [one("u_half", 1, [1])] }],
+    textures: [{ name: "u_table", unit: 3, width: 2, height: 1, rgba: [0, 0, 0, 1, 0.2, 0.4, 0.8, 1] }],
+    samples: Array.from({ length: samples }, () => [one("u_size", 2, [width, height])]),
+  };
+}
+
 const calls = {
+  gpu,
   start: () => ({}),
   open({ document, item }) {
+    with_gpu = document.title === "with a GPU";
     stones = document.items[item].stones.slice();
     shown = 0;
     return {
@@ -75,7 +108,7 @@ const calls = {
     shown = call.stone;
     settings = call.settings;
     if (settings.some((s) => s.includes("refuse"))) throw new Error("a line for people");
-    return { wavelengths: 3, effects: [{ name: "dispersion", on: true, why: "the index changes" }, { name: "absorption", on: false, why: "it is clear" }], notes: [], refused: "", gpu_refused: "a stand-in has none" };
+    return { wavelengths: 3, effects: [{ name: "dispersion", on: true, why: "the index changes" }, { name: "absorption", on: false, why: "it is clear" }], notes: [], refused: "", gpu_refused: with_gpu ? "" : "a stand-in has none" };
   },
   draw,
   path: ({ x }) => x < 5 ? { paths: [] } : { paths: [

@@ -26,6 +26,7 @@ class GpuView {
     });
     canvas.addEventListener("webglcontextrestored", () => {
       this.lost = false;
+      this.gl.getExtension("EXT_color_buffer_float");  // a context that comes back has none
       this.program = null;
       this.program_key = "";
       page.loop.changed();

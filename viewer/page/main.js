@@ -189,8 +189,20 @@ class Page {
     this.says_refused = false;
     if (!this.first_picture_ms) this.stage.dataset.firstPictureMs = this.first_picture_ms = Math.round(performance.now());
     if (quick) return;
+    this.keep_address();
     this.panels.picture.update();
     this.tilts.update().catch((error) => this.failed(error));
+  }
+
+  // So that the page is the same when it is loaded again.
+  keep_address() {
+    const fragment = this.state.fragment();
+    if (location.hash.replace(/^#/, "") === fragment) return;
+    try {
+      history.replaceState(null, "", fragment ? "#" + fragment : location.href.replace(/#.*$/, ""));
+    } catch {
+      // Some browsers allow it no page from a file; the link can still be copied.
+    }
   }
 
   // --- Words

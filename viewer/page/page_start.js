@@ -180,6 +180,8 @@ Object.assign(Page.prototype, {
   // Somebody changed the state.
   changed(changed, by) {
     if (!this.ready()) return;
+    // What is quick enough now is found anew.
+    if (["material", "light", "effects", "wavelengths", "depth", "polariser", "item"].some((key) => changed.has(key))) this.loop.coarse = false;
     if (changed.has("cut")) this.cut_soon();
     const drawn = [...changed].some((key) => !["divider", "facets", "wire", "names", "tilts", "cut", "item"].includes(key));
     if (["turn", "zoom", "pan", "stone", "compare", "cut"].some((key) => changed.has(key)) && this.overlay.path.length) {
