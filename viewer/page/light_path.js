@@ -55,7 +55,7 @@ class LightPath {
     if (rest > 0) this.list.append(element("p", { class: "note" }, `and ${rest} weaker ${rest === 1 ? "path" : "paths"}`));
     choose(0);
     const first = paths[0];
-    page.say(`Light path: ${first.facets.join(", ")}; sees ${first.light || "nothing"}`);
+    page.say(`Light path: ${first.facets.join(", ")}; sees ${first.light || "nothing"}`, true);
   }
 
   // `weight` is the share of the light along this way that reaches the eye.

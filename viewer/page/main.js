@@ -207,9 +207,10 @@ class Page {
 
   // --- Words
 
-  // For a while: who looks away reads it again in the panel it is about.
-  say(line) {
+  // For a while. `aloud`: only to those who hear the page; who sees it sees the same in the panel.
+  say(line, aloud = false) {
     clearTimeout(this.saying);
+    by_id("say").classList.toggle("unseen", aloud);
     by_id("say").textContent = line;
     this.saying = setTimeout(() => { by_id("say").textContent = ""; }, 4500);
   }

@@ -26,7 +26,7 @@ class Pointing {
     const next = now < 0 ? (step > 0 ? 0 : polygons.length - 1) : (now + step + polygons.length) % polygons.length;
     this.point(polygons[next].facet.index);
     const { facet } = polygons[next], { inclination } = this.page.shown_stone().angles_of(facet);
-    this.page.say(`${facet.name}, inclination ${inclination.toFixed(2)} degrees`);
+    this.page.say(`${facet.name}, inclination ${inclination.toFixed(2)} degrees`, true);
   }
   async click(at) {
     this.point_at(at);
