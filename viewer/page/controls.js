@@ -90,7 +90,7 @@ function choice(legend, choices, onchange, style, name) {
     onchange: () => onchange(value),
   }));
   const made = element("fieldset", { class: "control choice " + style, "data-name": name || null },
-    element("legend", { class: style === "cards" ? "unseen" : null }, legend),
+    element("legend", { class: style.startsWith("cards") ? "unseen" : null }, legend),
     ...choices.map(({ label, what }, i) => element("div", { class: "option" }, inputs[i],
       element("label", { for: inputs[i].id }, element("b", {}, label),
         what ? element("span", { class: "what" }, what) : null))));

@@ -37,7 +37,7 @@ class FacetCard {
     if (fit.determined === false) warnings.push("\u26a0 left open by the readings");
     this.card.replaceChildren(
       element("h2", {}, facet.name, element("small", {}, side)),
-      element("dl", {}, ...rows.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)])),
+      element("dl", {}, ...rows.map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value)))),
       ...warnings.map((line) => element("p", { class: "warning" }, line)));
   }
 }

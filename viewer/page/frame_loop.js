@@ -4,6 +4,7 @@
 
 const k_quick_ms = 33;     // of a frame while the stone moves
 const k_rest_ms = 140;     // without a move, after which the whole picture is drawn
+const k_least_scale = 0.25;  // of the screen's resolution: coarser is no picture any more
 const k_levels = { quick: 0, full: 1, done: 2 };
 
 class FrameLoop {
@@ -14,6 +15,7 @@ class FrameLoop {
     this.last_move = -Infinity;
     this.running = false;
     this.paused = false;    // while others need the engine: recording
+    this.coarse = false;    // quick frames leave out what takes them too long
     this.set_key = "";      // what the engine was last told to draw
     this.exposure = null;   // of the last whole picture
     this.milliseconds = {}; // last of each way of drawing
@@ -78,21 +80,30 @@ class FrameLoop {
 
   // Tells the engine which stone and scene, if it does not know.
   async prepare(stone, settings) {
-    const key = JSON.stringify([stone, settings, this.page.scene_version]);
+    const held = this.page.engine_stone(stone);
+    const key = JSON.stringify([held, settings, this.page.scene_version]);
     if (key === this.set_key) return;
     this.set_key = "";
-    const answer = await this.page.engine.call("set", { stone, settings });
+    const answer = await this.page.engine.call("set", { stone: held, settings });
     this.set_key = key;
     this.page.took_settings(answer);
   }
 
+  // While the stone moves nobody sees a crystal's two images apart, nor a rainbow's every colour.
+  settings(stone, quick) {
+    const settings = this.page.settings(stone);
+    if (!quick || !this.coarse) return settings;
+    if (!this.page.state.get("wavelengths")) settings.push(`render.wavelengths=${toml_list(wavelengths_nm(3))}`);
+    return [...settings, 'render.crystal_beams="merged"'];
+  }
+
   async draw(quick) {
     const page = this.page, values = page.state.values;
-    const sides = values.compare === "one" ? [["left", values.stone]] : [["left", 0], ["right", 1]];
+    const sides = values.compare === "one" ? [["left", page.shown_index()]] : [["left", 0], ["right", 1]];
     const [width, height] = page.picture.size(quick ? this.scale : 1);
     let spent = 0, exposure = this.exposure_for(quick);
     for (const [side, stone] of sides) {
-      await this.prepare(stone, page.settings(stone));
+      await this.prepare(stone, this.settings(stone, quick));
       if (page.refused) return page.show_refused();
       if (side === "left" && page.gpu.wanted()) {
         await page.gpu.draw(width, height, quick, exposure);
@@ -100,7 +111,7 @@ class FrameLoop {
       }
       const drawn = await page.engine.call("draw", {
         ...page.drawing(stone, width, height), engine: quick ? "preview" : "beams", exposure,
-        tonemap: values.tonemap,
+        tonemap: page.tonemap(),
       });
       spent += drawn.milliseconds;
       page.picture.take(drawn, side);
@@ -123,6 +134,7 @@ class FrameLoop {
 
   adapt(milliseconds) {
     const wanted = this.scale * Math.sqrt(k_quick_ms / Math.max(1, milliseconds));
-    this.scale = Math.min(1, Math.max(0.25, 0.7 * this.scale + 0.3 * wanted));
+    this.scale = Math.min(1, Math.max(k_least_scale, 0.7 * this.scale + 0.3 * wanted));
+    if (milliseconds > 2 * k_quick_ms && this.scale < 1.2 * k_least_scale) this.coarse = true;
   }
 }

@@ -26,6 +26,7 @@ class GpuView {
     });
     canvas.addEventListener("webglcontextrestored", () => {
       this.lost = false;
+      this.gl.getExtension("EXT_color_buffer_float");  // a context that comes back has none
       this.program = null;
       this.program_key = "";
       page.loop.changed();
@@ -102,7 +103,7 @@ class GpuView {
       this.canvas.width = width;
       this.canvas.height = height;
     }
-    const tone_map = k_gpu_tone_maps[page.state.get("tonemap")] || 0;
+    const tone_map = k_gpu_tone_maps[page.tonemap()] || 0;
     this.program.begin(width, height);
     for (let sample = 0; sample < Math.min(count, answer.samples.length); ++sample) {
       const begin = performance.now();

@@ -14,10 +14,10 @@ class Hand {
     surface.addEventListener("pointermove", (event) => this.move(event));
     surface.addEventListener("pointerup", (event) => this.up(event));
     surface.addEventListener("pointercancel", (event) => this.up(event));
-    surface.addEventListener("pointerleave", () => page.point_at(null));
+    surface.addEventListener("pointerleave", () => page.pointing.point_at(null));
     surface.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     surface.addEventListener("contextmenu", (event) => event.preventDefault());
-    surface.addEventListener("dblclick", () => page.look("home"));
+    surface.addEventListener("dblclick", () => page.ready() && page.motion.look("home"));
   }
 
   place(event) {
@@ -31,11 +31,12 @@ class Hand {
   }
 
   down(event) {
+    if (!this.page.ready()) return;
     if (event.button > 0 && event.pointerType === "mouse" && event.button !== 2) return;
     this.surface.setPointerCapture(event.pointerId);
     const at = this.place(event);
     this.pointers.set(event.pointerId, at);
-    this.page.stop_motion();
+    this.page.motion.stop();
     if (this.pointers.size === 1) {
       const pan = event.shiftKey || event.button === 2;
       this.begin(pan ? "pan" : this.page.hand_turns_light ? "light" : "turn", at);
@@ -66,7 +67,7 @@ class Hand {
   move(event) {
     const at = this.place(event);
     if (!this.pointers.has(event.pointerId)) {
-      if (event.pointerType !== "touch") this.page.point_at(at);
+      if (event.pointerType !== "touch") this.page.pointing.point_at(at);
       return;
     }
     this.pointers.set(event.pointerId, at);
@@ -75,13 +76,13 @@ class Hand {
     if (gesture.click && Math.hypot(at[0] - gesture.first[0], at[1] - gesture.first[1]) < k_click_pixels) return;
     gesture.click = false;
     if (gesture.kind === "pinch") {
-      this.page.zoom_about(this.middle(), gesture, this.apart() / gesture.apart);
+      this.page.motion.zoom_about(this.middle(), gesture, this.apart() / gesture.apart);
     } else if (gesture.kind === "pan") {
-      this.page.pan_by(gesture, at[0] - gesture.at[0], at[1] - gesture.at[1]);
+      this.page.motion.pan_by(gesture, at[0] - gesture.at[0], at[1] - gesture.at[1]);
     } else {
       const drag = Turn.drag(this.on_ball(gesture.at), this.on_ball(at));
-      if (gesture.kind === "light") this.page.turn_light(gesture, drag);
-      else this.page.turn_to(Turn.after(drag, gesture.turn));
+      if (gesture.kind === "light") this.page.motion.turn_light(gesture, drag);
+      else this.page.motion.turn_to(Turn.after(drag, gesture.turn));
       gesture.trail.push([performance.now(), drag]);
     }
   }
@@ -96,8 +97,8 @@ class Hand {
       return;
     }
     if (!gesture || this.pointers.size > 0 || event.type === "pointercancel") return;
-    if (gesture.click) this.page.click(this.place(event));
-    else if (gesture.kind === "turn") this.page.let_go(this.speed(gesture));
+    if (gesture.click) this.page.pointing.click(this.place(event));
+    else if (gesture.kind === "turn") this.page.motion.let_go(this.speed(gesture));
   }
   // Of the turn when the hand let go: axis times radians a millisecond.
   speed(gesture) {
@@ -111,10 +112,11 @@ class Hand {
 
   wheel(event) {
     event.preventDefault();
+    if (!this.page.ready()) return;
     const lines = event.deltaMode === 1 ? 16 : event.deltaMode === 2 ? 100 : 1;
     const view = this.page.view();
     const at = this.place(event);
-    this.page.zoom_about(at, { at, zoom: view.zoom, pan: view.pan.slice() },
+    this.page.motion.zoom_about(at, { at, zoom: view.zoom, pan: view.pan.slice() },
       Math.exp(-event.deltaY * lines * (event.ctrlKey ? 0.01 : 0.0015)));
   }
 }

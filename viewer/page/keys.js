@@ -36,20 +36,20 @@ class Keys {
   }
 
   on_stone(event) {
-    if (event.altKey || event.metaKey) return;
+    if (event.altKey || event.metaKey || !this.page.ready()) return;
     const page = this.page;
     const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key];
     if (way && event.shiftKey) {
-      page.pan_by({ pan: page.view().pan, zoom: page.view().zoom }, 24 * way[0], -24 * way[1]);
+      page.motion.pan_by({ pan: page.view().pan, zoom: page.view().zoom }, 24 * way[0], -24 * way[1]);
     } else if (way) {
       const angle = (event.ctrlKey ? 1 : 5) * Math.PI / 180;
       const by = Turn.about([-way[1], way[0], 0], angle);
-      if (page.hand_turns_light) page.turn_light({ light_turn: page.state.get("light_turn"), turn: page.view().turn }, by);
-      else page.turn_to(Turn.after(by, page.view().turn));
+      if (page.hand_turns_light) page.motion.turn_light({ light_turn: page.state.get("light_turn"), turn: page.view().turn }, by);
+      else page.motion.turn_to(Turn.after(by, page.view().turn));
     } else if (event.key === "Enter") {
-      page.path_of_pointed();
+      page.pointing.path_of_pointed();
     } else if (event.key === "n" || event.key === "N") {
-      page.point_next(event.shiftKey ? -1 : 1);
+      page.pointing.point_next(event.shiftKey ? -1 : 1);
     } else {
       return;
     }
@@ -58,14 +58,15 @@ class Keys {
 
   anywhere(event) {
     if (event.altKey || event.metaKey || event.ctrlKey) return;
+    if (!this.page.ready() && !["?", "f", "F", "PageUp", "PageDown"].includes(event.key)) return;
     const typing = event.target instanceof Element
       && event.target.closest("input:not([type=checkbox]):not([type=radio]):not([type=range]), textarea, select");
     if (typing || this.dialog.open && event.key !== "?") return;
     const page = this.page;
     const acts = {
-      "+": () => page.zoom_by(1.15), "=": () => page.zoom_by(1.15), "-": () => page.zoom_by(1 / 1.15),
-      t: () => page.look("table"), p: () => page.look("pavilion"), s: () => page.look("side"),
-      Home: () => page.look("home"), f: () => page.full_screen(), "?": () => this.help(),
+      "+": () => page.motion.zoom_by(1.15), "=": () => page.motion.zoom_by(1.15), "-": () => page.motion.zoom_by(1 / 1.15),
+      t: () => page.motion.look("table"), p: () => page.motion.look("pavilion"), s: () => page.motion.look("side"),
+      Home: () => page.motion.look("home"), f: () => page.full_screen(), "?": () => this.help(),
       l: () => page.turn_light_by_hand(!page.hand_turns_light), w: () => page.state.set({ wire: !page.state.get("wire") }),
       b: () => page.blink(), PageUp: () => page.gallery.step(-1), PageDown: () => page.gallery.step(1),
       Escape: () => page.put_away(),

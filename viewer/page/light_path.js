@@ -55,7 +55,7 @@ class LightPath {
     if (rest > 0) this.list.append(element("p", { class: "note" }, `and ${rest} weaker ${rest === 1 ? "path" : "paths"}`));
     choose(0);
     const first = paths[0];
-    page.say(`Light path: ${first.facets.join(", ")}; sees ${first.light || "nothing"}`);
+    page.say(`Light path: ${first.facets.join(", ")}; sees ${first.light || "nothing"}`, true);
   }
 
   // `weight` is the share of the light along this way that reaches the eye.
@@ -63,7 +63,7 @@ class LightPath {
     const share = path.weight;
     const crossed = path.facets.map((name, i) => {
       const last = i === path.facets.length - 1;
-      const what = path.facets.length === 1 ? "mirrors" : i === 0 ? "in" : last ? "out" : "reflects";
+      const what = path.facets.length === 1 ? "mirrors it" : i === 0 ? "in" : last ? "out" : "reflects";
       return element("li", {}, element("b", {}, name), " ", element("span", { class: "soft" }, what));
     });
     return element("div", { class: "path-item" },

@@ -2,7 +2,6 @@
 // The page: puts the parts together and says what each of them asks of the others.
 
 function by_id(id) { return document.getElementById(id); }
-function less_motion() { return matchMedia("(prefers-reduced-motion: reduce)").matches; }
 
 class Page {
   constructor() {
@@ -16,12 +15,14 @@ class Page {
     this.card = new FacetCard(this, by_id("facet-card"));
     this.engine = new EngineClient((line) => this.engine_died(line));
     this.stones = [];
+    this.designs = new Map();  // by a stone's index, under which number the engine holds its changed cut
     this.info = null;       // what the engine told of the item
     this.refused = "";      // why beams cannot draw what is set
     this.scene_version = 0; // of what the engine holds beside stone and settings: cut, panorama
     this.hand_turns_light = false;
-    this.keeps_turning = false;
-    this.motion = 0;
+    this.motion = new Motion(this);
+    this.pointing = new Pointing(this);
+    this.command = new Command(this);
   }
 
   // --- What is shown
@@ -33,14 +34,17 @@ class Page {
     const values = this.state.values;
     if (values.compare === "blink") return this.fit ? this.fit.blink_side : 0;
     if (values.compare === "split") return 0;
-    return Math.min(values.stone, this.item().stones.length - 1);
+    const last = this.item().stones.length - 1;
+    return Math.min(last, Math.max(0, values.stone ?? last));
   }
   shown_stone() { return this.stones[this.shown_index()]; }
   shown_name() { return this.item().name || this.document.title; }
   own_material() {
     const material = this.document_stone().material;
-    return typeof material === "string" ? material : material && material.name || "";
+    return (material && (material.id || material.name)) || "";
   }
+  // Under which number the engine holds a stone: a cut that was changed is one of its own.
+  engine_stone(index) { return this.designs.get(index) ?? index; }
   optic() {
     const name = this.state.get("material");
     if (name) return (this.info.materials.find((m) => m.name === name) || {}).optic;
@@ -48,7 +52,7 @@ class Page {
     return (material && material.optic) || (this.info.materials.find((m) => m.name === this.own_material()) || {}).optic;
   }
   // The preset that the scene itself names; empty: lights of its own.
-  own_light() { return (this.info && this.info.settings && this.info.settings.light) || ""; }
+  own_light() { return (this.info && this.info.settings && this.info.settings.light_preset) || ""; }
   light_preset() {
     const { light, polariser } = this.state.values;
     if (polariser !== null || light === "panorama") return null;
@@ -67,7 +71,9 @@ class Page {
   }
   // How the lights are turned in the stone's frame.
   lights_turn(turn = this.view().turn) {
-    const { light_turn, lights_with } = this.state.values;
+    const { light_turn, lights_with, polariser } = this.state.values;
+    // A polariscope's light is always behind the stone.
+    if (polariser !== null) return Turn.after(Turn.inverse(turn), this.base.home);
     if (lights_with === "stone") return light_turn;
     return Turn.after(Turn.after(Turn.inverse(turn), this.home()), light_turn);
   }
@@ -78,11 +84,13 @@ class Page {
     const preset = this.light_preset();
     return preset && !preset.instrument ? "auto" : 1;
   }
-  settings(stone) { return settings_of(this.state.values, this.optic(stone)); }
+  tonemap() { return this.state.get("tonemap") ?? (this.info.settings && this.info.settings.tonemap) ?? "none"; }
+  settings(stone) { return settings_of(this.state.values, this.optic(stone), this.panorama_setting); }
   // What every call of the engine about a view begins with.
   drawing(stone, width, height, view = this.view()) {
     return {
-      camera: camera_of(this.base, view, this.stones[stone].center, width, height),
+      stone: this.engine_stone(stone),
+      camera: camera_of(this.base, view, this.base.center, width, height),
       turn: Turn.matrix(this.lights_turn(view.turn)), width, height,
     };
   }
@@ -96,146 +104,21 @@ class Page {
     };
   }
 
-  // --- Moving
+  // --- Choices
 
-  turn_to(turn) {
-    this.loop.last_move = performance.now();
-    this.state.set({ turn }, "hand");
-  }
-  turn_light(gesture, drag) {
-    const before = this.state.get("lights_with") === "stone" ? gesture.turn : this.home();
-    const turn = Turn.after(Turn.inverse(before), Turn.after(drag, before));
-    this.loop.last_move = performance.now();
-    this.state.set({ light_turn: Turn.after(turn, gesture.light_turn) }, "hand");
-  }
-  pan_by(gesture, x, y) {
-    const { scale } = this.ball();
-    this.loop.last_move = performance.now();
-    this.state.set({ pan: [gesture.pan[0] + x / scale, gesture.pan[1] - y / scale] }, "hand");
-  }
-  // `at` stays where it is; `from`: {at, zoom, pan} when the gesture began.
-  zoom_about(at, from, factor) {
-    const box = this.stage.getBoundingClientRect();
-    const zoom = Math.min(50, Math.max(0.2, from.zoom * factor));
-    const unit = (point, z) => {
-      const scale = box.height / 2 / half_height_of(this.base, z, box.width, box.height);
-      return [(point[0] - box.width / 2) / scale, (box.height / 2 - point[1]) / scale];
-    };
-    const before = unit(from.at, from.zoom), after = unit(at, zoom);
-    this.loop.last_move = performance.now();
-    this.state.set({ zoom, pan: [0, 1].map((i) => after[i] - (before[i] - from.pan[i])) }, "hand");
-  }
-  zoom_by(factor) {
-    const box = this.stage.getBoundingClientRect(), { zoom, pan } = this.view();
-    const at = [box.width / 2, box.height / 2];
-    this.zoom_about(at, { at, zoom, pan }, factor);
-  }
-  // A control that is dragged: quick frames until it rests.
-  slide(changes) {
-    this.loop.last_move = performance.now();
-    this.state.set(changes);
-  }
-
-  stop_motion() {
-    cancelAnimationFrame(this.motion);
-    this.motion = 0;
-  }
-  go_to(turn) {
-    this.stop_motion();
-    const from = this.view().turn, way = Turn.after(turn, Turn.inverse(from));
-    const sign = way[3] < 0 ? -1 : 1, angle = Turn.apart(turn, from);
-    if (less_motion() || angle < 1e-4) {
-      this.state.set({ turn });
-      return;
-    }
-    const axis = way.slice(0, 3).map((v) => sign * v), begin = performance.now(), lasts = 260;
-    const step = () => {
-      const t = Math.min(1, (performance.now() - begin) / lasts), eased = t * t * (3 - 2 * t);
-      if (t < 1) {
-        this.turn_to(Turn.after(Turn.about(axis, angle * eased), from));
-        this.motion = requestAnimationFrame(step);
-      } else {
-        this.state.set({ turn });
-      }
-    };
-    this.motion = requestAnimationFrame(step);
-  }
-  // After a drag: `speed` is axis times radians a millisecond.
-  let_go(speed) {
-    const fast = Turn.length(speed);
-    if (!this.keeps_turning || less_motion() || fast < 1e-4) return;
-    let last = performance.now(), now_fast = fast;
-    const step = () => {
-      const now = performance.now();
-      now_fast *= Math.exp((last - now) / 900);
-      this.turn_to(Turn.after(Turn.about(speed, now_fast * (now - last)), this.view().turn));
-      last = now;
-      this.motion = now_fast > 2e-5 ? requestAnimationFrame(step) : 0;
-    };
-    this.motion = requestAnimationFrame(step);
-  }
-  look(name) {
-    if (name === "home") this.state.set({ zoom: 1, pan: null });
-    this.go_to(name === "home" ? this.home()
-      : named_view(name, this.shown_stone().up, Turn.back(this.base.home, [0, 1, 0])));
-  }
-
-  // --- Pointing at facets
-
-  polygons() {
-    const box = this.stage.getBoundingClientRect();
-    return this.shown_stone().polygons(this.base, this.view(), box.width, box.height);
-  }
-  point_at(at) {
-    if (!this.ready()) return;
-    const polygons = at ? this.polygons() : [];
-    const found = at ? polygon_at(polygons.map(({ points }) => points), ...at) : -1;
-    this.point(found < 0 ? null : polygons[found].facet.index);
-  }
-  point(index) {
-    if (index === this.overlay.pointed) return;
-    this.overlay.pointed = index;
-    this.card.show(this.shown_stone(), index);
-    this.overlay.draw();
-  }
-  point_next(step) {
-    const polygons = this.polygons();
-    const now = polygons.findIndex(({ facet }) => facet.index === this.overlay.pointed);
-    const next = now < 0 ? (step > 0 ? 0 : polygons.length - 1) : (now + step + polygons.length) % polygons.length;
-    this.point(polygons[next].facet.index);
-    const { facet } = polygons[next], { inclination } = this.shown_stone().angles_of(facet);
-    this.say(`${facet.name}, inclination ${inclination.toFixed(2)} degrees`);
-  }
-  async click(at) {
-    this.point_at(at);
-    if (!this.ready() || this.refused) return;
-    try {
-      await this.light_path.probe(at);
-      this.tabs.open("path", false);
-    } catch (error) {
-      this.failed(error);
-    }
-  }
-  path_of_pointed() {
-    const polygon = this.polygons().find(({ facet }) => facet.index === this.overlay.pointed);
-    if (polygon) this.click(middle_of(polygon.points));
-    else this.say("Choose a facet first: N.");
-  }
   put_away() {
     this.light_path.clear();
-    this.point(null);
+    this.pointing.point(null);
     this.overlay.draw();
     by_id("trouble").hidden = true;
   }
-
-  // --- Choices of the panels
 
   choose_light(name) {
     const before = this.ready() && this.home();
     this.state.set({ light: name, polariser: null, analyser: null, retarder: null });
     const preset = this.light_preset(), turned = Turn.apart(before, this.home()) > 1e-6;
     // An instrument is looked through straight on.
-    if (turned || (preset && preset.instrument)) this.go_to(this.home());
+    if (turned || (preset && preset.instrument)) this.motion.go_to(this.home());
   }
   turn_light_by_hand(on) {
     this.hand_turns_light = on;
@@ -254,12 +137,10 @@ class Page {
     }
   }
   async take_panorama(file) {
+    if (!this.ready()) return;
     try {
       this.say(`Reading ${file.name}\u2026`);
-      const bytes = new Uint8Array(await file.arrayBuffer());
-      await this.engine.call("panorama", { name: file.name, bytes }, [bytes.buffer]);
-      this.panorama_name = file.name;
-      ++this.scene_version;
+      await this.send_panorama(file);
       this.state.set({ light: "panorama", polariser: null });
       this.panels.light.update();
       this.loop.changed();
@@ -267,6 +148,17 @@ class Page {
     } catch (error) {
       this.failed(error);
     }
+  }
+
+  // Kept, because an engine that is started anew knows nothing of it.
+  async send_panorama(file) {
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    const stone = this.shown_index();
+    await this.loop.prepare(stone, this.settings(stone));
+    const answer = await this.engine.call("panorama", { name: file.name, bytes }, [bytes.buffer]);
+    this.panorama = file;
+    this.panorama_setting = answer.setting;
+    ++this.scene_version;
   }
 
   // --- Drawing
@@ -282,6 +174,7 @@ class Page {
     this.picture.show(compare === "blink" && this.fit.blink_side ? "right" : "left", compare === "split" ? divider / 100 : null);
   }
   show_refused() {
+    this.says_refused = true;
     this.gpu.hide();
     this.picture.canvas.hidden = true;
     this.picture.still.hidden = false;
@@ -292,15 +185,35 @@ class Page {
     const ms = this.gpu.shown ? gpu : quick ? preview : beams;
     by_id("timing").textContent = `${this.gpu.shown ? "GPU" : quick ? "quick" : "beams"} ${ms.toFixed(0)} ms`;
     this.stage.dataset.drawn = quick ? "quick" : "full";
+    if (this.says_refused) by_id("trouble").hidden = true;
+    this.says_refused = false;
     if (!this.first_picture_ms) this.stage.dataset.firstPictureMs = this.first_picture_ms = Math.round(performance.now());
     if (quick) return;
+    this.keep_address();
     this.panels.picture.update();
     this.tilts.update().catch((error) => this.failed(error));
   }
 
+  // So that the page is the same when it is loaded again.
+  keep_address() {
+    const fragment = this.state.fragment();
+    if (location.hash.replace(/^#/, "") === fragment) return;
+    try {
+      history.replaceState(null, "", fragment ? "#" + fragment : location.href.replace(/#.*$/, ""));
+    } catch {
+      // Some browsers allow it no page from a file; the link can still be copied.
+    }
+  }
+
   // --- Words
 
-  say(line) { by_id("say").textContent = line; }
+  // For a while. `aloud`: only to those who hear the page; who sees it sees the same in the panel.
+  say(line, aloud = false) {
+    clearTimeout(this.saying);
+    by_id("say").classList.toggle("unseen", aloud);
+    by_id("say").textContent = line;
+    this.saying = setTimeout(() => { by_id("say").textContent = ""; }, 4500);
+  }
   trouble(line, button_text = "", act = null) {
     by_id("trouble").hidden = false;
     by_id("trouble-text").textContent = line;
@@ -316,27 +229,9 @@ class Page {
   engine_died(line) {
     this.info = null;
     this.loop.forget();
-    this.trouble(`The engine stopped (${line}).`, "Start it again", () => {
+    this.trouble(`The engine stopped: ${line.replace(/^the engine stopped:?\s*/, "") || "no reason is known"}.`, "Start it again", () => {
       by_id("trouble").hidden = true;
       this.start_engine();
     });
-  }
-  command() {
-    if (!this.ready()) return "";
-    const [width, height] = this.picture.size(), stone = this.shown_index();
-    return command_line({
-      command: this.item().command || "culet render " + quoted(this.shown_name()), settings: this.settings(stone),
-      camera: this.drawing(stone, width, height).camera, size: [width, height],
-      exposure: this.exposure(), tonemap: this.state.get("tonemap"), engine: "beams",
-      lights_turned: this.lights_turn(),
-    });
-  }
-  // What the command does not say.
-  command_limits() {
-    const values = this.state.values, limits = [];
-    if (values.light === "panorama") limits.push("the panorama: put --set light.environment=FILE in place of it");
-    if (values.cut) limits.push("the changed proportions: culet cut makes that stone");
-    if (this.document_stone().role === "catalogue") limits.push("that this is the catalogue\u2019s stone, not the fitted one");
-    return limits.length ? "It does not say: " + limits.join("; ") + "." : "";
   }
 }

@@ -114,15 +114,16 @@ function base_of(camera, center) {
   const half_width = camera.width ? camera.width / 2
     : eye[2] * Math.tan(camera.fov_deg * Math.PI / 360) * pixels_x / pixels_y;
   return {
-    home, orthographic: Boolean(camera.width), distance: eye[2],
+    home, center, orthographic: Boolean(camera.width), distance: eye[2],
     pan: [-eye[0], -eye[1]], half_width, half_height: half_width * pixels_y / pixels_x,
+    free_height: 1,  // share of the picture's height that nothing is laid over
   };
 }
 
 // What the picture of width x height pixels shows: half its height, in the stone's unit at the
 // distance of the stone's middle.
 function half_height_of(base, zoom, width, height) {
-  return Math.max(base.half_height, base.half_width * height / width) / zoom;
+  return Math.max(base.half_height / base.free_height, base.half_width * height / width) / zoom;
 }
 
 // The camera for the engine. `view`: {turn, zoom, pan}; pan is how far the stone's middle lies from

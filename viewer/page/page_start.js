@@ -87,7 +87,9 @@ Object.assign(Page.prototype, {
     this.loop.forget();
     this.opened_item = item;
     this.stones = this.item().stones.map((stone) => new ShownStone(stone));
-    this.base = base_of(info.camera, this.stones[0].center);
+    this.designs.clear();
+    this.base = base_of(info.camera, this.stones[info.stone ?? this.stones.length - 1].center);
+    this.fit_stage();
     this.info = info;
     this.refused = this.item().refused || "";
     ++this.scene_version;
@@ -95,6 +97,11 @@ Object.assign(Page.prototype, {
     if (this.refused) {
       this.show_refused();
       return;
+    }
+    if (this.state.get("light") === "panorama") {
+      this.panorama_setting = "";
+      if (this.panorama) await this.send_panorama(this.panorama);
+      else this.state.set({ light: null });
     }
     if (this.state.get("cut")) await this.make_cut();
     this.overlay.draw();
@@ -136,7 +143,7 @@ Object.assign(Page.prototype, {
   },
   subtitle(item) {
     const stone = item.stones[item.stones.length - 1] || {};
-    const material = typeof stone.material === "string" ? stone.material : stone.material && stone.material.name || "";
+    const material = (stone.material && (stone.material.title || stone.material.name || stone.material.id)) || "";
     const parts = [material.replace(/_/g, " "), stone.facets ? stone.facets.length + " facets" : ""];
     if (item.stones.length > 1) parts.push("fitted, beside the catalogue\u2019s");
     return parts.filter(Boolean).join(" \u00b7 ");
@@ -173,6 +180,8 @@ Object.assign(Page.prototype, {
   // Somebody changed the state.
   changed(changed, by) {
     if (!this.ready()) return;
+    // What is quick enough now is found anew.
+    if (["material", "light", "effects", "wavelengths", "depth", "polariser", "item"].some((key) => changed.has(key))) this.loop.coarse = false;
     if (changed.has("cut")) this.cut_soon();
     const drawn = [...changed].some((key) => !["divider", "facets", "wire", "names", "tilts", "cut", "item"].includes(key));
     if (["turn", "zoom", "pan", "stone", "compare", "cut"].some((key) => changed.has(key)) && this.overlay.path.length) {
@@ -209,90 +218,19 @@ Object.assign(Page.prototype, {
     const values = this.state.get("cut"), index = this.shown_index(), stone = this.document_stone();
     if (!stone.cut) return;
     if (values) {
-      const answer = await this.engine.call("cut", { kind: stone.cut.kind, values: { ...stone.cut.values, ...values }, stone: index });
-      this.stones[index] = new ShownStone(answer.stone || answer);
+      const answer = await this.engine.call("cut", { kind: stone.cut.kind, values: { ...stone.cut.values, ...values } });
+      this.stones[index] = new ShownStone(answer.geometry);
+      this.designs.set(index, answer.stone);
       by_id("trouble").hidden = true;
     } else {
-      await this.engine.call("open", { document: this.document, item: this.state.get("item") });
       this.stones[index] = new ShownStone(stone);
+      this.designs.delete(index);
     }
     ++this.scene_version;
     this.loop.forget();
     this.light_path.clear();
     this.overlay.draw();
     this.loop.changed();
-  },
-
-  wire_stage() {
-    this.hand = new Hand(this, by_id("hand"));
-    for (const one of document.querySelectorAll("[data-view]")) one.addEventListener("click", () => this.ready() && this.look(one.dataset.view));
-    by_id("help-button").addEventListener("click", () => this.keys.help());
-    by_id("full-button").addEventListener("click", () => this.full_screen());
-    by_id("trouble-close").addEventListener("click", () => { by_id("trouble").hidden = true; });
-    by_id("theme-button").addEventListener("click", () => {
-      const root = document.documentElement;
-      const dark = root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
-      root.dataset.theme = dark ? "light" : "dark";
-    });
-    by_id("panel-button").addEventListener("click", () => {
-      const closed = by_id("app").classList.toggle("panel-closed");
-      by_id("panel-button").setAttribute("aria-expanded", String(!closed));
-    });
-    this.wire_divider(by_id("divider"));
-    this.wire_drop();
-    new ResizeObserver(() => {
-      if (!this.ready()) return;
-      this.overlay.draw();
-      this.loop.moved();
-    }).observe(this.stage);
-    addEventListener("hashchange", () => {
-      if (!this.ready()) return;
-      const before = this.state.get("item");
-      this.state.restore(location.hash);
-      if (this.state.get("item") !== before) {
-        this.info = null;
-        this.show_item();
-        this.open_engine().catch((error) => this.failed(error));
-      }
-    });
-  },
-  wire_divider(divider) {
-    const to = (percent) => this.state.set({ divider: Math.min(100, Math.max(0, percent)) });
-    divider.addEventListener("pointerdown", (event) => divider.setPointerCapture(event.pointerId));
-    divider.addEventListener("pointermove", (event) => {
-      if (!(event.buttons & 1)) return;
-      const box = this.stage.getBoundingClientRect();
-      to(100 * (event.clientX - box.left) / box.width);
-    });
-    divider.addEventListener("keydown", (event) => {
-      const now = this.state.get("divider");
-      const next = { ArrowLeft: now - 2, ArrowRight: now + 2, Home: 0, End: 100, PageUp: now - 10, PageDown: now + 10 }[event.key];
-      if (next === undefined) return;
-      event.preventDefault();
-      event.stopPropagation();
-      to(next);
-    });
-  },
-  wire_drop() {
-    const drop = by_id("drop");
-    let depth = 0;
-    const files = (event) => event.dataTransfer && [...event.dataTransfer.types].includes("Files");
-    const seen = (by) => (event) => {
-      if (!files(event)) return;
-      event.preventDefault();
-      depth += by;
-      drop.hidden = depth <= 0;
-    };
-    addEventListener("dragenter", seen(1));
-    addEventListener("dragleave", seen(-1));
-    addEventListener("dragover", (event) => { if (files(event)) event.preventDefault(); });
-    addEventListener("drop", (event) => {
-      if (!files(event)) return;
-      event.preventDefault();
-      depth = 0;
-      drop.hidden = true;
-      if (event.dataTransfer.files[0]) this.take_panorama(event.dataTransfer.files[0]);
-    });
   },
 });
 

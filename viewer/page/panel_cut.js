@@ -47,7 +47,7 @@ class PanelCut {
       step: whole ? 1 : parameter.unit === "deg" ? 0.05 : parameter.unit === "%" ? 0.5 : 0.01,
       digits: whole ? 0 : parameter.unit === "%" ? 1 : 2,
       unit: { deg: "\u00b0", "%": " %", mm: " mm" }[parameter.unit] || "", value: this.start(cut, parameter),
-      onchange: (value) => this.page.slide({ cut: { ...this.page.state.get("cut"), [parameter.name]: value } }),
+      onchange: (value) => this.page.motion.slide({ cut: { ...this.page.state.get("cut"), [parameter.name]: value } }),
     });
   }
 }

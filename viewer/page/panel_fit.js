@@ -38,7 +38,7 @@ class PanelFit {
 
   update() {
     const page = this.page, values = page.state.values;
-    if (this.shown) this.shown.show(values.compare === "one" ? values.stone : "both");
+    if (this.shown) this.shown.show(values.compare === "one" ? page.shown_index() : "both");
     if (this.compare) this.compare.show(values.compare);
     if (this.colours) this.colours.show(values.facets);
     this.show_legend(values.facets);

@@ -17,7 +17,7 @@ class PanelLight {
       ? [] : [{ value: "", label: "As in the file", what: "the scene\u2019s own lights" }];
     this.presets = choice("Light", [...own, ...named(info.lights.filter((l) => !l.instrument))],
       (name) => take(name || null), "cards", "light");
-    this.instruments = choice("Instrument", named(info.lights.filter((l) => l.instrument)), take, "cards short", "instrument");
+    this.instruments = choice("Through an instrument", named(info.lights.filter((l) => l.instrument)), take, "cards short", "instrument");
     this.tilts = toggle("Tilt strip", (on) => page.state.set({ tilts: on }),
       { name: "tilts", what: "the stone rocked from \u221230\u00b0 to +30\u00b0" });
     this.by_hand = toggle("Drag turns the light", (on) => page.turn_light_by_hand(on),
@@ -47,6 +47,6 @@ class PanelLight {
     this.by_hand.show(this.page.hand_turns_light);
     this.stay.show(values.lights_with);
     this.reset.disabled = Turn.apart(values.light_turn, Turn.none) < 1e-6;
-    if (this.page.panorama_name) this.panorama_note.textContent = "Shown: " + this.page.panorama_name;
+    if (this.page.panorama) this.panorama_note.textContent = "Read: " + this.page.panorama.name;
   }
 }

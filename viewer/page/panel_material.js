@@ -17,7 +17,7 @@ class PanelMaterial {
     const axis = (index, value) => {
       const now = (this.page.state.get("axis") || [0, 0]).slice();
       now[index] = value;
-      page.slide({ axis: now });
+      page.motion.slide({ axis: now });
     };
     this.tilt = slider({ name: "axis-tilt", label: "Optic axis, from straight up", least: 0, most: 90, step: 1, unit: "\u00b0", value: 0,
       onchange: (value) => axis(0, value) });
@@ -25,7 +25,7 @@ class PanelMaterial {
       onchange: (value) => axis(1, value) });
     this.own_axis = button("As in the file", () => page.state.set({ axis: null }), { class: "wide", "data-name": "own-axis" });
     this.colour = slider({ name: "colour", label: "Depth of colour", least: 0, most: 4, step: 0.05, digits: 2, unit: " times", value: 1,
-      onchange: (value) => page.slide({ colour: value }) });
+      onchange: (value) => page.motion.slide({ colour: value }) });
     this.axis_group = group("Crystal", null, this.axis_note, this.tilt, this.azimuth, this.own_axis);
     this.node = element("div", {},
       group("Material", null, element("label", { class: "unseen", for: field_id }, "Search a material"), this.field, this.list, this.colour),
@@ -36,14 +36,14 @@ class PanelMaterial {
   list_those(words) {
     const wanted = words.toLowerCase().split(/\s+/).filter(Boolean);
     this.listed = this.materials.filter((m) => {
-      const text = `${m.label || ""} ${m.name} ${m.optic || ""} ${m.index || ""} ${m.summary || ""}`.toLowerCase().replace(/_/g, " ");
+      const text = `${m.label || ""} ${m.title || ""} ${m.name} ${m.optic || ""} ${m.index || ""} ${m.summary || ""}`.toLowerCase().replace(/_/g, " ");
       return wanted.every((word) => text.includes(word.replace(/_/g, " ")));
     });
     const chosen = this.page.state.get("material") || "";
     this.list.replaceChildren(...this.listed.map((m) => element("li", {
       role: "option", id: "material-" + (m.name || "own"), "aria-selected": String(m.name === chosen),
       onclick: () => this.choose(m),
-    }, element("b", {}, m.label || m.name.replace(/_/g, " ")),
+    }, element("b", {}, this.swatch(m), m.label || m.title || m.name.replace(/_/g, " ")),
     element("span", { class: "what" }, this.about(m)))));
     if (!this.listed.length) this.list.append(element("li", { class: "none" }, "No material like this in the catalogue"));
     this.active = Math.max(0, this.listed.findIndex((m) => m.name === chosen));
@@ -51,8 +51,15 @@ class PanelMaterial {
   }
   about(material) {
     if (!material.name) return material.summary || "";
-    const index = typeof material.index === "number" ? material.index.toFixed(3) : material.index;
+    const index = [].concat(material.index ?? []).map((n) => n.toFixed(3)).join(" / ");
     return [index, material.optic, material.summary].filter(Boolean).join(", ");
+  }
+  // Its body colour, where it has one; the words beside it say the same.
+  swatch(material) {
+    if (!/^#[0-9a-f]{6}$/i.test(material.colour || "")) return null;
+    const made = element("i", { class: "swatch" });
+    made.style.background = material.colour;
+    return made;
   }
   mark() {
     const items = [...this.list.querySelectorAll("[role=option]")];

@@ -15,12 +15,12 @@ class PanelPicture {
       { name: "exposure-auto", what: "one pixel in fifty burns out" });
     // In stops: each doubles the light.
     this.exposure = slider({ name: "exposure", label: "Exposure", least: -5, most: 5, step: 0.1, digits: 1, unit: " stops", value: 0,
-      onchange: (value) => page.slide({ exposure: Math.pow(2, value) }) });
+      onchange: (value) => page.motion.slide({ exposure: Math.pow(2, value) }) });
     this.tonemap = choice("Tone curve", k_tone_maps.map(([value, label]) => ({ value, label })),
       (value) => set({ tonemap: value }), "segments", "tonemap");
     this.wire = toggle("Facet edges", (on) => set({ wire: on }), { name: "wire", what: "(W)" });
     this.names = toggle("Facet names", (on) => set({ names: on }), { name: "names" });
-    this.spin = toggle("Turns on when let go", (on) => { page.keeps_turning = on; }, { name: "spin" });
+    this.spin = toggle("Turns on when let go", (on) => { page.motion.keeps_turning = on; }, { name: "spin" });
 
     this.effects_auto = toggle("All that can matter", (on) => set({ effects: on ? null : this.on_now() }), { name: "effects-auto" });
     this.effects = k_effects.map(([name, label]) => ({
@@ -30,7 +30,7 @@ class PanelPicture {
       { value: 0, label: "As needed" }, { value: 1, label: "1" }, { value: 3, label: "3" }, { value: 8, label: "8" }, { value: 15, label: "15" },
     ], (value) => set({ wavelengths: value || null }), "segments", "wavelengths");
     this.depth = slider({ name: "depth", label: "Faces on a path (0: as many as needed)", least: 0, most: 20, step: 1, value: 0,
-      onchange: (value) => page.slide({ depth: value || null }) });
+      onchange: (value) => page.motion.slide({ depth: value || null }) });
     this.drawn_by = choice("Drawn by", [
       { value: "fastest", label: "Whichever is faster" }, { value: "beams", label: "Beams" }, { value: "gpu", label: "GPU" },
     ], (value) => set({ drawn_by: value }), "segments", "drawn-by");
@@ -71,10 +71,10 @@ class PanelPicture {
     this.auto.show(exposure === "auto");
     const factor = typeof exposure === "number" ? exposure : this.page.loop.exposure || 1;
     this.exposure.show(Math.min(5, Math.max(-5, Math.log2(factor))));
-    this.tonemap.show(values.tonemap);
+    this.tonemap.show(this.page.tonemap());
     this.wire.show(values.wire);
     this.names.show(values.names);
-    this.spin.show(this.page.keeps_turning);
+    this.spin.show(this.page.motion.keeps_turning);
     this.effects_auto.show(values.effects === null);
     if (values.effects) for (const { name, control } of this.effects) control.show(values.effects.includes(name));
     this.wavelengths.show(values.wavelengths || 0);

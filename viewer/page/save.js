@@ -25,7 +25,7 @@ class PanelSave {
       group("Link", "Opens this page as it is now: view, light, material, everything but a panorama.",
         button("Copy the link", () => this.copy(this.link(), "The link is copied."), { class: "wide", "data-name": "link" })),
       group("Command", "Draws this very picture with culet on the command line.", this.command, this.command_note,
-        button("Copy the command", () => this.copy(this.page.command(), "The command is copied."), { class: "wide", "data-name": "copy-command" })));
+        button("Copy the command", () => this.copy(this.page.command.line(), "The command is copied."), { class: "wide", "data-name": "copy-command" })));
   }
 
   file_name(ending) {
@@ -86,9 +86,9 @@ class PanelSave {
   }
 
   update() {
-    const command = this.page.command();
+    const command = this.page.command.line();
     if (this.command.value !== command) this.command.value = command;
-    this.command_note.textContent = this.page.command_limits();
+    this.command_note.textContent = this.page.command.limits();
     this.command_note.hidden = !this.command_note.textContent;
   }
 }

@@ -21,15 +21,16 @@ function wavelengths_nm(count) {
   return Array.from({ length: count }, (_, i) => 410 + 280 * i / (count - 1));
 }
 
-// `values` of the state; `optic` of the material shown: isotropic, uniaxial, biaxial.
-function light_settings(values) {
+// `panorama`: the setting that the engine gave for the file that was dropped.
+function light_settings(values, panorama) {
   if (values.polariser !== null) {
     const settings = [`light={preset="polariscope",polarizer=${toml_number(values.polariser)}}`];
     settings.push(`camera.analyzer=${toml_number(values.analyser === null ? values.polariser + 90 : values.analyser)}`);
     return settings;
   }
   const settings = [];
-  if (values.light && values.light !== "panorama") settings.push(`light={preset=${toml_text(values.light)}}`);
+  if (values.light === "panorama" && panorama) settings.push(panorama);
+  else if (values.light && values.light !== "panorama") settings.push(`light={preset=${toml_text(values.light)}}`);
   if (values.analyser !== null) settings.push(`camera.analyzer=${toml_number(values.analyser)}`);
   return settings;
 }
@@ -47,8 +48,9 @@ function stone_settings(values, optic) {
   return settings;
 }
 
-function settings_of(values, optic) {
-  const settings = [...stone_settings(values, optic), ...light_settings(values)];
+// `values` of the state; `optic` of the material shown: isotropic, uniaxial, biaxial.
+function settings_of(values, optic, panorama = "") {
+  const settings = [...stone_settings(values, optic), ...light_settings(values, panorama)];
   if (values.retarder !== null && (values.analyser !== null || values.polariser !== null)) {
     settings.push(`camera.retarder_nm=${toml_number(values.retarder)}`);
     settings.push(`camera.retarder_angle=${toml_number((values.polariser || 0) + 45)}`);
@@ -80,7 +82,7 @@ function command_line(drawing) {
   if (drawing.lights_turned && Turn.apart(drawing.lights_turned, Turn.none) > 1e-6) {
     settings.push(`light.rotate=${toml_list(Turn.angles(drawing.lights_turned))}`);
   }
-  const words = ["-o", "picture.png", "--size", drawing.size.join(","), "--engine", drawing.engine];
+  const words = ["-o", "picture.png", "--size", drawing.size.join(","), "--engine", drawing.engine, "--check", "none"];
   for (const setting of settings) words.push("--set", setting);
   words.push("--exposure", typeof drawing.exposure === "number" ? toml_number(drawing.exposure) : "auto");
   if (drawing.tonemap && drawing.tonemap !== "none") words.push("--tonemap", drawing.tonemap);

@@ -39,14 +39,14 @@ class ShownStone {
     const level = Math.abs(cosine) > 1 - 1e-9;
     const azimuth = level ? null
       : fit.azimuth_deg ?? (Math.atan2(n[1], n[0]) * 180 / Math.PI + 360) % 360;
-    return { inclination, azimuth, side: cosine > 0.02 ? "crown" : cosine < -0.02 ? "pavilion" : "girdle" };
+    return { inclination, azimuth, side: level ? (cosine > 0 ? "table" : "culet") : cosine > 0.02 ? "crown" : cosine < -0.02 ? "pavilion" : "girdle" };
   }
 
   // The facets that face the eye (or, with `all`, every facet), as polygons in pixels.
   polygons(base, view, width, height, all = false) {
-    const project = projection_of(base, view, this.center, width, height);
+    const project = projection_of(base, view, base.center, width, height);
     return this.facets
-      .map((facet) => ({ facet, front: faces_eye(base, view, this.center, facet.normal, facet.points[0]) }))
+      .map((facet) => ({ facet, front: faces_eye(base, view, base.center, facet.normal, facet.points[0]) }))
       .filter(({ front }) => front || all)
       .map(({ facet, front }) => ({ facet, front, points: facet.points.map(project) }));
   }

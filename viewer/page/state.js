@@ -5,7 +5,7 @@
 // Names are those of the link; `null` means as the file says.
 const k_state_defaults = {
   item: 0,            // of the gallery
-  stone: 0,           // of the item's stones
+  stone: null,        // of the item's stones; null: the last, which is the fitted one
   turn: null,         // quaternion, from the stone's frame to the eye's; null: the view of the light
   zoom: 1,
   pan: null,          // stone's unit, right and up; null: as the scene's camera
@@ -29,7 +29,7 @@ const k_state_defaults = {
   names: false,
   tilts: false,
   exposure: null,     // "auto" or a factor
-  tonemap: "none",
+  tonemap: null,      // none, reinhard, filmic, gamma2
   drawn_by: "fastest",  // beams, gpu
 };
 
@@ -38,6 +38,7 @@ const k_state_coding = {
   lists: new Set(["turn", "pan", "light_turn", "axis"]),
   numbers: new Set(["item", "stone", "zoom", "colour", "polariser", "analyser", "retarder",
     "wavelengths", "depth", "divider"]),
+  whole: new Set(["item", "stone", "wavelengths", "depth"]),
   truths: new Set(["wire", "names", "tilts"]),
 };
 
@@ -62,12 +63,15 @@ function read_state(key, text) {
     if (count === 4) return Math.hypot(...list) > 0.1 ? Turn.unit(list) : undefined;
     return list;
   }
-  if (k_state_coding.numbers.has(key)) return (numbers([text]) || [])[0];
+  if (k_state_coding.numbers.has(key)) {
+    const [value] = numbers([text]) || [];
+    return k_state_coding.whole.has(key) && !(Number.isInteger(value) && value >= 0) ? undefined : value;
+  }
   if (k_state_coding.truths.has(key)) return text === "yes";
-  if (key === "effects") return text === "none" ? [] : text.split(",").filter((n) => /^[a-z]+$/.test(n));
+  if (key === "effects") return text === "none" ? [] : /^[a-z]+(,[a-z]+)*$/.test(text) ? text.split(",") : undefined;
   if (key === "cut") {
     const pairs = text.split(",").map((pair) => pair.split(":"));
-    return pairs.every(([k, v]) => /^[a-z0-9-]+$/.test(k) && Number.isFinite(Number(v)))
+    return pairs.every(([k, v]) => /^[a-z][a-z0-9-]*$/.test(k) && v !== undefined && Number.isFinite(Number(v)))
       ? Object.fromEntries(pairs.map(([k, v]) => [k, Number(v)])) : undefined;
   }
   if (key === "exposure" && text !== "auto") {
@@ -94,7 +98,7 @@ class State {
   listen(listener) { this.listeners.push(listener); }
   // What belongs to one stone goes with it.
   forget_stone() {
-    this.set({ stone: 0, turn: null, zoom: 1, pan: null, material: null, axis: null, colour: 1,
+    this.set({ stone: null, turn: null, zoom: 1, pan: null, material: null, axis: null, colour: 1,
       cut: null, compare: "one", facets: "none" });
   }
 
@@ -111,7 +115,7 @@ class State {
     const values = {};
     for (const part of fragment.replace(/^#/, "").split("&")) {
       const [key, text] = part.split("=");
-      if (!(key in k_state_defaults) || text === undefined) continue;
+      if (!Object.hasOwn(k_state_defaults, key) || text === undefined) continue;
       let value;
       try { value = read_state(key, decodeURIComponent(text)); } catch { continue; }
       if (value !== undefined) values[key] = value;

@@ -45,7 +45,7 @@ class Turntable {
       await page.loop.prepare(stone, page.settings(stone));
       const drawn = await page.engine.call("draw", {
         ...page.drawing(stone, width, height, { ...view, turn }), engine: "beams", exposure,
-        tonemap: page.state.get("tonemap"),
+        tonemap: page.tonemap(),
       });
       frames.push(new ImageData(drawn.pixels, width, height));
       progress(0.7 * (i + 1) / k_film_frames);
