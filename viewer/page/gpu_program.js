@@ -28,7 +28,7 @@ class GpuProgram {
     if (!program.textures) return;  // they are as before
     for (const texture of this.textures) gl.deleteTexture(texture.made);
     this.textures = program.textures.map((texture) => {
-      const made = this.float_texture(texture.width, texture.height, texture.values);
+      const made = this.float_texture(texture.width, texture.height, new Float32Array(texture.values));
       gl.uniform1i(this.place(texture.name), texture.unit);
       return { unit: texture.unit, made };
     });
