@@ -182,8 +182,9 @@ Json ViewerEngine::State::draw(const Json& arguments, bool shown_as_bytes) {
         }
         pixels = shown_bytes(result.picture, look, true);
         answer["exposure"] = look.exposure;
+    } else {
+        radiance = result.picture.rgb;
     }
-    radiance = result.picture.rgb;
     const std::chrono::duration<double, std::milli> took = Clock::now() - start;
     answer["milliseconds"] = took.count();
     answer["build_ms"] = 1e3 * result.stats.seconds_build;

@@ -27,7 +27,7 @@ public:
 
     /// Of the last `draw`: RGBA, row by row from the top.
     const std::vector<std::uint8_t>& pixels() const;
-    /// Of the last `draw` or `radiance`: linear RGB.
+    /// Of the last `radiance`: linear RGB.
     const std::vector<float>& radiance() const;
     /// Of the last `gpu`: of all its textures, RGBA.
     const std::vector<float>& texels() const;

@@ -125,7 +125,7 @@ class WasmEngine {
         return answer;
     }
 
-    /// Linear RGB of the last "draw" or "radiance".
+    /// Linear RGB of the last "radiance".
     radiance() {
         return new Float32Array(this.exports.memory.buffer, this.exports.culet_radiance(),
                                 this.exports.culet_radiance_size()).slice();
