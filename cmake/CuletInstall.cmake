@@ -1,11 +1,11 @@
 # `cmake --install build` and, from another project, find_package(culet) with the targets
-# culet::stone, culet::page, culet::fit, culet::render and culet::compare.
+# culet::stone, culet::page, culet::fit, culet::render, culet::viewer and culet::compare.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS culet RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS culet_stone culet_page culet_fit culet_render culet_compare EXPORT culetTargets
+install(TARGETS culet_stone culet_page culet_fit culet_render culet_viewer culet_compare EXPORT culetTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-foreach(room stone page fit render compare)
+foreach(room stone page fit render viewer compare)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/${room} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/culet
     FILES_MATCHING PATTERN "*.h")
 endforeach()

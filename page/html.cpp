@@ -10,6 +10,9 @@ namespace culet {
 
 namespace {
 
+constexpr const char* k_base64 =
+    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
 // Length of the valid UTF-8 sequence at the start (Unicode 15, table 3-7), or 0.
 std::size_t sequence_length(std::string_view text) {
     const auto at = [&](std::size_t i) {
@@ -90,7 +93,7 @@ std::string json_for_script(std::string_view json) {
 }
 
 std::string base64(std::string_view bytes) {
-    const char* const alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const char* const alphabet = k_base64;
     std::string result;
     result.reserve((bytes.size() + 2) / 3 * 4);
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
@@ -105,6 +108,27 @@ std::string base64(std::string_view bytes) {
         }
     }
     return result;
+}
+
+std::optional<std::string> bytes_of_base64(std::string_view text) {
+    if (text.size() % 4 != 0) return std::nullopt;
+    const std::string_view alphabet = k_base64;
+    std::string bytes;
+    bytes.reserve(text.size() / 4 * 3);
+    for (std::size_t i = 0; i < text.size(); i += 4) {
+        const bool last = i + 4 == text.size();
+        const std::size_t padding =
+            !last || text[i + 3] != '=' ? 0 : (text[i + 2] == '=' ? 2 : 1);
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::size_t value = k + padding < 4 ? alphabet.find(text[i + k]) : 0;
+            if (value == std::string_view::npos) return std::nullopt;
+            group = group << 6 | static_cast<std::uint32_t>(value);
+        }
+        for (std::size_t k = 0; k + padding < 3; ++k)
+            bytes += static_cast<char>(group >> (16 - 8 * k) & 0xff);
+    }
+    return bytes;
 }
 
 std::string png_uri(std::string_view png) {

@@ -15,6 +15,8 @@ std::string escaped(std::string_view text);
 std::string json_for_script(std::string_view json);
 
 std::string base64(std::string_view bytes);
+/// Nothing for what is no base64 (RFC 4648, section 4, with its padding).
+std::optional<std::string> bytes_of_base64(std::string_view text);
 
 /// `data:image/png;base64,...`
 std::string png_uri(std::string_view png);

@@ -1,6 +1,11 @@
 #include "stone/exact_sides.h"
 
+#ifdef __wasm__
+#include <CGAL/MP_Float.h>
+#include <CGAL/Simple_cartesian.h>
+#else
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#endif
 
 #include <algorithm>
 
@@ -8,7 +13,15 @@ namespace culet {
 
 namespace {
 
+#ifdef __wasm__
+// CGAL's filtered kernels decide most sides by interval arithmetic, which needs a processor that
+// rounds up and down as it is told. WebAssembly only rounds to nearest, so that its intervals would
+// not hold what they promise: every side is computed exactly from the start, with numbers of as
+// many digits as it takes.
+using Kernel = CGAL::Simple_cartesian<CGAL::MP_Float>;
+#else
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+#endif
 
 Kernel::Point_3 point(const Vec3& p) {
     return {p.x, p.y, p.z};

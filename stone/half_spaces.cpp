@@ -6,7 +6,12 @@
 // number of planes. Every side is decided exactly: interval arithmetic first, rationals when the
 // interval holds zero (CGAL's Exact_predicates_exact_constructions_kernel).
 
+#ifdef __wasm__
+#include <CGAL/MP_Float.h>
+#include <CGAL/Simple_homogeneous.h>
+#else
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#endif
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,7 +31,12 @@ namespace culet {
 
 namespace {
 
+#ifdef __wasm__
+// Exactly from the start, as in exact_sides.cpp, and without division: meets are homogeneous.
+using Exact = CGAL::Simple_homogeneous<CGAL::MP_Float>;
+#else
 using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+#endif
 using CornerPair = std::pair<int, int>;
 
 // The box reaches this many powers of two beyond the largest offset. Three planes of doubles can
@@ -209,9 +219,18 @@ Plane unit_plane(const Plane& plane) {
 }
 
 // CGAL's to_double of a lazy number may be off by 1e-5 of its value: round the exact number.
+template <class Number>
+double nearest_double(const Number& value) {
+    if constexpr (requires { value.exact(); }) {
+        return CGAL::to_double(value.exact());
+    } else {
+        return CGAL::to_double(value);
+    }
+}
+
 Vec3 rounded(const Exact::Point_3& point, int exponent) {
     const auto coordinate = [&](const Exact::FT& value) {
-        return std::ldexp(CGAL::to_double(value.exact()), -exponent);
+        return std::ldexp(nearest_double(value), -exponent);
     };
     return {coordinate(point.x()), coordinate(point.y()), coordinate(point.z())};
 }

@@ -18,6 +18,7 @@ namespace culet {
 struct TomlTable::Content {
     std::filesystem::path file;
     toml::table root;
+    HeldFiles held;
 };
 
 namespace {
@@ -162,8 +163,8 @@ std::string_view line_of_text(std::string_view text, long number) {
     return text.substr(0, text.find('\n'));
 }
 
-toml::table parsed(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-    const std::string text = read_text(file, k_limit_bytes);
+toml::table parsed_text(std::string_view text, const std::filesystem::path& file,
+                        const std::vector<std::string>& overrides) {
     if (const long line = line_of_deep_key(text, k_most_key_parts)) {
         throw InputError(file, line,
                          fmt::format("a key has more than {} parts between dots: no key of culet "
@@ -182,6 +183,26 @@ toml::table parsed(const std::filesystem::path& file, const std::vector<std::str
     }
     for (const std::string& setting : overrides) apply_override(root, setting);
     return root;
+}
+
+toml::table parsed(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+    return parsed_text(read_text(file, k_limit_bytes), file, overrides);
+}
+
+void erase_keys(toml::table& root, const std::vector<std::string>& keys) {
+    for (const std::string& key : keys) {
+        const std::vector<std::string> path = split(key, '.');
+        toml::table* table = &root;
+        for (std::size_t i = 0; i + 1 < path.size() && table != nullptr; ++i)
+            table = (*table)[path[i]].as_table();
+        if (table != nullptr) table->erase(path.back());
+    }
+}
+
+std::string formatted(const toml::table& root) {
+    std::ostringstream text;
+    text << toml::toml_formatter{root} << "\n";
+    return text.str();
 }
 
 /// Every text below `node` that names a file in `from` names it as seen from `to`.
@@ -264,22 +285,34 @@ TomlTable toml_beside(const std::filesystem::path& file,
     return table;
 }
 
+TomlTable toml_of_text(std::string_view text, const std::filesystem::path& name,
+                       const std::vector<std::string>& overrides, HeldFiles files) {
+    auto content = std::make_shared<TomlTable::Content>();
+    content->file = name;
+    content->root = parsed_text(text, name, overrides);
+    content->held = std::move(files);
+    TomlTable table;
+    table.node_ = &content->root;
+    table.content_ = std::move(content);
+    return table;
+}
+
 std::string rewritten_toml(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides,
                            const std::vector<std::string>& without,
                            const std::filesystem::path& folder) {
     toml::table root = parsed(file, overrides);
-    for (const std::string& key : without) {
-        const std::vector<std::string> path = split(key, '.');
-        toml::table* table = &root;
-        for (std::size_t i = 0; i + 1 < path.size() && table != nullptr; ++i)
-            table = (*table)[path[i]].as_table();
-        if (table != nullptr) table->erase(path.back());
-    }
+    erase_keys(root, without);
     move_paths(root, file.parent_path(), folder);
-    std::ostringstream text;
-    text << toml::toml_formatter{root} << "\n";
-    return text.str();
+    return formatted(root);
+}
+
+std::string rewritten_text(std::string_view text, const std::filesystem::path& name,
+                           const std::vector<std::string>& overrides,
+                           const std::vector<std::string>& without) {
+    toml::table root = parsed_text(text, name, overrides);
+    erase_keys(root, without);
+    return formatted(root);
 }
 
 const std::filesystem::path& TomlTable::file() const {
@@ -351,6 +384,13 @@ std::optional<std::filesystem::path> TomlTable::path(std::string_view key) const
     if (!name) return std::nullopt;
     if (name->empty()) fail(key, fmt::format("{} names no file", key));
     return file().parent_path() / *name;
+}
+
+const std::string* TomlTable::held_file(std::string_view key) const {
+    const auto name = text(key);
+    if (!name) return nullptr;
+    const auto found = content_->held.find(*name);
+    return found == content_->held.end() ? nullptr : &found->second;
 }
 
 std::optional<Vec3> TomlTable::vector(std::string_view key) const {

@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +16,9 @@
 #include "stone/solid.h"
 
 namespace culet {
+
+/// Files that came with a text, by the names that it calls them.
+using HeldFiles = std::map<std::string, std::string, std::less<>>;
 
 /// One table of a file. A missing key gives nothing; a value of the wrong type, NaN or Inf throws
 /// InputError with file, line, what was found and what was expected.
@@ -38,6 +43,8 @@ public:
 
     /// A path given in the file, seen from the file's folder.
     std::optional<std::filesystem::path> path(std::string_view key) const;
+    /// The bytes of a file that came with the text; nothing: it is to be read.
+    const std::string* held_file(std::string_view key) const;
 
     /// Throws InputError for the first key that is none of `known`, with the nearest known one.
     void refuse_unknown(const std::vector<std::string_view>& known) const;
@@ -58,6 +65,8 @@ private:
     friend TomlTable toml_beside(const std::filesystem::path&,
                                  const std::vector<std::pair<std::string, std::string>>&,
                                  const std::vector<std::string>&);
+    friend TomlTable toml_of_text(std::string_view, const std::filesystem::path&,
+                                  const std::vector<std::string>&, HeldFiles);
 };
 
 /// Parses a file and applies `key.path=value` overrides: the value is TOML (a number, "text",
@@ -77,6 +86,11 @@ TomlTable toml_beside(const std::filesystem::path& file,
                       const std::vector<std::pair<std::string, std::string>>& texts,
                       const std::vector<std::string>& overrides = {});
 
+/// The same of a text that is no file, with the files that it names; errors call it `name`. Throws
+/// InputError.
+TomlTable toml_of_text(std::string_view text, const std::filesystem::path& name,
+                       const std::vector<std::string>& overrides = {}, HeldFiles files = {});
+
 /// A file's text with `overrides` applied and the keys `without` (camera.fov) left out, to be kept
 /// in `folder`: texts that name files, as seen from the file's folder, name them from there.
 /// Comments are lost and keys sorted. Throws InputError.
@@ -84,6 +98,11 @@ std::string rewritten_toml(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides,
                            const std::vector<std::string>& without,
                            const std::filesystem::path& folder);
+
+/// The same of a text that is no file, whose paths stay as they are; errors call it `name`.
+std::string rewritten_text(std::string_view text, const std::filesystem::path& name,
+                           const std::vector<std::string>& overrides,
+                           const std::vector<std::string>& without);
 
 /// Levenshtein (1966): fewest insertions, deletions and replacements from one word to the other.
 std::size_t edit_distance(std::string_view a, std::string_view b);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "compare/calibration/chance.h"
 
@@ -12,36 +11,6 @@ namespace culet {
 namespace {
 
 constexpr double k_sodium_nm = 589.3;
-
-void turn(LinearPolarisation& polarisation, const glm::dmat3& by) {
-    polarisation.vibration = by * polarisation.vibration;
-    if (polarisation.normal) polarisation.normal = by * *polarisation.normal;
-}
-
-void turn(LightColour& colour, const glm::dmat3& by) {
-    if (colour.polarisation) turn(*colour.polarisation, by);
-}
-
-// The direction that texel (x, y) looks at, see the frame of `EnvironmentMap`.
-Vec3 direction_of(const EnvironmentMap& map, int x, int y) {
-    const double polar = std::numbers::pi * (y + 0.5) / map.height;
-    const double azimuth = 2 * std::numbers::pi * (0.5 - (x + 0.5) / map.width);
-    return {std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
-            std::cos(polar)};
-}
-
-EnvironmentMap turned_map(const EnvironmentMap& map, const glm::dmat3& by) {
-    EnvironmentMap result{map.width, map.height, {}};
-    result.rgb.reserve(map.rgb.size());
-    const glm::dmat3 back = glm::transpose(by);
-    for (int y = 0; y < map.height; ++y) {
-        for (int x = 0; x < map.width; ++x) {
-            const Rgb colour = map.at(back * direction_of(map, x, y));
-            for (const double c : colour) result.rgb.push_back(static_cast<float>(c));
-        }
-    }
-    return result;
-}
 
 Spectrum raised(const Spectrum& spectrum, double by) {
     std::vector<double> values = spectrum.values();
@@ -61,32 +30,7 @@ double mean_index(const Material& material) {
     return sum / (material.optic == OpticCharacter::uniaxial ? 3 : rays);
 }
 
-struct TurnPart {
-    const glm::dmat3& by;
-    const Vec3& about;
-    void point(Vec3& p) const { p = about + by * (p - about); }
-    void direction(Vec3& d) const { d = by * d; }
-    void extent(std::optional<Vec3>& e) const {
-        if (e) *e = by * *e;
-    }
-    void number(double&) const {}
-};
-
 }  // namespace
-
-Lights turned_lights(const Lights& lights, const glm::dmat3& by, const Vec3& about) {
-    Lights result = lights;
-    if (lights.environment) {
-        result.environment =
-            std::make_shared<const EnvironmentMap>(turned_map(*lights.environment, by));
-    }
-    if (result.polarisation) turn(*result.polarisation, by);
-    for (Light& light : result.sources) {
-        std::visit([&](auto& l) { l.each_part(l, TurnPart{by, about}); }, light);
-        turn(colour_of(light), by);
-    }
-    return result;
-}
 
 Stone turned_stone(const Stone& stone, const glm::dmat3& by, const Vec3& about) {
     Stone result = stone;

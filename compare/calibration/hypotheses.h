@@ -9,9 +9,6 @@
 
 namespace culet {
 
-/// The lights turned about a point: environment, near and distant ones, and their polarisation.
-Lights turned_lights(const Lights& lights, const glm::dmat3& turn, const Vec3& about);
-
 /// The stone turned about a point, its crystal with it.
 Stone turned_stone(const Stone& stone, const glm::dmat3& turn, const Vec3& about);
 

@@ -10,6 +10,7 @@
 #include "compare/calibration/facet_error.h"
 #include "compare/calibration/hypotheses.h"
 #include "compare/calibration/sensitivity.h"
+#include "render/scene/turned_lights.h"
 #include "stone/units.h"
 
 namespace culet {

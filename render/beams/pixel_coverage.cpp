@@ -224,6 +224,7 @@ void FindAreas(const PixelCoverage::Edge* edges, std::size_t edge_count, const R
     found.count = found.near_border = n;
 }
 
+#if HWY_HAVE_FLOAT64
 using Doubles = hn::ScalableTag<double>;
 using D = hn::Vec<Doubles>;
 constexpr Doubles k_doubles;
@@ -273,6 +274,42 @@ void FindSpans(const PixelCoverage::Side* sides, std::size_t count, const SpanRo
         hn::StoreU(end, k_doubles, to + 3 * rows.stride);
     }
 }
+#else
+// Where vectors hold no doubles (WebAssembly in Highway 1.0): row by row, by the same formulas.
+void FindSpans(const PixelCoverage::Side* sides, std::size_t count, const SpanRows& rows,
+               double margin, double* spans) {
+    const double width = rows.width;
+    const auto first_middle = [&](double x) {
+        return std::ceil(std::min(std::max(x - 0.5, 0.0), width));
+    };
+    for (std::size_t row = 0; row < rows.count; ++row) {
+        const double y = rows.first + static_cast<double>(row) + 0.5;
+        double left = width, right = 0, inner_left = 0, inner_right = width;
+        for (std::size_t i = 0; i < count; ++i) {
+            const PixelCoverage::Side& side = sides[i];
+            const double x = side.x_top + (y - side.y_top) * side.slope;
+            const double moved = margin * side.stretch;
+            const bool here = y >= side.y_top && y < side.y_end;
+            if (side.right) {
+                if (here) right = x;
+                inner_right = std::min(inner_right, x - moved);
+            } else {
+                if (here) left = x;
+                inner_left = std::max(inner_left, x + moved);
+            }
+        }
+        const double first = first_middle(left), end = std::max(first, first_middle(right));
+        const bool within = y >= rows.inner_low && y <= rows.inner_high;
+        const double inner_first =
+            within ? std::min(std::max(first_middle(inner_left), first), end) : end;
+        double* to = spans + row;
+        to[0] = first;
+        to[rows.stride] = inner_first;
+        to[2 * rows.stride] = std::max(inner_first, std::min(first_middle(inner_right), end));
+        to[3 * rows.stride] = end;
+    }
+}
+#endif
 
 // Places and shares of whole pixels; a run's y is that of its row.
 void FillRuns(const RegionBox& box, CoveredPixels& found) {

@@ -48,17 +48,23 @@ std::string name_of(ToneMap map) {
     return k_tone_maps[static_cast<std::size_t>(map)];
 }
 
+float exposed(float light, double exposure) {
+    const double lit = exposure * static_cast<double>(light);
+    return lit > 0 ? static_cast<float>(std::min(lit, double{k_brightest})) : 0.0f;
+}
+
+float tone_mapped(float light, ToneMap map) {
+    return static_cast<float>(std::clamp(mapped(static_cast<double>(light), map), 0.0, 1.0));
+}
+
 std::vector<float> as_shown(const Picture& picture, const PngLook& look) {
     std::vector<float> rgb(picture.rgb.size());
-    std::transform(picture.rgb.begin(), picture.rgb.end(), rgb.begin(), [&](float v) {
-        const double lit = look.exposure * static_cast<double>(v);
-        return lit > 0 ? static_cast<float>(std::min(lit, double{k_brightest})) : 0.0f;
-    });
+    std::transform(picture.rgb.begin(), picture.rgb.end(), rgb.begin(),
+                   [&](float v) { return exposed(v, look.exposure); });
     const PictureSize size{picture.width, picture.height};
     if (look.glare > 0) add_glare(rgb, size, look.glare, look.degrees_per_pixel);
     if (look.sparkle > 0) add_sparkle(rgb, size, look.sparkle);
-    for (float& v : rgb)
-        v = static_cast<float>(std::clamp(mapped(static_cast<double>(v), look.tone_map), 0.0, 1.0));
+    for (float& v : rgb) v = tone_mapped(v, look.tone_map);
     return rgb;
 }
 

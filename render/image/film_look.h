@@ -34,6 +34,11 @@ struct PngLook {
     bool alpha = false;  ///< the stone's coverage as the file's alpha, where it is known
 };
 
+/// Light times the exposure, within what numbers hold; 0 for what is no number or negative.
+float exposed(float light, double exposure);
+/// 0 to 1; grows with the light under every map.
+float tone_mapped(float light, ToneMap map);
+
 /// R, G and B of each pixel in linear light, 0 to 1: exposure, glare, sparkle, tone map. What is
 /// no number or negative is 0.
 std::vector<float> as_shown(const Picture& picture, const PngLook& look);

@@ -18,6 +18,7 @@
 #include "render/colour/colour.h"
 #include "render/image/image_exr.h"
 #include "render/image/picture_header.h"
+#include "render/image/shown_bytes.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 
@@ -188,34 +189,6 @@ std::string text_chunk(const std::string& key, const std::string& value) {
            be32(crc32(body.data(), body.size()));
 }
 
-std::string png_bytes(const Picture& picture, const PngLook& look,
-                      std::vector<std::pair<std::string, std::string>> text) {
-    const bool alpha = look.alpha && !picture.coverage.empty();
-    const std::vector<float> shown = as_shown(picture, look);
-    const auto byte = [](double v) { return static_cast<unsigned char>(std::lround(255 * v)); };
-    const std::size_t channels = alpha ? 4 : 3;
-    std::vector<unsigned char> values(channels * picture.pixels());
-    for (std::size_t i = 0; i < picture.pixels(); ++i) {
-        for (std::size_t c = 0; c < 3; ++c)
-            values[channels * i + 2 - c] =
-                byte(srgb_encoded(static_cast<double>(shown[3 * i + c])));
-        if (alpha)
-            values[channels * i + 3] =
-                byte(std::clamp(static_cast<double>(picture.coverage[i]), 0.0, 1.0));
-    }
-    const cv::Mat image(picture.height, picture.width, alpha ? CV_8UC4 : CV_8UC3, values.data());
-    std::vector<unsigned char> encoded;
-    cv::imencode(".png", image, encoded);
-    std::string bytes(encoded.begin(), encoded.end());
-    text.insert(text.begin(), {{"culet:exposure", fmt::format("{}", look.exposure)},
-                               {"culet:tonemap", name_of(look.tone_map)}});
-    if (look.glare > 0) text.emplace_back("culet:glare", fmt::format("{}", look.glare));
-    if (look.sparkle > 0) text.emplace_back("culet:sparkle", fmt::format("{}", look.sparkle));
-    std::string chunks;
-    for (const auto& [key, value] : text) chunks += text_chunk(key, value);
-    return bytes.insert(33, chunks);  // behind the signature (8) and the header chunk (25)
-}
-
 std::string hdr_bytes(const Picture& picture) {
     cv::Mat image(picture.height, picture.width, CV_32FC3);
     for (int y = 0; y < picture.height; ++y) {
@@ -233,9 +206,33 @@ std::string hdr_bytes(const Picture& picture) {
 
 }  // namespace
 
+std::string png_of(const Picture& picture, const PngLook& look,
+                   std::vector<std::pair<std::string, std::string>> text) {
+    const bool alpha = look.alpha && !picture.coverage.empty();
+    std::vector<unsigned char> values = shown_bytes(picture, look, alpha);
+    // OpenCV's order is blue, green, red.
+    const std::size_t channels = alpha ? 4 : 3;
+    for (std::size_t i = 0; i < picture.pixels(); ++i)
+        std::swap(values[channels * i], values[channels * i + 2]);
+    const cv::Mat image(picture.height, picture.width, alpha ? CV_8UC4 : CV_8UC3, values.data());
+    std::vector<unsigned char> encoded;
+    cv::imencode(".png", image, encoded);
+    std::string bytes(encoded.begin(), encoded.end());
+    text.insert(text.begin(), {{"culet:exposure", fmt::format("{}", look.exposure)},
+                               {"culet:tonemap", name_of(look.tone_map)}});
+    if (look.glare > 0) text.emplace_back("culet:glare", fmt::format("{}", look.glare));
+    if (look.sparkle > 0) text.emplace_back("culet:sparkle", fmt::format("{}", look.sparkle));
+    std::string chunks;
+    for (const auto& [key, value] : text) chunks += text_chunk(key, value);
+    return bytes.insert(33, chunks);  // behind the signature (8) and the header chunk (25)
+}
+
 ReadPicture read_picture(const std::filesystem::path& file) {
+    return picture_of_bytes(read_text(file, k_most_bytes), file);
+}
+
+ReadPicture picture_of_bytes(const std::string& bytes, const std::filesystem::path& file) {
     silence_opencv();
-    const std::string bytes = read_text(file, k_most_bytes);
     if (bytes.empty()) throw InputError(file, "is empty: expected a picture");
     ReadPicture result;
     const PictureHeader header = picture_header(bytes);
@@ -323,7 +320,7 @@ void write_picture(const Picture& picture, const std::filesystem::path& file, co
         write_exr(picture, output.path(), text);
         output.commit();
     } else if (extension == ".png") {
-        write_text(file, png_bytes(picture, look, text));
+        write_text(file, png_of(picture, look, text));
     } else if (extension == ".hdr") {
         write_text(file, hdr_bytes(picture));
     } else {

@@ -23,6 +23,13 @@ struct ReadPicture {
 /// off, damaged, absurd size (over 2^28 pixels, or more than a file of its length can hold).
 ReadPicture read_picture(const std::filesystem::path& file);
 
+/// The same of a file's bytes; errors call it `name`.
+ReadPicture picture_of_bytes(const std::string& bytes, const std::filesystem::path& name);
+
+/// A PNG's bytes, as looked at.
+std::string png_of(const Picture& picture, const PngLook& look,
+                   std::vector<std::pair<std::string, std::string>> text = {});
+
 /// By extension: .exr (linear float, half the file's channels named R, G, B, A when coverage is
 /// known, and S0.589,300nm for spectral planes), .hdr, .png (8 bit sRGB, as looked at, which its
 /// text chunks tell). Whole or not at all. `text`: key/value pairs stored in the file where it

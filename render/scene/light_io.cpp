@@ -60,7 +60,8 @@ std::shared_ptr<const EnvironmentMap> read_environment(const TomlTable& table,
     const auto path = *table.path("environment");
     ReadPicture read = [&] {
         try {
-            return read_picture(path);
+            const std::string* const held = table.held_file("environment");
+            return held != nullptr ? picture_of_bytes(*held, path) : read_picture(path);
         } catch (const InputError& error) {
             table.fail("environment", error.what());
         }
@@ -179,7 +180,7 @@ PlaneLight source_of(const TomlTable& t, const PlaneLight*) {
 }  // namespace
 
 Lights lights_of(const TomlTable& table, std::vector<std::string>& notes) {
-    std::vector<std::string_view> keys{"environment", "constant"};
+    std::vector<std::string_view> keys{"environment", "constant", "rotate"};
     for_each_light_type([&]<class L>() { keys.push_back(L::k_name); });
     table.refuse_unknown(with_view_keys(with_polarisation_keys(std::move(keys))));
     Lights lights;

@@ -14,6 +14,7 @@
 #include "render/scene/object_io.h"
 #include "render/scene/settings_io.h"
 #include "render/scene/transform.h"
+#include "render/scene/turned_lights.h"
 #include "render/scene/view_presets.h"
 #include "stone/errors.h"
 #include "stone/material_io.h"
@@ -72,15 +73,7 @@ Stone stone_in(const TomlTable& table, const char* file_key, std::vector<std::st
         }
         stone.convex = table.boolean("convex").value_or(true);
     }
-    // Beside a stone file these are said of this picture only: the same stone in another material.
-    if (const auto name = table.text("name")) stone.name = *name;
-    if (table.has("material") || table.has("mesh")) {
-        stone.material = table.kind("material") == TomlTable::Kind::table
-                             ? material_of(*table.table("material"))
-                             : material_named_in(table, table);
-    }
-    if (table.has("mesh") || table.has("optic_axis") || table.has("principal_axes"))
-        stone.crystal = crystal_frame_in(table, stone.material.optic);
+    apply_words_beside(table, stone);
     return stone;
 }
 
@@ -143,6 +136,18 @@ void read_stones(const TomlTable& root, const Stone* instead, Scene& scene) {
 
 }  // namespace
 
+void apply_words_beside(const TomlTable& table, Stone& stone) {
+    // Beside a stone file these are said of this picture only: the same stone in another material.
+    if (const auto name = table.text("name")) stone.name = *name;
+    if (table.has("material") || table.has("mesh")) {
+        stone.material = table.kind("material") == TomlTable::Kind::table
+                             ? material_of(*table.table("material"))
+                             : material_named_in(table, table);
+    }
+    if (table.has("mesh") || table.has("optic_axis") || table.has("principal_axes"))
+        stone.crystal = crystal_frame_in(table, stone.material.optic);
+}
+
 Stone scene_stone_of(const TomlTable& root, std::vector<std::string>& notes) {
     if (root.has("stone") == root.has("mesh")) {
         root.fail("",
@@ -195,6 +200,11 @@ Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_vi
         scene.lights = *lights;
     } else if (light) {
         scene.lights = lights_of(*light, scene.notes);
+        if (const auto degrees = light->vector("rotate")) {
+            const Vec3 middle =
+                scene.has_stone() ? centroid(scene.stone.solid) : Vec3{0, 0, 0};
+            scene.lights = turned_lights(scene.lights, rotation_of(*degrees), middle);
+        }
         preset = light->text("preset").value_or("");
     } else if (!view && !shines(scene.objects)) {
         root.fail("", "the scene is dark: add a [light] table, e.g. preset = \"jeweller\"");

@@ -24,4 +24,8 @@ Scene scene_of(const TomlTable& root, const Stone* stone_instead = nullptr,
 /// say about it is added to `notes`.
 Stone scene_stone_of(const TomlTable& root, std::vector<std::string>& notes);
 
+/// What a scene says of its stone beside the stone's file: `name`, `material` and the crystal's
+/// axes.
+void apply_words_beside(const TomlTable& table, Stone& stone);
+
 }  // namespace culet

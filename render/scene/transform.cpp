@@ -49,18 +49,23 @@ Transform steps_in(const TomlTable& steps) {
     } else if (const auto scale = steps.number("scale")) {
         transform.linear = glm::dmat3(*scale);
     }
-    const Vec3 degrees = steps.vector("rotate").value_or(Vec3(0));
-    for (int axis = 0; axis < 3; ++axis) {
-        Vec3 about(0);
-        about[axis] = 1;
-        transform.linear =
-            glm::mat3_cast(glm::angleAxis(radians(degrees[axis]), about)) * transform.linear;
-    }
+    transform.linear =
+        rotation_of(steps.vector("rotate").value_or(Vec3(0))) * transform.linear;
     transform.move = steps.vector("translate").value_or(Vec3(0));
     return transform;
 }
 
 }  // namespace
+
+glm::dmat3 rotation_of(const Vec3& degrees) {
+    glm::dmat3 rotation(1.0);
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3 about(0);
+        about[axis] = 1;
+        rotation = glm::mat3_cast(glm::angleAxis(radians(degrees[axis]), about)) * rotation;
+    }
+    return rotation;
+}
 
 Vec3 Transform::of_normal(const Vec3& normal) const {
     const Vec3 turned = glm::transpose(glm::inverse(linear)) * normal;

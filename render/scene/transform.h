@@ -27,6 +27,9 @@ struct Transform {
 /// where there is none. Throws InputError with file and line.
 Transform transform_in(const TomlTable& table);
 
+/// Turned about the x, y and z axis, in this order, by so many degrees.
+glm::dmat3 rotation_of(const Vec3& degrees);
+
 /// The stone as it stands after a similarity that does not mirror.
 void move_stone(const Transform& transform, Stone& stone);
 /// False, and nothing done: the shape would be another one (a sphere is an ellipsoid).

@@ -25,6 +25,7 @@
 #include "compare/calibration/photo_noise.h"
 #include "compare/scores/aligned_pair.h"
 #include "compare/scores/score_list.h"
+#include "render/scene/turned_lights.h"
 #include "stone/cuts/cuts.h"
 #include "stone/units.h"
 

@@ -19,8 +19,9 @@ const std::map<std::string, std::set<std::string>> k_may_see = {
     {"page", {"page", "stone"}},
     {"fit", {"fit", "stone"}},
     {"render", {"render", "stone"}},
-    {"compare", {"compare", "page", "render", "stone"}},
-    {"app", {"app", "compare", "page", "render", "fit", "stone"}},
+    {"viewer", {"viewer", "page", "render", "stone"}},
+    {"compare", {"compare", "viewer", "page", "render", "stone"}},
+    {"app", {"app", "compare", "viewer", "page", "render", "fit", "stone"}},
 };
 
 bool is_source(const fs::path& file) {

@@ -18,6 +18,16 @@ TEST(Html, base64_of_the_published_vectors) {
     EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
 }
 
+TEST(Html, bytes_of_base64_of_the_published_vectors) {
+    for (const char* text : {"", "f", "fo", "foo", "foob", "fooba", "foobar"})
+        EXPECT_EQ(bytes_of_base64(base64(text)), text);
+    std::string all;
+    for (int byte = 0; byte < 256; ++byte) all += static_cast<char>(byte);
+    EXPECT_EQ(bytes_of_base64(base64(all)), all);
+    for (const char* broken : {"Zg=", "Z===", "Zg==Zg==", "Zm9v Zm9", "Zm9-", "===="})
+        EXPECT_EQ(bytes_of_base64(broken), std::nullopt) << broken;
+}
+
 TEST(Html, numbers_are_written_for_readers) {
     EXPECT_EQ(decimals(-0.001, 2), "0.00");
     EXPECT_EQ(decimals(-1.5, 1),

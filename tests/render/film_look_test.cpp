@@ -12,6 +12,7 @@
 
 #include "render/image/glare.h"
 #include "render/image/image_io.h"
+#include "render/image/shown_bytes.h"
 #include "render/image/sparkle.h"
 #include "render/scene/film_io.h"
 #include "stone/errors.h"
@@ -158,6 +159,35 @@ TEST(ToneMaps, gamma2_writes_the_root_of_the_light) {
     for (std::size_t i = 0; i < shown.size(); ++i) {
         const double light = std::min(1.0, static_cast<double>(picture.rgb[i]));
         EXPECT_NEAR(srgb_encoded(static_cast<double>(shown[i])), std::sqrt(light), 1e-5);
+    }
+}
+
+// Expectation: the definition, value by value.
+TEST(ShownBytes, are_what_is_shown_encoded_and_rounded) {
+    for (const ToneMap map : {ToneMap::none, ToneMap::reinhard, ToneMap::filmic, ToneMap::gamma2}) {
+        Picture picture;
+        picture.width = 256;
+        picture.height = 128;
+        picture.rgb = noise({picture.width, picture.height}, 7);
+        for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
+            picture.rgb[i] *= std::exp(20 * picture.rgb[i + 1] - 10);
+        picture.rgb[0] = -1;
+        picture.rgb[1] = std::nanf("");
+        picture.rgb[2] = INFINITY;
+        PngLook look;
+        look.exposure = 0.7;
+        look.tone_map = map;
+        const std::vector<float> shown = as_shown(picture, look);
+        const std::vector<std::uint8_t> bytes = shown_bytes(picture, look, true);
+        ASSERT_EQ(bytes.size(), 4 * picture.pixels());
+        for (std::size_t i = 0; i < picture.pixels(); ++i) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                ASSERT_EQ(bytes[4 * i + c],
+                          std::lround(255 * srgb_encoded(static_cast<double>(shown[3 * i + c]))))
+                    << picture.rgb[3 * i + c];
+            }
+            ASSERT_EQ(bytes[4 * i + 3], 255);
+        }
     }
 }
 

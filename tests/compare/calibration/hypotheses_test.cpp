@@ -8,6 +8,7 @@
 #include "compare/calibration/chance.h"
 #include "compare/calibration/cropped_camera.h"
 #include "render/render.h"
+#include "render/scene/turned_lights.h"
 #include "stone/units.h"
 #include "tests/compare/study_scene.h"
 

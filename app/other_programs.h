@@ -1,0 +1,16 @@
+#pragma once
+// Programs that may be installed beside culet.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace culet {
+
+/// Whether a program of that name is on the PATH.
+bool has_program(const std::string& name);
+
+/// Runs a program with its messages in a file; its exit status, or -1.
+int run_program(std::vector<std::string> words, const std::filesystem::path& messages);
+
+}  // namespace culet

@@ -1,0 +1,13 @@
+#pragma once
+// Lights that are turned as a whole.
+
+#include <glm/mat3x3.hpp>
+
+#include "render/scene/scene.h"
+
+namespace culet {
+
+/// The lights turned about a point: environment, near and distant ones, and their polarisation.
+Lights turned_lights(const Lights& lights, const glm::dmat3& turn, const Vec3& about);
+
+}  // namespace culet

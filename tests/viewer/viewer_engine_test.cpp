@@ -1,0 +1,292 @@
+// The engine behind a page against the renderer of the command line: same scene, same bytes.
+
+#include "viewer/engine/viewer_engine.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "render/image/exposure.h"
+#include "render/image/shown_bytes.h"
+#include "render/reference/probe.h"
+#include "render/render.h"
+#include "render/scene/light_presets.h"
+#include "render/scene/scene_io.h"
+#include "stone/cuts/cuts.h"
+#include "stone/errors.h"
+#include "viewer/engine/viewer_document.h"
+
+namespace culet {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Stone stone_of(const std::string& cut, const std::string& material) {
+    Stone stone;
+    stone.name = cut;
+    stone.solid = make_cut(cut);
+    stone.material = catalogue_material(material);
+    return stone;
+}
+
+ViewDocument document_of(const Stone& stone, const std::string& scene) {
+    ViewItem item;
+    item.name = stone.name;
+    ViewedStone viewed;
+    viewed.stone = stone;
+    item.stones.push_back(viewed);
+    item.scene = scene;
+    ViewDocument document;
+    document.title = stone.name;
+    document.items.push_back(item);
+    return document;
+}
+
+// `culet render --engine beams --check none` and its PNG's bytes.
+std::vector<std::uint8_t> rendered(const Stone& stone, const std::string& scene_toml,
+                                   std::vector<std::string> keys) {
+    keys.emplace_back("render.engine=\"beams\"");
+    keys.emplace_back("render.check=\"none\"");
+    const TomlTable root = toml_of_text(scene_toml, "scene.toml", keys);
+    Stone said = stone;
+    apply_words_beside(root, said);
+    const Scene scene = scene_of(root, &said);
+    const RenderResult result = render(scene);
+    PngLook look = scene.film;
+    const LightPreset* const preset = find_light_preset(scene.light_preset);
+    if (preset != nullptr && !preset->instrument)
+        look.exposure = exposure_for_stone(result.picture);
+    return shown_bytes(result.picture, look, true);
+}
+
+struct Opened {
+    Opened(const Stone& stone, const std::string& scene) : engine("test") {
+        answer = Json::parse(
+            engine.answer("open", "{}", document_json(document_of(stone, scene))));
+    }
+    Json call(const char* name, const Json& arguments, const std::string& attached = {}) {
+        return Json::parse(engine.answer(name, arguments.dump(), attached));
+    }
+    std::string refusal(const char* name, const Json& arguments) {
+        try {
+            call(name, arguments);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "none";
+    }
+
+    ViewerEngine engine;
+    Json answer;
+};
+
+constexpr const char* k_jeweller = "light = { preset = \"jeweller\" }\n";
+
+Json of_size(int side) {
+    return {{"width", side}, {"height", side}};
+}
+
+// Expectation: the program itself, `render()`.
+TEST(ViewerEngine, draws_the_bytes_of_the_command_line) {
+    struct Case {
+        const char *cut, *material, *scene;
+        std::vector<std::string> keys;
+    };
+    const Case cases[] = {
+        {"round-brilliant", "diamond", k_jeweller, {}},
+        {"round-brilliant", "diamond", k_jeweller, {"light={preset=\"aset\"}"}},
+        {"step", "tourmaline_dravite", k_jeweller, {"render.tolerance=0.05", "film.tonemap=\"filmic\""}},
+        {"oval", "sapphire_blue", "light = { preset = \"daylight\" }\n", {"optic_axis=[1,0,0.2]", "immersion=1.33"}},
+        {"round-brilliant", "zircon_high", k_jeweller,
+         {"material=\"ruby_gem\"", "render.effects=[\"absorption\"]", "render.wavelengths=[589.3]"}},
+        {"princess", "garnet_almandine", "light = { preset = \"jeweller\", rotate = [10, 20, 30] }\n", {}},
+    };
+    for (const Case& one : cases) {
+        SCOPED_TRACE(fmt::format("{} {}", one.cut, one.material));
+        const Stone stone = stone_of(one.cut, one.material);
+        Opened page(stone, one.scene);
+        const Json set = page.call("set", {{"stone", 0}, {"settings", one.keys}});
+        EXPECT_EQ(set.at("refused"), "");
+        std::vector<std::string> keys = one.keys;
+        keys.emplace_back("camera.size=[120,120]");
+        const Json drawn = page.call("draw", of_size(120));
+        EXPECT_GT(drawn.at("beams"), 100);
+        EXPECT_EQ(page.engine.pixels(), rendered(stone, one.scene, keys));
+    }
+}
+
+// A view by the camera of the call is that of the scene's keys.
+TEST(ViewerEngine, looks_as_a_scenes_camera_does) {
+    const Stone stone = stone_of("round-brilliant", "diamond");
+    Opened page(stone, k_jeweller);
+    Json view = of_size(90);
+    view["camera"] = {
+        {"position", {3, -20, 25}}, {"look_at", {0, 0, -0.5}}, {"up", {0, 0, 1}}, {"fov_deg", 15}};
+    page.call("draw", view);
+    EXPECT_EQ(page.engine.pixels(),
+              rendered(stone, k_jeweller,
+                       {"camera.size=[90,90]", "camera.position=[3,-20,25]",
+                        "camera.look_at=[0,0,-0.5]", "camera.up=[0,0,1]", "camera.fov=15"}));
+    // And after another view, drawn quickly.
+    Json other = of_size(90);
+    other["camera"] = {
+        {"position", {0, 0, 40}}, {"look_at", {0, 0, 0}}, {"up", {0, 1, 0}}, {"width", 8}};
+    other["quick"] = true;
+    page.call("draw", other);
+    page.call("draw", view);
+    EXPECT_EQ(page.engine.pixels(),
+              rendered(stone, k_jeweller,
+                       {"camera.size=[90,90]", "camera.position=[3,-20,25]",
+                        "camera.look_at=[0,0,-0.5]", "camera.up=[0,0,1]", "camera.fov=15"}));
+}
+
+// A quarter about z takes x to y: rows of the matrix, and light.rotate, say the same.
+TEST(ViewerEngine, turns_lights_by_rows_of_a_matrix) {
+    const Stone stone = stone_of("step", "diamond");
+    Opened page(stone, k_jeweller);
+    page.call("draw", of_size(80));
+    const std::vector<std::uint8_t> unturned = page.engine.pixels();
+    Json turned = of_size(80);
+    turned["turn"] = {0, -1, 0, 1, 0, 0, 0, 0, 1};
+    page.call("draw", turned);
+    EXPECT_NE(page.engine.pixels(), unturned);
+    const auto expected =
+        rendered(stone, k_jeweller, {"camera.size=[80,80]", "light.rotate=[0,0,90]"});
+    // cos(90 degrees) is 6e-17 and not 0: a byte may round the other way.
+    ASSERT_EQ(expected.size(), page.engine.pixels().size());
+    int apart = 0;
+    for (std::size_t i = 0; i < expected.size(); ++i)
+        apart += std::abs(expected[i] - page.engine.pixels()[i]) > 1;
+    EXPECT_EQ(apart, 0);
+}
+
+// The middle of a convex facet that is seen is on that facet.
+TEST(ViewerEngine, outlines_are_of_the_facets_that_rays_meet) {
+    Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
+    Json view = of_size(400);
+    view["camera"] = {
+        {"position", {10, -20, 25}}, {"look_at", {0, 0, -1}}, {"up", {0, 0, 1}}, {"width", 9}};
+    const Json outline = page.call("outline", view);
+    EXPECT_GT(outline.at("facets").size(), 20u);
+    for (const Json& facet : outline.at("facets")) {
+        double x = 0, y = 0;
+        for (const Json& point : facet.at("points")) {
+            x += point[0].get<double>() / static_cast<double>(facet.at("points").size());
+            y += point[1].get<double>() / static_cast<double>(facet.at("points").size());
+        }
+        Json place = view;
+        place["x"] = x;
+        place["y"] = y;
+        const Json found = page.call("facet", place);
+        EXPECT_EQ(found.at("facet"), facet.at("facet"));
+    }
+    Json corner = view;
+    corner["x"] = 1;
+    corner["y"] = 1;
+    EXPECT_EQ(page.call("facet", corner).at("facet"), -1);
+}
+
+// Expectation: conservation, as `culet probe` has it: all weights and losses are 1.
+TEST(ViewerEngine, paths_are_those_of_probe) {
+    const Stone stone = stone_of("round-brilliant", "diamond");
+    Opened page(stone, k_jeweller);
+    Json place = of_size(200);
+    place["x"] = 80.5;
+    place["y"] = 93.5;
+    const Json paths = page.call("path", place);
+    double sum = paths.at("remainder").get<double>() + paths.at("absorbed").get<double>() +
+                 paths.at("cut").get<double>();
+    for (const Json& path : paths.at("paths")) sum += path.at("weight").get<double>();
+    EXPECT_NEAR(sum, 1, 1e-12);
+    EXPECT_EQ(paths.at("paths")[0].at("facets")[0], "T");
+}
+
+// A furnace: light of 1 from everywhere is 1 in every pixel of a stone that absorbs nothing, less
+// what is not followed.
+TEST(ViewerEngine, a_panorama_of_one_is_a_furnace) {
+    Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
+    std::string pfm = "PF\n8 4\n-1.0\n";
+    for (int i = 0; i < 8 * 4 * 3; ++i) {
+        const float one = 1;
+        pfm.append(reinterpret_cast<const char*>(&one), sizeof one);
+    }
+    const Json taken = page.call("panorama", {{"name", "a room.pfm"}}, pfm);
+    EXPECT_EQ(taken.at("setting"), "light={environment=\"a_room.pfm\"}");
+    page.call("set", {{"settings", {taken.at("setting"), "render.tolerance=0.001"}}});
+    page.call("radiance", of_size(60));
+    double most = 0, least = 2;
+    for (const float v : page.engine.radiance()) {
+        most = std::max(most, double{v});
+        least = std::min(least, double{v});
+    }
+    EXPECT_NEAR(most, 1, 1e-4);
+    EXPECT_GT(least, 0.99);
+}
+
+TEST(ViewerEngine, cuts_with_other_proportions) {
+    Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
+    const Json cut =
+        page.call("cut", {{"kind", "round-brilliant"}, {"values", {{"table", 65.0}}}});
+    EXPECT_EQ(cut.at("summary").at("role"), "design");
+    page.call("draw", of_size(70));
+    Stone expected = stone_of("round-brilliant", "diamond");
+    expected.solid = make_cut("round-brilliant", {{"table", 65.0}});
+    EXPECT_EQ(page.engine.pixels(), rendered(expected, k_jeweller, {"camera.size=[70,70]"}));
+    EXPECT_NE(page.refusal("cut", {{"kind", "round-brilliant"}, {"values", {{"table", 650.0}}}}),
+              "none");
+    // The one before is still there.
+    page.call("set", {{"stone", 0}, {"settings", Json::array()}});
+}
+
+// What is refused leaves everything as it was.
+TEST(ViewerEngine, says_what_is_wrong_in_one_line) {
+    Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
+    page.call("draw", of_size(40));
+    const std::vector<std::uint8_t> before = page.engine.pixels();
+    EXPECT_NE(page.refusal("set", {{"settings", {"material=\"unobtainium\""}}}), "none");
+    EXPECT_NE(page.refusal("set", {{"settings", {"render.nonsense=1"}}}), "none");
+    EXPECT_NE(page.refusal("draw", of_size(0)), "none");
+    EXPECT_NE(page.refusal("draw", Json::object()), "none");
+    EXPECT_NE(page.refusal("juggle", Json::object()), "none");
+    EXPECT_NE(page.refusal("set", {{"stone", 7}}), "none");
+    EXPECT_EQ(page.refusal("set", {{"settings", {"light.environment=\"/etc/passwd\""}}}).find('\n'),
+              std::string::npos);
+    page.call("draw", of_size(40));
+    EXPECT_EQ(page.engine.pixels(), before);
+    const Json set = page.call("set", {{"settings", {"immersion=3"}}});
+    EXPECT_NE(set.at("refused").get<std::string>().find("denser"), std::string::npos);
+    EXPECT_NE(page.refusal("draw", of_size(40)).find("denser"), std::string::npos);
+}
+
+TEST(ViewDocument, keeps_every_material_to_the_last_digit) {
+    for (const std::string& name : catalogue_names()) {
+        Stone stone = stone_of("round-brilliant", name);
+        stone.crystal.axes = {Vec3{0.6, 0, 0.8}, Vec3{0.8, 0, -0.6}, Vec3{0, 1, 0}};
+        const ViewItem item = read_view_item(document_json(document_of(stone, k_jeweller)), 0);
+        const Stone& read = item.stones.at(0).stone;
+        ASSERT_EQ(read.solid.vertices, stone.solid.vertices);
+        EXPECT_EQ(read.crystal.axes, stone.crystal.axes);
+        for (int ray = 0; ray < ray_count(stone.material.optic); ++ray) {
+            const auto r = static_cast<std::size_t>(ray);
+            for (double nm = 370; nm < 800; nm += 7.3) {
+                EXPECT_EQ(read.material.index[r].at(nm), stone.material.index[r].at(nm));
+                EXPECT_EQ(read.material.absorption_per_mm[r].at(nm),
+                          stone.material.absorption_per_mm[r].at(nm));
+            }
+        }
+    }
+}
+
+TEST(ViewDocument, refuses_what_is_none) {
+    EXPECT_THROW(read_view_item("", 0), InputError);
+    EXPECT_THROW(read_view_item("{}", 0), InputError);
+    EXPECT_THROW(read_view_item("{\"schema\":\"culet-view-1\",\"items\":[]}", 0), InputError);
+    const std::string good = document_json(document_of(stone_of("step", "diamond"), k_jeweller));
+    EXPECT_THROW(read_view_item(good, 1), InputError);
+    EXPECT_THROW(read_view_item(good.substr(0, good.size() / 2), 0), InputError);
+}
+
+}  // namespace
+}  // namespace culet

@@ -1,0 +1,67 @@
+#pragma once
+// One stone of a page as it is drawn: its scene, and the frames of its two engines. Private to the
+// room.
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/beams/frame_renderer.h"
+#include "render/reference/prepared_scene.h"
+#include "render/scene/scene.h"
+#include "viewer/engine/viewer_document.h"
+
+namespace culet {
+
+/// What a picture is asked for.
+struct FrameRequest {
+    Camera camera;
+    /// Of the lights about the stone's middle, row by row.
+    std::array<double, 9> turn{1, 0, 0, 0, 1, 0, 0, 0, 1};
+    bool preview = false;
+    /// The wavelengths that were chosen for the view before are taken again where the scene leaves
+    /// them open: for pictures while the stone moves.
+    bool quick = false;
+    std::optional<int> samples;
+};
+
+class ShownStone {
+public:
+    ShownStone(ViewedStone viewed, const std::string& scene_toml, const HeldFiles& files,
+               const std::string& name);
+
+    /// The scene's keys anew, as --set has them. Throws InputError, and nothing has changed then.
+    void set(const std::vector<std::string>& settings, const std::string& scene_toml,
+             const HeldFiles& files, const std::string& name);
+
+    const ViewedStone& viewed() const { return viewed_; }
+    const Scene& scene() const { return scene_; }
+    /// Why beams cannot draw it; empty: they can.
+    const std::string& refused() const { return refused_; }
+
+    /// Wavelengths and limits of the scene as it is set.
+    const PreparedScene& prepared() const;
+
+    /// The scene of a picture.
+    Scene scene_of(const FrameRequest& request) const;
+    /// Throws InputError. The picture is valid until the next call.
+    const RenderResult& draw(const FrameRequest& request);
+
+private:
+    struct Drawer {
+        FrameRenderer frames;
+        std::optional<int> samples;
+        bool stale = false;  ///< the scene's keys have changed since
+    };
+
+    ViewedStone viewed_;
+    Scene scene_;
+    std::string refused_, body_;
+    mutable std::shared_ptr<const EnvironmentMap> coarse_map_;
+    mutable std::shared_ptr<const PreparedScene> prepared_;
+    std::array<std::unique_ptr<Drawer>, 2> drawers_;  ///< beams, preview
+};
+
+}  // namespace culet

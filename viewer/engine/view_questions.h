@@ -1,0 +1,26 @@
+#pragma once
+// What a person asks of a place in the picture. Places are in pixels, x to the right, y down, from
+// the picture's corner.
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "render/scene/scene.h"
+
+namespace culet {
+
+/// The facet there, or -1: the stone is not met.
+int facet_at(const Stone& stone, const Camera& camera, double x, double y);
+
+struct SeenFacet {
+    int facet = 0;
+    std::vector<std::array<double, 2>> points;
+};
+/// The facets that face the eye, as the picture shows them. Throws InputError for a conoscope.
+std::vector<SeenFacet> seen_facets(const Stone& stone, const Camera& camera);
+
+/// The light paths there, as `culet probe --json` writes them. Throws InputError.
+std::string paths_at(const Scene& scene, double x, double y);
+
+}  // namespace culet

@@ -1,0 +1,52 @@
+#pragma once
+// What a page of the viewer carries: stones, scenes and small pictures, as JSON
+// (docs/viewer.md, "The document").
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "page/fit_facts.h"
+#include "stone/stone.h"
+#include "stone/toml_file.h"
+
+namespace culet {
+
+/// The standard cut that a stone is, by `cut_kinds()`.
+struct CutChoice {
+    std::string kind;
+    std::map<std::string, double> values;
+};
+
+struct ViewedStone {
+    std::string role = "stone";  ///< stone, fitted, catalogue, design
+    Stone stone;
+    std::optional<CutChoice> cut;
+    std::vector<FacetFacts> fit;  ///< one a facet, or empty
+};
+
+struct ViewItem {
+    std::string name;
+    std::vector<ViewedStone> stones;
+    std::string scene;    ///< a scene file without its stone (TOML)
+    HeldFiles files;      ///< that it names
+    std::string picture;  ///< data:image/png;base64,...
+    std::string refused;  ///< why beams cannot draw it; empty: they can
+    std::string command;  ///< `culet render ...` as far as the file, to which --set is added
+};
+
+struct ViewDocument {
+    std::string title, version;
+    int first = 0;
+    std::vector<ViewItem> items;
+};
+
+/// Schema "culet-view-1", numbers exactly.
+std::string document_json(const ViewDocument& document);
+
+/// One item of a document. Throws InputError where it is none, or has no such item.
+ViewItem read_view_item(std::string_view document, int item);
+
+}  // namespace culet

@@ -1,0 +1,322 @@
+#include "viewer/engine/viewer_engine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "render/image/exposure.h"
+#include "render/image/shown_bytes.h"
+#include "render/scene/light_presets.h"
+#include "stone/cuts/cuts.h"
+#include "stone/errors.h"
+#include "viewer/engine/engine_lists.h"
+#include "viewer/engine/gpu_answer.h"
+#include "viewer/engine/panorama.h"
+#include "viewer/engine/shown_stone.h"
+#include "viewer/engine/stone_json.h"
+#include "viewer/engine/view_questions.h"
+
+namespace culet {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A picture of more would not fit a page's memory.
+constexpr int k_widest = 8192;
+constexpr double k_most_pixels = 3.4e7;
+
+int side_in(const Json& arguments, const char* key) {
+    const int side = arguments.at(key).get<int>();
+    if (side < 1 || side > k_widest)
+        throw InputError(fmt::format("{} is 1 to {} pixels, found {}", key, k_widest, side));
+    return side;
+}
+
+}  // namespace
+
+struct ViewerEngine::State {
+    std::string version;
+    ViewItem item;
+    std::vector<ShownStone> stones;
+    std::size_t now = 0;
+    std::vector<std::string> settings;
+    std::vector<std::uint8_t> pixels;
+    std::vector<float> radiance, texels;
+
+    ShownStone& shown();
+    FrameRequest request_of(const Json& arguments);
+    Json open(const Json& arguments, std::string_view document);
+    Json set(const Json& arguments);
+    Json draw(const Json& arguments, bool shown_as_bytes);
+    Json gpu(const Json& arguments);
+    Json facet(const Json& arguments);
+    Json outline(const Json& arguments);
+    Json path(const Json& arguments);
+    Json cut(const Json& arguments);
+    Json panorama(const Json& arguments, std::string_view bytes);
+};
+
+ShownStone& ViewerEngine::State::shown() {
+    if (stones.empty()) throw InputError("no stone is open");
+    return stones[now];
+}
+
+FrameRequest ViewerEngine::State::request_of(const Json& arguments) {
+    FrameRequest request;
+    Camera& camera = request.camera;
+    camera = shown().scene().camera;
+    camera.width = side_in(arguments, "width");
+    camera.height = side_in(arguments, "height");
+    if (static_cast<double>(camera.width) * camera.height > k_most_pixels)
+        throw InputError(fmt::format("a picture of {} x {} pixels is too large for a page",
+                                     camera.width, camera.height));
+    camera.principal_point.reset();
+    if (const auto view = arguments.find("camera"); view != arguments.end()) {
+        camera.position = vector_from(view->at("position"));
+        camera.look_at = vector_from(view->at("look_at"));
+        camera.up = vector_from(view->at("up"));
+        const Vec3 sight = camera.look_at - camera.position;
+        if (!(glm::length(glm::cross(sight, camera.up)) > 0))
+            throw InputError("the camera's up must not point along its view");
+        if (view->contains("width")) {
+            camera.orthographic_width = view->at("width").get<double>();
+            if (!(*camera.orthographic_width > 0))
+                throw InputError("the camera's width must be above 0");
+        } else if (view->contains("fov_deg")) {
+            camera.orthographic_width.reset();
+            camera.fov = radians(view->at("fov_deg").get<double>());
+            if (!(camera.fov > 0 && camera.fov < radians(179)))
+                throw InputError("the camera's angle of view is above 0 and below 179 degrees");
+        }
+    }
+    if (const auto turn = arguments.find("turn"); turn != arguments.end() && !turn->is_null())
+        request.turn = turn->get<std::array<double, 9>>();
+    request.preview = arguments.value("engine", "beams") == "preview";
+    request.quick = arguments.value("quick", request.preview);
+    if (const auto samples = arguments.find("samples");
+        samples != arguments.end() && samples->is_number())
+        request.samples = std::clamp(samples->get<int>(), 0, 1024);
+    return request;
+}
+
+Json ViewerEngine::State::open(const Json& arguments, std::string_view document) {
+    ViewItem opened = read_view_item(document, arguments.value("item", 0));
+    std::vector<ShownStone> all;
+    for (ViewedStone& viewed : opened.stones)
+        all.emplace_back(std::move(viewed), opened.scene, opened.files, opened.name);
+    item = std::move(opened);
+    stones = std::move(all);
+    now = stones.empty() ? 0 : stones.size() - 1;
+    settings.clear();
+    Json shown_stones = Json::array();
+    for (const ShownStone& stone : stones) shown_stones.push_back(summary_of(stone.viewed()));
+    Json result{{"stones", shown_stones},
+                {"stone", now},
+                {"refused", item.refused},
+                {"materials", material_list()},
+                {"lights", light_list()},
+                {"views", view_list()},
+                {"cuts", cut_list()},
+                {"version", version}};
+    if (!stones.empty()) {
+        const Scene& scene = shown().scene();
+        result["camera"] = json_of(scene.camera);
+        result["settings"] = settings_of(scene);
+    }
+    return result;
+}
+
+Json ViewerEngine::State::set(const Json& arguments) {
+    const std::size_t wanted = arguments.value("stone", now);
+    if (wanted >= stones.size())
+        throw InputError(fmt::format("there is no stone {}, counted from 0", wanted));
+    const auto keys = arguments.value("settings", settings);
+    stones[wanted].set(keys, item.scene, item.files, item.name);
+    now = wanted;
+    settings = keys;
+    const ShownStone& stone = shown();
+    const OpticalSetup setup = make_optical_setup(stone.scene());
+    Json effects = Json::array();
+    for (const EffectDecision& decision : setup.effects) {
+        effects.push_back(
+            {{"name", name_of(decision.effect)}, {"on", decision.on}, {"why", decision.why}});
+    }
+    return {{"stone", now},
+            {"wavelengths", setup.wavelengths_nm},
+            {"effects", effects},
+            {"notes", stone.scene().notes},
+            {"refused", item.refused.empty() ? stone.refused() : item.refused},
+            {"gpu_refused", item.refused.empty() ? refused_by_gpu(stone.scene()) : item.refused},
+            {"camera", json_of(stone.scene().camera)},
+            {"settings", settings_of(stone.scene())}};
+}
+
+Json ViewerEngine::State::draw(const Json& arguments, bool shown_as_bytes) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    const FrameRequest request = request_of(arguments);
+    if (!item.refused.empty()) throw InputError(item.refused);
+    const RenderResult& result = shown().draw(request);
+    const Scene& scene = shown().scene();
+    Json answer{{"width", result.picture.width}, {"height", result.picture.height}};
+    if (shown_as_bytes) {
+        PngLook look = scene.film;
+        if (const auto map = tone_map_named(arguments.value("tonemap", ""))) look.tone_map = *map;
+        const auto asked = arguments.find("exposure");
+        const LightPreset* const preset = find_light_preset(scene.light_preset);
+        const bool to_the_stone = asked == arguments.end() || asked->is_null()
+                                      ? preset != nullptr && !preset->instrument
+                                      : asked->is_string();
+        if (to_the_stone) {
+            look.exposure = exposure_for_stone(result.picture);
+        } else if (asked != arguments.end() && asked->is_number()) {
+            look.exposure = asked->get<double>();
+            if (!(look.exposure > 0 && std::isfinite(look.exposure)))
+                throw InputError("exposure is auto, or a factor on linear light above 0");
+        }
+        pixels = shown_bytes(result.picture, look, true);
+        answer["exposure"] = look.exposure;
+    } else {
+        radiance = result.picture.rgb;
+    }
+    const std::chrono::duration<double, std::milli> took = Clock::now() - start;
+    answer["milliseconds"] = took.count();
+    answer["build_ms"] = 1e3 * result.stats.seconds_build;
+    answer["shade_ms"] = 1e3 * result.stats.seconds_shade;
+    answer["beams"] = result.stats.beams;
+    answer["depth"] = result.stats.depth;
+    answer["wavelengths"] = result.stats.wavelengths_nm;
+    answer["remainder"] = result.stats.remainder;
+    return answer;
+}
+
+Json ViewerEngine::State::gpu(const Json& arguments) {
+    FrameRequest request = request_of(arguments);
+    const int samples = request.samples.value_or(1);
+    GpuAnswer answer = gpu_answer(shown(), request, samples, arguments.value("known", ""));
+    texels = std::move(answer.texels);
+    return std::move(answer.json);
+}
+
+Json ViewerEngine::State::facet(const Json& arguments) {
+    const FrameRequest request = request_of(arguments);
+    const Stone& stone = shown().scene().stone;
+    const int facet =
+        facet_at(stone, request.camera, arguments.at("x").get<double>(), arguments.at("y"));
+    Json answer{{"facet", facet}};
+    if (facet >= 0) answer["name"] = stone.solid.facets[static_cast<std::size_t>(facet)].name;
+    return answer;
+}
+
+Json ViewerEngine::State::outline(const Json& arguments) {
+    const FrameRequest request = request_of(arguments);
+    Json facets = Json::array();
+    for (const SeenFacet& seen : seen_facets(shown().scene().stone, request.camera)) {
+        Json points = Json::array();
+        for (const auto& [x, y] : seen.points) points.push_back({x, y});
+        facets.push_back({{"facet", seen.facet}, {"points", points}});
+    }
+    return {{"facets", facets}};
+}
+
+Json ViewerEngine::State::path(const Json& arguments) {
+    const Scene scene = shown().scene_of(request_of(arguments));
+    return Json::parse(
+        paths_at(scene, arguments.at("x").get<double>(), arguments.at("y").get<double>()));
+}
+
+Json ViewerEngine::State::cut(const Json& arguments) {
+    const ViewedStone& before = shown().viewed();
+    ViewedStone viewed;
+    viewed.role = "design";
+    viewed.cut = CutChoice{
+        arguments.at("kind"),
+        arguments.value("values", std::map<std::string, double>())};
+    Stone& stone = viewed.stone;
+    stone = before.stone;
+    stone.name = viewed.cut->kind;
+    stone.solid = make_cut(viewed.cut->kind, viewed.cut->values);
+    stone.up = {0, 0, 1};
+    stone.up_facet.clear();
+    stone.convex = cut_kind(viewed.cut->kind).convex;
+    // Cuts are in mm.
+    for (Vec3& vertex : stone.solid.vertices) vertex /= mm_per(stone.unit);
+    for (Facet& facet : stone.solid.facets) facet.plane.offset /= mm_per(stone.unit);
+    ShownStone design(viewed, item.scene, item.files, item.name);
+    design.set(settings, item.scene, item.files, item.name);
+    const auto place = std::find_if(stones.begin(), stones.end(), [](const ShownStone& one) {
+        return one.viewed().role == "design";
+    });
+    now = static_cast<std::size_t>(place - stones.begin());
+    if (place == stones.end()) {
+        stones.push_back(std::move(design));
+    } else {
+        *place = std::move(design);
+    }
+    return {{"stone", now}, {"summary", summary_of(viewed)}, {"geometry", json_of(viewed)}};
+}
+
+Json ViewerEngine::State::panorama(const Json& arguments, std::string_view bytes) {
+    Panorama panorama = panorama_of(arguments.at("name").get<std::string>(), bytes);
+    const std::string setting = fmt::format("light={{environment=\"{}\"}}", panorama.name);
+    std::vector<std::string> keys = settings;
+    std::erase_if(keys, [](const std::string& key) { return key.starts_with("light"); });
+    keys.push_back(setting);
+    HeldFiles files = item.files;
+    files[panorama.name] = std::move(panorama.bytes);
+    shown().set(keys, item.scene, files, item.name);
+    item.files = std::move(files);
+    settings = keys;
+    return {{"name", panorama.name},
+            {"setting", setting},
+            {"width", panorama.width},
+            {"height", panorama.height},
+            {"notes", panorama.notes}};
+}
+
+ViewerEngine::ViewerEngine(std::string version) : state_(std::make_unique<State>()) {
+    state_->version = std::move(version);
+}
+ViewerEngine::~ViewerEngine() = default;
+ViewerEngine::ViewerEngine(ViewerEngine&&) noexcept = default;
+
+std::string ViewerEngine::answer(std::string_view call, std::string_view arguments,
+                                 std::string_view attached) {
+    State& state = *state_;
+    try {
+        const Json json = Json::parse(arguments);
+        const auto dumped = [](const Json& answer) { return answer.dump(); };
+        if (call == "open") return dumped(state.open(json, attached));
+        if (call == "set") return dumped(state.set(json));
+        if (call == "draw") return dumped(state.draw(json, true));
+        if (call == "radiance") return dumped(state.draw(json, false));
+        if (call == "gpu") return dumped(state.gpu(json));
+        if (call == "facet") return dumped(state.facet(json));
+        if (call == "outline") return dumped(state.outline(json));
+        if (call == "path") return dumped(state.path(json));
+        if (call == "cut") return dumped(state.cut(json));
+        if (call == "panorama") return dumped(state.panorama(json, attached));
+    } catch (const Json::exception& error) {
+        throw InputError(fmt::format("{}: what was asked is not understood: {}", call,
+                                     for_terminal(error.what())));
+    }
+    throw InputError(fmt::format("no call \"{}\"", call));
+}
+
+const std::vector<std::uint8_t>& ViewerEngine::pixels() const {
+    return state_->pixels;
+}
+const std::vector<float>& ViewerEngine::radiance() const {
+    return state_->radiance;
+}
+const std::vector<float>& ViewerEngine::texels() const {
+    return state_->texels;
+}
+
+}  // namespace culet

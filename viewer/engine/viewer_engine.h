@@ -1,0 +1,40 @@
+#pragma once
+// Front door of the engine behind a page: a document in, pictures out. Compiled into the program
+// for its tests, and to WebAssembly for pages (viewer/wasm).
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace culet {
+
+/// Answers a page's calls, in JSON (docs/viewer.md, "The engine's calls"): open, set, draw,
+/// radiance, gpu, facet, outline, path, cut, panorama. Pictures are those of `culet render` with
+/// engine "beams" or "preview" and `check = "none"`.
+class ViewerEngine {
+public:
+    /// `version` of the program, for who asks.
+    explicit ViewerEngine(std::string version);
+    ~ViewerEngine();
+    ViewerEngine(ViewerEngine&&) noexcept;
+
+    /// `attached`: the document of `open`, the file of `panorama`. Throws InputError: what is
+    /// wrong, in one line for people; nothing has changed then.
+    std::string answer(std::string_view call, std::string_view arguments,
+                       std::string_view attached = {});
+
+    /// Of the last `draw`: RGBA, row by row from the top.
+    const std::vector<std::uint8_t>& pixels() const;
+    /// Of the last `radiance`: linear RGB.
+    const std::vector<float>& radiance() const;
+    /// Of the last `gpu`: of all its textures, RGBA.
+    const std::vector<float>& texels() const;
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace culet

@@ -1,0 +1,75 @@
+"use strict";
+// The engine in its worker: calls and their answers. One worker at a time; a dead one is replaced by
+// `start`.
+
+class EngineError extends Error {}
+
+class EngineClient {
+  // `ondeath(line)` hears when the worker ends by itself.
+  constructor(ondeath) {
+    this.ondeath = ondeath;
+    this.waiting = new Map();
+    this.next_id = 1;
+    this.worker = null;
+  }
+
+  // Why there can be no engine on this page; empty: there can.
+  static refusal() {
+    if (typeof WebAssembly !== "object") return "This browser has no WebAssembly, so the stone cannot be turned here: the picture is what culet drew.";
+    if (!EngineClient.text_of("culet-engine") && !EngineClient.text_of("culet-worker")) {
+      return "This page was made without culet\u2019s engine: the picture is what culet drew.";
+    }
+    if (typeof DecompressionStream !== "function") return "This browser is too old to unpack culet\u2019s engine: the picture is what culet drew.";
+    return "";
+  }
+  static text_of(id) {
+    const block = document.getElementById(id);
+    return block ? block.textContent.trim() : "";
+  }
+
+  async start() {
+    this.stop("started again");
+    const address = URL.createObjectURL(new Blob([EngineClient.text_of("culet-worker")], { type: "text/javascript" }));
+    const worker = this.worker = new Worker(address);
+    worker.onmessage = (event) => this.answered(event.data);
+    worker.onerror = (event) => {
+      event.preventDefault();
+      if (this.worker === worker) this.died(event.message || "the engine stopped");
+    };
+    // What base64 text is kept here is not needed again in this form.
+    return this.call("start", { engine: EngineClient.text_of("culet-engine") })
+      .finally(() => URL.revokeObjectURL(address));
+  }
+
+  stop(why) {
+    if (this.worker) this.worker.terminate();
+    this.worker = null;
+    const waiting = [...this.waiting.values()];
+    this.waiting.clear();
+    for (const { reject } of waiting) reject(new EngineError(why));
+  }
+  died(line) {
+    this.stop(line);
+    this.ondeath(line);
+  }
+
+  call(call, args = {}, transfer = []) {
+    if (!this.worker) return Promise.reject(new EngineError("the engine is not running"));
+    const id = this.next_id++;
+    return new Promise((resolve, reject) => {
+      this.waiting.set(id, { resolve, reject });
+      this.worker.postMessage({ id, call, ...args }, transfer);
+    });
+  }
+  answered(answer) {
+    const waiting = this.waiting.get(answer.id);
+    if (!waiting) {
+      if (answer.died) this.died(answer.error || "the engine stopped");
+      return;
+    }
+    this.waiting.delete(answer.id);
+    if (answer.ok) waiting.resolve(answer);
+    else waiting.reject(new EngineError(answer.error || "the engine gave no reason"));
+    if (answer.died) this.died(answer.error);
+  }
+}

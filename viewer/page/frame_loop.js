@@ -1,0 +1,140 @@
+"use strict";
+// When to draw, and how finely: quick frames while something moves, as large as the time of the last
+// ones allows; the whole picture once it rests, then refined. One picture is on its way at a time.
+
+const k_quick_ms = 33;     // of a frame while the stone moves
+const k_rest_ms = 140;     // without a move, after which the whole picture is drawn
+const k_least_scale = 0.25;  // of the screen's resolution: coarser is no picture any more
+const k_levels = { quick: 0, full: 1, done: 2 };
+
+class FrameLoop {
+  constructor(page) {
+    this.page = page;
+    this.scale = 0.6;       // of the screen's resolution while moving
+    this.level = k_levels.quick;
+    this.last_move = -Infinity;
+    this.running = false;
+    this.paused = false;    // while others need the engine: recording
+    this.coarse = false;    // quick frames leave out what takes them too long
+    this.set_key = "";      // what the engine was last told to draw
+    this.exposure = null;   // of the last whole picture
+    this.milliseconds = {}; // last of each way of drawing
+    this.idle_waiters = [];
+  }
+
+  // Something moves: quick frames now, the whole picture later.
+  moved() {
+    this.last_move = performance.now();
+    this.changed();
+  }
+  changed() {
+    this.level = k_levels.quick;
+    this.version = (this.version || 0) + 1;
+    if (!this.running && !this.paused) this.run();
+  }
+  // The engine forgot all: it was started anew.
+  forget() { this.set_key = ""; }
+  moving() { return performance.now() - this.last_move < k_rest_ms; }
+
+  // Resolves once the whole picture of what is now asked for is on the page.
+  idle() {
+    if (!this.running && this.level === k_levels.done) return Promise.resolve();
+    return new Promise((resolve) => this.idle_waiters.push(resolve));
+  }
+
+  async run() {
+    this.running = true;
+    try {
+      while (this.level < k_levels.done && !this.paused && this.page.ready()) {
+        const version = this.version, moving = this.moving();
+        const begin = performance.now();
+        if (moving) {
+          await this.draw(true);
+          if (version === this.version) await this.pause(begin);
+          continue;
+        }
+        await this.draw(false);
+        if (version === this.version) this.level = k_levels.done;
+      }
+    } catch (error) {
+      // One line, once: the same attempt would only fail again.
+      this.level = k_levels.done;
+      this.page.failed(error);
+    }
+    this.running = false;
+    if (this.level === k_levels.done) {
+      for (const resolve of this.idle_waiters.splice(0)) resolve();
+    }
+  }
+  // Nothing new to draw yet: until the next frame of the screen, at most until the stone rests.
+  pause(begin) {
+    const version = this.version;
+    return new Promise((resolve) => {
+      const look = () => {
+        if (version !== this.version || !this.moving() || performance.now() - begin > 1000) resolve();
+        else setTimeout(look, 15);
+      };
+      setTimeout(look, 5);
+    });
+  }
+
+  // Tells the engine which stone and scene, if it does not know.
+  async prepare(stone, settings) {
+    const held = this.page.engine_stone(stone);
+    const key = JSON.stringify([held, settings, this.page.scene_version]);
+    if (key === this.set_key) return;
+    this.set_key = "";
+    const answer = await this.page.engine.call("set", { stone: held, settings });
+    this.set_key = key;
+    this.page.took_settings(answer);
+  }
+
+  // While the stone moves nobody sees a crystal's two images apart, nor a rainbow's every colour.
+  settings(stone, quick) {
+    const settings = this.page.settings(stone);
+    if (!quick || !this.coarse) return settings;
+    if (!this.page.state.get("wavelengths")) settings.push(`render.wavelengths=${toml_list(wavelengths_nm(3))}`);
+    return [...settings, 'render.crystal_beams="merged"'];
+  }
+
+  async draw(quick) {
+    const page = this.page, values = page.state.values;
+    const sides = values.compare === "one" ? [["left", page.shown_index()]] : [["left", 0], ["right", 1]];
+    const [width, height] = page.picture.size(quick ? this.scale : 1);
+    let spent = 0, exposure = this.exposure_for(quick);
+    for (const [side, stone] of sides) {
+      await this.prepare(stone, this.settings(stone, quick));
+      if (page.refused) return page.show_refused();
+      if (side === "left" && page.gpu.wanted()) {
+        await page.gpu.draw(width, height, quick, exposure);
+        if (page.gpu.drew) return page.drawn(quick);
+      }
+      const drawn = await page.engine.call("draw", {
+        ...page.drawing(stone, width, height), engine: quick ? "preview" : "beams", exposure,
+        tonemap: page.tonemap(),
+      });
+      spent += drawn.milliseconds;
+      page.picture.take(drawn, side);
+      // Two stones beside each other are shown alike.
+      if (side === "left" && typeof drawn.exposure === "number") exposure = drawn.exposure;
+    }
+    if (sides.length === 1) page.picture.pictures.delete("right");
+    if (!quick && typeof exposure === "number") this.exposure = exposure;
+    this.milliseconds[quick ? "preview" : "beams"] = spent;
+    if (quick) this.adapt(spent);
+    page.show_picture();
+    page.drawn(quick);
+  }
+
+  // While something moves the exposure stays: a picture that brightens and darkens is restless.
+  exposure_for(quick) {
+    const exposure = this.page.exposure();
+    return exposure === "auto" && quick && this.exposure ? this.exposure : exposure;
+  }
+
+  adapt(milliseconds) {
+    const wanted = this.scale * Math.sqrt(k_quick_ms / Math.max(1, milliseconds));
+    this.scale = Math.min(1, Math.max(k_least_scale, 0.7 * this.scale + 0.3 * wanted));
+    if (milliseconds > 2 * k_quick_ms && this.scale < 1.2 * k_least_scale) this.coarse = true;
+  }
+}

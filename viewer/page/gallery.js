@@ -1,0 +1,50 @@
+"use strict";
+// All stones of a page with several: a strip of small pictures, arrow keys from one to the next.
+
+class Gallery {
+  constructor(page, nav) {
+    this.page = page;
+    this.nav = nav;
+    this.items = page.document.items;
+    if (this.items.length < 2) return;
+    nav.hidden = false;
+    this.buttons = this.items.map((item, index) => {
+      const one = button("", () => this.go(index), { class: "thumb" });
+      // Pictures come in the page; anything else would be somebody's address.
+      if (/^data:image\/(png|jpeg|webp);/.test(item.picture || "")) one.append(element("img", { src: item.picture, alt: "", loading: "lazy" }));
+      one.append(element("span", {}, item.name));
+      return one;
+    });
+    this.list = element("div", { class: "thumbs" }, ...this.buttons);
+    nav.append(
+      button("\u2039", () => this.step(-1), { class: "step", "aria-label": "Stone before (Page up)", title: "Stone before (Page up)" }),
+      this.list,
+      button("\u203a", () => this.step(1), { class: "step", "aria-label": "Next stone (Page down)", title: "Next stone (Page down)" }));
+    this.list.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1 }[event.key];
+      if (!step) return;
+      event.preventDefault();
+      event.stopPropagation();
+      this.step(step);
+      this.buttons[this.page.state.get("item")].focus();
+    });
+  }
+
+  step(by) {
+    if (this.items.length < 2) return;
+    this.go((this.page.state.get("item") + by + this.items.length) % this.items.length);
+  }
+  go(index) {
+    if (index !== this.page.state.get("item")) this.page.open_item(index);
+  }
+  update() {
+    if (!this.buttons) return;
+    const now = this.page.state.get("item");
+    this.buttons.forEach((one, index) => {
+      one.setAttribute("aria-current", String(index === now));
+      one.tabIndex = index === now ? 0 : -1;
+    });
+    const chosen = this.buttons[now];
+    this.list.scrollTo({ left: chosen.offsetLeft - this.list.clientWidth / 2 + chosen.clientWidth / 2 });
+  }
+}

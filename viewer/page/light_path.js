@@ -1,0 +1,75 @@
+"use strict";
+// Which facets make the flash that was clicked: the light paths behind one point of the picture, as
+// `culet probe` tells them.
+
+const k_most_paths = 6;
+
+class LightPath {
+  constructor(page) {
+    this.page = page;
+    this.chosen = 0;
+    this.list = element("div", { class: "paths" });
+    this.empty = element("p", { class: "note" },
+      "Click a flash on the stone (or choose a facet with N and press Enter): here stands which facets made it, and which light it shows.");
+    this.node = group("Light path", null, this.empty, this.list);
+  }
+
+  clear() {
+    this.list.replaceChildren();
+    this.empty.hidden = false;
+    this.page.overlay.path = [];
+    this.page.overlay.path_at = null;
+  }
+
+  // `at`: CSS pixels of the stage.
+  async probe(at) {
+    const page = this.page, [width, height] = page.picture.size();
+    const box = page.stage.getBoundingClientRect();
+    const stone = page.shown_index();
+    await page.loop.prepare(stone, page.settings(stone));
+    const answer = await page.engine.call("path", {
+      ...page.drawing(stone, width, height), x: at[0] * width / box.width, y: at[1] * height / box.height,
+    });
+    const found = answer.paths ? answer : answer.probe || answer.result || { paths: [] };
+    this.show(found, at);
+  }
+
+  show(found, at) {
+    const page = this.page;
+    const paths = found.paths.filter((path) => path.facets.length > 0).slice(0, k_most_paths);
+    this.empty.hidden = paths.length > 0;
+    if (!paths.length) {
+      this.clear();
+      page.say("No light path here: the stone is beside this point.");
+      page.overlay.draw();
+      return;
+    }
+    const choose = (index) => {
+      page.overlay.path = paths[index].facets;
+      page.overlay.path_at = at;
+      for (const [i, item] of [...this.list.children].entries()) item.setAttribute("aria-current", i === index);
+      page.overlay.draw();
+    };
+    this.list.replaceChildren(...paths.map((path, index) => this.item(path, index, choose)));
+    const rest = found.paths.length - paths.length;
+    if (rest > 0) this.list.append(element("p", { class: "note" }, `and ${rest} weaker ${rest === 1 ? "path" : "paths"}`));
+    choose(0);
+    const first = paths[0];
+    page.say(`Light path: ${first.facets.join(", ")}; sees ${first.light || "nothing"}`, true);
+  }
+
+  // `weight` is the share of the light along this way that reaches the eye.
+  item(path, index, choose) {
+    const share = path.weight;
+    const crossed = path.facets.map((name, i) => {
+      const last = i === path.facets.length - 1;
+      const what = path.facets.length === 1 ? "mirrors it" : i === 0 ? "in" : last ? "out" : "reflects";
+      return element("li", {}, element("b", {}, name), " ", element("span", { class: "soft" }, what));
+    });
+    return element("div", { class: "path-item" },
+      button(`${(100 * share).toFixed(share < 0.1 ? 1 : 0)} % comes this way`, () => choose(index),
+        { class: "path-button", "data-path": index }),
+      element("p", { class: "soft" }, path.light ? "sees " + path.light : "sees nothing"),
+      element("ol", {}, ...crossed));
+  }
+}

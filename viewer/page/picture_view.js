@@ -1,0 +1,50 @@
+"use strict";
+// The picture on the page: the engine's pixels on a canvas, of one stone or of two with a divider.
+
+class PictureView {
+  constructor(stage, canvas, still) {
+    this.stage = stage;
+    this.canvas = canvas;
+    this.still = still;
+    this.context = canvas.getContext("2d", { alpha: false, willReadFrequently: true });
+    this.pictures = new Map();  // by side: "left" (or the only one), "right"
+  }
+
+  // Of the whole stage, in pixels of the screen, and no more than an engine draws in good time.
+  size(scale = 1) {
+    const box = this.stage.getBoundingClientRect();
+    const ratio = (window.devicePixelRatio || 1) * scale;
+    const most = 3.2e6, pixels = box.width * box.height * ratio * ratio;
+    const factor = ratio * Math.min(1, Math.sqrt(most / Math.max(1, pixels)));
+    return [Math.max(2, Math.round(box.width * factor)), Math.max(2, Math.round(box.height * factor))];
+  }
+
+  // `drawn`: {width, height, pixels}.
+  take(drawn, side = "left") {
+    this.pictures.set(side, new ImageData(drawn.pixels, drawn.width, drawn.height));
+  }
+  forget() { this.pictures.clear(); }
+
+  // `divider`: share of the width that the left stone has, or null: one stone.
+  show(side = "left", divider = null) {
+    const picture = this.pictures.get(side) || this.pictures.get("left");
+    if (!picture) return;
+    if (this.canvas.width !== picture.width || this.canvas.height !== picture.height) {
+      this.canvas.width = picture.width;
+      this.canvas.height = picture.height;
+    }
+    this.context.putImageData(picture, 0, 0);
+    const right = this.pictures.get("right");
+    if (divider !== null && right && right.width === picture.width && right.height === picture.height) {
+      const from = Math.round(divider * right.width);
+      this.context.putImageData(right, 0, 0, from, 0, right.width - from, right.height);
+    }
+    this.canvas.hidden = false;
+    this.still.hidden = true;
+  }
+
+  png() {
+    return new Promise((resolve, reject) => this.canvas.toBlob(
+      (blob) => blob ? resolve(blob) : reject(new Error("the browser made no PNG")), "image/png"));
+  }
+}

@@ -1,0 +1,80 @@
+"use strict";
+// A turn of the stone as a WebM film. Frames are drawn first, however long they take, and then played
+// at their speed to the recorder, which has no other clock than that on the wall.
+
+const k_film_frames = 100;
+const k_film_rate = 25;  // a second
+const k_film_most = 720;  // pixels a side
+
+class Turntable {
+  constructor(page) {
+    this.page = page;
+    this.recording = false;
+  }
+  static refusal() {
+    if (typeof MediaRecorder !== "function" || !HTMLCanvasElement.prototype.captureStream) {
+      return "This browser records no films; culet render --frames makes one.";
+    }
+    return Turntable.type() ? "" : "This browser records no WebM; culet render --frames makes a film.";
+  }
+  static type() {
+    return ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"].find((type) => MediaRecorder.isTypeSupported(type));
+  }
+  stop() { this.recording = false; }
+
+  // The film as a blob, or nothing when it was stopped.
+  async film(progress) {
+    const page = this.page;
+    this.recording = true;
+    await page.loop.idle();
+    page.loop.paused = true;
+    const [w, h] = page.picture.size();
+    const factor = Math.min(1, k_film_most / Math.max(w, h));
+    const width = 2 * Math.round(w * factor / 2), height = 2 * Math.round(h * factor / 2);
+    const frames = await this.frames(width, height, progress);
+    const film = this.recording ? await this.play(frames, width, height, progress) : null;
+    this.recording = false;
+    return film;
+  }
+
+  async frames(width, height, progress) {
+    const page = this.page, frames = [], view = page.view(), stone = page.shown_index();
+    const exposure = page.exposure() === "auto" ? page.loop.exposure || "auto" : page.exposure();
+    for (let i = 0; i < k_film_frames && this.recording; ++i) {
+      const turn = Turn.after(view.turn, Turn.about(page.shown_stone().up, 2 * Math.PI * i / k_film_frames));
+      await page.loop.prepare(stone, page.settings(stone));
+      const drawn = await page.engine.call("draw", {
+        ...page.drawing(stone, width, height, { ...view, turn }), engine: "beams", exposure,
+        tonemap: page.tonemap(),
+      });
+      frames.push(new ImageData(drawn.pixels, width, height));
+      progress(0.7 * (i + 1) / k_film_frames);
+    }
+    return frames;
+  }
+
+  async play(frames, width, height, progress) {
+    const canvas = element("canvas", { width, height });
+    const context = canvas.getContext("2d", { alpha: false });
+    context.putImageData(frames[0], 0, 0);
+    const stream = canvas.captureStream(k_film_rate), chunks = [];
+    const recorder = new MediaRecorder(stream, { mimeType: Turntable.type(), videoBitsPerSecond: 8e6 });
+    recorder.ondataavailable = (event) => chunks.push(event.data);
+    const ended = new Promise((resolve, reject) => {
+      recorder.onstop = resolve;
+      recorder.onerror = () => reject(new Error("the browser stopped recording"));
+    });
+    recorder.start();
+    const begin = performance.now();
+    for (const [i, frame] of frames.entries()) {
+      context.putImageData(frame, 0, 0);
+      progress(0.7 + 0.3 * (i + 1) / frames.length);
+      const next = begin + 1000 * (i + 1) / k_film_rate;
+      await new Promise((resolve) => setTimeout(resolve, Math.max(0, next - performance.now())));
+    }
+    recorder.stop();
+    await ended;
+    for (const track of stream.getTracks()) track.stop();
+    return new Blob(chunks, { type: "video/webm" });
+  }
+}

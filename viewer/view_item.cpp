@@ -1,0 +1,162 @@
+#include "viewer/view_item.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "page/fit_facts.h"
+#include "page/html.h"
+#include "render/beams/frame_renderer.h"
+#include "render/image/exposure.h"
+#include "render/image/image_io.h"
+#include "render/planner/quick_picture.h"
+#include "render/scene/light_presets.h"
+#include "render/scene/scene_io.h"
+#include "render/scene/view_presets.h"
+#include "stone/cuts/cuts.h"
+#include "stone/errors.h"
+#include "stone/output_file.h"
+#include "viewer/engine/panorama.h"
+
+namespace culet {
+
+namespace {
+
+constexpr const char* k_map_name = "environment.pfm";
+
+// A word for the shell.
+std::string quoted(const std::string& word) {
+    const bool plain = !word.empty() && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+        return std::isalnum(c) || std::string_view("._-/=+:,").find(char(c)) != std::string::npos;
+    });
+    if (plain) return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
+std::string render_command(const ViewSource& source) {
+    std::string command = "culet render " + quoted(source.file.string());
+    const StoneScene& choices = source.choices;
+    if (!choices.material.empty()) command += " --material " + quoted(choices.material);
+    if (!choices.light.empty()) command += " --light " + quoted(choices.light);
+    if (choices.width_mm) command += fmt::format(" --width {}", *choices.width_mm);
+    for (const std::string& key : source.overrides) command += " --set " + quoted(key);
+    return command;
+}
+
+// A scene file without its stone; of a stone without a scene, what `read_any_scene` shows it in.
+std::string scene_text(const ViewSource& source, const Scene& scene) {
+    std::vector<std::string> keys = source.overrides;
+    const bool is_scene_file = !source.cut && source.file.extension() == ".toml" &&
+                               read_toml(source.file).kind("stone") != TomlTable::Kind::table;
+    const std::string& light = source.choices.light;
+    if (is_view_preset(light)) {
+        keys.push_back("preset=\"" + light + "\"");
+    } else if (!light.empty()) {
+        keys.push_back(fmt::format("light={{preset=\"{}\"}}", light));
+    } else if (!is_scene_file && !scene.light_preset.empty() &&
+               std::none_of(keys.begin(), keys.end(),
+                            [](const std::string& key) { return key.starts_with("light"); })) {
+        keys.push_back(fmt::format("light={{preset=\"{}\"}}", scene.light_preset));
+    }
+    if (scene.lights.environment)
+        keys.push_back(fmt::format("light.environment=\"{}\"", k_map_name));
+    return rewritten_text(is_scene_file ? read_text(source.file) : std::string(), source.file, keys,
+                          {"stone", "mesh", "material", "unit", "convex", "name", "object"});
+}
+
+// A first picture of the whole, small.
+std::string still_of(Scene scene, const std::string& refused) {
+    Camera& camera = scene.camera;
+    const double scale =
+        static_cast<double>(k_still_size) / std::max(camera.width, camera.height);
+    camera.width = std::max(1, static_cast<int>(std::lround(scale * camera.width)));
+    camera.height = std::max(1, static_cast<int>(std::lround(scale * camera.height)));
+    if (camera.principal_point) {
+        for (double& place : *camera.principal_point) place *= scale;
+    }
+    scene.settings.check = Check::none;
+    RenderResult result;
+    if (refused.empty()) {
+        scene.settings.engine = k_beam_engine;
+        FrameRenderer frames(scene);
+        frames.draw();
+        result = frames.take();
+    } else {
+        result = draw_quickly(scene);
+    }
+    PngLook look = scene.film;
+    const LightPreset* const preset = find_light_preset(scene.light_preset);
+    if (preset != nullptr && !preset->instrument)
+        look.exposure = exposure_for_stone(result.picture);
+    return png_uri(png_of(result.picture, look));
+}
+
+// Of the fit report, by the facets' names.
+std::vector<FacetFacts> facts_of(const Solid& solid, const std::string& fit_json) {
+    std::vector<std::string> names;
+    for (const Facet& facet : solid.facets) names.push_back(facet.name);
+    return facet_facts(names, fit_json);
+}
+
+Scene scene_of(const ViewSource& source) {
+    if (!source.cut) return read_any_scene(source.file, source.overrides, source.choices);
+    Stone stone;
+    stone.name = source.cut->kind;
+    stone.solid = make_cut(source.cut->kind, source.cut->values);
+    stone.convex = cut_kind(source.cut->kind).convex;
+    stone.material = catalogue_material(source.choices.material);
+    const TomlTable root = toml_of_text("", source.cut->kind, source.overrides);
+    apply_words_beside(root, stone);
+    const bool named = root.has("light") || is_view_preset(source.choices.light);
+    const std::string light = is_view_preset(source.choices.light) ? std::string()
+                              : source.choices.light.empty() && !named
+                                  ? std::string(k_usual_light)
+                                  : source.choices.light;
+    return culet::scene_of(root, &stone, light);
+}
+
+}  // namespace
+
+ViewItem view_item(const ViewSource& source, std::vector<std::string>& notes) {
+    Scene scene = scene_of(source);
+    notes.insert(notes.end(), scene.notes.begin(), scene.notes.end());
+    ViewItem item;
+    item.name = !scene.stone.name.empty() ? scene.stone.name : source.file.stem().string();
+    item.refused = scene.has_stone() ? refused_by_beams(scene)
+                                     : "beams draw a stone, and this scene has none";
+    if (scene.has_stone()) {
+        if (!source.before.empty()) {
+            StoneScene choices;
+            choices.material = "diamond";  // not looked at
+            Scene before = read_any_scene(source.before, {}, choices);
+            ViewedStone catalogue;
+            catalogue.role = "catalogue";
+            catalogue.stone = std::move(before.stone);
+            catalogue.stone.material = scene.stone.material;
+            catalogue.stone.crystal = scene.stone.crystal;
+            item.stones.push_back(std::move(catalogue));
+        }
+        ViewedStone viewed;
+        viewed.role = source.cut                                        ? "design"
+                      : !source.fit_json.empty() || !source.before.empty() ? "fitted"
+                                                                            : "stone";
+        viewed.stone = scene.stone;
+        viewed.cut = source.cut;
+        if (!source.fit_json.empty())
+            viewed.fit = facts_of(scene.stone.solid, source.fit_json);
+        item.stones.push_back(std::move(viewed));
+        item.scene = scene_text(source, scene);
+    }
+    if (scene.lights.environment) {
+        const EnvironmentMap& map = *scene.lights.environment;
+        item.files[k_map_name] = pfm_of(map.width, map.height, map.rgb);
+    }
+    item.picture = still_of(scene, item.refused);
+    item.command = source.cut ? std::string() : render_command(source);
+    return item;
+}
+
+}  // namespace culet

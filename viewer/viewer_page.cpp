@@ -1,0 +1,33 @@
+#include "viewer/viewer_page.h"
+
+#include "page/html.h"
+#include "stone/errors.h"
+#include "viewer/templates.h"
+
+namespace culet {
+
+namespace embedded {
+extern const char* const viewer_css;
+extern const char* const viewer_js;
+extern const char* const worker_js;
+extern const char* const viewer_engine;  // gzip, in base64
+}  // namespace embedded
+
+std::string viewer_page(const ViewDocument& document) {
+    check(document.first >= 0 && document.first < static_cast<int>(document.items.size()),
+          "a page of the viewer shows something first");
+    const ViewItem& first = document.items[static_cast<std::size_t>(document.first)];
+    return filled(templates::viewer, {{"title", document.title},
+                                      {"picture", first.picture},
+                                      {"viewer_css", embedded::viewer_css},
+                                      {"viewer_js", embedded::viewer_js},
+                                      {"worker_js", embedded::worker_js},
+                                      {"engine", embedded::viewer_engine},
+                                      {"document_json", json_for_script(document_json(document))}});
+}
+
+bool has_viewer_engine() {
+    return *embedded::viewer_engine != '\0';
+}
+
+}  // namespace culet

@@ -1,0 +1,34 @@
+#pragma once
+// What Emscripten's C++ library of Debian 12 lacks: std::from_chars of numbers with a point.
+// Included before every source (-include).
+
+#include <cerrno>
+#include <charconv>
+#include <cstdlib>
+#include <string>
+#include <system_error>
+
+namespace std {
+
+/// As [charconv.from.chars] of the general format says: no blanks, plus signs or hexadecimal digits
+/// before the number, all of which strtod takes.
+inline from_chars_result from_chars(const char* first, const char* last, double& value) {
+    const char* at = first;
+    if (at != last && *at == '-') ++at;
+    const bool is_number = at != last && ((*at >= '0' && *at <= '9') || *at == '.' || *at == 'i' ||
+                                          *at == 'I' || *at == 'n' || *at == 'N');
+    if (!is_number) return {first, errc::invalid_argument};
+    const bool hexadecimal = last - at > 1 && at[0] == '0' && (at[1] == 'x' || at[1] == 'X');
+    // strtod reads up to a zero byte.
+    const string text(first, hexadecimal ? at + 1 : last);
+    char* end = nullptr;
+    errno = 0;
+    const double number = strtod(text.c_str(), &end);
+    if (end == text.c_str()) return {first, errc::invalid_argument};
+    const char* const stop = first + (end - text.c_str());
+    if (errno == ERANGE) return {stop, errc::result_out_of_range};
+    value = number;
+    return {stop, errc()};
+}
+
+}  // namespace std

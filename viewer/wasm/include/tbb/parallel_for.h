@@ -1,0 +1,19 @@
+#pragma once
+// WebAssembly in a page has one thread (threads need headers that a file opened by a double click
+// does not have): the loops of TBB that culet uses, one step after the other.
+
+#include "tbb/partitioner.h"
+
+namespace tbb {
+
+template <class Index, class Body>
+void parallel_for(Index first, Index last, const Body& body) {
+    for (Index i = first; i < last; ++i) body(i);
+}
+
+template <class Index, class Body, class Partitioner>
+void parallel_for(Index first, Index last, const Body& body, const Partitioner&) {
+    parallel_for(first, last, body);
+}
+
+}  // namespace tbb

@@ -1,0 +1,52 @@
+// What the engine leaves to the program: files, and what needs libraries that a page does without.
+
+#include "render/image/glare.h"
+#include "render/image/image_io.h"
+#include "render/reference/light_field.h"
+#include "stone/errors.h"
+#include "stone/half_edges.h"
+#include "stone/output_file.h"
+#include "stone/stone.h"
+#include "stone/surface_mesh.h"
+
+namespace culet {
+
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& file) {
+    throw InputError(file, "is a file, and a page reads only what it was given");
+}
+
+}  // namespace
+
+std::string read_text(const std::filesystem::path& file, std::size_t) {
+    refuse(file);
+}
+SolidFile read_solid(const std::filesystem::path& file) {
+    refuse(file);
+}
+TriangleMesh read_triangle_mesh(const std::filesystem::path& file) {
+    refuse(file);
+}
+ReadPicture read_picture(const std::filesystem::path& file) {
+    refuse(file);
+}
+
+// `ViewerEngine` shows pictures without it.
+void add_glare(std::vector<float>&, const PictureSize&, double, double) {
+    throw InternalError("a page draws no glare");
+}
+
+// Asked for stones of more than some ten thousand facets only (convexity.cpp).
+HalfEdges half_edges(const Solid&) {
+    throw InputError("the stone has too many facets for a page");
+}
+
+// Beams draw one stone alone.
+std::unique_ptr<const Surroundings> surroundings_of(const Scene& scene,
+                                                    const WavelengthSet& wavelengths) {
+    if (scene.furnished()) throw InputError("a page draws one stone alone, without objects");
+    return std::make_unique<LightField>(scene.lights, wavelengths);
+}
+
+}  // namespace culet
