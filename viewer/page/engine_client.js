@@ -16,7 +16,7 @@ class EngineClient {
   // Why there can be no engine on this page; empty: there can.
   static refusal() {
     if (typeof WebAssembly !== "object") return "This browser has no WebAssembly, so the stone cannot be turned here: the picture is what culet drew.";
-    if (!EngineClient.text_of("culet-engine") && !EngineClient.text_of("culet-worker")) {
+    if (!EngineClient.text_of("culet-engine")) {
       return "This page was made without culet\u2019s engine: the picture is what culet drew.";
     }
     if (typeof DecompressionStream !== "function") return "This browser is too old to unpack culet\u2019s engine: the picture is what culet drew.";

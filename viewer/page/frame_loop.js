@@ -38,7 +38,7 @@ class FrameLoop {
 
   // Resolves once the whole picture of what is now asked for is on the page.
   idle() {
-    if (!this.running && this.level === k_levels.done) return Promise.resolve();
+    if (!this.running && (this.level === k_levels.done || !this.page.ready())) return Promise.resolve();
     return new Promise((resolve) => this.idle_waiters.push(resolve));
   }
 

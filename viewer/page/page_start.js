@@ -83,21 +83,21 @@ Object.assign(Page.prototype, {
   // The item that the state names, in the engine.
   async open_engine() {
     const item = this.state.get("item");
-    const info = await this.engine.call("open", { document: this.document, item });
     this.loop.forget();
-    this.opened_item = item;
+    this.refused = this.item().refused || "";
+    by_id("app").classList.toggle("still-only", Boolean(this.refused));
+    if (this.refused) {
+      this.show_refused();
+      return;
+    }
+    const info = await this.engine.call("open", { document: this.document, item });
     this.stones = this.item().stones.map((stone) => new ShownStone(stone));
     this.designs.clear();
     this.base = base_of(info.camera, this.stones[info.stone ?? this.stones.length - 1].center);
     this.fit_stage();
     this.info = info;
-    this.refused = this.item().refused || "";
     ++this.scene_version;
     this.build_panels();
-    if (this.refused) {
-      this.show_refused();
-      return;
-    }
     if (this.state.get("light") === "panorama") {
       this.panorama_setting = "";
       if (this.panorama) await this.send_panorama(this.panorama);
@@ -139,6 +139,7 @@ Object.assign(Page.prototype, {
     by_id("title").textContent = item.name || this.document.title;
     by_id("subtitle").textContent = this.subtitle(item);
     document.title = item.name || this.document.title;
+    by_id("hand").setAttribute("aria-label", document.title + ": arrow keys turn it, plus and minus zoom, question mark shows all keys");
     this.gallery.update();
   },
   subtitle(item) {
