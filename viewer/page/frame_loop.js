@@ -1,24 +1,29 @@
 "use strict";
-// When to draw, and how finely: quick frames while something moves, as large as the time of the last
-// ones allows; the whole picture once it rests, then refined. One picture is on its way at a time.
+// When to draw, and how finely: quick frames while something moves, as large as the time of the
+// last ones allows; the whole picture once it rests, then refined. One picture is on its way at a
+// time.
 
-const k_quick_ms = 33;     // of a frame while the stone moves
-const k_rest_ms = 140;     // without a move, after which the whole picture is drawn
+const k_quick_ms = 33;       // of a frame while the stone moves
+const k_rest_ms = 140;       // without a move, after which the whole picture is drawn
 const k_least_scale = 0.25;  // of the screen's resolution: coarser is no picture any more
-const k_levels = { quick: 0, full: 1, done: 2 };
+const k_levels = {
+  quick: 0,
+  full: 1,
+  done: 2
+};
 
 class FrameLoop {
   constructor(page) {
     this.page = page;
-    this.scale = 0.6;       // of the screen's resolution while moving
+    this.scale = 0.6;  // of the screen's resolution while moving
     this.level = k_levels.quick;
     this.last_move = -Infinity;
     this.running = false;
-    this.paused = false;    // while others need the engine: recording
-    this.coarse = false;    // quick frames leave out what takes them too long
-    this.set_key = "";      // what the engine was last told to draw
-    this.exposure = null;   // of the last whole picture
-    this.milliseconds = {}; // last of each way of drawing
+    this.paused = false;     // while others need the engine: recording
+    this.coarse = false;     // quick frames leave out what takes them too long
+    this.set_key = "";       // what the engine was last told to draw
+    this.exposure = null;    // of the last whole picture
+    this.milliseconds = {};  // last of each way of drawing
     this.idle_waiters = [];
   }
 
@@ -38,7 +43,8 @@ class FrameLoop {
 
   // Resolves once the whole picture of what is now asked for is on the page.
   idle() {
-    if (!this.running && (this.level === k_levels.done || !this.page.ready())) return Promise.resolve();
+    if (!this.running && (this.level === k_levels.done || !this.page.ready()))
+      return Promise.resolve();
     return new Promise((resolve) => this.idle_waiters.push(resolve));
   }
 
@@ -71,8 +77,10 @@ class FrameLoop {
     const version = this.version;
     return new Promise((resolve) => {
       const look = () => {
-        if (version !== this.version || !this.moving() || performance.now() - begin > 1000) resolve();
-        else setTimeout(look, 15);
+        if (version !== this.version || !this.moving() || performance.now() - begin > 1000)
+          resolve();
+        else
+          setTimeout(look, 15);
       };
       setTimeout(look, 5);
     });
@@ -84,7 +92,7 @@ class FrameLoop {
     const key = JSON.stringify([held, settings, this.page.scene_version]);
     if (key === this.set_key) return;
     this.set_key = "";
-    const answer = await this.page.engine.call("set", { stone: held, settings });
+    const answer = await this.page.engine.call("set", {stone: held, settings});
     this.set_key = key;
     this.page.took_settings(answer);
   }
@@ -93,13 +101,15 @@ class FrameLoop {
   settings(stone, quick) {
     const settings = this.page.settings(stone);
     if (!quick || !this.coarse) return settings;
-    if (!this.page.state.get("wavelengths")) settings.push(`render.wavelengths=${toml_list(wavelengths_nm(3))}`);
+    if (!this.page.state.get("wavelengths"))
+      settings.push(`render.wavelengths=${toml_list(wavelengths_nm(3))}`);
     return [...settings, 'render.crystal_beams="merged"'];
   }
 
   async draw(quick) {
     const page = this.page, values = page.state.values;
-    const sides = values.compare === "one" ? [["left", page.shown_index()]] : [["left", 0], ["right", 1]];
+    const sides =
+      values.compare === "one" ? [["left", page.shown_index()]] : [["left", 0], ["right", 1]];
     const [width, height] = page.picture.size(quick ? this.scale : 1);
     let spent = 0, exposure = this.exposure_for(quick);
     for (const [side, stone] of sides) {
@@ -110,7 +120,9 @@ class FrameLoop {
         if (page.gpu.drew) return page.drawn(quick);
       }
       const drawn = await page.engine.call("draw", {
-        ...page.drawing(stone, width, height), engine: quick ? "preview" : "beams", exposure,
+        ...page.drawing(stone, width, height),
+        engine: quick ? "preview" : "beams",
+        exposure,
         tonemap: page.tonemap(),
       });
       spent += drawn.milliseconds;

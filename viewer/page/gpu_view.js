@@ -4,7 +4,12 @@
 
 const k_gpu_samples = 64;
 // Of display.frag.glsl, as in render/image/film_look.h.
-const k_gpu_tone_maps = { none: 0, reinhard: 1, filmic: 2, gamma2: 3 };
+const k_gpu_tone_maps = {
+  none: 0,
+  reinhard: 1,
+  filmic: 2,
+  gamma2: 3
+};
 
 class GpuView {
   constructor(page, canvas) {
@@ -12,12 +17,12 @@ class GpuView {
     this.canvas = canvas;
     this.shown = false;
     this.drew = false;
-    this.scene_refusal = "";    // of the scene that is set
-    this.own_refusal = "";      // of this machine
+    this.scene_refusal = "";  // of the scene that is set
+    this.own_refusal = "";    // of this machine
     this.lost = false;
     this.program = null;
     this.program_key = "";
-    this.sample_ms = null;      // of one sample a pixel, per million pixels
+    this.sample_ms = null;  // of one sample a pixel, per million pixels
     canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();  // else it never comes back
       this.lost = true;
@@ -36,10 +41,18 @@ class GpuView {
   // Made when it is first asked for: most pages never need it.
   context() {
     if (this.gl || this.own_refusal) return this.gl;
-    const gl = this.canvas.getContext("webgl2", { alpha: false, antialias: false, preserveDrawingBuffer: true, powerPreference: "high-performance" });
-    if (!gl) this.own_refusal = "this browser has no WebGL2";
-    else if (!gl.getExtension("EXT_color_buffer_float")) this.own_refusal = "it cannot sum in floating point";
-    else this.gl = gl;
+    const gl = this.canvas.getContext("webgl2", {
+      alpha: false,
+      antialias: false,
+      preserveDrawingBuffer: true,
+      powerPreference: "high-performance"
+    });
+    if (!gl)
+      this.own_refusal = "this browser has no WebGL2";
+    else if (!gl.getExtension("EXT_color_buffer_float"))
+      this.own_refusal = "it cannot sum in floating point";
+    else
+      this.gl = gl;
     if (this.gl) {
       const about = gl.getExtension("WEBGL_debug_renderer_info");
       const name = about ? gl.getParameter(about.UNMASKED_RENDERER_WEBGL) : "";
@@ -63,7 +76,7 @@ class GpuView {
     if (how === "gpu") return true;
     if (this.software) return false;
     // As long as it is not known: the GPU is tried, once.
-    const { preview } = this.page.loop.milliseconds;
+    const {preview} = this.page.loop.milliseconds;
     return this.sample_ms === null || preview === undefined || this.sample_ms < preview;
   }
 
@@ -90,7 +103,8 @@ class GpuView {
   async samples(width, height, quick, exposure, version) {
     const page = this.page, gl = this.context(), count = quick ? 1 : k_gpu_samples;
     const answer = await page.engine.call("gpu", {
-      ...page.drawing(page.shown_index(), width, height), samples: count,
+      ...page.drawing(page.shown_index(), width, height),
+      samples: count,
       known: this.program_key,
     });
     if (answer.key !== this.program_key || !this.program) {
@@ -123,7 +137,9 @@ class GpuView {
   }
 
   png() {
-    return new Promise((resolve, reject) => this.canvas.toBlob(
-      (blob) => blob ? resolve(blob) : reject(new Error("the browser made no PNG")), "image/png"));
+    return new Promise(
+      (resolve, reject) => this.canvas.toBlob(
+        (blob) => blob ? resolve(blob) : reject(new Error("the browser made no PNG")),
+        "image/png"));
   }
 }
