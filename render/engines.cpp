@@ -17,11 +17,13 @@ const Engine& flat_engine();       // shaded/local_engines.cpp
 const Engine& gouraud_engine();    // shaded/local_engines.cpp
 const Engine& phong_engine();      // shaded/local_engines.cpp
 const Engine& whitted_engine();    // shaded/whitted_engine.cpp
+const Engine& gpu_engine();        // gpu/gpu_engine.cpp
 
 const std::vector<const Engine*>& engines() {
     static const std::vector<const Engine*> all{
-        &reference_engine(), &beam_engine(),  &preview_engine(), &flat_engine(),
-        &gouraud_engine(),   &phong_engine(), &whitted_engine(), &raytable_engine()};
+        &reference_engine(), &beam_engine(),     &preview_engine(),
+        &flat_engine(),      &gouraud_engine(),  &phong_engine(),
+        &whitted_engine(),   &raytable_engine(), &gpu_engine()};
     return all;
 }
 

@@ -14,6 +14,7 @@
 #include "render/beams/beam_lights.h"
 #include "render/beams/facet_net.h"
 #include "render/beams/screen_view.h"
+#include "render/optics/merged_crystal.h"
 
 namespace culet {
 
@@ -32,18 +33,6 @@ struct ShadedStone {
     float size = 1;
     std::vector<Face> faces;
     std::vector<Side> sides;
-};
-
-/// A crystal whose two waves go one way, that of the mean index (Guy & Soler 2004, 4.2): what is
-/// split is polarisation alone. The waves vibrate along the bisectors of the planes through the
-/// wave normal and the two optic axes (Biot and Fresnel).
-struct MergedCrystal {
-    float optic_axis[2][3];          ///< unit; the fast wave is the first
-    float inverse_square[2];         ///< half sum and half difference of 1/n^2, slow and fast
-    float principal[3][3];           ///< axes of absorption
-    float absorption[3];             ///< along each, per length
-    float waves_per_length = 0;      ///< 1 / wavelength, where the two waves stay coherent; else 0
-    float coherence_per_length = 0;  ///< 1 / coherence length; 0: infinite
 };
 
 /// Light's way through the stone for one band of wavelengths.

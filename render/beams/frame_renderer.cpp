@@ -223,6 +223,21 @@ void FrameRenderer::look_from(const Camera& camera) {
     }
 }
 
+void FrameRenderer::look_from(const Camera& camera, const Lights& lights) {
+    State& state = *state_;
+    require_outside(state.body, camera);
+    Scene changed = state.scene;
+    changed.camera = camera;
+    changed.lights = lights;
+    OpticalSetup anew = make_optical_setup(changed, state.prepared.colours.size());
+    require_beams(changed, anew);
+    if (anew.wavelengths_nm != state.prepared.setup.wavelengths_nm) return show(changed);
+    state.scene = std::move(changed);
+    state.prepared.surroundings = surroundings_of(state.scene, state.prepared.colours);
+    state.prepared.look(state.scene, std::move(anew));
+    state.checked_bound.reset();
+}
+
 void FrameRenderer::light_with(const Lights& lights) {
     Scene changed = state_->scene;
     changed.lights = lights;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <vector>
 
 namespace culet {
@@ -13,23 +15,52 @@ constexpr double k_share_over_white = 0.02;
 // Of a pixel, what the stone must fill to count as its light.
 constexpr float k_covered = 0.5f;
 
+constexpr std::uint32_t k_shift = 16;
+constexpr std::size_t k_buckets = std::size_t{1} << 15;
+
+// Bits of a number that is not negative, whose order is that of the numbers.
+std::uint32_t order_of(float number) {
+    std::uint32_t bits = 0;
+    const float positive = number > 0 ? number : 0;
+    std::memcpy(&bits, &positive, sizeof bits);
+    return bits;
+}
+
 }  // namespace
 
 double exposure_for_stone(const Picture& picture) {
-    std::vector<double> brightest;
-    for (std::size_t p = 0; p < picture.pixels(); ++p) {
-        if (!picture.coverage.empty() && picture.coverage[p] < k_covered) continue;
-        const float* rgb = picture.rgb.data() + 3 * p;
-        const double most = std::max({rgb[0], rgb[1], rgb[2]});
-        if (picture.coverage.empty() && !(most > 0)) continue;
-        if (std::isfinite(most)) brightest.push_back(most);
-    }
-    if (brightest.empty()) return 1;
-    const auto at =
-        brightest.begin() + static_cast<std::ptrdiff_t>((1 - k_share_over_white) *
-                                                        static_cast<double>(brightest.size() - 1));
-    std::nth_element(brightest.begin(), at, brightest.end());
-    return *at > 0 ? 1 / *at : 1;
+    // Counted by the upper half of their bits, which order positive numbers, so that only those of
+    // one bucket need be sorted.
+    std::vector<std::size_t> counts(k_buckets);
+    std::size_t all = 0;
+    const auto each = [&picture](const auto& visit) {
+        for (std::size_t p = 0; p < picture.pixels(); ++p) {
+            if (!picture.coverage.empty() && picture.coverage[p] < k_covered) continue;
+            const float* rgb = picture.rgb.data() + 3 * p;
+            const float most = std::max({rgb[0], rgb[1], rgb[2]});
+            if (picture.coverage.empty() && !(most > 0)) continue;
+            if (std::isfinite(most)) visit(order_of(most));
+        }
+    };
+    each([&](std::uint32_t order) {
+        ++counts[order >> k_shift];
+        ++all;
+    });
+    if (all == 0) return 1;
+    auto rank =
+        static_cast<std::size_t>((1 - k_share_over_white) * static_cast<double>(all - 1));
+    std::uint32_t bucket = 0;
+    while (rank >= counts[bucket]) rank -= counts[bucket++];
+    std::vector<std::uint32_t> near;
+    near.reserve(counts[bucket]);
+    each([&](std::uint32_t order) {
+        if (order >> k_shift == bucket) near.push_back(order);
+    });
+    const auto at = near.begin() + static_cast<std::ptrdiff_t>(rank);
+    std::nth_element(near.begin(), at, near.end());
+    float white = 0;
+    std::memcpy(&white, &*at, sizeof white);
+    return white > 0 ? 1 / static_cast<double>(white) : 1;
 }
 
 }  // namespace culet

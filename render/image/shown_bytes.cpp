@@ -2,12 +2,23 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
+#include <cstring>
 
 namespace culet {
 
 namespace {
+
+std::uint32_t bits_of(float number) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &number, sizeof bits);
+    return bits;
+}
+float number_of(std::uint32_t bits) {
+    float number = 0;
+    std::memcpy(&number, &bits, sizeof number);
+    return number;
+}
 
 std::uint8_t encoded(float shown) {
     return static_cast<std::uint8_t>(std::lround(255 * srgb_encoded(static_cast<double>(shown))));
@@ -25,7 +36,7 @@ public:
             std::uint32_t low = bits, high = k_infinity;  // the first number with this byte or more
             while (low < high) {
                 const std::uint32_t middle = low + (high - low) / 2;
-                if (byte_of(std::bit_cast<float>(middle), map) >= byte) {
+                if (byte_of(number_of(middle), map) >= byte) {
                     high = middle;
                 } else {
                     low = middle + 1;
@@ -43,7 +54,7 @@ public:
 
     /// Of light that is not negative and finite.
     std::uint8_t operator()(float lit) const {
-        const auto bits = std::bit_cast<std::uint32_t>(lit);
+        const auto bits = bits_of(lit);
         std::size_t byte = first_[bits >> k_shift];
         while (byte < 255 && begin_[byte + 1] <= bits) ++byte;
         return static_cast<std::uint8_t>(byte);

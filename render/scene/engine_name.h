@@ -12,6 +12,7 @@ inline constexpr const char* k_reference_engine = "reference";
 inline constexpr const char* k_beam_engine = "beams";
 inline constexpr const char* k_preview_engine = "preview";
 inline constexpr const char* k_raytable_engine = "raytable";
+inline constexpr const char* k_gpu_engine = "gpu";
 
 /// Every name that a scene may give, "auto" first.
 std::vector<std::string> engine_names();

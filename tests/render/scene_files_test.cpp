@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <glm/geometric.hpp>
 #include <limits>
 
@@ -187,6 +188,33 @@ TEST_F(SceneStones, environments_of_every_kind) {
     write_picture(map(8, 4, 1.0f), folder_ / "map.png");
     const Scene encoded = read("stone = \"stone.toml\"\n[light]\nenvironment = \"map.png\"\n");
     EXPECT_EQ(encoded.notes.size(), 1u) << "a picture of 8 bits holds no bright lights";
+}
+
+// Expectation: a quarter about z takes x to y, and near lights go round the stone's middle.
+TEST_F(SceneStones, lights_are_rotated_about_the_stones_middle) {
+    const Scene scene = read(
+        "stone = \"stone.toml\"\n[light]\nrotate = [0, 0, 90]\n[[light.lobe]]\ndirection = [1, 0, "
+        "0]\n[[light.sphere]]\ncenter = [5, 0, 0]\nradius = 1\n");
+    const Vec3 direction = nth_light<CosinePowerLight>(scene.lights, 0).direction;
+    EXPECT_NEAR(glm::length(direction - Vec3{0, 1, 0}), 0, 1e-15);
+    const Vec3 middle = centroid(scene.stone.solid), from = Vec3{5, 0, 0} - middle;
+    const Vec3 center = nth_light<SphereLight>(scene.lights, 0).center;
+    EXPECT_NEAR(glm::length(center - (middle + Vec3{-from.y, from.x, from.z})), 0, 1e-14);
+    EXPECT_NE(refusal("stone = \"stone.toml\"\n[light]\nconstant = 1\nrotate = 3\n"), "");
+}
+
+// A text that comes with its files reads none from the disk.
+TEST_F(SceneStones, a_scene_may_hold_its_files_itself) {
+    write_picture(map(8, 4, 0.5f), folder_ / "map.exr");
+    std::ifstream stream(folder_ / "map.exr", std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    Stone stone;
+    stone.solid.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    const TomlTable root =
+        toml_of_text("[light]\nenvironment = \"held.exr\"\n", "page", {}, {{"held.exr", bytes}});
+    EXPECT_EQ(scene_of(root, &stone).lights.environment->width, 8);
+    const TomlTable without = toml_of_text("[light]\nenvironment = \"held.exr\"\n", "page");
+    EXPECT_THROW(scene_of(without, &stone), InputError);
 }
 
 TEST_F(SceneStones, half_extents_lie_in_their_plane) {

@@ -267,5 +267,29 @@ TEST(Exposure, is_that_of_the_stone) {
     EXPECT_EQ(exposure_for_stone(picture), 1) << "nothing to expose to";
 }
 
+// Expectation: the definition, by sorting.
+TEST(Exposure, leaves_one_pixel_in_fifty_over_white) {
+    Picture picture;
+    picture.width = 61;
+    picture.height = 47;
+    std::vector<double> brightest;
+    double value = 0.37;
+    for (std::size_t i = 0; i < 3 * picture.pixels(); ++i) {
+        value = std::fmod(value * 1.6180339887 + 0.1234567, 1.0);
+        picture.rgb.push_back(static_cast<float>(std::exp(30 * value - 15)) *
+                              (i % 11 == 0 ? -1.0f : 1.0f));
+    }
+    picture.rgb[30] = INFINITY;
+    picture.coverage.assign(picture.pixels(), 1);
+    for (std::size_t p = 0; p < picture.pixels(); ++p) {
+        const float* rgb = picture.rgb.data() + 3 * p;
+        const float most = std::max({rgb[0], rgb[1], rgb[2]});
+        if (std::isfinite(most)) brightest.push_back(most);
+    }
+    std::sort(brightest.begin(), brightest.end());
+    const auto at = static_cast<std::size_t>(0.98 * static_cast<double>(brightest.size() - 1));
+    EXPECT_EQ(exposure_for_stone(picture), 1 / brightest[at]);
+}
+
 }  // namespace
 }  // namespace culet

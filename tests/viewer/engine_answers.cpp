@@ -53,16 +53,13 @@ int main() {
                               {"width", 9}}}};
             const Json answer = Json::parse(engine.answer("draw", draw.dump()));
             const auto& pixels = engine.pixels();
-            const auto& radiance = engine.radiance();
             all.push_back(
                 {{"what", fmt::format("{} {} {} {}", one.cut, one.material, one.settings, kind)},
                  {"document", Json::parse(text)},
                  {"set", set},
                  {"draw", draw},
                  {"answer", answer},
-                 {"pixels", base64({reinterpret_cast<const char*>(pixels.data()), pixels.size()})},
-                 {"radiance", base64({reinterpret_cast<const char*>(radiance.data()),
-                                      radiance.size() * sizeof(float)})}});
+                 {"pixels", base64({reinterpret_cast<const char*>(pixels.data()), pixels.size()})}});
         }
     }
     fmt::print("{}\n", all.dump());

@@ -104,7 +104,7 @@ function gpu({width, height, turn, samples}) {
     ],
     passes: [{uniforms: [one("u_half", 1, [-1])]}, {uniforms: [one("u_half", 1, [1])]}],
     textures:
-      [{name: "u_table", unit: 3, width: 2, height: 1, rgba: [0, 0, 0, 1, 0.2, 0.4, 0.8, 1]}],
+      [{name: "u_table", unit: 3, width: 2, height: 1, values: [0, 0, 0, 1, 0.2, 0.4, 0.8, 1]}],
     samples: Array.from({length: samples}, () => [one("u_size", 2, [width, height])]),
   };
 }

@@ -1,5 +1,6 @@
 #include "viewer/engine/shown_stone.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "render/scene/scene_io.h"
@@ -12,6 +13,26 @@ namespace culet {
 namespace {
 
 constexpr std::array<double, 9> k_unturned{1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+// Turned maps are sampled anew; while the stone moves a coarse one does.
+constexpr int k_quick_map_width = 256;
+
+std::shared_ptr<const EnvironmentMap> coarse(const EnvironmentMap& map) {
+    const int by = (map.width + k_quick_map_width - 1) / k_quick_map_width;
+    auto small = std::make_shared<EnvironmentMap>();
+    small->width = map.width / by;
+    small->height = std::max(1, map.height / by);
+    small->rgb.assign(3 * static_cast<std::size_t>(small->width * small->height), 0);
+    const auto share = 1 / static_cast<float>(by * by);
+    for (int y = 0; y < std::min(small->height * by, map.height); ++y) {
+        for (int x = 0; x < small->width * by; ++x) {
+            float* to = small->rgb.data() + 3 * (y / by * small->width + x / by);
+            const float* from = map.rgb.data() + 3 * (y * map.width + x);
+            for (int c = 0; c < 3; ++c) to[c] += share * from[c];
+        }
+    }
+    return small;
+}
 
 // Whatever of a stone beams are built from: another of these is another stone.
 std::string body_of(const Stone& stone) {
@@ -47,9 +68,16 @@ void ShownStone::set(const std::vector<std::string>& settings, const std::string
     for (auto& drawer : drawers_) {
         if (drawer) drawer->stale = true;
     }
+    coarse_map_.reset();
+    prepared_.reset();
     scene_ = std::move(scene);
     refused_ = std::move(refused);
     body_ = std::move(body);
+}
+
+const PreparedScene& ShownStone::prepared() const {
+    if (!prepared_) prepared_ = std::make_shared<const PreparedScene>(scene_);
+    return *prepared_;
 }
 
 Scene ShownStone::scene_of(const FrameRequest& request) const {
@@ -63,6 +91,10 @@ Scene ShownStone::scene_of(const FrameRequest& request) const {
             for (int column = 0; column < 3; ++column)
                 turn[column][row] = request.turn[static_cast<std::size_t>(3 * row + column)];
         }
+        if (request.quick && scene.lights.environment) {
+            if (!coarse_map_) coarse_map_ = coarse(*scene.lights.environment);
+            scene.lights.environment = coarse_map_;
+        }
         scene.lights = turned_lights(scene.lights, turn, centroid(scene.stone.solid));
     }
     return scene;
@@ -70,17 +102,14 @@ Scene ShownStone::scene_of(const FrameRequest& request) const {
 
 const RenderResult& ShownStone::draw(const FrameRequest& request) {
     if (!refused_.empty()) throw InputError(refused_);
-    std::optional<Drawer>& drawer = drawers_[request.preview ? 1 : 0];
-    const bool same = drawer && !drawer->stale && drawer->turn == request.turn &&
-                      drawer->samples == request.samples;
-    if (same && request.quick) {
-        drawer->frames.look_from(request.camera);
-    } else if (!drawer) {
-        drawer.emplace(
-            Drawer{FrameRenderer(scene_of(request)), request.turn, request.samples, false});
+    std::unique_ptr<Drawer>& drawer = drawers_[request.preview ? 1 : 0];
+    Scene scene = scene_of(request);
+    if (!drawer) {
+        drawer.reset(new Drawer{FrameRenderer(scene), request.samples, false});
+    } else if (request.quick && !drawer->stale && drawer->samples == request.samples) {
+        drawer->frames.look_from(request.camera, scene.lights);
     } else {
-        drawer->frames.show(scene_of(request));
-        drawer->turn = request.turn;
+        drawer->frames.show(scene);
         drawer->samples = request.samples;
         drawer->stale = false;
     }

@@ -3,11 +3,13 @@
 // room.
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "render/beams/frame_renderer.h"
+#include "render/reference/prepared_scene.h"
 #include "render/scene/scene.h"
 #include "viewer/engine/viewer_document.h"
 
@@ -39,6 +41,9 @@ public:
     /// Why beams cannot draw it; empty: they can.
     const std::string& refused() const { return refused_; }
 
+    /// Wavelengths and limits of the scene as it is set.
+    const PreparedScene& prepared() const;
+
     /// The scene of a picture.
     Scene scene_of(const FrameRequest& request) const;
     /// Throws InputError. The picture is valid until the next call.
@@ -47,7 +52,6 @@ public:
 private:
     struct Drawer {
         FrameRenderer frames;
-        std::array<double, 9> turn;
         std::optional<int> samples;
         bool stale = false;  ///< the scene's keys have changed since
     };
@@ -55,7 +59,9 @@ private:
     ViewedStone viewed_;
     Scene scene_;
     std::string refused_, body_;
-    std::array<std::optional<Drawer>, 2> drawers_;  ///< beams, preview
+    mutable std::shared_ptr<const EnvironmentMap> coarse_map_;
+    mutable std::shared_ptr<const PreparedScene> prepared_;
+    std::array<std::unique_ptr<Drawer>, 2> drawers_;  ///< beams, preview
 };
 
 }  // namespace culet

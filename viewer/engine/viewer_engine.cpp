@@ -15,6 +15,7 @@
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
 #include "viewer/engine/engine_lists.h"
+#include "viewer/engine/gpu_answer.h"
 #include "viewer/engine/panorama.h"
 #include "viewer/engine/shown_stone.h"
 #include "viewer/engine/stone_json.h"
@@ -46,13 +47,14 @@ struct ViewerEngine::State {
     std::size_t now = 0;
     std::vector<std::string> settings;
     std::vector<std::uint8_t> pixels;
-    std::vector<float> radiance;
+    std::vector<float> radiance, texels;
 
     ShownStone& shown();
     FrameRequest request_of(const Json& arguments);
     Json open(const Json& arguments, std::string_view document);
     Json set(const Json& arguments);
     Json draw(const Json& arguments, bool shown_as_bytes);
+    Json gpu(const Json& arguments);
     Json facet(const Json& arguments);
     Json outline(const Json& arguments);
     Json path(const Json& arguments);
@@ -150,7 +152,7 @@ Json ViewerEngine::State::set(const Json& arguments) {
             {"effects", effects},
             {"notes", stone.scene().notes},
             {"refused", item.refused.empty() ? stone.refused() : item.refused},
-            {"gpu_refused", "this engine has no kernel for the GPU"},
+            {"gpu_refused", item.refused.empty() ? refused_by_gpu(stone.scene()) : item.refused},
             {"camera", json_of(stone.scene().camera)},
             {"settings", settings_of(stone.scene())}};
 }
@@ -180,8 +182,9 @@ Json ViewerEngine::State::draw(const Json& arguments, bool shown_as_bytes) {
         }
         pixels = shown_bytes(result.picture, look, true);
         answer["exposure"] = look.exposure;
+    } else {
+        radiance = result.picture.rgb;
     }
-    radiance = result.picture.rgb;
     const std::chrono::duration<double, std::milli> took = Clock::now() - start;
     answer["milliseconds"] = took.count();
     answer["build_ms"] = 1e3 * result.stats.seconds_build;
@@ -191,6 +194,14 @@ Json ViewerEngine::State::draw(const Json& arguments, bool shown_as_bytes) {
     answer["wavelengths"] = result.stats.wavelengths_nm;
     answer["remainder"] = result.stats.remainder;
     return answer;
+}
+
+Json ViewerEngine::State::gpu(const Json& arguments) {
+    FrameRequest request = request_of(arguments);
+    const int samples = request.samples.value_or(1);
+    GpuAnswer answer = gpu_answer(shown(), request, samples, arguments.value("known", ""));
+    texels = std::move(answer.texels);
+    return std::move(answer.json);
 }
 
 Json ViewerEngine::State::facet(const Json& arguments) {
@@ -285,6 +296,7 @@ std::string ViewerEngine::answer(std::string_view call, std::string_view argumen
         if (call == "set") return dumped(state.set(json));
         if (call == "draw") return dumped(state.draw(json, true));
         if (call == "radiance") return dumped(state.draw(json, false));
+        if (call == "gpu") return dumped(state.gpu(json));
         if (call == "facet") return dumped(state.facet(json));
         if (call == "outline") return dumped(state.outline(json));
         if (call == "path") return dumped(state.path(json));
@@ -302,6 +314,9 @@ const std::vector<std::uint8_t>& ViewerEngine::pixels() const {
 }
 const std::vector<float>& ViewerEngine::radiance() const {
     return state_->radiance;
+}
+const std::vector<float>& ViewerEngine::texels() const {
+    return state_->texels;
 }
 
 }  // namespace culet

@@ -11,7 +11,7 @@
 namespace culet {
 
 /// Answers a page's calls, in JSON (docs/viewer.md, "The engine's calls"): open, set, draw,
-/// radiance, facet, outline, path, cut, panorama. Pictures are those of `culet render` with
+/// radiance, gpu, facet, outline, path, cut, panorama. Pictures are those of `culet render` with
 /// engine "beams" or "preview" and `check = "none"`.
 class ViewerEngine {
 public:
@@ -27,8 +27,10 @@ public:
 
     /// Of the last `draw`: RGBA, row by row from the top.
     const std::vector<std::uint8_t>& pixels() const;
-    /// Of the last `draw` or `radiance`: linear RGB.
+    /// Of the last `radiance`: linear RGB.
     const std::vector<float>& radiance() const;
+    /// Of the last `gpu`: of all its textures, RGBA.
+    const std::vector<float>& texels() const;
 
 private:
     struct State;

@@ -25,10 +25,11 @@ class GpuProgram {
     this.passes = program.passes;
     gl.useProgram(this.kernel);
     this.set(program.uniforms);
+    if (!program.textures) return;  // they are as before
     for (const texture of this.textures) gl.deleteTexture(texture.made);
     this.textures = program.textures.map((texture) => {
-      const made = this.float_texture(
-        texture.width, texture.height, new Float32Array(texture.values || texture.rgba));
+      const made =
+        this.float_texture(texture.width, texture.height, new Float32Array(texture.values));
       gl.uniform1i(this.place(texture.name), texture.unit);
       return {unit: texture.unit, made};
     });

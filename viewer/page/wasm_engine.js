@@ -114,7 +114,18 @@ class WasmEngine {
                                      this.exports.culet_pixels_size()).slice();
     }
 
-    /// Linear RGB of the last "draw" or "radiance".
+    /// Gives the textures of an answer to "gpu" their values.
+    fillTextures(answer) {
+        const all = new Float32Array(this.exports.memory.buffer, this.exports.culet_texels(),
+                                     this.exports.culet_texels_size());
+        for (const texture of answer.textures ?? []) {
+            const count = 4 * texture.width * texture.height;
+            texture.values = all.slice(texture.first, texture.first + count);
+        }
+        return answer;
+    }
+
+    /// Linear RGB of the last "radiance".
     radiance() {
         return new Float32Array(this.exports.memory.buffer, this.exports.culet_radiance(),
                                 this.exports.culet_radiance_size()).slice();

@@ -69,6 +69,10 @@ class EngineWorker {
             result.pixels = this.engine.pixels();
             return { result, transfer: [result.pixels.buffer] };
         }
+        if (call === "gpu") {
+            const { textures } = this.engine.fillTextures(result);
+            return { result, transfer: (textures ?? []).map(texture => texture.values.buffer) };
+        }
         if (call === "radiance") {
             result.radiance = this.engine.radiance();
             return { result, transfer: [result.radiance.buffer] };

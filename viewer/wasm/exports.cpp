@@ -70,4 +70,11 @@ EMSCRIPTEN_KEEPALIVE std::size_t culet_radiance_size() {
     return engine().radiance().size();
 }
 
+EMSCRIPTEN_KEEPALIVE const float* culet_texels() {
+    return engine().texels().data();
+}
+EMSCRIPTEN_KEEPALIVE std::size_t culet_texels_size() {
+    return engine().texels().size();
+}
+
 }  // extern "C"

@@ -9,6 +9,8 @@
 
 #include "render/beams/frame_renderer.h"
 #include "render/scene/scene_io.h"
+#include "render/scene/transform.h"
+#include "render/scene/turned_lights.h"
 #include "stone/errors.h"
 #include "tests/render/beams/beam_lights.h"
 
@@ -124,6 +126,25 @@ TEST(Frames, from_another_view_and_back_are_the_first) {
     EXPECT_EQ(back.picture.coverage, first.picture.coverage);
     EXPECT_EQ(back.stats.error_bound, first.stats.error_bound);
     EXPECT_EQ(back.stats.remainder, first.stats.remainder);
+}
+
+TEST(Frames, from_another_view_in_turned_lights_are_those_of_a_fresh_renderer) {
+    const Scene scene = brilliant_scene();
+    FrameRenderer frames(scene);
+    frames.draw();
+    Scene moved = scene;
+    look(moved, {0.3, -0.4, 1}, 7);
+    moved.lights = turned_lights(scene.lights, rotation_of({20, 0, 70}), {0, 0, 0});
+    frames.look_from(moved.camera, moved.lights);
+    EXPECT_EQ(frames.draw().picture.rgb, FrameRenderer(moved).draw().picture.rgb);
+    // Lights of another kind call for other wavelengths: they are chosen anew.
+    moved.settings.wavelengths_nm.clear();
+    FrameRenderer open(moved);
+    Scene changed = moved;
+    changed.lights = {};
+    changed.lights.sources.push_back(CosinePowerLight{{0, 0, 1}, 3, {"A", {}}});
+    open.look_from(changed.camera, changed.lights);
+    EXPECT_EQ(open.draw().picture.rgb, FrameRenderer(changed).draw().picture.rgb);
 }
 
 TEST(Frames, that_must_be_quick_have_fewer_beams_and_say_what_is_left) {

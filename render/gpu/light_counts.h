@@ -1,0 +1,30 @@
+#pragma once
+// How many lights of each kind the kernel has, and the uniforms that they take.
+
+#include "render/scene/lights.h"
+
+namespace culet {
+
+struct LightCounts {
+    int spheres = 0, planes = 0, lobes = 0, caps = 0;  ///< caps: hemispheres too
+
+    int all() const { return spheres + planes + lobes + caps; }
+    /// Of vectors of four, wavelengths apart.
+    int vectors() const { return spheres + 3 * planes + 2 * lobes + 2 * caps + 2 * all() + 2; }
+};
+
+inline LightCounts count_lights(const Lights& lights) {
+    LightCounts counts;
+    struct Count {
+        LightCounts& counts;
+        void operator()(const SphereLight&) const { ++counts.spheres; }
+        void operator()(const PlaneLight&) const { ++counts.planes; }
+        void operator()(const CosinePowerLight&) const { ++counts.lobes; }
+        void operator()(const HemisphereLight&) const { ++counts.caps; }
+        void operator()(const DiscLight&) const { ++counts.caps; }
+    };
+    for (const Light& light : lights.sources) std::visit(Count{counts}, light);
+    return counts;
+}
+
+}  // namespace culet

@@ -1,0 +1,248 @@
+// The GPU kernel against the reference, along the same rays.
+//
+// The bound of 2e-3 of the mean outside pixels at facet edges is that of the task; what single
+// precision must reach is far less, and pictures of smooth lights are held to that: a path of d
+// faces turns a rounding of 6e-8 into some 1e-7 times its length in stones, at most some 1e-5 after
+// the spreading of a few inner reflections, and the light's slope over radians is of order 1.
+
+#include "tests/render/gpu/gpu_scenes.h"
+
+#include <fmt/format.h>
+
+#include "stone/material_io.h"
+#include "stone/perpendicular.h"
+
+namespace culet {
+namespace {
+
+constexpr double k_bound = 2e-3;
+constexpr double k_single_precision = 1e-4;
+
+Scene facing(const Solid& solid) {
+    Scene scene = plain_scene(solid);
+    look(scene, {0.21, 0.34, 1}, 10);
+    scene.camera.width = scene.camera.height = 160;
+    scene.settings.depth = 7;
+    scene.lights.constant = 0.1;
+    scene.lights.sources = {CosinePowerLight{glm::normalize(Vec3{0.3, 0.2, 1}), 16, {4.7}},
+                            CosinePowerLight{glm::normalize(Vec3{-1, 0.4, 0.5}), 8, {2.0}}};
+    return scene;
+}
+
+void set_polarised(Scene& scene, bool polarised) {
+    scene.settings.effects_auto = false;
+    scene.settings.effects.fill(true);
+    scene.settings.effects[static_cast<std::size_t>(Effects::polarization)] = polarised;
+}
+
+PixelErrors gpu_against(const Scene& scene, const std::string& engine) {
+    return errors_of(with_engine(scene, "gpu", 1).picture, with_engine(scene, engine, 1).picture,
+                     inner_pixels(scene));
+}
+
+void expect_near(const PixelErrors& errors, double bound, int pixels) {
+    EXPECT_LE(errors.inner_rms, bound) << errors;
+    EXPECT_GE(errors.inner, pixels) << errors;
+    EXPECT_EQ(errors.not_finite, 0);
+}
+
+using GpuKernel = GpuTest;
+
+TEST_F(GpuKernel, draws_a_round_brilliant_as_the_reference_does) {
+    for (const bool polarised : {false, true}) {
+        SCOPED_TRACE(polarised ? "polarised" : "not polarised");
+        Scene scene = facing(round_brilliant());
+        set_polarised(scene, polarised);
+        const PixelErrors errors = gpu_against(scene, k_reference_engine);
+        expect_near(errors, k_single_precision, 3000);
+        RecordProperty(polarised ? "polarised" : "plain", fmt::format("{:.3g}", errors.inner_rms));
+    }
+}
+
+TEST_F(GpuKernel, takes_every_wavelength_its_own_way) {
+    Scene scene = facing(round_brilliant());
+    scene.stone.material = catalogue_material("diamond");
+    for (const std::vector<double>& nm : std::vector<std::vector<double>>{
+             {450, 550, 610}, {410, 450, 490, 530, 570, 610, 650, 690}}) {
+        SCOPED_TRACE(nm.size());
+        scene.settings.wavelengths_nm = nm;
+        expect_near(gpu_against(scene, k_reference_engine), k_single_precision, 1000);
+    }
+}
+
+TEST_F(GpuKernel, draws_every_light_and_every_optics) {
+    for (const std::vector<NamedChange>& lights : {smooth_lights(), edged_lights()}) {
+        for (const NamedChange& light : lights) {
+            for (const NamedChange& change : optics()) {
+                SCOPED_TRACE(light.name + ", " + change.name);
+                Scene scene = facing(round_brilliant());
+                scene.camera.width = scene.camera.height = 80;
+                scene.settings.depth = 5;
+                light.make(scene);
+                change.make(scene);
+                // One pixel in a thousand may see the edge of a light within a rounding of a ray.
+                const Difference d = difference(with_engine(scene, "gpu", 1).picture,
+                                                with_engine(scene, "reference", 1).picture, 1e-3);
+                EXPECT_LE(d.share_off(), 1e-3) << d;
+                EXPECT_EQ(d.not_finite, 0);
+                expect_near(gpu_against(scene, k_reference_engine), k_bound, 400);
+            }
+        }
+    }
+}
+
+TEST_F(GpuKernel, sees_an_environment) {
+    Scene scene = facing(round_brilliant());
+    scene.lights = {};
+    scene.lights.environment = smooth_environment();
+    scene.settings.wavelengths_nm = {450, 550, 610};
+    expect_near(gpu_against(scene, k_reference_engine), k_single_precision, 3000);
+}
+
+TEST_F(GpuKernel, absorbs_as_garnet_does) {
+    Scene scene = facing(round_brilliant());
+    scene.stone.unit = LengthUnit::mm;
+    scene.stone.material = catalogue_material("garnet_almandine");
+    scene.settings.wavelengths_nm = {450, 500, 550, 600, 650};
+    expect_near(gpu_against(scene, k_reference_engine), k_single_precision, 1000);
+    scene.settings.effects_auto = false;
+    scene.settings.effects.fill(true);
+    scene.settings.effects[static_cast<std::size_t>(Effects::dispersion)] = false;
+    SCOPED_TRACE("five wavelengths on one way");
+    expect_near(gpu_against(scene, k_reference_engine), k_single_precision, 3000);
+}
+
+TEST_F(GpuKernel, draws_random_stones_of_any_view) {
+    std::mt19937_64 random(40);
+    for (int i = 0; i < 12; ++i) {
+        SCOPED_TRACE(fmt::format("seed 40, stone {}", i));
+        Scene scene = facing(random_stone(random, 10 + 4 * i));
+        scene.stone.material.index[0].n = 1.3 + 0.1 * i;
+        look(scene, random_direction(random), i % 2 == 0 ? 4 : 1000, 1.5);
+        scene.settings.depth = 5;
+        expect_near(gpu_against(scene, k_reference_engine), k_bound, 500);
+    }
+}
+
+// Every kind of polarised light, an analyser and a plate before it.
+Scene polarised_scene() {
+    Scene scene = facing(round_brilliant());
+    scene.camera.optics.analyzer = 0.5;
+    scene.camera.optics.retarder = {137, 1.2};
+    scene.lights.constant = 1;
+    scene.lights.polarisation = LinearPolarisation{glm::normalize(Vec3{1, 0.2, 0}), {}, 1};
+    CosinePowerLight lobe;
+    lobe.direction = glm::normalize(Vec3{0.3, 0.2, 1});
+    lobe.exponent = 3;
+    lobe.radiance.value = 2.0;
+    lobe.radiance.polarisation = LinearPolarisation{{0, 1, 0}, {}, 0.7};
+    DiscLight cap;
+    cap.direction = glm::normalize(Vec3{-1, 0.3, 1});
+    cap.to = 0.6;
+    cap.radiance.value = 3.0;
+    cap.radiance.polarisation =
+        LinearPolarisation{perpendicular_to(cap.direction), cap.direction, 1};
+    scene.lights.sources = {lobe, cap};
+    return scene;
+}
+
+TEST_F(GpuKernel, sees_polarised_light_through_an_analyser_and_a_plate) {
+    Scene scene = polarised_scene();
+    expect_near(gpu_against(scene, k_reference_engine), k_bound, 3000);
+    // Every ray along the table's normal: no plane of incidence at the first face.
+    look(scene, {0, 0, 1}, 10);
+    scene.camera.orthographic_width = 2.2;
+    expect_near(gpu_against(scene, k_reference_engine), k_bound, 3000);
+}
+
+TEST_F(GpuKernel, has_all_four_stokes_parameters) {
+    Scene scene = polarised_scene();
+    scene.settings.depth = 5;
+    scene.settings.spectral = true;
+    scene.settings.wavelengths_nm = {450, 550, 610, 650};
+    const Picture gpu = with_engine(scene, "gpu", 1).picture,
+                  reference = with_engine(scene, "reference", 1).picture;
+    ASSERT_EQ(gpu.wavelengths_nm, reference.wavelengths_nm);
+    ASSERT_EQ(gpu.spectral.size(), 4u);
+    for (std::size_t node = 0; node < 4; ++node) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            ASSERT_EQ(gpu.polarised[k].size(), 4u);
+            int off = 0;
+            double largest = 0;
+            for (std::size_t i = 0; i < gpu.pixels(); ++i) {
+                const double exact = static_cast<double>(reference.polarised[k][node][i]);
+                off += !(std::abs(static_cast<double>(gpu.polarised[k][node][i]) - exact) < 5e-4);
+                largest = std::max(largest, std::abs(exact));
+            }
+            // Rays within rounding of an edge of a facet or of a light.
+            EXPECT_LE(off, 10) << "S" << k + 1 << " at node " << node;
+            EXPECT_GT(largest, 0.05) << "S" << k + 1;
+        }
+    }
+    EXPECT_LE(difference(gpu, reference, 1e-3).off, 10);
+}
+
+TEST_F(GpuKernel, merges_a_crystals_waves_as_beams_do) {
+    struct Crystal {
+        const char* name;
+        std::vector<double> n, absorption;
+        bool coherent;
+    };
+    const std::vector<Crystal> crystals{
+        {"tourmaline", {1.642, 1.622}, {0.9, 0.05}, false},
+        {"positive", {1.76, 1.80}, {0, 0}, false},
+        {"biaxial, three colours", {1.654, 1.67, 1.69}, {0.9, 0.05, 0.4}, false},
+        {"tourmaline, coherent", {1.642, 1.622}, {0.9, 0.05}, true},
+        {"biaxial, coherent", {1.654, 1.67, 1.69}, {0.2, 0.05, 0.4}, true}};
+    for (const std::string cut : {"emerald", "round-brilliant"}) {
+        for (const Crystal& crystal : crystals) {
+            SCOPED_TRACE(cut + ", " + crystal.name);
+            Scene scene = facing(cut == "emerald" ? make_cut("emerald", {{"width", 1.6}})
+                                                  : round_brilliant());
+            Material& material = scene.stone.material;
+            material.optic =
+                crystal.n.size() == 2 ? OpticCharacter::uniaxial : OpticCharacter::biaxial;
+            for (std::size_t i = 0; i < crystal.n.size(); ++i) {
+                material.index[i].n = crystal.n[i];
+                material.absorption_per_mm[i] = Spectrum(crystal.absorption[i]);
+            }
+            const Vec3 a = glm::normalize(Vec3{0.3, 0.2, 1}), b = perpendicular_to(a);
+            scene.stone.crystal.axes = {a, b, glm::cross(a, b)};
+            if (crystal.coherent) {
+                scene.camera.optics.analyzer = 0.4;
+                scene.lights.polarisation = LinearPolarisation{{1, 0, 0}, {}, 1};
+                scene.settings.coherence = true;
+                scene.settings.bandwidth_nm = 10;
+            }
+            scene.settings.crystal_beams = CrystalBeams::merged;
+            expect_near(gpu_against(scene, k_beam_engine), k_bound, 3000);
+        }
+    }
+}
+
+TEST_F(GpuKernel, averages_samples_and_pupils_as_the_reference_does) {
+    Scene scene = facing(round_brilliant());
+    scene.camera.width = scene.camera.height = 60;
+    scene.settings.depth = 5;
+    scene.settings.filter = PixelFilter::gaussian;
+    scene.settings.filter_radius = 1;
+    const Difference plain = difference(with_engine(scene, "gpu", 9).picture,
+                                        with_engine(scene, "reference", 9).picture);
+    EXPECT_LE(plain.rms, 1e-3 * plain.brightness) << plain;
+    scene.camera.aperture_radius = 0.4;
+    scene.camera.focus_distance = 9.5;
+    for (const bool parallel : {false, true}) {
+        if (parallel) scene.camera.orthographic_width = 2.4;
+        const RenderResult gpu = with_engine(scene, "gpu", 12),
+                           reference = with_engine(scene, "reference", 12);
+        const Difference pupil = difference(gpu.picture, reference.picture);
+        EXPECT_LE(pupil.rms, 1e-3 * pupil.brightness) << pupil;
+        EXPECT_NEAR(gpu.stats.remainder, reference.stats.remainder, 1e-5);
+        EXPECT_NEAR(gpu.stats.mean_radiance, reference.stats.mean_radiance,
+                    1e-4 * reference.stats.mean_radiance);
+        EXPECT_EQ(gpu.stats.depth, reference.stats.depth);
+    }
+}
+
+}  // namespace
+}  // namespace culet
