@@ -92,7 +92,9 @@ class FrameLoop {
     const key = JSON.stringify([held, settings, this.page.scene_version]);
     if (key === this.set_key) return;
     this.set_key = "";
+    const info = this.page.info;
     const answer = await this.page.engine.call("set", {stone: held, settings});
+    if (this.page.info !== info) return;
     this.set_key = key;
     this.page.took_settings(answer);
   }
@@ -107,13 +109,14 @@ class FrameLoop {
   }
 
   async draw(quick) {
-    const page = this.page, values = page.state.values;
+    const page = this.page, values = page.state.values, info = page.info;
     const sides =
       values.compare === "one" ? [["left", page.shown_index()]] : [["left", 0], ["right", 1]];
     const [width, height] = page.picture.size(quick ? this.scale : 1);
     let spent = 0, exposure = this.exposure_for(quick);
     for (const [side, stone] of sides) {
       await this.prepare(stone, this.settings(stone, quick));
+      if (page.info !== info) return;  // another stone was opened meanwhile
       if (page.refused) return page.show_refused();
       if (side === "left" && page.gpu.wanted()) {
         await page.gpu.draw(width, height, quick, exposure);
@@ -125,6 +128,7 @@ class FrameLoop {
         exposure,
         tonemap: page.tonemap(),
       });
+      if (page.info !== info) return;
       spent += drawn.milliseconds;
       page.picture.take(drawn, side);
       // Two stones beside each other are shown alike.

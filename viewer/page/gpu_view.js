@@ -3,6 +3,7 @@
 // sample a pixel while the stone moves, then more and more of them.
 
 const k_gpu_samples = 64;
+const k_gpu_ms = 8000;  // after which a slow GPU leaves it at the samples it has
 // Of display.frag.glsl, as in render/image/film_look.h.
 const k_gpu_tone_maps = {
   none: 0,
@@ -88,16 +89,27 @@ class GpuView {
   async draw(width, height, quick, exposure) {
     this.drew = false;
     const page = this.page, version = page.loop.version;
-    // The engine's exposure is to what it drew; without one the GPU has to wait for it.
-    if (exposure === "auto") exposure = page.loop.exposure;
-    if (exposure === null) return;
     try {
+      if (exposure === "auto") exposure = await this.exposure_to_the_stone(width, height);
       await this.samples(width, height, quick, exposure, version);
     } catch (error) {
+      if (error instanceof EngineError) throw error;
       if (this.gl.isContextLost()) return;
       this.own_refusal = error.message;
       this.hide();
     }
+  }
+
+  // Of a small picture by the engine.
+  async exposure_to_the_stone(width, height) {
+    const page = this.page, scale = 200 / Math.max(200, width, height);
+    const drawn = await page.engine.call("draw", {
+      ...page.drawing(page.shown_index(), Math.ceil(width * scale), Math.ceil(height * scale)),
+      engine: "preview",
+      exposure: "auto",
+      tonemap: "none",
+    });
+    return page.loop.exposure = drawn.exposure;
   }
 
   async samples(width, height, quick, exposure, version) {
@@ -119,6 +131,7 @@ class GpuView {
     }
     const tone_map = k_gpu_tone_maps[page.tonemap()] || 0;
     this.program.begin(width, height);
+    const started = performance.now();
     for (let sample = 0; sample < Math.min(count, answer.samples.length); ++sample) {
       const begin = performance.now();
       this.program.add(answer.samples[sample]);
@@ -127,12 +140,13 @@ class GpuView {
       gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
       if (gl.isContextLost()) return;
       const spent = performance.now() - begin;
+      if (quick) page.loop.adapt(spent);
       if (sample > 0 || count === 1) page.loop.milliseconds.gpu = this.sample_ms = spent;
       this.shown = this.drew = true;
       this.canvas.hidden = false;
       page.picture.still.hidden = true;
       await new Promise(requestAnimationFrame);
-      if (page.loop.version !== version) return;
+      if (page.loop.version !== version || performance.now() - started > k_gpu_ms) return;
     }
   }
 

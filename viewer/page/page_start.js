@@ -102,6 +102,7 @@ Object.assign(Page.prototype, {
       return;
     }
     const info = await this.engine.call("open", {document: this.document, item});
+    if (item !== this.state.get("item")) return;  // there is a newer one on its way
     this.stones = this.item().stones.map((stone) => new ShownStone(stone));
     this.designs.clear();
     this.base = base_of(info.camera, this.stones[info.stone ?? this.stones.length - 1].center);
@@ -122,9 +123,9 @@ Object.assign(Page.prototype, {
   },
 
   async open_item(index) {
+    this.info = null;
     this.state.forget_stone();
     this.state.set({item: index});
-    this.info = null;
     this.put_away_all();
     this.show_item();
     try {
@@ -169,6 +170,7 @@ Object.assign(Page.prototype, {
   build_panels() {
     const info = this.info;
     this.light_path = new LightPath(this);
+    if (this.fit) this.fit.blink(false);
     this.fit = new PanelFit(this);
     this.fit.build();
     this.panels = {
