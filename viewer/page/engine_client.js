@@ -11,6 +11,7 @@ class EngineClient {
     this.waiting = new Map();
     this.next_id = 1;
     this.worker = null;
+    this.turns = Promise.resolve();
   }
 
   // Why there can be no engine on this page; empty: there can.
@@ -63,6 +64,12 @@ class EngineClient {
       this.waiting.set(id, {resolve, reject});
       this.worker.postMessage({id, call, ...args}, transfer);
     });
+  }
+  // Work of several calls, between which nobody else's come. Not to be nested.
+  in_turn(work) {
+    const mine = this.turns.then(work);
+    this.turns = mine.catch(() => {});
+    return mine;
   }
   answered(answer) {
     const waiting = this.waiting.get(answer.id);

@@ -88,15 +88,25 @@ class FrameLoop {
 
   // Tells the engine which stone and scene, if it does not know.
   async prepare(stone, settings) {
-    const held = this.page.engine_stone(stone);
+    const held = this.page.engine_stone(stone), info = this.page.info;
     const key = JSON.stringify([held, settings, this.page.scene_version]);
     if (key === this.set_key) return;
     this.set_key = "";
-    const info = this.page.info;
     const answer = await this.page.engine.call("set", {stone: held, settings});
     if (this.page.info !== info) return;
     this.set_key = key;
     this.page.took_settings(answer);
+  }
+  // One question about a stone in its scene. Nothing where the page shows something else by now, or
+  // beams refuse the scene.
+  ask(stone, settings, call, args) {
+    const info = this.page.info;
+    return this.page.engine.in_turn(async () => {
+      if (this.page.info !== info || !info) return null;
+      await this.prepare(stone, settings);
+      if (this.page.info !== info || this.page.refused) return null;
+      return this.page.engine.call(call, args);
+    });
   }
 
   // While the stone moves nobody sees a crystal's two images apart, nor a rainbow's every colour.
@@ -115,20 +125,22 @@ class FrameLoop {
     const [width, height] = page.picture.size(quick ? this.scale : 1);
     let spent = 0, exposure = this.exposure_for(quick);
     for (const [side, stone] of sides) {
-      await this.prepare(stone, this.settings(stone, quick));
+      const settings = this.settings(stone, quick);
+      await page.engine.in_turn(() => page.info === info && this.prepare(stone, settings));
       if (page.info !== info) return;  // another stone was opened meanwhile
       if (page.refused) return page.show_refused();
       if (side === "left" && page.gpu.wanted()) {
-        await page.gpu.draw(width, height, quick, exposure);
+        await page.gpu.draw(settings, width, height, quick, exposure);
+        if (page.info !== info) return;
         if (page.gpu.drew) return page.drawn(quick);
       }
-      const drawn = await page.engine.call("draw", {
+      const drawn = await this.ask(stone, settings, "draw", {
         ...page.drawing(stone, width, height),
         engine: quick ? "preview" : "beams",
         exposure,
         tonemap: page.tonemap(),
       });
-      if (page.info !== info) return;
+      if (!drawn || page.info !== info) return;
       spent += drawn.milliseconds;
       page.picture.take(drawn, side);
       // Two stones beside each other are shown alike.

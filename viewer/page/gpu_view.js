@@ -86,12 +86,12 @@ class GpuView {
     this.canvas.hidden = true;
   }
 
-  async draw(width, height, quick, exposure) {
+  async draw(settings, width, height, quick, exposure) {
     this.drew = false;
     const page = this.page, version = page.loop.version;
     try {
-      if (exposure === "auto") exposure = await this.exposure_to_the_stone(width, height);
-      await this.samples(width, height, quick, exposure, version);
+      if (exposure === "auto") exposure = await this.exposure_to_the_stone(settings, width, height);
+      if (exposure) await this.samples(settings, width, height, quick, exposure, version);
     } catch (error) {
       if (error instanceof EngineError) throw error;
       if (this.gl.isContextLost()) return;
@@ -101,24 +101,28 @@ class GpuView {
   }
 
   // Of a small picture by the engine.
-  async exposure_to_the_stone(width, height) {
+  async exposure_to_the_stone(settings, width, height) {
     const page = this.page, scale = 200 / Math.max(200, width, height);
-    const drawn = await page.engine.call("draw", {
-      ...page.drawing(page.shown_index(), Math.ceil(width * scale), Math.ceil(height * scale)),
+    const stone = page.shown_index();
+    const drawn = await page.loop.ask(stone, settings, "draw", {
+      ...page.drawing(stone, Math.ceil(width * scale), Math.ceil(height * scale)),
       engine: "preview",
       exposure: "auto",
       tonemap: "none",
     });
-    return page.loop.exposure = drawn.exposure;
+    if (drawn) page.loop.exposure = drawn.exposure;
+    return drawn && drawn.exposure;
   }
 
-  async samples(width, height, quick, exposure, version) {
+  async samples(settings, width, height, quick, exposure, version) {
     const page = this.page, gl = this.context(), count = quick ? 1 : k_gpu_samples;
-    const answer = await page.engine.call("gpu", {
-      ...page.drawing(page.shown_index(), width, height),
+    const stone = page.shown_index();
+    const answer = await page.loop.ask(stone, settings, "gpu", {
+      ...page.drawing(stone, width, height),
       samples: count,
       known: this.program_key,
     });
+    if (!answer) return;
     if (answer.key !== this.program_key || !this.program) {
       this.program = new GpuProgram(gl, answer);
       this.program_key = answer.key;

@@ -26,13 +26,12 @@ class LightPath {
     const page = this.page, [width, height] = page.picture.size();
     const box = page.stage.getBoundingClientRect();
     const stone = page.shown_index();
-    await page.loop.prepare(stone, page.settings(stone));
-    const answer = await page.engine.call("path", {
+    const found = await page.loop.ask(stone, page.settings(stone), "path", {
       ...page.drawing(stone, width, height),
       x: at[0] * width / box.width,
       y: at[1] * height / box.height,
     });
-    const found = answer.paths ? answer : answer.probe || answer.result || {paths: []};
+    if (!found) return;
     this.show(found, at);
   }
 

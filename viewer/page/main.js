@@ -169,8 +169,10 @@ class Page {
   async send_panorama(file) {
     const bytes = new Uint8Array(await file.arrayBuffer());
     const stone = this.shown_index();
-    await this.loop.prepare(stone, this.settings(stone));
-    const answer = await this.engine.call("panorama", {name: file.name, bytes}, [bytes.buffer]);
+    const answer = await this.engine.in_turn(async () => {
+      await this.loop.prepare(stone, this.settings(stone));
+      return this.engine.call("panorama", {name: file.name, bytes}, [bytes.buffer]);
+    });
     this.panorama = file;
     this.panorama_setting = answer.setting;
     ++this.scene_version;

@@ -101,7 +101,8 @@ Object.assign(Page.prototype, {
       this.show_refused();
       return;
     }
-    const info = await this.engine.call("open", {document: this.document, item});
+    const info =
+      await this.engine.in_turn(() => this.engine.call("open", {document: this.document, item}));
     if (item !== this.state.get("item")) return;  // there is a newer one on its way
     this.stones = this.item().stones.map((stone) => new ShownStone(stone));
     this.designs.clear();
@@ -117,7 +118,7 @@ Object.assign(Page.prototype, {
       else
         this.state.set({light: null});
     }
-    if (this.state.get("cut")) await this.make_cut();
+    if (this.state.get("cut")) await this.make_cut().catch((error) => this.failed(error));
     this.overlay.draw();
     this.loop.changed();
   },
@@ -246,8 +247,8 @@ Object.assign(Page.prototype, {
     const values = this.state.get("cut"), index = this.shown_index(), stone = this.document_stone();
     if (!stone.cut) return;
     if (values) {
-      const answer = await this.engine.call(
-        "cut", {kind: stone.cut.kind, values: {...stone.cut.values, ...values}});
+      const args = {kind: stone.cut.kind, values: {...stone.cut.values, ...values}};
+      const answer = await this.engine.in_turn(() => this.engine.call("cut", args));
       this.stones[index] = new ShownStone(answer.geometry);
       this.designs.set(index, answer.stone);
       by_id("trouble").hidden = true;

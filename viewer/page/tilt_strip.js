@@ -42,13 +42,13 @@ class TiltStrip {
         return;
       }
       const view = {turn: this.turn_at(tilt), zoom: 1, pan: [0, 0]};
-      await page.loop.prepare(stone, settings);
-      const drawn = await page.engine.call("draw", {
+      const drawn = await page.loop.ask(stone, settings, "draw", {
         ...page.drawing(stone, 96, 96, view),
         engine: "preview",
         exposure,
         tonemap: page.tonemap(),
       });
+      if (!drawn) return;
       this.pictures[i].getContext("2d").putImageData(new ImageData(drawn.pixels, 96, 96), 0, 0);
     }
   }

@@ -45,13 +45,13 @@ class Turntable {
     for (let i = 0; i < k_film_frames && this.recording; ++i) {
       const turn =
         Turn.after(view.turn, Turn.about(page.shown_stone().up, 2 * Math.PI * i / k_film_frames));
-      await page.loop.prepare(stone, page.settings(stone));
-      const drawn = await page.engine.call("draw", {
+      const drawn = await page.loop.ask(stone, page.settings(stone), "draw", {
         ...page.drawing(stone, width, height, {...view, turn}),
         engine: "beams",
         exposure,
         tonemap: page.tonemap(),
       });
+      if (!drawn) throw new Error("the film was not finished: another stone was opened");
       frames.push(new ImageData(drawn.pixels, width, height));
       progress(0.7 * (i + 1) / k_film_frames);
     }
