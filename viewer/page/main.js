@@ -214,6 +214,7 @@ class Page {
     if (quick) return;
     this.keep_address();
     this.panels.picture.update();
+    this.panels.save.update();
     this.tilts.update().catch((error) => this.failed(error));
   }
 

@@ -42,14 +42,14 @@ class Tabs {
     this.open(
       this.opened && this.tabs.some((tab) => tab.name === this.opened) ? this.opened : "light");
   }
-  open(name, from_hand = true) {
+  open(name) {
     this.opened = name;
     for (const tab of this.tabs) {
       const chosen = tab.name === name;
       tab.button.setAttribute("aria-selected", String(chosen));
       tab.button.tabIndex = chosen ? 0 : -1;
       tab.panel.hidden = !chosen;
-      if (chosen && !from_hand) tab.button.scrollIntoView({block: "nearest", inline: "nearest"});
+      if (chosen) tab.button.scrollIntoView({block: "nearest", inline: "nearest"});
     }
     if (this.page.panels && name === "save") this.page.panels.save.update();
   }

@@ -35,7 +35,7 @@ class Pointing {
     if (!this.page.ready() || this.page.refused) return;
     try {
       await this.page.light_path.probe(at);
-      this.page.tabs.open("path", false);
+      this.page.tabs.open("path");
     } catch (error) {
       this.page.failed(error);
     }

@@ -105,7 +105,8 @@ class PanelSave {
   }
 
   update() {
-    const command = this.page.command.line();
+    // A line for each setting, as shells read it, too.
+    const command = this.page.command.line().replace(/ (?=--set )/g, " \\\n  ");
     if (this.command.value !== command) this.command.value = command;
     this.command_note.textContent = this.page.command.limits();
     this.command_note.hidden = !this.command_note.textContent;
