@@ -4,12 +4,24 @@
 const assert = require("node:assert");
 const test = require("node:test");
 const {
-  Turn, named_view, base_of, camera_of, projection_of, faces_eye, polygon_at,
+  Turn,
+  named_view,
+  base_of,
+  camera_of,
+  projection_of,
+  faces_eye,
+  polygon_at,
 } = require("../../viewer/page/orientation.js");
 
 const near = (a, b, bound = 1e-12) =>
   a.forEach((v, i) => assert.ok(Math.abs(v - b[i]) <= bound, `${a} is not ${b}`));
-const a_camera = { position: [0, 0, 40], look_at: [0, 0, 0], up: [0, 1, 0], width: 8, size: [400, 400] };
+const a_camera = {
+  position: [0, 0, 40],
+  look_at: [0, 0, 0],
+  up: [0, 1, 0],
+  width: 8,
+  size: [400, 400]
+};
 
 test("a quarter turn about z takes x to y", () => {
   const q = Turn.about([0, 0, 1], Math.PI / 2);
@@ -42,18 +54,18 @@ test("a frame is found again from its axes, half turns too", () => {
 test("three angles about x, y, z in that order are the same turn", () => {
   const q = Turn.about([0.2, -1, 0.4], 1.9);
   const [x, y, z] = Turn.angles(q).map((a) => a * Math.PI / 180);
-  const again = Turn.after(Turn.about([0, 0, 1], z),
-    Turn.after(Turn.about([0, 1, 0], y), Turn.about([1, 0, 0], x)));
+  const again = Turn.after(
+    Turn.about([0, 0, 1], z), Turn.after(Turn.about([0, 1, 0], y), Turn.about([1, 0, 0], x)));
   assert.ok(Turn.apart(q, again) < 1e-7);
 });
 
 test("a point of the stone stays under the pointer that drags it", () => {
   const base = base_of(a_camera, [0, 0, 0]), radius = 2;
-  const view = { turn: Turn.about([1, 1, 0], 0.3), zoom: 1, pan: [0, 0] };
+  const view = {turn: Turn.about([1, 1, 0], 0.3), zoom: 1, pan: [0, 0]};
   const from = [0.2, 0.3], to = [-0.35, 0.5];
   // The point of the stone that lies on the ball under `from`.
   const point = Turn.back(view.turn, Turn.on_ball(...from).map((v) => radius * v));
-  const turned = { ...view, turn: Turn.after(Turn.drag(from, to), view.turn) };
+  const turned = {...view, turn: Turn.after(Turn.drag(from, to), view.turn)};
   const scale = 400 / 8 * radius;
   near(projection_of(base, view, [0, 0, 0], 400, 400)(point),
     [200 + scale * from[0], 200 - scale * from[1]], 1e-9);
@@ -67,10 +79,11 @@ test("a drag and its way back cancel, also beyond the ball", () => {
 });
 
 test("the camera at home is the scene's, whatever the picture's shape", () => {
-  const skew = { position: [10, -20, 30], look_at: [0.5, 0, 0.2], up: [0, 0, 1], fov_deg: 20, size: [600, 400] };
+  const skew =
+    {position: [10, -20, 30], look_at: [0.5, 0, 0.2], up: [0, 0, 1], fov_deg: 20, size: [600, 400]};
   const center = [0, 0.1, 0];
   const base = base_of(skew, center);
-  const view = { turn: base.home, zoom: 1, pan: base.pan };
+  const view = {turn: base.home, zoom: 1, pan: base.pan};
   const camera = camera_of(base, view, center, 600, 400);
   near(camera.position, skew.position, 1e-9);
   // The same line of sight, and the scene's angle about it.
@@ -86,10 +99,12 @@ test("the camera at home is the scene's, whatever the picture's shape", () => {
 
 test("zoom and pan of a parallel view", () => {
   const base = base_of(a_camera, [0, 0, 1]);
-  const camera = camera_of(base, { turn: base.home, zoom: 2, pan: [0.5, -0.25] }, [0, 0, 1], 400, 400);
+  const camera =
+    camera_of(base, {turn: base.home, zoom: 2, pan: [0.5, -0.25]}, [0, 0, 1], 400, 400);
   assert.strictEqual(camera.width, 4);
   near(camera.look_at, [-0.5, 0.25, 1]);
-  near(projection_of(base, { turn: base.home, zoom: 2, pan: [0.5, -0.25] }, [0, 0, 1], 400, 400)([0, 0, 1]),
+  near(projection_of(base, {turn: base.home, zoom: 2, pan: [0.5, -0.25]}, [0, 0, 1], 400, 400)(
+         [0, 0, 1]),
     [250, 225]);
 });
 
@@ -102,7 +117,7 @@ test("views by name: table, pavilion and side", () => {
 });
 
 test("facets that face the eye, and the facet under a pixel", () => {
-  const base = base_of(a_camera, [0, 0, 0]), view = { turn: base.home, zoom: 1, pan: [0, 0] };
+  const base = base_of(a_camera, [0, 0, 0]), view = {turn: base.home, zoom: 1, pan: [0, 0]};
   assert.ok(faces_eye(base, view, [0, 0, 0], [0, 0, 1], [0, 0, 1]));
   assert.ok(!faces_eye(base, view, [0, 0, 0], [0, 0, -1], [0, 0, -1]));
   const polygons = [[[0, 0], [10, 0], [10, 10], [0, 10]], [[10, 0], [20, 0], [20, 10], [10, 10]]];

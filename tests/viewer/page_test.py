@@ -352,6 +352,23 @@ class PageTest(PageActions, unittest.TestCase):
         self.assertFalse(self.browser.run("return document.getElementById('still').hidden"))
         self.assertEqual(self.browser.run("return getComputedStyle(document.getElementById('panel')).display"), "none")
 
+    def test_what_beams_refuse_is_a_picture_and_a_sentence(self):
+        document = made_up_document(2)
+        document["items"][0].update(stones=[], refused="a conoscope shows directions, not a stone")
+        self.open(document)
+        self.assertIn("cannot draw this live: a conoscope", self.browser.run("return document.getElementById('trouble').innerText"))
+        self.assertFalse(self.browser.run("return document.getElementById('still').hidden"))
+        # The next stone turns.
+        self.hand().send_keys(Keys.PAGE_DOWN)
+        self.browser.wait("while (!culet_page.ready()) await new Promise((r) => setTimeout(r, 20));")
+        before = self.seen()
+        self.drag(50, 20)
+        self.assertNotEqual(before, self.seen())
+
+    def test_page_without_an_engine_says_so(self):
+        self.open(engine="")
+        self.assertIn("made without culet", self.browser.run("return document.getElementById('trouble').innerText"))
+
     def test_saves_png_and_film(self):
         self.open()
         self.click("[data-name=png]")

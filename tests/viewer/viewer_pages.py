@@ -68,7 +68,7 @@ def made_up_document(items=1, two=False):
                        "command": "culet render eight.obj"} for i in range(items)]}
 
 
-def page_text(document, worker=None, engine=""):
+def page_text(document, worker=None, engine="stand-in"):
     """The template filled as viewer_page.cpp fills it."""
     scripts = [(PAGE / name).read_text() for name in (PAGE / "scripts.txt").read_text().split()]
     worker = (pathlib.Path(__file__).parent / "stand_in_worker.js").read_text() if worker is None else worker
@@ -93,7 +93,7 @@ class Browser:
         chrome.set_capability("goog:loggingPrefs", {"browser": "ALL"})
         self.driver = webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=chrome)
         self.driver.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": self.folder})
-        self.driver.set_script_timeout(120)
+        self.driver.set_script_timeout(60)
         self.resize(width, height)
 
     def resize(self, width, height):

@@ -6,31 +6,43 @@ class Command {
 
   line() {
     if (!this.page.ready()) return "";
-    const [width, height] = this.page.picture.size(), stone = this.page.shown_index(), values = this.page.state.values;
+    const [width, height] = this.page.picture.size(), stone = this.page.shown_index(),
+                  values = this.page.state.values;
     const settings = this.page.settings(stone);
     // The scene's own light by its name: a stone without a scene has none that could be turned.
-    if (this.page.own_light() && !settings.some((key) => key.startsWith("light"))) settings.push(`light.preset=${toml_text(this.page.own_light())}`);
+    if (this.page.own_light() && !settings.some((key) => key.startsWith("light")))
+      settings.push(`light.preset=${toml_text(this.page.own_light())}`);
     return command_line({
-      command: this.of_stone(stone), settings,
-      camera: this.page.drawing(stone, width, height).camera, size: [width, height],
-      exposure: this.page.exposure(), tonemap: this.page.tonemap(), engine: "beams",
+      command: this.of_stone(stone),
+      settings,
+      camera: this.page.drawing(stone, width, height).camera,
+      size: [width, height],
+      exposure: this.page.exposure(),
+      tonemap: this.page.tonemap(),
+      engine: "beams",
       lights_turned: values.polariser === null ? this.page.lights_turn() : null,
     });
   }
   // As far as the file. A standard cut is made first.
   of_stone(index) {
-    const { cut, material } = this.page.item().stones[index], changed = this.page.state.get("cut");
+    const {cut, material} = this.page.item().stones[index], changed = this.page.state.get("cut");
     // What --light says would hide every light that is set.
-    if (!changed && this.page.item().command) return this.page.item().command.replace(/ --light (?:'[^']*'|\S+)/, "");
+    if (!changed && this.page.item().command)
+      return this.page.item().command.replace(/ --light (?:'[^']*'|\S+)/, "");
     if (!cut) return "culet render STONE";
-    const sizes = Object.entries({ ...cut.values, ...changed }).map(([name, value]) => ` --${name} ${toml_number(value)}`);
-    return `culet cut ${cut.kind}${sizes.join("")} -o design.obj && culet render design.obj --material ${quoted(material.id || "diamond")}`;
+    const sizes = Object.entries({...cut.values, ...changed}).map(([name,
+      value]) => ` --${name} ${toml_number(value)}`);
+    return `culet cut ${cut.kind}${
+      sizes.join("")} -o design.obj && culet render design.obj --material ${
+      quoted(material.id || "diamond")}`;
   }
   // What the command does not say.
   limits() {
     const values = this.page.state.values, limits = [];
-    if (values.light === "panorama" && this.page.panorama) limits.push(`It looks for ${this.page.panorama.name} beside the stone\u2019s file.`);
-    if (this.page.document_stone().role === "catalogue") limits.push("It draws the fitted stone; the page shows the catalogue\u2019s.");
+    if (values.light === "panorama" && this.page.panorama)
+      limits.push(`It looks for ${this.page.panorama.name} beside the stone\u2019s file.`);
+    if (this.page.document_stone().role === "catalogue")
+      limits.push("It draws the fitted stone; the page shows the catalogue\u2019s.");
     return limits.join(" ");
   }
 }

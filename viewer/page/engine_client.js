@@ -1,6 +1,6 @@
 "use strict";
-// The engine in its worker: calls and their answers. One worker at a time; a dead one is replaced by
-// `start`.
+// The engine in its worker: calls and their answers. One worker at a time; a dead one is replaced
+// by `start`.
 
 class EngineError extends Error {}
 
@@ -11,15 +11,18 @@ class EngineClient {
     this.waiting = new Map();
     this.next_id = 1;
     this.worker = null;
+    this.turns = Promise.resolve();
   }
 
   // Why there can be no engine on this page; empty: there can.
   static refusal() {
-    if (typeof WebAssembly !== "object") return "This browser has no WebAssembly, so the stone cannot be turned here: the picture is what culet drew.";
-    if (!EngineClient.text_of("culet-engine") && !EngineClient.text_of("culet-worker")) {
+    if (typeof WebAssembly !== "object")
+      return "This browser has no WebAssembly, so the stone cannot be turned here: the picture is what culet drew.";
+    if (!EngineClient.text_of("culet-engine")) {
       return "This page was made without culet\u2019s engine: the picture is what culet drew.";
     }
-    if (typeof DecompressionStream !== "function") return "This browser is too old to unpack culet\u2019s engine: the picture is what culet drew.";
+    if (typeof DecompressionStream !== "function")
+      return "This browser is too old to unpack culet\u2019s engine: the picture is what culet drew.";
     return "";
   }
   static text_of(id) {
@@ -29,7 +32,8 @@ class EngineClient {
 
   async start() {
     this.stop("started again");
-    const address = URL.createObjectURL(new Blob([EngineClient.text_of("culet-worker")], { type: "text/javascript" }));
+    const address = URL.createObjectURL(
+      new Blob([EngineClient.text_of("culet-worker")], {type: "text/javascript"}));
     const worker = this.worker = new Worker(address);
     worker.onmessage = (event) => this.answered(event.data);
     worker.onerror = (event) => {
@@ -37,7 +41,7 @@ class EngineClient {
       if (this.worker === worker) this.died(event.message || "the engine stopped");
     };
     // What base64 text is kept here is not needed again in this form.
-    return this.call("start", { engine: EngineClient.text_of("culet-engine") })
+    return this.call("start", {engine: EngineClient.text_of("culet-engine")})
       .finally(() => URL.revokeObjectURL(address));
   }
 
@@ -46,7 +50,7 @@ class EngineClient {
     this.worker = null;
     const waiting = [...this.waiting.values()];
     this.waiting.clear();
-    for (const { reject } of waiting) reject(new EngineError(why));
+    for (const {reject} of waiting) reject(new EngineError(why));
   }
   died(line) {
     this.stop(line);
@@ -57,9 +61,15 @@ class EngineClient {
     if (!this.worker) return Promise.reject(new EngineError("the engine is not running"));
     const id = this.next_id++;
     return new Promise((resolve, reject) => {
-      this.waiting.set(id, { resolve, reject });
-      this.worker.postMessage({ id, call, ...args }, transfer);
+      this.waiting.set(id, {resolve, reject});
+      this.worker.postMessage({id, call, ...args}, transfer);
     });
+  }
+  // Work of several calls, between which nobody else's come. Not to be nested.
+  in_turn(work) {
+    const mine = this.turns.then(work);
+    this.turns = mine.catch(() => {});
+    return mine;
   }
   answered(answer) {
     const waiting = this.waiting.get(answer.id);
@@ -68,8 +78,10 @@ class EngineClient {
       return;
     }
     this.waiting.delete(answer.id);
-    if (answer.ok) waiting.resolve(answer);
-    else waiting.reject(new EngineError(answer.error || "the engine gave no reason"));
+    if (answer.ok)
+      waiting.resolve(answer);
+    else
+      waiting.reject(new EngineError(answer.error || "the engine gave no reason"));
     if (answer.died) this.died(answer.error);
   }
 }

@@ -18,26 +18,33 @@ class FacetCard {
     const facet = stone && index !== null ? stone.facets[index] : null;
     this.card.hidden = !facet;
     if (!facet) return;
-    const { inclination, azimuth, side } = stone.angles_of(facet);
+    const {inclination, azimuth, side} = stone.angles_of(facet);
     const fit = facet.fit || {};
     const rows = [
       ["Inclination", with_sigma(inclination, fit.inclination_sigma_deg)],
-      ["Azimuth", azimuth === null ? "none: it is level" : with_sigma(azimuth, fit.azimuth_sigma_deg)],
+      [
+        "Azimuth",
+        azimuth === null ? "none: it is level" : with_sigma(azimuth, fit.azimuth_sigma_deg)
+      ],
     ];
     if (Number.isFinite(fit.direction_sigma_deg)) {
       rows.push(["Direction", "\u00b1 " + significant(fit.direction_sigma_deg, 2) + "\u00b0"]);
     }
     if (facet.fit) {
-      rows.push(["Worst reading", fit.reading && Number.isFinite(fit.residual)
-        ? `${fit.reading}, ${Math.abs(fit.residual).toFixed(1)} times its \u00b1 off` : "none speaks of it"]);
+      rows.push([
+        "Worst reading",
+        fit.reading && Number.isFinite(fit.residual)
+          ? `${fit.reading}, ${Math.abs(fit.residual).toFixed(1)} times its \u00b1 off`
+          : "none speaks of it"
+      ]);
       if (fit.readings > 1) rows.push(["Readings", String(fit.readings)]);
     }
     const warnings = [];
     if (fit.suspect) warnings.push("\u26a0 has a suspect reading");
     if (fit.determined === false) warnings.push("\u26a0 left open by the readings");
-    this.card.replaceChildren(
-      element("h2", {}, facet.name, element("small", {}, side)),
-      element("dl", {}, ...rows.map(([name, value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value)))),
-      ...warnings.map((line) => element("p", { class: "warning" }, line)));
+    this.card.replaceChildren(element("h2", {}, facet.name, element("small", {}, side)),
+      element("dl", {}, ...rows.map(([name,
+        value]) => element("div", {}, element("dt", {}, name), element("dd", {}, value)))),
+      ...warnings.map((line) => element("p", {class: "warning"}, line)));
   }
 }

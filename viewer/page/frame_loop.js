@@ -1,24 +1,29 @@
 "use strict";
-// When to draw, and how finely: quick frames while something moves, as large as the time of the last
-// ones allows; the whole picture once it rests, then refined. One picture is on its way at a time.
+// When to draw, and how finely: quick frames while something moves, as large as the time of the
+// last ones allows; the whole picture once it rests, then refined. One picture is on its way at a
+// time.
 
-const k_quick_ms = 33;     // of a frame while the stone moves
-const k_rest_ms = 140;     // without a move, after which the whole picture is drawn
+const k_quick_ms = 33;       // of a frame while the stone moves
+const k_rest_ms = 140;       // without a move, after which the whole picture is drawn
 const k_least_scale = 0.25;  // of the screen's resolution: coarser is no picture any more
-const k_levels = { quick: 0, full: 1, done: 2 };
+const k_levels = {
+  quick: 0,
+  full: 1,
+  done: 2
+};
 
 class FrameLoop {
   constructor(page) {
     this.page = page;
-    this.scale = 0.6;       // of the screen's resolution while moving
+    this.scale = 0.6;  // of the screen's resolution while moving
     this.level = k_levels.quick;
     this.last_move = -Infinity;
     this.running = false;
-    this.paused = false;    // while others need the engine: recording
-    this.coarse = false;    // quick frames leave out what takes them too long
-    this.set_key = "";      // what the engine was last told to draw
-    this.exposure = null;   // of the last whole picture
-    this.milliseconds = {}; // last of each way of drawing
+    this.paused = false;     // while others need the engine: recording
+    this.coarse = false;     // quick frames leave out what takes them too long
+    this.set_key = "";       // what the engine was last told to draw
+    this.exposure = null;    // of the last whole picture
+    this.milliseconds = {};  // last of each way of drawing
     this.idle_waiters = [];
   }
 
@@ -38,7 +43,8 @@ class FrameLoop {
 
   // Resolves once the whole picture of what is now asked for is on the page.
   idle() {
-    if (!this.running && this.level === k_levels.done) return Promise.resolve();
+    if (!this.running && (this.level === k_levels.done || !this.page.ready()))
+      return Promise.resolve();
     return new Promise((resolve) => this.idle_waiters.push(resolve));
   }
 
@@ -71,8 +77,10 @@ class FrameLoop {
     const version = this.version;
     return new Promise((resolve) => {
       const look = () => {
-        if (version !== this.version || !this.moving() || performance.now() - begin > 1000) resolve();
-        else setTimeout(look, 15);
+        if (version !== this.version || !this.moving() || performance.now() - begin > 1000)
+          resolve();
+        else
+          setTimeout(look, 15);
       };
       setTimeout(look, 5);
     });
@@ -80,39 +88,59 @@ class FrameLoop {
 
   // Tells the engine which stone and scene, if it does not know.
   async prepare(stone, settings) {
-    const held = this.page.engine_stone(stone);
+    const held = this.page.engine_stone(stone), info = this.page.info;
     const key = JSON.stringify([held, settings, this.page.scene_version]);
     if (key === this.set_key) return;
     this.set_key = "";
-    const answer = await this.page.engine.call("set", { stone: held, settings });
+    const answer = await this.page.engine.call("set", {stone: held, settings});
+    if (this.page.info !== info) return;
     this.set_key = key;
     this.page.took_settings(answer);
+  }
+  // One question about a stone in its scene. Nothing where the page shows something else by now, or
+  // beams refuse the scene.
+  ask(stone, settings, call, args) {
+    const info = this.page.info;
+    return this.page.engine.in_turn(async () => {
+      if (this.page.info !== info || !info) return null;
+      await this.prepare(stone, settings);
+      if (this.page.info !== info || this.page.refused) return null;
+      return this.page.engine.call(call, args);
+    });
   }
 
   // While the stone moves nobody sees a crystal's two images apart, nor a rainbow's every colour.
   settings(stone, quick) {
     const settings = this.page.settings(stone);
     if (!quick || !this.coarse) return settings;
-    if (!this.page.state.get("wavelengths")) settings.push(`render.wavelengths=${toml_list(wavelengths_nm(3))}`);
+    if (!this.page.state.get("wavelengths"))
+      settings.push(`render.wavelengths=${toml_list(wavelengths_nm(3))}`);
     return [...settings, 'render.crystal_beams="merged"'];
   }
 
   async draw(quick) {
-    const page = this.page, values = page.state.values;
-    const sides = values.compare === "one" ? [["left", page.shown_index()]] : [["left", 0], ["right", 1]];
+    const page = this.page, values = page.state.values, info = page.info;
+    const sides =
+      values.compare === "one" ? [["left", page.shown_index()]] : [["left", 0], ["right", 1]];
     const [width, height] = page.picture.size(quick ? this.scale : 1);
     let spent = 0, exposure = this.exposure_for(quick);
     for (const [side, stone] of sides) {
-      await this.prepare(stone, this.settings(stone, quick));
+      const settings = this.settings(stone, quick);
+      await page.engine.in_turn(() => page.info === info && this.prepare(stone, settings));
+      if (page.info !== info) return;  // another stone was opened meanwhile
       if (page.refused) return page.show_refused();
       if (side === "left" && page.gpu.wanted()) {
-        await page.gpu.draw(width, height, quick, exposure);
+        await page.gpu.draw(settings, width, height, quick, exposure);
+        if (page.info !== info) return;
         if (page.gpu.drew) return page.drawn(quick);
       }
-      const drawn = await page.engine.call("draw", {
-        ...page.drawing(stone, width, height), engine: quick ? "preview" : "beams", exposure,
+      const drawn = await this.ask(stone, settings, "draw", {
+        ...page.drawing(stone, width, height),
+        engine: quick ? "preview" : "beams",
+        exposure,
         tonemap: page.tonemap(),
       });
+      if (!drawn || page.info !== info) return;
       spent += drawn.milliseconds;
       page.picture.take(drawn, side);
       // Two stones beside each other are shown alike.

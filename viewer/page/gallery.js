@@ -9,19 +9,22 @@ class Gallery {
     if (this.items.length < 2) return;
     nav.hidden = false;
     this.buttons = this.items.map((item, index) => {
-      const one = button("", () => this.go(index), { class: "thumb" });
+      const one = button("", () => this.go(index), {class: "thumb"});
       // Pictures come in the page; anything else would be somebody's address.
-      if (/^data:image\/(png|jpeg|webp);/.test(item.picture || "")) one.append(element("img", { src: item.picture, alt: "", loading: "lazy" }));
+      if (/^data:image\/(png|jpeg|webp);/.test(item.picture || ""))
+        one.append(element("img", {src: item.picture, alt: "", loading: "lazy"}));
       one.append(element("span", {}, item.name));
       return one;
     });
-    this.list = element("div", { class: "thumbs" }, ...this.buttons);
+    this.list = element("div", {class: "thumbs"}, ...this.buttons);
     nav.append(
-      button("\u2039", () => this.step(-1), { class: "step", "aria-label": "Stone before (Page up)", title: "Stone before (Page up)" }),
+      button("\u2039", () => this.step(-1),
+        {class: "step", "aria-label": "Stone before (Page up)", title: "Stone before (Page up)"}),
       this.list,
-      button("\u203a", () => this.step(1), { class: "step", "aria-label": "Next stone (Page down)", title: "Next stone (Page down)" }));
+      button("\u203a", () => this.step(1),
+        {class: "step", "aria-label": "Next stone (Page down)", title: "Next stone (Page down)"}));
     this.list.addEventListener("keydown", (event) => {
-      const step = { ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1 }[event.key];
+      const step = {ArrowLeft: -1, ArrowUp: -1, ArrowRight: 1, ArrowDown: 1}[event.key];
       if (!step) return;
       event.preventDefault();
       event.stopPropagation();
@@ -45,6 +48,7 @@ class Gallery {
       one.tabIndex = index === now ? 0 : -1;
     });
     const chosen = this.buttons[now];
-    this.list.scrollTo({ left: chosen.offsetLeft - this.list.clientWidth / 2 + chosen.clientWidth / 2 });
+    this.list.scrollTo(
+      {left: chosen.offsetLeft - this.list.clientWidth / 2 + chosen.clientWidth / 2});
   }
 }

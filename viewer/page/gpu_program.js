@@ -5,8 +5,8 @@
 class GpuProgramError extends Error {}
 
 class GpuProgram {
-  // `gl`: a WebGL2 context with EXT_color_buffer_float. `program`: {vertex, kernel, display, uniforms,
-  // passes, textures}.
+  // `gl`: a WebGL2 context with EXT_color_buffer_float. `program`: {vertex, kernel, display,
+  // uniforms, passes, textures}.
   constructor(gl, program) {
     this.gl = gl;
     this.kernel = this.linked(program.vertex, program.kernel);
@@ -28,9 +28,10 @@ class GpuProgram {
     if (!program.textures) return;  // they are as before
     for (const texture of this.textures) gl.deleteTexture(texture.made);
     this.textures = program.textures.map((texture) => {
-      const made = this.float_texture(texture.width, texture.height, new Float32Array(texture.values));
+      const made =
+        this.float_texture(texture.width, texture.height, new Float32Array(texture.values));
       gl.uniform1i(this.place(texture.name), texture.unit);
-      return { unit: texture.unit, made };
+      return {unit: texture.unit, made};
     });
   }
 
@@ -38,30 +39,36 @@ class GpuProgram {
     const gl = this.gl, program = gl.createProgram();
     for (const [kind, source] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
       const shader = gl.createShader(kind);
-      gl.shaderSource(shader, source.startsWith("#version") ? source : "#version 300 es\n" + source);
+      gl.shaderSource(
+        shader, source.startsWith("#version") ? source : "#version 300 es\n" + source);
       gl.compileShader(shader);
       gl.attachShader(program, shader);
       gl.deleteShader(shader);
     }
     gl.linkProgram(program);
     if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
-      throw new GpuProgramError("this GPU does not take the kernel: " + (gl.getProgramInfoLog(program) || "no reason given").split("\n")[0]);
+      throw new GpuProgramError("this GPU does not take the kernel: " +
+        (gl.getProgramInfoLog(program) || "no reason given").split("\n")[0]);
     }
     return program;
   }
 
   place(name) {
-    if (!this.places.has(name)) this.places.set(name, this.gl.getUniformLocation(this.kernel, name));
+    if (!this.places.has(name))
+      this.places.set(name, this.gl.getUniformLocation(this.kernel, name));
     return this.places.get(name);
   }
   set(uniforms) {
     const gl = this.gl;
-    for (const { name, components, whole, values } of uniforms) {
+    for (const {name, components, whole, values} of uniforms) {
       const place = this.place(name);
       if (place === null) continue;
-      if (components === 9) gl.uniformMatrix3fv(place, false, values);
-      else if (whole) gl[`uniform${components}iv`](place, new Int32Array(values));
-      else gl[`uniform${components}fv`](place, new Float32Array(values));
+      if (components === 9)
+        gl.uniformMatrix3fv(place, false, values);
+      else if (whole)
+        gl[`uniform${components}iv`](place, new Int32Array(values));
+      else
+        gl[`uniform${components}fv`](place, new Float32Array(values));
     }
   }
 
@@ -70,8 +77,10 @@ class GpuProgram {
     gl.activeTexture(gl.TEXTURE0);
     gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, width, height, 0, gl.RGBA, gl.FLOAT, values);
-    for (const [key, value] of [[gl.TEXTURE_MIN_FILTER, gl.NEAREST], [gl.TEXTURE_MAG_FILTER, gl.NEAREST],
-      [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE], [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE]]) gl.texParameteri(gl.TEXTURE_2D, key, value);
+    for (const [key, value] of [[gl.TEXTURE_MIN_FILTER, gl.NEAREST],
+           [gl.TEXTURE_MAG_FILTER, gl.NEAREST], [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE],
+           [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE]])
+      gl.texParameteri(gl.TEXTURE_2D, key, value);
     return texture;
   }
 
@@ -80,7 +89,7 @@ class GpuProgram {
     const gl = this.gl;
     this.keep = 0;
     if (this.size[0] === width && this.size[1] === height) return;
-    for (const { texture, frame } of this.sums) {
+    for (const {texture, frame} of this.sums) {
       gl.deleteTexture(texture);
       gl.deleteFramebuffer(frame);
     }
@@ -88,7 +97,7 @@ class GpuProgram {
       const texture = this.float_texture(width, height, null), frame = gl.createFramebuffer();
       gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
       gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);
-      return { texture, frame };
+      return {texture, frame};
     });
     this.size = [width, height];
   }
@@ -99,7 +108,7 @@ class GpuProgram {
     gl.useProgram(this.kernel);
     gl.bindVertexArray(this.vertices);
     this.set(uniforms);
-    for (const { unit, made } of this.textures) {
+    for (const {unit, made} of this.textures) {
       gl.activeTexture(gl.TEXTURE0 + unit);
       gl.bindTexture(gl.TEXTURE_2D, made);
     }

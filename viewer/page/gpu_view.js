@@ -3,8 +3,14 @@
 // sample a pixel while the stone moves, then more and more of them.
 
 const k_gpu_samples = 64;
+const k_gpu_ms = 8000;  // after which a slow GPU leaves it at the samples it has
 // Of display.frag.glsl, as in render/image/film_look.h.
-const k_gpu_tone_maps = { none: 0, reinhard: 1, filmic: 2, gamma2: 3 };
+const k_gpu_tone_maps = {
+  none: 0,
+  reinhard: 1,
+  filmic: 2,
+  gamma2: 3
+};
 
 class GpuView {
   constructor(page, canvas) {
@@ -12,12 +18,12 @@ class GpuView {
     this.canvas = canvas;
     this.shown = false;
     this.drew = false;
-    this.scene_refusal = "";    // of the scene that is set
-    this.own_refusal = "";      // of this machine
+    this.scene_refusal = "";  // of the scene that is set
+    this.own_refusal = "";    // of this machine
     this.lost = false;
     this.program = null;
     this.program_key = "";
-    this.sample_ms = null;      // of one sample a pixel, per million pixels
+    this.sample_ms = null;  // of one sample a pixel, per million pixels
     canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();  // else it never comes back
       this.lost = true;
@@ -36,10 +42,18 @@ class GpuView {
   // Made when it is first asked for: most pages never need it.
   context() {
     if (this.gl || this.own_refusal) return this.gl;
-    const gl = this.canvas.getContext("webgl2", { alpha: false, antialias: false, preserveDrawingBuffer: true, powerPreference: "high-performance" });
-    if (!gl) this.own_refusal = "this browser has no WebGL2";
-    else if (!gl.getExtension("EXT_color_buffer_float")) this.own_refusal = "it cannot sum in floating point";
-    else this.gl = gl;
+    const gl = this.canvas.getContext("webgl2", {
+      alpha: false,
+      antialias: false,
+      preserveDrawingBuffer: true,
+      powerPreference: "high-performance"
+    });
+    if (!gl)
+      this.own_refusal = "this browser has no WebGL2";
+    else if (!gl.getExtension("EXT_color_buffer_float"))
+      this.own_refusal = "it cannot sum in floating point";
+    else
+      this.gl = gl;
     if (this.gl) {
       const about = gl.getExtension("WEBGL_debug_renderer_info");
       const name = about ? gl.getParameter(about.UNMASKED_RENDERER_WEBGL) : "";
@@ -63,7 +77,7 @@ class GpuView {
     if (how === "gpu") return true;
     if (this.software) return false;
     // As long as it is not known: the GPU is tried, once.
-    const { preview } = this.page.loop.milliseconds;
+    const {preview} = this.page.loop.milliseconds;
     return this.sample_ms === null || preview === undefined || this.sample_ms < preview;
   }
 
@@ -72,27 +86,43 @@ class GpuView {
     this.canvas.hidden = true;
   }
 
-  async draw(width, height, quick, exposure) {
+  async draw(settings, width, height, quick, exposure) {
     this.drew = false;
     const page = this.page, version = page.loop.version;
-    // The engine's exposure is to what it drew; without one the GPU has to wait for it.
-    if (exposure === "auto") exposure = page.loop.exposure;
-    if (exposure === null) return;
     try {
-      await this.samples(width, height, quick, exposure, version);
+      if (exposure === "auto") exposure = await this.exposure_to_the_stone(settings, width, height);
+      if (exposure) await this.samples(settings, width, height, quick, exposure, version);
     } catch (error) {
+      if (error instanceof EngineError) throw error;
       if (this.gl.isContextLost()) return;
       this.own_refusal = error.message;
       this.hide();
     }
   }
 
-  async samples(width, height, quick, exposure, version) {
+  // Of a small picture by the engine.
+  async exposure_to_the_stone(settings, width, height) {
+    const page = this.page, scale = 200 / Math.max(200, width, height);
+    const stone = page.shown_index();
+    const drawn = await page.loop.ask(stone, settings, "draw", {
+      ...page.drawing(stone, Math.ceil(width * scale), Math.ceil(height * scale)),
+      engine: "preview",
+      exposure: "auto",
+      tonemap: "none",
+    });
+    if (drawn) page.loop.exposure = drawn.exposure;
+    return drawn && drawn.exposure;
+  }
+
+  async samples(settings, width, height, quick, exposure, version) {
     const page = this.page, gl = this.context(), count = quick ? 1 : k_gpu_samples;
-    const answer = await page.engine.call("gpu", {
-      ...page.drawing(page.shown_index(), width, height), samples: count,
+    const stone = page.shown_index();
+    const answer = await page.loop.ask(stone, settings, "gpu", {
+      ...page.drawing(stone, width, height),
+      samples: count,
       known: this.program_key,
     });
+    if (!answer) return;
     if (answer.key !== this.program_key || !this.program) {
       this.program = new GpuProgram(gl, answer);
       this.program_key = answer.key;
@@ -105,6 +135,7 @@ class GpuView {
     }
     const tone_map = k_gpu_tone_maps[page.tonemap()] || 0;
     this.program.begin(width, height);
+    const started = performance.now();
     for (let sample = 0; sample < Math.min(count, answer.samples.length); ++sample) {
       const begin = performance.now();
       this.program.add(answer.samples[sample]);
@@ -113,17 +144,20 @@ class GpuView {
       gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
       if (gl.isContextLost()) return;
       const spent = performance.now() - begin;
+      if (quick) page.loop.adapt(spent);
       if (sample > 0 || count === 1) page.loop.milliseconds.gpu = this.sample_ms = spent;
       this.shown = this.drew = true;
       this.canvas.hidden = false;
       page.picture.still.hidden = true;
       await new Promise(requestAnimationFrame);
-      if (page.loop.version !== version) return;
+      if (page.loop.version !== version || performance.now() - started > k_gpu_ms) return;
     }
   }
 
   png() {
-    return new Promise((resolve, reject) => this.canvas.toBlob(
-      (blob) => blob ? resolve(blob) : reject(new Error("the browser made no PNG")), "image/png"));
+    return new Promise(
+      (resolve, reject) => this.canvas.toBlob(
+        (blob) => blob ? resolve(blob) : reject(new Error("the browser made no PNG")),
+        "image/png"));
   }
 }

@@ -15,7 +15,7 @@ class Hand {
     surface.addEventListener("pointerup", (event) => this.up(event));
     surface.addEventListener("pointercancel", (event) => this.up(event));
     surface.addEventListener("pointerleave", () => page.pointing.point_at(null));
-    surface.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    surface.addEventListener("wheel", (event) => this.wheel(event), {passive: false});
     surface.addEventListener("contextmenu", (event) => event.preventDefault());
     surface.addEventListener("dblclick", () => page.ready() && page.motion.look("home"));
   }
@@ -26,7 +26,7 @@ class Hand {
   }
   // On the ball about the stone, in its radii, y up.
   on_ball([x, y]) {
-    const { middle, radius } = this.page.ball();
+    const {middle, radius} = this.page.ball();
     return [(x - middle[0]) / radius, (middle[1] - y) / radius];
   }
 
@@ -51,8 +51,15 @@ class Hand {
   begin(kind, at) {
     const view = this.page.view();
     this.gesture = {
-      kind, at, turn: view.turn, pan: view.pan.slice(), zoom: view.zoom,
-      light_turn: this.page.state.get("light_turn"), first: at, click: false, trail: [],
+      kind,
+      at,
+      turn: view.turn,
+      pan: view.pan.slice(),
+      zoom: view.zoom,
+      light_turn: this.page.state.get("light_turn"),
+      first: at,
+      click: false,
+      trail: [],
     };
   }
   middle() {
@@ -73,7 +80,9 @@ class Hand {
     this.pointers.set(event.pointerId, at);
     const gesture = this.gesture;
     if (!gesture) return;
-    if (gesture.click && Math.hypot(at[0] - gesture.first[0], at[1] - gesture.first[1]) < k_click_pixels) return;
+    if (gesture.click &&
+      Math.hypot(at[0] - gesture.first[0], at[1] - gesture.first[1]) < k_click_pixels)
+      return;
     gesture.click = false;
     if (gesture.kind === "pinch") {
       this.page.motion.zoom_about(this.middle(), gesture, this.apart() / gesture.apart);
@@ -81,8 +90,10 @@ class Hand {
       this.page.motion.pan_by(gesture, at[0] - gesture.at[0], at[1] - gesture.at[1]);
     } else {
       const drag = Turn.drag(this.on_ball(gesture.at), this.on_ball(at));
-      if (gesture.kind === "light") this.page.motion.turn_light(gesture, drag);
-      else this.page.motion.turn_to(Turn.after(drag, gesture.turn));
+      if (gesture.kind === "light")
+        this.page.motion.turn_light(gesture, drag);
+      else
+        this.page.motion.turn_to(Turn.after(drag, gesture.turn));
       gesture.trail.push([performance.now(), drag]);
     }
   }
@@ -97,8 +108,10 @@ class Hand {
       return;
     }
     if (!gesture || this.pointers.size > 0 || event.type === "pointercancel") return;
-    if (gesture.click) this.page.pointing.click(this.place(event));
-    else if (gesture.kind === "turn") this.page.motion.let_go(this.speed(gesture));
+    if (gesture.click)
+      this.page.pointing.click(this.place(event));
+    else if (gesture.kind === "turn")
+      this.page.motion.let_go(this.speed(gesture));
   }
   // Of the turn when the hand let go: axis times radians a millisecond.
   speed(gesture) {
@@ -116,7 +129,7 @@ class Hand {
     const lines = event.deltaMode === 1 ? 16 : event.deltaMode === 2 ? 100 : 1;
     const view = this.page.view();
     const at = this.place(event);
-    this.page.motion.zoom_about(at, { at, zoom: view.zoom, pan: view.pan.slice() },
+    this.page.motion.zoom_about(at, {at, zoom: view.zoom, pan: view.pan.slice()},
       Math.exp(-event.deltaY * lines * (event.ctrlKey ? 0.01 : 0.0015)));
   }
 }

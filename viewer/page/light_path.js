@@ -8,8 +8,8 @@ class LightPath {
   constructor(page) {
     this.page = page;
     this.chosen = 0;
-    this.list = element("div", { class: "paths" });
-    this.empty = element("p", { class: "note" },
+    this.list = element("div", {class: "paths"});
+    this.empty = element("p", {class: "note"},
       "Click a flash on the stone (or choose a facet with N and press Enter): here stands which facets made it, and which light it shows.");
     this.node = group("Light path", null, this.empty, this.list);
   }
@@ -26,11 +26,12 @@ class LightPath {
     const page = this.page, [width, height] = page.picture.size();
     const box = page.stage.getBoundingClientRect();
     const stone = page.shown_index();
-    await page.loop.prepare(stone, page.settings(stone));
-    const answer = await page.engine.call("path", {
-      ...page.drawing(stone, width, height), x: at[0] * width / box.width, y: at[1] * height / box.height,
+    const found = await page.loop.ask(stone, page.settings(stone), "path", {
+      ...page.drawing(stone, width, height),
+      x: at[0] * width / box.width,
+      y: at[1] * height / box.height,
     });
-    const found = answer.paths ? answer : answer.probe || answer.result || { paths: [] };
+    if (!found) return;
     this.show(found, at);
   }
 
@@ -47,12 +48,15 @@ class LightPath {
     const choose = (index) => {
       page.overlay.path = paths[index].facets;
       page.overlay.path_at = at;
-      for (const [i, item] of [...this.list.children].entries()) item.setAttribute("aria-current", i === index);
+      for (const [i, item] of [...this.list.children].entries())
+        item.setAttribute("aria-current", i === index);
       page.overlay.draw();
     };
     this.list.replaceChildren(...paths.map((path, index) => this.item(path, index, choose)));
     const rest = found.paths.length - paths.length;
-    if (rest > 0) this.list.append(element("p", { class: "note" }, `and ${rest} weaker ${rest === 1 ? "path" : "paths"}`));
+    if (rest > 0)
+      this.list.append(
+        element("p", {class: "note"}, `and ${rest} weaker ${rest === 1 ? "path" : "paths"}`));
     choose(0);
     const first = paths[0];
     page.say(`Light path: ${first.facets.join(", ")}; sees ${first.light || "nothing"}`, true);
@@ -63,13 +67,16 @@ class LightPath {
     const share = path.weight;
     const crossed = path.facets.map((name, i) => {
       const last = i === path.facets.length - 1;
-      const what = path.facets.length === 1 ? "mirrors it" : i === 0 ? "in" : last ? "out" : "reflects";
-      return element("li", {}, element("b", {}, name), " ", element("span", { class: "soft" }, what));
+      const what = path.facets.length === 1 ? "mirrors it"
+        : i === 0                           ? "in"
+        : last                              ? "out"
+                                            : "reflects";
+      return element("li", {}, element("b", {}, name), " ", element("span", {class: "soft"}, what));
     });
-    return element("div", { class: "path-item" },
+    return element("div", {class: "path-item"},
       button(`${(100 * share).toFixed(share < 0.1 ? 1 : 0)} % comes this way`, () => choose(index),
-        { class: "path-button", "data-path": index }),
-      element("p", { class: "soft" }, path.light ? "sees " + path.light : "sees nothing"),
+        {class: "path-button", "data-path": index}),
+      element("p", {class: "soft"}, path.light ? "sees " + path.light : "sees nothing"),
       element("ol", {}, ...crossed));
   }
 }

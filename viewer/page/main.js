@@ -15,10 +15,11 @@ class Page {
     this.card = new FacetCard(this, by_id("facet-card"));
     this.engine = new EngineClient((line) => this.engine_died(line));
     this.stones = [];
-    this.designs = new Map();  // by a stone's index, under which number the engine holds its changed cut
-    this.info = null;       // what the engine told of the item
-    this.refused = "";      // why beams cannot draw what is set
-    this.scene_version = 0; // of what the engine holds beside stone and settings: cut, panorama
+    this.designs =
+      new Map();        // by a stone's index, under which number the engine holds its changed cut
+    this.info = null;   // what the engine told of the item
+    this.refused = "";  // why beams cannot draw what is set
+    this.scene_version = 0;  // of what the engine holds beside stone and settings: cut, panorama
     this.hand_turns_light = false;
     this.motion = new Motion(this);
     this.pointing = new Pointing(this);
@@ -49,12 +50,13 @@ class Page {
     const name = this.state.get("material");
     if (name) return (this.info.materials.find((m) => m.name === name) || {}).optic;
     const material = this.document_stone().material;
-    return (material && material.optic) || (this.info.materials.find((m) => m.name === this.own_material()) || {}).optic;
+    return (material && material.optic) ||
+      (this.info.materials.find((m) => m.name === this.own_material()) || {}).optic;
   }
   // The preset that the scene itself names; empty: lights of its own.
   own_light() { return (this.info && this.info.settings && this.info.settings.light_preset) || ""; }
   light_preset() {
-    const { light, polariser } = this.state.values;
+    const {light, polariser} = this.state.values;
     if (polariser !== null || light === "panorama") return null;
     return this.info.lights.find((l) => l.name === (light || this.own_light())) || null;
   }
@@ -66,32 +68,40 @@ class Page {
     return named_view("pavilion", this.shown_stone().up, Turn.back(this.base.home, [0, 1, 0]));
   }
   view() {
-    const { turn, zoom, pan } = this.state.values;
-    return { turn: turn || this.home(), zoom, pan: pan || this.base.pan };
+    const {turn, zoom, pan} = this.state.values;
+    return {turn: turn || this.home(), zoom, pan: pan || this.base.pan};
   }
   // How the lights are turned in the stone's frame.
   lights_turn(turn = this.view().turn) {
-    const { light_turn, lights_with, polariser } = this.state.values;
+    const {light_turn, lights_with, polariser} = this.state.values;
     // A polariscope's light is always behind the stone.
     if (polariser !== null) return Turn.after(Turn.inverse(turn), this.base.home);
     if (lights_with === "stone") return light_turn;
     return Turn.after(Turn.after(Turn.inverse(turn), this.home()), light_turn);
   }
-  // As `culet render` exposes where nothing is said: to the stone, but for instruments and own lights.
+  // As `culet render` exposes where nothing is said: to the stone, but for instruments and own
+  // lights.
   exposure() {
     const own = this.state.get("exposure");
     if (own !== null) return own;
     const preset = this.light_preset();
     return preset && !preset.instrument ? "auto" : 1;
   }
-  tonemap() { return this.state.get("tonemap") ?? (this.info.settings && this.info.settings.tonemap) ?? "none"; }
-  settings(stone) { return settings_of(this.state.values, this.optic(stone), this.panorama_setting); }
+  tonemap() {
+    return this.state.get("tonemap") ?? (this.info.settings && this.info.settings.tonemap) ??
+      "none";
+  }
+  settings(stone) {
+    return settings_of(this.state.values, this.optic(stone), this.panorama_setting);
+  }
   // What every call of the engine about a view begins with.
   drawing(stone, width, height, view = this.view()) {
     return {
       stone: this.engine_stone(stone),
       camera: camera_of(this.base, view, this.base.center, width, height),
-      turn: Turn.matrix(this.lights_turn(view.turn)), width, height,
+      turn: Turn.matrix(this.lights_turn(view.turn)),
+      width,
+      height,
     };
   }
   // The ball that the hand turns, in CSS pixels of the stage.
@@ -100,7 +110,8 @@ class Page {
     const scale = box.height / 2 / half_height_of(this.base, view.zoom, box.width, box.height);
     return {
       middle: [box.width / 2 + scale * view.pan[0], box.height / 2 - scale * view.pan[1]],
-      radius: Math.max(0.2 * Math.min(box.width, box.height), scale * this.shown_stone().radius), scale,
+      radius: Math.max(0.2 * Math.min(box.width, box.height), scale * this.shown_stone().radius),
+      scale,
     };
   }
 
@@ -115,7 +126,7 @@ class Page {
 
   choose_light(name) {
     const before = this.ready() && this.home();
-    this.state.set({ light: name, polariser: null, analyser: null, retarder: null });
+    this.state.set({light: name, polariser: null, analyser: null, retarder: null});
     const preset = this.light_preset(), turned = Turn.apart(before, this.home()) > 1e-6;
     // An instrument is looked through straight on.
     if (turned || (preset && preset.instrument)) this.motion.go_to(this.home());
@@ -127,13 +138,17 @@ class Page {
     this.panels.light.update();
   }
   blink() {
-    if (this.item().stones.length > 1) this.state.set({ compare: this.state.get("compare") === "blink" ? "one" : "blink" });
-    else this.say("There is one stone only: nothing to blink against.");
+    if (this.item().stones.length > 1)
+      this.state.set({compare: this.state.get("compare") === "blink" ? "one" : "blink"});
+    else
+      this.say("There is one stone only: nothing to blink against.");
   }
   full_screen() {
-    if (document.fullscreenElement) document.exitFullscreen();
+    if (document.fullscreenElement)
+      document.exitFullscreen();
     else if (document.documentElement.requestFullscreen) {
-      document.documentElement.requestFullscreen().catch(() => this.say("The browser does not allow the full screen here."));
+      document.documentElement.requestFullscreen().catch(
+        () => this.say("The browser does not allow the full screen here."));
     }
   }
   async take_panorama(file) {
@@ -141,7 +156,7 @@ class Page {
     try {
       this.say(`Reading ${file.name}\u2026`);
       await this.send_panorama(file);
-      this.state.set({ light: "panorama", polariser: null });
+      this.state.set({light: "panorama", polariser: null});
       this.panels.light.update();
       this.loop.changed();
       this.say(`The stone lies in ${file.name}.`);
@@ -154,8 +169,10 @@ class Page {
   async send_panorama(file) {
     const bytes = new Uint8Array(await file.arrayBuffer());
     const stone = this.shown_index();
-    await this.loop.prepare(stone, this.settings(stone));
-    const answer = await this.engine.call("panorama", { name: file.name, bytes }, [bytes.buffer]);
+    const answer = await this.engine.in_turn(async () => {
+      await this.loop.prepare(stone, this.settings(stone));
+      return this.engine.call("panorama", {name: file.name, bytes}, [bytes.buffer]);
+    });
     this.panorama = file;
     this.panorama_setting = answer.setting;
     ++this.scene_version;
@@ -169,28 +186,35 @@ class Page {
     this.panels.picture.took(answer);
   }
   show_picture() {
-    const { compare, divider } = this.state.values;
+    const {compare, divider} = this.state.values;
     this.gpu.hide();
-    this.picture.show(compare === "blink" && this.fit.blink_side ? "right" : "left", compare === "split" ? divider / 100 : null);
+    this.picture.show(compare === "blink" && this.fit.blink_side ? "right" : "left",
+      compare === "split" ? divider / 100 : null);
   }
   show_refused() {
     this.says_refused = true;
     this.gpu.hide();
     this.picture.canvas.hidden = true;
     this.picture.still.hidden = false;
-    this.trouble(`The page cannot draw this live: ${this.refused}. The picture is what culet drew.`);
+    this.trouble(
+      `The page cannot draw this live: ${this.refused}. The picture is what culet drew.`);
   }
   drawn(quick) {
-    const { preview, beams, gpu } = this.loop.milliseconds;
+    const {preview, beams, gpu} = this.loop.milliseconds;
     const ms = this.gpu.shown ? gpu : quick ? preview : beams;
-    by_id("timing").textContent = `${this.gpu.shown ? "GPU" : quick ? "quick" : "beams"} ${ms.toFixed(0)} ms`;
+    by_id("timing").textContent = `${
+      this.gpu.shown ? "GPU"
+        : quick      ? "quick"
+                     : "beams"} ${ms.toFixed(0)} ms`;
     this.stage.dataset.drawn = quick ? "quick" : "full";
     if (this.says_refused) by_id("trouble").hidden = true;
     this.says_refused = false;
-    if (!this.first_picture_ms) this.stage.dataset.firstPictureMs = this.first_picture_ms = Math.round(performance.now());
+    if (!this.first_picture_ms)
+      this.stage.dataset.firstPictureMs = this.first_picture_ms = Math.round(performance.now());
     if (quick) return;
     this.keep_address();
     this.panels.picture.update();
+    this.panels.save.update();
     this.tilts.update().catch((error) => this.failed(error));
   }
 
@@ -212,7 +236,9 @@ class Page {
     clearTimeout(this.saying);
     by_id("say").classList.toggle("unseen", aloud);
     by_id("say").textContent = line;
-    this.saying = setTimeout(() => { by_id("say").textContent = ""; }, 4500);
+    this.saying = setTimeout(() => {
+      by_id("say").textContent = "";
+    }, 4500);
   }
   trouble(line, button_text = "", act = null) {
     by_id("trouble").hidden = false;
@@ -229,9 +255,11 @@ class Page {
   engine_died(line) {
     this.info = null;
     this.loop.forget();
-    this.trouble(`The engine stopped: ${line.replace(/^the engine stopped:?\s*/, "") || "no reason is known"}.`, "Start it again", () => {
-      by_id("trouble").hidden = true;
-      this.start_engine();
-    });
+    this.trouble(`The engine stopped: ${
+                   line.replace(/^the engine stopped:?\s*/, "") || "no reason is known"}.`,
+      "Start it again", () => {
+        by_id("trouble").hidden = true;
+        this.start_engine();
+      });
   }
 }

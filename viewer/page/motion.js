@@ -6,24 +6,24 @@ function less_motion() { return matchMedia("(prefers-reduced-motion: reduce)").m
 class Motion {
   constructor(page) {
     this.page = page;
-    this.frame = 0;           // asked for of the browser
+    this.frame = 0;  // asked for of the browser
     this.keeps_turning = false;
   }
 
   turn_to(turn) {
     this.page.loop.last_move = performance.now();
-    this.page.state.set({ turn }, "hand");
+    this.page.state.set({turn}, "hand");
   }
   turn_light(gesture, drag) {
     const before = this.page.state.get("lights_with") === "stone" ? gesture.turn : this.page.home();
     const turn = Turn.after(Turn.inverse(before), Turn.after(drag, before));
     this.page.loop.last_move = performance.now();
-    this.page.state.set({ light_turn: Turn.after(turn, gesture.light_turn) }, "hand");
+    this.page.state.set({light_turn: Turn.after(turn, gesture.light_turn)}, "hand");
   }
   pan_by(gesture, x, y) {
-    const { scale } = this.page.ball();
+    const {scale} = this.page.ball();
     this.page.loop.last_move = performance.now();
-    this.page.state.set({ pan: [gesture.pan[0] + x / scale, gesture.pan[1] - y / scale] }, "hand");
+    this.page.state.set({pan: [gesture.pan[0] + x / scale, gesture.pan[1] - y / scale]}, "hand");
   }
   // `at` stays where it is; `from`: {at, zoom, pan} when the gesture began.
   zoom_about(at, from, factor) {
@@ -35,12 +35,13 @@ class Motion {
     };
     const before = unit(from.at, from.zoom), after = unit(at, zoom);
     this.page.loop.last_move = performance.now();
-    this.page.state.set({ zoom, pan: [0, 1].map((i) => after[i] - (before[i] - from.pan[i])) }, "hand");
+    this.page.state.set(
+      {zoom, pan: [0, 1].map((i) => after[i] - (before[i] - from.pan[i]))}, "hand");
   }
   zoom_by(factor) {
-    const box = this.page.stage.getBoundingClientRect(), { zoom, pan } = this.page.view();
+    const box = this.page.stage.getBoundingClientRect(), {zoom, pan} = this.page.view();
     const at = [box.width / 2, box.height / 2];
-    this.zoom_about(at, { at, zoom, pan }, factor);
+    this.zoom_about(at, {at, zoom, pan}, factor);
   }
   // A control that is dragged: quick frames until it rests.
   slide(changes) {
@@ -59,7 +60,7 @@ class Motion {
     const from = this.page.view().turn, way = Turn.after(turn, Turn.inverse(from));
     const sign = way[3] < 0 ? -1 : 1, angle = Turn.apart(turn, from);
     if (less_motion() || angle < 1e-4) {
-      this.page.state.set({ turn: end });
+      this.page.state.set({turn: end});
       return;
     }
     const axis = way.slice(0, 3).map((v) => sign * v), begin = performance.now(), lasts = 260;
@@ -69,7 +70,7 @@ class Motion {
         this.turn_to(Turn.after(Turn.about(axis, angle * eased), from));
         this.frame = requestAnimationFrame(step);
       } else {
-        this.page.state.set({ turn: end });
+        this.page.state.set({turn: end});
       }
     };
     this.frame = requestAnimationFrame(step);
@@ -89,8 +90,9 @@ class Motion {
     this.frame = requestAnimationFrame(step);
   }
   look(name) {
-    if (name === "home") this.page.state.set({ zoom: 1, pan: null });
-    this.go_to(name === "home" ? this.page.home()
-      : named_view(name, this.page.shown_stone().up, Turn.back(this.page.base.home, [0, 1, 0])));
+    if (name === "home") this.page.state.set({zoom: 1, pan: null});
+    this.go_to(name === "home"
+        ? this.page.home()
+        : named_view(name, this.page.shown_stone().up, Turn.back(this.page.base.home, [0, 1, 0])));
   }
 }

@@ -1,9 +1,10 @@
 "use strict";
-// How the stone stands before the eye: pure arithmetic, no page. Tested by tests/viewer/orientation_test.js.
+// How the stone stands before the eye: pure arithmetic, no page. Tested by
+// tests/viewer/orientation_test.js.
 //
-// Frames: the stone's is that of the scene (right-handed, z up through the table). The eye's has x to
-// the right of the picture, y up, z towards the eye. A unit quaternion [x, y, z, w] stands for the
-// turn from the stone's frame to the eye's. Vectors are arrays of three numbers.
+// Frames: the stone's is that of the scene (right-handed, z up through the table). The eye's has x
+// to the right of the picture, y up, z towards the eye. A unit quaternion [x, y, z, w] stands for
+// the turn from the stone's frame to the eye's. Vectors are arrays of three numbers.
 
 const Turn = {
   none: [0, 0, 0, 1],
@@ -12,7 +13,9 @@ const Turn = {
   cross(a, b) {
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
   },
-  add(a, b, factor = 1) { return [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]]; },
+  add(a, b, factor = 1) {
+    return [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]];
+  },
   length(a) { return Math.hypot(...a); },
   unit(a) {
     const length = Math.hypot(...a);
@@ -24,9 +27,12 @@ const Turn = {
     const [ax, ay, az, aw] = a, [bx, by, bz, bw] = b;
     return Turn.unit([
       aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,
-      aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz]);
+      aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz
+    ]);
   },
-  inverse(q) { return [-q[0], -q[1], -q[2], q[3]]; },
+  inverse(q) {
+    return [-q[0], -q[1], -q[2], q[3]];
+  },
   about(axis, angle) {
     const [x, y, z] = Turn.unit(axis), s = Math.sin(angle / 2);
     return [x * s, y * s, z * s, Math.cos(angle / 2)];
@@ -86,8 +92,9 @@ const Turn = {
     return [deg * Math.atan2(m[7], m[8]), deg * y, deg * Math.atan2(m[3], m[0])];
   },
 
-  // Where a point of the picture lies on a ball about the stone; x and y in radii of the ball, y up.
-  // Beyond the ball a hyperbola takes over without a kink (Bell 1988), so that a drag never sticks.
+  // Where a point of the picture lies on a ball about the stone; x and y in radii of the ball, y
+  // up. Beyond the ball a hyperbola takes over without a kink (Bell 1988), so that a drag never
+  // sticks.
   on_ball(x, y) {
     const square = x * x + y * y;
     return [x, y, square <= 0.5 ? Math.sqrt(1 - square) : 0.5 / Math.sqrt(square)];
@@ -96,7 +103,8 @@ const Turn = {
   drag(from, to) { return Turn.between(Turn.on_ball(...from), Turn.on_ball(...to)); },
 };
 
-// The views with names: which direction of the stone looks at the eye, and which is up in the picture.
+// The views with names: which direction of the stone looks at the eye, and which is up in the
+// picture.
 function named_view(name, up, home_up) {
   const side = Turn.unit(Turn.add(home_up, up, -Turn.dot(home_up, up)));
   if (name === "pavilion") return Turn.facing(up.map((v) => -v), side);
@@ -104,18 +112,25 @@ function named_view(name, up, home_up) {
   return Turn.facing(up, side);
 }
 
-// A camera of the scene's kind as the page keeps it: how much of the stone it shows, at the distance
-// of the stone's middle, and how far the eye is from there. `camera` as in the engine's `open`.
+// A camera of the scene's kind as the page keeps it: how much of the stone it shows, at the
+// distance of the stone's middle, and how far the eye is from there. `camera` as in the engine's
+// `open`.
 function base_of(camera, center) {
   const [pixels_x, pixels_y] = camera.size || [1, 1];
   const back = Turn.unit(Turn.add(camera.position, camera.look_at, -1));
   const home = Turn.facing(back, camera.up);
   const eye = Turn.of(home, Turn.add(camera.position, center, -1));
-  const half_width = camera.width ? camera.width / 2
+  const half_width = camera.width
+    ? camera.width / 2
     : eye[2] * Math.tan(camera.fov_deg * Math.PI / 360) * pixels_x / pixels_y;
   return {
-    home, center, orthographic: Boolean(camera.width), distance: eye[2],
-    pan: [-eye[0], -eye[1]], half_width, half_height: half_width * pixels_y / pixels_x,
+    home,
+    center,
+    orthographic: Boolean(camera.width),
+    distance: eye[2],
+    pan: [-eye[0], -eye[1]],
+    half_width,
+    half_height: half_width * pixels_y / pixels_x,
     free_height: 1,  // share of the picture's height that nothing is laid over
   };
 }
@@ -133,14 +148,19 @@ function camera_of(base, view, center, width, height) {
   const half = half_height_of(base, view.zoom, width, height);
   const at = Turn.add(center, along([-view.pan[0], -view.pan[1], 0]));
   const camera = {
-    position: Turn.add(at, along([0, 0, base.distance])), look_at: at, up: along([0, 1, 0]),
+    position: Turn.add(at, along([0, 0, base.distance])),
+    look_at: at,
+    up: along([0, 1, 0]),
   };
-  if (base.orthographic) camera.width = 2 * half * width / height;
-  else camera.fov_deg = 360 / Math.PI * Math.atan(half / base.distance);
+  if (base.orthographic)
+    camera.width = 2 * half * width / height;
+  else
+    camera.fov_deg = 360 / Math.PI * Math.atan(half / base.distance);
   return camera;
 }
 
-// A function from points of the stone to pixels [x, y] (x to the right, y down), as that camera sees.
+// A function from points of the stone to pixels [x, y] (x to the right, y down), as that camera
+// sees.
 function projection_of(base, view, center, width, height) {
   const scale = height / 2 / half_height_of(base, view.zoom, width, height);
   return (point) => {
@@ -174,6 +194,13 @@ function polygon_at(polygons, x, y) {
 
 if (typeof module !== "undefined") {
   module.exports = {
-    Turn, named_view, base_of, half_height_of, camera_of, projection_of, faces_eye, polygon_at,
+    Turn,
+    named_view,
+    base_of,
+    half_height_of,
+    camera_of,
+    projection_of,
+    faces_eye,
+    polygon_at,
   };
 }

@@ -22,10 +22,10 @@ class Overlay {
     for (const [index, clip] of sides) {
       const stone = page.stones[index];
       if (!stone) continue;
-      const group = svg_element("g", { class: "facets" });
+      const group = svg_element("g", {class: "facets"});
       // Of the whole stage, whatever the group covers.
       if (clip) group.style.clipPath = clip;
-      group.append(svg_element("rect", { width: box.width, height: box.height, class: "nothing" }));
+      group.append(svg_element("rect", {width: box.width, height: box.height, class: "nothing"}));
       this.facets_of(stone, group, page.base, page.view(), box);
       made.push(group);
     }
@@ -36,57 +36,66 @@ class Overlay {
     const values = this.page.state.values;
     const polygons = stone.polygons(base, view, box.width, box.height);
     const coloured = values.facets !== "none" && stone.has_fit()
-      ? facet_colours(stone.facets, values.facets).facets : null;
+      ? facet_colours(stone.facets, values.facets).facets
+      : null;
     const text_of = (points) => points.map((p) => p.map((v) => v.toFixed(1)).join(",")).join(" ");
-    for (const { facet, points } of polygons) {
+    for (const {facet, points} of polygons) {
       const own = coloured && coloured[facet.index];
       if (!own && !values.wire) continue;
       const polygon = svg_element("polygon", {
-        points: text_of(points), class: (own ? "coloured" : "wire") + (own && own.marked ? " marked" : ""),
+        points: text_of(points),
+        class: (own ? "coloured" : "wire") + (own && own.marked ? " marked" : ""),
       });
       if (own) polygon.style.fill = own.colour;
       group.append(polygon);
     }
-    for (const { facet, points } of polygons) {
+    for (const {facet, points} of polygons) {
       const own = coloured && coloured[facet.index];
       const words = values.names ? facet.name : own ? own.text : "";
       const room = room_in(points);
       if (!words || room < 8 + 5 * words.length * 0.9) continue;
       const [x, y] = middle_of(points);
       group.append(svg_element("text", {
-        x: x.toFixed(1), y: y.toFixed(1), class: own && own.pale ? "on-pale" : own ? "on-deep" : "on-picture",
-      }, words));
+        x: x.toFixed(1),
+        y: y.toFixed(1),
+        class: own && own.pale ? "on-pale"
+          : own                ? "on-deep"
+                               : "on-picture",
+      },
+        words));
     }
-    const pointed = polygons.find(({ facet }) => facet.index === this.pointed);
+    const pointed = polygons.find(({facet}) => facet.index === this.pointed);
     if (pointed) {
-      group.append(svg_element("polygon", { points: text_of(pointed.points), class: "pointed under" }),
-        svg_element("polygon", { points: text_of(pointed.points), class: "pointed" }));
+      group.append(
+        svg_element("polygon", {points: text_of(pointed.points), class: "pointed under"}),
+        svg_element("polygon", {points: text_of(pointed.points), class: "pointed"}));
     }
     if (this.path.length) this.path_of(stone, group, base, view, box, text_of);
   }
 
-  // The facets that the light meets, in order, joined by a line through their middles. It shows which
-  // ones and in which order; where rays run is bent by every face.
+  // The facets that the light meets, in order, joined by a line through their middles. It shows
+  // which ones and in which order; where rays run is bent by every face.
   path_of(stone, group, base, view, box, text_of) {
     const all = stone.polygons(base, view, box.width, box.height, true);
-    const met = this.path.map((name) => all.find(({ facet }) => facet.name === name)).filter(Boolean);
+    const met = this.path.map((name) => all.find(({facet}) => facet.name === name)).filter(Boolean);
     const drawn = new Set();
-    for (const { facet, front, points } of met) {
+    for (const {facet, front, points} of met) {
       if (drawn.has(facet.index)) continue;
       drawn.add(facet.index);
-      group.append(svg_element("polygon", { points: text_of(points), class: "met" + (front ? "" : " behind") }));
+      group.append(
+        svg_element("polygon", {points: text_of(points), class: "met" + (front ? "" : " behind")}));
     }
-    const stops = met.map(({ points }) => middle_of(points));
+    const stops = met.map(({points}) => middle_of(points));
     if (this.path_at && stops.length) stops[0] = this.path_at;
-    group.append(svg_element("polyline", { points: text_of(stops), class: "way under" }),
-      svg_element("polyline", { points: text_of(stops), class: "way" }));
+    group.append(svg_element("polyline", {points: text_of(stops), class: "way under"}),
+      svg_element("polyline", {points: text_of(stops), class: "way"}));
     const taken = [];
     stops.forEach(([x, y], i) => {
       // Numbers of a facet that is met twice stand beside each other.
       const shift = taken.filter(([a, b]) => Math.hypot(a - x, b - y) < 9).length * 20;
       taken.push([x, y]);
-      group.append(svg_element("circle", { cx: x + shift, cy: y, r: 9, class: "stop" }),
-        svg_element("text", { x: x + shift, y, class: "stop-number" }, String(i + 1)));
+      group.append(svg_element("circle", {cx: x + shift, cy: y, r: 9, class: "stop"}),
+        svg_element("text", {x: x + shift, y, class: "stop-number"}, String(i + 1)));
     });
   }
 }

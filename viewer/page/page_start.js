@@ -9,7 +9,10 @@ class Tabs {
     list.addEventListener("keydown", (event) => {
       const shown = this.tabs.filter((tab) => !tab.button.hidden);
       const now = shown.findIndex((tab) => tab.button.getAttribute("aria-selected") === "true");
-      const to = { ArrowRight: now + 1, ArrowLeft: now - 1, Home: 0, End: shown.length - 1 }[event.key];
+      const to = {ArrowRight: now + 1,
+        ArrowLeft: now - 1,
+        Home: 0,
+        End: shown.length - 1}[event.key];
       if (to === undefined) return;
       event.preventDefault();
       event.stopPropagation();
@@ -20,25 +23,33 @@ class Tabs {
   }
   // `tabs`: [{name, label, nodes}].
   build(tabs) {
-    this.tabs = tabs.map(({ name, label, nodes }) => {
-      const panel = element("div", { role: "tabpanel", id: "panel-" + name, "aria-labelledby": "tab-" + name, tabindex: 0 }, ...nodes);
+    this.tabs = tabs.map(({name, label, nodes}) => {
+      const panel = element("div",
+        {role: "tabpanel", id: "panel-" + name, "aria-labelledby": "tab-" + name, tabindex: 0},
+        ...nodes);
       const tab = element("button", {
-        type: "button", role: "tab", id: "tab-" + name, "aria-controls": "panel-" + name, onclick: () => this.open(name),
-      }, label);
-      return { name, button: tab, panel };
+        type: "button",
+        role: "tab",
+        id: "tab-" + name,
+        "aria-controls": "panel-" + name,
+        onclick: () => this.open(name),
+      },
+        label);
+      return {name, button: tab, panel};
     });
     this.list.replaceChildren(...this.tabs.map((tab) => tab.button));
     this.panels.replaceChildren(...this.tabs.map((tab) => tab.panel));
-    this.open(this.opened && this.tabs.some((tab) => tab.name === this.opened) ? this.opened : "light");
+    this.open(
+      this.opened && this.tabs.some((tab) => tab.name === this.opened) ? this.opened : "light");
   }
-  open(name, from_hand = true) {
+  open(name) {
     this.opened = name;
     for (const tab of this.tabs) {
       const chosen = tab.name === name;
       tab.button.setAttribute("aria-selected", String(chosen));
       tab.button.tabIndex = chosen ? 0 : -1;
       tab.panel.hidden = !chosen;
-      if (chosen && !from_hand) tab.button.scrollIntoView({ block: "nearest", inline: "nearest" });
+      if (chosen) tab.button.scrollIntoView({block: "nearest", inline: "nearest"});
     }
     if (this.page.panels && name === "save") this.page.panels.save.update();
   }
@@ -52,10 +63,10 @@ class Tabs {
 Object.assign(Page.prototype, {
   async start() {
     const count = this.document.items.length;
-    this.state.set({ item: Math.min(count - 1, Math.max(0, this.document.first || 0)) });
+    this.state.set({item: Math.min(count - 1, Math.max(0, this.document.first || 0))});
     this.state.restore(location.hash);
     if (!(this.state.get("item") < count) || !location.hash.includes("item=")) {
-      this.state.set({ item: Math.min(count - 1, Math.max(0, this.document.first || 0)) });
+      this.state.set({item: Math.min(count - 1, Math.max(0, this.document.first || 0))});
     }
     this.keys = new Keys(this, by_id("hand"), by_id("help"));
     this.gallery = new Gallery(this, by_id("gallery"));
@@ -83,35 +94,39 @@ Object.assign(Page.prototype, {
   // The item that the state names, in the engine.
   async open_engine() {
     const item = this.state.get("item");
-    const info = await this.engine.call("open", { document: this.document, item });
     this.loop.forget();
-    this.opened_item = item;
+    this.refused = this.item().refused || "";
+    by_id("app").classList.toggle("still-only", Boolean(this.refused));
+    if (this.refused) {
+      this.show_refused();
+      return;
+    }
+    const info =
+      await this.engine.in_turn(() => this.engine.call("open", {document: this.document, item}));
+    if (item !== this.state.get("item")) return;  // there is a newer one on its way
     this.stones = this.item().stones.map((stone) => new ShownStone(stone));
     this.designs.clear();
     this.base = base_of(info.camera, this.stones[info.stone ?? this.stones.length - 1].center);
     this.fit_stage();
     this.info = info;
-    this.refused = this.item().refused || "";
     ++this.scene_version;
     this.build_panels();
-    if (this.refused) {
-      this.show_refused();
-      return;
-    }
     if (this.state.get("light") === "panorama") {
       this.panorama_setting = "";
-      if (this.panorama) await this.send_panorama(this.panorama);
-      else this.state.set({ light: null });
+      if (this.panorama)
+        await this.send_panorama(this.panorama);
+      else
+        this.state.set({light: null});
     }
-    if (this.state.get("cut")) await this.make_cut();
+    if (this.state.get("cut")) await this.make_cut().catch((error) => this.failed(error));
     this.overlay.draw();
     this.loop.changed();
   },
 
   async open_item(index) {
-    this.state.forget_stone();
-    this.state.set({ item: index });
     this.info = null;
+    this.state.forget_stone();
+    this.state.set({item: index});
     this.put_away_all();
     this.show_item();
     try {
@@ -139,12 +154,16 @@ Object.assign(Page.prototype, {
     by_id("title").textContent = item.name || this.document.title;
     by_id("subtitle").textContent = this.subtitle(item);
     document.title = item.name || this.document.title;
+    by_id("hand").setAttribute("aria-label",
+      document.title + ": arrow keys turn it, plus and minus zoom, question mark shows all keys");
     this.gallery.update();
   },
   subtitle(item) {
     const stone = item.stones[item.stones.length - 1] || {};
-    const material = (stone.material && (stone.material.title || stone.material.name || stone.material.id)) || "";
-    const parts = [material.replace(/_/g, " "), stone.facets ? stone.facets.length + " facets" : ""];
+    const material =
+      (stone.material && (stone.material.title || stone.material.name || stone.material.id)) || "";
+    const parts =
+      [material.replace(/_/g, " "), stone.facets ? stone.facets.length + " facets" : ""];
     if (item.stones.length > 1) parts.push("fitted, beside the catalogue\u2019s");
     return parts.filter(Boolean).join(" \u00b7 ");
   },
@@ -152,23 +171,29 @@ Object.assign(Page.prototype, {
   build_panels() {
     const info = this.info;
     this.light_path = new LightPath(this);
+    if (this.fit) this.fit.blink(false);
     this.fit = new PanelFit(this);
     this.fit.build();
     this.panels = {
-      light: new PanelLight(this, info), polarisers: new PanelPolarisers(this), material: new PanelMaterial(this, info),
-      cut: new PanelCut(this, info), fit: this.fit, picture: new PanelPicture(this), save: new PanelSave(this),
+      light: new PanelLight(this, info),
+      polarisers: new PanelPolarisers(this),
+      material: new PanelMaterial(this, info),
+      cut: new PanelCut(this, info),
+      fit: this.fit,
+      picture: new PanelPicture(this),
+      save: new PanelSave(this),
     };
     this.tilts ??= new TiltStrip(this, by_id("tilts"));
     this.tabs ??= new Tabs(this, by_id("tabs"), by_id("tab-panels"));
-    const { light, polarisers, material, cut, picture, save } = this.panels;
+    const {light, polarisers, material, cut, picture, save} = this.panels;
     this.tabs.build([
-      { name: "light", label: "Light", nodes: [light.node] },
-      { name: "stone", label: "Stone", nodes: [material.node, cut.node] },
-      { name: "polarisers", label: "Polarisers", nodes: [polarisers.node] },
-      { name: "fit", label: "Measured", nodes: [this.fit.node] },
-      { name: "path", label: "Light path", nodes: [this.light_path.node] },
-      { name: "picture", label: "Picture", nodes: [picture.node] },
-      { name: "save", label: "Save", nodes: [save.node] },
+      {name: "light", label: "Light", nodes: [light.node]},
+      {name: "stone", label: "Stone", nodes: [material.node, cut.node]},
+      {name: "polarisers", label: "Polarisers", nodes: [polarisers.node]},
+      {name: "fit", label: "Measured", nodes: [this.fit.node]},
+      {name: "path", label: "Light path", nodes: [this.light_path.node]},
+      {name: "picture", label: "Picture", nodes: [picture.node]},
+      {name: "save", label: "Save", nodes: [save.node]},
     ]);
     this.tabs.show("fit", this.fit.any());
     this.update_panels();
@@ -181,10 +206,14 @@ Object.assign(Page.prototype, {
   changed(changed, by) {
     if (!this.ready()) return;
     // What is quick enough now is found anew.
-    if (["material", "light", "effects", "wavelengths", "depth", "polariser", "item"].some((key) => changed.has(key))) this.loop.coarse = false;
+    if (["material", "light", "effects", "wavelengths", "depth", "polariser", "item"].some(
+          (key) => changed.has(key)))
+      this.loop.coarse = false;
     if (changed.has("cut")) this.cut_soon();
-    const drawn = [...changed].some((key) => !["divider", "facets", "wire", "names", "tilts", "cut", "item"].includes(key));
-    if (["turn", "zoom", "pan", "stone", "compare", "cut"].some((key) => changed.has(key)) && this.overlay.path.length) {
+    const drawn = [...changed].some(
+      (key) => !["divider", "facets", "wire", "names", "tilts", "cut", "item"].includes(key));
+    if (["turn", "zoom", "pan", "stone", "compare", "cut"].some((key) => changed.has(key)) &&
+      this.overlay.path.length) {
       this.light_path.clear();
     }
     if (by !== "hand") {
@@ -218,7 +247,8 @@ Object.assign(Page.prototype, {
     const values = this.state.get("cut"), index = this.shown_index(), stone = this.document_stone();
     if (!stone.cut) return;
     if (values) {
-      const answer = await this.engine.call("cut", { kind: stone.cut.kind, values: { ...stone.cut.values, ...values } });
+      const args = {kind: stone.cut.kind, values: {...stone.cut.values, ...values}};
+      const answer = await this.engine.in_turn(() => this.engine.call("cut", args));
       this.stones[index] = new ShownStone(answer.geometry);
       this.designs.set(index, answer.stone);
       by_id("trouble").hidden = true;

@@ -6,7 +6,7 @@ class PictureView {
     this.stage = stage;
     this.canvas = canvas;
     this.still = still;
-    this.context = canvas.getContext("2d", { alpha: false, willReadFrequently: true });
+    this.context = canvas.getContext("2d", {alpha: false, willReadFrequently: true});
     this.pictures = new Map();  // by side: "left" (or the only one), "right"
   }
 
@@ -16,7 +16,9 @@ class PictureView {
     const ratio = (window.devicePixelRatio || 1) * scale;
     const most = 3.2e6, pixels = box.width * box.height * ratio * ratio;
     const factor = ratio * Math.min(1, Math.sqrt(most / Math.max(1, pixels)));
-    return [Math.max(2, Math.round(box.width * factor)), Math.max(2, Math.round(box.height * factor))];
+    return [
+      Math.max(2, Math.round(box.width * factor)), Math.max(2, Math.round(box.height * factor))
+    ];
   }
 
   // `drawn`: {width, height, pixels}.
@@ -35,7 +37,8 @@ class PictureView {
     }
     this.context.putImageData(picture, 0, 0);
     const right = this.pictures.get("right");
-    if (divider !== null && right && right.width === picture.width && right.height === picture.height) {
+    if (divider !== null && right && right.width === picture.width &&
+      right.height === picture.height) {
       const from = Math.round(divider * right.width);
       this.context.putImageData(right, 0, 0, from, 0, right.width - from, right.height);
     }
@@ -44,7 +47,9 @@ class PictureView {
   }
 
   png() {
-    return new Promise((resolve, reject) => this.canvas.toBlob(
-      (blob) => blob ? resolve(blob) : reject(new Error("the browser made no PNG")), "image/png"));
+    return new Promise(
+      (resolve, reject) => this.canvas.toBlob(
+        (blob) => blob ? resolve(blob) : reject(new Error("the browser made no PNG")),
+        "image/png"));
   }
 }

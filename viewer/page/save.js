@@ -3,7 +3,7 @@
 
 function download(blob, name) {
   const address = URL.createObjectURL(blob);
-  const link = element("a", { href: address, download: name });
+  const link = element("a", {href: address, download: name});
   document.body.append(link);
   link.click();
   link.remove();
@@ -14,22 +14,37 @@ class PanelSave {
   constructor(page) {
     this.page = page;
     this.turntable = new Turntable(page);
-    this.progress = element("progress", { max: 1, value: 0, hidden: true, "aria-label": "Recording" });
-    this.record = button("Record a turn as WebM", () => this.film(), { class: "wide", "data-name": "record" });
-    this.command = element("textarea", { readonly: true, rows: 7, spellcheck: "false", "aria-label": "Command that draws this picture", "data-name": "command" });
-    this.command_note = element("p", { class: "note" });
+    this.progress =
+      element("progress", {max: 1, value: 0, hidden: true, "aria-label": "Recording"});
+    this.record =
+      button("Record a turn as WebM", () => this.film(), {class: "wide", "data-name": "record"});
+    this.command = element("textarea", {
+      readonly: true,
+      rows: 7,
+      spellcheck: "false",
+      "aria-label": "Command that draws this picture",
+      "data-name": "command"
+    });
+    this.command_note = element("p", {class: "note"});
     this.node = element("div", {},
       group("Picture", "At the resolution of this screen, without the lines drawn over it.",
-        button("Save as PNG", () => this.save_png(), { class: "wide", "data-name": "png" })),
-      group("Film", "One turn about the stone\u2019s axis, four seconds long.", this.record, this.progress),
-      group("Link", "Opens this page as it is now: view, light, material, everything but a panorama.",
-        button("Copy the link", () => this.copy(this.link(), "The link is copied."), { class: "wide", "data-name": "link" })),
-      group("Command", "Draws this very picture with culet on the command line.", this.command, this.command_note,
-        button("Copy the command", () => this.copy(this.page.command.line(), "The command is copied."), { class: "wide", "data-name": "copy-command" })));
+        button("Save as PNG", () => this.save_png(), {class: "wide", "data-name": "png"})),
+      group("Film", "One turn about the stone\u2019s axis, four seconds long.", this.record,
+        this.progress),
+      group("Link",
+        "Opens this page as it is now: view, light, material, everything but a panorama.",
+        button("Copy the link", () => this.copy(this.link(), "The link is copied."),
+          {class: "wide", "data-name": "link"})),
+      group("Command", "Draws this very picture with culet on the command line.", this.command,
+        this.command_note,
+        button("Copy the command",
+          () => this.copy(this.page.command.line(), "The command is copied."),
+          {class: "wide", "data-name": "copy-command"})));
   }
 
   file_name(ending) {
-    const name = this.page.shown_name().replace(/[^\p{L}\p{N}._-]+/gu, "-").replace(/^-+|-+$/g, "") || "stone";
+    const name =
+      this.page.shown_name().replace(/[^\p{L}\p{N}._-]+/gu, "-").replace(/^-+|-+$/g, "") || "stone";
     return name + ending;
   }
   link() { return location.href.replace(/#.*$/, "") + "#" + this.page.state.fragment(); }
@@ -46,13 +61,15 @@ class PanelSave {
       await navigator.clipboard.writeText(text);
     } catch {
       // Pages opened from a file may not reach the clipboard: the old way.
-      const field = element("textarea", { class: "unseen" });
+      const field = element("textarea", {class: "unseen"});
       field.value = text;
       document.body.append(field);
       field.select();
       const copied = document.execCommand("copy");
       field.remove();
-      if (!copied) return this.page.say("The browser did not let the page copy: select the text and copy it by hand.");
+      if (!copied)
+        return this.page.say(
+          "The browser did not let the page copy: select the text and copy it by hand.");
     }
     return this.page.say(done);
   }
@@ -70,7 +87,9 @@ class PanelSave {
     this.record.textContent = "Stop";
     this.progress.hidden = false;
     try {
-      const film = await this.turntable.film((share) => { this.progress.value = share; });
+      const film = await this.turntable.film((share) => {
+        this.progress.value = share;
+      });
       if (film) {
         download(film, this.file_name(".webm"));
         this.page.say("The film is saved.");
@@ -86,7 +105,8 @@ class PanelSave {
   }
 
   update() {
-    const command = this.page.command.line();
+    // A line for each setting, as shells read it, too.
+    const command = this.page.command.line().replace(/ (?=--set )/g, " \\\n  ");
     if (this.command.value !== command) this.command.value = command;
     this.command_note.textContent = this.page.command.limits();
     this.command_note.hidden = !this.command_note.textContent;

@@ -18,19 +18,22 @@ function crystal_axes(tilt_deg, azimuth_deg) {
 // (docs/rendering.md). One: the sodium line, by which gems are measured.
 function wavelengths_nm(count) {
   if (count === 1) return [589.3];
-  return Array.from({ length: count }, (_, i) => 410 + 280 * i / (count - 1));
+  return Array.from({length: count}, (_, i) => 410 + 280 * i / (count - 1));
 }
 
 // `panorama`: the setting that the engine gave for the file that was dropped.
 function light_settings(values, panorama) {
   if (values.polariser !== null) {
     const settings = [`light={preset="polariscope",polarizer=${toml_number(values.polariser)}}`];
-    settings.push(`camera.analyzer=${toml_number(values.analyser === null ? values.polariser + 90 : values.analyser)}`);
+    settings.push(`camera.analyzer=${
+      toml_number(values.analyser === null ? values.polariser + 90 : values.analyser)}`);
     return settings;
   }
   const settings = [];
-  if (values.light === "panorama" && panorama) settings.push(panorama);
-  else if (values.light && values.light !== "panorama") settings.push(`light={preset=${toml_text(values.light)}}`);
+  if (values.light === "panorama" && panorama)
+    settings.push(panorama);
+  else if (values.light && values.light !== "panorama")
+    settings.push(`light={preset=${toml_text(values.light)}}`);
   if (values.analyser !== null) settings.push(`camera.analyzer=${toml_number(values.analyser)}`);
   return settings;
 }
@@ -57,9 +60,11 @@ function settings_of(values, optic, panorama = "") {
   }
   if (values.effects) {
     settings.push(values.effects.length
-      ? `render.effects=[${values.effects.map(toml_text).join(",")}]` : `render.effects="none"`);
+        ? `render.effects=[${values.effects.map(toml_text).join(",")}]`
+        : `render.effects="none"`);
   }
-  if (values.wavelengths) settings.push(`render.wavelengths=${toml_list(wavelengths_nm(values.wavelengths))}`);
+  if (values.wavelengths)
+    settings.push(`render.wavelengths=${toml_list(wavelengths_nm(values.wavelengths))}`);
   if (values.depth) settings.push(`render.depth=${values.depth}`);
   return settings;
 }
@@ -69,27 +74,31 @@ function quoted(text) {
   return /^[\w./=,:-]+$/.test(text) ? text : "'" + text.replace(/'/g, "'\\''") + "'";
 }
 
-// The command that draws this picture. `drawing`: {command, settings, camera, size, exposure, tonemap,
-// engine, lights_turned}; `command` goes as far as the file; `lights_turned` is a turn of the lights in
-// the stone's frame.
+// The command that draws this picture. `drawing`: {command, settings, camera, size, exposure,
+// tonemap, engine, lights_turned}; `command` goes as far as the file; `lights_turned` is a turn of
+// the lights in the stone's frame.
 function command_line(drawing) {
   const settings = drawing.settings.slice();
   const camera = drawing.camera;
   settings.push(`camera.position=${toml_list(camera.position)}`,
     `camera.look_at=${toml_list(camera.look_at)}`, `camera.up=${toml_list(camera.up)}`,
     camera.width ? `camera.orthographic_width=${toml_number(camera.width)}`
-      : `camera.fov=${toml_number(camera.fov_deg)}`);
+                 : `camera.fov=${toml_number(camera.fov_deg)}`);
   if (drawing.lights_turned && Turn.apart(drawing.lights_turned, Turn.none) > 1e-6) {
     settings.push(`light.rotate=${toml_list(Turn.angles(drawing.lights_turned))}`);
   }
-  const words = ["-o", "picture.png", "--size", drawing.size.join(","), "--engine", drawing.engine, "--check", "none"];
+  const words = [
+    "-o", "picture.png", "--size", drawing.size.join(","), "--engine", drawing.engine, "--check",
+    "none"
+  ];
   for (const setting of settings) words.push("--set", setting);
-  words.push("--exposure", typeof drawing.exposure === "number" ? toml_number(drawing.exposure) : "auto");
+  words.push(
+    "--exposure", typeof drawing.exposure === "number" ? toml_number(drawing.exposure) : "auto");
   if (drawing.tonemap && drawing.tonemap !== "none") words.push("--tonemap", drawing.tonemap);
   return drawing.command + " " + words.map(quoted).join(" ");
 }
 
 if (typeof module !== "undefined") {
   globalThis.Turn = require("./orientation.js").Turn;
-  module.exports = { settings_of, command_line, crystal_axes, wavelengths_nm };
+  module.exports = {settings_of, command_line, crystal_axes, wavelengths_nm};
 }

@@ -8,12 +8,15 @@ class ShownStone {
     this.stone = stone;
     this.up = stone.up || [0, 0, 1];
     this.facets = stone.facets.map((facet, index) => ({
-      index, name: facet.name, normal: facet.normal,
-      points: facet.corners.map((corner) => Array.isArray(corner) ? corner : stone.vertices[corner]),
+      index,
+      name: facet.name,
+      normal: facet.normal,
+      points:
+        facet.corners.map((corner) => Array.isArray(corner) ? corner : stone.vertices[corner]),
       fit: stone.fit ? stone.fit[index] : null,
     }));
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-    for (const { points } of this.facets) {
+    for (const {points} of this.facets) {
       for (const point of points) {
         point.forEach((v, i) => {
           low[i] = Math.min(low[i], v);
@@ -23,8 +26,9 @@ class ShownStone {
     }
     this.center = low.map((v, i) => (v + high[i]) / 2);
     this.radius = 0;
-    for (const { points } of this.facets) {
-      for (const p of points) this.radius = Math.max(this.radius, Turn.length(Turn.add(p, this.center, -1)));
+    for (const {points} of this.facets) {
+      for (const p of points)
+        this.radius = Math.max(this.radius, Turn.length(Turn.add(p, this.center, -1)));
     }
     this.by_name = new Map(this.facets.map((facet) => [facet.name, facet]));
   }
@@ -37,18 +41,26 @@ class ShownStone {
     const fit = facet.fit || {};
     const inclination = fit.inclination_deg ?? Math.acos(Math.abs(cosine)) * 180 / Math.PI;
     const level = Math.abs(cosine) > 1 - 1e-9;
-    const azimuth = level ? null
-      : fit.azimuth_deg ?? (Math.atan2(n[1], n[0]) * 180 / Math.PI + 360) % 360;
-    return { inclination, azimuth, side: level ? (cosine > 0 ? "table" : "culet") : cosine > 0.02 ? "crown" : cosine < -0.02 ? "pavilion" : "girdle" };
+    const azimuth =
+      level ? null : fit.azimuth_deg ?? (Math.atan2(n[1], n[0]) * 180 / Math.PI + 360) % 360;
+    return {
+      inclination,
+      azimuth,
+      side: level        ? (cosine > 0 ? "table" : "culet")
+        : cosine > 0.02  ? "crown"
+        : cosine < -0.02 ? "pavilion"
+                         : "girdle"
+    };
   }
 
   // The facets that face the eye (or, with `all`, every facet), as polygons in pixels.
   polygons(base, view, width, height, all = false) {
     const project = projection_of(base, view, base.center, width, height);
     return this.facets
-      .map((facet) => ({ facet, front: faces_eye(base, view, base.center, facet.normal, facet.points[0]) }))
-      .filter(({ front }) => front || all)
-      .map(({ facet, front }) => ({ facet, front, points: facet.points.map(project) }));
+      .map((facet) =>
+             ({facet, front: faces_eye(base, view, base.center, facet.normal, facet.points[0])}))
+      .filter(({front}) => front || all)
+      .map(({facet, front}) => ({facet, front, points: facet.points.map(project)}));
   }
 
   has_fit() { return this.facets.some((facet) => facet.fit); }

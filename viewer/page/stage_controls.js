@@ -4,13 +4,17 @@
 Object.assign(Page.prototype, {
   wire_stage() {
     this.hand = new Hand(this, by_id("hand"));
-    for (const one of document.querySelectorAll("[data-view]")) one.addEventListener("click", () => this.ready() && this.motion.look(one.dataset.view));
+    for (const one of document.querySelectorAll("[data-view]"))
+      one.addEventListener("click", () => this.ready() && this.motion.look(one.dataset.view));
     by_id("help-button").addEventListener("click", () => this.keys.help());
     by_id("full-button").addEventListener("click", () => this.full_screen());
-    by_id("trouble-close").addEventListener("click", () => { by_id("trouble").hidden = true; });
+    by_id("trouble-close").addEventListener("click", () => {
+      by_id("trouble").hidden = true;
+    });
     by_id("theme-button").addEventListener("click", () => {
       const root = document.documentElement;
-      const dark = root.dataset.theme ? root.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+      const dark = root.dataset.theme ? root.dataset.theme === "dark"
+                                      : matchMedia("(prefers-color-scheme: dark)").matches;
       root.dataset.theme = dark ? "light" : "dark";
     });
     by_id("panel-button").addEventListener("click", () => {
@@ -38,11 +42,11 @@ Object.assign(Page.prototype, {
   },
   // On a low stage the names and buttons over it would cover the stone.
   fit_stage() {
-    const { height } = this.stage.getBoundingClientRect();
+    const {height} = this.stage.getBoundingClientRect();
     this.base.free_height = height < 520 ? Math.max(0.5, 1 - 84 / Math.max(1, height)) : 1;
   },
   wire_divider(divider) {
-    const to = (percent) => this.state.set({ divider: Math.min(100, Math.max(0, percent)) });
+    const to = (percent) => this.state.set({divider: Math.min(100, Math.max(0, percent))});
     divider.addEventListener("pointerdown", (event) => divider.setPointerCapture(event.pointerId));
     divider.addEventListener("pointermove", (event) => {
       if (!(event.buttons & 1)) return;
@@ -51,7 +55,14 @@ Object.assign(Page.prototype, {
     });
     divider.addEventListener("keydown", (event) => {
       const now = this.state.get("divider");
-      const next = { ArrowLeft: now - 2, ArrowRight: now + 2, Home: 0, End: 100, PageUp: now - 10, PageDown: now + 10 }[event.key];
+      const next = {
+        ArrowLeft: now - 2,
+        ArrowRight: now + 2,
+        Home: 0,
+        End: 100,
+        PageUp: now - 10,
+        PageDown: now + 10
+      }[event.key];
       if (next === undefined) return;
       event.preventDefault();
       event.stopPropagation();
@@ -70,7 +81,9 @@ Object.assign(Page.prototype, {
     };
     addEventListener("dragenter", seen(1));
     addEventListener("dragleave", seen(-1));
-    addEventListener("dragover", (event) => { if (files(event)) event.preventDefault(); });
+    addEventListener("dragover", (event) => {
+      if (files(event)) event.preventDefault();
+    });
     addEventListener("drop", (event) => {
       if (!files(event)) return;
       event.preventDefault();

@@ -1,15 +1,15 @@
 "use strict";
-// What the page shows, as one plain object; who shows it listens. Its link is the page's address with
-// what differs from the defaults in the fragment, so that it works with file://, too.
+// What the page shows, as one plain object; who shows it listens. Its link is the page's address
+// with what differs from the defaults in the fragment, so that it works with file://, too.
 
 // Names are those of the link; `null` means as the file says.
 const k_state_defaults = {
-  item: 0,            // of the gallery
-  stone: null,        // of the item's stones; null: the last, which is the fitted one
-  turn: null,         // quaternion, from the stone's frame to the eye's; null: the view of the light
+  item: 0,      // of the gallery
+  stone: null,  // of the item's stones; null: the last, which is the fitted one
+  turn: null,   // quaternion, from the stone's frame to the eye's; null: the view of the light
   zoom: 1,
-  pan: null,          // stone's unit, right and up; null: as the scene's camera
-  light: null,        // name of a preset; "panorama": a file that was dropped
+  pan: null,                 // stone's unit, right and up; null: as the scene's camera
+  light: null,               // name of a preset; "panorama": a file that was dropped
   light_turn: [0, 0, 0, 1],  // by hand
   lights_with: "viewer",     // or "stone"
   material: null,
@@ -21,23 +21,25 @@ const k_state_defaults = {
   effects: null,      // list of names; null: all that can matter
   wavelengths: null,  // how many
   depth: null,
-  cut: null,          // {name: value} of the proportions that were changed
-  compare: "one",     // blink, split
-  divider: 50,        // per cent of the width
-  facets: "none",     // residual, sigma
+  cut: null,       // {name: value} of the proportions that were changed
+  compare: "one",  // blink, split
+  divider: 50,     // per cent of the width
+  facets: "none",  // residual, sigma
   wire: false,
   names: false,
   tilts: false,
-  exposure: null,     // "auto" or a factor
-  tonemap: null,      // none, reinhard, filmic, gamma2
+  exposure: null,       // "auto" or a factor
+  tonemap: null,        // none, reinhard, filmic, gamma2
   drawn_by: "fastest",  // beams, gpu
 };
 
 // Of a list of texts and numbers, what stands in a link.
 const k_state_coding = {
   lists: new Set(["turn", "pan", "light_turn", "axis"]),
-  numbers: new Set(["item", "stone", "zoom", "colour", "polariser", "analyser", "retarder",
-    "wavelengths", "depth", "divider"]),
+  numbers: new Set([
+    "item", "stone", "zoom", "colour", "polariser", "analyser", "retarder", "wavelengths", "depth",
+    "divider"
+  ]),
   whole: new Set(["item", "stone", "wavelengths", "depth"]),
   truths: new Set(["wire", "names", "tilts"]),
 };
@@ -47,15 +49,16 @@ function written_number(value) { return String(Number(value.toPrecision(7))); }
 function written_state(key, value) {
   if (k_state_coding.lists.has(key)) return value.map(written_number).join(",");
   if (key === "effects") return value.length ? value.join(",") : "none";
-  if (key === "cut") return Object.entries(value).map(([k, v]) => k + ":" + written_number(v)).join(",");
+  if (key === "cut")
+    return Object.entries(value).map(([k, v]) => k + ":" + written_number(v)).join(",");
   if (typeof value === "number") return written_number(value);
   return value === true ? "yes" : value === false ? "no" : value;
 }
 
 // Nothing where the text makes no sense: a link may come from anybody.
 function read_state(key, text) {
-  const numbers = (parts) => parts.every((p) => p !== "" && Number.isFinite(Number(p)))
-    ? parts.map(Number) : undefined;
+  const numbers = (parts) =>
+    parts.every((p) => p !== "" && Number.isFinite(Number(p))) ? parts.map(Number) : undefined;
   if (k_state_coding.lists.has(key)) {
     const list = numbers(text.split(","));
     const count = key === "pan" || key === "axis" ? 2 : 4;
@@ -65,14 +68,18 @@ function read_state(key, text) {
   }
   if (k_state_coding.numbers.has(key)) {
     const [value] = numbers([text]) || [];
-    return k_state_coding.whole.has(key) && !(Number.isInteger(value) && value >= 0) ? undefined : value;
+    return k_state_coding.whole.has(key) && !(Number.isInteger(value) && value >= 0) ? undefined
+                                                                                     : value;
   }
   if (k_state_coding.truths.has(key)) return text === "yes";
-  if (key === "effects") return text === "none" ? [] : /^[a-z]+(,[a-z]+)*$/.test(text) ? text.split(",") : undefined;
+  if (key === "effects")
+    return text === "none" ? [] : /^[a-z]+(,[a-z]+)*$/.test(text) ? text.split(",") : undefined;
   if (key === "cut") {
     const pairs = text.split(",").map((pair) => pair.split(":"));
-    return pairs.every(([k, v]) => /^[a-z][a-z0-9-]*$/.test(k) && v !== undefined && Number.isFinite(Number(v)))
-      ? Object.fromEntries(pairs.map(([k, v]) => [k, Number(v)])) : undefined;
+    return pairs.every(([k, v]) => /^[a-z][a-z0-9-]*$/.test(k) && v !== undefined &&
+               Number.isFinite(Number(v)))
+      ? Object.fromEntries(pairs.map(([k, v]) => [k, Number(v)]))
+      : undefined;
   }
   if (key === "exposure" && text !== "auto") {
     const factor = Number(text);
@@ -83,23 +90,34 @@ function read_state(key, text) {
 
 class State {
   constructor() {
-    this.values = { ...k_state_defaults };
+    this.values = {...k_state_defaults};
     this.listeners = [];
   }
   get(key) { return this.values[key]; }
   // `changes`: {key: value}. Listeners hear which keys have other values than before.
   set(changes, by) {
-    const changed = new Set(Object.keys(changes).filter((key) =>
-      JSON.stringify(this.values[key]) !== JSON.stringify(changes[key])));
+    const changed = new Set(Object.keys(changes).filter(
+      (key) => JSON.stringify(this.values[key]) !== JSON.stringify(changes[key])));
     Object.assign(this.values, changes);
-    if (changed.size) for (const listener of this.listeners) listener(changed, by);
+    if (changed.size)
+      for (const listener of this.listeners) listener(changed, by);
     return changed;
   }
   listen(listener) { this.listeners.push(listener); }
   // What belongs to one stone goes with it.
   forget_stone() {
-    this.set({ stone: null, turn: null, zoom: 1, pan: null, material: null, axis: null, colour: 1,
-      cut: null, compare: "one", facets: "none" });
+    this.set({
+      stone: null,
+      turn: null,
+      zoom: 1,
+      pan: null,
+      material: null,
+      axis: null,
+      colour: 1,
+      cut: null,
+      compare: "one",
+      facets: "none"
+    });
   }
 
   fragment() {
@@ -107,7 +125,8 @@ class State {
     for (const [key, usual] of Object.entries(k_state_defaults)) {
       const value = this.values[key];
       if (value === null || JSON.stringify(value) === JSON.stringify(usual)) continue;
-      parts.push(key + "=" + encodeURIComponent(written_state(key, value)).replace(/%2C/g, ",").replace(/%3A/g, ":"));
+      parts.push(key + "=" +
+        encodeURIComponent(written_state(key, value)).replace(/%2C/g, ",").replace(/%3A/g, ":"));
     }
     return parts.join("&");
   }
@@ -117,15 +136,19 @@ class State {
       const [key, text] = part.split("=");
       if (!Object.hasOwn(k_state_defaults, key) || text === undefined) continue;
       let value;
-      try { value = read_state(key, decodeURIComponent(text)); } catch { continue; }
+      try {
+        value = read_state(key, decodeURIComponent(text));
+      } catch {
+        continue;
+      }
       if (value !== undefined) values[key] = value;
     }
     if (values.zoom !== undefined) values.zoom = Math.min(50, Math.max(0.2, values.zoom));
-    this.set({ ...k_state_defaults, ...values });
+    this.set({...k_state_defaults, ...values});
   }
 }
 
 if (typeof module !== "undefined") {
   globalThis.Turn = require("./orientation.js").Turn;
-  module.exports = { State, k_state_defaults };
+  module.exports = {State, k_state_defaults};
 }

@@ -9,9 +9,9 @@ class TiltStrip {
     this.strip = strip;
     this.drawn_key = "";
     this.pictures = k_tilts_deg.map((tilt) => {
-      const canvas = element("canvas", { width: 96, height: 96, "aria-hidden": "true" });
+      const canvas = element("canvas", {width: 96, height: 96, "aria-hidden": "true"});
       const one = button("", () => page.motion.go_to(this.turn_at(tilt)),
-        { title: `Tilt the stone by ${tilt} degrees`, "aria-label": `Tilt by ${tilt} degrees` });
+        {title: `Tilt the stone by ${tilt} degrees`, "aria-label": `Tilt by ${tilt} degrees`});
       one.append(canvas, element("span", {}, (tilt > 0 ? "+" : "") + tilt + "\u00b0"));
       strip.append(one);
       return canvas;
@@ -30,8 +30,10 @@ class TiltStrip {
     if (!values.tilts || !page.ready() || page.refused) return;
     const stone = page.shown_index(), settings = page.settings(stone);
     const exposure = page.exposure() === "auto" ? page.loop.exposure || "auto" : page.exposure();
-    const key = JSON.stringify([stone, settings, values.light_turn, values.lights_with, exposure,
-      page.tonemap(), page.scene_version]);
+    const key = JSON.stringify([
+      stone, settings, values.light_turn, values.lights_with, exposure, page.tonemap(),
+      page.scene_version
+    ]);
     if (key === this.drawn_key) return;
     this.drawn_key = key;
     for (const [i, tilt] of k_tilts_deg.entries()) {
@@ -39,11 +41,14 @@ class TiltStrip {
         this.drawn_key = "";
         return;
       }
-      const view = { turn: this.turn_at(tilt), zoom: 1, pan: [0, 0] };
-      await page.loop.prepare(stone, settings);
-      const drawn = await page.engine.call("draw", {
-        ...page.drawing(stone, 96, 96, view), engine: "preview", exposure, tonemap: page.tonemap(),
+      const view = {turn: this.turn_at(tilt), zoom: 1, pan: [0, 0]};
+      const drawn = await page.loop.ask(stone, settings, "draw", {
+        ...page.drawing(stone, 96, 96, view),
+        engine: "preview",
+        exposure,
+        tonemap: page.tonemap(),
       });
+      if (!drawn) return;
       this.pictures[i].getContext("2d").putImageData(new ImageData(drawn.pixels, 96, 96), 0, 0);
     }
   }

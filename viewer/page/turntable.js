@@ -1,9 +1,9 @@
 "use strict";
-// A turn of the stone as a WebM film. Frames are drawn first, however long they take, and then played
-// at their speed to the recorder, which has no other clock than that on the wall.
+// A turn of the stone as a WebM film. Frames are drawn first, however long they take, and then
+// played at their speed to the recorder, which has no other clock than that on the wall.
 
 const k_film_frames = 100;
-const k_film_rate = 25;  // a second
+const k_film_rate = 25;   // a second
 const k_film_most = 720;  // pixels a side
 
 class Turntable {
@@ -15,10 +15,12 @@ class Turntable {
     if (typeof MediaRecorder !== "function" || !HTMLCanvasElement.prototype.captureStream) {
       return "This browser records no films; culet render --frames makes one.";
     }
-    return Turntable.type() ? "" : "This browser records no WebM; culet render --frames makes a film.";
+    return Turntable.type() ? ""
+                            : "This browser records no WebM; culet render --frames makes a film.";
   }
   static type() {
-    return ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"].find((type) => MediaRecorder.isTypeSupported(type));
+    return ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"].find(
+      (type) => MediaRecorder.isTypeSupported(type));
   }
   stop() { this.recording = false; }
 
@@ -41,12 +43,15 @@ class Turntable {
     const page = this.page, frames = [], view = page.view(), stone = page.shown_index();
     const exposure = page.exposure() === "auto" ? page.loop.exposure || "auto" : page.exposure();
     for (let i = 0; i < k_film_frames && this.recording; ++i) {
-      const turn = Turn.after(view.turn, Turn.about(page.shown_stone().up, 2 * Math.PI * i / k_film_frames));
-      await page.loop.prepare(stone, page.settings(stone));
-      const drawn = await page.engine.call("draw", {
-        ...page.drawing(stone, width, height, { ...view, turn }), engine: "beams", exposure,
+      const turn =
+        Turn.after(view.turn, Turn.about(page.shown_stone().up, 2 * Math.PI * i / k_film_frames));
+      const drawn = await page.loop.ask(stone, page.settings(stone), "draw", {
+        ...page.drawing(stone, width, height, {...view, turn}),
+        engine: "beams",
+        exposure,
         tonemap: page.tonemap(),
       });
+      if (!drawn) throw new Error("the film was not finished: another stone was opened");
       frames.push(new ImageData(drawn.pixels, width, height));
       progress(0.7 * (i + 1) / k_film_frames);
     }
@@ -54,11 +59,12 @@ class Turntable {
   }
 
   async play(frames, width, height, progress) {
-    const canvas = element("canvas", { width, height });
-    const context = canvas.getContext("2d", { alpha: false });
+    const canvas = element("canvas", {width, height});
+    const context = canvas.getContext("2d", {alpha: false});
     context.putImageData(frames[0], 0, 0);
     const stream = canvas.captureStream(k_film_rate), chunks = [];
-    const recorder = new MediaRecorder(stream, { mimeType: Turntable.type(), videoBitsPerSecond: 8e6 });
+    const recorder =
+      new MediaRecorder(stream, {mimeType: Turntable.type(), videoBitsPerSecond: 8e6});
     recorder.ondataavailable = (event) => chunks.push(event.data);
     const ended = new Promise((resolve, reject) => {
       recorder.onstop = resolve;
@@ -75,6 +81,6 @@ class Turntable {
     recorder.stop();
     await ended;
     for (const track of stream.getTracks()) track.stop();
-    return new Blob(chunks, { type: "video/webm" });
+    return new Blob(chunks, {type: "video/webm"});
   }
 }
