@@ -4,6 +4,7 @@
 
 #include "app/file_kinds.h"
 #include "app/options.h"
+#include "app/report_viewer.h"
 #include "app/solid_input.h"
 #include "app/terminal.h"
 #include "compare/calibration/scene_comparison.h"
@@ -160,6 +161,11 @@ Compared compare_with_scene(const CompareArguments& a, const std::string& photo_
     result.report.calibrated = result.calibrated;
     result.report.stats_json = stats_json(compared.stats);
     result.report.settings = read_text(a.against());
+    ViewSource source;
+    source.file = a.against();
+    source.overrides = a.common.set;
+    source.before = a.start;
+    result.report.viewer_html = viewer_for_report(source, result.report.title);
     if (compared.pose) {
         result.report.pose_overlay_png = pose_overlay(photo, scene.stone.solid, *compared.pose);
         result.report.pose_used = compared.pose_used;

@@ -7,6 +7,7 @@
 
 #include "app/file_kinds.h"
 #include "app/options.h"
+#include "app/report_viewer.h"
 #include "app/terminal.h"
 #include "compare/photo/rendered_photo.h"
 #include "compare/report/report.h"
@@ -212,6 +213,23 @@ Report report_of(const RunOptions& options, const Job& job, const JobInput& inpu
     return report;
 }
 
+// The stone as fitted, in the job's scene, or face up where it has none.
+std::string viewer_of(const Job& job, const JobInput& input, const JobResult& made,
+                      const std::string& fit_json) {
+    ViewSource source;
+    source.file = job.scene.empty() ? job.stone : job.scene;
+    if (source.file.empty()) return {};
+    Stone fitted;
+    if (made.fit) {
+        fitted = input.file.stone;
+        fitted.solid = made.fit->solid;
+        source.stone = &fitted;
+        source.catalogue = &input.file.stone.solid;
+        source.fit_json = fit_json;
+    }
+    return viewer_for_report(source, job.name);
+}
+
 int run_job(const RunOptions& options) {
     const bool quiet = options.common.quiet;
     require_kind(options.job, {FileKind::job}, "culet run", options.common.set);
@@ -227,7 +245,8 @@ int run_job(const RunOptions& options) {
     require_writable(folder / "report.html");
 
     const JobResult made = make(job, input, quiet);
-    const Report report = report_of(options, job, input, made);
+    Report report = report_of(options, job, input, made);
+    report.viewer_html = viewer_of(job, input, made, report.fit_json);
     if (made.fit) {
         write_solid(made.fit->solid, folder / "fitted.obj");
         write_text(folder / "fit.json", report.fit_json);

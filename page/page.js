@@ -53,6 +53,29 @@ for (const drawings of document.querySelectorAll(".drawings")) {
     facet.addEventListener("focus", () => choose(facet));
   }
 }
+// The viewer is a page of its own inside this one, made when it is first asked for.
+const viewer = document.getElementById("viewer");
+if (viewer) {
+  let frame = null;
+  const open_viewer = () => {
+    if (!frame) {
+      const page = JSON.parse(document.getElementById("culet-viewer").textContent);
+      frame = document.createElement("iframe");
+      frame.title = viewer.getAttribute("aria-label");
+      frame.allow = "fullscreen";
+      frame.src = URL.createObjectURL(new Blob([page], { type: "text/html" }));
+      viewer.append(frame);
+    }
+    viewer.showModal();
+    frame.focus();
+  };
+  for (const button of document.querySelectorAll(".turn-stone")) {
+    button.hidden = false;
+    button.addEventListener("click", open_viewer);
+  }
+  for (const picture of document.querySelectorAll(".turns img")) picture.addEventListener("click", open_viewer);
+  viewer.querySelector(".viewer-close").addEventListener("click", () => viewer.close());
+}
 // Paper cannot be clicked: what is folded is printed open.
 const opened = [];
 addEventListener("beforeprint", () => {

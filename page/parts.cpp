@@ -1,5 +1,7 @@
 #include "page/parts.h"
 
+#include <nlohmann/json.hpp>
+
 #include "page/html.h"
 #include "page/templates.h"
 
@@ -11,12 +13,19 @@ extern const char* const page_js;
 }  // namespace embedded
 
 std::string html_page(const std::string& title, const std::string& body,
-                      const std::string& data_json) {
+                      const std::string& data_json, const std::string& viewer_html) {
+    const std::string viewer =
+        viewer_html.empty() ? "" : json_for_script(nlohmann::json(viewer_html).dump());
     return filled(templates::page, {{"title", title},
                                     {"page_css", embedded::page_css},
                                     {"body_html", body},
                                     {"data_json", json_for_script(data_json)},
+                                    {"viewer_json", viewer},
                                     {"page_js", embedded::page_js}});
+}
+
+std::string turn_button() {
+    return filled(templates::turn_button, {{"label", "Turn the stone in your hand"}});
 }
 
 std::string section(const std::string& id, const std::string& heading, const std::string& body) {

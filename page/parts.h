@@ -10,9 +10,13 @@
 namespace culet {
 
 /// A whole page in itself: loads nothing from anywhere, whatever a hostile name might contain.
-/// `data_json` is kept inside it for programs; empty: none.
+/// `data_json` is kept inside it for programs; empty: none. `viewer_html` is a page of the viewer
+/// (viewer/viewer_page.h), which `turn_button`s in the body open over this one; empty: none.
 std::string html_page(const std::string& title, const std::string& body,
-                      const std::string& data_json = {});
+                      const std::string& data_json = {}, const std::string& viewer_html = {});
+
+/// Opens the viewer; without a script, or in a page without a viewer, it is not there.
+std::string turn_button();
 
 /// `<section id=... >` with its heading; nothing when the body is empty.
 std::string section(const std::string& id, const std::string& heading, const std::string& body);

@@ -46,24 +46,28 @@ std::string render_command(const ViewSource& source) {
     return command;
 }
 
+bool is_scene_file(const ViewSource& source) {
+    return !source.cut && source.file.extension() == ".toml" &&
+           read_toml(source.file).kind("stone") != TomlTable::Kind::table;
+}
+
 // A scene file without its stone; of a stone without a scene, what `read_any_scene` shows it in.
 std::string scene_text(const ViewSource& source, const Scene& scene) {
     std::vector<std::string> keys = source.overrides;
-    const bool is_scene_file = !source.cut && source.file.extension() == ".toml" &&
-                               read_toml(source.file).kind("stone") != TomlTable::Kind::table;
+    const bool of_scene = is_scene_file(source);
     const std::string& light = source.choices.light;
     if (is_view_preset(light)) {
         keys.push_back("preset=\"" + light + "\"");
     } else if (!light.empty()) {
         keys.push_back(fmt::format("light={{preset=\"{}\"}}", light));
-    } else if (!is_scene_file && !scene.light_preset.empty() &&
+    } else if (!of_scene && !scene.light_preset.empty() &&
                std::none_of(keys.begin(), keys.end(),
                             [](const std::string& key) { return key.starts_with("light"); })) {
         keys.push_back(fmt::format("light={{preset=\"{}\"}}", scene.light_preset));
     }
     if (scene.lights.environment)
         keys.push_back(fmt::format("light.environment=\"{}\"", k_map_name));
-    return rewritten_text(is_scene_file ? read_text(source.file) : std::string(), source.file, keys,
+    return rewritten_text(of_scene ? read_text(source.file) : std::string(), source.file, keys,
                           {"stone", "mesh", "material", "unit", "convex", "name", "object"});
 }
 
@@ -102,7 +106,13 @@ std::vector<FacetFacts> facts_of(const Solid& solid, const std::string& fit_json
 }
 
 Scene scene_of(const ViewSource& source) {
-    if (!source.cut) return read_any_scene(source.file, source.overrides, source.choices);
+    if (!source.cut) {
+        if (source.stone != nullptr && is_scene_file(source))
+            return read_scene(source.file, source.overrides, source.stone);
+        Scene scene = read_any_scene(source.file, source.overrides, source.choices);
+        if (source.stone != nullptr) scene.stone = *source.stone;
+        return scene;
+    }
     Stone stone;
     stone.name = source.cut->kind;
     stone.solid = make_cut(source.cut->kind, source.cut->values);
@@ -118,6 +128,25 @@ Scene scene_of(const ViewSource& source) {
     return culet::scene_of(root, &stone, light);
 }
 
+// In the material of the stone that is looked at.
+std::optional<Stone> catalogue_of(const ViewSource& source, const Stone& looked_at) {
+    Stone catalogue = looked_at;
+    if (source.catalogue != nullptr) {
+        catalogue.solid = *source.catalogue;
+    } else if (!source.before.empty()) {
+        StoneScene choices;
+        choices.material = "diamond";  // not looked at
+        const Stone before = read_any_scene(source.before, {}, choices).stone;
+        catalogue.solid = before.solid;
+        catalogue.name = before.name;
+        catalogue.unit = before.unit;
+        catalogue.convex = before.convex;
+    } else {
+        return std::nullopt;
+    }
+    return catalogue;
+}
+
 }  // namespace
 
 ViewItem view_item(const ViewSource& source, std::vector<std::string>& notes) {
@@ -128,20 +157,15 @@ ViewItem view_item(const ViewSource& source, std::vector<std::string>& notes) {
     item.refused = scene.has_stone() ? refused_by_beams(scene)
                                      : "beams draw a stone, and this scene has none";
     if (scene.has_stone()) {
-        if (!source.before.empty()) {
-            StoneScene choices;
-            choices.material = "diamond";  // not looked at
-            Scene before = read_any_scene(source.before, {}, choices);
+        if (const std::optional<Stone> before = catalogue_of(source, scene.stone)) {
             ViewedStone catalogue;
             catalogue.role = "catalogue";
-            catalogue.stone = std::move(before.stone);
-            catalogue.stone.material = scene.stone.material;
-            catalogue.stone.crystal = scene.stone.crystal;
+            catalogue.stone = *before;
             item.stones.push_back(std::move(catalogue));
         }
         ViewedStone viewed;
         viewed.role = source.cut                                        ? "design"
-                      : !source.fit_json.empty() || !source.before.empty() ? "fitted"
+                      : !source.fit_json.empty() || item.stones.size() == 1 ? "fitted"
                                                                             : "stone";
         viewed.stone = scene.stone;
         viewed.cut = source.cut;
@@ -155,7 +179,7 @@ ViewItem view_item(const ViewSource& source, std::vector<std::string>& notes) {
         item.files[k_map_name] = pfm_of(map.width, map.height, map.rgb);
     }
     item.picture = still_of(scene, item.refused);
-    item.command = source.cut ? std::string() : render_command(source);
+    item.command = source.cut || source.stone != nullptr ? std::string() : render_command(source);
     return item;
 }
 

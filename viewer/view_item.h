@@ -18,6 +18,8 @@ struct ViewSource {
     std::string fit_json;                ///< report of `culet fit`; empty: none
     std::filesystem::path before;        ///< the stone that the fit began with; empty: none
     std::optional<CutChoice> cut;        ///< instead of a file: a standard cut
+    const Stone* stone = nullptr;        ///< instead of that of `file`, a scene; null: its own
+    const Solid* catalogue = nullptr;    ///< what `before` would hold; null: look there
 };
 
 /// Longer side of the small picture, pixels.

@@ -49,7 +49,8 @@ std::string report_page(const Report& report) {
     if (!scores_text.empty()) data["scores"] = scores;
     if (!report.fit_json.empty()) data["fit"] = fit;
     if (!report.stats_json.empty()) data["stats"] = stats;
-    return html_page(report.title, page, data.dump(-1, ' ', false, Json::error_handler_t::replace));
+    return html_page(report.title, page, data.dump(-1, ' ', false, Json::error_handler_t::replace),
+                     report.viewer_html);
 }
 
 void write_report(const Report& report, const std::filesystem::path& file) {

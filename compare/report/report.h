@@ -43,6 +43,9 @@ struct Report {
     std::string pose_overlay_png;
     bool pose_used = false;
 
+    /// A page of the viewer with the stone, which a click on the picture opens; empty: none.
+    std::string viewer_html;
+
     std::string stats_json;  ///< of the renderer: plan, error bounds, times
     std::string settings;    ///< the job or scene as text
 };

@@ -83,6 +83,7 @@ std::string pictures_section(const Report& report) {
         white < 0.95 * pictures.white ? significant(pictures.white / white, 2) : "";
     const std::string body =
         filled(templates::report_pictures, {{"slider_html", sides},
+                                            {"turn_html", turn_button()},
                                             {"usable", report.comparison->usable()},
                                             {"word", word},
                                             {"brighter", brighter}});

@@ -65,7 +65,10 @@ std::string changes_section(const Report& report) {
     return section("changes",
                    picture_alone ? "The stone as it would look" : "Catalogue against fitted",
                    filled(templates::report_changes,
-                          {{"slider_html", sides}, {"uri", uri}, {"folded_html", folded_parts}}));
+                          {{"slider_html", sides},
+                           {"uri", uri},
+                           {"turn_html", sides.empty() && uri.empty() ? "" : turn_button()},
+                           {"folded_html", folded_parts}}));
 }
 
 std::string plan_section(const Json& stats) {

@@ -1,0 +1,23 @@
+#include "app/report_viewer.h"
+
+#include "stone/errors.h"
+#include "viewer/viewer_page.h"
+
+namespace culet {
+
+std::string viewer_for_report(const ViewSource& source, const std::string& title) {
+    if (!has_viewer_engine()) return {};
+    ViewDocument document;
+    std::vector<std::string> notes;  // said when the scene was drawn
+    try {
+        document.items.push_back(view_item(source, notes));
+    } catch (const InputError&) {
+        return {};  // the report is about more than this
+    }
+    if (!document.items.front().refused.empty()) return {};
+    document.title = title;
+    document.version = CULET_VERSION;
+    return viewer_page(document);
+}
+
+}  // namespace culet
