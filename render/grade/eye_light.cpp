@@ -60,8 +60,7 @@ public:
         : net_(net), view_(view), n_(n), regions_(regions), pixel_area_(pixel_area), light_(light) {
         front_of_facet_.assign(static_cast<std::size_t>(net.facets()), -1);
         for (std::size_t i = 0; i < light.fronts.size(); ++i)
-            front_of_facet_[static_cast<std::size_t>(light.fronts[i].facet)] =
-                static_cast<int>(i);
+            front_of_facet_[static_cast<std::size_t>(light.fronts[i].facet)] = static_cast<int>(i);
     }
 
     void add_branch(const BeamBranch& branch) {
@@ -105,15 +104,14 @@ private:
             weight = 1 - light_.fronts[static_cast<std::size_t>(exit.front)].reflectance;
             const double cosine = glm::dot(light_.towards_eye, plane.normal);
             const double q = std::sqrt((n_ - 1) * (n_ + 1) + cosine * cosine);
-            exit.inside =
-                glm::normalize((cosine - q) * plane.normal - light_.towards_eye);
+            exit.inside = glm::normalize((cosine - q) * plane.normal - light_.towards_eye);
         } else {
             const EyeExit& before = light_.exits[static_cast<std::size_t>(open_.back())];
             const Vec3& normal = net_.plane(before.facet).normal;
             exit.parent = open_.back();
             weight = before.remaining;
-            exit.inside = glm::normalize(before.inside -
-                                         2 * glm::dot(before.inside, normal) * normal);
+            exit.inside =
+                glm::normalize(before.inside - 2 * glm::dot(before.inside, normal) * normal);
         }
         meet_face(net_.plane(facet), n_, exit, weight);
         open_.push_back(static_cast<int>(light_.exits.size()));
@@ -178,8 +176,7 @@ EyeLight EyeLightTracer::trace(const Vec3& towards_eye, double n,
     light.right = view.right;
     light.up = -glm::cross(view.forward, view.right);
     for (const FrontFacet& seen : front_facets(net_, view)) {
-        light.fronts.push_back(
-            front_of(seen, net_.plane(seen.facet), towards_eye, n, pixel_area));
+        light.fronts.push_back(front_of(seen, net_.plane(seen.facet), towards_eye, n, pixel_area));
         light.area += light.fronts.back().area;
     }
     BeamLimits beam_limits;

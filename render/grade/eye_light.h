@@ -18,15 +18,15 @@ namespace culet {
 
 /// What leaves through one face at the end of one sequence of facets.
 struct EyeExit {
-    int front = 0;        ///< index in EyeLight::fronts
-    int parent = -1;      ///< index in EyeLight::exits of the face before; -1: the front facet
-    int facet = 0;        ///< where it leaves; the solid's index
-    int faces = 2;        ///< met so far, the front one and this one included
-    double area = 0;      ///< of the beam, across the line of sight; square units of the solid
-    double weight = 0;    ///< leaving, of the eye's unit of light; 0: total reflection
-    Vec3 direction{0};    ///< unit, outwards; not set where the weight is 0
-    Vec3 inside{0};       ///< unit, before the face
-    double remaining = 0; ///< reflected back inside, of the eye's unit of light
+    int front = 0;         ///< index in EyeLight::fronts
+    int parent = -1;       ///< index in EyeLight::exits of the face before; -1: the front facet
+    int facet = 0;         ///< where it leaves; the solid's index
+    int faces = 2;         ///< met so far, the front one and this one included
+    double area = 0;       ///< of the beam, across the line of sight; square units of the solid
+    double weight = 0;     ///< leaving, of the eye's unit of light; 0: total reflection
+    Vec3 direction{0};     ///< unit, outwards; not set where the weight is 0
+    Vec3 inside{0};        ///< unit, before the face
+    double remaining = 0;  ///< reflected back inside, of the eye's unit of light
 };
 
 struct EyeFront {

@@ -22,7 +22,7 @@ void add(LightReturn& sum, double share, const Vec3& direction, const EyeLight& 
     sum[static_cast<std::size_t>(LightModel::iso)] += share;
     sum[static_cast<std::size_t>(LightModel::cos)] += share * d;
     sum[static_cast<std::size_t>(LightModel::sc2)] += share * sc2;
-    sum[static_cast<std::size_t>(LightModel::random)] += 
+    sum[static_cast<std::size_t>(LightModel::random)] +=
         share * sc2 *
         sky.radiance({glm::dot(direction, light.right), glm::dot(direction, light.up), d});
 }
@@ -92,8 +92,8 @@ LightBalance light_balance(const EyeLight& light, const std::vector<bool>& crown
         double& part = d > cos_head ? sum.head : d >= cos_view ? sum.useful : sum.other;
         part += share;
     }
-    for (double* part : {&sum.useful, &sum.head, &sum.other, &sum.leak, &sum.entry_reflection,
-                         &sum.residual})
+    for (double* part :
+         {&sum.useful, &sum.head, &sum.other, &sum.leak, &sum.entry_reflection, &sum.residual})
         *part /= light.area;
     return sum;
 }

@@ -45,7 +45,7 @@ struct LightBalance {
 };
 
 struct BalanceCones {
-    double head = 0;       ///< half angles, radians
+    double head = 0;  ///< half angles, radians
     double view_cone = 0;
 };
 
