@@ -87,7 +87,10 @@ struct Work {
         grade.silhouette_area = light.area;
         grade.face_up = light_return(light, grade.table, options.head, sky);
         grade.aset = aset_shares(light);
-        if (grade.table >= 0) grade.aset_table = aset_shares(light, grade.table);
+        if (grade.table >= 0) {
+            grade.aset_table = aset_shares(light, grade.table);
+            grade.table_reflection = table_reflection(light, grade.table);
+        }
         grade.ideal_scope = ideal_scope_shares(light);
         grade.dark_field = dark_field_share(light);
         const double open = light_return(light, -1, 0, sky).whole[0];

@@ -61,6 +61,7 @@ struct Grade {
     std::vector<double> tilts;
     std::vector<TiltCurve> curves;
     AsetShares aset, aset_table;
+    TableReflection table_reflection;
     ScopeShares ideal_scope;
     double dark_field = 0;
     LightBalance balance;

@@ -116,6 +116,12 @@ std::string grade_json(const Grade& grade, const GradeContext& context) {
     json["models"] = models_json(grade);
     json["aset"] = shares_json(grade.aset);
     json["aset"]["table"] = grade.table >= 0 ? shares_json(grade.aset_table) : Json();
+    if (grade.table_reflection.share > 0) {
+        json["aset"]["table"]["reflection"] = {
+            {"colour", grade.table_reflection.colour},
+            {"elevation_deg", degrees(grade.table_reflection.elevation)},
+            {"share", grade.table_reflection.share}};
+    }
     json["ideal_scope"] = {{"red", grade.ideal_scope.red},
                            {"dark", grade.ideal_scope.dark},
                            {"white", grade.ideal_scope.white}};

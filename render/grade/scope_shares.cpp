@@ -1,7 +1,6 @@
 #include "render/grade/scope_shares.h"
 
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
 
 #include "render/scene/light_presets.h"
@@ -69,6 +68,42 @@ AsetShares aset_shares(const EyeLight& light, int facet) {
     const BandSum sum = sum_of(light, aset_bands(), facet);
     return {at(sum, ScopeBand::inner), at(sum, ScopeBand::middle) + at(sum, ScopeBand::rim),
             at(sum, ScopeBand::eye), at(sum, ScopeBand::below) + sum.left};
+}
+
+TableReflection table_reflection(const EyeLight& light, int table) {
+    constexpr int k_faces = 4;  // the table, two of the pavilion, the table
+    TableReflection reflection;
+    double table_area = 0, largest = 0;
+    for (const EyeFront& front : light.fronts)
+        if (front.facet == table) table_area += front.area;
+    for (const EyeExit& exit : light.exits) {
+        const EyeFront& front = light.fronts[static_cast<std::size_t>(exit.front)];
+        if (exit.faces != k_faces || exit.facet != table || front.facet != table) continue;
+        const double share = exit.area * exit.weight;
+        if (!(share > 0)) continue;
+        reflection.share += share;
+        if (share <= largest) continue;
+        largest = share;
+        reflection.elevation = std::asin(glm::dot(exit.direction, light.towards_eye));
+    }
+    if (table_area > 0) reflection.share /= table_area;
+    if (!(largest > 0)) return reflection;
+    switch (aset_bands().of(std::sin(reflection.elevation))) {
+        case ScopeBand::eye:
+            reflection.colour = "blue";
+            break;
+        case ScopeBand::inner:
+            reflection.colour = "red";
+            break;
+        case ScopeBand::middle:
+        case ScopeBand::rim:
+            reflection.colour = "green";
+            break;
+        case ScopeBand::below:
+            reflection.colour = "dark";
+            break;
+    }
+    return reflection;
 }
 
 ScopeShares ideal_scope_shares(const EyeLight& light) {

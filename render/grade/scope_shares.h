@@ -34,6 +34,15 @@ struct AsetShares {
 /// outside counts, as in the instrument.
 AsetShares aset_shares(const EyeLight& light, int facet = -1);
 
+/// Light that goes in through the table, is reflected by two facets of the pavilion and comes out
+/// through the table again: the table's reflection, whose colour in ASET tells a pavilion's angle.
+struct TableReflection {
+    double share = 0;         ///< of the light on the table
+    double elevation = 0;     ///< that its largest share leaves under, radians
+    const char* colour = "";  ///< red, green, blue or dark
+};
+TableReflection table_reflection(const EyeLight& light, int table);
+
 struct ScopeShares {
     double red = 0;    ///< from the reflector
     double dark = 0;   ///< from the eye's hole and beyond the reflector's rim, or not followed
