@@ -1,5 +1,7 @@
 #include "render/grade/grade_sigma.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +10,7 @@
 
 #include "render/grade/grade_figures.h"
 #include "render/optics/random.h"
+#include "render/work/threads.h"
 #include "stone/errors.h"
 #include "stone/stone.h"
 #include "stone/tiers.h"
@@ -207,20 +210,31 @@ std::vector<FacetCost> facet_costs(const Solid& solid, const GradeIndex& index,
     const std::vector<Attitude> as_is = attitudes_of(solid, middle);
     const RandomSky sky(options.seed, index.n);
     const double now = iso_return(solid, index, options, sky);
-    std::vector<FacetCost> costs;
+    struct Trial {
+        int facet = 0;
+        Attitude even;
+        double cost = 0;
+    };
+    std::vector<Trial> trials;
     for (const FacetTier& tier : tiers_of(solid, {0, 0, 1})) {
         if (tier.facets.size() < 2 || tier.part == StonePart::girdle) continue;
         const std::vector<Attitude> even = even_tier(as_is, tier.facets);
-        for (std::size_t i = 0; i < tier.facets.size(); ++i) {
-            const auto f = static_cast<std::size_t>(tier.facets[i]);
+        for (std::size_t i = 0; i < tier.facets.size(); ++i)
+            trials.push_back({tier.facets[i], even[i], 0});
+    }
+    on_threads(options.threads, [&] {
+        tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t i) {
             std::vector<Attitude> changed = as_is;
-            changed[f] = even[i];
+            changed[static_cast<std::size_t>(trials[i].facet)] = trials[i].even;
             const std::optional<Solid> stone = stone_of(solid, changed, middle);
-            if (!stone) continue;
-            const double cost = iso_return(*stone, index, options, sky) - now;
-            if (cost >= k_least_cost)
-                costs.push_back({tier.facets[i], cost, as_is[f].inclination - even[i].inclination});
-        }
+            if (stone) trials[i].cost = iso_return(*stone, index, options, sky) - now;
+        });
+    });
+    std::vector<FacetCost> costs;
+    for (const Trial& trial : trials) {
+        const double own = as_is[static_cast<std::size_t>(trial.facet)].inclination;
+        if (trial.cost >= k_least_cost)
+            costs.push_back({trial.facet, trial.cost, own - trial.even.inclination});
     }
     std::stable_sort(costs.begin(), costs.end(),
                      [](const FacetCost& a, const FacetCost& b) { return a.cost > b.cost; });
