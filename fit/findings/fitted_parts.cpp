@@ -83,6 +83,13 @@ void fill_in_facets(const System& system, const Shape& shape, const Diagnosis& d
         facet.sigma_area = sigma.area * system.scale() * system.scale();
         result.facets.push_back(std::move(facet));
     }
+    result.facet_covariance = diagnosis.facet_covariance;
+    const std::size_t size = 3 * result.facets.size();
+    for (std::size_t i = 0; i < result.facet_covariance.size(); ++i) {
+        // Offsets are the third of each facet's three.
+        if (i / size % 3 == 2) result.facet_covariance[i] *= system.scale();
+        if (i % size % 3 == 2) result.facet_covariance[i] *= system.scale();
+    }
 }
 
 void fill_in_readings(const System& system, const std::vector<Reading>& as_read,

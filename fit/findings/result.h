@@ -127,6 +127,9 @@ struct FitResult {
     double azimuth_zero = 0;  ///< where in the solid's frame the readings' azimuths begin; radians
     SolidChecks checks;
     std::vector<FittedFacet> facets;      ///< in the mesh's order
+    /// Covariance of the facets' inclinations, azimuths (radians) and offsets (`unit`), row by row,
+    /// three a facet in the order of `facets`. Empty: not known, or of more than 300 facets.
+    std::vector<double> facet_covariance;
     std::vector<FittedReading> readings;  ///< in their order
     FitStatistics statistics;
     FitFindings findings;

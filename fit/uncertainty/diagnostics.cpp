@@ -158,6 +158,34 @@ void find_facet_sigmas(const System& system, const Shape& shape, const Outline& 
     }
 }
 
+// Of more facets the matrix would be larger than anybody's use for it.
+constexpr std::size_t k_most_facets_together = 300;
+
+// Together, what `find_facet_sigmas` tells one by one; azimuths in the result's frame.
+void find_facet_covariance(const System& system, const Shape& shape, const Covariance& covariance,
+                           const Vec3& middle, Diagnosis& diagnosis) {
+    const Layout layout = layout_of(shape);
+    const RowWriter writer(shape);
+    const FunctionRow turn = writer.function(system.turn_of(shape));
+    std::vector<FunctionRow> rows;
+    for (int f = 0; f < layout.facets; ++f) {
+        std::array<FunctionRow, 3> three = facet_functions(shape, f, layout, middle);
+        const double flat = std::hypot(shape.normals[f].x, shape.normals[f].y);
+        if (flat > 1e-9) three[1] = three[1] + turn;
+        for (FunctionRow& row : three) rows.push_back(std::move(row));
+    }
+    diagnosis.facet_covariance.assign(rows.size() * rows.size(), 0);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (rows[i].nonZeros() == 0) continue;
+        const Eigen::VectorXd with_row = covariance.with_all(rows[i], true);
+        for (std::size_t j = 0; j <= i; ++j) {
+            const double both = rows[j].dot(with_row);
+            diagnosis.facet_covariance[i * rows.size() + j] = both;
+            diagnosis.facet_covariance[j * rows.size() + i] = both;
+        }
+    }
+}
+
 }  // namespace
 
 Diagnosis diagnose(const System& system, const Shape& shape,
@@ -186,6 +214,8 @@ Diagnosis diagnose(const System& system, const Shape& shape,
     }
     const Vec3 middle = middle_of(shape);
     find_facet_sigmas(system, shape, *outline, *covariance, middle, diagnosis);
+    if (shape.normals.size() <= k_most_facets_together)
+        find_facet_covariance(system, shape, *covariance, middle, diagnosis);
     if (system.has_prior()) find_parts_read(shape, *covariance, middle, diagnosis);
     find_rank_defect(system, shape, *covariance, middle, diagnosis);
     return diagnosis;

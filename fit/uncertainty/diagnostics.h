@@ -38,6 +38,11 @@ struct Suspicion {
 
 struct Diagnosis {
     std::vector<FacetSigma> facets;
+    /// Of all facets' inclinations, azimuths and offsets, row by row, three a facet; radians and
+    /// half diameters. A level facet's azimuth has none: 0. Open directions count with the mesh's
+    /// own uncertainty, as in the sigmas. Empty: not known, or of
+    /// more than 300 facets.
+    std::vector<double> facet_covariance;
     std::vector<ReadingCheck> readings;
     std::vector<int> suspects;          ///< indices of readings, the gravest first
     std::vector<Suspicion> suspicions;  ///< one each

@@ -12,9 +12,6 @@ namespace culet {
 namespace {
 
 const Vec3 k_up{0, 0, 1};
-// Half angles of the eye's hole. With 15 degrees, which show arrows, the hearts of a pavilion
-// of 40.75 degrees lie in the hole's reflection.
-constexpr double k_eye_deg = 15, k_hearts_eye_deg = 5;
 
 DiscLight band(const Vec3& axis, double from_deg, double to_deg, LightColour colour) {
     return {glm::normalize(axis), radians(from_deg), radians(to_deg), std::move(colour)};
@@ -23,7 +20,7 @@ DiscLight band(const Vec3& axis, double from_deg, double to_deg, LightColour col
 // The hood of a viewer, round the hole for the eye.
 Lights reflector(const Vec3& axis, double hole_deg) {
     Lights lights;
-    lights.sources.push_back(band(axis, hole_deg, 80, {Rgb{1.0, 0.25, 0.3}}));
+    lights.sources.push_back(band(axis, hole_deg, k_scope_rim_deg, {Rgb{1.0, 0.25, 0.3}}));
     return lights;
 }
 
@@ -61,20 +58,20 @@ Lights lightbox() {
 Lights darkfield() {
     Lights lights;
     lights.constant = 0.02;
-    lights.sources.push_back(band(-k_up, 35, 75, {1.0}));
+    lights.sources.push_back(band(-k_up, k_darkfield_from_deg, k_darkfield_to_deg, {1.0}));
     return lights;
 }
 
 Lights aset() {
     Lights lights;
-    lights.sources.push_back(band(k_up, 0, 15, {Rgb{0.1, 0.2, 1.0}}));
-    lights.sources.push_back(band(k_up, 15, 45, {Rgb{1.0, 0.1, 0.1}}));
-    lights.sources.push_back(band(k_up, 45, 90, {Rgb{0.1, 0.8, 0.1}}));
+    lights.sources.push_back(band(k_up, 0, k_aset_blue_deg, {Rgb{0.1, 0.2, 1.0}}));
+    lights.sources.push_back(band(k_up, k_aset_blue_deg, k_aset_red_deg, {Rgb{1.0, 0.1, 0.1}}));
+    lights.sources.push_back(band(k_up, k_aset_red_deg, 90, {Rgb{0.1, 0.8, 0.1}}));
     return lights;
 }
 
 Lights idealscope() {
-    Lights lights = reflector(k_up, k_eye_deg);
+    Lights lights = reflector(k_up, k_scope_eye_deg);
     lights.sources.push_back(HemisphereLight{-k_up, {1.0}});
     return lights;
 }
@@ -94,7 +91,7 @@ const std::vector<Made>& all_made() {
         {{"aset", "red, green and blue by elevation (AGS)", false, true}, aset},
         {{"idealscope", "a red reflector, white light from below", false, true}, idealscope},
         {{"arrows", "a red reflector before the crown", false, true},
-         [] { return reflector(k_up, k_eye_deg); }},
+         [] { return reflector(k_up, k_scope_eye_deg); }},
         {{"hearts", "a red reflector before the pavilion, seen from below", true, true},
          [] { return reflector(-k_up, k_hearts_eye_deg); }}};
     return made;

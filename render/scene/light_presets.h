@@ -11,6 +11,14 @@
 
 namespace culet {
 
+/// Half angles of the scopes' bands, degrees from the scope's axis: the eye's hole and the rim of
+/// the reflector; of ASET, where blue ends and red ends. With a hole of 15 degrees, which shows
+/// arrows, the hearts of a pavilion of 40.75 degrees lie in the hole's reflection.
+inline constexpr double k_scope_eye_deg = 15, k_hearts_eye_deg = 5, k_scope_rim_deg = 80;
+inline constexpr double k_aset_blue_deg = 15, k_aset_red_deg = 45;
+/// The ring of light of the dark field, from straight down.
+inline constexpr double k_darkfield_from_deg = 35, k_darkfield_to_deg = 75;
+
 struct LightPreset {
     const char* name;
     const char* summary;  ///< one line, for help and lists

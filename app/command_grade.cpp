@@ -1,0 +1,267 @@
+// culet grade STONE|CUT... : what the cut does with light.
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <optional>
+
+#include "app/grade_input.h"
+#include "app/grade_pictures.h"
+#include "app/options.h"
+#include "app/study_scene.h"
+#include "app/terminal.h"
+#include "page/grade_page.h"
+#include "render/grade/grade_figures.h"
+#include "render/grade/grade_json.h"
+#include "render/grade/path_section.h"
+#include "stone/errors.h"
+#include "stone/output_file.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t k_most_tilts = 361, k_most_designs = 8;
+constexpr double k_most_tilt_deg = 85;
+
+struct GradeCommand {
+    CommonOptions common;
+    std::vector<std::string> files;
+    std::string out, json, tilts = "-30:30:2";
+    GradeChoices choices;
+    std::optional<double> index;
+    std::string report;
+    double head_deg = 10;
+    int draws = 40;
+    int size = 320;
+};
+
+struct Graded {
+    GradeInput input;
+    Grade grade;
+    GradeSigma sigma;
+    std::vector<FacetCost> costs;
+    std::string json;
+};
+
+// "FROM:TO:STEP", or angles with commas between them; radians.
+std::vector<double> tilts_in(const std::string& text) {
+    const std::string expected =
+        "--tilts is FROM:TO:STEP or a list of angles, in degrees, within " +
+        fmt::format("{:g}", k_most_tilt_deg);
+    std::vector<double> tilts;
+    if (text.find(':') == std::string::npos) {
+        tilts = numbers_in(text, 1, k_most_tilts, expected);
+    } else {
+        std::string list = text;
+        for (char& c : list) c = c == ':' ? ',' : c;
+        const std::vector<double> range = numbers_in(list, 3, 3, expected);
+        const double steps = (range[1] - range[0]) / range[2];
+        if (!(range[2] != 0) || !(steps >= 0) || !(steps < k_most_tilts))
+            throw InputError(
+                fmt::format("{}, at most {} of them, found {}", expected, k_most_tilts, text));
+        const int count = static_cast<int>(steps + 1e-9);
+        for (int i = 0; i <= count; ++i) tilts.push_back(range[0] + i * range[2]);
+    }
+    for (double& tilt : tilts) {
+        if (!(std::abs(tilt) <= k_most_tilt_deg))
+            throw InputError(fmt::format("{}, found {}", expected, text));
+        tilt = radians(tilt);
+    }
+    return tilts;
+}
+
+GradeOptions options_of(const GradeCommand& command) {
+    GradeOptions options;
+    if (!(command.head_deg >= 0 && command.head_deg < 90))
+        throw InputError(fmt::format("--head is a half angle from 0 to 90 degrees, found {:g}",
+                                     command.head_deg));
+    options.head = radians(command.head_deg);
+    options.tilts = tilts_in(command.tilts);
+    options.seed = command.common.seed;
+    options.threads = command.common.threads;
+    return options;
+}
+
+Graded grade_one(const GradeCommand& command, const GradeOptions& options, GradeInput input) {
+    Graded graded;
+    const Material* material = input.has_material ? &input.stone.material : nullptr;
+    const GradeIndex index = grade_index(material, input.index);
+    const Solid& solid = input.stone.solid;
+    try {
+        graded.grade =
+            grade_stone(solid, index, options, progress_line("grade", command.common.quiet));
+    } catch (const InputError& error) {
+        throw InputError(input.file, error.what());
+    }
+    if (input.uncertainty)
+        graded.sigma = grade_sigma(solid, index, options, *input.uncertainty, command.draws,
+                                   progress_line("uncertainty", command.common.quiet));
+    graded.costs = facet_costs(solid, index, options);
+    GradeContext context;
+    context.name = input.name;
+    context.file = input.file;
+    context.material = material ? material->id : "";
+    context.crystal = material && material->optic != OpticCharacter::isotropic;
+    for (const Facet& facet : solid.facets) context.facets.push_back(facet.name);
+    context.options = options;
+    if (input.uncertainty) context.sigma = &graded.sigma;
+    context.costs = graded.costs;
+    context.notes = input.notes;
+    graded.json = grade_json(graded.grade, context);
+    graded.input = std::move(input);
+    return graded;
+}
+
+// One object; of several designs they stand in "designs".
+std::string json_of(const std::vector<Graded>& all) {
+    if (all.size() == 1) return all.front().json;
+    nlohmann::ordered_json json{{"schema", 1}, {"designs", nlohmann::ordered_json::array()}};
+    for (const Graded& one : all)
+        json["designs"].push_back(nlohmann::ordered_json::parse(one.json));
+    return json.dump(1) + "\n";
+}
+
+void print_summary(const Graded& graded) {
+    const auto line = [&](const GradeFigure& figure) {
+        const auto sigma = graded.sigma.figures.find(figure.name);
+        const std::string sure =
+            sigma == graded.sigma.figures.end() ? "" : fmt::format(" +- {:.3g}", sigma->second);
+        return fmt::format("  {:<42}{:>9.3f}{}", figure.words, figure.value, sure);
+    };
+    std::string text = fmt::format("{}, index {:.4f}\n", graded.input.name, graded.grade.index.n);
+    for (const GradeFigure& figure : figures_of(graded.grade)) text += line(figure) + "\n";
+    text += fmt::format("  hearts {}, arrows {} (heads {})\n", graded.grade.hearts.count,
+                        graded.grade.arrows.count, graded.grade.arrows.list.size());
+    for (std::size_t i = 0; i < std::min<std::size_t>(graded.costs.size(), 3); ++i) {
+        const FacetCost& cost = graded.costs[i];
+        text +=
+            fmt::format("  {} costs {:.2f} % of light return ({:+.2f} degrees off its tier)\n",
+                        graded.input.stone.solid.facets[static_cast<std::size_t>(cost.facet)].name,
+                        cost.cost, degrees(cost.off));
+    }
+    print_lines(text);
+}
+
+void write_page(const GradeCommand& command, const std::vector<Graded>& all) {
+    const fs::path folder = command.out;
+    GradeView view;
+    view.version = CULET_VERSION;
+    view.command = "culet grade";
+    for (const std::string& file : command.files) view.command += " " + file;
+    std::size_t number = 0;
+    for (const Graded& one : all) {
+        GradeDesign design;
+        design.json = one.json;
+        Stone stone = one.input.stone;
+        if (!one.input.has_material || one.input.index) {
+            // What was graded: an index alone has no dispersion.
+            stone.material = one.input.has_material ? stone.material : Material();
+            if (!one.input.has_material) stone.material.index[0].n = one.grade.index.n;
+        }
+        design.pictures = draw_scopes(stone, folder, fmt::format("{}", ++number),
+                                      {command.size, command.common.threads});
+        design.section_json = section_json(
+            path_section(one.input.stone.solid, one.grade.index.n, radians(command.head_deg)));
+        design.solid = one.input.stone.solid;
+        view.designs.push_back(std::move(design));
+    }
+    write_text(folder / "report.html", grade_page(view));
+    write_text(folder / "grade.json", json_of(all));
+    say(fmt::format("page: {}", (folder / "report.html").string()), command.common.quiet);
+}
+
+int run_grade(GradeCommand command) {
+    const GradeOptions options = options_of(command);
+    command.choices.index = command.index;
+    command.choices.report = command.report;
+    command.choices.overrides = command.common.set;
+    command.choices.quiet = command.common.quiet;
+    if (command.index && !(*command.index > 1 && *command.index < 10))
+        throw InputError(
+            fmt::format("--index is a refractive index above 1, found {:g}", *command.index));
+    if (command.files.size() > k_most_designs)
+        throw InputError(fmt::format("at most {} designs side by side", k_most_designs));
+    if (!command.report.empty() && command.files.size() > 1)
+        throw InputError("--report is of one stone: grade it alone");
+    std::vector<GradeInput> inputs;
+    for (const std::string& file : command.files) {
+        for (GradeInput& input : load_for_grade(file, command.choices, !command.out.empty()))
+            inputs.push_back(std::move(input));
+    }
+    if (!command.out.empty()) {
+        const fs::path folder = study_folder(command.out);
+        require_writable(folder / "report.html");
+    }
+    require_writable(command.json);
+    std::vector<Graded> all;
+    for (GradeInput& input : inputs) {
+        for (const std::string& note : input.notes)
+            say(fmt::format("{}: {}", input.name, note), !command.common.verbose);
+        all.push_back(grade_one(command, options, std::move(input)));
+    }
+    if (!command.out.empty()) write_page(command, all);
+    if (!command.json.empty()) write_text(command.json, json_of(all));
+    bool trusted = true;
+    for (const Graded& one : all) {
+        if (command.json != "-") print_summary(one);
+        trusted = trusted && one.input.trusted;
+        if (!one.input.trusted) {
+            say(fmt::format("{}: the fit should not be trusted, nor should this grade: {}",
+                            one.input.file, one.input.notes.back()),
+                command.common.quiet);
+        }
+    }
+    return trusted ? exit_good : exit_untrusted;
+}
+
+}  // namespace
+
+void add_command_grade(CLI::App& program, int& exit_code) {
+    auto command = std::make_shared<GradeCommand>();
+    CLI::App* grade = program.add_subcommand(
+        "grade",
+        "what a cut does with light: light return, tilt curves, ASET, hearts and arrows, fire");
+    grade->add_option("stone", command->files, "stones, meshes or cut designs, side by side")
+        ->required()
+        ->type_name("STONE|CUT...");
+    grade->add_option("-o,--output", command->out, "folder for the page, pictures and grade.json")
+        ->type_name("DIR");
+    grade->add_option("--json", command->json, "all figures (- is stdout)")->type_name("FILE");
+    grade
+        ->add_option("--material", command->choices.material,
+                     "material by name or file (designs: their own index without it)")
+        ->type_name("NAME");
+    grade->add_option("--index", command->index, "refractive index, instead of the material's")
+        ->type_name("N");
+    grade->add_option("--head", command->head_deg, "half angle of the viewer's head, degrees (10)")
+        ->type_name("DEG");
+    grade
+        ->add_option("--tilts", command->tilts, "tilts, degrees: FROM:TO:STEP or a list (-30:30:2)")
+        ->type_name("TILTS");
+    grade
+        ->add_option("--report", command->report,
+                     "report of the stone's fit: every figure with its sigma")
+        ->type_name("FIT.json");
+    grade->add_option("--draws", command->draws, "stones drawn for the sigmas (40)")
+        ->check(CLI::Range(2, 100000))
+        ->type_name("N");
+    grade->add_option("--size", command->size, "side of the page's pictures, pixels (320)")
+        ->check(CLI::Range(32, 2048))
+        ->type_name("N");
+    add_common(*grade, command->common, true);
+    grade->footer(
+        "Examples:\n"
+        "  culet grade design.asc --material diamond -o out/grade\n"
+        "  culet grade design.asc --index 1.54 --tilts -30:30:1 --json grade.json\n"
+        "  culet grade old.asc new.asc --material quartz -o out/compared\n"
+        "  culet grade stone.toml -o out/grade");
+    grade->callback([command, &exit_code] { exit_code = run_grade(*command); });
+}
+
+}  // namespace culet

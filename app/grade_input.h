@@ -1,0 +1,38 @@
+#pragma once
+// What culet grade grades: stones, meshes and cut designs, and how sure their facets are.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/grade/grade.h"
+#include "render/grade/grade_sigma.h"
+#include "stone/stone.h"
+
+namespace culet {
+
+struct GradeInput {
+    std::string name, file;
+    Stone stone;  ///< table up; its material counts where `has_material`
+    bool has_material = false;
+    std::optional<double> index;  ///< as asked for, or of a cut design without a material
+    std::optional<StoneUncertainty> uncertainty;
+    bool trusted = true;  ///< false: a fit that should not be trusted; `notes` say why
+    std::vector<std::string> notes;
+};
+
+struct GradeChoices {
+    std::string material;          ///< catalogue name or material file; empty: the file's own
+    std::optional<double> index;   ///< overrides the material's
+    std::filesystem::path report;  ///< of a fit; empty: none
+    std::vector<std::string> overrides;
+    bool quiet = false;
+};
+
+/// A stone file with readings is fitted; `drawn`: its mesh as it was drawn comes second. Throws
+/// InputError.
+std::vector<GradeInput> load_for_grade(const std::filesystem::path& file,
+                                       const GradeChoices& choices, bool drawn);
+
+}  // namespace culet

@@ -1,0 +1,53 @@
+#include "app/grade_pictures.h"
+
+#include <fmt/format.h>
+
+#include "page/html.h"
+#include "render/image/image_io.h"
+#include "render/render.h"
+#include "render/scene/framing.h"
+#include "render/scene/light_presets.h"
+#include "stone/output_file.h"
+
+namespace culet {
+
+namespace {
+
+constexpr const char* k_scopes[] = {"aset", "idealscope", "darkfield", "hearts", "arrows"};
+
+Scene scene_in(const Stone& stone, const LightPreset& preset, const GradePictureOptions& options) {
+    Scene scene;
+    scene.stone = stone;
+    scene.lights = *light_preset(preset.name);
+    scene.light_preset = preset.name;
+    scene.camera.width = scene.camera.height = options.size;
+    frame_stone(stone.solid, preset.from_below ? Facing::pavilion : Facing::crown, scene.camera);
+    RenderSettings& settings = scene.settings;
+    settings.engine = "beams";
+    settings.check = Check::none;
+    settings.threads = options.threads;
+    settings.effects_auto = false;
+    settings.effects.fill(false);
+    settings.effects[static_cast<std::size_t>(Effects::dispersion)] =
+        !stone.material.index[0].is_constant();
+    settings.effects[static_cast<std::size_t>(Effects::polarization)] = true;
+    return scene;
+}
+
+}  // namespace
+
+std::vector<GradePicture> draw_scopes(const Stone& stone, const std::filesystem::path& folder,
+                                      const std::string& prefix,
+                                      const GradePictureOptions& options) {
+    std::vector<GradePicture> pictures;
+    for (const char* name : k_scopes) {
+        const LightPreset& preset = *find_light_preset(name);
+        const RenderResult result = render(scene_in(stone, preset, options));
+        const std::filesystem::path file = folder / fmt::format("{}-{}.png", prefix, name);
+        write_picture(result.picture, file);
+        pictures.push_back({preset.name, preset.summary, png_uri(read_text(file))});
+    }
+    return pictures;
+}
+
+}  // namespace culet

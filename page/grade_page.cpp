@@ -1,0 +1,265 @@
+#include "page/grade_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "page/chart.h"
+#include "page/grade_section.h"
+#include "page/html.h"
+#include "page/json_fields.h"
+#include "page/parts.h"
+#include "page/study_sections.h"
+#include "page/templates.h"
+
+namespace culet {
+
+namespace {
+
+using Json = nlohmann::json;
+
+struct Row {
+    const char* name;
+    const char* about;
+    const char* path;   // in the JSON, with dots
+    const char* sigma;  // its key there
+    double factor;
+    int decimals;
+    const char* unit;
+};
+
+// In per cent throughout, so that figures can be held against each other.
+constexpr Row k_rows[] = {
+    {"Light return, even light", "ISO", "face_up.iso.whole", "iso", 1, 2, " %"},
+    {"through the table", "ISO", "face_up.iso.table", "iso_table", 1, 2, " %"},
+    {"Light return, cosine light", "COS", "face_up.cos.whole", "cos", 1, 2, " %"},
+    {"through the table", "COS", "face_up.cos.table", "cos_table", 1, 2, " %"},
+    {"Light return, light from the sides", "SC2", "face_up.sc2.whole", "sc2", 1, 2, " %"},
+    {"through the table", "SC2", "face_up.sc2.table", "sc2_table", 1, 2, " %"},
+    {"Weighted light return", "WLR, cos² of the angle", "face_up.wlr.whole", "wlr", 1, 2, " %"},
+    {"Useful return", "out of the crown, between head and 64°", "balance.return", "balance.return",
+     100, 2, " %"},
+    {"Into the viewer's head", "", "balance.head", "balance.head", 100, 2, " %"},
+    {"Out of the crown elsewhere", "", "balance.other", "balance.other", 100, 2, " %"},
+    {"Leaks", "pavilion and girdle", "balance.leak", "balance.leak", 100, 2, " %"},
+    {"Reflected on entry", "", "balance.entry_reflection", "balance.entry_reflection", 100, 2,
+     " %"},
+    {"Not followed to the end", "", "balance.residual", "balance.residual", 100, 2, " %"},
+    {"Fire", "red and blue at least 0.25° apart", "fire.separated", "fire.separated", 100, 2, " %"},
+    {"Spectral fire", "cut out of its spectrum by a pupil", "fire.spectral", "fire.spectral", 100,
+     2, " %"},
+    {"ASET red", "45° to 75° of elevation", "aset.red", "aset.red", 100, 2, " %"},
+    {"ASET green", "up to 45°", "aset.green", "aset.green", 100, 2, " %"},
+    {"ASET blue", "75° to 90°", "aset.blue", "aset.blue", 100, 2, " %"},
+    {"ASET dark", "leaks", "aset.dark", "aset.dark", 100, 2, " %"},
+    {"Hearts", "of the same area: smallest over largest", "hearts.evenness", "hearts.evenness", 100,
+     1, " %"},
+    {"Arrows", "of the same area: smallest over largest", "arrows.evenness", "arrows.evenness", 100,
+     1, " %"}};
+
+const Json* found_at(const Json& json, const std::string& path) {
+    const Json* at = &json;
+    for (std::size_t begin = 0; begin <= path.size();) {
+        const std::size_t end = std::min(path.find('.', begin), path.size());
+        if (!at->is_object()) return nullptr;
+        const auto found = at->find(path.substr(begin, end - begin));
+        if (found == at->end()) return nullptr;
+        at = &*found;
+        begin = end + 1;
+    }
+    return at;
+}
+
+std::optional<double> value_of(const Json& grade, const char* path) {
+    const Json* found = found_at(grade, path);
+    return found != nullptr && found->is_number() ? std::optional(found->get<double>())
+                                                  : std::nullopt;
+}
+
+std::string shown(const Json& grade, const Row& row) {
+    const std::optional<double> value = value_of(grade, row.path);
+    if (!value) return "–";
+    std::string text = decimals(row.factor * *value, row.decimals);
+    const auto sigma = grade.find("sigma");
+    if (sigma != grade.end()) {
+        if (const auto sure = number_at(*sigma, row.sigma))
+            text += " ± " + significant(row.factor * *sure, 2);
+    }
+    return text + row.unit;
+}
+
+std::string name_in(const Json& grade) {
+    const std::string name = text_at(grade, "name");
+    return name.empty() ? "the stone" : name;
+}
+
+View figures_view(const std::vector<Json>& grades) {
+    std::vector<View> columns, rows;
+    for (const Json& grade : grades) columns.push_back(name_in(grade));
+    for (const Row& row : k_rows) {
+        std::vector<View> cells;
+        for (const Json& grade : grades) cells.push_back(shown(grade, row));
+        rows.push_back({{"name", row.name}, {"about", row.about}, {"cells", cells}});
+    }
+    return {{"columns", columns}, {"rows", rows}};
+}
+
+View pictures_view(const GradeView& view, const std::vector<Json>& grades) {
+    std::vector<View> scopes;
+    const std::vector<GradePicture>& first = view.designs.front().pictures;
+    for (std::size_t scope = 0; scope < first.size(); ++scope) {
+        std::vector<View> figures;
+        for (std::size_t i = 0; i < view.designs.size(); ++i) {
+            if (scope >= view.designs[i].pictures.size()) continue;
+            figures.push_back({{"uri", view.designs[i].pictures[scope].uri},
+                               {"name", name_in(grades[i])},
+                               {"scope", first[scope].scope}});
+        }
+        scopes.push_back({{"scope", first[scope].scope},
+                          {"summary", first[scope].summary},
+                          {"figures", figures}});
+    }
+    return {{"scopes", scopes}};
+}
+
+ChartSeries curve_of(const Json& model, const std::string& name, bool dashed) {
+    ChartSeries series{name, {}, true, false, dashed};
+    const Json &tilts = array_at(model, "tilt_deg"), &whole = array_at(model, "whole");
+    for (std::size_t i = 0; i < std::min(tilts.size(), whole.size()); ++i) {
+        if (tilts[i].is_number() && whole[i].is_number())
+            series.points.push_back({tilts[i].get<double>(), whole[i].get<double>(), {}, {}});
+    }
+    std::sort(series.points.begin(), series.points.end(),
+              [](const ChartPoint& a, const ChartPoint& b) { return a.x < b.x; });
+    return series;
+}
+
+Chart tilt_chart(const std::string& title, const std::string& axis) {
+    Chart chart;
+    chart.title = title;
+    chart.about = title + " against the stone's tilt";
+    chart.x_label = "tilt about " + axis + ", degrees";
+    chart.y_label = "light return, %";
+    chart.log_x = chart.log_y = false;
+    return chart;
+}
+
+// Of one design a chart an axis with all models; of several a chart a model with all designs.
+std::vector<View> charts_view(const std::vector<Json>& grades) {
+    std::vector<Chart> charts;
+    const auto axis_words = [](double degrees) {
+        return degrees == 0    ? std::string("x")
+               : degrees == 90 ? "y"
+                               : fmt::format("azimuth {:g}°", degrees);
+    };
+    if (grades.size() == 1) {
+        for (const Json& model : array_at(grades.front(), "models")) {
+            const std::string axis = axis_words(value_at(model, "tilt_azimuth_deg"));
+            const std::string title = "Tilted about " + axis;
+            auto chart = std::find_if(charts.begin(), charts.end(),
+                                      [&](const Chart& c) { return c.title == title; });
+            if (chart == charts.end()) chart = charts.insert(charts.end(), tilt_chart(title, axis));
+            if (text_at(model, "name") != "random")
+                chart->series.push_back(curve_of(model, text_at(model, "name"), false));
+        }
+    } else {
+        for (const char* name : {"iso", "sc2", "wlr"}) {
+            Chart chart = tilt_chart(fmt::format("{}, about x and (dashed) y", name), "x or y");
+            for (const Json& grade : grades) {
+                for (const Json& model : array_at(grade, "models")) {
+                    if (text_at(model, "name") != name) continue;
+                    const bool about_x = value_at(model, "tilt_azimuth_deg") == 0;
+                    chart.series.push_back(
+                        curve_of(model, name_in(grade) + (about_x ? "" : ", about y"), !about_x));
+                }
+            }
+            charts.push_back(std::move(chart));
+        }
+    }
+    std::vector<View> views;
+    for (const Chart& chart : charts)
+        views.push_back({{"chart_html", chart_figure(draw_chart_svg(chart))}});
+    return views;
+}
+
+std::vector<View> costs_view(const std::vector<Json>& grades) {
+    std::vector<View> designs;
+    for (const Json& grade : grades) {
+        std::vector<View> items;
+        for (const Json& cost : array_at(grade, "costs")) {
+            items.push_back({{"facet", text_at(cost, "facet")},
+                             {"cost", decimals(number_at(cost, "cost"), 2)},
+                             {"off", decimals(number_at(cost, "off_deg"), 2)}});
+        }
+        const bool none = items.empty();
+        designs.push_back(
+            {{"name", name_in(grade)}, {"tall", is_tall(items)}, {"items", items}, {"none", none}});
+    }
+    return designs;
+}
+
+std::string count_in(const Json& grade, const char* path) {
+    return whole(value_of(grade, path));
+}
+
+std::string headline(const std::vector<Json>& grades) {
+    std::string text;
+    for (const Json& grade : grades) {
+        text += fmt::format("{}{}: {} hearts, {} arrows, light return {} %",
+                            text.empty() ? "" : "; ", name_in(grade),
+                            count_in(grade, "hearts.count"), count_in(grade, "arrows.count"),
+                            decimals(value_of(grade, "face_up.iso.whole"), 1));
+    }
+    return text;
+}
+
+std::vector<View> notes_view(const std::vector<Json>& grades) {
+    std::vector<View> notes;
+    for (const Json& grade : grades) {
+        for (const Json& note : array_at(grade, "notes")) {
+            if (note.is_string()) notes.push_back(name_in(grade) + ": " + note.get<std::string>());
+        }
+        if (text_at(grade, "crystal") == "merged") {
+            notes.push_back(name_in(grade) +
+                            ": a crystal, graded with its mean index; its two waves go one way");
+        }
+    }
+    return notes;
+}
+
+}  // namespace
+
+std::string grade_page(const GradeView& view) {
+    std::vector<Json> grades;
+    Json data = Json::array();
+    for (const GradeDesign& design : view.designs) {
+        grades.push_back(parsed_object<Json>(design.json, "the grade"));
+        data.push_back(grades.back());
+    }
+    std::vector<View> sections;
+    for (std::size_t i = 0; i < view.designs.size(); ++i) {
+        const std::string drawing = section_drawing(view.designs[i].section_json);
+        if (!drawing.empty())
+            sections.push_back({{"name", name_in(grades[i])}, {"drawing_html", drawing}});
+    }
+    const std::string title = view.designs.size() == 1 ? name_in(grades.front())
+                                                       : fmt::format("{} designs", grades.size());
+    const std::string body =
+        filled(templates::grade, {{"title", title},
+                                  {"headline", headline(grades)},
+                                  {"index", significant(number_at(grades.front(), "index"), 5)},
+                                  {"head", significant(number_at(grades.front(), "head_deg"))},
+                                  {"figures", figures_view(grades)},
+                                  {"pictures", pictures_view(view, grades)},
+                                  {"charts", charts_view(grades)},
+                                  {"sections", sections},
+                                  {"costs", costs_view(grades)},
+                                  {"notes", notes_view(grades)},
+                                  {"version", view.version},
+                                  {"command", view.command}});
+    return html_page(title + ": what the cut does with light", body, data.dump());
+}
+
+}  // namespace culet

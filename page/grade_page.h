@@ -1,0 +1,34 @@
+#pragma once
+// The page of `culet grade`: what one cut, or several side by side, do with light.
+
+#include <string>
+#include <vector>
+
+#include "stone/solid.h"
+
+namespace culet {
+
+/// What a scope shows.
+struct GradePicture {
+    std::string scope;    ///< aset, idealscope, darkfield, hearts, arrows
+    std::string summary;  ///< one line
+    std::string uri;      ///< a PNG as data URI
+};
+
+struct GradeDesign {
+    std::string json;          ///< its grade
+    std::string section_json;  ///< light paths (render/grade/path_section.h)
+    std::vector<GradePicture> pictures;
+    Solid solid;
+};
+
+struct GradeView {
+    std::vector<GradeDesign> designs;  ///< at least one
+    std::string version, command;
+};
+
+/// A whole page in itself, with the grades as data. Throws InputError when a grade is no JSON
+/// object.
+std::string grade_page(const GradeView& view);
+
+}  // namespace culet

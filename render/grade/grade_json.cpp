@@ -1,0 +1,156 @@
+#include "render/grade/grade_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "render/grade/grade_figures.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// A billionth of a degree: what radians leave of whole degrees.
+double tidy_degrees(double radians_value) {
+    return std::round(degrees(radians_value) * 1e9) / 1e9;
+}
+
+Json models_json(const Grade& grade) {
+    Json models = Json::array();
+    Json tilts = Json::array();
+    for (const double tilt : grade.tilts) tilts.push_back(tidy_degrees(tilt));
+    for (const TiltCurve& curve : grade.curves) {
+        for (int m = 0; m < k_light_model_count; ++m) {
+            const auto i = static_cast<std::size_t>(m);
+            Json whole = Json::array(), table = Json::array();
+            for (const ViewReturn& view : curve.returns) {
+                whole.push_back(100 * view.whole[i]);
+                if (grade.table >= 0) table.push_back(100 * view.table[i]);
+            }
+            models.push_back({{"name", name_of(static_cast<LightModel>(m))},
+                              {"tilt_deg", tilts},
+                              {"tilt_azimuth_deg", tidy_degrees(curve.axis)},
+                              {"whole", whole},
+                              {"table", table}});
+        }
+    }
+    return models;
+}
+
+Json face_up_json(const Grade& grade) {
+    Json json = Json::object();
+    for (int m = 0; m < k_light_model_count; ++m) {
+        const auto i = static_cast<std::size_t>(m);
+        json[name_of(static_cast<LightModel>(m))] = {
+            {"whole", 100 * grade.face_up.whole[i]},
+            {"table", grade.table >= 0 ? Json(100 * grade.face_up.table[i]) : Json()}};
+    }
+    return json;
+}
+
+Json shares_json(const AsetShares& shares) {
+    return {
+        {"red", shares.red}, {"green", shares.green}, {"blue", shares.blue}, {"dark", shares.dark}};
+}
+
+Json fire_json(const std::optional<Fire>& fire) {
+    if (!fire) return nullptr;
+    return {{"separated", fire->separated},
+            {"matched", fire->matched},
+            {"spread_deg", degrees(fire->spread)},
+            {"spectral", fire->spectral},
+            {"apart_deg", k_fire_apart_deg},
+            {"pupil_deg", k_pupil_deg},
+            {"wavelengths", k_fire_nm}};
+}
+
+Json hearts_json(const Hearts& hearts) {
+    Json list = Json::array();
+    for (const Heart& heart : hearts.list)
+        list.push_back({{"azimuth_deg", degrees(heart.azimuth)},
+                        {"area", heart.area},
+                        {"width_deg", degrees(heart.width)},
+                        {"cleft", heart.cleft}});
+    return {{"count", hearts.count}, {"evenness", hearts.evenness},
+            {"cleft", hearts.cleft}, {"cleft_evenness", hearts.cleft_evenness},
+            {"area", hearts.area},   {"list", list}};
+}
+
+Json arrows_json(const Arrows& arrows) {
+    Json list = Json::array();
+    for (const Arrow& arrow : arrows.list)
+        list.push_back({{"azimuth_deg", degrees(arrow.azimuth)},
+                        {"head", arrow.head},
+                        {"shaft", arrow.shaft},
+                        {"axis", arrow.axis}});
+    return {{"count", arrows.count},
+            {"heads", arrows.list.size()},
+            {"evenness", arrows.evenness},
+            {"area", arrows.area},
+            {"list", list}};
+}
+
+Json sigma_json(const GradeSigma* sigma) {
+    if (sigma == nullptr) return Json::object();
+    Json json = Json::object();
+    for (const auto& [name, value] : sigma->figures) json[name] = value;
+    return json;
+}
+
+}  // namespace
+
+std::string grade_json(const Grade& grade, const GradeContext& context) {
+    Json json;
+    json["schema"] = 1;
+    json["name"] = context.name;
+    json["file"] = context.file;
+    json["material"] = context.material.empty() ? Json() : Json(context.material);
+    json["index"] = grade.index.n;
+    json["crystal"] = context.crystal ? "merged" : "none";
+    json["silhouette_area"] = grade.silhouette_area;
+    json["head_deg"] = tidy_degrees(context.options.head);
+    json["seed"] = context.options.seed;
+    json["face_up"] = face_up_json(grade);
+    json["models"] = models_json(grade);
+    json["aset"] = shares_json(grade.aset);
+    json["aset"]["table"] = grade.table >= 0 ? shares_json(grade.aset_table) : Json();
+    if (grade.table_reflection.share > 0) {
+        json["aset"]["table"]["reflection"] = {
+            {"colour", grade.table_reflection.colour},
+            {"elevation_deg", degrees(grade.table_reflection.elevation)},
+            {"share", grade.table_reflection.share}};
+    }
+    json["ideal_scope"] = {{"red", grade.ideal_scope.red},
+                           {"dark", grade.ideal_scope.dark},
+                           {"white", grade.ideal_scope.white}};
+    json["dark_field"] = {{"bright", grade.dark_field}};
+    json["balance"] = {{"return", grade.balance.useful},
+                       {"head", grade.balance.head},
+                       {"leak", grade.balance.leak},
+                       {"other", grade.balance.other},
+                       {"entry_reflection", grade.balance.entry_reflection},
+                       {"residual", grade.balance.residual}};
+    json["useful_return"] = grade.balance.useful + grade.balance.head;
+    json["head_shadow"] = grade.head_shadow;
+    json["fire"] = fire_json(grade.fire);
+    json["hearts"] = hearts_json(grade.hearts);
+    json["arrows"] = arrows_json(grade.arrows);
+    json["sigma"] = sigma_json(context.sigma);
+    if (context.sigma != nullptr) {
+        json["sigma_draws"] = context.sigma->draws;
+        json["sigma_left_out"] = context.sigma->left_out;
+        json["sigma_correlated"] = context.sigma->correlated;
+    }
+    Json costs = Json::array();
+    for (const FacetCost& cost : context.costs)
+        costs.push_back({{"facet", context.facets[static_cast<std::size_t>(cost.facet)]},
+                         {"cost", cost.cost},
+                         {"off_deg", degrees(cost.off)}});
+    json["costs"] = costs;
+    json["notes"] = context.notes;
+    return json.dump(1) + "\n";
+}
+
+}  // namespace culet

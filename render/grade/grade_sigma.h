@@ -1,0 +1,50 @@
+#pragma once
+// How sure the figures of a grade are, and which facet costs how much light.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "render/grade/grade.h"
+
+namespace culet {
+
+/// How sure one facet is: standard uncertainties of inclination and azimuth (radians) and of its
+/// distance from the stone's middle (the solid's unit). 0: known exactly.
+struct FacetUncertainty {
+    double inclination = 0, azimuth = 0, offset = 0;
+};
+
+struct StoneUncertainty {
+    std::vector<FacetUncertainty> facets;  ///< in the solid's order
+    /// Covariance of all of them, row by row, three a facet; empty: facets are independent.
+    std::vector<double> covariance;
+    bool correlated() const { return !covariance.empty(); }
+};
+
+struct GradeSigma {
+    std::map<std::string, double> figures;  ///< by the names of grade_figures.h
+    bool correlated = false;
+    int draws = 0;
+    int left_out = 0;  ///< draws that were no stone
+};
+
+/// Stones drawn from the uncertainty, graded face up; sigma is their standard deviation. Figures
+/// are continuous in the angles but for their edges, and bent where they are: draws tell what
+/// slopes would not. `draws` at least 2. Throws Interrupted.
+GradeSigma grade_sigma(const Solid& solid, const GradeIndex& index, const GradeOptions& options,
+                       const StoneUncertainty& uncertainty, int draws,
+                       const Progress& progress = {});
+
+/// What one facet's departure from the others of its tier costs.
+struct FacetCost {
+    int facet = 0;
+    double cost = 0;  ///< per cent of iso light return gained with the facet as its tier's mean
+    double off = 0;   ///< its inclination's departure from the tier's mean, radians
+};
+
+/// Of facets in tiers of two or more, the dearest first; what costs less than 0.005 is left out.
+std::vector<FacetCost> facet_costs(const Solid& solid, const GradeIndex& index,
+                                   const GradeOptions& options);
+
+}  // namespace culet

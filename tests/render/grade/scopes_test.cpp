@@ -1,0 +1,240 @@
+// Scopes, hearts and arrows, uncertainties: against geometry and the trade's rules.
+
+#include <gtest/gtest.h>
+
+#include "render/grade/grade.h"
+#include "render/grade/grade_figures.h"
+#include "render/grade/grade_sigma.h"
+#include "render/grade/path_section.h"
+#include "render/grade/upright.h"
+#include "tests/render/grade/round_brilliants.h"
+
+namespace culet {
+namespace {
+
+using test::round_brilliant;
+using test::RoundProportions;
+using test::with_error;
+
+// Diamond at the sodium line.
+constexpr double k_diamond = 2.4176;
+// Proportions in the middle of the trade's window for hearts and arrows.
+const RoundProportions k_ideal{.table = 56, .lower = 77};
+
+struct Found {
+    Hearts hearts;
+    Arrows arrows;
+};
+
+Found found_in(const Solid& solid) {
+    const EyeLightTracer tracer(solid);
+    const EyeLightLimits limits{.regions = true};
+    return {
+        find_hearts(
+            scope_map(tracer.trace({0, 0, -1}, k_diamond, limits), reflector_bands(true), 600)),
+        find_arrows(scope_map(tracer.trace({0, 0, 1}, k_diamond, limits), reflector_bands(), 600))};
+}
+
+// Light straight down through the table is reflected by two opposite mains and leaves under
+// n sin(180 - 4 p) to the vertical: 45 degrees, where ASET's red ends, at p = 40.75 of diamond
+// (AGS: 40.76). Steeper mains send it nearer to the vertical, into red.
+TEST(Scopes, the_tables_aset_colour_flips_at_a_pavilion_of_40_76) {
+    const auto reflection_at = [](double pavilion) {
+        const Solid solid = round_brilliant({.table = 57, .pavilion = pavilion, .lower = 77});
+        const EyeLight light = EyeLightTracer(solid).trace({0, 0, 1}, k_diamond);
+        return table_reflection(light, find_facet(solid, "T"));
+    };
+    const auto green_at = [](double pavilion) {
+        const Solid solid = round_brilliant({.table = 57, .pavilion = pavilion, .lower = 77});
+        const EyeLight light = EyeLightTracer(solid).trace({0, 0, 1}, k_diamond);
+        return aset_shares(light, find_facet(solid, "T")).green;
+    };
+    EXPECT_STREQ(reflection_at(40.76 + 0.05).colour, "red");
+    EXPECT_STREQ(reflection_at(40.76 - 0.05).colour, "green");
+    for (const double pavilion : {40.0, 40.7, 41.0}) {
+        const double out = std::asin(k_diamond * std::sin(radians(180 - 4 * pavilion)));
+        EXPECT_NEAR(reflection_at(pavilion).elevation, radians(90) - out, 1e-9) << pavilion;
+    }
+    // The table's share of green goes at once, by what that reflection has: it is one beam.
+    const double share = reflection_at(40.71).share;
+    EXPECT_GT(share, 0.05);
+    EXPECT_NEAR(green_at(40.71) - green_at(40.81), share, 0.01);
+}
+
+TEST(Scopes, shares_sum_to_one) {
+    for (const double pavilion : {35.0, 41.0, 46.0}) {
+        const EyeLight light =
+            EyeLightTracer(round_brilliant({.pavilion = pavilion})).trace({0, 0, 1}, 1.77);
+        for (const int facet : {-1, 0}) {
+            const AsetShares aset = aset_shares(light, facet);
+            EXPECT_NEAR(aset.red + aset.green + aset.blue + aset.dark, 1, 1e-9);
+        }
+        const ScopeShares scope = ideal_scope_shares(light);
+        EXPECT_NEAR(scope.red + scope.dark + scope.white, 1, 1e-9);
+        // What the dark field shows leaks.
+        EXPECT_LE(dark_field_share(light), scope.white + 1e-12);
+    }
+}
+
+// A stone of eight has eight of each, all alike but for the map's points: an area of 1.3 % of the
+// silhouette is 2800 points, of which the outline's 200 are in or out by half a point each.
+TEST(Scopes, eight_hearts_and_eight_arrows_are_found) {
+    const Found found = found_in(round_brilliant(k_ideal));
+    EXPECT_EQ(found.hearts.count, 8);
+    EXPECT_EQ(found.arrows.count, 8);
+    EXPECT_EQ(found.arrows.list.size(), 8u);
+    EXPECT_GT(found.hearts.evenness, 0.995);
+    EXPECT_GT(found.arrows.evenness, 0.995);
+    EXPECT_GT(found.hearts.cleft, 0.05);
+    EXPECT_GT(found.hearts.cleft_evenness, 0.99);
+    for (std::size_t i = 0; i < 8; ++i) {
+        // Hearts between the mains, arrows along them.
+        const double heart = degrees(found.hearts.list[i].azimuth) / 22.5;
+        const double arrow = degrees(found.arrows.list[i].azimuth) / 45;
+        EXPECT_NEAR(std::abs(heart - std::round(heart)), 0, 0.02);
+        EXPECT_EQ(static_cast<int>(std::abs(std::round(heart))) % 2, 1);
+        EXPECT_NEAR(arrow, std::round(arrow), 0.02);
+    }
+}
+
+// Half a degree on one facet shows in one figure or other, far beyond the map's points (0.005).
+TEST(Scopes, half_a_degree_on_one_facet_is_seen) {
+    const Solid ideal = round_brilliant(k_ideal);
+    for (const char* facet : {"P3", "C3", "L3a", "S3"}) {
+        for (const double error : {0.5, -0.5}) {
+            const Found found = found_in(with_error(ideal, facet, error));
+            const double worst = std::min(
+                {found.hearts.evenness, found.arrows.evenness, found.hearts.cleft_evenness});
+            EXPECT_LT(worst, 0.993) << facet << " " << error;
+        }
+    }
+    // A pavilion main moves its arrows and hearts themselves.
+    for (const double error : {0.5, -0.5}) {
+        const Found found = found_in(with_error(ideal, "P3", error));
+        EXPECT_LT(std::min(found.hearts.evenness, found.arrows.evenness), 0.95);
+    }
+}
+
+TEST(Scopes, no_hearts_are_found_in_a_step_cut_pavilion_without_any) {
+    // Flat mains: no light of the reflector comes back through the pavilion as it would.
+    const Found found = found_in(round_brilliant({.pavilion = 25}));
+    EXPECT_NE(found.arrows.count, 8);
+}
+
+// Small errors go through by the figure's slope: a draw's scatter is the slope times sigma, to the
+// scatter of a scatter of 30 draws (1/sqrt(2 x 29) = 13 %), three times.
+TEST(GradeSigma, is_the_slope_times_sigma) {
+    const Solid solid = round_brilliant(k_ideal);
+    const GradeIndex index{k_diamond, {}};
+    GradeOptions options;
+    const int main = find_facet(solid, "P3");
+    const double sigma = radians(0.005);
+    StoneUncertainty uncertainty;
+    uncertainty.facets.resize(solid.facets.size());
+    uncertainty.facets[static_cast<std::size_t>(main)].inclination = sigma;
+    const GradeSigma found = grade_sigma(solid, index, options, uncertainty, 30);
+    EXPECT_EQ(found.draws, 30);
+    EXPECT_EQ(found.left_out, 0);
+
+    // The same turn about the foot of the perpendicular from the mean corner.
+    Vec3 middle(0);
+    for (const Vec3& v : solid.vertices) middle += v / static_cast<double>(solid.vertices.size());
+    const auto cos_return = [&](double by) {
+        std::vector<NamedPlane> planes;
+        for (const Facet& facet : solid.facets) {
+            Plane plane = facet.plane;
+            if (facet.name == "P3") {
+                const double slope =
+                    std::atan2(std::hypot(plane.normal.x, plane.normal.y), -plane.normal.z) + by;
+                const double azimuth = std::atan2(plane.normal.y, plane.normal.x);
+                const double height = plane.offset - glm::dot(plane.normal, middle);
+                plane.normal = {std::sin(slope) * std::cos(azimuth),
+                                std::sin(slope) * std::sin(azimuth), -std::cos(slope)};
+                plane.offset = height + glm::dot(plane.normal, middle);
+            }
+            planes.push_back({facet.name, plane});
+        }
+        const EyeLight light =
+            EyeLightTracer(intersect_half_spaces(planes).solid).trace({0, 0, 1}, k_diamond);
+        return 100 * light_return(light, -1, options.head, RandomSky(1, k_diamond)).whole[1];
+    };
+    const double slope = (cos_return(sigma) - cos_return(-sigma)) / 2;
+    EXPECT_NEAR(found.figures.at("cos") / std::abs(slope), 1, 0.4);
+    EXPECT_GT(found.figures.at("cos"), 0);
+}
+
+// Facets that err together count together: eight mains by the same amount do not average out.
+TEST(GradeSigma, knows_correlated_errors) {
+    const Solid solid = round_brilliant(k_ideal);
+    StoneUncertainty apart, together;
+    const std::size_t size = 3 * solid.facets.size();
+    apart.facets.resize(solid.facets.size());
+    together.facets = apart.facets;
+    together.covariance.assign(size * size, 0);
+    const double variance = radians(0.01) * radians(0.01);
+    for (std::size_t i = 0; i < solid.facets.size(); ++i) {
+        if (solid.facets[i].name[0] != 'P') continue;
+        apart.facets[i].inclination = radians(0.01);
+        for (std::size_t j = 0; j < solid.facets.size(); ++j) {
+            if (solid.facets[j].name[0] == 'P')
+                together.covariance[3 * i * size + 3 * j] = variance;
+        }
+    }
+    const GradeIndex index{k_diamond, {}};
+    const GradeSigma alone = grade_sigma(solid, index, {}, apart, 24);
+    const GradeSigma all = grade_sigma(solid, index, {}, together, 24);
+    EXPECT_FALSE(alone.correlated);
+    EXPECT_TRUE(all.correlated);
+    // Of eight equal slopes s: s sqrt(8) against 8 s, a ratio of 2.8; each of the two is known to
+    // 1/sqrt(2 x 23) = 15 %, their ratio to 21 %: three of that are 1.8.
+    const double ratio = all.figures.at("cos") / alone.figures.at("cos");
+    EXPECT_NEAR(ratio, std::sqrt(8.0), 1.8);
+    EXPECT_GT(ratio, 1);
+}
+
+TEST(FacetCosts, names_the_facet_that_is_off) {
+    const Solid ideal = round_brilliant(k_ideal);
+    const GradeIndex index{k_diamond, {}};
+    EXPECT_TRUE(facet_costs(ideal, index, {}).empty());
+    const Solid flawed = with_error(ideal, "P3", -0.8);
+    const std::vector<FacetCost> costs = facet_costs(flawed, index, {});
+    ASSERT_FALSE(costs.empty());
+    EXPECT_EQ(flawed.facets[static_cast<std::size_t>(costs.front().facet)].name, "P3");
+    // Seven eighths of the error: the tier's mean has the rest.
+    EXPECT_NEAR(degrees(costs.front().off), -0.8 * 7 / 8, 1e-6);
+}
+
+TEST(PathSection, shows_the_textbooks_path) {
+    const PathSection section = path_section(round_brilliant(), k_diamond, radians(10));
+    EXPECT_GE(section.outline.size(), 7u);
+    ASSERT_EQ(section.paths.size(), 13u);
+    // Through the table beside the middle: two mains, then out of the crown.
+    int returned = 0, leaked = 0;
+    for (const SectionPath& path : section.paths) {
+        returned += path.end == PathEnd::returned || path.end == PathEnd::head;
+        leaked += path.end == PathEnd::leak;
+    }
+    EXPECT_GE(returned, 10);
+    // The same stone with a flat pavilion is a window.
+    const PathSection window = path_section(round_brilliant({.pavilion = 15}), 1.54, radians(10));
+    int through = 0;
+    for (const SectionPath& path : window.paths) through += path.end == PathEnd::leak;
+    EXPECT_GT(through, 6);
+    EXPECT_LT(leaked, 3);
+}
+
+TEST(Upright, turns_a_stone_that_lies_on_its_side) {
+    Stone stone;
+    stone.solid = round_brilliant();
+    for (Facet& facet : stone.solid.facets)
+        facet.plane.normal = {facet.plane.normal.z, facet.plane.normal.x, facet.plane.normal.y};
+    for (Vec3& v : stone.solid.vertices) v = {v.z, v.x, v.y};
+    stone.up_facet = "T";
+    const Stone turned = standing_upright(stone);
+    const int table = find_facet(turned.solid, "T");
+    EXPECT_NEAR(turned.solid.facets[static_cast<std::size_t>(table)].plane.normal.z, 1, 1e-15);
+    EXPECT_NEAR(width_along(turned.solid, {0, 0, 1}), width_along(stone.solid, {1, 0, 0}), 1e-12);
+}
+
+}  // namespace
+}  // namespace culet
