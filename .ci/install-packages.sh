@@ -1,9 +1,12 @@
 #!/bin/sh
-# Installs what is missing of .ci/packages.txt. Does nothing, and asks for nothing, when all is there.
+# Installs what is missing of .ci/packages.txt, or of the lists given. Does nothing, and asks for
+# nothing, when all is there.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
+[ $# -gt 0 ] || set -- "$here/packages.txt"
 missing=
-for package in $(grep -v '^#' "$here/packages.txt"); do
+# shellcheck disable=SC2013  # one package a line
+for package in $(grep -hv '^#' "$@"); do
     state=$(dpkg-query -W -f='${db:Status-Abbrev}' "$package" 2>/dev/null || true)
     case $state in
         ii*) ;;

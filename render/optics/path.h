@@ -23,7 +23,7 @@ public:
 
 struct PathLimits {
     const Obstacles* obstacles = nullptr;  ///< none: nothing
-    int depth = 64;         ///< depth d has d - 1 inner segments
+    int depth = 64;                        ///< depth d has d - 1 inner segments
     double cut_weight = 0;  ///< a path of less weight is not followed; its weight is counted as cut
     /// Trees that double (crystals): below this weight one branch is followed, chosen with the
     /// probability of its power, so that the sum stays unbiased (0: both always).

@@ -1,0 +1,20 @@
+#!/bin/sh
+# Manual pages made from the program's own help by help2man: make_man_pages.sh PROGRAM FOLDER writes
+# culet.1 and a page for each command.
+set -eu
+program=$1
+folder=$2
+mkdir -p "$folder"
+version=$("$program" --version)
+page() { # NAME SUMMARY WORDS...: the help of "culet WORDS"
+    name=$1 summary=$2
+    shift 2
+    # help2man runs what it is given through the shell.
+    help2man --no-info --no-discard-stderr --section=1 --source="$version" --manual="culet" \
+        --version-string="$version" --name="$summary" --output="$folder/$name.1" "$program $*"
+}
+page culet "fit, render and compare models of cut gemstones"
+"$program" --help | awk '/^Subcommands:/ { on = 1; next } on && /^  [a-z]/ { print } on && /^$/ { exit }' |
+    while read -r command summary; do
+        page "culet-$command" "${summary:-a command of culet}" "$command" </dev/null
+    done
