@@ -5,16 +5,16 @@
 // reference/light_paths.h has them; a crystal's two waves merged (Guy & Soler 2004, 4.2), as beams
 // merge them. Single precision, about the stone's middle.
 //
-// How a caller drives it (natively: gpu_picture.cpp; a page: WebGL2 with EXT_color_buffer_float):
+// How a caller drives it (natively: gpu_canvas.cpp; a page: WebGL2 with EXT_color_buffer_float):
 //   1. Compile `vertex` with `kernel`, and `vertex` with `display`. Nothing is bound to draw: three
 //      vertices without attributes, drawArrays(TRIANGLES, 0, 3), fill the viewport.
 //   2. Two RGBA32F textures of the picture's size, each with a framebuffer: one holds the sum so
 //      far, the other is drawn to; then they change places. No float blending is needed.
 //   3. Every texture of `textures` goes to its unit as RGBA32F, NEAREST, CLAMP_TO_EDGE: the kernel
 //      interpolates by itself. The sum so far is `u_sum` on unit `k_gpu_sum_unit`.
-//   4. For every sample: the uniforms of gpu_view; for every pass of `passes` its uniforms; draw
-//      with `u_keep` 0 for the first of all draws and 1 after that. `uniforms`, gpu_lights and
-//      gpu_eye are set once, or when what they are made of changes. A GL program keeps them.
+//   4. Once, or when what they are made of changes: `uniforms` and gpu_lights. For every sample
+//      the uniforms of gpu_view; for every pass of `passes` its uniforms and those of gpu_eye; draw
+//      with `u_keep` 0 for the first of all draws and 1 after that.
 //   5. The sum holds linear sRGB times the number of samples; its fourth number is how many samples
 //      met the stone, times the number of passes.
 //   6. To show it: `display` with `u_sum`, `u_exposure` (exposure over the number of samples) and
@@ -24,9 +24,10 @@
 // What a person changes live touches uniforms alone: camera and pupil (gpu_view), lights
 // (gpu_lights for their places and sizes, `u_light_turn` to turn all of them and the environment
 // about the stone's middle, a mat3 that takes stone directions to those of the lights), analyser
-// and retarder (gpu_eye), exposure. Another stone, other kinds or numbers of lights or another
-// optical class make another program; another depth, cut, index, absorption or colour of a light
-// only other uniforms, so that `kernel` is the same text and need not be compiled again.
+// and retarder (gpu_eye), exposure. Depth, cut, index, absorption and colours of lights are
+// uniforms too: `kernel` is then the same text and need not be compiled again. Another text comes
+// from another stone, other kinds or numbers of lights, another optical class, and the first
+// analyser or polarised light of a scene (OpticalSetup::stokes).
 
 #include <string>
 #include <vector>
