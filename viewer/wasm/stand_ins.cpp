@@ -3,6 +3,7 @@
 #include "render/image/glare.h"
 #include "render/image/image_io.h"
 #include "render/reference/light_field.h"
+#include "render/scene/engine_name.h"
 #include "stone/errors.h"
 #include "stone/half_edges.h"
 #include "stone/output_file.h"
@@ -28,8 +29,23 @@ SolidFile read_solid(const std::filesystem::path& file) {
 TriangleMesh read_triangle_mesh(const std::filesystem::path& file) {
     refuse(file);
 }
+TriangleMesh read_gltf(const std::filesystem::path& file) {
+    refuse(file);
+}
+bool is_gltf(const std::filesystem::path&) {
+    return false;
+}
+void smooth_normals(TriangleMesh&, double) {
+    throw InternalError("a page has no meshes around the stone");
+}
 ReadPicture read_picture(const std::filesystem::path& file) {
     refuse(file);
+}
+
+// A scene may name any; the page draws by beams.
+std::vector<std::string> engine_names() {
+    return {k_auto_engine, k_reference_engine, k_beam_engine, k_preview_engine, "flat", "gouraud",
+            "phong",       "whitted",          k_raytable_engine, k_gpu_engine};
 }
 
 // `ViewerEngine` shows pictures without it.
