@@ -16,7 +16,6 @@
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_PNG
 #define STBI_NO_STDIO
-#define STBI_NO_LINEAR
 #define STBI_NO_FAILURE_STRINGS
 #include <stb/stb_image.h>
 
