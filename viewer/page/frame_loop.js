@@ -6,9 +6,10 @@
 const k_quick_ms = 33;       // of a frame while the stone moves
 const k_rest_ms = 140;       // without a move, after which the whole picture is drawn
 const k_least_scale = 0.25;  // of the screen's resolution: coarser is no picture any more
+const k_fine_ms = 250;       // without a move, after which the fine picture is begun
 const k_levels = {
   quick: 0,
-  full: 1,
+  whole: 1,
   done: 2
 };
 
@@ -20,7 +21,6 @@ class FrameLoop {
     this.last_move = -Infinity;
     this.running = false;
     this.paused = false;     // while others need the engine: recording
-    this.coarse = false;     // quick frames leave out what takes them too long
     this.set_key = "";       // what the engine was last told to draw
     this.exposure = null;    // of the last whole picture
     this.milliseconds = {};  // last of each way of drawing
@@ -35,6 +35,7 @@ class FrameLoop {
   changed() {
     this.level = k_levels.quick;
     this.version = (this.version || 0) + 1;
+    if (this.wake) this.wake();
     if (!this.running && !this.paused) this.run();
   }
   // The engine forgot all: it was started anew.
@@ -59,7 +60,18 @@ class FrameLoop {
           if (version === this.version) await this.pause(begin);
           continue;
         }
-        await this.draw(false);
+        if (this.level === k_levels.quick) {
+          await this.draw(false);
+          if (version === this.version)
+            this.level = this.is_fine() ? k_levels.done : k_levels.whole;
+          continue;
+        }
+        // What the hand does meanwhile comes first.
+        const woken = new Promise((resolve) => {
+          this.wake = resolve;
+        });
+        await Promise.race([this.draw_finely(version), woken]);
+        this.wake = null;
         if (version === this.version) this.level = k_levels.done;
       }
     } catch (error) {
@@ -109,23 +121,48 @@ class FrameLoop {
     });
   }
 
-  // While the stone moves nobody sees a crystal's two images apart, nor a rainbow's every colour.
-  settings(stone, quick) {
-    const settings = this.page.settings(stone);
-    if (!quick || !this.coarse) return settings;
-    if (!this.page.state.get("wavelengths"))
-      settings.push(`render.wavelengths=${toml_list(wavelengths_nm(3))}`);
-    return [...settings, 'render.crystal_beams="merged"'];
+  // Of frames that must come quickly, and of the first whole picture: three wavelengths, a
+  // crystal's waves merged, and little light left out.
+  settings(stone) {
+    const settings = this.page.settings(stone), values = this.page.state.values;
+    if (!values.wavelengths) settings.push(`render.wavelengths=${toml_list(wavelengths_nm(3))}`);
+    return [...settings, 'render.crystal_beams="merged"', "render.tolerance=0.05"];
+  }
+  // Nothing finer comes after the GPU's samples.
+  is_fine() { return this.page.gpu.shown; }
+
+  async draw_finely(version) {
+    const page = this.page, info = page.info;
+    await new Promise((resolve) => setTimeout(resolve, k_fine_ms));
+    if (version !== this.version || page.info !== info || page.refused) return;
+    const [width, height] = page.picture.size(1);
+    let drawn;
+    try {
+      drawn = await page.fine.draw(this.sides(), width, height, page.exposure());
+    } catch (error) {
+      if (version === this.version) page.failed(error);
+    }
+    if (!drawn || version !== this.version || page.info !== info) return;
+    for (const [side, picture] of drawn) page.picture.take(picture, side);
+    this.exposure = drawn[drawn.length - 1][1].exposure;
+    this.milliseconds.beams = drawn.reduce((sum, [, picture]) => sum + picture.milliseconds, 0);
+    page.show_picture();
+    page.drawn(false);
+  }
+
+  // Which stone stands on which side.
+  sides() {
+    return this.page.state.get("compare") === "one" ? [["left", this.page.shown_index()]]
+                                                    : [["left", 0], ["right", 1]];
   }
 
   async draw(quick) {
-    const page = this.page, values = page.state.values, info = page.info;
-    const sides =
-      values.compare === "one" ? [["left", page.shown_index()]] : [["left", 0], ["right", 1]];
+    const page = this.page, info = page.info;
+    const sides = this.sides();
     const [width, height] = page.picture.size(quick ? this.scale : 1);
     let spent = 0, exposure = this.exposure_for(quick);
     for (const [side, stone] of sides) {
-      const settings = this.settings(stone, quick);
+      const settings = this.settings(stone);
       await page.engine.in_turn(() => page.info === info && this.prepare(stone, settings));
       if (page.info !== info) return;  // another stone was opened meanwhile
       if (page.refused) return page.show_refused();
@@ -148,10 +185,10 @@ class FrameLoop {
     }
     if (sides.length === 1) page.picture.pictures.delete("right");
     if (!quick && typeof exposure === "number") this.exposure = exposure;
-    this.milliseconds[quick ? "preview" : "beams"] = spent;
+    this.milliseconds[quick ? "preview" : "whole"] = spent;
     if (quick) this.adapt(spent);
     page.show_picture();
-    page.drawn(quick);
+    page.drawn(quick, !quick);
   }
 
   // While something moves the exposure stays: a picture that brightens and darkens is restless.
@@ -163,6 +200,5 @@ class FrameLoop {
   adapt(milliseconds) {
     const wanted = this.scale * Math.sqrt(k_quick_ms / Math.max(1, milliseconds));
     this.scale = Math.min(1, Math.max(k_least_scale, 0.7 * this.scale + 0.3 * wanted));
-    if (milliseconds > 2 * k_quick_ms && this.scale < 1.2 * k_least_scale) this.coarse = true;
   }
 }

@@ -4,6 +4,27 @@
 
 const k_most_paths = 6;
 
+// Of the kinds of lights, as `culet probe` numbers them, in plain words.
+const k_plain_lights = {
+  constant: "the even light of the room",
+  environment: "the surroundings",
+  cap: "disc or ring",
+  hemisphere: "half of the sky",
+  sphere: "lamp",
+  lobe: "soft lamp",
+  plane: "panel",
+};
+function plain_light(text) {
+  if (!text) return "nothing";
+  return text.split(" + ")
+    .map((part) => {
+      const [kind, number] = part.split(" ");
+      if (!k_plain_lights[kind]) return part;
+      return k_plain_lights[kind] + (number === undefined ? "" : " " + (Number(number) + 1));
+    })
+    .join(", ");
+}
+
 class LightPath {
   constructor(page) {
     this.page = page;
@@ -26,7 +47,7 @@ class LightPath {
     const page = this.page, [width, height] = page.picture.size();
     const box = page.stage.getBoundingClientRect();
     const stone = page.shown_index();
-    const found = await page.loop.ask(stone, page.settings(stone), "path", {
+    const found = await page.loop.ask(stone, page.loop.settings(stone), "path", {
       ...page.drawing(stone, width, height),
       x: at[0] * width / box.width,
       y: at[1] * height / box.height,
@@ -59,7 +80,7 @@ class LightPath {
         element("p", {class: "note"}, `and ${rest} weaker ${rest === 1 ? "path" : "paths"}`));
     choose(0);
     const first = paths[0];
-    page.say(`Light path: ${first.facets.join(", ")}; sees ${first.light || "nothing"}`, true);
+    page.say(`Light path: ${first.facets.join(", ")}; sees ${plain_light(first.light)}`, true);
   }
 
   // `weight` is the share of the light along this way that reaches the eye.
@@ -76,7 +97,7 @@ class LightPath {
     return element("div", {class: "path-item"},
       button(`${(100 * share).toFixed(share < 0.1 ? 1 : 0)} % comes this way`, () => choose(index),
         {class: "path-button", "data-path": index}),
-      element("p", {class: "soft"}, path.light ? "sees " + path.light : "sees nothing"),
+      element("p", {class: "soft"}, "sees " + plain_light(path.light)),
       element("ol", {}, ...crossed));
   }
 }

@@ -11,6 +11,7 @@ class Page {
     this.picture = new PictureView(this.stage, by_id("picture"), by_id("still"));
     this.gpu = new GpuView(this, by_id("gpu-picture"));
     this.loop = new FrameLoop(this);
+    this.fine = new FinePicture(this);
     this.overlay = new Overlay(this, by_id("overlay"));
     this.card = new FacetCard(this, by_id("facet-card"));
     this.engine = new EngineClient((line) => this.engine_died(line));
@@ -170,7 +171,7 @@ class Page {
     const bytes = new Uint8Array(await file.arrayBuffer());
     const stone = this.shown_index();
     const answer = await this.engine.in_turn(async () => {
-      await this.loop.prepare(stone, this.settings(stone));
+      await this.loop.prepare(stone, this.loop.settings(stone));
       return this.engine.call("panorama", {name: file.name, bytes}, [bytes.buffer]);
     });
     this.panorama = file;
@@ -183,7 +184,7 @@ class Page {
   took_settings(answer) {
     this.refused = answer.refused || "";
     this.gpu.took_settings(answer);
-    this.panels.picture.took(answer);
+    if (!this.panels.picture.told.length) this.panels.picture.took(answer);
   }
   show_picture() {
     const {compare, divider} = this.state.values;
@@ -199,14 +200,15 @@ class Page {
     this.trouble(
       `The page cannot draw this live: ${this.refused}. The picture is what culet drew.`);
   }
-  drawn(quick) {
-    const {preview, beams, gpu} = this.loop.milliseconds;
-    const ms = this.gpu.shown ? gpu : quick ? preview : beams;
-    by_id("timing").textContent = `${
-      this.gpu.shown ? "GPU"
-        : quick      ? "quick"
-                     : "beams"} ${ms.toFixed(0)} ms`;
-    this.stage.dataset.drawn = quick ? "quick" : "full";
+  // `rough`: a finer picture follows.
+  drawn(quick, rough = false) {
+    const {preview, whole, beams, gpu} = this.loop.milliseconds;
+    const [name, ms] = this.gpu.shown ? ["GPU", gpu]
+      : quick                         ? ["quick", preview]
+      : rough                         ? ["beams, three wavelengths", whole]
+                                      : ["beams", beams];
+    by_id("timing").textContent = `${name} ${ms.toFixed(0)} ms${rough ? ", refining\u2026" : ""}`;
+    this.stage.dataset.drawn = quick ? "quick" : rough ? "whole" : "fine";
     if (this.says_refused) by_id("trouble").hidden = true;
     this.says_refused = false;
     if (!this.first_picture_ms)

@@ -106,6 +106,7 @@ Object.assign(Page.prototype, {
     if (item !== this.state.get("item")) return;  // there is a newer one on its way
     this.stones = this.item().stones.map((stone) => new ShownStone(stone));
     this.designs.clear();
+    this.cut_held = null;
     this.base = base_of(info.camera, this.stones[info.stone ?? this.stones.length - 1].center);
     this.fit_stage();
     this.info = info;
@@ -120,11 +121,12 @@ Object.assign(Page.prototype, {
     }
     if (this.state.get("cut")) await this.make_cut().catch((error) => this.failed(error));
     this.overlay.draw();
-    this.loop.changed();
+    this.loop.moved();  // a quick picture first
   },
 
   async open_item(index) {
     this.info = null;
+    if (this.fine.busy) this.fine.stop();
     this.state.forget_stone();
     this.state.set({item: index});
     this.put_away_all();
@@ -205,10 +207,6 @@ Object.assign(Page.prototype, {
   // Somebody changed the state.
   changed(changed, by) {
     if (!this.ready()) return;
-    // What is quick enough now is found anew.
-    if (["material", "light", "effects", "wavelengths", "depth", "polariser", "item"].some(
-          (key) => changed.has(key)))
-      this.loop.coarse = false;
     if (changed.has("cut")) this.cut_soon();
     const drawn = [...changed].some(
       (key) => !["divider", "facets", "wire", "names", "tilts", "cut", "item"].includes(key));
@@ -251,10 +249,12 @@ Object.assign(Page.prototype, {
       const answer = await this.engine.in_turn(() => this.engine.call("cut", args));
       this.stones[index] = new ShownStone(answer.geometry);
       this.designs.set(index, answer.stone);
+      this.cut_held = args;
       by_id("trouble").hidden = true;
     } else {
       this.stones[index] = new ShownStone(stone);
       this.designs.delete(index);
+      this.cut_held = null;
     }
     ++this.scene_version;
     this.loop.forget();

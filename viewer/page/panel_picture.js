@@ -126,10 +126,13 @@ class PanelPicture {
     this.show_times();
   }
   show_times() {
-    const {preview, beams, gpu} = this.page.loop.milliseconds;
-    const times = [["beams", beams], ["quick frames", preview], ["GPU, one sample a pixel", gpu]]
-                    .filter(([, ms]) => ms !== undefined)
-                    .map(([name, ms]) => `${name} ${ms.toFixed(0)} ms`);
+    const {preview, whole, beams, gpu} = this.page.loop.milliseconds;
+    const times =
+      [
+        ["beams", beams], ["with three wavelengths", whole], ["quick frames", preview],
+        ["GPU, one sample a pixel", gpu]
+      ].filter(([, ms]) => ms !== undefined)
+        .map(([name, ms]) => `${name} ${ms.toFixed(0)} ms`);
     const refusal = this.page.gpu.refusal();
     this.times.textContent =
       times.join(", ") + (refusal ? (times.length ? ". " : "") + "GPU: " + refusal : "");

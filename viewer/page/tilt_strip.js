@@ -28,7 +28,7 @@ class TiltStrip {
     const page = this.page, values = page.state.values;
     this.strip.hidden = !values.tilts;
     if (!values.tilts || !page.ready() || page.refused) return;
-    const stone = page.shown_index(), settings = page.settings(stone);
+    const stone = page.shown_index(), settings = page.loop.settings(stone);
     const exposure = page.exposure() === "auto" ? page.loop.exposure || "auto" : page.exposure();
     const key = JSON.stringify([
       stone, settings, values.light_turn, values.lights_with, exposure, page.tonemap(),

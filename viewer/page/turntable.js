@@ -45,7 +45,7 @@ class Turntable {
     for (let i = 0; i < k_film_frames && this.recording; ++i) {
       const turn =
         Turn.after(view.turn, Turn.about(page.shown_stone().up, 2 * Math.PI * i / k_film_frames));
-      const drawn = await page.loop.ask(stone, page.settings(stone), "draw", {
+      const drawn = await page.loop.ask(stone, page.loop.settings(stone), "draw", {
         ...page.drawing(stone, width, height, {...view, turn}),
         engine: "beams",
         exposure,

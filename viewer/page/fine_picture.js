@@ -1,0 +1,70 @@
+"use strict";
+// The picture as the scene asks for it, all wavelengths and both waves of a crystal, once the stone
+// rests: by an engine in a worker of its own, so that the hand never waits for it.
+
+class FinePicture {
+  constructor(page) {
+    this.page = page;
+    this.engine = new EngineClient(() => {
+      this.key = "";
+    });
+    this.key = "";     // of what the engine holds
+    this.busy = null;  // whose picture is being drawn
+  }
+
+  stop() {
+    this.engine.stop("started again");
+    this.key = "";
+    this.busy = null;
+  }
+
+  // The scene as the page's other engine holds it: the item, a changed cut, a panorama.
+  async open() {
+    const page = this.page, item = page.state.get("item");
+    const key = JSON.stringify([item, page.scene_version]);
+    if (key === this.key && this.engine.worker) return;
+    if (!this.engine.worker) await this.engine.start();
+    this.key = "";
+    await this.engine.call("open", {document: page.document, item});
+    if (page.cut_held) await this.engine.call("cut", page.cut_held);
+    if (page.panorama && page.panorama_setting) {
+      const bytes = new Uint8Array(await page.panorama.arrayBuffer());
+      await this.engine.call("panorama", {name: page.panorama.name, bytes}, [bytes.buffer]);
+    }
+    this.key = key;
+  }
+
+  // [side, picture] of each side, or nothing where the page has moved on. What an earlier call
+  // still draws is given up.
+  async draw(sides, width, height, exposure) {
+    if (this.busy) this.stop();
+    const mine = this.busy = {};
+    try {
+      await this.open();
+      return await this.draw_sides(sides, width, height, exposure);
+    } finally {
+      if (this.busy === mine) this.busy = null;
+    }
+  }
+
+  async draw_sides(sides, width, height, exposure) {
+    const page = this.page, version = page.loop.version, drawn = [];
+    const late = () => page.loop.version !== version;
+    for (const [side, stone] of sides) {
+      if (late()) return null;
+      const settings = page.settings(stone);
+      const answer = await this.engine.call("set", {stone: page.engine_stone(stone), settings});
+      if (late()) return null;
+      page.panels.picture.took(answer);
+      const picture = await this.engine.call("draw", {
+        ...page.drawing(stone, width, height),
+        engine: "beams",
+        exposure,
+        tonemap: page.tonemap(),
+      });
+      if (typeof picture.exposure === "number") exposure = picture.exposure;
+      drawn.push([side, picture]);
+    }
+    return late() ? null : drawn;
+  }
+}
