@@ -21,6 +21,7 @@ namespace {
 // tells what is left (residual).
 constexpr int k_balance_faces = 20, k_fire_faces = 10;
 constexpr int k_balance_rings = 2, k_fire_rings = 1;
+constexpr int k_dome_rings = 4, k_coarse_dome_rings = 2;
 constexpr int k_ring = 8, k_coarse_ring = 2, k_coarse_map = 300, k_coarse_fire_faces = 8;
 // Planes that miss their meets by 3e-4 of the width move the volume by no more than this.
 constexpr double k_same_volume = 5e-3;
@@ -204,6 +205,18 @@ std::vector<Vec3> cone_directions(double half_angle, int rings, int each) {
     return directions;
 }
 
+std::vector<Vec3> hemisphere_directions(int rings, int each) {
+    std::vector<Vec3> directions;
+    for (int ring = 0; ring < rings; ++ring) {
+        const double height = (ring + 0.5) / rings, level = std::sqrt(1 - height * height);
+        for (int k = 0; k < each; ++k) {
+            const double azimuth = 2 * std::numbers::pi * (k + 0.25 + 0.5 * (ring % 2)) / each;
+            directions.push_back({level * std::cos(azimuth), level * std::sin(azimuth), height});
+        }
+    }
+    return directions;
+}
+
 std::vector<bool> crown_facets(const Solid& solid) {
     std::vector<bool> crown;
     for (const Facet& facet : solid.facets) crown.push_back(facet.plane.normal.z > k_level);
@@ -241,6 +254,13 @@ Grade grade_convex(const Solid& solid, const GradeIndex& index, const GradeOptio
     std::vector<Work::Cone> balances(around.size());
     for (std::size_t i = 0; i < around.size(); ++i)
         jobs.emplace_back([&, i] { balances[i] = work.balance_along(around[i]); });
+    const std::vector<Vec3> dome =
+        hemisphere_directions(options.coarse ? k_coarse_dome_rings : k_dome_rings, k_ring);
+    std::vector<WeightedReturn> returned(dome.size());
+    for (std::size_t i = 0; i < dome.size(); ++i) {
+        jobs.emplace_back(
+            [&, i] { returned[i] = weighted_return(work.tracer.trace(dome[i], index.n)); });
+    }
     const std::vector<Vec3> coloured =
         cone_directions(options.light_cone, k_fire_rings, options.coarse ? k_coarse_ring : k_ring);
     std::vector<Work::FireAlong> fires(index.fire ? coloured.size() : 0);
@@ -251,6 +271,12 @@ Grade grade_convex(const Solid& solid, const GradeIndex& index, const GradeOptio
     double area = 0;
     for (const Work::Cone& cone : balances) area += cone.area;
     for (const Work::Cone& cone : balances) grade.balance += (1 / area) * cone.balance;
+    WeightedReturn weighted;
+    for (const WeightedReturn& part : returned) {
+        weighted.returned += part.returned;
+        weighted.weight += part.weight;
+    }
+    grade.weighted_return = weighted.returned / weighted.weight;
     if (!fires.empty()) {
         grade.fire.emplace();
         double fire_area = 0;
