@@ -23,7 +23,7 @@ Scene scene_in(const Stone& stone, const LightPreset& preset, const GradePicture
     scene.camera.width = scene.camera.height = options.size;
     frame_stone(stone.solid, preset.from_below ? Facing::pavilion : Facing::crown, scene.camera);
     RenderSettings& settings = scene.settings;
-    settings.engine = "beams";
+    settings.engine = k_beam_engine;
     settings.check = Check::none;
     settings.threads = options.threads;
     settings.effects_auto = false;

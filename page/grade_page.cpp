@@ -38,7 +38,10 @@ constexpr Row k_rows[] = {
     {"through the table", "COS", "face_up.cos.table", "cos_table", 1, 2, " %"},
     {"Light return, light from the sides", "SC2", "face_up.sc2.whole", "sc2", 1, 2, " %"},
     {"through the table", "SC2", "face_up.sc2.table", "sc2_table", 1, 2, " %"},
-    {"Weighted light return", "WLR, cos² of the angle", "face_up.wlr.whole", "wlr", 1, 2, " %"},
+    {"Light return, cos², no head", "WLR of this line of sight", "face_up.wlr.whole", "wlr", 1, 2,
+     " %"},
+    {"Weighted light return", "GIA's, seen from all around", "weighted_light_return",
+     "weighted_light_return", 100, 2, " %"},
     {"Useful return", "out of the crown, between head and 64°", "balance.return", "balance.return",
      100, 2, " %"},
     {"Into the viewer's head", "", "balance.head", "balance.head", 100, 2, " %"},
@@ -93,6 +96,13 @@ std::string shown(const Json& grade, const Row& row) {
 std::string name_in(const Json& grade) {
     const std::string name = text_at(grade, "name");
     return name.empty() ? "the stone" : name;
+}
+
+// For the key of a chart, which has room for little.
+std::string short_name(const Json& grade, std::size_t number) {
+    constexpr std::size_t k_room = 14;
+    const std::string name = name_in(grade);
+    return name.size() <= k_room ? name : fmt::format("design {}", number);
 }
 
 View figures_view(const std::vector<Json>& grades) {
@@ -167,12 +177,12 @@ std::vector<View> charts_view(const std::vector<Json>& grades) {
     } else {
         for (const char* name : {"iso", "sc2", "wlr"}) {
             Chart chart = tilt_chart(fmt::format("{}, about x and (dashed) y", name), "x or y");
-            for (const Json& grade : grades) {
-                for (const Json& model : array_at(grade, "models")) {
+            for (std::size_t i = 0; i < grades.size(); ++i) {
+                for (const Json& model : array_at(grades[i], "models")) {
                     if (text_at(model, "name") != name) continue;
                     const bool about_x = value_at(model, "tilt_azimuth_deg") == 0;
-                    chart.series.push_back(
-                        curve_of(model, name_in(grade) + (about_x ? "" : ", about y"), !about_x));
+                    chart.series.push_back(curve_of(
+                        model, short_name(grades[i], i + 1) + (about_x ? "" : ", y"), !about_x));
                 }
             }
             charts.push_back(std::move(chart));
@@ -180,7 +190,8 @@ std::vector<View> charts_view(const std::vector<Json>& grades) {
     }
     std::vector<View> views;
     for (const Chart& chart : charts)
-        views.push_back({{"chart_html", chart_figure(draw_chart_svg(chart))}});
+        views.push_back(
+            {{"title", chart.title}, {"chart_html", chart_figure(draw_chart_svg(chart))}});
     return views;
 }
 

@@ -65,6 +65,7 @@ struct Grade {
     ScopeShares ideal_scope;
     double dark_field = 0;
     LightBalance balance;
+    double weighted_return = 0;  ///< GIA's, see light_return.h
     /// Of a uniform hemisphere's light, what a black cone of the viewer's head takes away.
     double head_shadow = 0;
     std::optional<Fire> fire;
@@ -87,6 +88,9 @@ Vec3 eye_over_tilted(double tilt, double axis);
 
 /// Directions of a cone round +z, as evenly as its cosine-weighted light: rings of so many each.
 std::vector<Vec3> cone_directions(double half_angle, int rings, int each);
+
+/// Directions of the hemisphere, rings of equal solid angle with so many each.
+std::vector<Vec3> hemisphere_directions(int rings, int each);
 
 /// By facet: whether it looks up (crown and table), as light that leaves through it is the crown's.
 std::vector<bool> crown_facets(const Solid& solid);

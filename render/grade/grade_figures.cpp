@@ -8,7 +8,7 @@ std::vector<GradeFigure> figures_of(const Grade& grade) {
     std::vector<GradeFigure> figures;
     const char* words[] = {"light return, even light", "light return, cosine light",
                            "light return, light from the sides", "light return, uneven light",
-                           "weighted light return"};
+                           "light return, cos^2, no head"};
     for (const bool table : {false, true}) {
         if (table && grade.table < 0) continue;
         const LightReturn& values = table ? grade.face_up.table : grade.face_up.whole;
@@ -37,6 +37,7 @@ std::vector<GradeFigure> figures_of(const Grade& grade) {
     add("balance.leak", "leaks", grade.balance.leak);
     add("balance.entry_reflection", "reflected on entry", grade.balance.entry_reflection);
     add("balance.residual", "not followed to the end", grade.balance.residual);
+    add("weighted_light_return", "weighted light return (GIA)", grade.weighted_return);
     add("head_shadow", "taken away by the head", grade.head_shadow);
     if (grade.fire) {
         add("fire.separated", "fire", grade.fire->separated);

@@ -133,6 +133,7 @@ std::string grade_json(const Grade& grade, const GradeContext& context) {
                        {"entry_reflection", grade.balance.entry_reflection},
                        {"residual", grade.balance.residual}};
     json["useful_return"] = grade.balance.useful + grade.balance.head;
+    json["weighted_light_return"] = grade.weighted_return;
     json["head_shadow"] = grade.head_shadow;
     json["fire"] = fire_json(grade.fire);
     json["hearts"] = hearts_json(grade.hearts);

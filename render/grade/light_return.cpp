@@ -74,6 +74,16 @@ ViewReturn light_return(const EyeLight& light, int table, double head, const Ran
     return result;
 }
 
+WeightedReturn weighted_return(const EyeLight& light) {
+    const double weight = light.towards_eye.z * light.towards_eye.z;
+    WeightedReturn part{0, weight * light.area};
+    for (const EyeExit& exit : light.exits) {
+        if (exit.weight > 0 && exit.direction.z > 0)
+            part.returned += weight * exit.area * exit.weight;
+    }
+    return part;
+}
+
 LightBalance light_balance(const EyeLight& light, const std::vector<bool>& crown,
                            const BalanceCones& cones) {
     const double cos_head = std::cos(cones.head), cos_view = std::cos(cones.view_cone);

@@ -6,7 +6,8 @@
 // With d the cosine between the line of sight and the direction that a share of the eye's light
 // leaves along; shares count where 0 < d <= cos(head), the viewer's head being black:
 //   iso 1;  cos d;  sc2 2 d sqrt(1 - d^2);  random sc2 times an uneven sky with spots (RandomSky)
-// wlr counts d^2 where d > 0: no head, and nothing of what the outside of the stone reflects.
+// wlr counts d^2 where d > 0: no head, and nothing of what the outside of the stone reflects. It is
+// that of one line of sight; GIA's, of observers all around above the stone, is `weighted_return`.
 // The others count the outer reflection too.
 
 #include <array>
@@ -32,6 +33,14 @@ struct ViewReturn {
 
 /// `table`: facet index, or -1. `head`: half angle, radians.
 ViewReturn light_return(const EyeLight& light, int table, double head, const RandomSky& sky);
+
+/// One direction's part in GIA's weighted light return: diffuse light from the hemisphere above
+/// the stone, what the hemisphere gets of it weighted with cos^2 of the angle to the vertical, what
+/// the outside reflects left out. Of all directions the sum of `returned` over that of `weight`.
+struct WeightedReturn {
+    double returned = 0, weight = 0;
+};
+WeightedReturn weighted_return(const EyeLight& light);
 
 /// Where a unit of the eye's light goes; the parts sum to 1. Fractions; crown: through facets that
 /// look up. Angles are to the line of sight.

@@ -106,6 +106,35 @@ TEST(Fit, ReportedUncertaintiesAreHonest) {
     EXPECT_NEAR(std::sqrt(area_squares / count), 1, 0.2);
 }
 
+// What every facet's sigmas say one by one, together: a covariance matrix has their squares on its
+// diagonal, and no two of its variables are more than equal.
+TEST(Fit, FacetCovarianceHasTheSigmasOnItsDiagonal) {
+    const Solid truth = brilliant();
+    const FitResult result = fit_stone(stone_of(truth), noisy(full_readings(truth), 5));
+    const std::size_t size = 3 * result.facets.size();
+    ASSERT_EQ(result.facet_covariance.size(), size * size);
+    const auto at = [&](std::size_t i, std::size_t j) {
+        return result.facet_covariance[i * size + j];
+    };
+    for (std::size_t f = 0; f < result.facets.size(); ++f) {
+        const FittedFacet& facet = result.facets[f];
+        const double azimuth = std::isfinite(facet.sigma_azimuth) ? facet.sigma_azimuth : 0;
+        EXPECT_NEAR(std::sqrt(at(3 * f, 3 * f)), facet.sigma_inclination, 1e-9) << facet.name;
+        EXPECT_NEAR(std::sqrt(at(3 * f + 1, 3 * f + 1)), azimuth, 1e-9) << facet.name;
+        EXPECT_NEAR(std::sqrt(at(3 * f + 2, 3 * f + 2)), facet.sigma_offset, 1e-9) << facet.name;
+    }
+    double off_diagonal = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            EXPECT_EQ(at(i, j), at(j, i));
+            const double most = std::sqrt(at(i, i) * at(j, j));
+            EXPECT_LE(std::abs(at(i, j)), most * (1 + 1e-6) + 1e-15);
+            if (most > 0) off_diagonal = std::max(off_diagonal, std::abs(at(i, j)) / most);
+        }
+    }
+    EXPECT_GT(off_diagonal, 0.1) << "facets of one stone share corners: they are correlated";
+}
+
 TEST(Fit, FindsABlunderAndNamesIt) {
     const Solid truth = brilliant();
     std::vector<Reading> readings = noisy(full_readings(truth), 5);

@@ -170,6 +170,30 @@ TEST(LightReturn, of_symmetric_designs_is_symmetric) {
     EXPECT_EQ(grade.curves[0].returns[3].whole[0], grade.face_up.whole[0]);
 }
 
+// GIA's trends (Hemphill et al. 1998): of crowns above 10 degrees 23 is the best, those above 34.5
+// are never high; tables under 57 %; pavilions from 38 to 42 or 43 degrees.
+TEST(LightReturn, weighted_as_gias_follows_its_trends) {
+    const auto weighted = [](const RoundProportions& p) {
+        const EyeLightTracer tracer(round_brilliant(p));
+        WeightedReturn sum;
+        for (const Vec3& direction : hemisphere_directions(4, 8)) {
+            const WeightedReturn part = weighted_return(tracer.trace(direction, k_diamond));
+            sum.returned += part.returned;
+            sum.weight += part.weight;
+        }
+        return sum.returned / sum.weight;
+    };
+    const double best = weighted({.table = 56, .crown = 23, .lower = 77});
+    for (const double crown : {12.0, 15.0, 29.0, 34.5, 38.0})
+        EXPECT_GT(best, weighted({.table = 56, .crown = crown, .lower = 77})) << crown;
+    EXPECT_GT(weighted({.table = 56, .lower = 77}), weighted({.table = 64, .lower = 77}));
+    EXPECT_GT(weighted({.table = 64, .lower = 77}), weighted({.table = 68, .lower = 77}));
+    EXPECT_GT(weighted({.table = 56, .pavilion = 41, .lower = 77}),
+              weighted({.table = 56, .pavilion = 36, .lower = 77}));
+    EXPECT_GT(weighted({.table = 56, .pavilion = 42, .lower = 77}),
+              weighted({.table = 56, .pavilion = 45, .lower = 77}));
+}
+
 // A figure of exact areas is as smooth as the areas: halving a small step halves its effect.
 TEST(LightReturn, is_continuous_in_the_angles) {
     const auto iso = [](double pavilion) {

@@ -7,6 +7,7 @@
 #include "render/grade/grade_sigma.h"
 #include "render/grade/path_section.h"
 #include "render/grade/upright.h"
+#include "stone/errors.h"
 #include "tests/render/grade/round_brilliants.h"
 
 namespace culet {
@@ -221,6 +222,21 @@ TEST(PathSection, shows_the_textbooks_path) {
     for (const SectionPath& path : window.paths) through += path.end == PathEnd::leak;
     EXPECT_GT(through, 6);
     EXPECT_LT(leaked, 3);
+}
+
+// What a program that adds a facet's error writes: meets that miss, outlines that cross themselves
+// by rounding.
+TEST(Grade, takes_stones_whose_meets_miss) {
+    Solid flawed = with_error(round_brilliant(k_ideal), "P3", -0.5);
+    for (Vec3& v : flawed.vertices) v += 1e-7 * Vec3{std::sin(1e7 * v.x), std::sin(1e7 * v.y), 0};
+    GradeOptions options;
+    options.coarse = true;
+    EXPECT_GT(grade_stone(flawed, {k_diamond, {}}, options).balance.useful, 0.5);
+    // A dent is none of these.
+    Solid dented = round_brilliant(k_ideal);
+    for (Vec3& v : dented.vertices)
+        if (v.z < -0.8) v.z = -0.2;
+    EXPECT_THROW(grade_stone(dented, {k_diamond, {}}, options), InputError);
 }
 
 TEST(Upright, turns_a_stone_that_lies_on_its_side) {
