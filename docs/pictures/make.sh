@@ -32,7 +32,7 @@ sed 's/; the fit does without[^<]*//' "$work/slip.svg" >docs/pictures/first-ston
 "$culet" run $evening/job.toml -o "$work/evening" -q >/dev/null
 page "$work/evening/report.html" docs/pictures/first-stone/report.png 1040
 
-# Photograph against render: the pose, the comparison. The calibration takes a minute or more.
+# Photograph against render: the pose, the comparison.
 cp "$work/fitted.obj" "$work/stone.obj"
 sed 's/"hand.obj"/"stone.obj"/' $dravite/stone.toml >"$work/fitted.toml"
 sed 's/"stone.toml"/"fitted.toml"/' $dravite/scene.toml >"$work/scene.toml"
@@ -40,6 +40,5 @@ sed 's/"stone.toml"/"fitted.toml"/' $dravite/scene.toml >"$work/scene.toml"
     --overlay "$work/overlay.png" -q
 convert "$work/overlay.png" -gravity center -crop 700x560+0+0 +repage -resize 560x -quality 82 \
     docs/pictures/photograph/overlay.jpg
-"$culet" compare $dravite/simulated-photo.png "$work/scene.toml" -o "$work/comparison" --calibrate \
-    --simulated --budget 0 -q
-page "$work/comparison/report.html" docs/pictures/photograph/report.png 1100
+"$culet" compare $dravite/simulated-photo.png "$work/scene.toml" -o "$work/comparison" --simulated -q
+page "$work/comparison/report.html" docs/pictures/photograph/report.png 1150
