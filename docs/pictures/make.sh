@@ -14,10 +14,17 @@ page() { # HTML PNG HEIGHT: the top of a page
     convert "$work/page.png" -resize 640x +dither -colors 128 "$2"
 }
 
+drawing() { # SVG WIDTH: as wide in a page
+    height=$(sed -n 's/.*viewBox="0 0 \([0-9]*\) \([0-9]*\)".*/\1 \2/p' "$1" | head -1 |
+        awk -v width="$2" '{ printf "%.0f", width * $2 / $1 }')
+    sed -i "1s/ width=\"[0-9]*\" height=\"[0-9]*\" role/ width=\"$2\" height=\"$height\" role/" "$1"
+}
+
 # The README: mesh, fitted stone, render, photograph.
 "$culet" render $dravite/hand.obj --material tourmaline_dravite --engine flat --size 300,250 \
     --exposure 0.55 -q -o docs/pictures/tour/mesh.png
 "$culet" fit $dravite/stone.toml -o "$work/fitted.obj" --drawing docs/pictures/tour/fitted.svg --paint sigma -q
+drawing docs/pictures/tour/fitted.svg 300
 "$culet" run $dravite/job.toml -o "$work/dravite" -q >/dev/null
 for picture in "$work/dravite/render.png:render.png" "$dravite/simulated-photo.png:photograph.jpg"; do
     convert "${picture%:*}" -gravity center -crop 384x320+0+0 +repage -resize 300x250 -strip \
@@ -29,6 +36,8 @@ done
 sed 's/; the fit does without[^<]*//' "$work/slip.svg" >docs/pictures/first-stone/typing-error.svg
 "$culet" fit $evening/mended.toml -o "$work/mended.obj" --drawing docs/pictures/first-stone/uncertainty.svg \
     --paint sigma -q
+drawing docs/pictures/first-stone/typing-error.svg 720
+drawing docs/pictures/first-stone/uncertainty.svg 720
 "$culet" run $evening/job.toml -o "$work/evening" -q >/dev/null
 page "$work/evening/report.html" docs/pictures/first-stone/report.png 1040
 
