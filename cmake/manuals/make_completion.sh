@@ -19,9 +19,11 @@ while read -r command; do
             if (match(rest, /\{[^}]*\}/)) {
                 values = substr(rest, RSTART + 1, RLENGTH - 2)
                 gsub(/,/, " ", values)
-            } else if (match(words, /^[a-z0-9]+(, [a-z0-9]+)(, [a-z0-9]+)+/)) {
+            } else if (names ~ /^--(light|engine|effects|tonemap)$/ &&
+                       match(words, /^[a-z0-9]+(, [a-z0-9]+)(, [a-z0-9]+)+/)) {
                 values = substr(words, RSTART, RLENGTH)
                 gsub(/,/, "", values)
+                sub(/ or$/, "", values)
             }
             n = split(names, name, ",")
             for (i = 1; i <= n; ++i) print command, name[i], values

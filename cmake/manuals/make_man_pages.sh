@@ -12,6 +12,9 @@ page() { # NAME SUMMARY WORDS...: the help of "culet WORDS"
     # help2man runs what it is given through the shell.
     help2man --no-info --no-discard-stderr --section=1 --source="$version" --manual="culet" \
         --version-string="$version" --name="$summary" --output="$folder/$name.1" "$program $*"
+    # It takes every page for that of the program.
+    title=$(echo "$name" | tr '[:lower:]' '[:upper:]')
+    sed -i "s/^\\.TH CULET /.TH $title /" "$folder/$name.1"
 }
 page culet "fit, render and compare models of cut gemstones"
 "$program" --help | awk '/^Subcommands:/ { on = 1; next } on && /^  [a-z]/ { print } on && /^$/ { exit }' |

@@ -25,7 +25,7 @@ offered reference culet render scene.toml --engine ref
 offered estimate culet render scene.toml --check ""
 
 count=0
-for command in $("$program" --help | awk '/^Subcommands:/ { on = 1; next } on && /^  [a-z]/ { print $1 }'); do
+for command in $("$program" --help | awk '/^Subcommands:/ { on = 1; next } on && /^  [a-z]/ { print $1 } on && /^$/ { exit }'); do
     offered "$command" culet "${command:0:2}"
     for option in $("$program" "$command" --help | awk '/^  -/ { print $1 }' | tr ',' ' '); do
         offered "$option" culet "$command" "${option:0:3}"
