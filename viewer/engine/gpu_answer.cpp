@@ -8,7 +8,6 @@
 
 #include "render/gpu/gpu_program.h"
 #include "render/reference/prepared_scene.h"
-#include "stone/errors.h"
 
 namespace culet {
 
@@ -46,17 +45,11 @@ std::size_t spread(std::size_t i, std::size_t count) {
 
 }  // namespace
 
-std::string refused_by_gpu(const Scene& scene) {
-    return refused_by_gpu(scene, make_optical_setup(scene));
-}
-
 GpuAnswer gpu_answer(const ShownStone& stone, const FrameRequest& request, int samples,
                      const std::string& known) {
     Scene scene = stone.scene();
     scene.camera = request.camera;
     const PreparedScene& prepared = stone.prepared();
-    const std::string why = refused_by_gpu(scene, prepared.setup);
-    if (!why.empty()) throw InputError(why);
     GpuOptions options;
     options.depth = std::min(prepared.limits.depth, k_deepest_on_gpu);
     options.cut_weight = prepared.limits.cut_weight;

@@ -10,9 +10,6 @@
 
 namespace culet {
 
-/// Why the GPU cannot draw it; empty: it can.
-std::string refused_by_gpu(const Scene& scene);
-
 struct GpuAnswer {
     nlohmann::ordered_json json;
     std::vector<float> texels;  ///< of all textures, RGBA, which say where theirs begin

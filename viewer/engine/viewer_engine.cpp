@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "render/gpu/gpu_program.h"
 #include "render/image/exposure.h"
 #include "render/image/shown_bytes.h"
 #include "render/scene/light_presets.h"
