@@ -6,23 +6,21 @@
 
 namespace culet {
 
-#define CULET_GL_FUNCTIONS(ONE)                                                                    \
-    ONE(ActiveTexture)                                                                             \
-    ONE(AttachShader)                                                                              \
-    ONE(BindFramebuffer)                                                                           \
-    ONE(BindTexture) ONE(BindVertexArray) ONE(CheckFramebufferStatus) ONE(CompileShader)           \
-        ONE(CreateProgram) ONE(CreateShader) ONE(DeleteFramebuffers) ONE(DeleteProgram)            \
-            ONE(DeleteShader) ONE(DeleteTextures) ONE(DeleteVertexArrays) ONE(DrawArrays)          \
-                ONE(DrawBuffers) ONE(Enable) ONE(Finish) ONE(FramebufferTexture2D)                 \
-                    ONE(GenFramebuffers) ONE(GenTextures) ONE(GenVertexArrays) ONE(GetError)       \
-                        ONE(GetIntegerv) ONE(GetProgramInfoLog) ONE(GetProgramiv)                  \
-                            ONE(GetShaderInfoLog) ONE(GetShaderiv) ONE(GetString)                  \
-                                ONE(GetUniformLocation) ONE(LinkProgram) ONE(ReadBuffer)           \
-                                    ONE(ReadPixels) ONE(Scissor) ONE(ShaderSource) ONE(TexImage2D) \
-                                        ONE(TexParameteri) ONE(Uniform1fv) ONE(Uniform1iv)         \
-                                            ONE(Uniform2fv) ONE(Uniform3fv) ONE(Uniform4fv)        \
-                                                ONE(UniformMatrix3fv) ONE(UseProgram)              \
-                                                    ONE(Viewport)
+// As a table, which clang-format shifts anew each time.
+// clang-format off
+#define CULET_GL_FUNCTIONS(ONE)                                                                  \
+    ONE(ActiveTexture) ONE(AttachShader) ONE(BindFramebuffer) ONE(BindTexture)                   \
+    ONE(BindVertexArray) ONE(CheckFramebufferStatus) ONE(CompileShader) ONE(CreateProgram)       \
+    ONE(CreateShader) ONE(DeleteFramebuffers) ONE(DeleteProgram) ONE(DeleteShader)               \
+    ONE(DeleteTextures) ONE(DeleteVertexArrays) ONE(DrawArrays) ONE(DrawBuffers) ONE(Enable)     \
+    ONE(Finish) ONE(FramebufferTexture2D) ONE(GenFramebuffers) ONE(GenTextures)                  \
+    ONE(GenVertexArrays) ONE(GetError) ONE(GetIntegerv) ONE(GetProgramInfoLog)                   \
+    ONE(GetProgramiv) ONE(GetShaderInfoLog) ONE(GetShaderiv) ONE(GetString)                      \
+    ONE(GetUniformLocation) ONE(LinkProgram) ONE(ReadBuffer) ONE(ReadPixels) ONE(Scissor)        \
+    ONE(ShaderSource) ONE(TexImage2D) ONE(TexParameteri) ONE(Uniform1fv) ONE(Uniform1iv)         \
+    ONE(Uniform2fv) ONE(Uniform3fv) ONE(Uniform4fv) ONE(UniformMatrix3fv) ONE(UseProgram)        \
+    ONE(Viewport)
+// clang-format on
 
 /// gl.Viewport(...) is glViewport(...).
 struct GlFunctions {
