@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <string_view>
 
 #include "page/fit_facts.h"
 #include "page/html.h"
@@ -118,13 +120,15 @@ Scene scene_of(const ViewSource& source) {
     stone.solid = make_cut(source.cut->kind, source.cut->values);
     stone.convex = cut_kind(source.cut->kind).convex;
     stone.material = catalogue_material(source.choices.material);
-    const TomlTable root = toml_of_text("", source.cut->kind, source.overrides);
+    std::vector<std::string> keys = source.overrides;
+    std::string light = source.choices.light;
+    if (is_view_preset(light)) {
+        keys.push_back("preset=\"" + light + "\"");
+        light.clear();
+    }
+    const TomlTable root = toml_of_text("", source.cut->kind, keys);
     apply_words_beside(root, stone);
-    const bool named = root.has("light") || is_view_preset(source.choices.light);
-    const std::string light = is_view_preset(source.choices.light) ? std::string()
-                              : source.choices.light.empty() && !named
-                                  ? std::string(k_usual_light)
-                                  : source.choices.light;
+    if (light.empty() && !root.has("light") && !root.has("preset")) light = k_usual_light;
     return culet::scene_of(root, &stone, light);
 }
 
