@@ -15,10 +15,10 @@ from viewer_pages import Browser, SOURCE
 SHOTS, CULET = pathlib.Path(sys.argv.pop(1)), pathlib.Path(sys.argv.pop(1)).resolve()
 
 
-def culet(*words, **how):
+def culet(*words, good=(0, 1), cwd=None):
     """Runs culet; a fit may say that its answer is not to be trusted (1)."""
-    done = subprocess.run([CULET, *words], capture_output=True, text=True, timeout=300, **how)
-    if done.returncode not in how.get("good", (0, 1)): raise AssertionError(f"culet {' '.join(map(str, words))}: {done.stderr}")
+    done = subprocess.run([CULET, *words], capture_output=True, text=True, timeout=300, cwd=cwd)
+    if done.returncode not in good: raise AssertionError(f"culet {' '.join(map(str, words))}: {done.stderr}")
     return done
 
 
