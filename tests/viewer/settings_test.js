@@ -29,7 +29,7 @@ test("keys as the command line takes them", () => {
     ['render.effects="none"', "render.wavelengths=[589.3]", "render.depth=8"]);
   assert.deepStrictEqual(
     settings_of(values({effects: ["dispersion", "absorption"], wavelengths: 3}), "isotropic"),
-    ['render.effects=["dispersion","absorption"]', "render.wavelengths=[410,550,690]"]);
+    ['render.effects=["dispersion","absorption"]', "render.wavelengths=[450,540,610]"]);
   assert.deepStrictEqual(
     settings_of(values({light: "panorama"}), "", 'light={environment="a.hdr"}'),
     ['light={environment="a.hdr"}']);
