@@ -29,9 +29,9 @@ void write_movie(const fs::path& folder, const fs::path& movie) {
     // Players want sides of even length, and colours at half the resolution.
     const int status =
         run_program({"ffmpeg", "-y", "-loglevel", "error", "-framerate", "25", "-i",
-             (folder / "frame-%05d.png").string(), "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-             "-pix_fmt", "yuv420p", "-movflags", "+faststart", output.path().string()},
-            messages);
+                     (folder / "frame-%05d.png").string(), "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                     "-pix_fmt", "yuv420p", "-movflags", "+faststart", output.path().string()},
+                    messages);
     if (status != 0) {
         std::string last;
         std::istringstream lines(fs::exists(messages) ? read_text(messages) : "");

@@ -12,8 +12,8 @@ struct FacetFacts {
     std::optional<double> inclination_deg, azimuth_deg;
     std::optional<double> inclination_sigma_deg, azimuth_sigma_deg;
     std::optional<double> direction_sigma_deg;  ///< how far the normal may be off
-    std::optional<double> residual;  ///< of its worst reading, in standard uncertainties
-    std::string reading;             ///< id of that one; empty: no reading speaks of the facet
+    std::optional<double> residual;             ///< of its worst reading, in standard uncertainties
+    std::string reading;  ///< id of that one; empty: no reading speaks of the facet
     int readings = 0;
     bool suspect = false;  ///< one of them is suspected
     bool determined = true;

@@ -10,8 +10,7 @@ namespace culet {
 
 namespace {
 
-constexpr const char* k_base64 =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+constexpr const char* k_base64 = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 // Length of the valid UTF-8 sequence at the start (Unicode 15, table 3-7), or 0.
 std::size_t sequence_length(std::string_view text) {
@@ -117,8 +116,7 @@ std::optional<std::string> bytes_of_base64(std::string_view text) {
     bytes.reserve(text.size() / 4 * 3);
     for (std::size_t i = 0; i < text.size(); i += 4) {
         const bool last = i + 4 == text.size();
-        const std::size_t padding =
-            !last || text[i + 3] != '=' ? 0 : (text[i + 2] == '=' ? 2 : 1);
+        const std::size_t padding = !last || text[i + 3] != '=' ? 0 : (text[i + 2] == '=' ? 2 : 1);
         std::uint32_t group = 0;
         for (std::size_t k = 0; k < 4; ++k) {
             const std::size_t value = k + padding < 4 ? alphabet.find(text[i + k]) : 0;

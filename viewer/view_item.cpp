@@ -76,8 +76,7 @@ std::string scene_text(const ViewSource& source, const Scene& scene) {
 // A first picture of the whole, small.
 std::string still_of(Scene scene, const std::string& refused) {
     Camera& camera = scene.camera;
-    const double scale =
-        static_cast<double>(k_still_size) / std::max(camera.width, camera.height);
+    const double scale = static_cast<double>(k_still_size) / std::max(camera.width, camera.height);
     camera.width = std::max(1, static_cast<int>(std::lround(scale * camera.width)));
     camera.height = std::max(1, static_cast<int>(std::lround(scale * camera.height)));
     if (camera.principal_point) {
@@ -158,8 +157,8 @@ ViewItem view_item(const ViewSource& source, std::vector<std::string>& notes) {
     notes.insert(notes.end(), scene.notes.begin(), scene.notes.end());
     ViewItem item;
     item.name = !scene.stone.name.empty() ? scene.stone.name : source.file.stem().string();
-    item.refused = scene.has_stone() ? refused_by_beams(scene)
-                                     : "beams draw a stone, and this scene has none";
+    item.refused =
+        scene.has_stone() ? refused_by_beams(scene) : "beams draw a stone, and this scene has none";
     if (scene.has_stone()) {
         if (const std::optional<Stone> before = catalogue_of(source, scene.stone)) {
             ViewedStone catalogue;
@@ -168,13 +167,12 @@ ViewItem view_item(const ViewSource& source, std::vector<std::string>& notes) {
             item.stones.push_back(std::move(catalogue));
         }
         ViewedStone viewed;
-        viewed.role = source.cut                                        ? "design"
+        viewed.role = source.cut                                            ? "design"
                       : !source.fit_json.empty() || item.stones.size() == 1 ? "fitted"
                                                                             : "stone";
         viewed.stone = scene.stone;
         viewed.cut = source.cut;
-        if (!source.fit_json.empty())
-            viewed.fit = facts_of(scene.stone.solid, source.fit_json);
+        if (!source.fit_json.empty()) viewed.fit = facts_of(scene.stone.solid, source.fit_json);
         item.stones.push_back(std::move(viewed));
         item.scene = scene_text(source, scene);
     }

@@ -15,11 +15,11 @@ struct ViewSource {
     std::filesystem::path file;          ///< as `read_any_scene` takes it
     std::vector<std::string> overrides;  ///< keys of a scene
     StoneScene choices;
-    std::string fit_json;                ///< report of `culet fit`; empty: none
-    std::filesystem::path before;        ///< the stone that the fit began with; empty: none
-    std::optional<CutChoice> cut;        ///< instead of a file: a standard cut
-    const Stone* stone = nullptr;        ///< instead of that of `file`, a scene; null: its own
-    const Solid* catalogue = nullptr;    ///< what `before` would hold; null: look there
+    std::string fit_json;              ///< report of `culet fit`; empty: none
+    std::filesystem::path before;      ///< the stone that the fit began with; empty: none
+    std::optional<CutChoice> cut;      ///< instead of a file: a standard cut
+    const Stone* stone = nullptr;      ///< instead of that of `file`, a scene; null: its own
+    const Solid* catalogue = nullptr;  ///< what `before` would hold; null: look there
 };
 
 /// Longer side of the small picture, pixels.

@@ -47,8 +47,7 @@ double exposure_for_stone(const Picture& picture) {
         ++all;
     });
     if (all == 0) return 1;
-    auto rank =
-        static_cast<std::size_t>((1 - k_share_over_white) * static_cast<double>(all - 1));
+    auto rank = static_cast<std::size_t>((1 - k_share_over_white) * static_cast<double>(all - 1));
     std::uint32_t bucket = 0;
     while (rank >= counts[bucket]) rank -= counts[bucket++];
     std::vector<std::uint32_t> near;

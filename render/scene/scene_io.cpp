@@ -201,8 +201,7 @@ Scene scene_of(const TomlTable& root, const Stone* stone_instead, std::string_vi
     } else if (light) {
         scene.lights = lights_of(*light, scene.notes);
         if (const auto degrees = light->vector("rotate")) {
-            const Vec3 middle =
-                scene.has_stone() ? centroid(scene.stone.solid) : Vec3{0, 0, 0};
+            const Vec3 middle = scene.has_stone() ? centroid(scene.stone.solid) : Vec3{0, 0, 0};
             scene.lights = turned_lights(scene.lights, rotation_of(*degrees), middle);
         }
         preset = light->text("preset").value_or("");

@@ -49,8 +49,7 @@ Transform steps_in(const TomlTable& steps) {
     } else if (const auto scale = steps.number("scale")) {
         transform.linear = glm::dmat3(*scale);
     }
-    transform.linear =
-        rotation_of(steps.vector("rotate").value_or(Vec3(0))) * transform.linear;
+    transform.linear = rotation_of(steps.vector("rotate").value_or(Vec3(0))) * transform.linear;
     transform.move = steps.vector("translate").value_or(Vec3(0));
     return transform;
 }

@@ -23,7 +23,8 @@ EnvironmentMap turned_map(const EnvironmentMap& map, const glm::dmat3& by) {
     const glm::dmat3 back = glm::transpose(by);
     for (int y = 0; y < map.height; ++y) {
         for (int x = 0; x < map.width; ++x) {
-            const Rgb colour = map.at(back * lat_long_direction(x + 0.5, y + 0.5, map.width, map.height));
+            const Rgb colour =
+                map.at(back * lat_long_direction(x + 0.5, y + 0.5, map.width, map.height));
             for (const double c : colour) result.rgb.push_back(static_cast<float>(c));
         }
     }

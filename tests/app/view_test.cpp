@@ -64,9 +64,9 @@ TEST_F(ViewCommand, IsTheSameBytesEachTime) {
 
 TEST_F(ViewCommand, CarriesWhatAFitSays) {
     ASSERT_EQ(run_culet({"cut", "step", "-o", file("start.obj"), "-q"}).exit_code, 0);
-    ASSERT_EQ(run_culet({"cut", "step", "--width", "6.4mm", "-o", file("fitted.obj"), "-q"})
-                  .exit_code,
-              0);
+    ASSERT_EQ(
+        run_culet({"cut", "step", "--width", "6.4mm", "-o", file("fitted.obj"), "-q"}).exit_code,
+        0);
     write("fit.json",
           R"({"status": "converged", "facets": [{"name": "T", "inclination": 0.5, "azimuth": 20,
              "sigma_inclination": 0.1, "sigma_azimuth": 3}],
@@ -120,10 +120,11 @@ TEST_F(ViewCommand, MakesAGalleryOfAFolderAndNamesWhatItLeavesOut) {
 
 TEST_F(ViewCommand, SaysWhatItDoesNotDraw) {
     ASSERT_EQ(run_culet({"cut", "step", "-o", file("stone.obj"), "-q"}).exit_code, 0);
-    write("ball.toml",
-          "mesh = \"stone.obj\"\nmaterial = \"diamond\"\n[light]\nconstant = 1\n[[object]]\nshape = "
-          "\"sphere\"\ncenter = [9, 0, 0]\nradius = 1\nmaterial = { kind = \"diffuse\" }\n"
-          "[camera]\nsize = [40, 40]\n[render]\nsamples = 4\n");
+    write(
+        "ball.toml",
+        "mesh = \"stone.obj\"\nmaterial = \"diamond\"\n[light]\nconstant = 1\n[[object]]\nshape = "
+        "\"sphere\"\ncenter = [9, 0, 0]\nradius = 1\nmaterial = { kind = \"diffuse\" }\n"
+        "[camera]\nsize = [40, 40]\n[render]\nsamples = 4\n");
     const ProgramRun run = run_culet({"view", file("ball.toml"), "-o", file("ball.html")});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.err, HasSubstr("does not turn"));
@@ -131,10 +132,11 @@ TEST_F(ViewCommand, SaysWhatItDoesNotDraw) {
 }
 
 TEST_F(ViewCommand, RefusesInOneLineAndWritesNothing) {
-    for (const std::vector<std::string>& words :
-         {std::vector<std::string>{"view", "nowhere.obj"}, {"view", "round-brillant"},
-          {"view", "step", "--material", "unobtainium"}, {"view", "step", "--light", "moon"},
-          {"view", folder_.path().string()}}) {
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"view", "nowhere.obj"},
+                                                  {"view", "round-brillant"},
+                                                  {"view", "step", "--material", "unobtainium"},
+                                                  {"view", "step", "--light", "moon"},
+                                                  {"view", folder_.path().string()}}) {
         std::vector<std::string> all = words;
         all.insert(all.end(), {"-o", file("none.html")});
         const ProgramRun run = run_culet(all);

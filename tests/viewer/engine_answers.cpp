@@ -17,12 +17,15 @@ int main() {
         const char *cut, *material, *settings;
     };
     const Case cases[] = {
-        {"round-brilliant", "diamond", R"(["light={preset=\"jeweller\"}", "render.wavelengths=[589.3]", "render.depth=8"])"},
+        {"round-brilliant", "diamond",
+         R"(["light={preset=\"jeweller\"}", "render.wavelengths=[589.3]", "render.depth=8"])"},
         {"round-brilliant", "diamond", R"(["light={preset=\"jeweller\"}"])"},
-        {"step", "tourmaline_dravite", R"(["light={preset=\"daylight\"}", "film.tonemap=\"filmic\""])"},
+        {"step", "tourmaline_dravite",
+         R"(["light={preset=\"daylight\"}", "film.tonemap=\"filmic\""])"},
         {"oval", "sapphire_blue", R"(["light={preset=\"lightbox\"}", "optic_axis=[1,0,0.2]"])"},
         {"princess", "peridot", R"(["light={preset=\"aset\"}", "immersion=1.33"])"},
-        {"round-brilliant", "zircon_high", R"(["preset=\"polariscope\"", "render.tolerance=0.03"])"},
+        {"round-brilliant", "zircon_high",
+         R"(["preset=\"polariscope\"", "render.tolerance=0.03"])"},
     };
     Json all = Json::array();
     for (const Case& one : cases) {
@@ -59,7 +62,8 @@ int main() {
                  {"set", set},
                  {"draw", draw},
                  {"answer", answer},
-                 {"pixels", base64({reinterpret_cast<const char*>(pixels.data()), pixels.size()})}});
+                 {"pixels",
+                  base64({reinterpret_cast<const char*>(pixels.data()), pixels.size()})}});
         }
     }
     fmt::print("{}\n", all.dump());

@@ -63,8 +63,7 @@ std::vector<std::uint8_t> rendered(const Stone& stone, const std::string& scene_
 
 struct Opened {
     Opened(const Stone& stone, const std::string& scene) : engine("test") {
-        answer = Json::parse(
-            engine.answer("open", "{}", document_json(document_of(stone, scene))));
+        answer = Json::parse(engine.answer("open", "{}", document_json(document_of(stone, scene))));
     }
     Json call(const char* name, const Json& arguments, const std::string& attached = {}) {
         return Json::parse(engine.answer(name, arguments.dump(), attached));
@@ -97,11 +96,23 @@ TEST(ViewerEngine, draws_the_bytes_of_the_command_line) {
     const Case cases[] = {
         {"round-brilliant", "diamond", k_jeweller, {}},
         {"round-brilliant", "diamond", k_jeweller, {"light={preset=\"aset\"}"}},
-        {"step", "tourmaline_dravite", k_jeweller, {"render.tolerance=0.05", "film.tonemap=\"filmic\""}},
-        {"oval", "sapphire_blue", "light = { preset = \"daylight\" }\n", {"optic_axis=[1,0,0.2]", "immersion=1.33"}},
-        {"round-brilliant", "zircon_high", k_jeweller,
-         {"material=\"ruby_gem\"", "render.effects=[\"absorption\"]", "render.wavelengths=[589.3]"}},
-        {"princess", "garnet_almandine", "light = { preset = \"jeweller\", rotate = [10, 20, 30] }\n", {}},
+        {"step",
+         "tourmaline_dravite",
+         k_jeweller,
+         {"render.tolerance=0.05", "film.tonemap=\"filmic\""}},
+        {"oval",
+         "sapphire_blue",
+         "light = { preset = \"daylight\" }\n",
+         {"optic_axis=[1,0,0.2]", "immersion=1.33"}},
+        {"round-brilliant",
+         "zircon_high",
+         k_jeweller,
+         {"material=\"ruby_gem\"", "render.effects=[\"absorption\"]",
+          "render.wavelengths=[589.3]"}},
+        {"princess",
+         "garnet_almandine",
+         "light = { preset = \"jeweller\", rotate = [10, 20, 30] }\n",
+         {}},
     };
     for (const Case& one : cases) {
         SCOPED_TRACE(fmt::format("{} {}", one.cut, one.material));
@@ -227,8 +238,7 @@ TEST(ViewerEngine, a_panorama_of_one_is_a_furnace) {
 
 TEST(ViewerEngine, cuts_with_other_proportions) {
     Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
-    const Json cut =
-        page.call("cut", {{"kind", "round-brilliant"}, {"values", {{"table", 65.0}}}});
+    const Json cut = page.call("cut", {{"kind", "round-brilliant"}, {"values", {{"table", 65.0}}}});
     EXPECT_EQ(cut.at("summary").at("role"), "design");
     page.call("draw", of_size(70));
     Stone expected = stone_of("round-brilliant", "diamond");

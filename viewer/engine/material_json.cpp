@@ -50,8 +50,8 @@ Json json_of(const RefractiveIndex& index) {
 
 RefractiveIndex index_from(const Json& json) {
     RefractiveIndex index;
-    index.form = static_cast<RefractiveIndex::Form>(
-        place_of(json.at("form").get<std::string>(), k_forms));
+    index.form =
+        static_cast<RefractiveIndex::Form>(place_of(json.at("form").get<std::string>(), k_forms));
     index.n = json.at("n");
     index.cauchy = json.at("cauchy").get<std::array<double, 3>>();
     index.a0 = json.at("a0");

@@ -64,8 +64,8 @@ Panorama panorama_of(const std::string& name, std::string_view bytes) {
     const int by = (read.picture.width + k_widest_panorama - 1) / k_widest_panorama;
     if (by > 1) {
         read.picture = reduced(read.picture, by);
-        panorama.notes.push_back(fmt::format("brought to {} x {} pixels", read.picture.width,
-                                             read.picture.height));
+        panorama.notes.push_back(
+            fmt::format("brought to {} x {} pixels", read.picture.width, read.picture.height));
     }
     panorama.width = read.picture.width;
     panorama.height = read.picture.height;

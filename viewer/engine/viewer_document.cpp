@@ -60,8 +60,8 @@ Json json_of(const ViewItem& item) {
     Json stones = Json::array(), files = Json::object();
     for (const ViewedStone& stone : item.stones) stones.push_back(json_of(stone));
     for (const auto& [name, bytes] : item.files) files[name] = base64(bytes);
-    return {{"name", item.name},       {"stones", stones},         {"scene", item.scene},
-            {"files", files},          {"picture", item.picture},  {"refused", item.refused},
+    return {{"name", item.name},      {"stones", stones},        {"scene", item.scene},
+            {"files", files},         {"picture", item.picture}, {"refused", item.refused},
             {"command", item.command}};
 }
 
@@ -103,15 +103,10 @@ Json json_of(const ViewedStone& viewed) {
                           {"corners", facet.corners}});
     }
     for (const Vec3& axis : stone.crystal.axes) crystal.push_back(json_of(axis));
-    Json json{{"role", viewed.role},
-              {"name", stone.name},
-              {"unit", name_of(stone.unit)},
-              {"vertices", vertices},
-              {"facets", facets},
-              {"convex", stone.convex},
-              {"up", json_of(stone.up)},
-              {"crystal", crystal},
-              {"material", json_of(stone.material)}};
+    Json json{
+        {"role", viewed.role},     {"name", stone.name}, {"unit", name_of(stone.unit)},
+        {"vertices", vertices},    {"facets", facets},   {"convex", stone.convex},
+        {"up", json_of(stone.up)}, {"crystal", crystal}, {"material", json_of(stone.material)}};
     if (viewed.cut) json["cut"] = {{"kind", viewed.cut->kind}, {"values", viewed.cut->values}};
     if (!viewed.fit.empty()) {
         Json fit = Json::array();

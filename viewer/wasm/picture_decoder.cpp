@@ -84,8 +84,8 @@ Picture exr(const std::string& bytes, const std::filesystem::path& name) {
     require_size(name, wide, high);
     float* rgba = nullptr;
     Picture picture;
-    if (LoadEXRFromMemory(&rgba, &picture.width, &picture.height, data, bytes.size(),
-                          &complaint) != TINYEXR_SUCCESS)
+    if (LoadEXRFromMemory(&rgba, &picture.width, &picture.height, data, bytes.size(), &complaint) !=
+        TINYEXR_SUCCESS)
         throw InputError(name, "is an EXR of a kind that a page does not read: save it as HDR");
     picture.rgb.resize(3 * picture.pixels());
     for (std::size_t i = 0; i < picture.pixels(); ++i) {
@@ -113,8 +113,7 @@ ReadPicture picture_of_bytes(const std::string& bytes, const std::filesystem::pa
     const int size = static_cast<int>(bytes.size());
     int width = 0, height = 0, channels = 0;
     if (stbi_info_from_memory(data, size, &width, &height, &channels) == 0) {
-        throw InputError(name,
-                         "is no panorama that a page reads: HDR, EXR, PFM, JPEG and PNG are");
+        throw InputError(name, "is no panorama that a page reads: HDR, EXR, PFM, JPEG and PNG are");
     }
     require_size(name, width, height);
     read.was_encoded = stbi_is_hdr_from_memory(data, size) == 0;

@@ -44,8 +44,9 @@ ReadPicture read_picture(const std::filesystem::path& file) {
 
 // A scene may name any; the page draws by beams.
 std::vector<std::string> engine_names() {
-    return {k_auto_engine, k_reference_engine, k_beam_engine, k_preview_engine, "flat", "gouraud",
-            "phong",       "whitted",          k_raytable_engine, k_gpu_engine};
+    return {
+        k_auto_engine, k_reference_engine, k_beam_engine,     k_preview_engine, "flat", "gouraud",
+        "phong",       "whitted",          k_raytable_engine, k_gpu_engine};
 }
 
 // `ViewerEngine` shows pictures without it.
