@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <string_view>
@@ -24,6 +25,11 @@
 namespace culet {
 
 namespace {
+
+// The small picture stands for a moment only. Wavelengths where the eye's three colours are told
+// apart best, as the page has them while a stone moves (page/scene_settings.js).
+constexpr double k_still_tolerance = 0.2;
+constexpr std::array k_still_nm{450.0, 540.0, 610.0};
 
 constexpr const char* k_map_name = "environment.pfm";
 
@@ -86,6 +92,9 @@ std::string still_of(Scene scene, const std::string& refused) {
     RenderResult result;
     if (refused.empty()) {
         scene.settings.engine = k_beam_engine;
+        scene.settings.tolerance = std::max(scene.settings.tolerance, k_still_tolerance);
+        if (scene.settings.wavelengths_nm.empty())
+            scene.settings.wavelengths_nm.assign(k_still_nm.begin(), k_still_nm.end());
         FrameRenderer frames(scene);
         frames.draw();
         result = frames.take();

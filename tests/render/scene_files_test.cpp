@@ -6,8 +6,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <limits>
 
 #include "render/image/image_io.h"
@@ -15,6 +15,7 @@
 #include "render/scene/light_presets.h"
 #include "render/scene/scene_io.h"
 #include "render/setup/scene_checks.h"
+#include "stone/cuts/cuts.h"
 #include "stone/errors.h"
 #include "tests/scratch_folder.h"
 
@@ -209,7 +210,7 @@ TEST_F(SceneStones, a_scene_may_hold_its_files_itself) {
     std::ifstream stream(folder_ / "map.exr", std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
     Stone stone;
-    stone.solid.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    stone.solid = make_cut("round-brilliant");
     const TomlTable root =
         toml_of_text("[light]\nenvironment = \"held.exr\"\n", "page", {}, {{"held.exr", bytes}});
     EXPECT_EQ(scene_of(root, &stone).lights.environment->width, 8);

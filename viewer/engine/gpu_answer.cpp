@@ -78,8 +78,8 @@ GpuAnswer gpu_answer(const ShownStone& stone, const FrameRequest& request, int s
                        scene.settings.filter, scene.settings.filter_radius);
     json["samples"] = Json::array();
     for (std::size_t i = 0; i < pattern.size(); ++i) {
-        json["samples"].push_back(json_of(
-            gpu_view(request.camera, pattern[spread(i, pattern.size())], program.middle)));
+        json["samples"].push_back(
+            json_of(gpu_view(request.camera, pattern[spread(i, pattern.size())], program.middle)));
     }
     if (json["key"] == known) return answer;
     json["vertex"] = program.vertex;

@@ -117,14 +117,9 @@ Json ViewerEngine::State::open(const Json& arguments, std::string_view document)
     settings.clear();
     Json shown_stones = Json::array();
     for (const ShownStone& stone : stones) shown_stones.push_back(summary_of(stone.viewed()));
-    Json result{{"stones", shown_stones},
-                {"stone", now},
-                {"refused", item.refused},
-                {"materials", material_list()},
-                {"lights", light_list()},
-                {"views", view_list()},
-                {"cuts", cut_list()},
-                {"version", version}};
+    Json result{{"stones", shown_stones},       {"stone", now},           {"refused", item.refused},
+                {"materials", material_list()}, {"lights", light_list()}, {"views", view_list()},
+                {"cuts", cut_list()},           {"version", version}};
     if (!stones.empty()) {
         const Scene& scene = shown().scene();
         result["camera"] = json_of(scene.camera);
@@ -236,9 +231,8 @@ Json ViewerEngine::State::cut(const Json& arguments) {
     const ViewedStone& before = shown().viewed();
     ViewedStone viewed;
     viewed.role = "design";
-    viewed.cut = CutChoice{
-        arguments.at("kind"),
-        arguments.value("values", std::map<std::string, double>())};
+    viewed.cut =
+        CutChoice{arguments.at("kind"), arguments.value("values", std::map<std::string, double>())};
     Stone& stone = viewed.stone;
     stone = before.stone;
     stone.name = viewed.cut->kind;

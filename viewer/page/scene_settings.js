@@ -14,6 +14,9 @@ function crystal_axes(tilt_deg, azimuth_deg) {
   return [[0, 0, 1], [1, 0, 0], [0, 1, 0]].map((axis) => Turn.of(turn, axis));
 }
 
+// Of the mean radiance: at less, a diamond's picture takes minutes for what no screen shows.
+const k_fine_tolerance = 0.05;
+
 // One: the sodium line, by which gems are measured. Three: where the eye's three colours are told
 // apart best; an ASET picture of a diamond is five times nearer to that of 15 wavelengths than with
 // three spread evenly. More: evenly over what eyes see, with the ends of the program's own choice
@@ -69,6 +72,7 @@ function settings_of(values, optic, panorama = "") {
   if (values.wavelengths)
     settings.push(`render.wavelengths=${toml_list(wavelengths_nm(values.wavelengths))}`);
   if (values.depth) settings.push(`render.depth=${values.depth}`);
+  settings.push(`render.tolerance=${k_fine_tolerance}`);
   return settings;
 }
 
