@@ -75,6 +75,8 @@ TEST(Rooms, show_no_heavy_library_to_other_rooms) {
     for (const auto& [room, visible] : k_may_see) {
         for (const auto& entry : fs::recursive_directory_iterator(source / room)) {
             if (!is_source(entry.path())) continue;
+            // In WebAssembly these stand in for files of other rooms, so they see these from inside.
+            if (entry.path().filename() == "stand_ins.cpp") continue;
             for (const std::string& header : includes_of(entry.path())) {
                 if (!header.starts_with(room + "/")) open.insert(header);
             }
@@ -101,7 +103,7 @@ TEST(Rooms, show_no_heavy_library_to_other_rooms) {
 // as one.
 TEST(Rooms, have_folders_that_include_each_other_one_way) {
     const fs::path source(CULET_SOURCE_DIR);
-    for (const std::string room : {"stone", "page", "fit", "render", "compare", "app"}) {
+    for (const std::string room : {"stone", "page", "fit", "render", "viewer", "compare", "app"}) {
         // Of each folder those that it includes, at last also through others.
         std::map<std::string, std::set<std::string>> seen_from;
         for (const auto& entry : fs::recursive_directory_iterator(source / room)) {

@@ -76,7 +76,7 @@ class LivePageTest(PageActions, unittest.TestCase):
             "ASET": "culet_page.choose_light('aset')",
             "sapphire, axis tilted": "culet_page.state.set({light: 'daylight', material: 'sapphire_blue', axis: [30, 20]})",
             "hearts": "culet_page.choose_light('hearts')",
-            "polariscope": "culet_page.state.set({polariser: 10, analyser: 100})",
+            "polariscope": "culet_page.state.set({polariser: 10, analyser: 40})",
             "a cut of one's own": "culet_page.state.set({polariser: null, analyser: null, light: null, material: null, axis: null, cut: {'crown-angle': 30}})",
         }
         self.open_page("brilliant.html", width=1000, height=560)

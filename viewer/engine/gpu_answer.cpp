@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "render/gpu/gpu_program.h"
-#include "render/reference/prepared_scene.h"
 
 namespace culet {
 
@@ -49,11 +48,11 @@ GpuAnswer gpu_answer(const ShownStone& stone, const FrameRequest& request, int s
                      const std::string& known) {
     Scene scene = stone.scene();
     scene.camera = request.camera;
-    const PreparedScene& prepared = stone.prepared();
+    const GpuSetup& setup = stone.on_gpu();
     GpuOptions options;
-    options.depth = std::min(prepared.limits.depth, k_deepest_on_gpu);
-    options.cut_weight = prepared.limits.cut_weight;
-    GpuProgram program = gpu_program(scene, prepared.setup, prepared.colours, options);
+    options.depth = std::min(setup.depth, k_deepest_on_gpu);
+    options.cut_weight = setup.cut_weight;
+    GpuProgram program = gpu_program(scene, setup.optics, setup.colours, options);
     // From the stone to the lights is the turn back: its columns are the turn's rows.
     for (GpuUniform& uniform : program.uniforms) {
         if (uniform.name == "u_light_turn")
@@ -68,13 +67,13 @@ GpuAnswer gpu_answer(const ShownStone& stone, const FrameRequest& request, int s
     json["uniforms"] = json_of(program.uniforms);
     json["passes"] = Json::array();
     for (GpuPass& pass : program.passes) {
-        const std::vector<GpuUniform> eye = gpu_eye(scene.camera.optics, prepared.setup, pass);
+        const std::vector<GpuUniform> eye = gpu_eye(scene.camera.optics, setup.optics, pass);
         pass.uniforms.insert(pass.uniforms.end(), eye.begin(), eye.end());
         json["passes"].push_back({{"uniforms", json_of(pass.uniforms)}});
     }
     const std::size_t count = static_cast<std::size_t>(std::max(1, samples));
     const std::vector<SamplePoint> pattern =
-        sample_pattern(static_cast<int>(count), prepared.setup.on(Effects::aperture),
+        sample_pattern(static_cast<int>(count), setup.optics.on(Effects::aperture),
                        scene.settings.filter, scene.settings.filter_radius);
     json["samples"] = Json::array();
     for (std::size_t i = 0; i < pattern.size(); ++i) {

@@ -69,15 +69,15 @@ void ShownStone::set(const std::vector<std::string>& settings, const std::string
         if (drawer) drawer->stale = true;
     }
     coarse_map_.reset();
-    prepared_.reset();
+    on_gpu_.reset();
     scene_ = std::move(scene);
     refused_ = std::move(refused);
     body_ = std::move(body);
 }
 
-const PreparedScene& ShownStone::prepared() const {
-    if (!prepared_) prepared_ = std::make_shared<const PreparedScene>(scene_);
-    return *prepared_;
+const GpuSetup& ShownStone::on_gpu() const {
+    if (!on_gpu_) on_gpu_ = gpu_setup(scene_);
+    return *on_gpu_;
 }
 
 Scene ShownStone::scene_of(const FrameRequest& request) const {

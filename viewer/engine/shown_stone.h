@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "render/beams/frame_renderer.h"
-#include "render/reference/prepared_scene.h"
+#include "render/gpu/gpu_setup.h"
 #include "render/scene/scene.h"
 #include "viewer/engine/viewer_document.h"
 
@@ -41,8 +41,8 @@ public:
     /// Why beams cannot draw it; empty: they can.
     const std::string& refused() const { return refused_; }
 
-    /// Wavelengths and limits of the scene as it is set.
-    const PreparedScene& prepared() const;
+    /// What a GPU draws of the scene as it is set.
+    const GpuSetup& on_gpu() const;
 
     /// The scene of a picture.
     Scene scene_of(const FrameRequest& request) const;
@@ -60,7 +60,7 @@ private:
     Scene scene_;
     std::string refused_, body_;
     mutable std::shared_ptr<const EnvironmentMap> coarse_map_;
-    mutable std::shared_ptr<const PreparedScene> prepared_;
+    mutable std::optional<GpuSetup> on_gpu_;
     std::array<std::unique_ptr<Drawer>, 2> drawers_;  ///< beams, preview
 };
 

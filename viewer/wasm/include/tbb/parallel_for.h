@@ -2,7 +2,7 @@
 // WebAssembly in a page has one thread (threads need headers that a file opened by a double click
 // does not have): the loops of TBB that culet uses, one step after the other.
 
-#include "tbb/partitioner.h"
+#include <tbb/partitioner.h>
 
 namespace tbb {
 
