@@ -126,7 +126,7 @@ struct FitResult {
     LengthUnit unit = LengthUnit::mm;
     double azimuth_zero = 0;  ///< where in the solid's frame the readings' azimuths begin; radians
     SolidChecks checks;
-    std::vector<FittedFacet> facets;      ///< in the mesh's order
+    std::vector<FittedFacet> facets;  ///< in the mesh's order
     /// Covariance of the facets' inclinations, azimuths (radians) and offsets (`unit`), row by row,
     /// three a facet in the order of `facets`. Empty: not known, or of more than 300 facets.
     std::vector<double> facet_covariance;

@@ -20,8 +20,8 @@ public:
 
     /// Another view: beams are grown anew (milliseconds).
     void look_from(const Camera& camera);
-    /// The same, with the lights turned or moved: the wavelengths stay, which other kinds or colours
-    /// of lights may not.
+    /// The same, with the lights turned or moved: the wavelengths stay, which other kinds or
+    /// colours of lights may not.
     void look_from(const Camera& camera, const Lights& lights);
     /// Other lights: the beams stay, and are only shaded anew, unless the lights' colours call for
     /// other wavelengths.

@@ -3,11 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <tbb/global_control.h>
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <tbb/global_control.h>
 #include <vector>
 
 #include "tests/bench/viewer_bench_cases.h"

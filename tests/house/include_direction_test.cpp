@@ -75,7 +75,8 @@ TEST(Rooms, show_no_heavy_library_to_other_rooms) {
     for (const auto& [room, visible] : k_may_see) {
         for (const auto& entry : fs::recursive_directory_iterator(source / room)) {
             if (!is_source(entry.path())) continue;
-            // In WebAssembly these stand in for files of other rooms, so they see these from inside.
+            // In WebAssembly these stand in for files of other rooms, so they see these from
+            // inside.
             if (entry.path().filename() == "stand_ins.cpp") continue;
             for (const std::string& header : includes_of(entry.path())) {
                 if (!header.starts_with(room + "/")) open.insert(header);

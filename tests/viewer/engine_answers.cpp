@@ -19,13 +19,16 @@ int main() {
     const Case cases[] = {
         {"round-brilliant", "diamond",
          R"(["light={preset=\"jeweller\"}", "render.wavelengths=[589.3]", "render.depth=8"])"},
-        {"round-brilliant", "diamond", R"(["light={preset=\"jeweller\"}"])"},
+        {"round-brilliant", "diamond",
+         R"(["light={preset=\"jeweller\"}", "render.tolerance=0.2", "render.wavelengths=[450,540,610]"])"},
         {"step", "tourmaline_dravite",
-         R"(["light={preset=\"daylight\"}", "film.tonemap=\"filmic\""])"},
-        {"oval", "sapphire_blue", R"(["light={preset=\"lightbox\"}", "optic_axis=[1,0,0.2]"])"},
-        {"princess", "peridot", R"(["light={preset=\"aset\"}", "immersion=1.33"])"},
+         R"(["light={preset=\"daylight\"}", "film.tonemap=\"filmic\"", "render.tolerance=0.2", "render.wavelengths=[450,540,610]"])"},
+        {"oval", "sapphire_blue",
+         R"(["light={preset=\"lightbox\"}", "optic_axis=[1,0,0.2]", "render.tolerance=0.2", "render.wavelengths=[450,540,610]"])"},
+        {"princess", "peridot",
+         R"(["light={preset=\"aset\"}", "immersion=1.33", "render.tolerance=0.2", "render.wavelengths=[450,540,610]"])"},
         {"round-brilliant", "zircon_high",
-         R"(["preset=\"polariscope\"", "render.tolerance=0.03"])"},
+         R"(["preset=\"polariscope\"", "render.tolerance=0.2", "render.wavelengths=[450,540,610]"])"},
     };
     Json all = Json::array();
     for (const Case& one : cases) {

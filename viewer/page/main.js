@@ -93,7 +93,10 @@ class Page {
       "none";
   }
   settings(stone) {
-    return settings_of(this.state.values, this.optic(stone), this.panorama_setting);
+    return [
+      ...settings_of(this.state.values, this.optic(stone), this.panorama_setting),
+      `render.tolerance=${k_fine_tolerance}`
+    ];
   }
   // What every call of the engine about a view begins with.
   drawing(stone, width, height, view = this.view()) {

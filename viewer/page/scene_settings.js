@@ -72,7 +72,6 @@ function settings_of(values, optic, panorama = "") {
   if (values.wavelengths)
     settings.push(`render.wavelengths=${toml_list(wavelengths_nm(values.wavelengths))}`);
   if (values.depth) settings.push(`render.depth=${values.depth}`);
-  settings.push(`render.tolerance=${k_fine_tolerance}`);
   return settings;
 }
 
