@@ -13,7 +13,14 @@ namespace culet {
 
 namespace {
 
-constexpr const char* k_scopes[] = {"aset", "idealscope", "darkfield", "hearts", "arrows"};
+struct Scope {
+    const char *preset, *title;
+};
+constexpr Scope k_scopes[] = {{"aset", "ASET"},
+                              {"idealscope", "Ideal-scope"},
+                              {"darkfield", "Dark field"},
+                              {"hearts", "Hearts"},
+                              {"arrows", "Arrows"}};
 
 Scene scene_in(const Stone& stone, const LightPreset& preset, const GradePictureOptions& options) {
     Scene scene;
@@ -40,12 +47,12 @@ std::vector<GradePicture> draw_scopes(const Stone& stone, const std::filesystem:
                                       const std::string& prefix,
                                       const GradePictureOptions& options) {
     std::vector<GradePicture> pictures;
-    for (const char* name : k_scopes) {
-        const LightPreset& preset = *find_light_preset(name);
+    for (const Scope& scope : k_scopes) {
+        const LightPreset& preset = *find_light_preset(scope.preset);
         const RenderResult result = render(scene_in(stone, preset, options));
-        const std::filesystem::path file = folder / fmt::format("{}-{}.png", prefix, name);
+        const std::filesystem::path file = folder / fmt::format("{}-{}.png", prefix, scope.preset);
         write_picture(result.picture, file);
-        pictures.push_back({preset.name, preset.summary, png_uri(read_text(file))});
+        pictures.push_back({scope.title, preset.summary, png_uri(read_text(file))});
     }
     return pictures;
 }

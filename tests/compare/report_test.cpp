@@ -136,6 +136,18 @@ TEST(Report, has_every_section_when_all_data_is_there) {
     EXPECT_EQ(nesting_fault(page), "");
 }
 
+TEST(Report, opens_the_stone_where_it_has_a_viewer) {
+    Report report = full_report();
+    EXPECT_EQ(report_page(report).find("wasm-unsafe-eval"), std::string::npos);
+    report.viewer_html = "<!doctype html><script>1 < 2</script>";
+    const std::string page = report_page(report);
+    EXPECT_NE(page.find("class=\"turn-stone\""), std::string::npos);
+    EXPECT_NE(page.find("wasm-unsafe-eval"), std::string::npos);
+    // As JSON in which no tag begins or ends.
+    EXPECT_NE(page.find("\\u003cscript>1 \\u003c 2\\u003c/script>"), std::string::npos);
+    EXPECT_EQ(page.find("1 < 2"), std::string::npos);
+}
+
 TEST(Report, has_only_the_sections_whose_data_is_there) {
     Report report;
     report.fit_json = fit_json("T");

@@ -141,6 +141,21 @@ class LivePageTest(PageActions, unittest.TestCase):
         self.assertEqual(self.browser.run("return document.querySelectorAll('.thumb').length"), 3)
         self.shots("gallery", ["light"])
 
+    def test_a_report_opens_the_stone(self):
+        """One click on the report's picture: the viewer draws in the page inside the page."""
+        culet("run", SOURCE / "samples" / "cutters-evening" / "job.toml", "-o", self.folder / "report")
+        driver = self.browser.driver
+        driver.get((self.folder / "report" / "report.html").as_uri())
+        driver.find_element("css selector", ".turn-stone").click()
+        driver.switch_to.frame(driver.find_element("css selector", "#viewer iframe"))
+        try:
+            self.browser.rest()
+            self.assertEqual(self.browser.run("return document.getElementById('stage').dataset.drawn"), "fine")
+        finally:
+            driver.switch_to.default_content()
+        driver.find_element("css selector", ".viewer-close").click()
+        self.assertFalse(self.browser.run("return document.getElementById('viewer').open"))
+
     def test_figures(self):
         """Reported, and held only to what no machine should miss."""
         self.open_page("brilliant.html", width=1156, height=800)
