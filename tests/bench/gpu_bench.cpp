@@ -6,6 +6,7 @@
 // RMSE is relative to the mean, over pixels that are not at an edge of the path pattern ("inner" of
 // all "pixels" of the stone: tests/render/gpu/path_pattern.h). "off" are pixels of all that differ
 // by more than a hundredth of the mean: rays that pass an edge within single precision.
+// The last table is what a person who turns the stone in a large window waits for.
 
 #include <fmt/format.h>
 
@@ -100,6 +101,21 @@ Clocks drawn_by(const std::string& engine, Scene scene, Picture& picture) {
     return quickest([&] { picture = engine_named(engine).draw(scene, {}).picture; }, 2, 1);
 }
 
+// 1920 x 1080 pixels at depth 12: the kernel alone, for a card that must keep up with a screen.
+void window(BenchTables& tables, const GlContext& context) {
+    tables.section("1920 x 1080 pixels, depth 12, 73 facets",
+                   fmt::format("one ray a pixel; driver {}", context.renderer()),
+                   {"frame ms", "frames/s", "start ms"});
+    for (Case one : cases(1080)) {
+        one.scene.camera.width = 1920;
+        one.scene.settings.depth = 12;
+        const Frame frame = gpu_frame(one.scene, context);
+        tables.line(one.name, {fmt::format("{:.2f}", 1e3 * frame.draw.wall),
+                               fmt::format("{:.0f}", 1 / frame.draw.wall),
+                               fmt::format("{:.0f}", 1e3 * frame.start.wall)});
+    }
+}
+
 void run(int pixels, const std::string& json) {
     const GlContext context;
     BenchTables tables;
@@ -129,6 +145,7 @@ void run(int pixels, const std::string& json) {
                      fmt::format("{}", gpu.off), crystal ? "" : fmt::format("{}", rival.off),
                      fmt::format("{}", gpu.stone)});
     }
+    window(tables, context);
     if (!json.empty())
         write_text(json, tables.json({{"bench", "gpu"}, {"driver", context.renderer()}}));
 }
