@@ -2,7 +2,9 @@
 # culet::stone, culet::page, culet::fit, culet::render, culet::viewer and culet::compare.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS culet RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+# A package is made of what its workflow built, not of everything.
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)
+install(TARGETS culet RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
 install(TARGETS culet_stone culet_page culet_fit culet_render culet_viewer culet_compare EXPORT culetTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 foreach(room stone page fit render viewer compare)
@@ -17,4 +19,4 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/culetConfigVersion.cmake
 install(FILES ${CMAKE_BINARY_DIR}/culetConfig.cmake ${CMAKE_BINARY_DIR}/culetConfigVersion.cmake
   ${CMAKE_SOURCE_DIR}/cmake/CuletDependencies.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/culet)
-install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)

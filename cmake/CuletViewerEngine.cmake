@@ -49,7 +49,7 @@ if(CULET_HAS_VIEWER_ENGINE)
     COMMAND base64 -w 0 ${CULET_VIEWER_ENGINE_FILE} > ${CULET_VIEWER_ENGINE_FILE}.base64
     COMMAND ${CMAKE_COMMAND} -DIN=${CULET_VIEWER_ENGINE_FILE}.base64 -DOUT=${CULET_VIEWER_ENGINE_SOURCE} -P ${embed}
     DEPENDS ${CULET_VIEWER_ENGINE_FILE} ${embed})
-  install(FILES ${CULET_VIEWER_ENGINE_FILE} DESTINATION ${CMAKE_INSTALL_DATADIR}/culet)
+  install(FILES ${CULET_VIEWER_ENGINE_FILE} DESTINATION ${CMAKE_INSTALL_DATADIR}/culet COMPONENT program)
 else()
   file(CONFIGURE OUTPUT ${CULET_VIEWER_ENGINE_SOURCE}
     CONTENT "namespace culet::embedded {\nextern const char* const viewer_engine;\nconst char* const viewer_engine = \"\";\n}\n")
