@@ -16,7 +16,7 @@ namespace {
 using test::k_missing;
 
 std::vector<double> scores_for(double log_error, std::mt19937_64& random) {
-    return test::scores_for(log_error, 3, random);
+    return test::scores_at(log_error, 3, random);
 }
 
 JointDraws drawn_scores(int each, std::mt19937_64& random) {
