@@ -1,6 +1,6 @@
 #!/bin/sh
 # Makes the pictures of the README and the two tutorials anew: sh docs/pictures/make.sh [build/culet]
-# Needs ImageMagick (convert) and Chromium, for pictures of report pages.
+# Needs ImageMagick (convert), and Chromium with python3-selenium for pictures of pages.
 set -eu
 cd "$(dirname "$0")/../.."
 culet=$(realpath "${1:-build/culet}")
@@ -20,7 +20,7 @@ drawing() { # SVG WIDTH: as wide in a page
     sed -i "1s/ width=\"[0-9]*\" height=\"[0-9]*\" role/ width=\"$2\" height=\"$height\" role/" "$1"
 }
 
-# The README: mesh, fitted stone, render, photograph.
+# The README: mesh, fitted stone, render, photograph, live view.
 "$culet" render $dravite/hand.obj --material tourmaline_dravite --engine flat --size 300,250 \
     --exposure 0.55 -q -o docs/pictures/tour/mesh.png
 "$culet" fit $dravite/stone.toml -o "$work/fitted.obj" --drawing docs/pictures/tour/fitted.svg --paint sigma -q
@@ -30,6 +30,20 @@ for picture in "$work/dravite/render.png:render.png" "$dravite/simulated-photo.p
     convert "${picture%:*}" -gravity center -crop 384x320+0+0 +repage -resize 300x250 -strip \
         -quality 85 "docs/pictures/tour/${picture##*:}"
 done
+"$culet" fit $dravite/stone.toml -o "$work/hand.obj" --report "$work/fit.json" -q
+cp $dravite/stone.toml $dravite/readings.csv "$work"
+"$culet" view "$work/stone.toml" --report "$work/fit.json" --before $dravite/hand.obj -o "$work/view.html" -q
+PYTHONPATH=tests/viewer python3 - "$work/view.html" "$work/view.png" <<'EOF'
+import sys
+from viewer_pages import Browser
+with Browser(1000, 833) as browser:
+    browser.open(sys.argv[1])
+    browser.rest()
+    browser.run("culet_page.motion.turn_to(Turn.after(Turn.about([1, 0.3, 0], -0.35), culet_page.home()))")
+    browser.rest()
+    browser.shot(sys.argv[2])
+EOF
+convert "$work/view.png" -resize 300x250 +dither -colors 128 docs/pictures/tour/view.png
 
 # The first stone: the typing error, the uncertainties, the report.
 "$culet" fit $evening/stone.toml -o "$work/slip.obj" --drawing "$work/slip.svg" -q || [ $? -eq 1 ]
