@@ -1,5 +1,7 @@
 // culet grade STONE|CUT... : what the cut does with light.
 
+#include "app/command_grade.h"
+
 #include <fmt/format.h>
 
 #include <memory>
@@ -39,6 +41,7 @@ struct GradeCommand {
     double head_deg = 10;
     int draws = 30;
     int size = 320;
+    bool page_alone = false;  ///< no summary
 };
 
 struct Graded {
@@ -209,7 +212,7 @@ int run_grade(GradeCommand command) {
     if (!command.json.empty()) write_text(command.json, json_of(all));
     bool trusted = true;
     for (const Graded& one : all) {
-        if (command.json != "-") print_summary(one);
+        if (command.json != "-" && !command.page_alone) print_summary(one);
         trusted = trusted && one.input.trusted;
         if (!one.input.trusted) {
             say(fmt::format("{}: the fit should not be trusted, nor should this grade: {}",
@@ -221,6 +224,18 @@ int run_grade(GradeCommand command) {
 }
 
 }  // namespace
+
+void write_grade_page(const std::vector<std::string>& files, const GradeChoices& choices,
+                      const fs::path& folder, const CommonOptions& common) {
+    GradeCommand command;
+    command.common = common;
+    command.files = files;
+    command.out = folder.string();
+    command.choices = choices;
+    command.index = choices.index;
+    command.page_alone = true;
+    run_grade(command);
+}
 
 void add_command_grade(CLI::App& program, int& exit_code) {
     auto command = std::make_shared<GradeCommand>();

@@ -1,0 +1,17 @@
+#pragma once
+// The page of culet grade, for commands that end in one.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/grade_input.h"
+#include "app/options.h"
+
+namespace culet {
+
+/// report.html, grade.json and pictures of the files side by side, as `culet grade -o` writes them.
+void write_grade_page(const std::vector<std::string>& files, const GradeChoices& choices,
+                      const std::filesystem::path& folder, const CommonOptions& common);
+
+}  // namespace culet

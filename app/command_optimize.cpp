@@ -1,0 +1,251 @@
+// culet optimize STONE|CUT -o BETTER.asc : better angles, meets kept.
+
+#include "render/optimize/optimize.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/command_grade.h"
+#include "app/grade_input.h"
+#include "app/options.h"
+#include "app/terminal.h"
+#include "stone/errors.h"
+#include "stone/gemcad_io.h"
+#include "stone/output_file.h"
+
+namespace culet {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct OptimizeCommand {
+    CommonOptions common;
+    std::string file, out, page, json;
+    GradeChoices choices;
+    std::string objective = "brilliance", model = "cos", table;
+    std::optional<double> index;
+    double head_deg = 10, range_deg = 8, over_critical_deg = 0, least_volume_percent = 80;
+    int evaluations = 400;
+    bool recut = false;
+    double gain = 0, most_loss_percent = 10;
+};
+
+LightModel model_called(const std::string& name) {
+    for (int m = 0; m < k_light_model_count; ++m) {
+        if (name == name_of(static_cast<LightModel>(m))) return static_cast<LightModel>(m);
+    }
+    throw InputError(fmt::format("--model is iso, cos, sc2, random or wlr, found \"{}\"", name));
+}
+
+OptimizeOptions options_of(const OptimizeCommand& command, const GradeInput& input) {
+    OptimizeOptions options;
+    options.merit.index =
+        grade_index(input.has_material ? &input.stone.material : nullptr, input.index);
+    options.merit.model = model_called(command.model);
+    options.merit.head = radians(command.head_deg);
+    options.merit.weights = merit_weights(command.objective);
+    options.merit.threads = command.common.threads;
+    options.evaluations = command.evaluations;
+    options.limits.range = radians(command.range_deg);
+    options.limits.over_critical = radians(command.over_critical_deg);
+    options.limits.least_volume = command.least_volume_percent / 100;
+    if (!command.table.empty()) {
+        std::string list = command.table;
+        std::replace(list.begin(), list.end(), ':', ',');
+        const std::vector<double> range =
+            numbers_in(list, 2, 2, "--table is LEAST:MOST, per cent of the stone's width");
+        options.limits.least_table = range[0] / 100;
+        options.limits.most_table = range[1] / 100;
+    }
+    if (command.recut) options.recut = Recut{command.gain, command.most_loss_percent / 100};
+    return options;
+}
+
+nlohmann::ordered_json json_of(const Merit& merit, const MeritOptions& options) {
+    nlohmann::ordered_json json{{"total", merit.total}};
+    for (std::size_t p = 0; p < merit.parts.size(); ++p) {
+        if (options.weights[p] > 0) json[name_of(static_cast<MeritPart>(p))] = merit.parts[p];
+    }
+    return json;
+}
+
+std::string json_of(const Optimized& result, const OptimizeOptions& options,
+                    const OptimizeCommand& command) {
+    nlohmann::ordered_json json{{"schema", 1},
+                                {"objective", command.objective},
+                                {"model", command.model},
+                                {"index", options.merit.index.n},
+                                {"merit",
+                                 {{"start", json_of(result.at_start, options.merit)},
+                                  {"two_factors", json_of(result.by_two_factors, options.merit)},
+                                  {"better", json_of(result.at_better, options.merit)}}},
+                                {"found", result.found},
+                                {"volume_ratio", result.volume_ratio},
+                                {"table_percent",
+                                 {{"start", 100 * table_share(result.start)},
+                                  {"better", 100 * table_share(result.better)}}},
+                                {"evaluations", result.evaluations},
+                                {"tiers", nlohmann::ordered_json::array()}};
+    for (const OptimizedTier& tier : result.tiers) {
+        nlohmann::ordered_json facets = nlohmann::ordered_json::array();
+        for (const int f : tier.tier.facets)
+            facets.push_back(result.start.facets[static_cast<std::size_t>(f)].name);
+        json["tiers"].push_back(
+            {{"name", tier.tier.name},
+             {"part", tier.tier.part == StonePart::crown ? "crown" : "pavilion"},
+             {"facets", facets},
+             {"from_deg", degrees(tier.from)},
+             {"to_deg", degrees(tier.to)}});
+    }
+    return json.dump(1) + "\n";
+}
+
+std::string words_of(const OptimizedTier& tier, const Solid& solid) {
+    if (!tier.tier.name.empty()) return tier.tier.name;
+    const std::size_t more = tier.tier.facets.size() - 1;
+    const std::string& first =
+        solid.facets[static_cast<std::size_t>(tier.tier.facets.front())].name;
+    return more == 0 ? first : fmt::format("{} and {} more", first, more);
+}
+
+void print_result(const Optimized& result, const OptimizeCommand& command) {
+    std::string text =
+        fmt::format("{}: {:.2f}, two factors {:.2f}, all tiers {:.2f}\n", command.objective,
+                    result.at_start.total, result.by_two_factors.total, result.at_better.total);
+    for (const OptimizedTier& tier : result.tiers)
+        text += fmt::format("  {:<16}{:>8.2f} -> {:.2f} degrees\n", words_of(tier, result.start),
+                            degrees(tier.from), degrees(tier.to));
+    text += fmt::format("  table {:.1f} -> {:.1f} % of the width; ",
+                        100 * table_share(result.start), 100 * table_share(result.better));
+    text += command.recut ? fmt::format("{:.2f} % of the weight is cut away\n",
+                                        100 * (1 - result.volume_ratio))
+                          : fmt::format("volume {:+.2f} %\n", 100 * (result.volume_ratio - 1));
+    if (!result.found) text += "  nothing better was found: the angles stay as they are\n";
+    print_lines(text);
+}
+
+CutSheet sheet_of(const OptimizeOptions& options, const std::string& name) {
+    CutSheet sheet;
+    sheet.refractive_index = options.merit.index.n;
+    sheet.headings.push_back(name + ", angles by culet optimize");
+    return sheet;
+}
+
+int run_optimize(OptimizeCommand command) {
+    if (fs::path(command.out).extension() != ".asc")
+        throw InputError(command.out, "is written as a cut design: give it the ending .asc");
+    command.choices.index = command.index;
+    command.choices.overrides = command.common.set;
+    command.choices.quiet = command.common.quiet;
+    if (command.index && !(*command.index > 1 && *command.index < 10))
+        throw InputError(
+            fmt::format("--index is a refractive index above 1, found {:g}", *command.index));
+    if (command.gain > 0 && !command.recut)
+        throw InputError("--gain is of a stone that is cut anew: give --recut too");
+    GradeInput input = load_for_grade(command.file, command.choices, false).front();
+    const OptimizeOptions options = options_of(command, input);
+    require_writable(command.out);
+    require_writable(command.json);
+    Optimized result;
+    try {
+        result = optimize_cut(input.stone.solid, options,
+                              progress_line("optimize", command.common.quiet));
+    } catch (const InputError& error) {
+        throw InputError(input.file, error.what());
+    }
+    const CutSheet sheet = sheet_of(options, input.name);
+    write_gemcad_asc(result.better, sheet, command.out);
+    if (!command.json.empty()) write_text(command.json, json_of(result, options, command));
+    if (!command.page.empty()) {
+        const fs::path before = fs::path(command.page) / "before.asc";
+        fs::create_directories(command.page);
+        write_gemcad_asc(result.start, sheet, before);
+        write_grade_page({before.string(), command.out}, command.choices, command.page,
+                         command.common);
+    }
+    if (command.json != "-") print_result(result, command);
+    if (!input.trusted)
+        say(fmt::format("{}: the fit should not be trusted, nor should these angles: {}",
+                        input.file, input.notes.back()),
+            command.common.quiet);
+    if (!result.gained)
+        say(fmt::format("a gain of {:g} was not reached: ask for less, or allow more --range",
+                        command.gain),
+            command.common.quiet);
+    return input.trusted && result.gained ? exit_good : exit_untrusted;
+}
+
+}  // namespace
+
+void add_command_optimize(CLI::App& program, int& exit_code) {
+    auto command = std::make_shared<OptimizeCommand>();
+    CLI::App* optimize = program.add_subcommand(
+        "optimize", "better angles for a cut: its index settings and meets are kept");
+    optimize->add_option("stone", command->file, "stone, mesh or cut design: closed and convex")
+        ->required()
+        ->type_name("STONE|CUT");
+    optimize->add_option("-o,--output", command->out, "the better design")
+        ->required()
+        ->type_name("BETTER.asc");
+    optimize
+        ->add_option("--objective", command->objective,
+                     "brilliance, fire, contrast or tilt, or several with weights (brilliance)")
+        ->type_name("WORDS");
+    optimize
+        ->add_option("--model", command->model,
+                     "light of brilliance: iso, cos, sc2, random or wlr, as in culet grade (cos)")
+        ->type_name("MODEL");
+    optimize->add_option("--page", command->page, "folder for a page with before and after")
+        ->type_name("DIR");
+    optimize->add_option("--json", command->json, "merits and angles (- is stdout)")
+        ->type_name("FILE");
+    optimize->add_option("--material", command->choices.material, "material by name or file")
+        ->type_name("NAME");
+    optimize->add_option("--index", command->index, "refractive index, instead of the material's")
+        ->type_name("N");
+    optimize
+        ->add_option("--head", command->head_deg, "half angle of the viewer's head, degrees (10)")
+        ->check(CLI::Range(0.0, 89.0))
+        ->type_name("DEG");
+    optimize->add_option("--range", command->range_deg, "most change of an angle, degrees (8)")
+        ->check(CLI::Range(0.01, 45.0))
+        ->type_name("DEG");
+    optimize
+        ->add_option("--over-critical", command->over_critical_deg,
+                     "pavilion angles stay so much above the critical angle, degrees (0)")
+        ->check(CLI::Range(0.0, 30.0))
+        ->type_name("DEG");
+    optimize
+        ->add_option("--least-volume", command->least_volume_percent,
+                     "of the design's, for the same outline, per cent (80)")
+        ->check(CLI::Range(0.0, 100.0))
+        ->type_name("PERCENT");
+    optimize->add_option("--table", command->table, "width of the table, per cent of the stone's")
+        ->type_name("LEAST:MOST");
+    optimize->add_option("--evaluations", command->evaluations, "cuts to try (400)")
+        ->check(CLI::Range(40, 100000))
+        ->type_name("N");
+    optimize->add_flag("--recut", command->recut, "the better cut must fit inside the stone");
+    optimize
+        ->add_option("--gain", command->gain,
+                     "with --recut: points of merit to win at the least loss of weight")
+        ->check(CLI::Range(0.0, 100.0))
+        ->type_name("POINTS");
+    optimize
+        ->add_option("--most-loss", command->most_loss_percent,
+                     "with --recut and no --gain: weight that may be cut away, per cent (10)")
+        ->check(CLI::Range(0.0, 100.0))
+        ->type_name("PERCENT");
+    add_common(*optimize, command->common, true);
+    optimize->footer(
+        "Examples:\n"
+        "  culet optimize design.asc --material quartz -o better.asc --page out/better\n"
+        "  culet optimize design.asc --index 1.54 --objective brilliance=2,tilt=1 -o better.asc\n"
+        "  culet optimize stone.toml --recut --gain 2 -o recut.asc");
+    optimize->callback([command, &exit_code] { exit_code = run_optimize(*command); });
+}
+
+}  // namespace culet

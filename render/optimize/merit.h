@@ -1,0 +1,42 @@
+#pragma once
+// How good a cut is, as one number that varies continuously with its angles.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "render/grade/grade.h"
+
+namespace culet {
+
+/// What a merit is made of; each part is a percentage.
+enum class MeritPart {
+    brilliance,  ///< light return over the tilts, the mean of the views
+    fire,        ///< share of light with red and blue at least 0.25 degrees apart (Fire::separated)
+    contrast,    ///< share of the crown that mirrors the viewer's head (ASET's blue)
+    tilt,        ///< light return at 20 degrees over that face up, at most 100
+};
+inline constexpr int k_merit_part_count = 4;
+const char* name_of(MeritPart part);
+
+struct MeritOptions {
+    GradeIndex index;
+    LightModel model = LightModel::cos;
+    double head = radians(10);  ///< half angle of the viewer's head
+    std::array<double, k_merit_part_count> weights{1, 0, 0, 0};
+    int threads = 0;
+};
+
+struct Merit {
+    std::array<double, k_merit_part_count> parts{};  ///< per cent; 0 where its weight is 0
+    double total = 0;                                ///< weighted mean
+};
+
+/// "brilliance", or parts with weights: "brilliance=2,fire=1". Throws InputError.
+std::array<double, k_merit_part_count> merit_weights(const std::string& text);
+
+/// `convex`: closed and convex, table up. The tilts are 0, 10, 20 and 30 degrees to both sides
+/// about the x axis, as GemRay's optimiser has them.
+Merit merit_of(const Solid& convex, const MeritOptions& options);
+
+}  // namespace culet

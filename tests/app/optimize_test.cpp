@@ -1,0 +1,72 @@
+// culet optimize, as a cutter runs it.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/run_program.h"
+#include "tests/scratch_folder.h"
+
+namespace culet {
+namespace {
+
+using test::ProgramRun;
+using test::run_culet;
+using ::testing::HasSubstr;
+
+class OptimizeCommand : public testing::Test {
+protected:
+    void SetUp() override {
+        ASSERT_EQ(run_culet({"cut", "round-brilliant", "-o", file("round.obj"), "-q"}).exit_code,
+                  0);
+    }
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    test::ScratchFolder folder_;
+};
+
+TEST_F(OptimizeCommand, WritesADesignThatGradesAsItSays) {
+    const ProgramRun run =
+        run_culet({"optimize", file("round.obj"), "--index", "1.62", "--evaluations", "40", "-o",
+                   file("better.asc"), "--json", file("better.json")});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.out, HasSubstr("degrees"));
+    std::ifstream stream(file("better.json"));
+    const nlohmann::json json = nlohmann::json::parse(stream);
+    const double merit = json["merit"]["better"]["total"].get<double>();
+    EXPECT_GT(merit, json["merit"]["start"]["total"].get<double>());
+    // The file's own index, and the tilts of the merit.
+    const ProgramRun graded =
+        run_culet({"grade", file("better.asc"), "--tilts", "-30:30:10", "--json", "-", "-q"});
+    ASSERT_EQ(graded.exit_code, 0) << graded.err;
+    const nlohmann::json grade = nlohmann::json::parse(graded.out);
+    double mean = 0;
+    for (const auto& model : grade["models"]) {
+        if (model["name"] != "cos" || model["tilt_azimuth_deg"] != 0.0) continue;
+        for (const auto& one : model["whole"]) mean += one.get<double>() / 7;
+    }
+    // The design is written to 1e-12 of its planes.
+    EXPECT_NEAR(mean, merit, 1e-6);
+}
+
+TEST_F(OptimizeCommand, RefusesInOneLine) {
+    const auto refused = [&](std::vector<std::string> words, const char* why) {
+        words.insert(words.begin(), {"optimize", file("round.obj")});
+        const ProgramRun run = run_culet(words);
+        EXPECT_EQ(run.exit_code, 2) << why;
+        EXPECT_THAT(run.err, HasSubstr(why));
+        EXPECT_FALSE(std::filesystem::exists(file("x.asc")));
+    };
+    refused({"--index", "1.5", "-o", file("x.obj")}, ".asc");
+    refused({"-o", file("x.asc")}, "names no material");
+    refused({"--index", "0.9", "-o", file("x.asc")}, "above 1");
+    refused({"--index", "1.5", "--objective", "glitter", "-o", file("x.asc")}, "--objective");
+    refused({"--index", "1.5", "--objective", "fire", "-o", file("x.asc")}, "dispersion");
+    refused({"--index", "1.5", "--gain", "2", "-o", file("x.asc")}, "--recut");
+    refused({"--index", "1.5", "--model", "sun", "-o", file("x.asc")}, "--model");
+}
+
+}  // namespace
+}  // namespace culet

@@ -1,0 +1,183 @@
+// Better angles: meets are held against the planes that make them, merits against a second
+// reckoning.
+
+#include "render/optimize/optimize.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <numbers>
+
+#include "stone/cuts/cuts.h"
+#include "stone/errors.h"
+
+namespace culet {
+namespace {
+
+// Six crown and six pavilion facets that meet in an apex each, round an upright girdle from
+// -thickness to +thickness at distance 1.
+Solid double_pyramid(double crown, double pavilion, double thickness) {
+    std::vector<NamedPlane> planes;
+    for (int i = 0; i < 6; ++i) {
+        const double azimuth = i * std::numbers::pi / 3;
+        const Vec3 out{std::cos(azimuth), std::sin(azimuth), 0};
+        const auto facet = [&](const char* name, double angle, double side) {
+            const Vec3 normal = std::sin(angle) * out + Vec3{0, 0, side * std::cos(angle)};
+            planes.push_back({name + std::to_string(i + 1),
+                              {normal, glm::dot(normal, out + Vec3{0, 0, side * thickness})}});
+        };
+        facet("C", crown, 1);
+        facet("P", pavilion, -1);
+        planes.push_back({"G" + std::to_string(i + 1), {out, 1}});
+    }
+    return contract_near_meets(intersect_half_spaces(planes).solid, 1e-9).solid;
+}
+
+double highest(const Solid& solid) {
+    double z = 0;
+    for (const Vec3& v : solid.vertices) z = std::max(z, v.z);
+    return z;
+}
+
+TEST(TierDesign, of_a_double_pyramid_keeps_its_apexes) {
+    const TierDesign design(double_pyramid(radians(35), radians(42), 0.05));
+    ASSERT_EQ(design.tiers().size(), 2u);
+    for (const double more : {-10.0, -1.0, 0.0, 3.0, 12.0}) {
+        std::vector<double> steeper(2, 0);
+        for (std::size_t t = 0; t < 2; ++t) {
+            if (design.tiers()[t].part == StonePart::crown) steeper[t] = radians(more);
+        }
+        const std::optional<Solid> solid = design.with(steeper);
+        ASSERT_TRUE(solid) << more;
+        // The girdle stays, so that the apex is that of a pyramid over it.
+        EXPECT_NEAR(highest(*solid), 0.05 + std::tan(radians(35 + more)), 1e-12) << more;
+    }
+}
+
+TEST(TierDesign, of_a_brilliant_keeps_meets_azimuths_and_girdle) {
+    const Solid start = make_cut("round-brilliant");
+    const TierDesign design(start);
+    std::vector<double> steeper;
+    // Lower halves must stay steeper than the mains, or they vanish.
+    const std::map<std::string, double> wanted{
+        {"S", -1}, {"C", 0.6}, {"U", -0.5}, {"L", 1.2}, {"P", -0.8}};
+    for (const FacetTier& tier : design.tiers()) steeper.push_back(radians(wanted.at(tier.name)));
+    const std::optional<Solid> solid = design.with(steeper);
+    ASSERT_TRUE(solid);
+    std::vector<double> turn(start.facets.size(), 0);
+    for (std::size_t t = 0; t < steeper.size(); ++t) {
+        for (const int f : design.tiers()[t].facets) turn[static_cast<std::size_t>(f)] = steeper[t];
+    }
+    for (std::size_t f = 0; f < start.facets.size(); ++f) {
+        const Facet &was = start.facets[f], &is = solid->facets[f];
+        EXPECT_EQ(is.corners, was.corners);
+        // Corners are reckoned from planes whose numbers are of the size of the stone.
+        for (const int c : is.corners)
+            EXPECT_NEAR(height_above(is.plane, solid->vertices[static_cast<std::size_t>(c)]), 0,
+                        1e-12 * diameter(start));
+        const Vec3 a = was.plane.normal, b = is.plane.normal;
+        EXPECT_NEAR(a.x * b.y - a.y * b.x, 0, 1e-13) << is.name;
+        if (std::abs(a.z) < 1e-9) {
+            EXPECT_EQ(a, b);
+            EXPECT_EQ(was.plane.offset, is.plane.offset);
+        } else if (turn[f] != 0) {
+            const double from = std::atan2(std::hypot(a.x, a.y), std::abs(a.z));
+            const double to = std::atan2(std::hypot(b.x, b.y), std::abs(b.z));
+            // The nearest cut with these meets: the angles wanted but for what meets tie.
+            EXPECT_NEAR(to - from, turn[f], radians(0.2)) << is.name;
+        }
+    }
+}
+
+TEST(TierDesign, is_refused_where_facets_would_vanish) {
+    const Solid start = make_cut("round-brilliant");
+    const TierDesign design(start);
+    for (std::size_t t = 0; t < design.tiers().size(); ++t) {
+        // Mains as flat as stars, stars as steep as mains: the outline of facets changes.
+        std::vector<double> steeper(design.tiers().size(), 0);
+        steeper[t] = radians(45);
+        const std::optional<Solid> solid = design.with(steeper);
+        if (!solid) continue;
+        for (const Facet& facet : solid->facets) EXPECT_GT(area(*solid, facet), 0);
+    }
+    EXPECT_FALSE(design.with(std::vector<double>(design.tiers().size(), radians(60))));
+}
+
+OptimizeOptions quick(double n) {
+    OptimizeOptions options;
+    options.merit.index.n = n;
+    options.evaluations = 40;
+    return options;
+}
+
+TEST(Optimize, is_at_least_its_start_and_the_search_with_two_factors) {
+    const Solid start = make_cut("round-brilliant");
+    const OptimizeOptions options = quick(1.54);
+    const Optimized result = optimize_cut(start, options);
+    EXPECT_TRUE(result.found);
+    EXPECT_GE(result.by_two_factors.total, result.at_start.total);
+    EXPECT_GE(result.at_better.total, result.by_two_factors.total);
+    // The merit again, by grade: cosine light over the same tilts.
+    GradeOptions grade;
+    grade.coarse = true;
+    for (int deg = -30; deg <= 30; deg += 10) grade.tilts.push_back(radians(deg));
+    grade.tilt_axes = {0};
+    const Grade graded = grade_stone(result.better, options.merit.index, grade);
+    double sum = 0;
+    for (const ViewReturn& view : graded.curves.front().returns)
+        sum += view.whole[static_cast<std::size_t>(LightModel::cos)];
+    // Sums of the same terms in another order.
+    EXPECT_NEAR(result.at_better.total, 100 * sum / 7, 1e-9);
+}
+
+TEST(Optimize, is_the_same_on_any_number_of_threads) {
+    const Solid start = double_pyramid(radians(35), radians(42), 0.05);
+    OptimizeOptions options = quick(1.76);
+    options.merit.threads = 1;
+    const Optimized one = optimize_cut(start, options);
+    options.merit.threads = 3;
+    const Optimized three = optimize_cut(start, options);
+    EXPECT_EQ(one.at_better.total, three.at_better.total);
+    for (std::size_t v = 0; v < one.better.vertices.size(); ++v)
+        EXPECT_EQ(one.better.vertices[v], three.better.vertices[v]);
+}
+
+TEST(Optimize, keeps_its_limits) {
+    const Solid start = make_cut("round-brilliant");
+    OptimizeOptions options = quick(1.54);
+    options.limits.range = radians(1);
+    options.limits.least_table = table_share(start) - 0.01;
+    options.limits.most_table = table_share(start) + 0.01;
+    options.limits.least_volume = 0.99;
+    const Optimized result = optimize_cut(start, options);
+    EXPECT_GE(table_share(result.better), options.limits.least_table);
+    EXPECT_LE(table_share(result.better), options.limits.most_table);
+    EXPECT_GE(result.volume_ratio, 0.99);
+    for (const OptimizedTier& tier : result.tiers)
+        EXPECT_LE(std::abs(tier.to - tier.from), radians(1.2)) << tier.tier.name;
+}
+
+TEST(Optimize, cuts_a_stone_anew_inside_what_is_there) {
+    const Solid stone = double_pyramid(radians(30), radians(38), 0.05);
+    OptimizeOptions options = quick(1.76);
+    options.recut = Recut{.gain = 0, .most_loss = 0.2};
+    const Optimized result = optimize_cut(stone, options);
+    for (const Facet& facet : stone.facets) {
+        for (const Vec3& corner : result.better.vertices)
+            EXPECT_LE(height_above(facet.plane, corner), 1e-12 * diameter(stone));
+    }
+    EXPECT_NEAR(volume(result.better) / volume(stone), result.volume_ratio, 1e-12);
+    EXPECT_GE(result.volume_ratio, 0.8);
+    EXPECT_GE(result.at_better.total, result.at_start.total);
+}
+
+TEST(Optimize, refuses_words_that_it_does_not_know) {
+    EXPECT_EQ(merit_weights("brilliance=2,tilt"), (std::array<double, 4>{2, 0, 0, 1}));
+    for (const char* text : {"", "glitter", "fire=", "fire=x", "fire=-1", "fire=0", "fire,,tilt"})
+        EXPECT_THROW(merit_weights(text), InputError) << text;
+}
+
+}  // namespace
+}  // namespace culet
