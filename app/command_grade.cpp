@@ -139,7 +139,7 @@ void print_summary(const Graded& graded) {
     };
     std::string text = fmt::format("{}, index {:.4f}\n", graded.input.name, graded.grade.index.n);
     for (const GradeFigure& figure : figures_of(graded.grade)) text += line(figure) + "\n";
-    text += fmt::format("  hearts {}, arrows {} (heads {})\n", graded.grade.hearts.count,
+    text += fmt::format("  hearts {} of 8, arrows {} of 8 (heads {})\n", graded.grade.hearts.count,
                         graded.grade.arrows.count, graded.grade.arrows.list.size());
     for (std::size_t i = 0; i < std::min<std::size_t>(graded.costs.size(), 3); ++i) {
         const FacetCost& cost = graded.costs[i];
@@ -206,7 +206,15 @@ int run_grade(GradeCommand command) {
     for (GradeInput& input : inputs) {
         for (const std::string& note : input.notes)
             say(fmt::format("{}: {}", input.name, note), !command.common.verbose);
-        all.push_back(grade_one(command, options, std::move(input)));
+        const bool as_drawn = input.as_drawn;
+        try {
+            all.push_back(grade_one(command, options, std::move(input)));
+        } catch (const InputError& error) {
+            // Drawn by hand, its facets need not be planar: what was asked for is the fitted stone.
+            if (!as_drawn) throw;
+            say(fmt::format("the mesh as drawn is left out: {}", error.what()),
+                command.common.quiet);
+        }
     }
     if (!command.out.empty()) write_page(command, all);
     if (!command.json.empty()) write_text(command.json, json_of(all));

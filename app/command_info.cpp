@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/cutting_sheet_file.h"
 #include "app/describe.h"
 #include "app/file_kinds.h"
 #include "app/material_list.h"
@@ -26,6 +27,7 @@ struct InfoOptions {
     std::filesystem::path json;
     FormOptions form;
     std::string width;
+    SheetOptions sheet;
 };
 
 // The form for the stone of a file: a mesh, a cut design or a stone file.
@@ -69,7 +71,10 @@ int info(InfoOptions options) {
         }
         options.describe.width_mm = length_mm(options.width, "--width");
     }
-    if (options.describe.gear != 0) options.describe.cutting_list = true;
+    if (options.describe.gear != 0 && options.sheet.out.empty())
+        options.describe.cutting_list = true;
+    if (!options.sheet.report.empty() && options.sheet.out.empty())
+        throw InputError("--report is of a cutting sheet: give --cutting-sheet too");
     if (options.describe.cutting_list && !is_solid_file(options.describe.file)) {
         throw InputError(options.describe.file, "--cutting-list is of a mesh or a cut design");
     }
@@ -88,7 +93,8 @@ int info(InfoOptions options) {
         write_text(options.json, object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     }
     for (const std::string& line : form) say(line, options.common.quiet);
-    if (options.json != "-" && options.form.readings != "-") {
+    if (!options.sheet.out.empty()) write_cutting_sheet(options.sheet, options.describe);
+    if (options.json != "-" && options.form.readings != "-" && options.sheet.out != "-") {
         for (const std::string& line : about.lines) fmt::print("{}\n", for_terminal(line));
         for (const std::string& note : about.notes) fmt::print("note: {}\n", for_terminal(note));
         for (const Fault& fault : about.faults) {
@@ -179,6 +185,15 @@ void add_command_info(CLI::App& program, int& exit_code) {
         ->type_name("6.5mm");
     command->add_flag("--cutting-list", options->describe.cutting_list,
                       "of a mesh or cut design: angle and index settings, tier by tier");
+    command
+        ->add_option("--cutting-sheet", options->sheet.out,
+                     "of a mesh or cut design, to be printed: drawings, angles, index settings, "
+                     "what each tier is cut to")
+        ->type_name("SHEET.html|.txt");
+    command
+        ->add_option("--report", options->sheet.report,
+                     "report of the stone's fit: angles of the cutting sheet with their sigmas")
+        ->type_name("FIT.json");
     command
         ->add_option("--gear", options->describe.gear,
                      "teeth of the index wheel of the cutting list (the design's own, or 96)")

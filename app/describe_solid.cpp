@@ -77,33 +77,18 @@ void describe_proportions(const Solid& solid, Description& about) {
                        : std::string()));
 }
 
-const char* word_for(StonePart part) {
-    switch (part) {
-        case StonePart::table:
-            return "table";
-        case StonePart::crown:
-            return "crown";
-        case StonePart::girdle:
-            return "girdle";
-        case StonePart::pavilion:
-            return "pavilion";
-        case StonePart::culet:
-            break;
-    }
-    return "culet";
-}
-
 void describe_cutting(const Solid& solid, const CutSheet& sheet, Description& about) {
     Json list = Json::array();
     about.lines.push_back(
         fmt::format("{:<8} {:<9} {:>16}  index of {:g}", "tier", "part", "angle", sheet.gear));
     for (const CuttingStep& step : cutting_list(solid, sheet)) {
         list.push_back({{"tier", step.tier},
-                        {"part", word_for(step.part)},
+                        {"part", name_of(step.part)},
                         {"angle", step.angle_deg},
                         {"angle_min", step.least_angle_deg},
                         {"angle_max", step.most_angle_deg},
-                        {"indices", step.indices}});
+                        {"indices", step.indices},
+                        {"cut_to", depth_words(step.depth)}});
         const bool alike = step.most_angle_deg - step.least_angle_deg < 0.005;
         std::string indices;
         for (const double index : step.indices) {
@@ -112,7 +97,7 @@ void describe_cutting(const Solid& solid, const CutSheet& sheet, Description& ab
                 fmt::format("{}{:g}", indices.empty() ? "" : " ", std::round(100 * index) / 100);
         }
         about.lines.push_back(fmt::format(
-            "{:<8} {:<9} {:>16}  {}", step.tier, word_for(step.part),
+            "{:<8} {:<9} {:>16}  {}", step.tier, name_of(step.part),
             alike ? fmt::format("{:.2f}", step.angle_deg)
                   : fmt::format("{:.2f} to {:.2f}", step.least_angle_deg, step.most_angle_deg),
             step.part == StonePart::table || step.part == StonePart::culet ? "any" : indices));

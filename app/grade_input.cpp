@@ -35,28 +35,6 @@ double number_of(const Json& facet, const char* key) {
     return found != facet.end() && found->is_number() ? found->get<double>() : 0;
 }
 
-StoneUncertainty uncertainty_in(const fs::path& report, const Solid& solid) {
-    const Json json = Json::parse(read_text(report), nullptr, false);
-    if (!json.is_object() || !json.contains("facets") || !json["facets"].is_array())
-        throw InputError(report, "is no report of culet fit (--report FIT.json writes one)");
-    StoneUncertainty uncertainty;
-    for (const Facet& facet : solid.facets) {
-        const Json* found = nullptr;
-        for (const Json& one : json["facets"]) {
-            if (one.is_object() && one.value("name", std::string()) == facet.name) found = &one;
-        }
-        if (found == nullptr) {
-            throw InputError(
-                report,
-                fmt::format("has no facet \"{}\": it is the report of another stone", facet.name));
-        }
-        uncertainty.facets.push_back({radians(number_of(*found, "sigma_inclination")),
-                                      radians(number_of(*found, "sigma_azimuth")),
-                                      number_of(*found, "sigma_offset")});
-    }
-    return uncertainty;
-}
-
 double known(double sigma) {
     return std::isfinite(sigma) ? sigma : 0;
 }
@@ -131,12 +109,35 @@ std::vector<GradeInput> load_stone_file(const fs::path& file, const GradeChoices
     }
     if (drawn) {
         input.name += " (as drawn)";
+        input.as_drawn = true;
         both.push_back(std::move(input));
     }
     return both;
 }
 
 }  // namespace
+
+StoneUncertainty uncertainty_in(const fs::path& report, const Solid& solid) {
+    const Json json = Json::parse(read_text(report), nullptr, false);
+    if (!json.is_object() || !json.contains("facets") || !json["facets"].is_array())
+        throw InputError(report, "is no report of culet fit (--report FIT.json writes one)");
+    StoneUncertainty uncertainty;
+    for (const Facet& facet : solid.facets) {
+        const Json* found = nullptr;
+        for (const Json& one : json["facets"]) {
+            if (one.is_object() && one.value("name", std::string()) == facet.name) found = &one;
+        }
+        if (found == nullptr) {
+            throw InputError(
+                report,
+                fmt::format("has no facet \"{}\": it is the report of another stone", facet.name));
+        }
+        uncertainty.facets.push_back({radians(number_of(*found, "sigma_inclination")),
+                                      radians(number_of(*found, "sigma_azimuth")),
+                                      number_of(*found, "sigma_offset")});
+    }
+    return uncertainty;
+}
 
 std::vector<GradeInput> load_for_grade(const fs::path& file, const GradeChoices& choices,
                                        bool drawn) {

@@ -18,7 +18,8 @@ struct GradeInput {
     bool has_material = false;
     std::optional<double> index;  ///< as asked for, or of a cut design without a material
     std::optional<StoneUncertainty> uncertainty;
-    bool trusted = true;  ///< false: a fit that should not be trusted; `notes` say why
+    bool as_drawn = false;  ///< the mesh that a fit began with
+    bool trusted = true;    ///< false: a fit that should not be trusted; `notes` say why
     std::vector<std::string> notes;
 };
 
@@ -34,5 +35,9 @@ struct GradeChoices {
 /// InputError.
 std::vector<GradeInput> load_for_grade(const std::filesystem::path& file,
                                        const GradeChoices& choices, bool drawn);
+
+/// How sure the facets are by the report of their fit. Throws InputError where it is another
+/// stone's.
+StoneUncertainty uncertainty_in(const std::filesystem::path& report, const Solid& solid);
 
 }  // namespace culet

@@ -218,7 +218,7 @@ std::string count_in(const Json& grade, const char* path) {
 std::string headline(const std::vector<Json>& grades) {
     std::string text;
     for (const Json& grade : grades) {
-        text += fmt::format("{}{}: {} hearts, {} arrows, light return {} %",
+        text += fmt::format("{}{}: {} of 8 hearts, {} of 8 arrows, light return {} %",
                             text.empty() ? "" : "; ", name_in(grade),
                             count_in(grade, "hearts.count"), count_in(grade, "arrows.count"),
                             decimals(value_of(grade, "face_up.iso.whole"), 1));

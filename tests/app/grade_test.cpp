@@ -165,5 +165,15 @@ TEST_F(GradeCommand, RefusesWithOneLineAndWritesNothing) {
     refused({file("missing.asc")}, "missing.asc");
 }
 
+// Drawn by hand, the sample's facets are not planar.
+TEST_F(GradeCommand, LeavesOutAMeshAsDrawnThatIsNoStone) {
+    const ProgramRun run =
+        run_culet({"grade", CULET_SOURCE_DIR "/samples/dravite-step/stone.toml", "--tilts", "0",
+                   "--draws", "2", "--size", "32", "-o", file("page")});
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("as drawn is left out"));
+    EXPECT_TRUE(fs::exists(folder_ / "page/report.html"));
+}
+
 }  // namespace
 }  // namespace culet

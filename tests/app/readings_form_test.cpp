@@ -125,6 +125,23 @@ TEST_F(BenchForm, CuttingListOfADesign) {
     EXPECT_EQ(list.size(), 21u);  // lines of the file that begin with `a`
 }
 
+TEST_F(BenchForm, CuttingSheetIsAPageOrText) {
+    const ProgramRun text =
+        run_culet({"info", k_form_design, "--width", "8mm", "--cutting-sheet", "-"});
+    EXPECT_EQ(text.exit_code, 0) << text.err;
+    EXPECT_THAT(text.out, ::testing::ContainsRegex("width W +8 mm\n"));
+    EXPECT_THAT(text.out, ::testing::ContainsRegex("23 +pavilion +33.24 +[a-zA-Z0-9, ]+48 96\n"));
+    const ProgramRun page = run_culet({"info", k_form_design, "--cutting-sheet", file("s.html")});
+    EXPECT_EQ(page.exit_code, 0) << page.err;
+    EXPECT_THAT(read_text(file("s.html")), ::testing::HasSubstr("<svg"));
+    for (const char* out : {"s.pdf", "s"}) {
+        const ProgramRun run = run_culet({"info", k_form_design, "--cutting-sheet", file(out)});
+        EXPECT_EQ(run.exit_code, 2);
+        EXPECT_THAT(run.err, ::testing::HasSubstr(".html"));
+        EXPECT_FALSE(std::filesystem::exists(file(out)));
+    }
+}
+
 TEST_F(BenchForm, WhatCannotBeDoneIsOneLine) {
     const auto error_of = [&](const std::vector<std::string>& arguments) {
         const ProgramRun run = run_culet(arguments);

@@ -1,0 +1,53 @@
+#include "app/cutting_sheet_file.h"
+
+#include <fmt/format.h>
+
+#include "app/grade_input.h"
+#include "app/readings_form.h"
+#include "app/solid_input.h"
+#include "page/cutting_sheet.h"
+#include "stone/errors.h"
+#include "stone/output_file.h"
+#include "stone/stone_io.h"
+#include "stone/units.h"
+
+namespace culet {
+
+void write_cutting_sheet(const SheetOptions& options, const DescribeOptions& describe) {
+    const std::string ending = extension_of(options.out);
+    if (options.out != "-" && ending != "html" && ending != "txt") {
+        throw InputError(options.out,
+                         "a cutting sheet is a page (.html) or text (.txt, or - for stdout)");
+    }
+    if (!is_solid_file(describe.file)) {
+        throw InputError(describe.file,
+                         "a cutting sheet is of a mesh or a cut design: fit a stone first (culet "
+                         "fit STONE.toml -o FITTED.obj --report FIT.json)");
+    }
+    SolidInput input = load_solid(describe.file, describe.cut);
+    if (describe.width_mm > 0) scale_to_width(input.solid, describe.width_mm);
+    CutSheet cut = input.sheet.value_or(CutSheet{});
+    if (describe.gear != 0) cut.gear = describe.gear;
+    CuttingSheet sheet;
+    sheet.name = describe.file.stem().string();
+    sheet.version = CULET_VERSION;
+    sheet.headings = cut.headings;
+    sheet.steps = cutting_list(input.solid, cut, !input.sheet);
+    sheet.gear = cut.gear;
+    sheet.refractive_index = cut.refractive_index;
+    if (describe.width_mm > 0) sheet.unit = "mm";
+    if (!options.report.empty()) {
+        const StoneUncertainty known = uncertainty_in(options.report, input.solid);
+        for (const CuttingStep& step : sheet.steps) {
+            double most = 0;
+            for (const int f : step.facets)
+                most = std::max(most, known.facets[std::size_t(f)].inclination);
+            sheet.sigmas_deg.push_back(degrees(most));
+        }
+    }
+    sheet.solid = std::move(input.solid);
+    const bool page = ending == "html";
+    write_text(options.out, page ? cutting_sheet_page(sheet) : cutting_sheet_text(sheet));
+}
+
+}  // namespace culet

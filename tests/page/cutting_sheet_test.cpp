@@ -1,0 +1,77 @@
+#include "page/cutting_sheet.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "stone/cuts/cuts.h"
+
+namespace culet {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+CuttingSheet brilliant() {
+    CuttingSheet sheet;
+    sheet.name = "<b>brilliant</b>";
+    sheet.solid = make_cut("round-brilliant");
+    sheet.steps = cutting_list(sheet.solid, CutSheet{}, true);
+    sheet.unit = "mm";
+    return sheet;
+}
+
+const CuttingStep& step_called(const CuttingSheet& sheet, const std::string& tier) {
+    for (const CuttingStep& step : sheet.steps) {
+        if (step.tier == tier) return step;
+    }
+    throw std::runtime_error("no tier " + tier);
+}
+
+TEST(CuttingSheet, TellsWhatEachTierOfABrilliantIsCutTo) {
+    // As textbooks cut a standard brilliant: halves to a point, mains between them, the girdle,
+    // upper halves to the girdle's width; then all is given by meets.
+    const CuttingSheet sheet = brilliant();
+    EXPECT_EQ(depth_words(step_called(sheet, "L").depth), "centre point");
+    EXPECT_EQ(depth_words(step_called(sheet, "P").depth), "meet its neighbour on L");
+    EXPECT_EQ(depth_words(step_called(sheet, "U").depth), "the girdle's width");
+    EXPECT_EQ(depth_words(step_called(sheet, "C").depth), "meet G, U");
+    EXPECT_EQ(depth_words(step_called(sheet, "S").depth), "meet U, C");
+    EXPECT_EQ(depth_words(step_called(sheet, "T").depth), "meet C, S");
+    std::vector<std::string> order;
+    for (const CuttingStep& step : sheet.steps) order.push_back(step.tier);
+    EXPECT_EQ(order, (std::vector<std::string>{"L", "P", "G", "U", "C", "S", "T"}));
+}
+
+TEST(CuttingSheet, OfADesignWithoutMeetsIsCutToSize) {
+    CuttingSheet sheet = brilliant();
+    // A box: each pair of facets is free.
+    std::vector<NamedPlane> planes;
+    for (int k = 0; k < 3; ++k) {
+        for (const double side : {-1.0, 1.0}) {
+            Vec3 normal{0};
+            normal[k] = side;
+            planes.push_back({std::string(1, static_cast<char>('a' + k)), {normal, 1}});
+        }
+    }
+    sheet.solid = intersect_half_spaces(planes).solid;
+    for (const CuttingStep& step : cutting_list(sheet.solid, CutSheet{}, true))
+        EXPECT_NE(step.depth.to, CutDepth::To::meet) << step.tier;
+    EXPECT_DOUBLE_EQ(least_girdle(sheet.solid), 2);
+}
+
+TEST(CuttingSheet, PageAndTextSayTheSame) {
+    CuttingSheet sheet = brilliant();
+    sheet.sigmas_deg.assign(sheet.steps.size(), 0.12);
+    const std::string page = cutting_sheet_page(sheet), text = cutting_sheet_text(sheet);
+    EXPECT_THAT(page, Not(HasSubstr("<b>brilliant</b>")));
+    EXPECT_THAT(page, HasSubstr("<svg"));
+    EXPECT_THAT(page, HasSubstr("34.50 ± 0.12"));
+    EXPECT_THAT(text, HasSubstr("34.50 +- 0.12"));
+    for (const char* both : {"meet G, U", "12 24 36 48 60 72 84", "0.5700", "6.5 mm"}) {
+        EXPECT_THAT(page, HasSubstr(both));
+        EXPECT_THAT(text, HasSubstr(both));
+    }
+}
+
+}  // namespace
+}  // namespace culet
