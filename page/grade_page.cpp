@@ -136,10 +136,16 @@ View pictures_view(const GradeView& view, const std::vector<Json>& grades) {
 
 ChartSeries curve_of(const Json& model, const std::string& name, bool dashed) {
     ChartSeries series{name, {}, true, false, dashed};
-    const Json &tilts = array_at(model, "tilt_deg"), &whole = array_at(model, "whole");
+    const Json &tilts = array_at(model, "tilt_deg"), &whole = array_at(model, "whole"),
+               &sigmas = array_at(model, "sigma_whole");
     for (std::size_t i = 0; i < std::min(tilts.size(), whole.size()); ++i) {
-        if (tilts[i].is_number() && whole[i].is_number())
-            series.points.push_back({tilts[i].get<double>(), whole[i].get<double>(), {}, {}});
+        if (!tilts[i].is_number() || !whole[i].is_number()) continue;
+        ChartPoint point{tilts[i].get<double>(), whole[i].get<double>(), {}, {}};
+        if (i < sigmas.size() && sigmas[i].is_number()) {
+            point.y_low = point.y - sigmas[i].get<double>();
+            point.y_high = point.y + sigmas[i].get<double>();
+        }
+        series.points.push_back(point);
     }
     std::sort(series.points.begin(), series.points.end(),
               [](const ChartPoint& a, const ChartPoint& b) { return a.x < b.x; });

@@ -17,23 +17,35 @@ double tidy_degrees(double radians_value) {
     return std::round(degrees(radians_value) * 1e9) / 1e9;
 }
 
-Json models_json(const Grade& grade) {
+// Per cent; null where no stones were drawn.
+Json percents(const std::vector<ViewReturn>& views, std::size_t model, bool table) {
+    Json list = Json::array();
+    for (const ViewReturn& view : views) {
+        const double value = 100 * (table ? view.table : view.whole)[model];
+        list.push_back(std::isfinite(value) ? Json(value) : Json());
+    }
+    return list;
+}
+
+Json models_json(const Grade& grade, const GradeSigma* sigma) {
     Json models = Json::array();
     Json tilts = Json::array();
     for (const double tilt : grade.tilts) tilts.push_back(tidy_degrees(tilt));
-    for (const TiltCurve& curve : grade.curves) {
+    const bool table = grade.table >= 0;
+    for (std::size_t c = 0; c < grade.curves.size(); ++c) {
+        const TiltCurve& curve = grade.curves[c];
         for (int m = 0; m < k_light_model_count; ++m) {
             const auto i = static_cast<std::size_t>(m);
-            Json whole = Json::array(), table = Json::array();
-            for (const ViewReturn& view : curve.returns) {
-                whole.push_back(100 * view.whole[i]);
-                if (grade.table >= 0) table.push_back(100 * view.table[i]);
+            Json model{{"name", name_of(static_cast<LightModel>(m))},
+                       {"tilt_deg", tilts},
+                       {"tilt_azimuth_deg", tidy_degrees(curve.axis)},
+                       {"whole", percents(curve.returns, i, false)},
+                       {"table", table ? percents(curve.returns, i, true) : Json::array()}};
+            if (sigma != nullptr && c < sigma->curves.size()) {
+                model["sigma_whole"] = percents(sigma->curves[c].returns, i, false);
+                if (table) model["sigma_table"] = percents(sigma->curves[c].returns, i, true);
             }
-            models.push_back({{"name", name_of(static_cast<LightModel>(m))},
-                              {"tilt_deg", tilts},
-                              {"tilt_azimuth_deg", tidy_degrees(curve.axis)},
-                              {"whole", whole},
-                              {"table", table}});
+            models.push_back(std::move(model));
         }
     }
     return models;
@@ -113,7 +125,7 @@ std::string grade_json(const Grade& grade, const GradeContext& context) {
     json["head_deg"] = tidy_degrees(context.options.head);
     json["seed"] = context.options.seed;
     json["face_up"] = face_up_json(grade);
-    json["models"] = models_json(grade);
+    json["models"] = models_json(grade, context.sigma);
     json["aset"] = shares_json(grade.aset);
     json["aset"]["table"] = grade.table >= 0 ? shares_json(grade.aset_table) : Json();
     if (grade.table_reflection.share > 0) {

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "render/grade/curve_sums.h"
 #include "render/grade/grade_figures.h"
 #include "render/optics/random.h"
 #include "render/work/threads.h"
@@ -113,18 +114,6 @@ void disturb(std::vector<Attitude>& attitudes, const Eigen::VectorXd& errors) {
     }
 }
 
-// Mean and sum of squares as they come (Welford 1962).
-struct Running {
-    double mean = 0, squares = 0;
-    int count = 0;
-    void add(double value) {
-        ++count;
-        const double step = value - mean;
-        mean += step / count;
-        squares += step * (value - mean);
-    }
-};
-
 }  // namespace
 
 GradeSigma grade_sigma(const Solid& solid, const GradeIndex& index, const GradeOptions& options,
@@ -132,7 +121,9 @@ GradeSigma grade_sigma(const Solid& solid, const GradeIndex& index, const GradeO
     check(draws >= 2, "a standard deviation needs two draws");
     check(uncertainty.facets.size() == solid.facets.size(), "an uncertainty for every facet");
     GradeOptions quick = options;
+    const std::vector<std::size_t> tilts = drawn_tilts(options.tilts.size());
     quick.tilts.clear();
+    for (const std::size_t i : tilts) quick.tilts.push_back(options.tilts[i]);
     quick.coarse = true;
     const Eigen::MatrixXd spread = spread_of(uncertainty);
     const Vec3 middle = mean_corner(solid);
@@ -140,6 +131,7 @@ GradeSigma grade_sigma(const Solid& solid, const GradeIndex& index, const GradeO
     GradeSigma result;
     result.correlated = uncertainty.correlated();
     std::map<std::string, Running> sums;
+    CurveSums curves(options.tilt_axes.size(), tilts.size());
     Random random(Random::mixed(options.seed));
     for (int draw = 0; draw < draws; ++draw) {
         if (progress && !progress(static_cast<double>(draw) / draws)) throw Interrupted();
@@ -153,12 +145,14 @@ GradeSigma grade_sigma(const Solid& solid, const GradeIndex& index, const GradeO
             continue;
         }
         ++result.draws;
-        for (const GradeFigure& figure : figures_of(grade_convex(*stone, index, quick)))
-            sums[figure.name].add(figure.value);
+        const Grade grade = grade_convex(*stone, index, quick);
+        for (const GradeFigure& figure : figures_of(grade)) sums[figure.name].add(figure.value);
+        curves.add(grade.curves);
     }
     for (const auto& [name, sum] : sums) {
-        if (sum.count >= 2) result.figures[name] = std::sqrt(sum.squares / (sum.count - 1));
+        if (sum.count >= 2) result.figures[name] = sum.sigma();
     }
+    result.curves = curves.sigmas(options, tilts);
     return result;
 }
 

@@ -24,6 +24,8 @@ struct StoneUncertainty {
 
 struct GradeSigma {
     std::map<std::string, double> figures;  ///< by the names of grade_figures.h
+    /// Of the grade's curves, at seven of its tilts; NaN at the others.
+    std::vector<TiltCurve> curves;
     bool correlated = false;
     int draws = 0;
     int left_out = 0;  ///< draws that were no stone

@@ -124,10 +124,28 @@ TEST(Scopes, no_hearts_are_found_in_a_step_cut_pavilion_without_any) {
 
 // Small errors go through by the figure's slope: a draw's scatter is the slope times sigma, to the
 // scatter of a scatter of 30 draws (1/sqrt(2 x 29) = 13 %), three times.
+// A table, and eight facets each of crown, girdle and pavilion: quickly graded.
+Solid plain_eight() {
+    std::vector<NamedPlane> planes{{"T", {{0, 0, 1}, 0.35}}};
+    for (int i = 0; i < 8; ++i) {
+        const double azimuth = radians(45.0 * i);
+        for (const auto& [name, slope, side] : {std::tuple("C", radians(34), 1.0),
+                                                {"G", radians(90), 1.0},
+                                                {"P", radians(41), -1.0}}) {
+            const Vec3 normal{std::sin(slope) * std::cos(azimuth),
+                              std::sin(slope) * std::sin(azimuth), side * std::cos(slope)};
+            const Vec3 at{std::cos(azimuth), std::sin(azimuth), side * 0.02};
+            planes.push_back({name + std::to_string(i), {normal, glm::dot(normal, at)}});
+        }
+    }
+    return intersect_half_spaces(planes).solid;
+}
+
 TEST(GradeSigma, is_the_slope_times_sigma) {
-    const Solid solid = round_brilliant(k_ideal);
+    const Solid solid = plain_eight();
     const GradeIndex index{k_diamond_d, {}};
     GradeOptions options;
+    options.tilts = {radians(-10), 0};
     const int main = find_facet(solid, "P3");
     const double sigma = radians(0.005);
     StoneUncertainty uncertainty;
@@ -136,6 +154,13 @@ TEST(GradeSigma, is_the_slope_times_sigma) {
     const GradeSigma found = grade_sigma(solid, index, options, uncertainty, 30);
     EXPECT_EQ(found.draws, 30);
     EXPECT_EQ(found.left_out, 0);
+    // Untilted, a curve is the figure face up, of the very same stones.
+    ASSERT_EQ(found.curves.size(), 2u);
+    const auto cosine = static_cast<std::size_t>(LightModel::cos);
+    for (const TiltCurve& curve : found.curves)
+        // Both are rounded at 1e-16 of the return, which is ten thousand times the sigma.
+        EXPECT_NEAR(100 * curve.returns[1].whole[cosine], found.figures.at("cos"),
+                    1e-10 * found.figures.at("cos"));
 
     // The same turn about the foot of the perpendicular from the mean corner.
     Vec3 middle(0);
@@ -166,7 +191,7 @@ TEST(GradeSigma, is_the_slope_times_sigma) {
 
 // Facets that err together count together: eight mains by the same amount do not average out.
 TEST(GradeSigma, knows_correlated_errors) {
-    const Solid solid = round_brilliant(k_ideal);
+    const Solid solid = plain_eight();
     StoneUncertainty apart, together;
     const std::size_t size = 3 * solid.facets.size();
     apart.facets.resize(solid.facets.size());
