@@ -1,0 +1,105 @@
+#include "fit/silhouettes/outline_knowledge.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "fit/model/shape.h"
+#include "fit/silhouettes/registration.h"
+#include "stone/perpendicular.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+// A tilt that outlines know no better than this is one that they do not show.
+const double k_unseen_tilt = radians(0.5);
+
+// Steps of all planes in a rigid motion of the stone; offsets in widths.
+Eigen::VectorXd motion_of(const std::vector<Plane>& planes, double width, const Vec3& turn,
+                          const Vec3& shift) {
+    Eigen::VectorXd step(3 * Eigen::Index(planes.size()));
+    for (std::size_t p = 0; p < planes.size(); ++p) {
+        const Vec3& n = planes[p].normal;
+        const auto [t, u] = tangents(n);
+        const Vec3 tilt = glm::cross(turn, n);
+        const auto at = 3 * Eigen::Index(p);
+        step(at) = glm::dot(t, tilt);
+        step(at + 1) = glm::dot(u, tilt);
+        step(at + 2) = glm::dot(n, shift) / width;
+    }
+    return step;
+}
+
+Eigen::MatrixXd unheld_motions(const std::vector<Plane>& planes, double width, const Vec3& up,
+                               const FrameHolds& holds) {
+    const Vec3 x = perpendicular_to(up), y = glm::cross(up, x), none(0);
+    std::vector<Eigen::VectorXd> motions;
+    for (const Vec3& d : {x, y, up}) motions.push_back(motion_of(planes, width, none, width * d));
+    if (!holds.turn) motions.push_back(motion_of(planes, width, up, none));
+    if (!holds.tilts) {
+        motions.push_back(motion_of(planes, width, x, none));
+        motions.push_back(motion_of(planes, width, y, none));
+    }
+    Eigen::MatrixXd all(motions[0].size(), Eigen::Index(motions.size()));
+    for (std::size_t k = 0; k < motions.size(); ++k) all.col(Eigen::Index(k)) = motions[k];
+    return all;
+}
+
+std::vector<int> unseen_planes(const Eigen::MatrixXd& matrix) {
+    // Beside a start that is known to some degrees and per cents.
+    Eigen::MatrixXd with_start = matrix;
+    const double start = 1 / std::pow(4 * k_unseen_tilt, 2);
+    with_start.diagonal().array() += start;
+    const Eigen::MatrixXd covariance = with_start.selfadjointView<Eigen::Lower>().llt().solve(
+        Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+    std::vector<int> unseen;
+    for (Eigen::Index p = 0; 3 * p < matrix.rows(); ++p) {
+        const double variance = covariance(3 * p, 3 * p) + covariance(3 * p + 1, 3 * p + 1);
+        if (variance > k_unseen_tilt * k_unseen_tilt) unseen.push_back(int(p));
+    }
+    return unseen;
+}
+
+}  // namespace
+
+ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& information,
+                       double width, const FrameMotion& back, const FrameHolds& holds) {
+    Eigen::MatrixXd matrix = information;
+    for (Eigen::Index i = 2; i < matrix.rows(); i += 3) {
+        matrix.row(i) *= width;
+        matrix.col(i) *= width;
+    }
+    const Vec3 up = inverse(back).turned(holds.up);
+    const Eigen::MatrixXd motions = unheld_motions(planes, width, up, holds);
+    const Eigen::MatrixXd seen = matrix * motions;
+    matrix -= seen * (motions.transpose() * seen).ldlt().solve(seen.transpose());
+
+    ToldPlanes told;
+    told.unseen = unseen_planes(matrix);
+    const Eigen::LDLT<Eigen::MatrixXd> factor(matrix);
+    Eigen::MatrixXd half = factor.matrixU();
+    half = half * factor.transpositionsP();
+    const Eigen::VectorXd d = factor.vectorD();
+    // One that is known to a radian or a width is not known; and rounding is none.
+    const double least = std::max(1.0, 1e-13 * d.maxCoeff());
+    for (Eigen::Index k = 0; k < d.size(); ++k) {
+        if (!(d(k) > least)) continue;
+        const double root = std::sqrt(d(k));
+        OutlineKnowledge::Row& row = told.rows.emplace_back();
+        for (std::size_t p = 0; p < planes.size(); ++p) {
+            const auto [t, u] = tangents(planes[p].normal);
+            const auto at = 3 * Eigen::Index(p);
+            const double offset = root * half(k, at + 2) / width;
+            const Vec3 tilt = root * (half(k, at) * t + half(k, at + 1) * u);
+            // In the stone's frame the offset is larger by shift . normal.
+            row.normal.push_back(back.turned(tilt) - offset * back.shift);
+            row.offset.push_back(offset);
+        }
+    }
+    told.tells_all = Eigen::Index(told.rows.size()) == matrix.rows() - motions.cols();
+    return told;
+}
+
+}  // namespace culet
