@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "fit/model/orbits.h"
 #include "fit/model/system.h"
 #include "fit/model/upright_turn.h"
 #include "fit/silhouettes/silhouette_fit.h"

@@ -44,6 +44,7 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
     }
     bring_upright();
     list_incidences(options);
+    bring_outlines_inside();
     add_extras();
     if (options.prior.source != Prior::Source::none) {
         prior_ = make_prior(options.prior, solid_, up_facet_, half_width(), mesh_shape_);
@@ -65,6 +66,11 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
 }
 
 double System::scale_of_readings(const Vec3& up) const {
+    // Outlines have given the mesh its size.
+    if (std::any_of(readings_.begin(), readings_.end(),
+                    [](const Reading& r) { return r.told != nullptr; })) {
+        return 1;
+    }
     // In logarithms, read over drawn: of the overall lengths, then of single edges too.
     std::vector<double> logs;
     for (const Reading& r : readings_) {
@@ -173,7 +179,8 @@ void System::list_incidences(const FitOptions& options) {
         const std::vector<int>& facets = edges_.facets_of_vertex[v];
         for (int f : facets) {
             Incidence incidence{static_cast<int>(v), f, MeetTreatment::exact, 0, -1};
-            if (facets.size() > 3) incidence.how = options.meets;
+            // What outlines show is what the planes enclose: corners come and go.
+            if (facets.size() > 3 || options.free_corners) incidence.how = options.meets;
             incidences_.push_back(incidence);
         }
     }

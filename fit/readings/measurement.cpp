@@ -7,6 +7,7 @@
 
 #include "fit/readings/reading_words.h"
 #include "fit/readings/readings_csv.h"
+#include "fit/silhouettes/silhouette_io.h"
 #include "stone/errors.h"
 #include "stone/toml_file.h"
 
@@ -68,7 +69,7 @@ std::optional<ReadingKind> reading_kind(std::string_view name) {
 bool is_relation(ReadingKind kind) {
     return kind == ReadingKind::meet || kind == ReadingKind::parallel ||
            kind == ReadingKind::coplanar || kind == ReadingKind::rotation ||
-           kind == ReadingKind::mirror;
+           kind == ReadingKind::mirror || kind == ReadingKind::silhouette;
 }
 
 bool is_angle(ReadingKind kind) {
@@ -97,6 +98,7 @@ std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_fil
             readings.push_back(std::move(reading));
         }
     }
+    for (WrittenReading& reading : read_silhouettes(root)) readings.push_back(std::move(reading));
     return readings;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fit/model/system.h"
+#include "fit/silhouettes/silhouette_fit.h"
 #include "fit/solve/relaxation.h"
 #include "fit/uncertainty/covariance.h"
 
@@ -11,6 +12,9 @@ namespace culet {
 bool readings_hold_all(const Stone& stone, const std::vector<Reading>& readings,
                        FitOptions options) {
     options.prior.source = Prior::Source::none;
+    for (const Reading& r : readings) {
+        if (r.told) return r.told->tells_all;
+    }
     const System system(stone, readings, options);
     // Symmetry within a sigma makes more equations than it tells anything.
     const auto values = std::count_if(readings.begin(), readings.end(), [](const Reading& r) {
