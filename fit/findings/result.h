@@ -41,8 +41,8 @@ struct FittedFacet {
 /// How the outlines of one set lie to the fitted stone, in the stone's unit (silhouettes/).
 struct SilhouetteFinding {
     SilhouetteMisfit misfit;
-    double sigma = 0;        ///< across the outline
-    bool estimated = false;  ///< from the residuals
+    double sigma = 0;                          ///< across the outline
+    bool estimated = false;                    ///< from the residuals
     std::optional<SilhouetteMisfit> held_out;  ///< of outlines that took no part
 };
 

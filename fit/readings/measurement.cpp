@@ -16,10 +16,9 @@ namespace culet {
 namespace {
 
 constexpr std::array<const char*, 16> k_kind_names{
-    "inclination", "azimuth",  "dihedral",    "distance", "edge",
-    "width",       "depth",    "table_width", "volume",   "weight",
-    "meet",        "parallel", "coplanar",    "rotation", "mirror",
-    "silhouette"};
+    "inclination", "azimuth",     "dihedral", "distance",  "edge", "width",
+    "depth",       "table_width", "volume",   "weight",    "meet", "parallel",
+    "coplanar",    "rotation",    "mirror",   "silhouette"};
 
 WrittenReading reading_of_table(const TomlTable& table) {
     table.refuse_unknown({"kind", "of", "value", "sigma", "exact", "released", "datum", "side",

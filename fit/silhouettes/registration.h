@@ -25,6 +25,12 @@ struct RegistrationOptions {
 Similarity registered(std::span<const Vec3> corners, std::span<const FlatContour> contours,
                       const Similarity& start, const RegistrationOptions& options);
 
+std::vector<Vec3> placed_corners(std::span<const Vec3> corners, const Similarity& at);
+
+/// Sum of weighted squares of one set's distances, those beyond `k_sure` scales as if at that.
+double registration_cost(std::span<const Vec3> corners, std::span<const FlatContour> contours,
+                         const Similarity& at, double scale);
+
 /// A start from nothing: the axis is normal to all directions of sight where they lie in a plane (a
 /// turntable), else one of the three axes of the set's frame; the body stands upright (+z) on
 /// either end of it, is scaled to the outlines' widths, and is turned about the axis in steps of

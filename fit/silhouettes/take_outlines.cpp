@@ -23,19 +23,21 @@ void refuse_corners(const Stone& mesh, const std::vector<WrittenReading>& writte
         if (w.kind != name_of(ReadingKind::distance)) continue;
         for (const std::string& name : w.of) {
             if (!is_corner_name(name) || find_facet(mesh.solid, name) >= 0) continue;
-            throw InputError(w.file, w.line,
-                             fmt::format("{} is a corner of the mesh, which outlines move and part: "
-                                         "beside [[silhouette]] a distance is of facets and edges",
-                                         name));
+            throw InputError(
+                w.file, w.line,
+                fmt::format("{} is a corner of the mesh, which outlines move and part: "
+                            "beside [[silhouette]] a distance is of facets and edges",
+                            name));
         }
     }
 }
 
 std::string sigma_note(const Reading& reading, const OutlineKnowledge& told, const Stone& stone) {
     const auto set = std::size_t(reading.outline_set);
-    return fmt::format("{}: no sigma was given; {:.2g} {} was estimated from how the outlines "
-                       "scatter about the stone",
-                       reading.id, told.sigmas[set], name_of(stone.unit));
+    return fmt::format(
+        "{}: no sigma was given; {:.2g} {} was estimated from how the outlines "
+        "scatter about the stone",
+        reading.id, told.sigmas[set], name_of(stone.unit));
 }
 
 void judge_outlines(const OutlineKnowledge& told, FitResult& result) {
@@ -90,9 +92,10 @@ TakenOutlines take_outlines(const Stone& mesh, const std::vector<WrittenReading>
             taken.notes.push_back(sigma_note(reading, *fit.knowledge, mesh));
         }
         if (reading.outlines->parts_left_out > 0) {
-            taken.notes.push_back(fmt::format("{}: {} sides of outlines that the file calls not "
-                                              "measured are left out",
-                                              reading.id, reading.outlines->parts_left_out));
+            taken.notes.push_back(
+                fmt::format("{}: {} sides of outlines that the file calls not "
+                            "measured are left out",
+                            reading.id, reading.outlines->parts_left_out));
         }
     }
     taken.stone = std::move(fit.stone);
@@ -145,8 +148,8 @@ void describe_outlines(const std::vector<Reading>& readings, FitResult& result) 
         finding.sigma = told->sigmas[set];
         finding.estimated = told->estimated[set];
         if (!outlines.held_out.empty()) {
-            finding.held_out = silhouette_misfit(result.solid, outlines.contours,
-                                                 outlines.held_out, told->motions[set]);
+            finding.held_out = silhouette_misfit(result.solid, outlines.contours, outlines.held_out,
+                                                 told->motions[set]);
         }
         fitted->silhouette = finding;
     }
