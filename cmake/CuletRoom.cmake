@@ -59,4 +59,5 @@ function(culet_room name)
   target_link_libraries(culet_${name} PUBLIC ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE}
     $<BUILD_INTERFACE:culet_flags>)
   target_precompile_headers(culet_${name} PRIVATE ${CULET_PRECOMPILED} ${ROOM_PRECOMPILED})
+  culet_unity(culet_${name})
 endfunction()

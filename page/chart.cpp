@@ -17,7 +17,6 @@ constexpr double k_width = 760, k_height = 480;
 constexpr double k_left = 84, k_right = 24, k_top = 56, k_bottom = 66;
 constexpr double k_text = 15;
 constexpr std::array k_colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"};
-constexpr const char* k_font = "system-ui, 'Segoe UI', 'Liberation Sans', Arial, sans-serif";
 
 /// One axis: from values to the page.
 class Axis {
@@ -216,7 +215,7 @@ std::string draw_chart_svg(const Chart& chart) {
         "role=\"img\" font-family=\"{2}\" font-size=\"{3:.0f}\" fill=\"#1d2327\">\n"
         "<title>{4}</title>\n<desc>{5}</desc>\n"
         "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#ffffff\"/>\n",
-        k_width, k_height, k_font, k_text, escaped(chart.title), escaped(chart.about));
+        k_width, k_height, k_svg_font, k_text, escaped(chart.title), escaped(chart.about));
     svg += frame(chart, x, y);
 
     Room room;

@@ -13,7 +13,6 @@ namespace culet {
 namespace {
 
 constexpr double k_size = 1000;  // of a view's longer side, in its own units
-constexpr const char* k_font = "system-ui, 'Segoe UI', 'Liberation Sans', Arial, sans-serif";
 
 struct DrawnView {
     std::string content;
@@ -93,7 +92,7 @@ DrawnView drawn_view(const Solid& solid, ViewSide side, const std::vector<FacetP
         "paint-order=\"stroke\" pointer-events=\"none\">{1}</g>\n"
         "<g class=\"led\" aria-hidden=\"true\" font-family=\"{0}\" font-weight=\"600\" "
         "fill=\"#10161a\" pointer-events=\"none\">{2}</g>\n",
-        k_font, names, led);
+        k_svg_font, names, led);
     // Names beside the drawing take the same room on both sides, so that it stays in the middle.
     result.left = std::max(labels.left, labels.right);
     result.width = view.width + 2 * result.left;
@@ -188,7 +187,7 @@ std::string drawing_svg(const std::string& title, const std::string& subtitle, c
         "<rect width=\"{0:.0f}\" height=\"{1:.0f}\" fill=\"#ffffff\"/>\n"
         "<text x=\"{5:.0f}\" y=\"62\" font-size=\"40\" font-weight=\"600\">{2}</text>\n"
         "<text x=\"{5:.0f}\" y=\"102\" font-size=\"26\" fill=\"#4a555c\">{3}</text>\n",
-        width, height, escaped(title), escaped(subtitle), k_font, k_between);
+        width, height, escaped(title), escaped(subtitle), k_svg_font, k_between);
     const auto place = [&](std::size_t i, double x, double y) {
         if (views[i].content.empty()) return;
         svg += fmt::format(

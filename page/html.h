@@ -7,6 +7,10 @@
 
 namespace culet {
 
+/// Of drawings and charts: what the reader's machine has.
+inline constexpr const char* k_svg_font =
+    "system-ui, 'Segoe UI', 'Liberation Sans', Arial, sans-serif";
+
 /// Safe as text and inside a quoted attribute: & < > " ' become entities; control characters and
 /// bytes that are not UTF-8 become U+FFFD.
 std::string escaped(std::string_view text);

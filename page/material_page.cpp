@@ -11,17 +11,17 @@ namespace culet {
 
 namespace {
 
-using Json = nlohmann::ordered_json;  // rays in their order
+using OrderedJson = nlohmann::ordered_json;  // rays in their order
 
-std::string lab_of(const Json& colour) {
+std::string lab_of(const OrderedJson& colour) {
     std::string lab;
-    for (const Json& value : array_at(colour, "lab")) {
+    for (const OrderedJson& value : array_at(colour, "lab")) {
         if (value.is_number()) lab += (lab.empty() ? "" : ", ") + decimals(value.get<double>(), 0);
     }
     return lab;
 }
 
-std::vector<View> indices_of(const Json& material) {
+std::vector<View> indices_of(const OrderedJson& material) {
     std::vector<View> list;
     const auto indices = material.find("index_589nm");
     if (indices == material.end() || !indices->is_object()) return list;
@@ -34,10 +34,10 @@ std::vector<View> indices_of(const Json& material) {
     return list;
 }
 
-View row_of(const Json& material) {
+View material_row(const OrderedJson& material) {
     const auto found = material.find("colour");
-    const Json colour =
-        found != material.end() && found->is_object() ? *found : Json(Json::object());
+    const OrderedJson colour =
+        found != material.end() && found->is_object() ? *found : OrderedJson(OrderedJson::object());
     return {{"id", text_at(material, "id")},
             {"name", text_at(material, "name")},
             {"coloured", !colour.empty()},
@@ -57,9 +57,10 @@ View row_of(const Json& material) {
 }  // namespace
 
 std::string material_page(const std::string& text, const std::string& version) {
-    const Json json = parsed_object<Json>(text, "the list of materials");
+    const OrderedJson json = parsed_object<OrderedJson>(text, "the list of materials");
     std::vector<View> rows;
-    for (const Json& material : array_at(json, "materials")) rows.push_back(row_of(material));
+    for (const OrderedJson& material : array_at(json, "materials"))
+        rows.push_back(material_row(material));
     return html_page(
         "Materials",
         filled(templates::materials, {{"version", version},

@@ -191,7 +191,7 @@ private:
     std::vector<Face> faces_;
 };
 
-bool is_finite(const Vec3& v) {
+bool all_finite(const Vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
@@ -266,7 +266,7 @@ HalfSpaceSolid intersect_half_spaces(std::span<const NamedPlane> planes) {
     HalfSpaceSolid result;
     for (const NamedPlane& p : planes) {
         const double length = glm::length(p.plane.normal);
-        if (!is_finite(p.plane.normal) || !std::isfinite(p.plane.offset) ||
+        if (!all_finite(p.plane.normal) || !std::isfinite(p.plane.offset) ||
             !std::isfinite(length)) {
             throw InputError(
                 fmt::format("the plane of facet {} is not finite: give numbers", p.name));

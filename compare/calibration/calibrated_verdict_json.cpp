@@ -9,12 +9,12 @@ namespace culet {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr auto number = json_number<Json>;
+constexpr auto number_or_null = json_number<Json>;
 
 Json equivalent_json(const EquivalentError& error) {
-    return {{"deg", number(error.deg)},
-            {"low_deg", error.deg ? number(error.low_deg) : Json(nullptr)},
-            {"high_deg", error.deg ? number(error.high_deg) : Json(nullptr)},
+    return {{"deg", number_or_null(error.deg)},
+            {"low_deg", error.deg ? number_or_null(error.low_deg) : Json(nullptr)},
+            {"high_deg", error.deg ? number_or_null(error.high_deg) : Json(nullptr)},
             {"at_least", error.at_least},
             {"at_most", error.at_most}};
 }
@@ -27,33 +27,33 @@ Json calibrated_verdict_json(const CalibratedVerdict& verdict) {
     json["headline"] = verdict.headline;
     json["geometry_only"] = verdict.geometry_only;
     json["equivalent_facet_error"] = equivalent_json(verdict.equivalent);
-    json["evidence"] = number(verdict.evidence);
+    json["evidence"] = number_or_null(verdict.evidence);
     json["nulls"] = Json::array();
     for (const NullWorth& null : verdict.nulls) {
         json["nulls"].push_back({{"world", name_of(null.world)},
                                  {"draws", null.draws},
-                                 {"zncc_mean", number(null.mean)},
-                                 {"zncc_sd", number(null.sd)},
-                                 {"z", number(null.z)},
+                                 {"zncc_mean", number_or_null(null.mean)},
+                                 {"zncc_sd", number_or_null(null.sd)},
+                                 {"z", number_or_null(null.z)},
                                  {"as_good", null.as_good},
-                                 {"p", number(null.p)},
-                                 {"least_deg", number(null.least_deg)},
-                                 {"median_deg", number(null.median_deg)}});
+                                 {"p", number_or_null(null.p)},
+                                 {"least_deg", number_or_null(null.least_deg)},
+                                 {"median_deg", number_or_null(null.median_deg)}});
     }
     json["hypotheses"] = Json::array();
     for (const HypothesisWorth& h : verdict.hypotheses) {
         json["hypotheses"].push_back({{"world", name_of(h.world)},
                                       {"name", h.name},
-                                      {"zncc", number(h.zncc)},
+                                      {"zncc", number_or_null(h.zncc)},
                                       {"equivalent_facet_error", equivalent_json(h.equivalent)}});
     }
     json["calibration"] = {{"hash", calibration.hash},
                            {"draws", calibration.draws.size()},
                            {"planned", calibration.planned},
                            {"seed", calibration.seed},
-                           {"stone_px", number(calibration.stone_px)},
-                           {"psf_px", number(calibration.psf_px)},
-                           {"electrons", number(calibration.electrons)},
+                           {"stone_px", number_or_null(calibration.stone_px)},
+                           {"psf_px", number_or_null(calibration.psf_px)},
+                           {"electrons", number_or_null(calibration.electrons)},
                            {"from_cache", calibration.from_cache},
                            {"notes", calibration.notes}};
     return json;
@@ -64,13 +64,14 @@ Json sensitivity_json(const CalibratedVerdict& verdict) {
     if (verdict.curves.empty()) return rows;
     for (std::size_t level = 0; level < verdict.curves.front().levels.size(); ++level) {
         Json row;
-        row["facet_error_deg"] = number(verdict.curves.front().levels[level].facet_error_deg);
+        row["facet_error_deg"] =
+            number_or_null(verdict.curves.front().levels[level].facet_error_deg);
         for (const SensitivityCurve& curve : verdict.curves) {
             const SensitivityCurve::Level& at = curve.levels[level];
             row[curve.key] = {{"draws", at.draws},
-                              {"mean", number(at.mean)},
-                              {"sd", number(at.sd)},
-                              {"fitted", number(at.fitted)}};
+                              {"mean", number_or_null(at.mean)},
+                              {"sd", number_or_null(at.sd)},
+                              {"fitted", number_or_null(at.fitted)}};
         }
         rows.push_back(std::move(row));
     }

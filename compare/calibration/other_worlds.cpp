@@ -27,7 +27,7 @@ enum Wrong {
     flat_index,
     more_absorption,
     turned_light,
-    tilted,
+    tilted_stone,
     k_wrongs
 };
 
@@ -43,8 +43,8 @@ const char* name_of(Wrong wrong) {
             return "absorption 1.3 times";
         case turned_light:
             return "light turned by 5 degrees";
-        case tilted:
-            return "stone tilted by 0.5 degrees";
+        case tilted_stone:
+            return "stone tilted_stone by 0.5 degrees";
         case k_wrongs:
             break;
     }
@@ -79,7 +79,8 @@ OtherWorlds::OtherWorlds(const Scene& model, const WorldsAsked& asked,
     const bool tiltable = with_facet_error(stone.solid, 1e-4, 1).has_value();
     if (!tiltable) {
         notes.push_back(
-            "the stone is not convex: its facets cannot be tilted one by one, and there is no "
+            "the stone is not convex: its facets cannot be tilted_stone one by one, and there is "
+            "no "
             "sensitivity curve");
     }
     const bool one_light = same_light_from_everywhere(model_.lights);
@@ -158,7 +159,7 @@ void OtherWorlds::make_wrong(Scene& scene, int which, Chance& chance) const {
             scene.lights =
                 turned_lights(model_.lights, rotation_about(axis, radians(5.0)), middle_);
             break;
-        case tilted:
+        case tilted_stone:
             stone = turned_stone(model_.stone, rotation_about(axis, radians(0.5)), middle_);
             break;
         case k_wrongs:

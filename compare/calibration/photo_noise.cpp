@@ -12,7 +12,7 @@ namespace culet {
 
 namespace {
 
-constexpr double k_least = 100, k_most = 1e6;
+constexpr double k_least_electrons = 100, k_most_electrons = 1e6;
 // Of white: below, read noise is more than shot noise; above, the file clips it.
 constexpr double k_dark = 0.02, k_bright = 0.9;
 constexpr int k_least_pixels = 400;
@@ -65,19 +65,19 @@ double photo_electrons(const MatchedPictures& pictures, double psf_px, int bits)
     const cv::Mat inside = pictures.mask &
                            between(pictures.photo, k_dark * white, k_bright * white) &
                            between(render, k_dark * white, k_bright * white);
-    if (cv::countNonZero(inside) < k_least_pixels) return k_most;
+    if (cv::countNonZero(inside) < k_least_pixels) return k_most_electrons;
     const double wanted = noise_of(root_of(pictures.photo, white), inside);
     const cv::Mat root = root_of(render, white), unit = unit_noise(root.size());
     const auto seen = [&](double sigma) {
         return noise_of(in_steps(root + sigma * unit, bits), inside);
     };
-    double low = 0, high = 1 / (2 * std::sqrt(k_least));
-    if (!(wanted > seen(low))) return k_most;
+    double low = 0, high = 1 / (2 * std::sqrt(k_least_electrons));
+    if (!(wanted > seen(low))) return k_most_electrons;
     for (int i = 0; i < k_halvings; ++i) {
         const double middle = (low + high) / 2;
         (seen(middle) < wanted ? low : high) = middle;
     }
-    return std::clamp(1 / (4 * low * low), k_least, k_most);
+    return std::clamp(1 / (4 * low * low), k_least_electrons, k_most_electrons);
 }
 
 void set_blur_and_noise(CameraModel& camera, const MatchedPictures& pictures) {

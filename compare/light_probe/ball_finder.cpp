@@ -16,7 +16,6 @@ namespace culet {
 
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
 constexpr int k_hough_side = 640;  // pixels of the longer side that Hough's transform sees
 constexpr int k_rays = 360;
 constexpr double k_clear_support = 0.85;  // no need to look further
@@ -66,7 +65,8 @@ std::vector<EdgePoint> edges_along_rays(const cv::Mat& plane, const BallCircle& 
     std::vector<double> profile(count), slope(count);
     const int spread = std::max(1, static_cast<int>(std::lround(1.0 / step)));
     for (int ray = 0; ray < k_rays; ++ray) {
-        const double angle = 2 * k_pi * ray / k_rays, c = std::cos(angle), s = std::sin(angle);
+        const double angle = 2 * std::numbers::pi * ray / k_rays, c = std::cos(angle),
+                     s = std::sin(angle);
         bool inside = true;
         for (int i = 0; i < count; ++i) {
             const double r = circle.radius + (i - count / 2) * step;
@@ -211,7 +211,8 @@ std::vector<EdgePoint> half_way_points(const cv::Mat& linear, const BallCircle& 
     constexpr int k_half = static_cast<int>(k_reach / k_step);
     std::vector<EdgePoint> points;
     for (int ray = 0; ray < 2 * k_rays; ++ray) {
-        const double angle = k_pi * ray / k_rays, c = std::cos(angle), s = std::sin(angle);
+        const double angle = std::numbers::pi * ray / k_rays, c = std::cos(angle),
+                     s = std::sin(angle);
         std::array<double, 2 * k_half + 1> light{};
         bool whole = true;
         for (int i = -k_half; i <= k_half && whole; ++i) {

@@ -14,7 +14,6 @@ namespace culet {
 
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
 constexpr double k_least_quality = 1e-7;
 constexpr double k_rim = 0.21, k_near_rim = 0.05;  // radians before the blind cone
 
@@ -38,7 +37,7 @@ bool is_left_out(const BallView& view, const Vec3& direction) {
 double BallView::quality(const Vec3& direction) const {
     const double cosine = glm::dot(direction, ball.towards_camera());
     const double theta = std::acos(std::clamp(cosine, -1.0, 1.0));
-    const double limit = k_pi - ball.blind_half_angle();
+    const double limit = std::numbers::pi - ball.blind_half_angle();
     if (theta >= limit - k_near_rim) return 0;  // pixels there are half background
     if (left_out && is_left_out(*this, direction)) return 0;
     const double density = (1 + cosine) / 2;
@@ -73,7 +72,7 @@ ViewMap view_map(const BallView& view, int width) {
     map.rgb.resize(3 * texels);
     map.quality.resize(texels);
     map.over.resize(texels);
-    const double texel = 2 * k_pi / width;
+    const double texel = 2 * std::numbers::pi / width;
     const double pixel = std::sqrt(view.ball.solid_angle_per_pixel());
     const int steps = std::clamp(static_cast<int>(std::ceil(2 * texel / pixel)), 2, 12);
     const glm::dmat3 camera_from_world = glm::transpose(view.world_from_camera);

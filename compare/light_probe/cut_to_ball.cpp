@@ -9,7 +9,6 @@ namespace culet {
 
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
 // Pixels: an outline is no better known than this, whatever its edges' scatter says, for light
 // beside and behind the ball draws them one way.
 constexpr double k_least_sigma = 0.15;
@@ -33,7 +32,7 @@ std::vector<float> shrunk(const float* values, int channels, const Photo& photo,
 CutToBall cut_to_ball(const ProbeView& view, const BallCircle& c, double sigma_px,
                       const ProbeOptions& options, int width) {
     const Photo& photo = view.photo;
-    const int factor = std::max(1, static_cast<int>(k_pi * c.radius / (2.0 * width)));
+    const int factor = std::max(1, static_cast<int>(std::numbers::pi * c.radius / (2.0 * width)));
     const double margin = 2 + 0.03 * c.radius;
     cv::Rect cut;
     cut.x = std::max(0, static_cast<int>(c.x - c.radius - margin));

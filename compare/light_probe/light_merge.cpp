@@ -18,7 +18,6 @@ namespace culet {
 
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
 // Below this quality a view is used where no other sees more: it counts as not covered.
 constexpr double k_seen = 1e-4;
 // Each correction to this power: Richardson and Lucy's steps are timid (Meinel 1986).
@@ -126,7 +125,7 @@ struct PixelParts {
     std::vector<float> quality;  // a pixel; 0: not used
 
     PixelParts(const BallView& view, int width) : rows(rows_of(view)) {
-        const double texel = std::sqrt(2.0) * k_pi / width;
+        const double texel = std::sqrt(2.0) * std::numbers::pi / width;
         const double pixel = std::sqrt(view.ball.solid_angle_per_pixel());
         const int steps = std::clamp(static_cast<int>(std::ceil(2 * pixel / texel)), 1, 4);
         parts = steps * steps;

@@ -19,7 +19,6 @@ namespace culet {
 
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
 constexpr double k_smallest_radius = 20;  // pixels
 constexpr double k_usual_distance = 30;   // radii, where nothing says better
 constexpr int k_narrowest = 128, k_widest = 4096;
@@ -215,8 +214,9 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
     }
     // A fifth more texels round the horizon than the ball has pixels for, so that none is lost; in
     // whole multiples of 128. A coarser map is the mean of such a one, a finer one is as it is.
-    const int natural = std::clamp(128 * static_cast<int>(std::ceil(1.2 * k_pi * largest / 128)),
-                                   k_narrowest, k_widest);
+    const int natural =
+        std::clamp(128 * static_cast<int>(std::ceil(1.2 * std::numbers::pi * largest / 128)),
+                   k_narrowest, k_widest);
     const int coarser = options.width > 0 && options.width < natural
                             ? (natural + options.width - 1) / options.width
                             : 1;

@@ -21,15 +21,14 @@ namespace culet {
 
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
-
 // Alexa 2022, Super-Fibonacci Spirals: psi solves psi^4 = psi + 4.
 std::vector<glm::dmat3> even_rotations(int count) {
     constexpr double k_phi = std::numbers::sqrt2, k_psi = 1.533751168755204288118041;
     std::vector<glm::dmat3> result;
     for (int i = 0; i < count; ++i) {
         const double s = i + 0.5, t = s / count;
-        const double alpha = 2 * k_pi * s / k_phi, beta = 2 * k_pi * s / k_psi;
+        const double alpha = 2 * std::numbers::pi * s / k_phi,
+                     beta = 2 * std::numbers::pi * s / k_psi;
         const double r = std::sqrt(t), big = std::sqrt(1 - t);
         result.push_back(glm::mat3_cast(glm::dquat(big * std::cos(beta), r * std::sin(alpha),
                                                    r * std::cos(alpha), big * std::sin(beta))));
@@ -77,10 +76,11 @@ SmoothMap smoothed(const ViewMap& map, double sigma, int width) {
     tbb::parallel_for(0, result.height, [&](int y) {
         for (int x = 0; x < width; ++x) {
             const Vec3 d = lat_long_direction(x + 0.5, y + 0.5, result.width, result.height);
-            const double polar = (y + 0.5) * k_pi / result.height;
-            const int from = std::max(0, static_cast<int>((polar - reach) / k_pi * map.height));
-            const int to =
-                std::min(map.height - 1, static_cast<int>((polar + reach) / k_pi * map.height));
+            const double polar = (y + 0.5) * std::numbers::pi / result.height;
+            const int from =
+                std::max(0, static_cast<int>((polar - reach) / std::numbers::pi * map.height));
+            const int to = std::min(
+                map.height - 1, static_cast<int>((polar + reach) / std::numbers::pi * map.height));
             double sum = 0, total = 0, bell = 0;
             for (int j = from; j <= to; ++j) {
                 for (int i = 0; i < map.width; ++i) {
@@ -187,7 +187,8 @@ CoarseResult over_all_rotations(const ViewMap& first, const ViewMap& second) {
     const auto asked = [](const SmoothPoints& points, const SmoothMap& map) {
         double weight = 0;
         for (int k = 0; k < 2; ++k) {
-            const glm::dmat3 quarter = rotation_by({0, k == 0 ? k_pi / 2 : -k_pi / 2, 0});
+            const glm::dmat3 quarter =
+                rotation_by({0, k == 0 ? std::numbers::pi / 2 : -std::numbers::pi / 2, 0});
             double sum = 0;
             for (std::size_t i = 0; i < points.direction.size(); ++i) {
                 float v = 0, w = 0;

@@ -18,7 +18,6 @@ namespace culet {
 
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
 constexpr std::size_t k_pixels = 1500;  // of each picture that are predicted
 constexpr std::size_t k_trials = 4;
 // Root mean squares of six normal errors over their sigmas are beyond this in one of 350 cases (chi
@@ -151,7 +150,7 @@ ViewSolution by_prediction(const ViewPair& pair, const ViewSolution& start, int 
     std::vector<ViewWitness> witnesses;
     for (const Pixel& pixel : in_first) witnesses.push_back({pixel.weight, pixel.direction});
     for (const Pixel& pixel : in_second) witnesses.push_back({pixel.weight, now * pixel.direction});
-    const double texel = std::sqrt(2.0) * k_pi / width;
+    const double texel = std::sqrt(2.0) * std::numbers::pi / width;
     const double size = std::sqrt(first_map.ball.solid_angle_per_pixel());
     const int steps = std::clamp(static_cast<int>(std::ceil(size / texel)), 2, 3);
     const ViewResiduals residuals = [&](const ViewParameters& p) {
@@ -199,7 +198,8 @@ RefinedViews refine_views(const BallView& first, const ViewPrior& first_prior,
     const double radius = std::min(first_prior.circle.radius, second_prior.circle.radius);
     for (const double sigma_px : {radius / 60, std::max(radius / 200, 1.0)})
         solution = by_direction(pair, solution, sigma_px);
-    const int width = std::clamp(1 << static_cast<int>(std::log2(k_pi * radius)), 128, 1024);
+    const int width =
+        std::clamp(1 << static_cast<int>(std::log2(std::numbers::pi * radius)), 128, 1024);
     solution = by_prediction(pair, solution, width, 0);
     // Outlines that had to be moved by more than their sigmas were surer than they should have
     // been (Birge 1932): light behind a ball may draw one aside.

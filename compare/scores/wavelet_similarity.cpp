@@ -17,7 +17,7 @@ constexpr int k_directions = 6;
 constexpr double k_octave = 0.65;  // sigma of log frequency, as a ratio: about one octave
 // K of equation 7 keeps flat regions, where both answers are noise, from counting as different: the
 // square of a quarter of an 8-bit step.
-constexpr double k_flat = 1e-6;
+constexpr double k_flat_part = 1e-6;
 
 // Zero mean under the mask and zero outside, so that the outline itself is no edge.
 cv::Mat centred(const cv::Mat& luma, const cv::Mat& mask) {
@@ -165,7 +165,8 @@ double cw_ssim(const ShownPictures& pictures, const cv::Mat& mask, const Wavelet
                 const cv::Vec3d v = both.at<cv::Vec3f>(y, x);
                 // |sum p q*|: the phase difference may be anything, but must be one over the
                 // window.
-                of_wavelet += (2 * std::sqrt(v[0] * v[0] + v[1] * v[1]) + k_flat) / (v[2] + k_flat);
+                of_wavelet +=
+                    (2 * std::sqrt(v[0] * v[0] + v[1] * v[1]) + k_flat_part) / (v[2] + k_flat_part);
                 ++count;
             }
         }

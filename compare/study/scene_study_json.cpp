@@ -47,7 +47,7 @@ std::string effects_asked(const RenderSettings& settings) {
     return names.empty() ? "none" : names;
 }
 
-std::string effects_on(const RenderStats& stats) {
+std::string names_of_effects(const RenderStats& stats) {
     std::string names;
     for (const EffectDecision& decision : stats.effects) {
         if (decision.on)
@@ -72,7 +72,7 @@ Json row_of(const StudiedRender& render) {
                 {"wavelengths", render.stats.wavelengths_nm.size()},
                 {"cut_weight", asked.cut_weight ? Json(*asked.cut_weight) : Json(nullptr)},
                 {"effects_asked", effects_asked(render.settings)},
-                {"effects_on", effects_on(render.stats)},
+                {"names_of_effects", names_of_effects(render.stats)},
                 {"crystal_beams", !asked.crystal_beams                           ? "auto"
                                   : *asked.crystal_beams == CrystalBeams::merged ? "merged"
                                                                                  : "parted"}};

@@ -15,7 +15,7 @@ namespace culet {
 namespace {
 
 constexpr std::size_t k_tried = 80;  // of the most uncertain candidates, in full
-constexpr std::size_t k_told = 5;
+constexpr std::size_t k_proposed = 5;
 
 // 0 where readings say so little that the variance is no number: an order needs numbers.
 double promise_of(const CandidateReading& c) {
@@ -96,7 +96,7 @@ std::vector<NextReading> next_readings(const System& system, const Shape& shape,
     for (const std::size_t i :
          by_falling(tried, [](const CandidateReading& c) { return c.reading.reduces; })) {
         const CandidateReading& c = tried[i];
-        if (best.size() == k_told || !(c.reading.reduces > 1e-6)) break;
+        if (best.size() == k_proposed || !(c.reading.reduces > 1e-6)) break;
         if (told.insert(c.group).second) best.push_back(c.reading);
     }
     return best;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t k_named = 4;  // of a longer list the first ones are named
 
-std::string list_of(const std::vector<std::string>& names) {
+std::string first_of(const std::vector<std::string>& names) {
     std::string text;
     for (std::size_t i = 0; i < names.size() && i < k_named; ++i) {
         text += (i == 0 ? "" : ", ") + names[i];
@@ -102,7 +102,7 @@ std::string least_sure(const FitResult& result) {
     }
     return fmt::format(
         "Least sure are {}; half of the facets are known to {:.2g} degrees or better.",
-        list_of(worst), sigmas[sigmas.size() / 2].first);
+        first_of(worst), sigmas[sigmas.size() / 2].first);
 }
 
 // A sentence begins with a capital and ends with a stop.
@@ -158,7 +158,7 @@ std::string doubtful(const FitResult& result) {
         words.push_back(
             found == result.readings.end() ? id : words_of(*found, proposal_for(result, id)));
     }
-    return words.empty() ? "" : fmt::format("Look again at {}.", list_of(words));
+    return words.empty() ? "" : fmt::format("Look again at {}.", first_of(words));
 }
 
 std::string unchecked(const FitResult& result) {
@@ -172,7 +172,7 @@ std::string unchecked(const FitResult& result) {
     }
     if (ids.empty()) return {};
     return fmt::format("Nothing checks {} of {} readings ({}): their errors would not show.",
-                       ids.size(), result.readings.size(), list_of(ids));
+                       ids.size(), result.readings.size(), first_of(ids));
 }
 
 std::string rank_defect(const FitResult& result) {
@@ -186,7 +186,7 @@ std::string rank_defect(const FitResult& result) {
     for (const std::string& facet : order) {
         words.push_back(fmt::format("the {} of {}", fmt::join(parameters[facet], " and "), facet));
     }
-    return words.empty() ? "" : fmt::format("Nothing measured fixes {}.", list_of(words));
+    return words.empty() ? "" : fmt::format("Nothing measured fixes {}.", first_of(words));
 }
 
 // What a sentence each was found for, as many as one reads.
@@ -204,7 +204,7 @@ std::string disagreeing(const FitResult& result) {
     if (result.findings.disagreeing.empty() || !result.findings.suspects.empty()) return {};
     return fmt::format(
         "Readings that cannot hold together, though without any one of them the others can: {}.",
-        list_of(result.findings.disagreeing));
+        first_of(result.findings.disagreeing));
 }
 
 // The table need not lie square to the stone: angles from it then differ around the stone.

@@ -21,7 +21,7 @@ namespace {
 // Dense algebra on three numbers a facet; beyond this it would take minutes.
 constexpr std::size_t k_most_facets = 700;
 // Told by the readings: better than half of the half diameter.
-constexpr double k_told = 0.25;
+constexpr double k_told_variance = 0.25;
 // Exact by other conditions.
 constexpr double k_exact = 1e-18;
 // Tested at least to this part, a group counts as determined.
@@ -102,7 +102,7 @@ Space space_of(const System& system, const AxisGroup& form, const PolarCoordinat
     std::vector<Eigen::Index> told;
     for (Eigen::Index i = 0; i < ways.cols(); ++i) {
         const double variance = eigen.eigenvalues()(i);
-        if (variance >= k_exact && variance <= k_told) told.push_back(i);
+        if (variance >= k_exact && variance <= k_told_variance) told.push_back(i);
     }
     space.told = ways * eigen.eigenvectors()(Eigen::all, told);
     space.values = space.told.transpose() * model.deviations;
@@ -201,7 +201,8 @@ TierSymmetry test_tier(const System& system, const FacetOrbit& orbit, const Symm
     double chi2 = 0;
     int tested = 0;
     for (std::size_t i = 0; i < contrasts.values.size(); ++i) {
-        if (!(contrasts.variances[i] > k_exact) || !(contrasts.variances[i] < k_told)) continue;
+        if (!(contrasts.variances[i] > k_exact) || !(contrasts.variances[i] < k_told_variance))
+            continue;
         chi2 += contrasts.values[i] * contrasts.values[i] / contrasts.variances[i];
         ++tested;
     }

@@ -70,7 +70,7 @@ Split best_split(const std::vector<Read>& reads, std::size_t most) {
     return best;
 }
 
-std::string list_of(const std::vector<std::string>& names) {
+std::string all_of_them(const std::vector<std::string>& names) {
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i) {
         text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
@@ -114,7 +114,7 @@ std::string sentence_of(const NamedTierFinding& tier, const OddFacets& odd) {
     const double off = degrees(std::abs(odd.off)), sigma = degrees(odd.sigma);
     const int digits = sigma < 0.05 ? 2 : 1;
     return fmt::format("{} {} {:.{}f} degrees (+- {:.{}f}) {} than the other {}",
-                       list_of(odd.facets), one ? "is" : "are", off, digits, sigma, digits,
+                       all_of_them(odd.facets), one ? "is" : "are", off, digits, sigma, digits,
                        odd.off > 0 ? "steeper" : "flatter", tier.words);
 }
 

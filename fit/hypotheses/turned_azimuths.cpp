@@ -14,7 +14,7 @@ namespace {
 // Who reads from the wrong mark is off by a mark; what the mesh's own errors turn it by is less.
 constexpr double k_mark_deg = 15, k_near_deg = 4;
 // What explains a contradiction takes most of chi-square with it.
-constexpr double k_part_left = 0.5;
+constexpr double k_chi2_left_turned = 0.5;
 
 bool counts_from_zero(const Reading& r) {
     return r.kind == ReadingKind::azimuth && r.datum.kind != Datum::Kind::facet;
@@ -47,7 +47,7 @@ std::optional<Problem> azimuths_turned_back(const Problem& given, const Attempt&
 Verdict judge_turned_azimuths(const Problem& given, const Attempt& first, const Problem&,
                               FitResult again) {
     if (again.status == FitStatus::not_converged ||
-        !(again.statistics.chi2 < k_part_left * first.result.statistics.chi2)) {
+        !(again.statistics.chi2 < k_chi2_left_turned * first.result.statistics.chi2)) {
         return {};
     }
     const double mark_deg = marks_deg(first);

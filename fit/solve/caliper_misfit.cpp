@@ -12,7 +12,7 @@ namespace culet {
 namespace {
 
 // In how many rounds it is settled which corners the jaws touch.
-constexpr int k_most_rounds = 4;
+constexpr int k_most_contacts = 4;
 
 using Caliper = Relaxation::Caliper;
 
@@ -111,7 +111,7 @@ CaliperMisfit misfit_at(const std::vector<Caliper>& calipers, const Corners& cor
                         double around) {
     std::vector<Jaws> jaws = jaws_at(calipers, corners, corners.places, angle, false);
     CaliperMisfit before;
-    for (int round = 0; round < k_most_rounds; ++round) {
+    for (int round = 0; round < k_most_contacts; ++round) {
         CaliperMisfit misfit = misfit_of(calipers, corners, jaws, around);
         if (!std::isfinite(misfit.chi2)) return misfit;
         std::vector<Vec3> places = corners.places;
@@ -122,7 +122,7 @@ CaliperMisfit misfit_at(const std::vector<Caliper>& calipers, const Corners& cor
             places[p].y += shifts(corners.column[p] + 1);
         }
         std::vector<Jaws> next = jaws_at(calipers, corners, places, angle, false);
-        if (next == jaws || (round + 1 == k_most_rounds && misfit.chi2 > before.chi2)) {
+        if (next == jaws || (round + 1 == k_most_contacts && misfit.chi2 > before.chi2)) {
             return misfit;
         }
         before = std::move(misfit);

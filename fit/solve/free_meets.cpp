@@ -12,14 +12,14 @@ namespace {
 
 // Parameters that the readings hold to better than the mesh does are moved by all but this part of
 // their way in each step; those that no reading holds do not move.
-constexpr double k_first_damping = 1e-2;
-constexpr double k_least_damping = 1e-6;
+constexpr double k_meets_damping = 1e-2;
+constexpr double k_meets_least_damping = 1e-6;
 // So many steps in a row that gain no more, at the end: this part of chi-square, a ten-thousandth
 // of a sigma. Parameters that the readings all but leave open would creep for ever.
 constexpr int k_quiet_steps = 2;
-constexpr double k_no_gain = 1e-8;
+constexpr double k_meets_no_gain = 1e-8;
 // Half a unit is half the stone's radius: no linearisation holds so far.
-constexpr double k_longest = 0.2;
+constexpr double k_meets_longest = 0.2;
 constexpr Correction k_correction{.most = 6, .met = 1e-13, .precision = 1e-13};
 
 std::shared_ptr<const Outline> outline_of(const System& system, const Shape& shape) {
@@ -56,14 +56,14 @@ public:
         if (!s.good) return State::failed;
         Eigen::VectorXd step = s.unknowns;
         const double length = step.cwiseAbs().maxCoeff();
-        if (length > k_longest) step *= k_longest / length;
+        if (length > k_meets_longest) step *= k_meets_longest / length;
         Shape next = relaxation_.parameters().retracted(
             shape_, {step.data(), static_cast<std::size_t>(step.size())});
         next = onto_hard_equations(relaxation_, solver_, here_, penalty_, std::move(next),
                                    k_correction)
                    .shape;
         if (accept(std::move(next), length)) {
-            damping_ = std::max(k_least_damping, damping_ / 5);
+            damping_ = std::max(k_meets_least_damping, damping_ / 5);
             return quiet_ >= k_quiet_steps ? State::settled : State::goes_on;
         }
         choose(shape_, outline_);
@@ -92,7 +92,7 @@ private:
         StepLinearisation there = linearised(next, next_outline);
         const double before = exact_penalty(here_), after = exact_penalty(there);
         if (!std::isfinite(after) || !(after <= before * (1 + 1e-12) + 1e-9)) return false;
-        quiet_ = before - after < k_no_gain * (1 + before) || length < 1e-12 ? quiet_ + 1 : 0;
+        quiet_ = before - after < k_meets_no_gain * (1 + before) || length < 1e-12 ? quiet_ + 1 : 0;
         shape_ = std::move(next);
         outline_ = next_outline;
         here_ = std::move(there);
@@ -106,7 +106,7 @@ private:
     Shape shape_;
     std::shared_ptr<const Outline> outline_;
     StepLinearisation here_;
-    double damping_ = k_first_damping;
+    double damping_ = k_meets_damping;
     int quiet_ = 0;
 };
 

@@ -20,7 +20,7 @@ namespace {
 // Stages only have to lead to the next one: they end where a step gains less than this part.
 constexpr double k_enough = 1e-3;
 // In how many rounds corners that have risen above a facet that they did not count for are added.
-constexpr int k_most_rounds = 4;
+constexpr int k_most_relaxations = 4;
 // Corners that lie less than this many times the stage's penalty scale below a neighbour facet may
 // rise above it. With 1 instead of 5, two of ten step cuts drawn wrong by 10 % were lost.
 constexpr double k_near = 5;
@@ -230,7 +230,7 @@ public:
         solver.logging_type = ceres::SILENT;
         solver.callbacks.push_back(&interruptor);
         int steps = 0;
-        for (int round = 0; round < k_most_rounds && steps < options_.most_steps; ++round) {
+        for (int round = 0; round < k_most_relaxations && steps < options_.most_steps; ++round) {
             solver.max_num_iterations = options_.most_steps - steps;
             ceres::Solver::Summary summary;
             ceres::Solve(solver, problem_.get(), &summary);

@@ -25,15 +25,15 @@ constexpr double k_laid_sigma_deg = 2;
 // What it costs in chi-square to take the mesh for turned altogether: five sigmas.
 constexpr double k_mesh_is_wrong = 25;
 // Of chi-square, a sigma in one reading: of ends as good as each other the nearest is kept.
-constexpr double k_least_gain = 1;
+constexpr double k_turn_gain = 1;
 // The calipers' variances in the model that does without them.
 constexpr double k_loose = 1e4;
-constexpr double k_damping = 1e-6, k_precision = 1e-11;
+constexpr double k_turn_damping = 1e-6, k_turn_precision = 1e-11;
 // Of the corners' places, from which the turn is taken that the loose calipers leave: sigmas a
 // hundred times their own.
 constexpr double k_place_precision = 1e-7;
 // A step this long in one of the parameters is no longer linear.
-constexpr double k_longest = 0.5;
+constexpr double k_turn_longest = 0.5;
 // More calipers than this say nothing new of the turn: so many of them are asked.
 constexpr std::size_t k_most_calipers = 48;
 
@@ -150,7 +150,8 @@ public:
     // Small moves of all the unknowns against the motion that `turn` measures.
     Loosened(const KktSolver& solver, const JacobianRows& rows, const Eigen::VectorXd& turn)
         : solver_(solver), rows_(rows), turn_(turn) {
-        const auto turned = solver.solve(turn, Eigen::VectorXd::Zero(rows.count()), k_precision);
+        const auto turned =
+            solver.solve(turn, Eigen::VectorXd::Zero(rows.count()), k_turn_precision);
         if (!turned.good) return;
         turned_ = turned.unknowns;
         of_turn_ = turn.dot(turned_);
@@ -166,12 +167,13 @@ public:
     // Where the rows' values are more by `shift`; none where no small step leads there.
     std::optional<Left> left_by(const Eigen::VectorXd& shift) const {
         const Eigen::VectorXd right = shift - rows_.residuals();
-        const auto solved = solver_.solve(Eigen::VectorXd::Zero(turn_.size()), right, k_precision);
+        const auto solved =
+            solver_.solve(Eigen::VectorXd::Zero(turn_.size()), right, k_turn_precision);
         if (!solved.good) return std::nullopt;
         const double along = turn_.dot(solved.unknowns);
         Left left{solved.unknowns - turned_ * (along / of_turn_),
                   along * along / of_turn_ - right.dot(solved.forces), solved.forces};
-        if (!(left.step.cwiseAbs().maxCoeff() < k_longest)) return std::nullopt;
+        if (!(left.step.cwiseAbs().maxCoeff() < k_turn_longest)) return std::nullopt;
         return left;
     }
     // As the readings are meant, and where some facets lean the other way.
@@ -225,7 +227,7 @@ std::optional<Shape> turned_better(Relaxation& relaxation, KktSolver& solver, co
         linearisation.rows.variance[std::size_t(c.row)] *= k_loose;
     }
     if (!solver.factor(linearisation.rows,
-                       linearisation.prior_stiffness + k_damping * relaxation.metric())) {
+                       linearisation.prior_stiffness + k_turn_damping * relaxation.metric())) {
         return std::nullopt;
     }
     if (calipers.size() > k_most_calipers) calipers = evenly_chosen(calipers);
@@ -242,7 +244,7 @@ std::optional<Shape> turned_better(Relaxation& relaxation, KktSolver& solver, co
     for (const Loosened::Left& way : ways) least = std::min(least, way.merit);
     const Standing mesh = standing_of_mesh(shape.points, relaxation.system().mesh_shape().points);
     const double now = linearisation.merit + mesh.misfit(0);
-    if (!(now - least > k_least_gain)) return std::nullopt;
+    if (!(now - least > k_turn_gain)) return std::nullopt;
 
     // At all turns that the mesh does not forbid.
     const double gain = now - least;
@@ -266,7 +268,7 @@ std::optional<Shape> turned_better(Relaxation& relaxation, KktSolver& solver, co
     corners.covariance = spread->covariance;
     Best best;
     const Loosened::Left* chosen = nullptr;
-    double limit = now - k_least_gain;
+    double limit = now - k_turn_gain;
     for (const Loosened::Left& way : ways) {
         corners.places = moved_by(way.step).points;
         Best here = best_turn(calipers, corners, mesh, from, to, limit - way.merit);
@@ -278,7 +280,7 @@ std::optional<Shape> turned_better(Relaxation& relaxation, KktSolver& solver, co
     if (!chosen) return std::nullopt;
     // Where it stands, too, jaws may be on corners between which no small step leads.
     const Eigen::VectorXd step = chosen->step + spread->moves * best.misfit.forces;
-    if (!(step.cwiseAbs().maxCoeff() < k_longest)) return std::nullopt;
+    if (!(step.cwiseAbs().maxCoeff() < k_turn_longest)) return std::nullopt;
     return turned_about_z(moved_by(step), best.pace * pace);
 }
 

@@ -46,10 +46,10 @@ void find_rank_defect(const System& system, const Shape& shape, const Covariance
 // Without a covariance: what every reading came to, and nothing of how sure that is.
 void residuals_only(const System& system, const Linearised& linear,
                     const std::vector<Observation>& observations, Diagnosis& diagnosis) {
-    constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
     diagnosis.analysed = false;
-    for (ReadingCheck& c : diagnosis.readings) c.normalized = c.redundancy = k_unknown;
-    for (FacetSigma& s : diagnosis.facets) s = {k_unknown, k_unknown, k_unknown, k_unknown};
+    constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
+    for (ReadingCheck& c : diagnosis.readings) c.normalized = c.redundancy = k_none;
+    for (FacetSigma& s : diagnosis.facets) s = {k_none, k_none, k_none, k_none};
     const auto note = [&](int reading, double residual) {
         if (reading < 0) return;
         ReadingCheck& c = diagnosis.readings[std::size_t(reading)];

@@ -17,7 +17,7 @@ namespace {
 
 // Beyond this many equations R and its updates would take minutes.
 constexpr Eigen::Index k_most_equations = 1500;
-constexpr double k_checked = 1e-6;
+constexpr double k_least_redundancy = 1e-6;
 constexpr double k_same_part = 1e-6;  // in sigmas
 
 // What remains of a least-squares fit as equations are left out one by one.
@@ -49,7 +49,7 @@ struct Rest {
 private:
     void leave_out_one(Eigen::Index i) {
         const double own = matrix(i, i);
-        if (own > k_checked) {
+        if (own > k_least_redundancy) {
             const Eigen::VectorXd column = matrix.col(i) / own;
             chi2 -= residuals(i) * residuals(i) / own;
             residuals -= column * residuals(i);
@@ -83,7 +83,8 @@ std::vector<int> disagreeing_readings(const Eigen::VectorXd& residuals, Eigen::M
         double part = 0;
         for (const Eigen::Index i : mine) {
             const double r = rest.matrix(i, i);
-            if (r > k_checked) part = std::max(part, std::abs(residuals(i)) / std::sqrt(r));
+            if (r > k_least_redundancy)
+                part = std::max(part, std::abs(residuals(i)) / std::sqrt(r));
         }
         // Readings that only one another check take the same part but for rounding.
         order.emplace_back(std::round(part / k_same_part), reading);

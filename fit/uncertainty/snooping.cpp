@@ -10,7 +10,7 @@ namespace {
 
 using Index = Eigen::Index;
 
-constexpr double k_checked = 1e-4;
+constexpr double k_tested = 1e-4;
 // How many of the most conspicuous equations are tried as one half of a pair.
 constexpr std::size_t k_pair_candidates = 40;
 constexpr std::size_t k_few = 8, k_many = 40;
@@ -48,7 +48,7 @@ public:
             for (Index b = 0; b < count; ++b) block(a, b) = columns(set[std::size_t(b)], a);
         }
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(block);
-        if (!(eigen.eigenvalues()(0) > 0.1 * k_checked)) {
+        if (!(eigen.eigenvalues()(0) > 0.1 * k_tested)) {
             state.possible = false;  // together they leave nothing that checks them
             return state;
         }
@@ -83,7 +83,7 @@ public:
     }
 
     static double gain_of(const State& state, Index i) {
-        return state.redundancy(i) > k_checked
+        return state.redundancy(i) > k_tested
                    ? state.values(i) * state.values(i) / state.redundancy(i)
                    : 0;
     }
@@ -107,7 +107,7 @@ public:
     Pair best_pair(const State& state) {
         std::vector<Index> order;
         for (Index i = 0; i < state.values.size(); ++i) {
-            if (state.redundancy(i) > k_checked) order.push_back(i);
+            if (state.redundancy(i) > k_tested) order.push_back(i);
         }
         const std::size_t count = std::min(order.size(), k_pair_candidates);
         std::partial_sort(order.begin(), order.begin() + std::ptrdiff_t(count), order.end(),
@@ -123,7 +123,7 @@ public:
             for (Index j = 0; j < state.values.size(); ++j) {
                 if (j == i) continue;
                 const double left = state.redundancy(j) - link(j) * link(j) * state.redundancy(i);
-                if (!(left > k_checked)) continue;
+                if (!(left > k_tested)) continue;
                 const double value = state.values(j) - link(j) * state.values(i);
                 const double gain = alone + value * value / left;
                 if (gain > best.gain) best = {i, j, gain};

@@ -22,7 +22,7 @@ namespace {
 
 constexpr int k_pupil_points = 64;
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
+double seconds_from(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
@@ -253,7 +253,7 @@ void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const Wav
                         meter->spend(price_ns(DrawnBeams{beams[b].tree.beams(), 0, 0, 1}));
                 },
                 tbb::simple_partitioner());
-            report.seconds_build += seconds_since(building);
+            report.seconds_build += seconds_from(building);
             const auto shading = Clock::now();
             tbb::parallel_for(
                 0, strips,
@@ -269,7 +269,7 @@ void BeamRenderer::draw(const Scene& scene, const OpticalSetup& setup, const Wav
                     if (v + 1 == views.size()) work.develop(strip, picture);
                 },
                 tbb::simple_partitioner());
-            report.seconds_shade += seconds_since(shading);
+            report.seconds_shade += seconds_from(shading);
         });
         if (listener.stopped()) throw Interrupted();
         if (meter != nullptr) meter->require_not_over();

@@ -14,7 +14,7 @@ namespace {
 
 // The picture is a plane to measure in; its pixels mean nothing.
 constexpr int k_picture = 1000;
-constexpr double k_room = 1.05;
+constexpr double k_room_around = 1.05;
 
 Vec3 refracted_out(const Vec3& d, const Vec3& normal, double n, double cosine, double q_out) {
     return glm::normalize(n * d + (q_out - n * cosine) * normal);
@@ -161,7 +161,7 @@ Camera EyeLightTracer::camera_towards(const Vec3& towards_eye) const {
     camera.position = middle_ + 2 * diameter_ * towards_eye;
     const Vec3 y{0, 1, 0}, z{0, 0, 1};
     camera.up = std::abs(towards_eye.y) < 0.9 ? y : z;
-    camera.orthographic_width = k_room * diameter_;
+    camera.orthographic_width = k_room_around * diameter_;
     camera.width = camera.height = k_picture;
     return camera;
 }
@@ -170,7 +170,7 @@ EyeLight EyeLightTracer::trace(const Vec3& towards_eye, double n,
                                const EyeLightLimits& limits) const {
     check(n > 1, "the index of a graded stone is above 1");
     const ScreenView view = screen_view(camera_towards(towards_eye));
-    const double pixel = k_room * diameter_ / k_picture, pixel_area = pixel * pixel;
+    const double pixel = k_room_around * diameter_ / k_picture, pixel_area = pixel * pixel;
     EyeLight light;
     light.towards_eye = towards_eye;
     light.right = view.right;

@@ -26,9 +26,9 @@ namespace culet {
 
 namespace {
 
-constexpr long long k_most_pixels = 1LL << 28;
+constexpr long long k_most_exr_pixels = 1LL << 28;
 constexpr long long k_most_samples = 1LL << 31;  // over all channels
-constexpr long long k_tightest = 20000;          // pixels a byte
+constexpr long long k_tightest_exr = 20000;      // pixels a byte
 constexpr unsigned k_most_tile_side = 8192;
 
 // The library reads from files or from a stream of ours; bytes in memory are checked before they
@@ -66,8 +66,8 @@ void check_header(const Imf::Header& header, std::size_t bytes, const std::files
     const Imath::Box2i window = header.dataWindow();
     const long long width = static_cast<long long>(window.max.x) - window.min.x + 1;
     const long long height = static_cast<long long>(window.max.y) - window.min.y + 1;
-    if (width < 1 || height < 1 || width > k_most_pixels || height > k_most_pixels ||
-        width * height > k_most_pixels) {
+    if (width < 1 || height < 1 || width > k_most_exr_pixels || height > k_most_exr_pixels ||
+        width * height > k_most_exr_pixels) {
         throw InputError(file, fmt::format("is an EXR of {} x {} pixels; up to 2^28 pixels are "
                                            "read",
                                            width, height));
@@ -80,7 +80,7 @@ void check_header(const Imf::Header& header, std::size_t bytes, const std::files
                                            width, height, channels));
     }
     // No codec packs a picture this tightly: the file is cut off.
-    if (width * height / k_tightest > static_cast<long long>(bytes)) {
+    if (width * height / k_tightest_exr > static_cast<long long>(bytes)) {
         throw InputError(file, fmt::format("is an EXR of {} x {} pixels in {} bytes: it is cut off",
                                            width, height, bytes));
     }

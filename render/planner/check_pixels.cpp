@@ -19,7 +19,7 @@ constexpr std::size_t k_first_pixels = 48, k_most_pixels = 3072;
 constexpr double k_bright = 8;
 constexpr std::size_t k_first_pixels_of_bright = 96;
 // Below this tolerance more in proportion: so much rarer are pixels that matter.
-constexpr double k_fine_tolerance = 0.03, k_most_times_as_many = 10;
+constexpr double k_checked_tolerance = 0.03, k_most_times_as_many = 10;
 // Every pixel has this share of a mean chance at least: none counts more than two and a half times.
 constexpr double k_even_share = 0.4;
 // Outliers are pixels that have so many times the mean.
@@ -72,7 +72,7 @@ CheckPixels choose_check_pixels(const Scene& scene, const Picture& picture, cons
             sum_of_edges += edges.back();
         }
         const double times =
-            std::clamp(k_fine_tolerance / scene.settings.tolerance, 1.0, k_most_times_as_many);
+            std::clamp(k_checked_tolerance / scene.settings.tolerance, 1.0, k_most_times_as_many);
         chosen.first = static_cast<std::size_t>(times * k_first_pixels_of_bright);
     }
     // Chances, 1 in the mean, and their sums; then the golden ratio's multiples, evenly spread over

@@ -11,7 +11,7 @@ namespace culet {
 namespace {
 
 constexpr double k_pixels = 65536;
-constexpr float k_filled = 0.5f;
+constexpr float k_covered = 0.5f;
 
 // A place from 0 to side - 1: fractions of a number's multiples, in 32 bits.
 int place_in(int side, std::uint32_t number, std::uint32_t multiple) {
@@ -37,7 +37,7 @@ Contrast contrast_of(const Picture& picture, int windows, double filled) {
             const std::size_t pixel =
                 static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
                 static_cast<std::size_t>(x);
-            if (picture.coverage[pixel] < k_filled) continue;
+            if (picture.coverage[pixel] < k_covered) continue;
             const Rgb here = picture.pixel(x, y);
             double most = 0;
             if (x > 0) most = std::max(most, apart(here, picture.pixel(x - 1, y)));

@@ -20,9 +20,9 @@ constexpr double k_aim = 0.5, k_share_of_wavelengths = 0.35, k_share_of_cut = 0.
 constexpr double k_cut_step = 3;
 // Borders of the coarsest beams, and what a preview is off by over these. Errors of borders fall as
 // the root of their tolerance (docs/rendering.md).
-constexpr double k_coarsest = 0.1, k_finest = 1e-6, k_beams_over_preview = 0.25;
+constexpr double k_coarsest_rung = 0.1, k_finest = 1e-6, k_beams_over_preview = 0.25;
 // A step goes no further than this: what few pixels show may be chance; and not less far.
-constexpr double k_longest_step = 0.1, k_least_step = 0.4;
+constexpr double k_longest_step = 0.1, k_least_rung = 0.4;
 // Prices rise about as these powers; and by this from a preview to beams.
 constexpr double k_price_of_borders = 0.4, k_price_of_cut = 0.25, k_price_of_parted_cut = 0.85,
                  k_price_over_preview = 2.2;
@@ -40,7 +40,7 @@ constexpr double k_crystal_cut = 0.009, k_crystal_remainder = 0.047, k_crystal_p
                  k_crystal_share = 0.4, k_coarsest_crystal_cut = 0.03;
 // The reference's trees that play roulette: so they come to little noise soonest; finer below this
 // tolerance.
-constexpr double k_fine_tolerance = 0.02, k_roulette = 0.04, k_fine_roulette = 0.01, k_split = 0.6,
+constexpr double k_fine_rung = 0.02, k_roulette = 0.04, k_fine_roulette = 0.01, k_split = 0.6,
                  k_fine_split = 0.1;
 // Of the tolerance, the weight below which the reference's paths are cut where they do not branch.
 constexpr double k_cut_of_paths = 0.1;
@@ -118,10 +118,10 @@ Step LadderSteps::first_beams() const {
         user.engine == k_preview_engine ||
         (user.engine == k_auto_engine && !setup_.splits && !scene_.lights.environment);
     settings.engine = preview ? k_preview_engine : k_beam_engine;
-    settings.tolerance = k_coarsest;
+    settings.tolerance = k_coarsest_rung;
     settings.cut_weight = std::min(0.3, tolerance);
     if (setup_.splits && settings.crystal_beams != CrystalBeams::merged) {
-        settings.tolerance = std::clamp(tolerance, 1e-3, k_coarsest);
+        settings.tolerance = std::clamp(tolerance, 1e-3, k_coarsest_rung);
         settings.cut_weight =
             std::min(k_coarsest_crystal_cut,
                      k_crystal_cut * std::pow(k_crystal_share * tolerance / k_crystal_remainder,
@@ -130,9 +130,9 @@ Step LadderSteps::first_beams() const {
     settings.split_weight = settings.cut_weight;
     if (user.wavelengths_nm.empty()) settings.wavelengths_nm = setup_.wavelengths_nm;
     if (wavelengths_are_open()) {
-        settings.wavelengths_nm = even_wavelengths(setup_.on(Effects::coherence)   ? 29
-                                                   : tolerance >= k_fine_tolerance ? 3
-                                                                                   : 5);
+        settings.wavelengths_nm = even_wavelengths(setup_.on(Effects::coherence) ? 29
+                                                   : tolerance >= k_fine_rung    ? 3
+                                                                                 : 5);
     }
     if (setup_.on(Effects::aperture) && user.samples == 0)
         settings.samples =
@@ -157,7 +157,7 @@ Step LadderSteps::by_reference(const ErrorEstimate* estimate) const {
     Step step{.settings = with_effects().settings};
     RenderSettings& settings = step.settings;
     settings.engine = k_reference_engine;
-    const bool fine = tolerance < k_fine_tolerance;
+    const bool fine = tolerance < k_fine_rung;
     settings.cut_weight = !doubles_ ? k_cut_of_paths * tolerance
                           : fine    ? k_fine_roulette
                                     : k_roulette;
@@ -269,7 +269,7 @@ double LadderSteps::finer_borders(Step& step, double off_by) const {
         if (left > aim) factor = std::max(std::pow(aim / left, 2), 0.3 * k_longest_step);
     } else {
         factor =
-            std::clamp(std::pow(aim / std::max(off_by, 1e-12), 2), k_longest_step, k_least_step);
+            std::clamp(std::pow(aim / std::max(off_by, 1e-12), 2), k_longest_step, k_least_rung);
     }
     settings.tolerance = std::max(k_finest, factor * settings.tolerance);
     if (setup_.on(Effects::aperture) && scene_.settings.samples == 0) {
@@ -291,7 +291,7 @@ Step LadderSteps::finer_beams(const Step& step, const ErrorEstimate& estimate, b
     double of_cut = 0;
     if (doubles_) {
         const double factor =
-            std::clamp(std::pow(aim / off_by, 1 / k_crystal_power), k_longest_step, k_least_step);
+            std::clamp(std::pow(aim / off_by, 1 / k_crystal_power), k_longest_step, k_least_rung);
         finer.settings.cut_weight = *finer.settings.cut_weight * factor;
         finer.price_ns *= std::pow(factor, -k_price_of_parted_cut);
     } else {

@@ -20,7 +20,7 @@ const std::vector<double> k_pilot_nm{450, 550, 610};
 constexpr int k_pilot_pixels = 96, k_check_pixels = 64;
 // Trees that branch play roulette: pictures that are held against each other should differ by what
 // is looked at rather than by chance, so at weights far below the noise of a pixel's few rays.
-constexpr double k_roulette_weight = 0.01, k_split_weight = 0.1;
+constexpr double k_pilot_roulette = 0.01, k_pilot_split = 0.1;
 // Pilots of a depth that the scene names are held against such as go on to here.
 constexpr double k_deep_cut = 0.01;
 // Faces that light meets, and rays of all pilots in a pixel, about: what weighing effects costs.
@@ -177,8 +177,8 @@ PathLimits Planner::limits() const {
     PathLimits limits;
     limits.seed = user_.seed;
     limits.depth = user_.depth > 0 ? user_.depth : k_deepest;
-    limits.cut_weight = branches_ ? k_roulette_weight : k_pilot_cut * tolerance_;
-    limits.split_weight = k_split_weight;
+    limits.cut_weight = branches_ ? k_pilot_roulette : k_pilot_cut * tolerance_;
+    limits.split_weight = k_pilot_split;
     limits.roulette = branches_;
     limits.alike = true;
     return limits;

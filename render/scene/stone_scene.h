@@ -6,15 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "render/colour/material_colour.h"
 #include "render/scene/scene.h"
 
 namespace culet {
 
 /// Where nothing else is said.
 constexpr const char* k_usual_light = "jeweller";
-/// Of a design without a size, mm: a stone of about a carat. What is absorbed depends on it.
-constexpr double k_usual_width_mm = 6.5;
-
 /// Of a stone's outline the narrower of its extents along x and y.
 double outline_width(const Solid& solid);
 

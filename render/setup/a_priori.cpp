@@ -5,12 +5,11 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "render/setup/probe_wavelengths.h"
+
 namespace culet {
 
 namespace {
-
-constexpr double k_d_line_nm = 589.3, k_first_nm = 410, k_last_nm = 690;
-constexpr int k_probes = 15;
 
 double wavelength(int probe) {
     return k_first_nm + (k_last_nm - k_first_nm) * probe / (k_probes - 1);

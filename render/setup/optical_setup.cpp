@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "render/setup/light_needs.h"
+#include "render/setup/probe_wavelengths.h"
 #include "stone/errors.h"
 
 namespace culet {
@@ -33,13 +34,8 @@ const char* name_of(Effects effect) {
 
 namespace {
 
-// The wavelength of refractive indices in handbooks: the sodium D line.
-constexpr double k_d_line_nm = 589.3;
-// Where the eye's response is.
-constexpr double k_first_nm = 410, k_last_nm = 690;
 // Interference colours need no fewer: their fringes over wavelength are 10 nm wide at 30 waves.
 constexpr int k_least_coherent_nodes = 29;
-constexpr int k_probes = 15;
 constexpr double k_unknown = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> even_nodes(int count) {

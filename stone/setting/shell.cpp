@@ -10,7 +10,7 @@ namespace culet {
 
 namespace {
 
-constexpr double k_pi = std::numbers::pi;
+constexpr double k_half_turn = std::numbers::pi;
 
 // Rounds of `sides` vertices each, joined one to the next; `along` the rounds, vertices run
 // counter-clockwise.
@@ -21,7 +21,7 @@ public:
     // A round about `middle`, in the plane of `out` and `aside`; out x aside points backwards.
     void add(const Vec3& middle, const Vec3& out, const Vec3& aside) {
         for (int i = 0; i < sides_; ++i) {
-            const double angle = 2 * k_pi * i / sides_;
+            const double angle = 2 * k_half_turn * i / sides_;
             shell_.vertices.push_back(middle + std::cos(angle) * out - std::sin(angle) * aside);
         }
         ++count_;
@@ -80,7 +80,7 @@ Shell round_wire(const std::vector<Vec3>& whole_path, double radius, const Vec3&
                ends = glm::normalize(path[last] - path[last - 1]);
     // A half ball, its pole left to the end.
     for (int k = 1; k < rows; ++k) {
-        const double angle = 0.5 * k_pi * k / rows;
+        const double angle = 0.5 * k_half_turn * k / rows;
         rounds.add(path[0] - radius * std::cos(angle) * begins,
                    radius * std::sin(angle) * glm::cross(begins, aside),
                    radius * std::sin(angle) * aside);
@@ -92,7 +92,7 @@ Shell round_wire(const std::vector<Vec3>& whole_path, double radius, const Vec3&
         rounds.add(path[i], radius * glm::cross(along, aside), radius * aside);
     }
     for (int k = rows - 1; k >= 1; --k) {
-        const double angle = 0.5 * k_pi * k / rows;
+        const double angle = 0.5 * k_half_turn * k / rows;
         rounds.add(path[last] + radius * std::cos(angle) * ends,
                    radius * std::sin(angle) * glm::cross(ends, aside),
                    radius * std::sin(angle) * aside);

@@ -18,7 +18,7 @@ using test::ProgramRun;
 using test::run_culet;
 using ::testing::HasSubstr;
 
-const std::string k_design = CULET_SOURCE_DIR "/tests/stone/designs/own_oval_135.asc";
+const std::string k_form_design = CULET_SOURCE_DIR "/tests/stone/designs/own_oval_135.asc";
 
 class BenchForm : public testing::Test {
 protected:
@@ -66,15 +66,16 @@ TEST_F(BenchForm, CutFillInFit) {
 
 TEST_F(BenchForm, OfADesignInMillimetres) {
     ASSERT_EQ(
-        run_culet({"convert", "--width", "6.5mm", k_design, file("oval.obj"), "-q"}).exit_code, 0);
+        run_culet({"convert", "--width", "6.5mm", k_form_design, file("oval.obj"), "-q"}).exit_code,
+        0);
     const auto size = [&](const std::vector<std::string>& arguments) {
         const ProgramRun run = run_culet(arguments);
         EXPECT_EQ(run.exit_code, 0) << run.err;
         return nlohmann::json::parse(run.out);
     };
     const auto scaled = size({"info", file("oval.obj"), "--json", "-"}),
-               told = size({"info", k_design, "--width", "0.65 cm", "--json", "-"}),
-               design = size({"info", k_design, "--json", "-"});
+               told = size({"info", k_form_design, "--width", "0.65 cm", "--json", "-"}),
+               design = size({"info", k_form_design, "--json", "-"});
     EXPECT_NEAR(scaled.at("w").get<double>(), 6.5, 1e-12);
     EXPECT_NEAR(told.at("w").get<double>(), 6.5, 1e-12);
     EXPECT_NEAR(scaled.at("l_w").get<double>(), design.at("l_w").get<double>(), 1e-12);
@@ -116,10 +117,10 @@ TEST_F(BenchForm, FitsTheMeshAsItIsRead) {
 
 // The design's own settings: mains 23 of its oval stand at indices 48 and 96.
 TEST_F(BenchForm, CuttingListOfADesign) {
-    const ProgramRun run = run_culet({"info", k_design, "--cutting-list"});
+    const ProgramRun run = run_culet({"info", k_form_design, "--cutting-list"});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.out, ::testing::ContainsRegex("23 +pavilion +33.24 +48 96\n"));
-    const ProgramRun other = run_culet({"info", k_design, "--gear", "64", "--json", "-"});
+    const ProgramRun other = run_culet({"info", k_form_design, "--gear", "64", "--json", "-"});
     const auto list = nlohmann::json::parse(other.out).at("cutting_list");
     EXPECT_EQ(list.size(), 21u);  // lines of the file that begin with `a`
 }
@@ -138,7 +139,7 @@ TEST_F(BenchForm, WhatCannotBeDoneIsOneLine) {
                 HasSubstr("--width"));
     EXPECT_THAT(error_of({"cut", "oval", "--width", "wide", "-o", file("a.obj")}),
                 HasSubstr("--width"));
-    EXPECT_THAT(error_of({"convert", "--width", "0mm", k_design, file("a.obj")}),
+    EXPECT_THAT(error_of({"convert", "--width", "0mm", k_form_design, file("a.obj")}),
                 HasSubstr("--width"));
     EXPECT_THAT(error_of({"info", CULET_SOURCE_DIR "/samples/dravite-step/scene.toml", "--readings",
                           file("a.csv")}),

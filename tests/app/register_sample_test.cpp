@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 using test::ProgramRun;
 using test::run_culet;
 
-const fs::path k_sample = fs::path(CULET_SOURCE_DIR) / "samples/dravite-step";
-const std::string k_photo = (k_sample / "simulated-photo.png").string();
+const fs::path k_sample_stone = fs::path(CULET_SOURCE_DIR) / "samples/dravite-step";
+const std::string k_photo = (k_sample_stone / "simulated-photo.png").string();
 
 std::string text(const fs::path& name) {
     std::ifstream stream(name, std::ios::binary);
@@ -37,15 +37,15 @@ class RegisterSample : public testing::Test {
 protected:
     static void SetUpTestSuite() {
         folder_ = std::make_unique<test::ScratchFolder>();
-        const ProgramRun fit =
-            run_culet({"fit", (k_sample / "stone.toml").string(), "-o", file("fitted.obj"), "-q"});
+        const ProgramRun fit = run_culet(
+            {"fit", (k_sample_stone / "stone.toml").string(), "-o", file("fitted.obj"), "-q"});
         ASSERT_TRUE(fs::exists(file("fitted.obj"))) << fit.err;
-        std::string stone = text(k_sample / "stone.toml");
+        std::string stone = text(k_sample_stone / "stone.toml");
         stone.replace(stone.find("hand.obj"), 8, "fitted.obj");
         const std::size_t readings = stone.find("readings = ");
         stone.erase(readings, stone.find('\n', readings) - readings);
         std::ofstream(file("stone.toml")) << stone;
-        fs::copy(k_sample / "scene.toml", file("scene.toml"));
+        fs::copy(k_sample_stone / "scene.toml", file("scene.toml"));
     }
     static void TearDownTestSuite() { folder_.reset(); }
     static std::string file(const std::string& name) { return (*folder_ / name).string(); }
@@ -64,7 +64,7 @@ std::unique_ptr<test::ScratchFolder> RegisterSample::folder_;
 /// where it stood (making/true-scene.toml).
 double angle_to_truth(const ProgramRun& run) {
     const auto found = nlohmann::json::parse(run.out).at("camera").at("position");
-    const std::string scene = text(k_sample / "making/true-scene.toml");
+    const std::string scene = text(k_sample_stone / "making/true-scene.toml");
     const std::size_t at = scene.find("position = ") + 11;
     const auto stood = nlohmann::json::parse(scene.substr(at, scene.find(']', at) + 1 - at));
     double dot = 0, a = 0, b = 0;

@@ -63,7 +63,7 @@ std::string fit_json(const std::string& name) {
     return fit.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-synthetic::StonePicture small() {
+synthetic::StonePicture small_stone() {
     synthetic::StonePicture picture;
     picture.width = 120;
     picture.height = 110;
@@ -82,14 +82,14 @@ Report full_report(const std::string& name = "T") {
     report.files = {{"photograph", name}};
     CompareOptions options;
     options.simulated = true;
-    auto moved = small();
+    auto moved = small_stone();
     moved.cell_shift = 0.05;
-    report.comparison = compare(draw(moved), draw(small()), options);
+    report.comparison = compare(draw(moved), draw(small_stone()), options);
     report.scores_json = scores_json(*report.comparison, {name, name, ""});
     report.fit_json = fit_json(name);
     report.fitted = cube(name);
     report.starting = cube(name);
-    report.starting_render = draw(small());
+    report.starting_render = draw(small_stone());
     report.fitted_render = draw(moved);
     report.stats_json =
         R"({"engine": "reference", "depth": 12, "effects": [{"name": "dispersion", "on": true,
@@ -260,10 +260,10 @@ TEST(Report, marks_suspects_in_words) {
 }
 
 TEST(Report, of_a_refused_comparison_shows_both_outlines_and_the_reason) {
-    auto narrow = small();
+    auto narrow = small_stone();
     narrow.flatness = 0.45;
     Report report;
-    report.comparison = compare(draw(narrow), draw(small()));
+    report.comparison = compare(draw(narrow), draw(small_stone()));
     ASSERT_EQ(report.comparison->verdict, Verdict::refused);
     const std::string page = report_page(report);
     EXPECT_THAT(page, HasSubstr("Comparison refused"));
@@ -275,7 +275,7 @@ TEST(Report, of_a_refused_comparison_shows_both_outlines_and_the_reason) {
 
 TEST(Report, of_a_black_photograph_is_a_page) {
     Report report;
-    report.comparison = compare(synthetic::flat(64, 64, 0), draw(small()));
+    report.comparison = compare(synthetic::flat(64, 64, 0), draw(small_stone()));
     EXPECT_EQ(nesting_fault(report_page(report)), "");
 }
 

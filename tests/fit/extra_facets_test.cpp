@@ -34,7 +34,7 @@ Solid with_extra(const Solid& solid, const Vec3& normal, double depth) {
 }
 
 /// Readings of the true stone by someone who holds the mesh for it: nothing of the extra facet.
-std::vector<Reading> readings_of(const Solid& mesh, const Solid& truth, unsigned seed) {
+std::vector<Reading> readings_between(const Solid& mesh, const Solid& truth, unsigned seed) {
     return noisy(plane_readings(mesh, truth, k_sigma_deg, k_sigma), seed);
 }
 
@@ -52,7 +52,7 @@ TEST(ExtraFacets, ABrutedCuletIsSuspected) {
     const Solid mesh = brilliant();
     for (unsigned seed = 1; seed <= 4; ++seed) {
         const Solid truth = with_extra(mesh, {0, 0, -1}, 0.06);
-        const FitResult result = fit_stone(stone_of(mesh), readings_of(mesh, truth, seed));
+        const FitResult result = fit_stone(stone_of(mesh), readings_between(mesh, truth, seed));
         ASSERT_FALSE(result.findings.extra_facets.empty()) << seed << " " << result.message;
         const ExtraFacet& first = result.findings.extra_facets.front();
         EXPECT_THAT(first.at, Contains("P1"));
@@ -68,7 +68,7 @@ TEST(ExtraFacets, OneOnACornerOfTheGirdleIsSuspected) {
     // Over the corner where C1 reaches the girdle, slanting like a crown facet.
     for (const double inclination_deg : {60.0, 75.0, 90.0}) {
         const Solid truth = with_extra(mesh, direction(inclination_deg, 0), 0.05);
-        const FitResult result = fit_stone(stone_of(mesh), readings_of(mesh, truth, 7));
+        const FitResult result = fit_stone(stone_of(mesh), readings_between(mesh, truth, 7));
         ASSERT_FALSE(result.findings.extra_facets.empty())
             << inclination_deg << " " << result.message;
         EXPECT_THAT(places(result).front(),
@@ -83,7 +83,7 @@ TEST(ExtraFacets, ACleanStoneHasNone) {
     const Solid mesh = brilliant();
     int alarms = 0;
     for (unsigned seed = 1; seed <= 20; ++seed) {
-        const FitResult result = fit_stone(stone_of(mesh), readings_of(mesh, mesh, seed));
+        const FitResult result = fit_stone(stone_of(mesh), readings_between(mesh, mesh, seed));
         alarms += result.findings.extra_facets.empty() ? 0 : 1;
     }
     EXPECT_EQ(alarms, 0);
@@ -92,7 +92,7 @@ TEST(ExtraFacets, ACleanStoneHasNone) {
 TEST(ExtraFacets, AWrongReadingIsNotTakenForOne) {
     const Solid mesh = brilliant();
     for (const char* id_kind : {"inclination", "edge", "width"}) {
-        std::vector<Reading> readings = readings_of(mesh, mesh, 3);
+        std::vector<Reading> readings = readings_between(mesh, mesh, 3);
         for (std::size_t i = 0; i < readings.size(); ++i) {
             if (std::string(name_of(readings[i].kind)) != id_kind || i < 20) continue;
             readings[i].value += (id_kind[0] == 'i' ? 40 : 60) * readings[i].sigma;  // longer
@@ -109,7 +109,7 @@ TEST(ExtraFacets, AWrongReadingIsNotTakenForOne) {
 TEST(ExtraFacets, NoneIsSoughtBetweenPlanesThatFaceAwayFromEachOther) {
     const Solid mesh = brilliant();
     const Stone stone = stone_of(mesh);
-    const System system(stone, readings_of(mesh, mesh, 1), {});
+    const System system(stone, readings_between(mesh, mesh, 1), {});
     Finished finished = finish_from(system, system.mesh_shape(), 100).finished;
     const Diagnosis diagnosis = diagnose(system, finished.shape, finished.outline);
     const std::vector<int>& facets = system.edges().facets_of_vertex.front();

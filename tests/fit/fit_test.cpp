@@ -54,7 +54,7 @@ TEST(Fit, RecoversAShakenBrilliant) {
     }
 }
 
-std::vector<Reading> full_readings(const Solid& truth) {
+std::vector<Reading> every_reading(const Solid& truth) {
     std::vector<Reading> readings = all_angles(truth, radians(0.1), "T");
     for (const Reading& r : all_edges(truth, 0.01)) readings.push_back(r);
     readings.push_back(depth(truth, 0.01));
@@ -65,7 +65,7 @@ std::vector<Reading> full_readings(const Solid& truth) {
 // deviation of sqrt(2 / (6 dof)).
 TEST(Fit, ChiSquareIsRightOnAverage) {
     const Solid truth = brilliant();
-    const std::vector<Reading> readings = full_readings(truth);
+    const std::vector<Reading> readings = every_reading(truth);
     double ratio = 0, dof = 0;
     const int fits = 6;
     for (unsigned seed = 1; seed <= fits; ++seed) {
@@ -83,7 +83,7 @@ TEST(Fit, ChiSquareIsRightOnAverage) {
 // Errors of fitted planes in units of their own reported uncertainty have unit spread.
 TEST(Fit, ReportedUncertaintiesAreHonest) {
     const Solid truth = brilliant();
-    const std::vector<Reading> readings = full_readings(truth);
+    const std::vector<Reading> readings = every_reading(truth);
     double squares = 0, area_squares = 0;
     int count = 0;
     for (unsigned seed = 11; seed <= 14; ++seed) {
@@ -110,7 +110,7 @@ TEST(Fit, ReportedUncertaintiesAreHonest) {
 // diagonal, and no two of its variables are more than equal.
 TEST(Fit, FacetCovarianceHasTheSigmasOnItsDiagonal) {
     const Solid truth = brilliant();
-    const FitResult result = fit_stone(stone_of(truth), noisy(full_readings(truth), 5));
+    const FitResult result = fit_stone(stone_of(truth), noisy(every_reading(truth), 5));
     const std::size_t size = 3 * result.facets.size();
     ASSERT_EQ(result.facet_covariance.size(), size * size);
     const auto at = [&](std::size_t i, std::size_t j) {
@@ -137,7 +137,7 @@ TEST(Fit, FacetCovarianceHasTheSigmasOnItsDiagonal) {
 
 TEST(Fit, FindsABlunderAndNamesIt) {
     const Solid truth = brilliant();
-    std::vector<Reading> readings = noisy(full_readings(truth), 5);
+    std::vector<Reading> readings = noisy(every_reading(truth), 5);
     readings[20].value += 20 * readings[20].sigma;
     const FitResult result = fit_stone(stone_of(truth), readings);
     EXPECT_EQ(result.status, FitStatus::contradictory);
@@ -365,14 +365,14 @@ TEST(Fit, RefusesAMeshThatIsNoSolid) {
 
 TEST(Fit, StopsWhenAsked) {
     const Solid truth = brilliant();
-    EXPECT_THROW(fit_stone(stone_of(truth), full_readings(truth), {}, [](double) { return false; }),
+    EXPECT_THROW(fit_stone(stone_of(truth), every_reading(truth), {}, [](double) { return false; }),
                  Interrupted);
 }
 
 TEST(FitReport, HasTheKeysThatOutsidersRelyOn) {
     const Solid truth = brilliant();
     const auto report =
-        nlohmann::json::parse(fit_report(fit_stone(stone_of(truth), full_readings(truth))));
+        nlohmann::json::parse(fit_report(fit_stone(stone_of(truth), every_reading(truth))));
     for (const char* key : {"schema", "status", "facets", "readings", "undetermined", "suspects",
                             "planarity_max", "closed", "convex", "chi2", "dof", "iterations",
                             "seconds", "unit", "message", "meets", "areas"}) {

@@ -14,6 +14,7 @@
 
 #include "stone/cuts/cuts.h"
 #include "stone/solid.h"
+#include "tests/render/random_direction.h"
 
 namespace culet::carved {
 
@@ -189,11 +190,6 @@ inline Solid moved(const Solid& solid, const glm::dmat3& turn, double scale, con
         facet.plane.offset = scale * facet.plane.offset + glm::dot(facet.plane.normal, shift);
     }
     return result;
-}
-
-inline Vec3 random_direction(std::mt19937_64& random) {
-    std::normal_distribution<double> normal;
-    return glm::normalize(Vec3{normal(random), normal(random), normal(random)});
 }
 
 inline glm::dmat3 random_turn(std::mt19937_64& random) {

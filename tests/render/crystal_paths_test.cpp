@@ -19,7 +19,7 @@ namespace {
 
 using namespace culet;
 
-struct Sums {
+struct PathSums {
     double leaves = 0, left = 0, lost = 0, dropped = 0;
     std::vector<double> leaf_weights;
     std::vector<PathEnd> ends;
@@ -50,13 +50,13 @@ std::array<Vec3, 3> random_axes(std::mt19937_64& random) {
     return {a, b, glm::cross(a, b)};
 }
 
-Sums traced(const StoneBody& body, const Band& band, const PathLimits& limits, const EyeRay& ray,
-            const Vec3& right = {1, 0, 0}) {
-    Sums sums;
+PathSums traced(const StoneBody& body, const Band& band, const PathLimits& limits,
+                const EyeRay& ray, const Vec3& right = {1, 0, 0}) {
+    PathSums sums;
     const auto entry = body.entry(ray.origin, ray.direction);
     if (!entry) return sums;
     const Vec3 y = glm::normalize(glm::cross(right, ray.direction));
-    CrystalPaths<Sums>(body, band, limits, sums)
+    CrystalPaths<PathSums>(body, band, limits, sums)
         .trace(ray, glm::cross(ray.direction, y), y, *entry);
     return sums;
 }
@@ -97,7 +97,7 @@ TEST(CrystalPaths, white_furnace_balances_in_every_optical_class) {
                     limits.cut_weight = cut;
                     limits.split_weight = cut > 0 ? 0.05 : 0;
                     limits.roulette = cut > 0 && i % 2 == 0;
-                    const Sums sums = traced(body, band, limits, ray);
+                    const PathSums sums = traced(body, band, limits, ray);
                     if (sums.ends.empty()) continue;
                     ++rays;
                     worst = std::max(worst, std::abs(sums.total() - 1));
@@ -128,10 +128,10 @@ TEST(CrystalPaths, isotropic_stones_give_what_light_paths_give) {
         limits.depth = 12;
         for (int i = 0; i < 20; ++i) {
             const EyeRay ray = random_ray(random);
-            const Sums general = traced(body, band, limits, ray);
+            const PathSums general = traced(body, band, limits, ray);
             if (general.ends.empty()) continue;
-            Sums special;
-            LightPaths<Sums>(body.planes(), band, limits, special)
+            PathSums special;
+            LightPaths<PathSums>(body.planes(), band, limits, special)
                 .trace(ray, *body.entry(ray.origin, ray.direction));
             ASSERT_EQ(general.leaf_weights.size(), special.leaf_weights.size());
             for (std::size_t l = 0; l < special.leaf_weights.size(); ++l, ++leaves) {
@@ -145,7 +145,8 @@ TEST(CrystalPaths, isotropic_stones_give_what_light_paths_give) {
 }
 
 // Radiance of the paths with `inner` segments, behind an analyser, of light polarised at an angle.
-double between_polarisers(const Sums& sums, std::size_t inner, double polarizer, double analyzer) {
+double between_polarisers(const PathSums& sums, std::size_t inner, double polarizer,
+                          double analyzer) {
     EyeOptics optics;
     optics.analyzer = analyzer;
     const Stokes row = response(optics, 550);
@@ -180,7 +181,7 @@ TEST(CrystalPaths, plate_between_crossed_polarisers_follows_the_closed_form) {
             band.crystal = uniaxial_crystal({std::cos(a), std::sin(a), 0}, n_o, n_e);
             band.wavelength = wavelength;
             band.coherence_length = std::numeric_limits<double>::infinity();
-            const Sums sums = traced(body, band, limits, ray);
+            const PathSums sums = traced(body, band, limits, ray);
             const double delta = 2 * std::numbers::pi * (n_e - n_o) * thickness / wavelength;
             const double s = std::sin(2 * a);
             const double crossed =
@@ -238,7 +239,7 @@ TEST(CrystalPaths, waves_far_apart_are_followed_apart) {
     band.coherence_length = 0.015;
     PathLimits limits;
     limits.depth = 3;
-    const Sums sums =
+    const PathSums sums =
         traced(body, band, limits, {{0.3, 0.2, 5}, glm::normalize(Vec3{0.1, 0.3, -1})});
     for (const std::string& modes : sums.modes) {
         for (char m : modes) EXPECT_NE(m, 'c') << modes;
@@ -265,8 +266,8 @@ TEST(CrystalPaths, vanishing_birefringence_tends_to_the_isotropic_stone) {
                                       : Crystal(axes, {1.7 + split, 1.7, 1.7});
             band.coherence_length = 1;
             const EyeRay ray = random_ray(random);
-            const Sums weak = traced(body, band, limits, ray);
-            const Sums none = traced(body, isotropic, limits, ray);
+            const PathSums weak = traced(body, band, limits, ray);
+            const PathSums none = traced(body, isotropic, limits, ray);
             ASSERT_EQ(weak.leaf_weights.size(), none.leaf_weights.size());
             // 8 segments of 3 units at a wavelength of 6e-4: 2.5e5 radians a unit of index.
             for (std::size_t l = 0; l < weak.leaf_weights.size(); ++l)
@@ -360,11 +361,11 @@ TEST(CrystalPaths, biaxial_plate_is_dark_at_its_melatopes_and_along_the_isogyres
     limits.depth = 2;
     const auto crossed = [&](double sine, double polarizer) {
         const Vec3 d{sine, 0, -std::sqrt(1 - sine * sine)};
-        Sums sums;
+        PathSums sums;
         const EyeRay ray{Vec3{0.3, 0.2, 0} - 5.0 * d, d};
         const Vec3 forward{0, 0, -1};
         const Vec3 x = turned_with(forward, d, {1, 0, 0}), y = turned_with(forward, d, {0, 1, 0});
-        CrystalPaths<Sums>(body, band, limits, sums)
+        CrystalPaths<PathSums>(body, band, limits, sums)
             .trace(ray, x, y, *body.entry(ray.origin, ray.direction));
         return between_polarisers(sums, 1, polarizer, polarizer + std::numbers::pi / 2);
     };
@@ -411,8 +412,8 @@ TEST(CrystalPaths, uniaxial_rings_lie_where_the_retardation_is_a_whole_number_of
             const Vec3 d{sine * std::sqrt(0.5), sine * std::sqrt(0.5), -std::sqrt(1 - sine * sine)};
             const EyeRay ray{Vec3{0.3, 0.2, 0} - 5.0 * d, d};
             const Vec3 forward{0, 0, -1};
-            Sums sums;
-            CrystalPaths<Sums>(body, band, limits, sums)
+            PathSums sums;
+            CrystalPaths<PathSums>(body, band, limits, sums)
                 .trace(ray, turned_with(forward, d, {1, 0, 0}), turned_with(forward, d, {0, 1, 0}),
                        *body.entry(ray.origin, ray.direction));
             return between_polarisers(sums, 1, 0, std::numbers::pi / 2);

@@ -7,6 +7,7 @@
 
 #include "render/scene/scene.h"
 #include "stone/solid.h"
+#include "tests/render/random_direction.h"
 
 namespace culet {
 
@@ -45,11 +46,6 @@ inline Solid slab(double thickness) {
         }
     }
     return intersect_half_spaces(planes).solid;
-}
-
-inline Vec3 random_direction(std::mt19937_64& random) {
-    std::normal_distribution<double> normal;
-    return glm::normalize(Vec3{normal(random), normal(random), normal(random)});
 }
 
 }  // namespace culet

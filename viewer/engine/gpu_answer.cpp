@@ -17,7 +17,7 @@ using Json = nlohmann::ordered_json;
 // Deeper paths bring little, and every face costs a GPU as much as the first.
 constexpr int k_deepest_on_gpu = 24;
 
-Json json_of(const std::vector<GpuUniform>& uniforms) {
+Json uniforms_json(const std::vector<GpuUniform>& uniforms) {
     Json list = Json::array();
     for (const GpuUniform& uniform : uniforms) {
         list.push_back({{"name", uniform.name},
@@ -64,12 +64,12 @@ GpuAnswer gpu_answer(const ShownStone& stone, const FrameRequest& request, int s
     GpuAnswer answer;
     Json& json = answer.json;
     json["key"] = key_of(program.vertex + program.kernel + program.display);
-    json["uniforms"] = json_of(program.uniforms);
+    json["uniforms"] = uniforms_json(program.uniforms);
     json["passes"] = Json::array();
     for (GpuPass& pass : program.passes) {
         const std::vector<GpuUniform> eye = gpu_eye(scene.camera.optics, setup.optics, pass);
         pass.uniforms.insert(pass.uniforms.end(), eye.begin(), eye.end());
-        json["passes"].push_back({{"uniforms", json_of(pass.uniforms)}});
+        json["passes"].push_back({{"uniforms", uniforms_json(pass.uniforms)}});
     }
     const std::size_t count = static_cast<std::size_t>(std::max(1, samples));
     const std::vector<SamplePoint> pattern =
@@ -77,8 +77,8 @@ GpuAnswer gpu_answer(const ShownStone& stone, const FrameRequest& request, int s
                        scene.settings.filter, scene.settings.filter_radius);
     json["samples"] = Json::array();
     for (std::size_t i = 0; i < pattern.size(); ++i) {
-        json["samples"].push_back(
-            json_of(gpu_view(request.camera, pattern[spread(i, pattern.size())], program.middle)));
+        json["samples"].push_back(uniforms_json(
+            gpu_view(request.camera, pattern[spread(i, pattern.size())], program.middle)));
     }
     if (json["key"] == known) return answer;
     json["vertex"] = program.vertex;

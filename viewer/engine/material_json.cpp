@@ -20,7 +20,7 @@ std::size_t place_of(const std::string& word, const char* const (&words)[N]) {
     throw InputError("the page's document has an unknown word: \"" + word + "\"");
 }
 
-Json json_of(const Spectrum& spectrum) {
+Json spectrum_json(const Spectrum& spectrum) {
     return {{"nm", spectrum.wavelengths_nm()}, {"values", spectrum.values()}};
 }
 
@@ -37,7 +37,7 @@ Spectrum spectrum_from(const Json& json) {
     return {std::move(nm), std::move(values)};
 }
 
-Json json_of(const RefractiveIndex& index) {
+Json index_json(const RefractiveIndex& index) {
     return {{"form", k_forms[static_cast<std::size_t>(index.form)]},
             {"n", index.n},
             {"cauchy", index.cauchy},
@@ -45,7 +45,7 @@ Json json_of(const RefractiveIndex& index) {
             {"d", index.d},
             {"B", index.B},
             {"C", index.C},
-            {"table", json_of(index.table)}};
+            {"table", spectrum_json(index.table)}};
 }
 
 RefractiveIndex index_from(const Json& json) {
@@ -67,8 +67,9 @@ RefractiveIndex index_from(const Json& json) {
 Json json_of(const Material& material) {
     Json index = Json::array(), absorption = Json::array();
     for (int ray = 0; ray < ray_count(material.optic); ++ray) {
-        index.push_back(json_of(material.index[static_cast<std::size_t>(ray)]));
-        absorption.push_back(json_of(material.absorption_per_mm[static_cast<std::size_t>(ray)]));
+        index.push_back(index_json(material.index[static_cast<std::size_t>(ray)]));
+        absorption.push_back(
+            spectrum_json(material.absorption_per_mm[static_cast<std::size_t>(ray)]));
     }
     Json json{{"id", material.id},
               {"name", material.name},

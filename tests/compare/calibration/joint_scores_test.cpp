@@ -15,11 +15,11 @@ namespace {
 
 using test::k_missing;
 
-std::vector<double> scores_at(double log_error, std::mt19937_64& random) {
+std::vector<double> scores_for(double log_error, std::mt19937_64& random) {
     return test::scores_at(log_error, 3, random);
 }
 
-JointDraws drawn(int each, std::mt19937_64& random) {
+JointDraws drawn_scores(int each, std::mt19937_64& random) {
     JointDraws draws;
     for (int l = 0; l < 7; ++l) draws.levels.push_back(-4 + 0.75 * l);
     draws.curves.assign(4, {});
@@ -27,7 +27,7 @@ JointDraws drawn(int each, std::mt19937_64& random) {
         for (const double level : draws.levels) curve.push_back(-level);
     for (const double level : draws.levels) {
         draws.draws.emplace_back();
-        for (int i = 0; i < each; ++i) draws.draws.back().push_back(scores_at(level, random));
+        for (int i = 0; i < each; ++i) draws.draws.back().push_back(scores_for(level, random));
     }
     return draws;
 }
@@ -37,12 +37,12 @@ JointDraws drawn(int each, std::mt19937_64& random) {
 // 0.258.
 TEST(JointScores, copies_of_a_score_are_one_witness) {
     std::mt19937_64 random(7);
-    const JointScores joint(drawn(40, random));
+    const JointScores joint(drawn_scores(40, random));
     double squares = 0;
     constexpr int k_trials = 2000;
     for (int i = 0; i < k_trials; ++i) {
         const double truth = -3 + 2.0 * i / k_trials;
-        const auto answer = joint.of(scores_at(truth, random));
+        const auto answer = joint.of(scores_for(truth, random));
         ASSERT_TRUE(answer);
         squares += (answer->log_error - truth) * (answer->log_error - truth);
     }
@@ -52,21 +52,21 @@ TEST(JointScores, copies_of_a_score_are_one_witness) {
 
 TEST(JointScores, scores_that_disagree_as_none_drawn_do_have_a_misfit_over_one) {
     std::mt19937_64 random(8);
-    const JointScores joint(drawn(40, random));
+    const JointScores joint(drawn_scores(40, random));
     EXPECT_GT(joint.of({2, 2, 0, 2})->misfit, 1);  // copies that differ by 100 of their noises
     EXPECT_LT(joint.of({2, 2, 2, 2})->misfit, 0.1);
     EXPECT_NEAR(joint.of({2, 2, 2, 2})->log_error, -2, 0.02);
     // The draws themselves set the scale.
     std::mt19937_64 again(8);
     double largest = 0;
-    for (const auto& level : drawn(40, again).draws)
+    for (const auto& level : drawn_scores(40, again).draws)
         for (const auto& draw : level) largest = std::max(largest, joint.of(draw)->misfit);
     EXPECT_NEAR(largest, 1, 1e-9);
 }
 
 TEST(JointScores, a_missing_score_is_left_out_and_none_is_no_answer) {
     std::mt19937_64 random(9);
-    const JointScores joint(drawn(20, random));
+    const JointScores joint(drawn_scores(20, random));
     EXPECT_NEAR(joint.of({k_missing, 2, k_missing, 2})->log_error, -2, 0.02);
     EXPECT_FALSE(joint.of({k_missing, k_missing, k_missing, k_missing}));
     EXPECT_FALSE(JointScores().of({}));
@@ -74,7 +74,7 @@ TEST(JointScores, a_missing_score_is_left_out_and_none_is_no_answer) {
 
 TEST(JointScores, of_draws_without_complete_ones_treats_scores_as_independent) {
     std::mt19937_64 random(10);
-    JointDraws draws = drawn(20, random);
+    JointDraws draws = drawn_scores(20, random);
     for (auto& level : draws.draws)
         for (std::size_t i = 0; i < level.size(); ++i) level[i][i % 4] = k_missing;
     const JointScores joint(draws);

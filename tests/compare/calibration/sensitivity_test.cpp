@@ -14,7 +14,7 @@ namespace {
 
 // Scores that fall with the facet error as is known, and scatter a little: "zncc" mostly at large
 // errors, "psnr" at all, "cw_ssim" hardly.
-std::vector<std::optional<double>> scores_at(double deg, Chance& chance, double scatter = 0.1) {
+std::vector<std::optional<double>> scores_near(double deg, Chance& chance, double scatter = 0.1) {
     const double noisy = std::max(deg, 0.01) * std::exp(scatter * chance.normal());
     return {1 / (1 + 0.5 * noisy), 30 - 6 * std::log10(noisy),
             0.9 - 0.02 * noisy + 0.01 * chance.normal()};
@@ -28,7 +28,7 @@ Calibration synthetic_calibration(int draws = 8) {
     levels.push_back(0);
     for (const double deg : levels) {
         for (int k = 0; k < draws; ++k) {
-            calibration.draws.push_back({World::facet_error, "", deg, scores_at(deg, chance)});
+            calibration.draws.push_back({World::facet_error, "", deg, scores_near(deg, chance)});
         }
     }
     for (const World world : {World::light, World::pose, World::both}) {
@@ -70,7 +70,7 @@ TEST(FacetErrorScale, finds_the_error_that_made_the_scores) {
     int inside = 0, all = 0;
     for (const double deg : {0.05, 0.08, 0.15, 0.3, 0.7, 1.0}) {
         for (int k = 0; k < 10; ++k) {
-            const EquivalentError found = scale.of(scores_at(deg, chance));
+            const EquivalentError found = scale.of(scores_near(deg, chance));
             ASSERT_TRUE(found.deg.has_value());
             EXPECT_LT(std::abs(std::log(*found.deg / deg)), std::log(1.5)) << deg;
             inside += found.low_deg <= deg && deg <= found.high_deg ? 1 : 0;
@@ -98,7 +98,7 @@ TEST(FacetErrorScale, trusts_the_score_that_scatters_less) {
     const Calibration calibration = synthetic_calibration();
     const FacetErrorScale scale(calibration, calibration.keys);
     Chance chance(13);
-    const auto curves = scale.curves(scores_at(0.1, chance));
+    const auto curves = scale.curves(scores_near(0.1, chance));
     double psnr = 0, cw_ssim = 0, sum = 0;
     for (const SensitivityCurve& curve : curves) {
         sum += curve.weight;
@@ -121,7 +121,7 @@ TEST(FacetErrorScale, of_too_few_levels_is_not_usable) {
 TEST(CalibratedVerdict, of_a_right_stone_is_a_match_and_its_sentence_says_so) {
     Chance chance(14);
     const CalibratedVerdict verdict =
-        calibrated_verdict(scores_of(scores_at(0.2, chance)), synthetic_calibration());
+        calibrated_verdict(scores_of(scores_near(0.2, chance)), synthetic_calibration());
     EXPECT_EQ(verdict.verdict, Verdict::match);
     EXPECT_NE(verdict.headline.find("fits as well as the same stone with 0."), std::string::npos);
     EXPECT_NE(verdict.headline.find("sigma from chance"), std::string::npos);
@@ -144,7 +144,7 @@ TEST(CalibratedVerdict, grows_less_with_the_error) {
     for (const double deg : {0.03, 0.1, 0.3, 0.9}) {
         Chance chance(15);
         const double evidence =
-            calibrated_verdict(scores_of(scores_at(deg, chance, 0)), calibration).evidence;
+            calibrated_verdict(scores_of(scores_near(deg, chance, 0)), calibration).evidence;
         EXPECT_LT(evidence, before);
         before = evidence;
     }

@@ -15,7 +15,7 @@ namespace {
 
 using namespace culet;
 
-Scene brilliant_scene() {
+Scene hard_scene() {
     Scene scene = plain_scene(round_brilliant());
     look(scene, {0.21, 0.34, 1}, 10);
     return scene;
@@ -24,7 +24,7 @@ Scene brilliant_scene() {
 // A ray that met other facets than its beam's is traced anew, with the stone's index over that of
 // what surrounds it.
 TEST(HardCases, retraced_rays_of_an_immersed_stone_are_the_references) {
-    Scene scene = brilliant_scene();
+    Scene scene = hard_scene();
     smooth_lights()[1].make(scene);
     scene.immersion = 1.33;
     scene.stone.material.index[0].n = 1.76;
@@ -39,7 +39,7 @@ TEST(HardCases, retraced_rays_of_an_immersed_stone_are_the_references) {
 TEST(HardCases, maps_of_front_facets_lose_and_double_no_area) {
     for (const bool parallel_camera : {true, false}) {
         for (const Refraction kind : {Refraction::perspective, Refraction::parallel}) {
-            Scene scene = brilliant_scene();
+            Scene scene = hard_scene();
             look(scene, {0.1, 0.23, 1}, 12);
             scene.camera.width = scene.camera.height = 401;
             if (parallel_camera) scene.camera.orthographic_width = 2.2;
@@ -56,7 +56,7 @@ TEST(HardCases, maps_of_front_facets_lose_and_double_no_area) {
 
 // Parallel rays stay parallel: all kinds of map are the same, and exact.
 TEST(HardCases, all_refractions_draw_the_same_orthographic_picture) {
-    Scene scene = brilliant_scene();
+    Scene scene = hard_scene();
     smooth_lights()[1].make(scene);
     scene.camera.orthographic_width = 2.2;
     const RenderResult exact = with_engine(scene, "beams", 16);
@@ -95,7 +95,7 @@ TEST(HardCases, near_lights_seen_along_wrong_sequences_are_numbers) {
 TEST(HardCases, orthographic_pictures_in_lights_with_edges_are_numbers) {
     for (const std::string engine : {"beams", "preview"}) {
         for (const std::size_t light : {0u, 1u, 5u}) {
-            Scene scene = brilliant_scene();
+            Scene scene = hard_scene();
             edged_lights()[light].make(scene);
             scene.camera.orthographic_width = 2.2;
             const RenderResult beams = with_engine(scene, engine, 16);
@@ -159,7 +159,7 @@ TEST(HardCases, beams_of_near_views_do_not_overlap) {
 
 // cos^0 is 1 on the lobe's side and 0 on the other, as in the reference.
 TEST(HardCases, a_lobe_of_exponent_0_shines_from_one_side) {
-    Scene scene = brilliant_scene();
+    Scene scene = hard_scene();
     scene.lights = {};
     scene.lights.sources.push_back(
         CosinePowerLight{glm::normalize(Vec3{0.2, 0.3, 1}), 0, {2.0, {}}});
@@ -171,7 +171,7 @@ TEST(HardCases, a_lobe_of_exponent_0_shines_from_one_side) {
 // What hides the stone is not the stone: coverage, and the means over the stone.
 TEST(HardCases, a_light_before_the_stone_is_not_counted_as_the_stone) {
     for (const int samples : {1, 16}) {
-        Scene scene = brilliant_scene();
+        Scene scene = hard_scene();
         const Vec3 to_eye = glm::normalize(scene.camera.position);
         scene.lights.sources.push_back(
             SphereLight{2.5 * to_eye + Vec3{0.4, 0.3, 0}, 0.25, {0.7, {}}});
@@ -194,7 +194,7 @@ TEST(HardCases, a_light_before_the_stone_is_not_counted_as_the_stone) {
 TEST(HardCases, the_tolerance_is_kept_in_small_pictures) {
     for (const int side : {40, 96, 300}) {
         for (const double tolerance : {0.01, 2e-3}) {
-            Scene scene = brilliant_scene();
+            Scene scene = hard_scene();
             scene.camera.width = scene.camera.height = side;
             scene.settings.tolerance = tolerance;
             scene.settings.depth = 0;
@@ -206,7 +206,7 @@ TEST(HardCases, the_tolerance_is_kept_in_small_pictures) {
 
 // A camera is more than a place: what a lens calls for is planned anew.
 TEST(HardCases, a_frame_through_a_lens_is_that_of_a_fresh_renderer) {
-    Scene scene = brilliant_scene();
+    Scene scene = hard_scene();
     smooth_lights()[1].make(scene);
     scene.settings.samples = 16;
     FrameRenderer frames(scene);
@@ -219,7 +219,7 @@ TEST(HardCases, a_frame_through_a_lens_is_that_of_a_fresh_renderer) {
 
 // From far away the cut that keeps the tolerance is another one than from near by.
 TEST(HardCases, a_frame_from_elsewhere_has_the_limits_of_a_fresh_renderer) {
-    Scene scene = brilliant_scene();
+    Scene scene = hard_scene();
     smooth_lights()[1].make(scene);
     scene.settings.samples = 16;
     scene.settings.tolerance = 0.1;

@@ -36,7 +36,7 @@ void expect_as_reference(Scene scene, double most_off = 1e-3) {
     EXPECT_NEAR(covered, exact, std::max(2.0, most_off * exact));
 }
 
-Scene brilliant_scene() {
+Scene shaded_scene() {
     Scene scene = plain_scene(round_brilliant());
     look(scene, {0.21, 0.34, 1}, 10);
     return scene;
@@ -52,7 +52,7 @@ TEST(SingleRays, are_the_references_in_every_light) {
     for (const auto& lights : {smooth_lights(), edged_lights()}) {
         for (const NamedChange& light : lights) {
             SCOPED_TRACE("seed 20280, " + light.name);
-            for (Scene scene : {brilliant_scene(), random_scene(random, 16)}) {
+            for (Scene scene : {shaded_scene(), random_scene(random, 16)}) {
                 light.make(scene);
                 expect_as_reference(scene);
             }
@@ -64,7 +64,7 @@ TEST(SingleRays, are_the_references_through_all_optics) {
     std::mt19937_64 random(20281);
     for (const NamedChange& change : optics()) {
         SCOPED_TRACE("seed 20281, " + change.name);
-        for (Scene scene : {brilliant_scene(), random_scene(random, 16)}) {
+        for (Scene scene : {shaded_scene(), random_scene(random, 16)}) {
             smooth_lights()[1].make(scene);
             scene.lights.constant = 0.3;
             nth_light<CosinePowerLight>(scene.lights, 0).radiance.value = Rgb{1.0, 2.0, 3.0};
@@ -78,7 +78,7 @@ TEST(SingleRays, are_the_references_in_an_environment) {
     for (const int width : {8, 64, 512}) {
         for (const bool spectral : {false, true}) {
             SCOPED_TRACE(width);
-            Scene scene = brilliant_scene();
+            Scene scene = shaded_scene();
             scene.lights.constant = 0;
             scene.lights.environment = smooth_environment(width);
             if (spectral) scene.settings.wavelengths_nm = {450, 550, 640};
@@ -97,7 +97,7 @@ TEST(SingleRays, are_the_references_in_an_environment) {
 TEST(SingleRays, are_the_references_at_every_depth) {
     for (const int depth : {1, 2, 3, 12, 24}) {
         SCOPED_TRACE(depth);
-        Scene scene = brilliant_scene();
+        Scene scene = shaded_scene();
         smooth_lights()[1].make(scene);
         scene.settings.depth = depth;
         // Every facet met adds borders between ways, and rounding.
@@ -130,7 +130,7 @@ TEST(SingleRays, are_the_references_of_stones_with_slivers) {
 }
 
 TEST(SingleRays, are_the_references_where_only_a_part_is_seen) {
-    Scene scene = brilliant_scene();
+    Scene scene = shaded_scene();
     smooth_lights()[1].make(scene);
     scene.camera.look_at = {0.4, 0.3, 0};
     scene.camera.fov = 0.06;
@@ -168,7 +168,7 @@ TEST(Furnace, sends_back_what_goes_in) {
 TEST(Furnace, counts_what_is_cut) {
     for (const std::string engine : {"beams", "preview"}) {
         for (const double tolerance : {0.1, 0.01}) {
-            Scene scene = brilliant_scene();
+            Scene scene = shaded_scene();
             scene.settings.tolerance = tolerance;
             scene.settings.depth = 0;
             const RenderStats stats = with_engine(scene, engine, 16).stats;
@@ -202,7 +202,7 @@ TEST_F(Targets, of_every_instruction_set_draw_the_same_picture) {
         const double tolerance = number < edged ? 3e-3 : number == edged ? 2e-5 : 1e-4;
         for (const int samples : {1, 16}) {
             SCOPED_TRACE(light.name);
-            Scene scene = brilliant_scene();
+            Scene scene = shaded_scene();
             light.make(scene);
             optics()[5].make(scene);
             ASSERT_TRUE(use_shading_target(shading_targets().front()));

@@ -13,7 +13,7 @@ namespace {
 
 using namespace culet;
 
-constexpr double k_n = 2.417;
+constexpr double k_stone = 2.417;
 
 // A ray through the stone: where it is at its last facet.
 struct Walk {
@@ -107,11 +107,11 @@ void expect_exact_to_first_order(const Camera& camera, const Solid& solid, const
                                  int depth, double step, double most) {
     const ScreenView view = screen_view(camera);
     const EyeRays eyes(camera);
-    const std::vector<Plane> met = planes_met(solid, eyes.through(at.x, at.y), depth, k_n);
-    const Pencil pencil = pencil_through(view, at, met.front(), k_n);
-    const PencilMap map = map_at(view, at, met, k_n, Refraction::astigmatic, pencil);
+    const std::vector<Plane> met = planes_met(solid, eyes.through(at.x, at.y), depth, k_stone);
+    const Pencil pencil = pencil_through(view, at, met.front(), k_stone);
+    const PencilMap map = map_at(view, at, met, k_stone, Refraction::astigmatic, pencil);
     const auto image = [&](double dx, double dy) {
-        return seen(map, walk_along(eyes.through(at.x + dx, at.y + dy), met, k_n).point);
+        return seen(map, walk_along(eyes.through(at.x + dx, at.y + dy), met, k_stone).point);
     };
     const ScreenPoint middle = image(0, 0);
     ASSERT_NEAR(middle.x, at.x, 1e-8) << "cosine " << pencil.cos_i;
@@ -162,7 +162,7 @@ TEST(PencilMaps, at_normal_incidence_have_no_direction_of_their_own) {
         SCOPED_TRACE(off);
         const ScreenView view = screen_view(scene.camera);
         const Plane table = solid.facets[static_cast<std::size_t>(find_facet(solid, "T"))].plane;
-        const Pencil pencil = pencil_through(view, {200.5 + off, 200.5}, table, k_n);
+        const Pencil pencil = pencil_through(view, {200.5 + off, 200.5}, table, k_stone);
         EXPECT_NEAR(glm::length(pencil.tangential), 1, 1e-12);
         EXPECT_NEAR(glm::length(pencil.sagittal), 1, 1e-12);
         EXPECT_NEAR(glm::dot(pencil.tangential, table.normal), 0, 1e-10);
@@ -204,13 +204,13 @@ TEST(PencilMaps, of_a_parallel_camera_are_exact_of_every_kind) {
         const EyeRays eyes(scene.camera);
         const ScreenPoint at{pixel(random), pixel(random)};
         const std::vector<Plane> met =
-            planes_met(scene.stone.solid, eyes.through(at.x, at.y), 2 + i % 6, k_n);
-        const Pencil pencil = pencil_through(view, at, met.front(), k_n);
+            planes_met(scene.stone.solid, eyes.through(at.x, at.y), 2 + i % 6, k_stone);
+        const Pencil pencil = pencil_through(view, at, met.front(), k_stone);
         const double x = pixel(random), y = pixel(random);
-        const Vec3 point = walk_along(eyes.through(x, y), met, k_n).point;
+        const Vec3 point = walk_along(eyes.through(x, y), met, k_stone).point;
         for (const Refraction kind :
              {Refraction::astigmatic, Refraction::perspective, Refraction::parallel}) {
-            const ScreenPoint p = seen(map_at(view, at, met, k_n, kind, pencil), point);
+            const ScreenPoint p = seen(map_at(view, at, met, k_stone, kind, pencil), point);
             EXPECT_NEAR(p.x, x, 1e-8);
             EXPECT_NEAR(p.y, y, 1e-8);
         }
@@ -230,12 +230,12 @@ TEST(PencilMaps, of_all_kinds_agree_from_far_away) {
         const EyeRays eyes(scene.camera);
         const ScreenPoint at{200.5, 200.5};
         const std::vector<Plane> met =
-            planes_met(scene.stone.solid, eyes.through(at.x, at.y), 5, k_n);
-        const Pencil pencil = pencil_through(view, at, met.front(), k_n);
-        const Vec3 point = walk_along(eyes.through(230, 180), met, k_n).point;
+            planes_met(scene.stone.solid, eyes.through(at.x, at.y), 5, k_stone);
+        const Pencil pencil = pencil_through(view, at, met.front(), k_stone);
+        const Vec3 point = walk_along(eyes.through(230, 180), met, k_stone).point;
         for (const Refraction kind :
              {Refraction::astigmatic, Refraction::perspective, Refraction::parallel}) {
-            const ScreenPoint p = seen(map_at(view, at, met, k_n, kind, pencil), point);
+            const ScreenPoint p = seen(map_at(view, at, met, k_stone, kind, pencil), point);
             // Depths of some 10 over 1e6, of 30 pixels; the grazing front facets of some stones
             // make it ten times more.
             EXPECT_NEAR(p.x, 230, 1e-2);

@@ -18,7 +18,7 @@ using test::RoundProportions;
 using test::with_error;
 
 // Diamond at the sodium line.
-constexpr double k_diamond = 2.4176;
+constexpr double k_diamond_d = 2.4176;
 // Proportions in the middle of the trade's window for hearts and arrows.
 const RoundProportions k_ideal{.table = 56, .lower = 77};
 
@@ -30,10 +30,10 @@ struct Found {
 Found found_in(const Solid& solid) {
     const EyeLightTracer tracer(solid);
     const EyeLightLimits limits{.regions = true};
-    return {
-        find_hearts(
-            scope_map(tracer.trace({0, 0, -1}, k_diamond, limits), reflector_bands(true), 600)),
-        find_arrows(scope_map(tracer.trace({0, 0, 1}, k_diamond, limits), reflector_bands(), 600))};
+    return {find_hearts(scope_map(tracer.trace({0, 0, -1}, k_diamond_d, limits),
+                                  reflector_bands(true), 600)),
+            find_arrows(
+                scope_map(tracer.trace({0, 0, 1}, k_diamond_d, limits), reflector_bands(), 600))};
 }
 
 // Light straight down through the table is reflected by two opposite mains and leaves under
@@ -42,18 +42,18 @@ Found found_in(const Solid& solid) {
 TEST(Scopes, the_tables_aset_colour_flips_at_a_pavilion_of_40_76) {
     const auto reflection_at = [](double pavilion) {
         const Solid solid = round_brilliant({.table = 57, .pavilion = pavilion, .lower = 77});
-        const EyeLight light = EyeLightTracer(solid).trace({0, 0, 1}, k_diamond);
+        const EyeLight light = EyeLightTracer(solid).trace({0, 0, 1}, k_diamond_d);
         return table_reflection(light, find_facet(solid, "T"));
     };
     const auto green_at = [](double pavilion) {
         const Solid solid = round_brilliant({.table = 57, .pavilion = pavilion, .lower = 77});
-        const EyeLight light = EyeLightTracer(solid).trace({0, 0, 1}, k_diamond);
+        const EyeLight light = EyeLightTracer(solid).trace({0, 0, 1}, k_diamond_d);
         return aset_shares(light, find_facet(solid, "T")).green;
     };
     EXPECT_STREQ(reflection_at(40.76 + 0.05).colour, "red");
     EXPECT_STREQ(reflection_at(40.76 - 0.05).colour, "green");
     for (const double pavilion : {40.0, 40.7, 41.0}) {
-        const double out = std::asin(k_diamond * std::sin(radians(180 - 4 * pavilion)));
+        const double out = std::asin(k_diamond_d * std::sin(radians(180 - 4 * pavilion)));
         EXPECT_NEAR(reflection_at(pavilion).elevation, radians(90) - out, 1e-9) << pavilion;
     }
     // The table's share of green goes at once, by what that reflection has: it is one beam.
@@ -126,7 +126,7 @@ TEST(Scopes, no_hearts_are_found_in_a_step_cut_pavilion_without_any) {
 // scatter of a scatter of 30 draws (1/sqrt(2 x 29) = 13 %), three times.
 TEST(GradeSigma, is_the_slope_times_sigma) {
     const Solid solid = round_brilliant(k_ideal);
-    const GradeIndex index{k_diamond, {}};
+    const GradeIndex index{k_diamond_d, {}};
     GradeOptions options;
     const int main = find_facet(solid, "P3");
     const double sigma = radians(0.005);
@@ -156,8 +156,8 @@ TEST(GradeSigma, is_the_slope_times_sigma) {
             planes.push_back({facet.name, plane});
         }
         const EyeLight light =
-            EyeLightTracer(intersect_half_spaces(planes).solid).trace({0, 0, 1}, k_diamond);
-        return 100 * light_return(light, -1, options.head, RandomSky(1, k_diamond)).whole[1];
+            EyeLightTracer(intersect_half_spaces(planes).solid).trace({0, 0, 1}, k_diamond_d);
+        return 100 * light_return(light, -1, options.head, RandomSky(1, k_diamond_d)).whole[1];
     };
     const double slope = (cos_return(sigma) - cos_return(-sigma)) / 2;
     EXPECT_NEAR(found.figures.at("cos") / std::abs(slope), 1, 0.4);
@@ -181,7 +181,7 @@ TEST(GradeSigma, knows_correlated_errors) {
                 together.covariance[3 * i * size + 3 * j] = variance;
         }
     }
-    const GradeIndex index{k_diamond, {}};
+    const GradeIndex index{k_diamond_d, {}};
     const GradeSigma alone = grade_sigma(solid, index, {}, apart, 24);
     const GradeSigma all = grade_sigma(solid, index, {}, together, 24);
     EXPECT_FALSE(alone.correlated);
@@ -195,7 +195,7 @@ TEST(GradeSigma, knows_correlated_errors) {
 
 TEST(FacetCosts, names_the_facet_that_is_off) {
     const Solid ideal = round_brilliant(k_ideal);
-    const GradeIndex index{k_diamond, {}};
+    const GradeIndex index{k_diamond_d, {}};
     EXPECT_TRUE(facet_costs(ideal, index, {}).empty());
     const Solid flawed = with_error(ideal, "P3", -0.8);
     const std::vector<FacetCost> costs = facet_costs(flawed, index, {});
@@ -206,7 +206,7 @@ TEST(FacetCosts, names_the_facet_that_is_off) {
 }
 
 TEST(PathSection, shows_the_textbooks_path) {
-    const PathSection section = path_section(round_brilliant(), k_diamond, radians(10));
+    const PathSection section = path_section(round_brilliant(), k_diamond_d, radians(10));
     EXPECT_GE(section.outline.size(), 7u);
     ASSERT_EQ(section.paths.size(), 13u);
     // Through the table beside the middle: two mains, then out of the crown.
@@ -231,12 +231,12 @@ TEST(Grade, takes_stones_whose_meets_miss) {
     for (Vec3& v : flawed.vertices) v += 1e-7 * Vec3{std::sin(1e7 * v.x), std::sin(1e7 * v.y), 0};
     GradeOptions options;
     options.coarse = true;
-    EXPECT_GT(grade_stone(flawed, {k_diamond, {}}, options).balance.useful, 0.5);
+    EXPECT_GT(grade_stone(flawed, {k_diamond_d, {}}, options).balance.useful, 0.5);
     // A dent is none of these.
     Solid dented = round_brilliant(k_ideal);
     for (Vec3& v : dented.vertices)
         if (v.z < -0.8) v.z = -0.2;
-    EXPECT_THROW(grade_stone(dented, {k_diamond, {}}, options), InputError);
+    EXPECT_THROW(grade_stone(dented, {k_diamond_d, {}}, options), InputError);
 }
 
 TEST(Upright, turns_a_stone_that_lies_on_its_side) {

@@ -74,7 +74,7 @@ double winding(const std::vector<Triangle>& surface, const Vec3& point) {
     return angle / (4 * M_PI);
 }
 
-double volume_of(const Shell& shell) {
+double volume_of_part(const Shell& shell) {
     double volume = 0;
     for (const auto& t : shell.triangles)
         volume +=
@@ -104,7 +104,7 @@ protected:
 TEST_P(EveryMounting, IsClosedShellsThatFaceOutward) {
     for (const SettingPart& part : setting_.parts) {
         EXPECT_TRUE(is_closed(part.shell)) << part.name;
-        EXPECT_GT(volume_of(part.shell), 0) << part.name;
+        EXPECT_GT(volume_of_part(part.shell), 0) << part.name;
         // Euler: 2 for a wire with ends, 0 for a ring. Each edge has two triangles.
         const auto faces = static_cast<int>(part.shell.triangles.size());
         const int euler = static_cast<int>(part.shell.vertices.size()) - faces / 2;
