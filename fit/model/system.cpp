@@ -179,8 +179,7 @@ void System::list_incidences(const FitOptions& options) {
         const std::vector<int>& facets = edges_.facets_of_vertex[v];
         for (int f : facets) {
             Incidence incidence{static_cast<int>(v), f, MeetTreatment::exact, 0, -1};
-            // What outlines show is what the planes enclose: corners come and go.
-            if (facets.size() > 3 || options.free_corners) incidence.how = options.meets;
+            if (facets.size() > 3) incidence.how = options.meets;
             incidences_.push_back(incidence);
         }
     }
@@ -228,7 +227,8 @@ void System::list_incidences(const FitOptions& options) {
                                    reading.sigma / scale_, static_cast<int>(r)});
         }
     }
-    splits_ = std::any_of(incidences_.begin(), incidences_.end(),
+    splits_ = options.free_corners ||
+              std::any_of(incidences_.begin(), incidences_.end(),
                           [](const Incidence& i) { return i.how != MeetTreatment::exact; });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "stone/units.h"
 
@@ -10,17 +11,17 @@ namespace culet {
 
 namespace {
 
-// The mean of a place's distances is off by chance as a normal variable is; of ten thousand places
-// none is so far off.
-constexpr double k_significant = 5;
+// The mean of a place's distances is off by chance as a normal variable is: of thirty thousand
+// places one is so far off.
+constexpr double k_significant = 4;
 // And no less than this part of the scatter of one point.
 constexpr double k_depth = 1.0;
 // Points this near to a corner, as part of the shorter edge there, lie on what would be cut off.
 constexpr double k_near_corner = 0.25;
 // A plane so near to another is that plane.
 const double k_same_plane = radians(0.3);
-// As part of the angle between the edges at a corner: nearer than this, two cuts are of one place.
-constexpr double k_apart = 0.4;
+// As part of a cut's angle to the nearest plane: nearer than this, two cuts are of one place.
+constexpr double k_apart = 0.8;
 
 struct Place {
     double weight = 0, sum = 0;
@@ -33,7 +34,7 @@ struct Place {
 
 struct Cut {
     Plane plane;
-    double depth = 0, apart = 0;
+    double depth = 0;
 };
 
 // Means of one outline's distances along its edges and near their two ends.
@@ -52,10 +53,10 @@ std::vector<EdgePlaces> places_of(const PlaneFitProblem& problem, const PlaneFit
     for (std::size_t i = 0; i < contour.points.size(); ++i) {
         const auto& [edge, distance] = fit.distances.nearest[c][i];
         // What stands out over the body is dust; it does not speak against a cut beside it.
-        if (edge < 0 || distance > k_outlier * scale) continue;
+        const double w = contour.weights[i];
+        if (edge < 0 || std::sqrt(w) * distance > k_outlier * scale) continue;
         const auto k = std::size_t(edge);
         const ProjectedOutline::Edge& e = outline.edges[k];
-        const double w = contour.weights[i];
         const double along =
             outline.part_of(e, contour.points[i][0] + at.dx, contour.points[i][1] + at.dy) *
             e.length;
@@ -86,14 +87,10 @@ void add_cuts(const PlaneFitProblem& problem, const PlaneFit& fit, std::size_t c
         return e.nx * at.across + e.ny * at.along;
     };
     for (std::size_t k = 0; k < count; ++k) {
-        const ProjectedOutline::Edge &e = outline.edges[k], &next = outline.edges[(k + 1) % count],
-                                     &last = outline.edges[(k + count - 1) % count];
+        const ProjectedOutline::Edge &e = outline.edges[k], &next = outline.edges[(k + 1) % count];
         const Vec3 n = normal(e);
         if (stands_out(places[k].whole, scale)) {
-            const double apart =
-                k_apart * std::min(angle_between(n, normal(last)), angle_between(n, normal(next)));
-            cuts.push_back(
-                {{n, e.offset + places[k].whole.mean()}, -places[k].whole.mean(), apart});
+            cuts.push_back({{n, e.offset + places[k].whole.mean()}, -places[k].whole.mean()});
         }
         Place corner = places[k].end;
         const Place& other = places[(k + 1) % count].begin;
@@ -102,9 +99,7 @@ void add_cuts(const PlaneFitProblem& problem, const PlaneFit& fit, std::size_t c
         if (!stands_out(corner, scale)) continue;
         const Vec3 between = glm::normalize(n + normal(next));
         const Vec3& tip = fit.body.corners[std::size_t(e.to)];
-        cuts.push_back({{between, glm::dot(between, tip) + corner.mean()},
-                        -corner.mean(),
-                        k_apart * angle_between(n, normal(next))});
+        cuts.push_back({{between, glm::dot(between, tip) + corner.mean()}, -corner.mean()});
     }
 }
 
@@ -119,14 +114,15 @@ std::vector<Plane> missing_planes(const PlaneFitProblem& problem, const PlaneFit
     std::vector<Plane> planes;
     for (const Cut& cut : cuts) {
         if (planes.size() >= most) break;
-        const auto near = [&](const Plane& other, double within) {
-            return angle_between(cut.plane.normal, other.normal) < within;
+        const auto nearest = [&](const std::vector<Plane>& others) {
+            double angle = std::numbers::pi;
+            for (const Plane& other : others) {
+                angle = std::min(angle, angle_between(cut.plane.normal, other.normal));
+            }
+            return angle;
         };
-        const bool is_there = std::any_of(fit.planes.begin(), fit.planes.end(),
-                                          [&](const Plane& p) { return near(p, k_same_plane); }) ||
-                              std::any_of(planes.begin(), planes.end(), [&](const Plane& p) {
-                                  return near(p, std::max(cut.apart, k_same_plane));
-                              });
+        const double old = nearest(fit.planes);
+        const bool is_there = old < k_same_plane || nearest(planes) < k_apart * old;
         if (!is_there) planes.push_back(cut.plane);
     }
     return planes;

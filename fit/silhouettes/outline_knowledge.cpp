@@ -81,6 +81,8 @@ ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& 
     const Eigen::LDLT<Eigen::MatrixXd> factor(matrix);
     Eigen::MatrixXd half = factor.matrixU();
     half = half * factor.transpositionsP();
+    // To the last digit: the fit tells by it that no row sees a motion.
+    half -= half * motions * (motions.transpose() * motions).ldlt().solve(motions.transpose());
     const Eigen::VectorXd d = factor.vectorD();
     // One that is known to a radian or a width is not known; and rounding is none.
     const double least = std::max(1.0, 1e-13 * d.maxCoeff());

@@ -12,9 +12,9 @@ namespace {
 using Step = Eigen::Matrix<double, 7, 1>;  // shift, turn, logarithm of the scale
 using Normal = Eigen::Matrix<double, 7, 7>;
 
-constexpr int k_most_steps = 60;
+constexpr int k_most_registration_steps = 60;
 // A step that gains less than this part of what is left ends it.
-constexpr double k_no_gain = 1e-9;
+constexpr double k_no_registration_gain = 1e-9;
 
 Vec3 turned_about(const Vec3& v, const Vec3& turn) {
     const double angle = glm::length(turn);
@@ -58,7 +58,7 @@ public:
     Similarity run(Similarity at) {
         look(at);
         double damping = 1e-4;
-        for (int i = 0; i < k_most_steps && damping < 1e8; ++i) {
+        for (int i = 0; i < k_most_registration_steps && damping < 1e8; ++i) {
             const double scale = scale_, before = cost(scale);
             const Step step = solved(scale, damping);
             const Similarity next = moved(at, middle_, step);
@@ -67,7 +67,8 @@ public:
             if (after < before) {
                 at = next;
                 damping = std::max(1e-9, damping / 5);
-                if (before - after < k_no_gain * before && scale_ > 0.999 * scale) break;
+                if (before - after < k_no_registration_gain * before && scale_ > 0.999 * scale)
+                    break;
             } else {
                 look(at);
                 damping *= 10;

@@ -163,7 +163,7 @@ private:
     std::span<const FlatContour> contours_;
 };
 
-struct Found {
+struct Trial {
     Similarity at;
     double cost = 0;
 };
@@ -182,7 +182,7 @@ Similarity found_registration(std::span<const Vec3> corners, const Vec3& up,
     }
     // What lies farther off than this part of the width is of another place or the holder.
     const double allowed = 0.01 * width;
-    std::vector<Found> found;
+    std::vector<Trial> found;
     constexpr int k_azimuths = 180;
     for (const Vec3& axis : axes.all) {
         for (int k = 0; k < k_azimuths; ++k) {
@@ -193,10 +193,10 @@ Similarity found_registration(std::span<const Vec3> corners, const Vec3& up,
         }
     }
     std::stable_sort(found.begin(), found.end(),
-                     [](const Found& a, const Found& b) { return a.cost < b.cost; });
+                     [](const Trial& a, const Trial& b) { return a.cost < b.cost; });
     constexpr std::size_t k_tried = 12;
     found.resize(std::min(k_tried, found.size()));
-    Found best = found.front();
+    Trial best = found.front();
     for (std::size_t i = 0; i < found.size(); ++i) {
         const Similarity s = registered(corners, few, found[i].at, all);
         const double cost = registration_cost(corners, few, s, 0.25 * allowed);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fit/readings/measurement.h"
+#include "fit/silhouettes/silhouette.h"
 #include "stone/toml_file.h"
 #include "stone/units.h"
 
