@@ -54,7 +54,10 @@ std::vector<EdgePlaces> places_of(const PlaneFitProblem& problem, const PlaneFit
         const auto& [edge, distance] = fit.distances.nearest[c][i];
         // What stands out over the body is dust; it does not speak against a cut beside it.
         const double w = contour.weights[i];
-        if (edge < 0 || std::sqrt(w) * distance > k_outlier * scale) continue;
+        if (edge < 0) continue;
+        if (!(inlier_weight(std::sqrt(w) * std::max(distance, 0.0), scale, problem.reach) > 0)) {
+            continue;
+        }
         const auto k = std::size_t(edge);
         const ProjectedOutline::Edge& e = outline.edges[k];
         const double along =

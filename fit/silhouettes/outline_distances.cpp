@@ -48,9 +48,10 @@ double robust_scale(const OutlineDistances& distances, std::span<const FlatConto
     return 1.4826 * *middle;
 }
 
-double inlier_weight(double distance, double scale) {
+double inlier_weight(double distance, double scale, double reach) {
     const double size = std::abs(distance);
     if (size <= k_sure * scale) return 1;
+    if (reach > k_outlier * scale) return size > reach ? 0 : k_sure * scale / size;
     return size >= k_outlier * scale ? 0
                                      : (k_outlier * scale - size) / ((k_outlier - k_sure) * scale);
 }

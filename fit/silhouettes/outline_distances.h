@@ -30,8 +30,10 @@ double robust_scale(const OutlineDistances& distances, std::span<const FlatConto
                     int set);
 
 /// 1 for a distance within `k_sure` scales, 0 from `k_outlier` on, linear in between (Hampel's
-/// descending weight): of normal errors one in 16 000 is weighted down.
-double inlier_weight(double distance, double scale);
+/// descending weight): of normal errors one in 16 000 is weighted down. With a `reach` (a length)
+/// what is farther off than `k_sure` scales counts by its sign (Huber), and what is beyond reach
+/// does not: on the way a good point may lie far off.
+double inlier_weight(double distance, double scale, double reach = 0);
 inline constexpr double k_sure = 4, k_outlier = 7;
 
 SilhouetteMisfit misfit_of(const OutlineDistances& distances, std::span<const FlatContour> contours,

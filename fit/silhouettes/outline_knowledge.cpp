@@ -47,13 +47,10 @@ Eigen::MatrixXd unheld_motions(const std::vector<Plane>& planes, double width, c
     return all;
 }
 
+// Beside what the start says of them.
 std::vector<int> unseen_planes(const Eigen::MatrixXd& matrix) {
-    // Beside a start that is known to some degrees and per cents.
-    Eigen::MatrixXd with_start = matrix;
-    const double start = 1 / std::pow(4 * k_unseen_tilt, 2);
-    with_start.diagonal().array() += start;
-    const Eigen::MatrixXd covariance = with_start.selfadjointView<Eigen::Lower>().llt().solve(
-        Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
+    const Eigen::MatrixXd covariance =
+        matrix.llt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
     std::vector<int> unseen;
     for (Eigen::Index p = 0; 3 * p < matrix.rows(); ++p) {
         const double variance = covariance(3 * p, 3 * p) + covariance(3 * p + 1, 3 * p + 1);
@@ -71,13 +68,12 @@ ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& 
         matrix.row(i) *= width;
         matrix.col(i) *= width;
     }
+    ToldPlanes told;
+    told.unseen = unseen_planes(matrix);
     const Vec3 up = inverse(back).turned(holds.up);
     const Eigen::MatrixXd motions = unheld_motions(planes, width, up, holds);
     const Eigen::MatrixXd seen = matrix * motions;
     matrix -= seen * (motions.transpose() * seen).ldlt().solve(seen.transpose());
-
-    ToldPlanes told;
-    told.unseen = unseen_planes(matrix);
     const Eigen::LDLT<Eigen::MatrixXd> factor(matrix);
     Eigen::MatrixXd half = factor.matrixU();
     half = half * factor.transpositionsP();
@@ -100,7 +96,6 @@ ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& 
             row.offset.push_back(offset);
         }
     }
-    told.tells_all = Eigen::Index(told.rows.size()) == matrix.rows() - motions.cols();
     return told;
 }
 

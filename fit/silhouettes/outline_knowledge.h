@@ -17,7 +17,6 @@ struct FrameHolds {
 
 struct ToldPlanes {
     std::vector<OutlineKnowledge::Row> rows;
-    bool tells_all = false;
     std::vector<int> unseen;  ///< planes whose tilt the outlines hardly know
 };
 

@@ -72,7 +72,6 @@ PlaneInformation plane_information(const PlaneFitProblem& problem, const PlaneFi
     const PlaneSolver solver(problem);
     const PlaneState state{fit.planes, fit.motions, fit.body, fit.distances};
     const auto weights = solver.weights(state, fit.scales);
-
     const std::vector<double>& scales = fit.scales;
     PlaneInformation information;
     const std::size_t sets = problem.motions.size();
@@ -105,7 +104,7 @@ PlaneInformation plane_information(const PlaneFitProblem& problem, const PlaneFi
         information.chi2_dof += count[s] - own;
     }
     const PlaneSolver::Equations equations =
-        solver.equations(state, weights, information.sigmas, false);
+        solver.equations(state, weights, information.sigmas, true);
     const Eigen::MatrixXd whole = equations.matrix.selfadjointView<Eigen::Lower>();
     const Eigen::Index planes = 3 * solver.planes(), rest = whole.rows() - planes;
     information.matrix = whole.topLeftCorner(planes, planes);

@@ -24,6 +24,7 @@ struct PlaneFitProblem {
     std::vector<double> stated_sigmas;  ///< of the sets; 0: estimated
     std::vector<Plane> start;           ///< planes that no outline tells of stay there
     double width = 1;                   ///< of the stone
+    double reach = 0;                   ///< of `inlier_weight`
 };
 
 struct PlaneFit {
@@ -44,8 +45,8 @@ PlaneFit fit_planes(const PlaneFitProblem& problem, const std::vector<Plane>& pl
 /// squares / (points - parameters)).
 struct PlaneInformation {
     std::vector<double> sigmas;
-    /// Of all planes, two tilts along `tangents(normal)` and an offset each: J' J / sigma^2, the
-    /// motions of free sets eliminated (Schur complement).
+    /// Of all planes, two tilts along `tangents(normal)` and an offset each: J' J / sigma^2 and
+    /// what the start says, the motions of free sets eliminated (Schur complement).
     Eigen::MatrixXd matrix;
     double chi2 = 0;  ///< of sets whose sigma is stated
     double chi2_dof = 0;

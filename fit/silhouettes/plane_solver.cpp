@@ -122,7 +122,7 @@ PlaneSolver::Weights PlaneSolver::weights(const PlaneState& state,
         for (std::size_t i = 0; i < contour.points.size(); ++i) {
             const double w = contour.weights[i];
             mine.push_back(w * inlier_weight(std::sqrt(w) * state.distances.nearest[c][i].distance,
-                                             scales[std::size_t(contour.set)]));
+                                             scales[std::size_t(contour.set)], problem_.reach));
         }
     }
     return all;

@@ -18,6 +18,8 @@ namespace culet {
 
 namespace {
 
+// On the way points count that lie no farther off than this part of the width.
+constexpr double k_reach = 0.01;
 constexpr int k_first_steps = 40, k_round_steps = 8, k_last_steps = 30, k_rounds = 8;
 // A stone has no more facets; the fit's equations are dense in them.
 constexpr std::size_t k_most_planes = 400;
@@ -89,6 +91,7 @@ Found find_planes(PlaneFitProblem& problem, const std::function<void()>& goes_on
     for (std::size_t f = 0; f < problem.start.size(); ++f) found.mesh_facet.push_back(int(f));
     found.fit.planes = problem.start;
     found.fit.motions = problem.motions;
+    problem.reach = k_reach * problem.width;
     run_on(problem, k_first_steps, goes_on, found);
     for (int round = 0; round < k_rounds; ++round) {
         const std::size_t room = k_most_planes - std::min(k_most_planes, problem.start.size());
@@ -103,6 +106,7 @@ Found find_planes(PlaneFitProblem& problem, const std::function<void()>& goes_on
         keep(kept_planes(found.fit, mesh_planes(found)), problem, found);
         run_on(problem, 0, goes_on, found);
     }
+    problem.reach = 0;
     for (int round = 0; round < 3; ++round) {
         run_on(problem, k_last_steps, goes_on, found);
         const std::vector<bool> kept = kept_planes(found.fit, mesh_planes(found));
@@ -226,7 +230,6 @@ SilhouetteFit fit_silhouettes(const Stone& mesh, const Sets& sets,
     auto knowledge = std::make_shared<OutlineKnowledge>();
     for (const Facet& facet : result.stone.solid.facets) knowledge->planes.push_back(facet.plane);
     knowledge->rows = std::move(told.rows);
-    knowledge->tells_all = told.tells_all;
     knowledge->chi2 = information.chi2;
     knowledge->dof = information.chi2_dof;
     for (std::size_t s = 0; s < sets.size(); ++s) {

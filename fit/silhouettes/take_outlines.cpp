@@ -40,6 +40,23 @@ std::string sigma_note(const Reading& reading, const OutlineKnowledge& told, con
         reading.id, told.sigmas[set], name_of(stone.unit));
 }
 
+std::string words_of(const std::string& id, const SilhouetteFinding& finding,
+                     std::string_view unit) {
+    const SilhouetteMisfit& misfit = finding.misfit;
+    std::string words = fmt::format(
+        "{}: {} points of {} outline{} lie {:.2g} {} (root mean square) from the stone's", id,
+        misfit.points, misfit.contours, misfit.contours == 1 ? "" : "s", misfit.rms, unit);
+    if (finding.held_out) {
+        words += fmt::format(", those of the {} held out {:.2g} {}", finding.held_out->contours,
+                             finding.held_out->rms, unit);
+    }
+    if (misfit.outliers > 0) {
+        words += fmt::format("; {} {} left out as dust or the holder", misfit.outliers,
+                             misfit.outliers == 1 ? "is" : "are");
+    }
+    return words;
+}
+
 void judge_outlines(const OutlineKnowledge& told, FitResult& result) {
     if (!(told.dof > 0)) return;
     const double limit = chi2_quantile(result.log.options.significance, told.dof);
@@ -151,6 +168,7 @@ void describe_outlines(const std::vector<Reading>& readings, FitResult& result) 
             finding.held_out = silhouette_misfit(result.solid, outlines.contours, outlines.held_out,
                                                  told->motions[set]);
         }
+        result.log.notes.push_back(words_of(reading.id, finding, name_of(result.unit)));
         fitted->silhouette = finding;
     }
     if (told != nullptr) judge_outlines(*told, result);

@@ -13,8 +13,6 @@
 #include <iostream>
 
 #include "fit/fit.h"
-#include "fit/silhouettes/outline_distances.h"
-#include "fit/silhouettes/registration.h"
 #include "fit/silhouettes/silhouette_fit.h"
 #include "fit/silhouettes/silhouette_io.h"
 #include "stone/cuts/cuts.h"
@@ -84,6 +82,7 @@ void measure(const std::filesystem::path& folder, const std::string& cut) {
         (i % 2 == 0 ? set.contours : set.held_out).push_back(read.contours[i]);
     }
     const auto contours = set.contours, held_out = set.held_out;
+    if (const char* power = std::getenv("CULET_BENCH_POWER")) for (auto& c : set.contours) for (auto& w : c.weights) w = std::pow(w, std::atof(power));
     Stone mesh;
     mesh.solid = make_cut(cut);
     mesh.up_facet = "T";
@@ -94,22 +93,14 @@ void measure(const std::filesystem::path& folder, const std::string& cut) {
     const Clocks begin = clocks();
     const FitInput input = fit_input(mesh, {written});
     const Clocks middle = clocks();
-    const FitResult result = fit_stone(input);
+    FitOptions options;
+    options.prior.source = Prior::Source::catalogue;
+    const FitResult result = fit_stone(input, options);
     const Clocks end = clocks();
     const SilhouetteFinding& finding = *result.readings.back().silhouette;
     const SilhouetteMisfit theirs = silhouette_misfit(scan, contours, held_out, {});
     // The scanner's place to the stone's: as the contours lie to both.
     const FacetErrors facets = facet_errors(result, input.readings.back().told->motions[0], scan);
-    if (std::getenv("CULET_BENCH_DEBUG") != nullptr) {
-        fmt::print("rows {} of {}, tells all {}, rank defect {}\n", input.readings.back().told->rows.size(), 3*result.facets.size(), input.readings.back().told->tells_all, result.statistics.rank_defect);
-        for (auto& n : input.notes) fmt::print("note {}\n", n);
-        const auto m = inverse(input.readings.back().told->motions[0]);
-        std::vector<Vec3> corners; for (auto v: result.solid.vertices) corners.push_back(m.moved(v));
-        std::vector<FlatContour> flat; for (int i=0;i<6;++i) flat.push_back(flattened(contours[i*15],0));
-        std::vector<FrameMotion> same(1);
-        auto d = outline_distances(corners, flat, same);
-        for (std::size_t c=0;c<flat.size();++c) for (std::size_t i=0;i<flat[c].points.size();++i) if (std::abs(d.nearest[c][i].distance)>0.003) { const auto& e=d.outlines[c].edges[d.nearest[c][i].edge]; fmt::print("contour {} point {} d {:.4f} w {:.3f} at {:.3f} {:.3f} edge n {:.3f} {:.3f} len {:.3f}\n", c,i,d.nearest[c][i].distance, flat[c].weights[i], flat[c].points[i][0], flat[c].points[i][1], e.nx,e.ny,e.length);}
-    }
     fmt::print("{}: {} contours, {} held out\n", folder.filename().string(), contours.size(),
                held_out.size());
     fmt::print(

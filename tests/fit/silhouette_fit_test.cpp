@@ -53,6 +53,12 @@ Stone catalogue(double scale, double turn_deg, const Vec3& shift) {
     return stone_of(solid);
 }
 
+FitOptions without_findings() {
+    FitOptions options;
+    options.findings = false;
+    return options;
+}
+
 FitInput input_of(const Stone& mesh, SilhouetteSet set, std::vector<WrittenReading> others = {}) {
     WrittenReading written;
     written.kind = "silhouette";
@@ -166,7 +172,7 @@ TEST(SilhouetteFit, sigmas_hold_and_are_found_from_the_residuals) {
         SilhouetteSet set =
             turntable_outlines(truth, {.views = 72, .points = 400, .sigma = 0.001, .seed = seed});
         const FitResult result =
-            fit_stone(input_of(catalogue(1, 0, {0, 0, 0}), std::move(set)), {.findings = false});
+            fit_stone(input_of(catalogue(1, 0, {0, 0, 0}), std::move(set)), without_findings());
         const Errors errors = errors_of(result, truth, 0.02);
         EXPECT_LT(errors.rms_deg, 0.05) << seed;
         within += errors.within_sigma * errors.facets;
@@ -205,7 +211,7 @@ TEST(SilhouetteFit, readings_and_outlines_are_one_least_squares) {
     const SilhouetteSet set =
         turntable_outlines(truth, {.views = 72, .points = 400, .sigma = 0.002});
     const Stone mesh = catalogue(1, 0, {0, 0, 0});
-    const FitResult alone = fit_stone(input_of(mesh, set), {.findings = false});
+    const FitResult alone = fit_stone(input_of(mesh, set), without_findings());
     const auto facet = [](const FitResult& r, const char* name) {
         return *std::find_if(r.facets.begin(), r.facets.end(),
                              [&](const FittedFacet& f) { return f.name == name; });
@@ -216,7 +222,7 @@ TEST(SilhouetteFit, readings_and_outlines_are_one_least_squares) {
     w.of = {"P3"};
     w.value = degrees(std::numbers::pi - before.inclination + 2 * before.sigma_inclination);
     w.sigma = degrees(before.sigma_inclination);
-    const FitResult both = fit_stone(input_of(mesh, set, {w}), {.findings = false});
+    const FitResult both = fit_stone(input_of(mesh, set, {w}), without_findings());
     const FittedFacet after = facet(both, "P3");
     EXPECT_NEAR(after.inclination, before.inclination - before.sigma_inclination,
                 0.02 * before.sigma_inclination);
