@@ -223,8 +223,12 @@ ShadowContours read_shadow_contours(const std::filesystem::path& file, LengthUni
             if (!(confidence > 0)) {
                 ++read.sides_left_out;
             } else if (span > 0) {
-                // A line through pixels is the better known the more of them there are.
-                add_side(from, to, confidence * span, contour);
+                // A line through pixels is the better known the more of them there are; as they are
+                // not independent, less so than their number says. Of two scanned diamonds, half
+                // of the outlines are foretold best with the root of the length (left-out rms 0.364
+                // and 0.365 of the scanner's own; with the length 0.452, with neither 0.400 and
+                // 0.343: bench_silhouettes).
+                add_side(from, to, confidence * std::sqrt(span), contour);
             }
         }
         if (!contour.points.empty()) read.contours.push_back(std::move(contour));

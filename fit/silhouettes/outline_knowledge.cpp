@@ -75,8 +75,10 @@ ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& 
     const Eigen::MatrixXd seen = matrix * motions;
     matrix -= seen * (motions.transpose() * seen).ldlt().solve(seen.transpose());
     const Eigen::LDLT<Eigen::MatrixXd> factor(matrix);
-    Eigen::MatrixXd half = factor.matrixU();
-    half = half * factor.transpositionsP();
+    // Not U * P: Eigen 3.4 swaps columns in the order of rows.
+    const Eigen::MatrixXd order =
+        factor.transpositionsP() * Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
+    Eigen::MatrixXd half = Eigen::MatrixXd(factor.matrixU()) * order;
     // To the last digit: the fit tells by it that no row sees a motion.
     half -= half * motions * (motions.transpose() * motions).ldlt().solve(motions.transpose());
     const Eigen::VectorXd d = factor.vectorD();

@@ -13,6 +13,7 @@
 #include "fit/silhouettes/registration.h"
 #include "fit/silhouettes/silhouette_start.h"
 #include "stone/errors.h"
+#include "stone/units.h"
 
 namespace culet {
 
@@ -25,11 +26,12 @@ constexpr int k_first_steps = 40, k_round_steps = 8, k_last_steps = 30, k_rounds
 constexpr std::size_t k_most_planes = 400;
 // A facet that outlines added and that is narrower than so many of its offset's sigmas is none.
 constexpr double k_narrow = 4;
+const double k_alike = radians(6.0);
 
 using Sets = std::vector<std::shared_ptr<const SilhouetteSet>>;
 
 // Planes that have no facet, or that outlines added and that are too narrow to be one.
-std::vector<bool> kept_planes(const PlaneFit& fit, std::size_t of_mesh) {
+std::vector<bool> kept_planes(const PlaneFit& fit, std::size_t of_mesh, bool at_the_end) {
     double scale = 0;
     for (const double s : fit.scales) scale = std::max(scale, s);
     std::vector<bool> kept = fit.body.present;
@@ -38,7 +40,22 @@ std::vector<bool> kept_planes(const PlaneFit& fit, std::size_t of_mesh) {
         if (plane < of_mesh) continue;
         kept[plane] = narrow_width(fit.body.solid, facet) > k_narrow * scale;
     }
+    // On the way a facet of the mesh may come back.
+    for (std::size_t p = 0; p < of_mesh && !at_the_end; ++p) kept[p] = true;
     return kept;
+}
+
+// A cut that looks much as a facet of the mesh does for which there was no room is that facet.
+bool is_lost_facet(const Plane& cut, PlaneFitProblem& problem, PlaneFit& fit, std::size_t of_mesh) {
+    for (std::size_t p = 0; p < of_mesh; ++p) {
+        if (fit.body.present[p] || angle_between(problem.start[p].normal, cut.normal) > k_alike) {
+            continue;
+        }
+        problem.start[p] = fit.planes[p] = cut;
+        fit.body.present[p] = true;
+        return true;
+    }
+    return false;
 }
 
 // Planes of the mesh stay where they come first, in its order.
@@ -98,18 +115,19 @@ Found find_planes(PlaneFitProblem& problem, const std::function<void()>& goes_on
         const std::vector<Plane> more = missing_planes(problem, found.fit, room);
         if (more.empty()) break;
         for (const Plane& plane : more) {
+            if (is_lost_facet(plane, problem, found.fit, mesh_planes(found))) continue;
             problem.start.push_back(plane);
             found.fit.planes.push_back(plane);
             found.mesh_facet.push_back(-1);
         }
         run_on(problem, k_round_steps, goes_on, found);
-        keep(kept_planes(found.fit, mesh_planes(found)), problem, found);
+        keep(kept_planes(found.fit, mesh_planes(found), false), problem, found);
         run_on(problem, 0, goes_on, found);
     }
     problem.reach = 0;
     for (int round = 0; round < 3; ++round) {
         run_on(problem, k_last_steps, goes_on, found);
-        const std::vector<bool> kept = kept_planes(found.fit, mesh_planes(found));
+        const std::vector<bool> kept = kept_planes(found.fit, mesh_planes(found), true);
         if (std::count(kept.begin(), kept.end(), false) == 0) break;
         keep(kept, problem, found);
     }
@@ -185,6 +203,12 @@ Stone named_stone(const Stone& mesh, const Found& found, const FrameMotion& back
     Stone stone = mesh;
     stone.solid = intersect_half_spaces(planes).solid;
     stone.facets_are_whole = true;
+    if (!mesh.up_facet.empty() && find_facet(stone.solid, mesh.up_facet) < 0) {
+        throw InputError(
+            fmt::format("the outlines leave no room for the facet '{}' that `up` of [stone] names: "
+                        "start from a cut more like the stone, or give `up` as a vector",
+                        mesh.up_facet));
+    }
     if (stone.solid.facets.size() != planes.size()) {
         throw InputError(
             "facets of the outlines come and go by rounding: the outlines are of no "

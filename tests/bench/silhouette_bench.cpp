@@ -82,7 +82,6 @@ void measure(const std::filesystem::path& folder, const std::string& cut) {
         (i % 2 == 0 ? set.contours : set.held_out).push_back(read.contours[i]);
     }
     const auto contours = set.contours, held_out = set.held_out;
-    if (const char* power = std::getenv("CULET_BENCH_POWER")) for (auto& c : set.contours) for (auto& w : c.weights) w = std::pow(w, std::atof(power));
     Stone mesh;
     mesh.solid = make_cut(cut);
     mesh.up_facet = "T";

@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <random>
 
 #include "fit/fit.h"
+#include "fit/model/shape.h"
 #include "fit/silhouettes/plane_solver.h"
 #include "fit/silhouettes/registration.h"
 #include "stone/errors.h"
@@ -88,6 +90,7 @@ Errors errors_of(const FitResult& result, const Solid& truth, double least_area)
         const double is = inclination(t.plane.normal, {0, 0, 1});
         const double off = degrees(f->inclination - is);
         squares += off * off;
+        if (std::getenv("H_DEBUG")) fmt::print("{} off {:.4f} sigma {:.4f} angle {:.4f} area {:.3f} az {:.2f} T {}\n", t.name, off, degrees(f->sigma_inclination), 0.0, area(truth,t), degrees(f->azimuth-azimuth(t.plane.normal)), result.message.substr(0,200));
         errors.worst_deg = std::max(errors.worst_deg, std::abs(off));
         within += std::abs(f->inclination - is) < f->sigma_inclination;
         ++errors.facets;
@@ -228,6 +231,44 @@ TEST(SilhouetteFit, readings_and_outlines_are_one_least_squares) {
                 0.02 * before.sigma_inclination);
     EXPECT_NEAR(after.sigma_inclination, before.sigma_inclination / std::numbers::sqrt2,
                 0.02 * before.sigma_inclination);
+}
+
+TEST(SilhouetteDebug, sigma) {
+    const Solid truth = off_standard(brilliant(), 0.3, 0.008, 9);
+    const SilhouetteSet set =
+        turntable_outlines(truth, {.views = 72, .points = 400, .sigma = 0.002});
+    const FitInput in = input_of(catalogue(1, 0, {0, 0, 0}), set);
+    const auto& told = *in.readings.back().told;
+    const int P = int(told.planes.size());
+    Eigen::MatrixXd R(told.rows.size(), 3 * P);
+    for (std::size_t k = 0; k < told.rows.size(); ++k)
+        for (int f = 0; f < P; ++f) {
+            const auto [t, u] = tangents(told.planes[f].normal);
+            R(k, 3 * f) = glm::dot(t, told.rows[k].normal[f]);
+            R(k, 3 * f + 1) = glm::dot(u, told.rows[k].normal[f]);
+            R(k, 3 * f + 2) = told.rows[k].offset[f];
+        }
+    Eigen::MatrixXd H = R.transpose() * R;
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> es(H);
+    fmt::print("rows {} of {}; eig {:.3g} {:.3g} {:.3g} {:.3g} {:.3g} {:.3g} {:.3g} {:.3g} .. {:.3g}\n", told.rows.size(), 3*P, es.eigenvalues()(0), es.eigenvalues()(1),es.eigenvalues()(2),es.eigenvalues()(3),es.eigenvalues()(4),es.eigenvalues()(5),es.eigenvalues()(6),es.eigenvalues()(7),es.eigenvalues()(3*P-1));
+    Eigen::VectorXd inv = es.eigenvalues();
+    for (int i = 0; i < inv.size(); ++i) inv(i) = i < 6 ? 0 : 1 / inv(i);
+    Eigen::MatrixXd C = es.eigenvectors() * inv.asDiagonal() * es.eigenvectors().transpose();
+    const int T = find_facet(in.stone.solid, "T");
+    const FitResult r = fit_stone(in, without_findings());
+    for (int f = 0; f < P; f += 3) {
+        if (f == T) continue;
+        const Vec3 n = told.planes[f].normal, z = told.planes[T].normal;
+        Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * P);
+        const auto [t, u] = tangents(n);
+        const auto [tt, tu] = tangents(z);
+        const double s = std::sqrt(1 - std::pow(glm::dot(n, z), 2));
+        g(3 * f) = -glm::dot(t, z) / s;
+        g(3 * f + 1) = -glm::dot(u, z) / s;
+        g(3 * T) = -glm::dot(tt, n) / s;
+        g(3 * T + 1) = -glm::dot(tu, n) / s;
+        fmt::print("{} own {:.4f} system {:.4f}\n", in.stone.solid.facets[f].name, degrees(std::sqrt(g.dot(C * g))), degrees(r.facets[f].sigma_inclination));
+    }
 }
 
 TEST(SilhouetteFit, refuses_meets_of_the_mesh_and_its_corners) {
