@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 #include "fit/model/orbits.h"
 #include "fit/model/system.h"
@@ -25,22 +27,59 @@ double turn_about_up(const OutlineRows& seen, const Shape& shape) {
     return along == 0 && across == 0 ? 0 : std::atan2(across, along);
 }
 
-// The turn's own derivative is left out: to a turn of the whole stone a row is blind.
+// Slopes without their parts along the motions that a row is blind to (shifts, and a turn about
+// up): where normals are off those that were seen, by as little as that, it would see them.
+class BlindToMotions {
+public:
+    explicit BlindToMotions(const Shape& shape) : shape_(shape) {
+        glm::dmat3 sum(0.0);
+        for (const Vec3& n : shape.normals) {
+            sum += glm::outerProduct(n, n);
+            turn_size_ += n.x * n.x + n.y * n.y;
+        }
+        inverse_ = glm::inverse(sum);
+    }
+    void take_out(bool turns, std::vector<Vec3>& normal, std::vector<double>& offset) const {
+        Vec3 shift(0);
+        double turn = 0;
+        for (std::size_t f = 0; f < normal.size(); ++f) {
+            shift += offset[f] * shape_.normals[f];
+            turn += glm::dot(normal[f], turned(f));
+        }
+        shift = inverse_ * shift;
+        if (turn_size_ > 0) turn /= turn_size_;
+        for (std::size_t f = 0; f < normal.size(); ++f) {
+            offset[f] -= glm::dot(shift, shape_.normals[f]);
+            if (turns) normal[f] -= turn * turned(f);
+        }
+    }
+
+private:
+    Vec3 turned(std::size_t f) const { return {-shape_.normals[f].y, shape_.normals[f].x, 0}; }
+    const Shape& shape_;
+    glm::dmat3 inverse_{1.0};
+    double turn_size_ = 0;
+};
+
 Formula row_of(const std::shared_ptr<const OutlineRows>& seen, std::size_t k) {
     return [seen, k](const Shape& shape) {
         const OutlineRows::Row& row = seen->rows[k];
         const double turn = seen->turns ? turn_about_up(*seen, shape) : 0;
         const double cosine = std::cos(turn), sine = std::sin(turn);
         Quantity q;
-        q.slopes.reserve(2 * row.normal.size());
+        std::vector<Vec3> normal;
+        std::vector<double> offset = row.offset;
         for (std::size_t f = 0; f < row.normal.size(); ++f) {
-            const Vec3 &a = row.normal[f], &n = shape.normals[f];
-            if (a == Vec3(0) && row.offset[f] == 0) continue;
-            const Vec3 turned{cosine * a.x - sine * a.y, sine * a.x + cosine * a.y, a.z};
-            q.value += glm::dot(turned, n) - glm::dot(a, seen->normals[f]) +
-                       row.offset[f] * (shape.offsets[f] - seen->offsets[f]);
-            q.add(Quantity::By::normal, int(f), turned);
-            q.add(Quantity::By::offset, int(f), row.offset[f]);
+            const Vec3& a = row.normal[f];
+            normal.emplace_back(cosine * a.x - sine * a.y, sine * a.x + cosine * a.y, a.z);
+            q.value += glm::dot(normal[f], shape.normals[f]) - glm::dot(a, seen->normals[f]) +
+                       offset[f] * (shape.offsets[f] - seen->offsets[f]);
+        }
+        BlindToMotions(shape).take_out(seen->turns, normal, offset);
+        q.slopes.reserve(2 * normal.size());
+        for (std::size_t f = 0; f < normal.size(); ++f) {
+            q.add(Quantity::By::normal, int(f), normal[f]);
+            q.add(Quantity::By::offset, int(f), offset[f]);
         }
         return q;
     };

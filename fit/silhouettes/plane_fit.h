@@ -22,7 +22,8 @@ struct PlaneFitProblem {
     std::vector<FrameMotion> motions;   ///< of the sets, to the frame of the planes
     std::vector<bool> is_free;          ///< of the sets: the motion is one of the unknowns
     std::vector<double> stated_sigmas;  ///< of the sets; 0: estimated
-    std::vector<Plane> start;           ///< planes that no outline tells of stay there
+    std::vector<Plane> start;           ///< planes that no outline tells of stay there,
+    std::vector<double> start_tilts;    ///< within these angles
     double width = 1;                   ///< of the stone
     double reach = 0;                   ///< of `inlier_weight`
 };

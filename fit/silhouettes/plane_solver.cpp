@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "fit/model/shape.h"
-#include "stone/units.h"
 
 namespace culet {
 
@@ -13,7 +12,6 @@ namespace {
 
 // A plane that no outline tells of stays near its start, within so much: enough for the best of
 // stones and of guesses, too little to be felt beside an outline's point.
-const double k_start_tilt = radians(2.0);
 constexpr double k_start_offset = 0.02;  // of the width
 
 FrameMotion turned_and_shifted(const FrameMotion& m, const Vec3& turn, const Vec3& shift) {
@@ -141,7 +139,7 @@ double PlaneSolver::cost(const PlaneState& state, const Weights& weights,
     for (std::size_t p = 0; p < state.planes.size(); ++p) {
         const Plane &mine = state.planes[p], &its = problem_.start[p];
         const Vec3 tilt = mine.normal - its.normal;
-        sum += glm::dot(tilt, tilt) / (k_start_tilt * k_start_tilt) +
+        sum += glm::dot(tilt, tilt) / std::pow(problem_.start_tilts[p], 2) +
                std::pow((mine.offset - its.offset) / (k_start_offset * problem_.width), 2);
     }
     return sum;
@@ -208,11 +206,11 @@ PlaneSolver::Equations PlaneSolver::equations(const PlaneState& state, const Wei
         add_contour(state, c, weights[c], sigmas[std::size_t(problem_.contours[c].set)], all);
     }
     if (!with_start) return all;
-    const double tilt = 1 / (k_start_tilt * k_start_tilt),
-                 offset = 1 / std::pow(k_start_offset * problem_.width, 2);
+    const double offset = 1 / std::pow(k_start_offset * problem_.width, 2);
     for (int p = 0; p < planes_; ++p) {
         const Plane &mine = state.planes[std::size_t(p)], &its = problem_.start[std::size_t(p)];
         const auto along = tangents(mine.normal);
+        const double tilt = 1 / std::pow(problem_.start_tilts[std::size_t(p)], 2);
         for (int k = 0; k < 2; ++k) {
             all.matrix(3 * p + k, 3 * p + k) += tilt;
             all.gradient(3 * p + k) +=

@@ -7,132 +7,18 @@
 #include <glm/geometric.hpp>
 #include <set>
 
-#include "fit/silhouettes/missing_facets.h"
+#include "fit/silhouettes/find_planes.h"
 #include "fit/silhouettes/outline_knowledge.h"
 #include "fit/silhouettes/plane_fit.h"
 #include "fit/silhouettes/registration.h"
 #include "fit/silhouettes/silhouette_start.h"
 #include "stone/errors.h"
-#include "stone/units.h"
 
 namespace culet {
 
 namespace {
 
-// On the way points count that lie no farther off than this part of the width.
-constexpr double k_reach = 0.01;
-constexpr int k_first_steps = 40, k_round_steps = 8, k_last_steps = 30, k_rounds = 8;
-// A stone has no more facets; the fit's equations are dense in them.
-constexpr std::size_t k_most_planes = 400;
-// A facet that outlines added and that is narrower than so many of its offset's sigmas is none.
-constexpr double k_narrow = 4;
-const double k_alike = radians(6.0);
-
 using Sets = std::vector<std::shared_ptr<const SilhouetteSet>>;
-
-// Planes that have no facet, or that outlines added and that are too narrow to be one.
-std::vector<bool> kept_planes(const PlaneFit& fit, std::size_t of_mesh, bool at_the_end) {
-    double scale = 0;
-    for (const double s : fit.scales) scale = std::max(scale, s);
-    std::vector<bool> kept = fit.body.present;
-    for (const Facet& facet : fit.body.solid.facets) {
-        const auto plane = std::size_t(std::stoi(facet.name));
-        if (plane < of_mesh) continue;
-        kept[plane] = narrow_width(fit.body.solid, facet) > k_narrow * scale;
-    }
-    // On the way a facet of the mesh may come back.
-    for (std::size_t p = 0; p < of_mesh && !at_the_end; ++p) kept[p] = true;
-    return kept;
-}
-
-// A cut that looks much as a facet of the mesh does for which there was no room is that facet.
-bool is_lost_facet(const Plane& cut, PlaneFitProblem& problem, PlaneFit& fit, std::size_t of_mesh) {
-    for (std::size_t p = 0; p < of_mesh; ++p) {
-        if (fit.body.present[p] || angle_between(problem.start[p].normal, cut.normal) > k_alike) {
-            continue;
-        }
-        problem.start[p] = fit.planes[p] = cut;
-        fit.body.present[p] = true;
-        return true;
-    }
-    return false;
-}
-
-// Planes of the mesh stay where they come first, in its order.
-struct Found {
-    PlaneFit fit;
-    std::vector<int> mesh_facet;  ///< of each plane; -1: the outlines added it
-    std::vector<int> lost;        ///< facets of the mesh
-};
-
-// Only these planes go on.
-void keep(const std::vector<bool>& kept, PlaneFitProblem& problem, Found& found) {
-    std::vector<Plane> start, planes;
-    std::vector<int> facets;
-    for (std::size_t p = 0; p < kept.size(); ++p) {
-        if (!kept[p]) {
-            if (found.mesh_facet[p] >= 0) found.lost.push_back(found.mesh_facet[p]);
-            continue;
-        }
-        start.push_back(problem.start[p]);
-        planes.push_back(found.fit.planes[p]);
-        facets.push_back(found.mesh_facet[p]);
-    }
-    problem.start = std::move(start);
-    found.fit.planes = std::move(planes);
-    found.mesh_facet = std::move(facets);
-}
-
-// From where an earlier round ended; the start's pull stays where the start was.
-void run_on(const PlaneFitProblem& problem, int steps, const std::function<void()>& goes_on,
-            Found& found) {
-    const int before = found.fit.steps;
-    PlaneFitProblem from_here = problem;
-    from_here.motions = found.fit.motions;
-    found.fit = fit_planes(from_here, found.fit.planes, steps, goes_on);
-    found.fit.steps += before;
-    if (!found.fit.body.closed) {
-        throw InputError(
-            "the planes of the outlines enclose no stone: are they of this stone, and "
-            "their directions along the line of sight?");
-    }
-}
-
-std::size_t mesh_planes(const Found& found) {
-    return std::size_t(std::count_if(found.mesh_facet.begin(), found.mesh_facet.end(),
-                                     [](int f) { return f >= 0; }));
-}
-
-Found find_planes(PlaneFitProblem& problem, const std::function<void()>& goes_on) {
-    Found found;
-    for (std::size_t f = 0; f < problem.start.size(); ++f) found.mesh_facet.push_back(int(f));
-    found.fit.planes = problem.start;
-    found.fit.motions = problem.motions;
-    problem.reach = k_reach * problem.width;
-    run_on(problem, k_first_steps, goes_on, found);
-    for (int round = 0; round < k_rounds; ++round) {
-        const std::size_t room = k_most_planes - std::min(k_most_planes, problem.start.size());
-        const std::vector<Plane> more = missing_planes(problem, found.fit, room);
-        if (more.empty()) break;
-        for (const Plane& plane : more) {
-            if (is_lost_facet(plane, problem, found.fit, mesh_planes(found))) continue;
-            problem.start.push_back(plane);
-            found.fit.planes.push_back(plane);
-            found.mesh_facet.push_back(-1);
-        }
-        run_on(problem, k_round_steps, goes_on, found);
-        keep(kept_planes(found.fit, mesh_planes(found), false), problem, found);
-        run_on(problem, 0, goes_on, found);
-    }
-    problem.reach = 0;
-    for (int round = 0; round < 3; ++round) {
-        run_on(problem, k_last_steps, goes_on, found);
-        const std::vector<bool> kept = kept_planes(found.fit, mesh_planes(found), true);
-        if (std::count(kept.begin(), kept.end(), false) == 0) break;
-        keep(kept, problem, found);
-    }
-    return found;
-}
 
 std::string name_of_added(const Vec3& normal, const Solid& mesh, const std::vector<Vec3>& normals,
                           std::set<std::string>& taken) {
@@ -147,7 +33,8 @@ std::string name_of_added(const Vec3& normal, const Solid& mesh, const std::vect
 }
 
 // The rigid motion that brings what was fitted back to the mesh: its place, and up as it was.
-FrameMotion to_mesh_frame(const Stone& mesh, const SilhouetteStart& start, const Found& found) {
+FrameMotion to_mesh_frame(const Stone& mesh, const SilhouetteStart& start,
+                          const FoundPlanes& found) {
     if (start.in_mesh_frame) return {};
     FrameMotion back = inverse(start.from_mesh.motion);
     Vec3 middle(0), mine(0);
@@ -184,7 +71,7 @@ FrameMotion product(const FrameMotion& a, const FrameMotion& b) {
 }
 
 // The stone in the mesh's place, facets named.
-Stone named_stone(const Stone& mesh, const Found& found, const FrameMotion& back) {
+Stone named_stone(const Stone& mesh, const FoundPlanes& found, const FrameMotion& back) {
     std::set<std::string> taken;
     std::vector<Vec3> normals;
     for (const Facet& f : mesh.solid.facets) {
@@ -238,8 +125,8 @@ SilhouetteFit fit_silhouettes(const Stone& mesh, const Sets& sets,
             "[[silhouette]] tables out of the stone file");
     }
     SilhouetteStart start = silhouette_start(mesh, sets);
-    const Found found = find_planes(
-        start.problem, goes_on ? goes_on : [] {});
+    const FoundPlanes found = find_planes(
+        mesh, start.problem, goes_on ? goes_on : [] {});
     SilhouetteFit result;
     const FrameMotion back = to_mesh_frame(mesh, start, found);
     result.stone = named_stone(mesh, found, back);

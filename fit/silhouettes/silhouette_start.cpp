@@ -5,9 +5,17 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "stone/units.h"
+
 namespace culet {
 
 namespace {
+
+// No facet of a catalogue's is off by more than a few times this.
+const double k_start_tilt = radians(2.0);
+// Where the up facet is not seen the stone stands on it, square to the axis of the turntable; the
+// registration finds the axis as well as this.
+const double k_up_tilt = radians(0.3);
 
 Plane placed_plane(const Plane& plane, const Similarity& at) {
     const Vec3 normal = glm::normalize(at.motion.turned(plane.normal));
@@ -52,6 +60,7 @@ SilhouetteStart silhouette_start(const Stone& mesh,
         std::vector<Vec3> loop;
         for (const int c : facet.corners) loop.push_back(mesh.solid.vertices[std::size_t(c)]);
         problem.start.push_back(placed_plane(plane_through(loop), start.from_mesh));
+        problem.start_tilts.push_back(facet.name == mesh.up_facet ? k_up_tilt : k_start_tilt);
     }
     Vec3 least(1e300), most(-1e300);
     for (const Vec3& c : placed) {
