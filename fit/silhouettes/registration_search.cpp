@@ -168,10 +168,40 @@ struct Trial {
     double cost = 0;
 };
 
+// Each corner of one lies near some corner of the other: the same place, or one that the body's own
+// symmetry makes the same.
+bool are_alike(const std::vector<Vec3>& one, const std::vector<Vec3>& other, double within) {
+    return std::all_of(one.begin(), one.end(), [&](const Vec3& v) {
+        return std::any_of(other.begin(), other.end(),
+                           [&](const Vec3& w) { return glm::length(v - w) < within; });
+    });
+}
+
+// The best of those that are not alike.
+std::vector<Trial> different(std::vector<Trial> trials, std::span<const Vec3> corners,
+                             double within, std::size_t most) {
+    std::stable_sort(trials.begin(), trials.end(),
+                     [](const Trial& a, const Trial& b) { return a.cost < b.cost; });
+    std::vector<Trial> kept;
+    std::vector<std::vector<Vec3>> places;
+    for (const Trial& trial : trials) {
+        std::vector<Vec3> place = placed_corners(corners, trial.at);
+        if (std::any_of(places.begin(), places.end(),
+                        [&](const auto& other) { return are_alike(place, other, within); })) {
+            continue;
+        }
+        kept.push_back(trial);
+        places.push_back(std::move(place));
+        if (kept.size() == most) break;
+    }
+    return kept;
+}
+
 }  // namespace
 
-Similarity found_registration(std::span<const Vec3> corners, const Vec3& up,
-                              std::span<const FlatContour> contours) {
+std::vector<Similarity> found_registrations(std::span<const Vec3> corners, const Vec3& up,
+                                            std::span<const FlatContour> contours,
+                                            std::size_t most) {
     const std::vector<FlatContour> few = thinned(contours, 24, 60);
     const Axes axes = axes_of(contours);
     const Search search(corners, up, few);
@@ -192,17 +222,24 @@ Similarity found_registration(std::span<const Vec3> corners, const Vec3& up,
             }
         }
     }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const Trial& a, const Trial& b) { return a.cost < b.cost; });
     constexpr std::size_t k_tried = 12;
-    found.resize(std::min(k_tried, found.size()));
-    Trial best = found.front();
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        const Similarity s = registered(corners, few, found[i].at, all);
-        const double cost = registration_cost(corners, few, s, 0.25 * allowed);
-        if (i == 0 || cost < best.cost) best = {s, cost};
+    constexpr double k_alike = 0.03;  // of the width: some four degrees of turn
+    found = different(std::move(found), corners, k_alike * width, k_tried);
+    const std::vector<FlatContour> more = thinned(contours, 60, 120);
+    for (Trial& trial : found) {
+        trial.at = registered(corners, few, trial.at, all);
+        trial.cost = registration_cost(corners, more, trial.at, 0.25 * allowed);
     }
-    return registered(corners, thinned(contours, 100, 200), best.at, all);
+    std::vector<Similarity> best;
+    for (const Trial& trial : different(std::move(found), corners, k_alike * width, most)) {
+        best.push_back(registered(corners, more, trial.at, all));
+    }
+    return best;
+}
+
+Similarity found_registration(std::span<const Vec3> corners, const Vec3& up,
+                              std::span<const FlatContour> contours) {
+    return found_registrations(corners, up, contours, 1).front();
 }
 
 }  // namespace culet

@@ -47,11 +47,15 @@ FacetErrors facet_errors(const FitResult& result, const FrameMotion& to_stone, c
         // The scanner holds the table down, where no contour reaches.
         if (area(scan, facet) < k_least_area || facet.plane.normal.z < -0.99) continue;
         const Vec3 normal = to_stone.turned(facet.plane.normal);
-        double best = 1e300, offset = 0;
+        double best = 1e300, offset = 0, sigma = 0, its_area = 0;
+        std::string name;
         for (const FittedFacet& f : result.facets) {
             const double angle = angle_between(f.plane.normal, normal);
             if (angle > best || !(f.area > 0)) continue;
             best = angle;
+            sigma = degrees(f.sigma_inclination);
+            its_area = f.area;
+            name = f.name;
             offset = f.plane.offset - (facet.plane.offset + glm::dot(normal, to_stone.shift));
         }
         if (degrees(best) > k_one_facet) {
@@ -63,8 +67,10 @@ FacetErrors facet_errors(const FitResult& result, const FrameMotion& to_stone, c
         offsets += offset * offset;
         errors.worst_deg = std::max(errors.worst_deg, degrees(best));
         if (std::getenv("CULET_BENCH_FACETS") != nullptr) {
-            fmt::print("   {:>8.3f} deg {:>7.2f} um  incl {:6.2f} area {:.2f}\n", degrees(best),
-                       1e3 * offset, degrees(inclination(normal, {0, 0, 1})), area(scan, facet));
+            fmt::print(
+                "   {:>8.3f} deg {:>7.2f} um  incl {:6.2f} area {:.2f} {} {:.2f} +- {:.3f}\n",
+                degrees(best), 1e3 * offset, degrees(inclination(normal, {0, 0, 1})),
+                area(scan, facet), name, its_area, sigma);
         }
     }
     errors.rms_deg = degrees(std::sqrt(squares / std::max(1, errors.facets)));

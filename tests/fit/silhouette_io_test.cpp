@@ -77,7 +77,8 @@ TEST_F(SilhouetteFiles, a_scanners_sides_of_no_confidence_are_left_out) {
     EXPECT_EQ(read.sides_left_out, 1);
     ASSERT_EQ(read.contours[0].points.size(), 4u);
     // Weights go with the root of the length, and their mean is one: 1 and 10 to the power 1/4.
-    EXPECT_NEAR(read.contours[0].weights[2] / read.contours[0].weights[0], std::pow(10, 0.25), 1e-12);
+    EXPECT_NEAR(read.contours[0].weights[2] / read.contours[0].weights[0], std::pow(10, 0.25),
+                1e-12);
     EXPECT_NEAR(read.contours[0].weights[0] + read.contours[0].weights[2], 2, 1e-12);
     for (std::size_t cut = 0; cut + 3 < text.size(); cut += 7) {
         EXPECT_THROW(read_shadow_contours(file("cut.dat", text.substr(0, cut)), LengthUnit::mm),
