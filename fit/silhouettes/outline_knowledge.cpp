@@ -7,14 +7,14 @@
 #include "fit/model/shape.h"
 #include "fit/silhouettes/registration.h"
 #include "stone/perpendicular.h"
-#include "stone/units.h"
 
 namespace culet {
 
 namespace {
 
-// A tilt that outlines know no better than this is one that they do not show.
-const double k_unseen_tilt = radians(0.5);
+// A plane whose tilt is known no better than this part of what its start says of it is one that the
+// outlines do not show.
+constexpr double k_unseen = 0.5;
 
 // Steps of all planes in a rigid motion of the stone; offsets in widths.
 Eigen::VectorXd motion_of(const std::vector<Plane>& planes, double width, const Vec3& turn,
@@ -48,13 +48,14 @@ Eigen::MatrixXd unheld_motions(const std::vector<Plane>& planes, double width, c
 }
 
 // Beside what the start says of them.
-std::vector<int> unseen_planes(const Eigen::MatrixXd& matrix) {
+std::vector<int> unseen_planes(const Eigen::MatrixXd& matrix, const std::vector<double>& tilts) {
     const Eigen::MatrixXd covariance =
         matrix.llt().solve(Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()));
     std::vector<int> unseen;
     for (Eigen::Index p = 0; 3 * p < matrix.rows(); ++p) {
         const double variance = covariance(3 * p, 3 * p) + covariance(3 * p + 1, 3 * p + 1);
-        if (variance > k_unseen_tilt * k_unseen_tilt) unseen.push_back(int(p));
+        const double start = tilts[std::size_t(p)];
+        if (0.5 * variance > std::pow(k_unseen * start, 2)) unseen.push_back(int(p));
     }
     return unseen;
 }
@@ -62,14 +63,15 @@ std::vector<int> unseen_planes(const Eigen::MatrixXd& matrix) {
 }  // namespace
 
 ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& information,
-                       double width, const FrameMotion& back, const FrameHolds& holds) {
+                       const std::vector<double>& tilts, double width, const FrameMotion& back,
+                       const FrameHolds& holds) {
     Eigen::MatrixXd matrix = information;
     for (Eigen::Index i = 2; i < matrix.rows(); i += 3) {
         matrix.row(i) *= width;
         matrix.col(i) *= width;
     }
     ToldPlanes told;
-    told.unseen = unseen_planes(matrix);
+    told.unseen = unseen_planes(matrix, tilts);
     const Vec3 up = inverse(back).turned(holds.up);
     const Eigen::MatrixXd motions = unheld_motions(planes, width, up, holds);
     const Eigen::MatrixXd seen = matrix * motions;

@@ -17,11 +17,13 @@ struct FrameHolds {
 
 struct ToldPlanes {
     std::vector<OutlineKnowledge::Row> rows;
-    std::vector<int> unseen;  ///< planes whose tilt the outlines hardly know
+    std::vector<int> unseen;  ///< planes whose tilt the start tells, not the outlines
 };
 
-/// `information`: of planes in the frame of the outlines, `back` from there to the stone's.
+/// `information`: of planes in the frame of the outlines, with what their start says (`tilts`);
+/// `back` from there to the stone's.
 ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& information,
-                       double width, const FrameMotion& back, const FrameHolds& holds);
+                       const std::vector<double>& tilts, double width, const FrameMotion& back,
+                       const FrameHolds& holds);
 
 }  // namespace culet

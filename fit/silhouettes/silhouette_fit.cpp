@@ -136,8 +136,8 @@ SilhouetteFit fit_silhouettes(const Stone& mesh, const Sets& sets,
     holds.tilts = start.in_mesh_frame && mesh.up_facet.empty();
     holds.turn = start.in_mesh_frame && mesh.azimuth_from_mesh;
     const PlaneInformation information = plane_information(start.problem, found.fit);
-    ToldPlanes told =
-        told_planes(found.fit.planes, information.matrix, start.problem.width, back, holds);
+    ToldPlanes told = told_planes(found.fit.planes, information.matrix, start.problem.start_tilts,
+                                  start.problem.width, back, holds);
     auto knowledge = std::make_shared<OutlineKnowledge>();
     for (const Facet& facet : result.stone.solid.facets) knowledge->planes.push_back(facet.plane);
     knowledge->rows = std::move(told.rows);
@@ -157,7 +157,14 @@ SilhouetteFit fit_silhouettes(const Stone& mesh, const Sets& sets,
                                list_of(names) + ": they are left out");
     }
     names.clear();
-    for (const int p : told.unseen) {
+    // The largest first.
+    std::vector<int> unseen = told.unseen;
+    std::stable_sort(unseen.begin(), unseen.end(), [&](int a, int b) {
+        const Solid& solid = result.stone.solid;
+        return area(solid, solid.facets[std::size_t(a)]) >
+               area(solid, solid.facets[std::size_t(b)]);
+    });
+    for (const int p : unseen) {
         names.push_back(result.stone.solid.facets[std::size_t(p)].name);
     }
     if (!names.empty()) {
