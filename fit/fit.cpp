@@ -8,7 +8,7 @@
 #include "fit/hypotheses/preparations.h"
 #include "fit/hypotheses/topology.h"
 #include "fit/mesh/repair.h"
-#include "fit/silhouettes/take_outlines.h"
+#include "fit/take_outlines.h"
 #include "fit/uncertainty/prior_needed.h"
 
 namespace culet {

@@ -7,7 +7,7 @@
 
 #include "fit/readings/reading_words.h"
 #include "fit/readings/readings_csv.h"
-#include "fit/silhouettes/silhouette_io.h"
+#include "fit/readings/silhouette_tables.h"
 #include "stone/errors.h"
 #include "stone/toml_file.h"
 

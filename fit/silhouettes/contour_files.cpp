@@ -1,4 +1,4 @@
-// Files of outlines.
+#include "fit/silhouettes/contour_files.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "fit/silhouettes/silhouette.h"
-#include "fit/silhouettes/silhouette_io.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 #include "stone/text_scan.h"
@@ -131,6 +130,17 @@ void make_mean_weight_one(std::vector<Contour>& contours) {
 }
 
 }  // namespace
+
+std::size_t SilhouetteSet::points() const {
+    std::size_t count = 0;
+    for (const Contour& c : contours) count += c.points.size();
+    return count;
+}
+
+bool SilhouetteSet::has_sigma() const {
+    return std::all_of(contours.begin(), contours.end(),
+                       [](const Contour& c) { return c.sigma > 0; });
+}
 
 Contour contour_of_polygon(const Vec3& direction, const std::vector<Vec3>& corners, double sigma,
                            double weight) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "fit/model/shape.h"
+#include "fit/silhouettes/plane_body.h"
 #include "fit/silhouettes/registration.h"
 #include "stone/perpendicular.h"
 
@@ -22,7 +22,7 @@ Eigen::VectorXd motion_of(const std::vector<Plane>& planes, double width, const 
     Eigen::VectorXd step(3 * Eigen::Index(planes.size()));
     for (std::size_t p = 0; p < planes.size(); ++p) {
         const Vec3& n = planes[p].normal;
-        const auto [t, u] = tangents(n);
+        const auto [t, u] = tilts_of(n);
         const Vec3 tilt = glm::cross(turn, n);
         const auto at = 3 * Eigen::Index(p);
         step(at) = glm::dot(t, tilt);
@@ -91,7 +91,7 @@ ToldPlanes told_planes(const std::vector<Plane>& planes, const Eigen::MatrixXd& 
         const double root = std::sqrt(d(k));
         OutlineKnowledge::Row& row = told.rows.emplace_back();
         for (std::size_t p = 0; p < planes.size(); ++p) {
-            const auto [t, u] = tangents(planes[p].normal);
+            const auto [t, u] = tilts_of(planes[p].normal);
             const auto at = 3 * Eigen::Index(p);
             const double offset = root * half(k, at + 2) / width;
             const Vec3 tilt = root * (half(k, at) * t + half(k, at + 1) * u);

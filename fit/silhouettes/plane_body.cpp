@@ -6,6 +6,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "stone/perpendicular.h"
+
 namespace culet {
 
 namespace {
@@ -57,6 +59,11 @@ PlaneBody enclosed_body(std::span<const Plane> planes) {
         body.planes.push_back(squarest_crossing(planes, crossing));
     }
     return body;
+}
+
+std::array<Vec3, 2> tilts_of(const Vec3& normal) {
+    const Vec3 t = perpendicular_to(normal);
+    return {t, glm::cross(normal, t)};
 }
 
 CornerSlopes corner_slopes(std::span<const Plane> planes, const std::array<int, 3>& crossing) {

@@ -19,6 +19,9 @@ struct PlaneBody {
 
 PlaneBody enclosed_body(std::span<const Plane> planes);
 
+/// Two unit directions across a unit normal, along which a plane tilts.
+std::array<Vec3, 2> tilts_of(const Vec3& normal);
+
 /// d(corner) = sum over its three planes of along[i] * (d(offset_i) - d(normal_i) . corner).
 struct CornerSlopes {
     std::array<Vec3, 3> along{};

@@ -46,7 +46,7 @@ PlaneFit fit_planes(const PlaneFitProblem& problem, const std::vector<Plane>& pl
 /// squares / (points - parameters)).
 struct PlaneInformation {
     std::vector<double> sigmas;
-    /// Of all planes, two tilts along `tangents(normal)` and an offset each: J' J / sigma^2 and
+    /// Of all planes, two tilts along `tilts_of(normal)` and an offset each: J' J / sigma^2 and
     /// what the start says, the motions of free sets eliminated (Schur complement).
     Eigen::MatrixXd matrix;
     double chi2 = 0;  ///< of sets whose sigma is stated

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "fit/model/shape.h"
-
 namespace culet {
 
 namespace {
@@ -53,7 +51,7 @@ Slopes slopes_of_corner(const std::vector<Plane>& planes, const PlaneBody& body,
     for (std::size_t i = 0; i < 3; ++i) {
         const double along = glm::dot(direction, slopes.along[i]);
         const int p = crossing[i];
-        const auto [t, u] = tangents(planes[std::size_t(p)].normal);
+        const auto [t, u] = tilts_of(planes[std::size_t(p)].normal);
         all.add(3 * p, -along * glm::dot(t, place));
         all.add(3 * p + 1, -along * glm::dot(u, place));
         all.add(3 * p + 2, along);
@@ -209,7 +207,7 @@ PlaneSolver::Equations PlaneSolver::equations(const PlaneState& state, const Wei
     const double offset = 1 / std::pow(k_start_offset * problem_.width, 2);
     for (int p = 0; p < planes_; ++p) {
         const Plane &mine = state.planes[std::size_t(p)], &its = problem_.start[std::size_t(p)];
-        const auto along = tangents(mine.normal);
+        const auto along = tilts_of(mine.normal);
         const double tilt = 1 / std::pow(problem_.start_tilts[std::size_t(p)], 2);
         for (int k = 0; k < 2; ++k) {
             all.matrix(3 * p + k, 3 * p + k) += tilt;
@@ -227,7 +225,7 @@ PlaneState PlaneSolver::moved(const PlaneState& state, const Eigen::VectorXd& st
     next.planes = state.planes;
     for (int p = 0; p < planes_; ++p) {
         Plane& plane = next.planes[std::size_t(p)];
-        const auto [t, u] = tangents(plane.normal);
+        const auto [t, u] = tilts_of(plane.normal);
         plane.normal = glm::normalize(plane.normal + step(3 * p) * t + step(3 * p + 1) * u);
         plane.offset += step(3 * p + 2);
     }

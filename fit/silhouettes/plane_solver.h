@@ -32,7 +32,7 @@ public:
     double cost(const PlaneState& state, const Weights& weights,
                 const std::vector<double>& sigmas) const;
     /// Half of the cost's Gauss-Newton matrix (lower triangle) and gradient. Unknowns are three of
-    /// each plane, two tilts along `tangents(normal)` and the offset, then six of each free set.
+    /// each plane, two tilts along `tilts_of(normal)` and the offset, then six of each free set.
     struct Equations {
         Eigen::MatrixXd matrix;
         Eigen::VectorXd gradient;

@@ -13,8 +13,8 @@
 #include <iostream>
 
 #include "fit/fit.h"
+#include "fit/silhouettes/contour_files.h"
 #include "fit/silhouettes/silhouette_fit.h"
-#include "fit/silhouettes/silhouette_io.h"
 #include "stone/cuts/cuts.h"
 #include "stone/stone.h"
 #include "tests/bench/cpu_time.h"

@@ -1,10 +1,11 @@
 // Files of outlines: what they mean, and what is refused.
 
-#include "fit/silhouettes/silhouette_io.h"
+#include "fit/readings/silhouette_tables.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "fit/silhouettes/contour_files.h"
 #include "fit/silhouettes/silhouette.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"

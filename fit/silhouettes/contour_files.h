@@ -1,20 +1,13 @@
 #pragma once
-// The [[silhouette]] tables of a stone file, and the files that they name.
+// Files of outlines.
 
 #include <filesystem>
-#include <string>
-#include <string_view>
 #include <vector>
 
-#include "fit/readings/measurement.h"
 #include "fit/silhouettes/silhouette.h"
-#include "stone/toml_file.h"
 #include "stone/units.h"
 
 namespace culet {
-
-/// Written readings of kind `silhouette`, one a table. Throws InputError with file and line.
-std::vector<WrittenReading> read_silhouettes(const TomlTable& root);
 
 /// `{"unit", "contours": [{"direction": [..], "points": [[..], ..], "sigma", "weight"}]}`, lengths
 /// as `unit` has them (else the stone's) made into those of `stone_unit`. `sigma`: of contours that

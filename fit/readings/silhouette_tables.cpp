@@ -1,9 +1,10 @@
-#include "fit/silhouettes/silhouette_io.h"
+#include "fit/readings/silhouette_tables.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "fit/silhouettes/contour_files.h"
 #include "fit/silhouettes/silhouette.h"
 #include "stone/errors.h"
 #include "stone/text_scan.h"
@@ -54,17 +55,6 @@ SilhouetteSet set_of(const TomlTable& table, LengthUnit unit, double sigma) {
 }
 
 }  // namespace
-
-std::size_t SilhouetteSet::points() const {
-    std::size_t count = 0;
-    for (const Contour& c : contours) count += c.points.size();
-    return count;
-}
-
-bool SilhouetteSet::has_sigma() const {
-    return std::all_of(contours.begin(), contours.end(),
-                       [](const Contour& c) { return c.sigma > 0; });
-}
 
 std::vector<WrittenReading> read_silhouettes(const TomlTable& root) {
     std::vector<WrittenReading> all;

@@ -1,4 +1,4 @@
-#include "fit/silhouettes/take_outlines.h"
+#include "fit/take_outlines.h"
 
 #include <fmt/format.h>
 
