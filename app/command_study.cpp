@@ -60,6 +60,12 @@ int run_study(const StudyCommand& command) {
     if (input.readings.empty()) {
         throw InputError(command.input, "has no readings: there is nothing to study");
     }
+    for (const Reading& reading : input.readings) {
+        if (reading.kind != ReadingKind::silhouette) continue;
+        throw InputError(reading.file, reading.line,
+                         "a study draws readings anew, which it cannot do with outlines: take the "
+                         "[[silhouette]] tables out; hold_out tells how well outlines fit");
+    }
     StudyOptions options;
     options.fit = read_fit_options(command.input, command.common.set);
     options.seed = command.common.seed;

@@ -57,7 +57,8 @@ Multistart search(const System& system, const FitOptions& options, const Progres
     if (const auto shape = options.start ? shape_of(system, *options.start) : std::nullopt) {
         Multistart again;
         again.best = refit_from(system, *shape, options.iterations);
-        if (again.best.is_an_end()) return again;
+        // Outlines have led to the stone already: other starts would lead to none.
+        if (again.best.is_an_end() || system.has_outlines()) return again;
     }
     return fit_from_starts(system, options, progress);
 }

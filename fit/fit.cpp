@@ -8,6 +8,7 @@
 #include "fit/hypotheses/preparations.h"
 #include "fit/hypotheses/topology.h"
 #include "fit/mesh/repair.h"
+#include "fit/take_outlines.h"
 #include "fit/uncertainty/prior_needed.h"
 
 namespace culet {
@@ -77,7 +78,10 @@ FitResult solved(const Problem& given, std::span<const Hypothesis> hypotheses,
 FitInput fit_input(const Stone& drawn, const std::vector<WrittenReading>& written) {
     Repaired mesh = repaired(drawn, written);
     FitInput input{std::move(mesh.stone), {}, std::move(mesh.notes)};
+    TakenOutlines outlines = take_outlines(input.stone, written);
+    if (!outlines.readings.empty()) input.stone = std::move(outlines.stone);
     input.readings = bind_readings(written, input.stone, &input.notes);
+    add_outlines(std::move(outlines), input.readings, input.notes);
     return input;
 }
 
@@ -91,6 +95,7 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
                     const FitOptions& options, const Progress& progress) {
     const auto begin = std::chrono::steady_clock::now();
     Problem given{stone, readings, options};
+    if (has_outlines(readings)) prepare_for_outlines(stone, given.options);
     // A change of the topology goes by what was found out.
     given.options.findings = options.findings || options.allow_topology;
     const bool asks = options.first_check || options.prior.source != Prior::Source::none;
@@ -103,6 +108,7 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     const Prior used = result.log.options.prior;
     result.log.options = options;
     result.log.options.prior = used;
+    describe_outlines(readings, result);
     result.log.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (progress) progress(1);

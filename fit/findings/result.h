@@ -10,6 +10,7 @@
 #include "fit/model/options.h"
 #include "fit/model/undetermined.h"
 #include "fit/readings/measurement.h"
+#include "fit/silhouettes/silhouette.h"
 #include "stone/stone.h"
 #include "stone/units.h"
 
@@ -37,6 +38,14 @@ struct FittedFacet {
     double sigma_area = 0;
 };
 
+/// How the outlines of one set lie to the fitted stone, in the stone's unit (silhouettes/).
+struct SilhouetteFinding {
+    SilhouetteMisfit misfit;
+    double sigma = 0;                          ///< across the outline
+    bool estimated = false;                    ///< from the residuals
+    std::optional<SilhouetteMisfit> held_out;  ///< of outlines that took no part
+};
+
 struct FittedReading {
     std::string id;
     ReadingKind kind = ReadingKind::inclination;
@@ -49,6 +58,7 @@ struct FittedReading {
     double rounding = 0;   ///< step of the instrument; 0: none
     double weight = 1;     ///< left to it by a robust loss
     std::string left_out;  ///< why it takes no part; empty: it does
+    std::optional<SilhouetteFinding> silhouette;
 };
 
 /// How the meets of more than three facets were treated, and by how much they miss.

@@ -15,8 +15,9 @@ constexpr double k_as_good_as_exact = 1e-6;
 }  // namespace
 
 bool says_size(const std::vector<Reading>& readings) {
-    return std::any_of(readings.begin(), readings.end(),
-                       [](const Reading& r) { return !is_angle(r.kind) && !is_relation(r.kind); });
+    return std::any_of(readings.begin(), readings.end(), [](const Reading& r) {
+        return r.told || (!is_angle(r.kind) && !is_relation(r.kind));
+    });
 }
 
 Reading size_of_mesh(const Stone& stone) {

@@ -138,7 +138,7 @@ Linearised linearise(const System& system, const Shape& shape,
                      const std::vector<Equation>& held) {
     Linearised linear;
     linear.layout = layout_of(shape);
-    linear.has_prior = system.has_prior();
+    linear.has_prior = system.has_prior() || system.has_outlines();
     linear.writer = RowWriter(shape);
     Parameters::Row row = linear.writer.row();
     JacobianRows soft, hard;

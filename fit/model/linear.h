@@ -44,8 +44,8 @@ struct Linearised {
     Eigen::VectorXd turn;
     Eigen::VectorXd metric;  ///< diagonal: what counts as a step of one, for each unknown
 
-    /// The facets' prior is among the equations: loosely held directions are then as uncertain as
-    /// they are, and none counts as open.
+    /// The facets' prior, or what outlines tell of all of them, is among the equations: loosely
+    /// held directions are then as uncertain as they are, and none counts as open.
     bool has_prior = false;
 
     double chi2() const;  ///< of the counted equations

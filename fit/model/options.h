@@ -38,6 +38,9 @@ const char* name_of(Prior::Source source);
 struct FitOptions {
     /// Of meets of more than three facets that no `meet` reading speaks of.
     MeetTreatment meets = MeetTreatment::exact;
+    bool meets_named = false;  ///< the stone file says so
+    /// The stone is what its planes enclose, whichever corners that gives: so beside outlines.
+    bool free_corners = false;
     /// Of soft meets, in the stone's unit; nothing: estimated from the data by variance components
     /// (Foerstner 1979): sigma^2 = sum of squared misses / their redundancy.
     std::optional<double> meet_sigma;

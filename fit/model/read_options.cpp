@@ -98,6 +98,7 @@ FitOptions read_fit_options(const std::filesystem::path& stone_file,
                            "prior_azimuth", "prior_offset"});
     options.prior = read_prior(*table, options.prior);
     if (const auto meets = table->text("meets")) {
+        options.meets_named = true;
         if (*meets == "exact") {
             options.meets = MeetTreatment::exact;
         } else if (*meets == "soft") {

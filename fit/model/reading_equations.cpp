@@ -153,8 +153,9 @@ void System::ReadingEquations::add(int r, std::optional<Replicates> replicates) 
         case ReadingKind::volume:
         case ReadingKind::weight:
             return put(enclosed_volume(outline_), base_.value);
-        case ReadingKind::meet:
-            return;  // an incidence
+        case ReadingKind::meet:        // an incidence
+        case ReadingKind::silhouette:  // silhouette_equations.cpp
+            return;
         case ReadingKind::parallel:
         case ReadingKind::coplanar:
             return parallel(reading);
@@ -329,6 +330,8 @@ std::vector<Equation> System::reading_equations(const Shape& shape,
     }
     std::vector<Equation> all = equations.take(), expected = expected_equations();
     std::move(expected.begin(), expected.end(), std::back_inserter(all));
+    std::vector<Equation> of_outlines = silhouette_equations();
+    std::move(of_outlines.begin(), of_outlines.end(), std::back_inserter(all));
     return all;
 }
 

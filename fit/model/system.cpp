@@ -44,6 +44,7 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
     }
     bring_upright();
     list_incidences(options);
+    bring_outlines_inside();
     add_extras();
     if (options.prior.source != Prior::Source::none) {
         prior_ = make_prior(options.prior, solid_, up_facet_, half_width(), mesh_shape_);
@@ -65,6 +66,11 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
 }
 
 double System::scale_of_readings(const Vec3& up) const {
+    // Outlines have given the mesh its size.
+    if (std::any_of(readings_.begin(), readings_.end(),
+                    [](const Reading& r) { return r.told != nullptr; })) {
+        return 1;
+    }
     // In logarithms, read over drawn: of the overall lengths, then of single edges too.
     std::vector<double> logs;
     for (const Reading& r : readings_) {
@@ -221,7 +227,8 @@ void System::list_incidences(const FitOptions& options) {
                                    reading.sigma / scale_, static_cast<int>(r)});
         }
     }
-    splits_ = std::any_of(incidences_.begin(), incidences_.end(),
+    splits_ = options.free_corners ||
+              std::any_of(incidences_.begin(), incidences_.end(),
                           [](const Incidence& i) { return i.how != MeetTreatment::exact; });
 }
 

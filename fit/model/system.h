@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fit/model/options.h"
+#include "fit/model/outline_rows.h"
 #include "fit/model/parameters.h"
 #include "fit/model/prior.h"
 #include "fit/model/residuals.h"
@@ -24,7 +25,8 @@ struct Equation {
         relation,   ///< of symmetry, parallel and coplanar readings
         incidence,  ///< a plane passes through a meet
         released,   ///< likewise, held only so far that the meet has a place at all
-        expected    ///< the prior of the facets (prior.h)
+        expected,   ///< the prior of the facets (prior.h)
+        outlines    ///< what outlines tell of the planes, all of them together
     };
     Role role = Role::reading;
     int reading = -1;  ///< index, or -1
@@ -85,6 +87,7 @@ public:
     void set_group_sigma(int group, double sigma) { group_sigmas_[std::size_t(group)] = sigma; }
     bool has_estimated_groups() const;
     bool has_prior() const { return !prior_.empty(); }
+    bool has_outlines() const { return outlines_ != nullptr; }
     const PriorSigmas& prior_sigmas() const { return prior_.sigmas; }
     /// Of a reading from now on, in its unit (robust weights).
     void set_reading_sigma(int reading, double sigma) {
@@ -167,6 +170,9 @@ private:
     void add_extras();
     /// What the facets' prior says (prior.h).
     std::vector<Equation> expected_equations() const;
+    /// What outlines tell of the planes (silhouettes/silhouette_fit.h).
+    std::vector<Equation> silhouette_equations() const;
+    void bring_outlines_inside();
     void pair_facets();
     /// At this shape, what they say is but one thing: facets lean one way, azimuths are less than
     /// half a turn off.
@@ -200,6 +206,7 @@ private:
     std::vector<SymmetryMotion> exact_motions_;
     std::vector<bool> fixed_extras_;
     PriorModel prior_;
+    std::shared_ptr<const OutlineRows> outlines_;  // none: no outlines were taken
     int up_facet_ = -1;
     bool splits_ = false;
     std::array<double, 2> group_sigmas_{};

@@ -82,6 +82,8 @@ std::vector<Reading> Binder::bind(const WrittenReading& written, const std::stri
         case ReadingKind::rotation:
         case ReadingKind::mirror:
             return {of_symmetry(base)};
+        case ReadingKind::silhouette:
+            break;
     }
     fail("unknown kind");
 }

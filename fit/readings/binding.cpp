@@ -26,6 +26,7 @@ std::vector<Reading> bind_readings(const std::vector<WrittenReading>& written, c
     std::map<std::string, const WrittenReading*> owner;
     std::vector<Reading> readings;
     for (std::size_t i = 0; i < written.size(); ++i) {
+        if (written[i].outlines) continue;  // of planes, not of names: fit_input
         std::string id = written[i].id;
         if (id.empty()) {
             id = "r" + std::to_string(i);

@@ -7,6 +7,7 @@
 
 #include "fit/readings/reading_words.h"
 #include "fit/readings/readings_csv.h"
+#include "fit/readings/silhouette_tables.h"
 #include "stone/errors.h"
 #include "stone/toml_file.h"
 
@@ -14,10 +15,10 @@ namespace culet {
 
 namespace {
 
-constexpr std::array<const char*, 15> k_kind_names{
-    "inclination", "azimuth",  "dihedral",    "distance", "edge",
-    "width",       "depth",    "table_width", "volume",   "weight",
-    "meet",        "parallel", "coplanar",    "rotation", "mirror"};
+constexpr std::array<const char*, 16> k_kind_names{
+    "inclination", "azimuth",     "dihedral", "distance",  "edge", "width",
+    "depth",       "table_width", "volume",   "weight",    "meet", "parallel",
+    "coplanar",    "rotation",    "mirror",   "silhouette"};
 
 WrittenReading reading_of_table(const TomlTable& table) {
     table.refuse_unknown({"kind", "of", "value", "sigma", "exact", "released", "datum", "side",
@@ -67,7 +68,7 @@ std::optional<ReadingKind> reading_kind(std::string_view name) {
 bool is_relation(ReadingKind kind) {
     return kind == ReadingKind::meet || kind == ReadingKind::parallel ||
            kind == ReadingKind::coplanar || kind == ReadingKind::rotation ||
-           kind == ReadingKind::mirror;
+           kind == ReadingKind::mirror || kind == ReadingKind::silhouette;
 }
 
 bool is_angle(ReadingKind kind) {
@@ -96,6 +97,7 @@ std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_fil
             readings.push_back(std::move(reading));
         }
     }
+    for (WrittenReading& reading : read_silhouettes(root)) readings.push_back(std::move(reading));
     return readings;
 }
 

@@ -4,6 +4,7 @@
 // in cubic millimetres and weight in carat throughout.
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,12 +31,17 @@ enum class ReadingKind {
     coplanar,
     rotation,
     mirror,
+    silhouette,  ///< outlines: a table of its own, [[silhouette]]
 };
+
+struct SilhouetteSet;
+struct OutlineKnowledge;
 
 const char* name_of(ReadingKind kind);
 std::optional<ReadingKind> reading_kind(std::string_view name);
 
-/// Says something about the shape (meet, parallel, coplanar, rotation, mirror) and has no value.
+/// Says something about the shape (meet, parallel, coplanar, rotation, mirror, silhouette) and has
+/// no value.
 bool is_relation(ReadingKind kind);
 /// Its value is an angle: degrees in files, radians when bound.
 bool is_angle(ReadingKind kind);
@@ -54,12 +60,14 @@ struct WrittenReading {
     long line = 0;
     WrittenUnit value_unit, sigma_unit, rounding_unit;
     bool skipped = false;  ///< a row of a form without its value: takes no part
+    std::shared_ptr<const SilhouetteSet> outlines;  ///< of a [[silhouette]] table, else none
 };
 
 /// How many of them were skipped.
 std::size_t skipped_readings(const std::vector<WrittenReading>& written);
 
-/// The [[reading]] tables of a stone file, then the rows of its `readings` file. Throws InputError
+/// The [[reading]] tables of a stone file, the rows of its `readings` file, then the [[silhouette]]
+/// tables, of kind `silhouette`. Throws InputError
 /// with file and line for what is not a reading at all.
 std::vector<WrittenReading> read_readings(const std::filesystem::path& stone_file,
                                           const std::vector<std::string>& overrides = {});
@@ -114,6 +122,11 @@ struct Reading {
     std::string note;
     std::filesystem::path file;
     long line = 0;
+    /// Silhouette: its outlines, the number of the set among those of the stone, and what all sets
+    /// together tell of the stone's planes (silhouettes/silhouette_fit.h).
+    std::shared_ptr<const SilhouetteSet> outlines;
+    int outline_set = 0;
+    std::shared_ptr<const OutlineKnowledge> told;
 };
 
 /// Finds every name on the solid and gives every reading its id. A pattern over single facets makes

@@ -73,6 +73,21 @@ Json facets_json(const std::vector<FittedFacet>& facets) {
     return json;
 }
 
+Json misfit_json(const SilhouetteMisfit& misfit) {
+    return {{"rms", json_number(misfit.rms)},
+            {"worst", json_number(misfit.worst)},
+            {"points", misfit.points},
+            {"outliers", misfit.outliers},
+            {"contours", misfit.contours}};
+}
+
+void add_silhouette(const SilhouetteFinding& finding, Json& reading) {
+    reading.update(misfit_json(finding.misfit));
+    reading["sigma"] = json_number(finding.sigma);
+    reading["sigma_estimated"] = finding.estimated;
+    if (finding.held_out) reading["held_out"] = misfit_json(*finding.held_out);
+}
+
 Json readings_json(const std::vector<FittedReading>& readings) {
     Json json = Json::array();
     for (const FittedReading& r : readings) {
@@ -90,6 +105,7 @@ Json readings_json(const std::vector<FittedReading>& readings) {
              {"redundancy", json_number(r.redundancy)},
              {"detectable", r.detectable > 0 ? json_number(unit * r.detectable) : Json(nullptr)},
              {"suspect", r.suspect}});
+        if (r.silhouette) add_silhouette(*r.silhouette, json.back());
         if (!r.left_out.empty()) json.back()["left_out"] = r.left_out;
         if (r.rounding > 0) json.back()["rounding"] = json_number(unit * r.rounding);
     }

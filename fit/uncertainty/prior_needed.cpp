@@ -11,6 +11,9 @@ namespace culet {
 bool readings_hold_all(const Stone& stone, const std::vector<Reading>& readings,
                        FitOptions options) {
     options.prior.source = Prior::Source::none;
+    for (const Reading& r : readings) {
+        if (r.told) return true;
+    }
     const System system(stone, readings, options);
     // Symmetry within a sigma makes more equations than it tells anything.
     const auto values = std::count_if(readings.begin(), readings.end(), [](const Reading& r) {

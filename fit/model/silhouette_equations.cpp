@@ -1,0 +1,128 @@
+// What outlines tell of the planes as equations of the fit.
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "fit/model/orbits.h"
+#include "fit/model/system.h"
+#include "fit/model/upright_turn.h"
+#include "fit/silhouettes/silhouette_fit.h"
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+// About up, from where the stone was seen to where it stands now: of all normals together, those
+// that look sideways more.
+double turn_about_up(const OutlineRows& seen, const Shape& shape) {
+    double along = 0, across = 0;
+    for (std::size_t f = 0; f < seen.normals.size(); ++f) {
+        const Vec3 &was = seen.normals[f], &is = shape.normals[f];
+        along += was.x * is.x + was.y * is.y;
+        across += was.x * is.y - was.y * is.x;
+    }
+    return along == 0 && across == 0 ? 0 : std::atan2(across, along);
+}
+
+// Slopes without their parts along the motions that a row is blind to (shifts, and a turn about
+// up): where normals are off those that were seen, by as little as that, it would see them.
+class BlindToMotions {
+public:
+    explicit BlindToMotions(const Shape& shape) : shape_(shape) {
+        glm::dmat3 sum(0.0);
+        for (const Vec3& n : shape.normals) {
+            sum += glm::outerProduct(n, n);
+            turn_size_ += n.x * n.x + n.y * n.y;
+        }
+        inverse_ = glm::inverse(sum);
+    }
+    void take_out(bool turns, std::vector<Vec3>& normal, std::vector<double>& offset) const {
+        Vec3 shift(0);
+        double turn = 0;
+        for (std::size_t f = 0; f < normal.size(); ++f) {
+            shift += offset[f] * shape_.normals[f];
+            turn += glm::dot(normal[f], turned(f));
+        }
+        shift = inverse_ * shift;
+        if (turn_size_ > 0) turn /= turn_size_;
+        for (std::size_t f = 0; f < normal.size(); ++f) {
+            offset[f] -= glm::dot(shift, shape_.normals[f]);
+            if (turns) normal[f] -= turn * turned(f);
+        }
+    }
+
+private:
+    Vec3 turned(std::size_t f) const { return {-shape_.normals[f].y, shape_.normals[f].x, 0}; }
+    const Shape& shape_;
+    glm::dmat3 inverse_{1.0};
+    double turn_size_ = 0;
+};
+
+Formula row_of(const std::shared_ptr<const OutlineRows>& seen, std::size_t k) {
+    return [seen, k](const Shape& shape) {
+        const OutlineRows::Row& row = seen->rows[k];
+        const double turn = seen->turns ? turn_about_up(*seen, shape) : 0;
+        const double cosine = std::cos(turn), sine = std::sin(turn);
+        Quantity q;
+        std::vector<Vec3> normal;
+        std::vector<double> offset = row.offset;
+        for (std::size_t f = 0; f < row.normal.size(); ++f) {
+            const Vec3& a = row.normal[f];
+            normal.emplace_back(cosine * a.x - sine * a.y, sine * a.x + cosine * a.y, a.z);
+            q.value += glm::dot(normal[f], shape.normals[f]) - glm::dot(a, seen->normals[f]) +
+                       offset[f] * (shape.offsets[f] - seen->offsets[f]);
+        }
+        BlindToMotions(shape).take_out(seen->turns, normal, offset);
+        q.slopes.reserve(2 * normal.size());
+        for (std::size_t f = 0; f < normal.size(); ++f) {
+            q.add(Quantity::By::normal, int(f), normal[f]);
+            q.add(Quantity::By::offset, int(f), offset[f]);
+        }
+        return q;
+    };
+}
+
+}  // namespace
+
+void System::bring_outlines_inside() {
+    const OutlineKnowledge* told = nullptr;
+    for (const Reading& r : readings_) {
+        if (r.told) told = r.told.get();
+    }
+    if (told == nullptr) return;
+    check(told->planes.size() == solid_.facets.size(), "outlines of another mesh");
+    const glm::dmat3 turn = turn_about_z(turn_);
+    const auto inside = [&](const Vec3& direction) { return turn * times(upright_, direction); };
+    auto rows = std::make_shared<OutlineRows>();
+    for (const Plane& plane : told->planes) {
+        rows->normals.push_back(inside(plane.normal));
+        rows->offsets.push_back((plane.offset - glm::dot(plane.normal, middle_)) / scale_);
+    }
+    for (const OutlineKnowledge::Row& row : told->rows) {
+        OutlineRows::Row& in = rows->rows.emplace_back();
+        for (std::size_t f = 0; f < row.normal.size(); ++f) {
+            // The offset from the mesh's middle is smaller by normal . middle.
+            in.normal.push_back(inside(row.normal[f] + row.offset[f] * middle_));
+            in.offset.push_back(row.offset[f] * scale_);
+        }
+    }
+    rows->turns = !stone_.azimuth_from_mesh;
+    outlines_ = std::move(rows);
+}
+
+std::vector<Equation> System::silhouette_equations() const {
+    std::vector<Equation> all;
+    if (!outlines_) return all;
+    for (std::size_t k = 0; k < outlines_->rows.size(); ++k) {
+        Equation e;
+        e.role = Equation::Role::outlines;
+        e.formula = row_of(outlines_, k);
+        all.push_back(std::move(e));
+    }
+    return all;
+}
+
+}  // namespace culet

@@ -1,0 +1,134 @@
+#include "fit/silhouettes/missing_facets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+// The mean of a place's distances is off by chance as a normal variable is: of thirty thousand
+// places one is so far off.
+constexpr double k_significant = 4;
+// And no less than this part of the scatter of one point.
+constexpr double k_depth = 1.0;
+// Points this near to a corner, as part of the shorter edge there, lie on what would be cut off.
+constexpr double k_near_corner = 0.25;
+// A plane so near to another is that plane.
+const double k_same_plane = radians(0.3);
+// As part of a cut's angle to the nearest plane: nearer than this, two cuts are of one place.
+constexpr double k_apart = 0.8;
+
+struct Place {
+    double weight = 0, sum = 0;
+    void add(double w, double distance) {
+        weight += w;
+        sum += w * distance;
+    }
+    double mean() const { return weight > 0 ? sum / weight : 0; }
+};
+
+struct Cut {
+    Plane plane;
+    double depth = 0;
+};
+
+// Means of one outline's distances along its edges and near their two ends.
+struct EdgePlaces {
+    Place whole, begin, end;
+};
+
+std::vector<EdgePlaces> places_of(const PlaneFitProblem& problem, const PlaneFit& fit,
+                                  std::size_t c, const PlacedContour& at, double scale) {
+    const FlatContour& contour = problem.contours[c];
+    const ProjectedOutline& outline = fit.distances.outlines[c];
+    std::vector<EdgePlaces> places(outline.edges.size());
+    const auto length = [&](std::size_t k) {
+        return outline.edges[k % outline.edges.size()].length;
+    };
+    for (std::size_t i = 0; i < contour.points.size(); ++i) {
+        const auto& [edge, distance] = fit.distances.nearest[c][i];
+        // What stands out over the body is dust; it does not speak against a cut beside it.
+        const double w = contour.weights[i];
+        if (edge < 0) continue;
+        if (!(inlier_weight(std::sqrt(w) * std::max(distance, 0.0), scale, problem.reach) > 0)) {
+            continue;
+        }
+        const auto k = std::size_t(edge);
+        const ProjectedOutline::Edge& e = outline.edges[k];
+        const double along =
+            outline.part_of(e, contour.points[i][0] + at.dx, contour.points[i][1] + at.dy) *
+            e.length;
+        places[k].whole.add(w, distance);
+        const double before = length(k + outline.edges.size() - 1), after = length(k + 1);
+        if (along < k_near_corner * std::min(e.length, before)) places[k].begin.add(w, distance);
+        if (e.length - along < k_near_corner * std::min(e.length, after)) {
+            places[k].end.add(w, distance);
+        }
+    }
+    return places;
+}
+
+bool stands_out(const Place& place, double scale) {
+    return -place.mean() > k_depth * scale &&
+           -place.mean() * std::sqrt(place.weight) > k_significant * scale;
+}
+
+void add_cuts(const PlaneFitProblem& problem, const PlaneFit& fit, std::size_t c,
+              std::vector<Cut>& cuts) {
+    const FlatContour& contour = problem.contours[c];
+    const ProjectedOutline& outline = fit.distances.outlines[c];
+    const double scale = fit.scales[std::size_t(contour.set)];
+    const PlacedContour at = placed(contour, fit.motions[std::size_t(contour.set)]);
+    const std::vector<EdgePlaces> places = places_of(problem, fit, c, at, scale);
+    const std::size_t count = outline.edges.size();
+    const auto normal = [&](const ProjectedOutline::Edge& e) {
+        return e.nx * at.across + e.ny * at.along;
+    };
+    for (std::size_t k = 0; k < count; ++k) {
+        const ProjectedOutline::Edge &e = outline.edges[k], &next = outline.edges[(k + 1) % count];
+        const Vec3 n = normal(e);
+        if (stands_out(places[k].whole, scale)) {
+            cuts.push_back({{n, e.offset + places[k].whole.mean()}, -places[k].whole.mean()});
+        }
+        Place corner = places[k].end;
+        const Place& other = places[(k + 1) % count].begin;
+        corner.weight += other.weight;
+        corner.sum += other.sum;
+        if (!stands_out(corner, scale)) continue;
+        const Vec3 between = glm::normalize(n + normal(next));
+        const Vec3& tip = fit.body.corners[std::size_t(e.to)];
+        cuts.push_back({{between, glm::dot(between, tip) + corner.mean()}, -corner.mean()});
+    }
+}
+
+}  // namespace
+
+std::vector<Plane> missing_planes(const PlaneFitProblem& problem, const PlaneFit& fit,
+                                  std::size_t most) {
+    std::vector<Cut> cuts;
+    for (std::size_t c = 0; c < problem.contours.size(); ++c) add_cuts(problem, fit, c, cuts);
+    std::stable_sort(cuts.begin(), cuts.end(),
+                     [](const Cut& a, const Cut& b) { return a.depth > b.depth; });
+    std::vector<Plane> planes;
+    for (const Cut& cut : cuts) {
+        if (planes.size() >= most) break;
+        const auto nearest = [&](const std::vector<Plane>& others) {
+            double angle = std::numbers::pi;
+            for (const Plane& other : others) {
+                angle = std::min(angle, angle_between(cut.plane.normal, other.normal));
+            }
+            return angle;
+        };
+        const double old = nearest(fit.planes);
+        const bool is_there = old < k_same_plane || nearest(planes) < k_apart * old;
+        if (!is_there) planes.push_back(cut.plane);
+    }
+    return planes;
+}
+
+}  // namespace culet

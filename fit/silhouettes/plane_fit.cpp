@@ -1,0 +1,119 @@
+#include "fit/silhouettes/plane_fit.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "fit/silhouettes/plane_solver.h"
+
+namespace culet {
+
+namespace {
+
+constexpr double k_first_damping = 1e-3, k_least_damping = 1e-9, k_most_damping = 1e7;
+// Steps that gain less than this part of what is left, so many in a row, end it.
+constexpr double k_no_gain = 1e-5;
+constexpr int k_quiet = 2;
+// Half the angle that any facet is apart from its neighbours, about: no linearisation holds so far.
+constexpr double k_longest = 0.1;
+
+}  // namespace
+
+PlaneFit fit_planes(const PlaneFitProblem& problem, const std::vector<Plane>& planes,
+                    int most_steps, const std::function<void()>& goes_on) {
+    const PlaneSolver solver(problem);
+    PlaneFit result;
+    PlaneState state{planes, problem.motions, {}, {}};
+    if (solver.look(state)) {
+        double damping = k_first_damping;
+        int quiet = 0;
+        while (result.steps < most_steps && !result.converged && damping < k_most_damping) {
+            const std::vector<double> scales = solver.scales(state);
+            const auto weights = solver.weights(state, scales);
+            const double before = solver.cost(state, weights, scales);
+            const PlaneSolver::Equations equations = solver.equations(state, weights, scales, true);
+            bool better = false;
+            while (!better && damping < k_most_damping && result.steps < most_steps) {
+                goes_on();
+                ++result.steps;
+                Eigen::MatrixXd damped = equations.matrix;
+                damped.diagonal() *= 1 + damping;
+                const Eigen::LLT<Eigen::MatrixXd, Eigen::Lower> factor(damped);
+                Eigen::VectorXd step = -factor.solve(equations.gradient);
+                double length = 0;
+                for (int p = 0; p < solver.planes(); ++p) {
+                    length = std::max({length, std::abs(step(3 * p)), std::abs(step(3 * p + 1))});
+                }
+                if (length > k_longest) step *= k_longest / length;
+                PlaneState next = solver.moved(state, step);
+                const bool closes = factor.info() == Eigen::Success && solver.look(next);
+                const double after = closes ? solver.cost(next, weights, scales) : 1e300;
+                better = after < before;
+                if (!better) {
+                    damping *= 10;
+                    continue;
+                }
+                damping = std::max(k_least_damping, damping / 10);
+                quiet = before - after < k_no_gain * before ? quiet + 1 : 0;
+                state = std::move(next);
+            }
+            result.converged = quiet >= k_quiet || damping >= k_most_damping;
+        }
+        result.scales = solver.scales(state);
+    }
+    result.planes = std::move(state.planes);
+    result.motions = std::move(state.motions);
+    result.body = std::move(state.body);
+    result.distances = std::move(state.distances);
+    return result;
+}
+
+PlaneInformation plane_information(const PlaneFitProblem& problem, const PlaneFit& fit) {
+    const PlaneSolver solver(problem);
+    const PlaneState state{fit.planes, fit.motions, fit.body, fit.distances};
+    const auto weights = solver.weights(state, fit.scales);
+    const std::vector<double>& scales = fit.scales;
+    PlaneInformation information;
+    const std::size_t sets = problem.motions.size();
+    std::vector<double> squares(sets, 0), count(sets, 0);
+    for (std::size_t c = 0; c < weights.size(); ++c) {
+        const auto set = std::size_t(problem.contours[c].set);
+        for (std::size_t i = 0; i < weights[c].size(); ++i) {
+            squares[set] += weights[c][i] * std::pow(fit.distances.nearest[c][i].distance, 2);
+            if (problem.contours[c].weights[i] > 0) {
+                count[set] += weights[c][i] / problem.contours[c].weights[i];
+            }
+        }
+    }
+    double all = 0;
+    for (const double n : count) all += n;
+    int present = 0;
+    for (const bool p : fit.body.present) present += p;
+    int motions = 0;
+    for (const bool f : problem.is_free) motions += f ? 6 : 0;
+    const double parameters = 3.0 * present + motions;
+    for (std::size_t s = 0; s < sets; ++s) {
+        const double own = all > 0 ? parameters * count[s] / all : 0;
+        const double dof = std::max(1.0, count[s] - own);
+        const bool is_stated = problem.stated_sigmas[s] > 0;
+        information.sigmas.push_back(is_stated
+                                         ? problem.stated_sigmas[s]
+                                         : std::max(std::sqrt(squares[s] / dof), 1e-6 * scales[s]));
+        if (!is_stated) continue;
+        information.chi2 += squares[s] / std::pow(problem.stated_sigmas[s], 2);
+        information.chi2_dof += count[s] - own;
+    }
+    const PlaneSolver::Equations equations =
+        solver.equations(state, weights, information.sigmas, true);
+    const Eigen::MatrixXd whole = equations.matrix.selfadjointView<Eigen::Lower>();
+    const Eigen::Index planes = 3 * solver.planes(), rest = whole.rows() - planes;
+    information.matrix = whole.topLeftCorner(planes, planes);
+    if (rest > 0) {
+        const Eigen::MatrixXd mixed = whole.bottomLeftCorner(rest, planes);
+        information.matrix -=
+            mixed.transpose() * whole.bottomRightCorner(rest, rest).ldlt().solve(mixed);
+    }
+    return information;
+}
+
+}  // namespace culet

@@ -1,0 +1,243 @@
+#include "fit/silhouettes/plane_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace culet {
+
+namespace {
+
+// A plane that no outline tells of stays near its start, within so much: enough for the best of
+// stones and of guesses, too little to be felt beside an outline's point.
+constexpr double k_start_offset = 0.02;  // of the width
+
+FrameMotion turned_and_shifted(const FrameMotion& m, const Vec3& turn, const Vec3& shift) {
+    const double angle = glm::length(turn);
+    FrameMotion next = m;
+    if (angle > 0) {
+        const Vec3 axis = turn / angle;
+        const auto about = [&](const Vec3& v) {
+            return std::cos(angle) * v + std::sin(angle) * glm::cross(axis, v) +
+                   (1 - std::cos(angle)) * glm::dot(axis, v) * axis;
+        };
+        next.x = glm::normalize(about(m.x));
+        next.y = about(m.y);
+        next.y = glm::normalize(next.y - glm::dot(next.x, next.y) * next.x);
+        next.z = glm::cross(next.x, next.y);
+    }
+    next.shift += shift;
+    return next;
+}
+
+// How one distance changes with the unknowns: few of them.
+struct Slopes {
+    std::array<int, 24> column{};
+    std::array<double, 24> slope{};
+    int count = 0;
+    void add(int c, double s) {
+        column[std::size_t(count)] = c;
+        slope[std::size_t(count++)] = s;
+    }
+};
+
+// Of a corner's place along a direction.
+Slopes slopes_of_corner(const std::vector<Plane>& planes, const PlaneBody& body, int corner,
+                        const Vec3& direction) {
+    Slopes all;
+    const std::array<int, 3>& crossing = body.planes[std::size_t(corner)];
+    const CornerSlopes slopes = corner_slopes(planes, crossing);
+    const Vec3& place = body.corners[std::size_t(corner)];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double along = glm::dot(direction, slopes.along[i]);
+        const int p = crossing[i];
+        const auto [t, u] = tilts_of(planes[std::size_t(p)].normal);
+        all.add(3 * p, -along * glm::dot(t, place));
+        all.add(3 * p + 1, -along * glm::dot(u, place));
+        all.add(3 * p + 2, along);
+    }
+    return all;
+}
+
+void add_products(Eigen::MatrixXd& matrix, const Slopes& a, const Slopes& b, double weight) {
+    if (weight == 0) return;
+    for (int i = 0; i < a.count; ++i) {
+        for (int j = 0; j < b.count; ++j) {
+            const int row = a.column[std::size_t(i)], column = b.column[std::size_t(j)];
+            if (row >= column) {
+                matrix(row, column) += weight * a.slope[std::size_t(i)] * b.slope[std::size_t(j)];
+            }
+        }
+    }
+}
+
+void add_gradient(Eigen::VectorXd& gradient, const Slopes& a, double weight) {
+    for (int i = 0; i < a.count; ++i) {
+        gradient(a.column[std::size_t(i)]) += weight * a.slope[std::size_t(i)];
+    }
+}
+
+// Sums over the points of one edge of one outline: a point whose foot is at part t of the edge goes
+// with the edge's ends as 1 - t and t.
+struct EdgeSums {
+    double begin_begin = 0, begin_end = 0, end_end = 0, begin = 0, end = 0;
+};
+
+}  // namespace
+
+PlaneSolver::PlaneSolver(const PlaneFitProblem& problem)
+    : problem_(problem), planes_(int(problem.start.size())), size_(3 * planes_) {
+    for (const bool is_free : problem.is_free) {
+        column_of_set_.push_back(is_free ? size_ : -1);
+        if (is_free) size_ += 6;
+    }
+}
+
+bool PlaneSolver::look(PlaneState& state) const {
+    state.body = enclosed_body(state.planes);
+    if (!state.body.closed) return false;
+    state.distances = outline_distances(state.body.corners, problem_.contours, state.motions);
+    return true;
+}
+
+std::vector<double> PlaneSolver::scales(const PlaneState& state) const {
+    std::vector<double> all;
+    for (std::size_t s = 0; s < state.motions.size(); ++s) {
+        all.push_back(std::max(robust_scale(state.distances, problem_.contours, int(s)),
+                               1e-9 * problem_.width));
+    }
+    return all;
+}
+
+PlaneSolver::Weights PlaneSolver::weights(const PlaneState& state,
+                                          const std::vector<double>& scales) const {
+    Weights all;
+    for (std::size_t c = 0; c < problem_.contours.size(); ++c) {
+        const FlatContour& contour = problem_.contours[c];
+        std::vector<double>& mine = all.emplace_back();
+        for (std::size_t i = 0; i < contour.points.size(); ++i) {
+            const double w = contour.weights[i];
+            mine.push_back(w * inlier_weight(std::sqrt(w) * state.distances.nearest[c][i].distance,
+                                             scales[std::size_t(contour.set)], problem_.reach));
+        }
+    }
+    return all;
+}
+
+double PlaneSolver::cost(const PlaneState& state, const Weights& weights,
+                         const std::vector<double>& sigmas) const {
+    double sum = 0;
+    for (std::size_t c = 0; c < weights.size(); ++c) {
+        double own = 0;
+        for (std::size_t i = 0; i < weights[c].size(); ++i) {
+            own += weights[c][i] * std::pow(state.distances.nearest[c][i].distance, 2);
+        }
+        sum += own / std::pow(sigmas[std::size_t(problem_.contours[c].set)], 2);
+    }
+    for (std::size_t p = 0; p < state.planes.size(); ++p) {
+        const Plane &mine = state.planes[p], &its = problem_.start[p];
+        const Vec3 tilt = mine.normal - its.normal;
+        sum += glm::dot(tilt, tilt) / std::pow(problem_.start_tilts[p], 2) +
+               std::pow((mine.offset - its.offset) / (k_start_offset * problem_.width), 2);
+    }
+    return sum;
+}
+
+void PlaneSolver::add_contour(const PlaneState& state, std::size_t c,
+                              const std::vector<double>& weights, double sigma,
+                              PlaneSolver::Equations& to) const {
+    const FlatContour& contour = problem_.contours[c];
+    const FrameMotion& motion = state.motions[std::size_t(contour.set)];
+    const PlacedContour place = placed(contour, motion);
+    const ProjectedOutline& outline = state.distances.outlines[c];
+    std::vector<EdgeSums> sums(outline.edges.size());
+    for (std::size_t i = 0; i < contour.points.size(); ++i) {
+        const auto& [edge, distance] = state.distances.nearest[c][i];
+        if (edge < 0 || weights[i] == 0) continue;
+        const double w = weights[i] / (sigma * sigma);
+        const double t =
+            outline.part_of(outline.edges[std::size_t(edge)], contour.points[i][0] + place.dx,
+                            contour.points[i][1] + place.dy);
+        EdgeSums& sum = sums[std::size_t(edge)];
+        sum.begin_begin += w * (1 - t) * (1 - t);
+        sum.begin_end += w * (1 - t) * t;
+        sum.end_end += w * t * t;
+        sum.begin += w * (1 - t) * distance;
+        sum.end += w * t * distance;
+    }
+    const int set_column = column_of_set_[std::size_t(contour.set)];
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        const EdgeSums& sum = sums[k];
+        if (sum.begin_begin == 0 && sum.end_end == 0) continue;
+        const ProjectedOutline::Edge& e = outline.edges[k];
+        const Vec3 n = e.nx * place.across + e.ny * place.along;
+        // A distance is the point's height over the edge: less where the edge moves out.
+        const auto end_slopes = [&](int corner) {
+            Slopes s = slopes_of_corner(state.planes, state.body, corner, -n);
+            if (set_column >= 0) {
+                const Vec3 turn =
+                    -glm::cross(n, state.body.corners[std::size_t(corner)] - motion.shift);
+                for (int i = 0; i < 3; ++i) {
+                    s.add(set_column + i, n[i]);
+                    s.add(set_column + 3 + i, turn[i]);
+                }
+            }
+            return s;
+        };
+        const Slopes begin = end_slopes(e.from), end = end_slopes(e.to);
+        add_products(to.matrix, begin, begin, sum.begin_begin);
+        add_products(to.matrix, begin, end, sum.begin_end);
+        add_products(to.matrix, end, begin, sum.begin_end);
+        add_products(to.matrix, end, end, sum.end_end);
+        add_gradient(to.gradient, begin, sum.begin);
+        add_gradient(to.gradient, end, sum.end);
+    }
+}
+
+PlaneSolver::Equations PlaneSolver::equations(const PlaneState& state, const Weights& weights,
+                                              const std::vector<double>& sigmas,
+                                              bool with_start) const {
+    Equations all;
+    all.matrix = Eigen::MatrixXd::Zero(size_, size_);
+    all.gradient = Eigen::VectorXd::Zero(size_);
+    for (std::size_t c = 0; c < problem_.contours.size(); ++c) {
+        add_contour(state, c, weights[c], sigmas[std::size_t(problem_.contours[c].set)], all);
+    }
+    if (!with_start) return all;
+    const double offset = 1 / std::pow(k_start_offset * problem_.width, 2);
+    for (int p = 0; p < planes_; ++p) {
+        const Plane &mine = state.planes[std::size_t(p)], &its = problem_.start[std::size_t(p)];
+        const auto along = tilts_of(mine.normal);
+        const double tilt = 1 / std::pow(problem_.start_tilts[std::size_t(p)], 2);
+        for (int k = 0; k < 2; ++k) {
+            all.matrix(3 * p + k, 3 * p + k) += tilt;
+            all.gradient(3 * p + k) +=
+                tilt * glm::dot(along[std::size_t(k)], mine.normal - its.normal);
+        }
+        all.matrix(3 * p + 2, 3 * p + 2) += offset;
+        all.gradient(3 * p + 2) += offset * (mine.offset - its.offset);
+    }
+    return all;
+}
+
+PlaneState PlaneSolver::moved(const PlaneState& state, const Eigen::VectorXd& step) const {
+    PlaneState next;
+    next.planes = state.planes;
+    for (int p = 0; p < planes_; ++p) {
+        Plane& plane = next.planes[std::size_t(p)];
+        const auto [t, u] = tilts_of(plane.normal);
+        plane.normal = glm::normalize(plane.normal + step(3 * p) * t + step(3 * p + 1) * u);
+        plane.offset += step(3 * p + 2);
+    }
+    next.motions = state.motions;
+    for (std::size_t s = 0; s < next.motions.size(); ++s) {
+        const int at = column_of_set_[s];
+        if (at < 0) continue;
+        next.motions[s] =
+            turned_and_shifted(next.motions[s], {step(at + 3), step(at + 4), step(at + 5)},
+                               {step(at), step(at + 1), step(at + 2)});
+    }
+    return next;
+}
+
+}  // namespace culet

@@ -1,0 +1,53 @@
+#pragma once
+// The least squares of planes against outlines, made linear. Private to the room.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "fit/silhouettes/plane_fit.h"
+
+namespace culet {
+
+/// A body on the way, and where the outlines' points lie from it.
+struct PlaneState {
+    std::vector<Plane> planes;
+    std::vector<FrameMotion> motions;
+    PlaneBody body;
+    OutlineDistances distances;
+};
+
+/// The equations of `fit_planes` at one state.
+class PlaneSolver {
+public:
+    explicit PlaneSolver(const PlaneFitProblem& problem);
+
+    int planes() const { return planes_; }
+    /// What the planes enclose, and the distances from it; false: they enclose nothing.
+    bool look(PlaneState& state) const;
+    /// Robust ones, of each set.
+    std::vector<double> scales(const PlaneState& state) const;
+    using Weights = std::vector<std::vector<double>>;
+    /// Of each point of each contour: what it counts.
+    Weights weights(const PlaneState& state, const std::vector<double>& scales) const;
+    double cost(const PlaneState& state, const Weights& weights,
+                const std::vector<double>& sigmas) const;
+    /// Half of the cost's Gauss-Newton matrix (lower triangle) and gradient. Unknowns are three of
+    /// each plane, two tilts along `tilts_of(normal)` and the offset, then six of each free set.
+    struct Equations {
+        Eigen::MatrixXd matrix;
+        Eigen::VectorXd gradient;
+    };
+    Equations equations(const PlaneState& state, const Weights& weights,
+                        const std::vector<double>& sigmas, bool with_start) const;
+    PlaneState moved(const PlaneState& state, const Eigen::VectorXd& step) const;
+
+private:
+    void add_contour(const PlaneState& state, std::size_t c, const std::vector<double>& weights,
+                     double sigma, Equations& to) const;
+
+    const PlaneFitProblem& problem_;
+    int planes_ = 0, size_ = 0;
+    std::vector<int> column_of_set_;  // -1: fixed
+};
+
+}  // namespace culet

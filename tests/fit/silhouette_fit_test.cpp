@@ -1,0 +1,269 @@
+// Stones from their outlines: against stones that are known, and derivatives against differences.
+
+#include "fit/silhouettes/silhouette_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "fit/fit.h"
+#include "fit/silhouettes/plane_solver.h"
+#include "fit/silhouettes/registration.h"
+#include "stone/errors.h"
+#include "tests/fit/test_stones.h"
+#include "tests/fit/turntable_outlines.h"
+
+namespace culet {
+namespace {
+
+using test::brilliant;
+using test::stone_of;
+using test::Turntable;
+using test::turntable_outlines;
+
+// Every plane tilted and moved by itself: meets come apart. The table stays level.
+Solid off_standard(const Solid& design, double tilt_deg, double shift, unsigned seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    std::vector<NamedPlane> planes;
+    for (const Facet& f : design.facets) {
+        Vec3 n = f.plane.normal;
+        if (f.name != "T") {
+            n += radians(tilt_deg) * Vec3{normal(random), normal(random), normal(random)};
+        }
+        planes.push_back({f.name, {glm::normalize(n), f.plane.offset + shift * normal(random)}});
+    }
+    return intersect_half_spaces(planes).solid;
+}
+
+// The design as a catalogue has it: of another size, and standing elsewhere.
+Stone catalogue(double scale, double turn_deg, const Vec3& shift) {
+    Solid solid = brilliant();
+    const double a = radians(turn_deg);
+    for (Vec3& v : solid.vertices) {
+        v = scale * Vec3{std::cos(a) * v.x - std::sin(a) * v.y,
+                         std::sin(a) * v.x + std::cos(a) * v.y, v.z} +
+            shift;
+    }
+    for (Facet& f : solid.facets) {
+        std::vector<Vec3> loop;
+        for (const int c : f.corners) loop.push_back(solid.vertices[std::size_t(c)]);
+        f.plane = plane_through(loop);
+    }
+    return stone_of(solid);
+}
+
+FitOptions without_findings() {
+    FitOptions options;
+    options.findings = false;
+    return options;
+}
+
+FitInput input_of(const Stone& mesh, SilhouetteSet set, std::vector<WrittenReading> others = {}) {
+    WrittenReading written;
+    written.kind = "silhouette";
+    written.outlines = std::make_shared<const SilhouetteSet>(std::move(set));
+    others.push_back(written);
+    return fit_input(mesh, others);
+}
+
+// Angles between the normals of facets of one name, and inclinations in their sigmas.
+struct Errors {
+    double rms_deg = 0, worst_deg = 0, within_sigma = 0;
+    int facets = 0;
+};
+
+// Facets are held against the truth as it stands turned by `turn` about up: nothing tells which of
+// eight ways round a brilliant of the catalogue is.
+Errors errors_at(const FitResult& result, const Solid& truth, double least_area, double turn) {
+    Errors errors;
+    double squares = 0;
+    int within = 0;
+    for (const Facet& t : truth.facets) {
+        if (area(truth, t) < least_area || t.name == "T") continue;
+        const Vec3& n = t.plane.normal;
+        const Vec3 turned{std::cos(turn) * n.x - std::sin(turn) * n.y,
+                          std::sin(turn) * n.x + std::cos(turn) * n.y, n.z};
+        const auto nearest = std::min_element(result.facets.begin(), result.facets.end(),
+                                              [&](const FittedFacet& a, const FittedFacet& b) {
+                                                  return glm::dot(a.plane.normal, turned) >
+                                                         glm::dot(b.plane.normal, turned);
+                                              });
+        const double off = nearest->inclination - inclination(n, {0, 0, 1});
+        errors.worst_deg =
+            std::max(errors.worst_deg, degrees(angle_between(nearest->plane.normal, turned)));
+        squares += off * off;
+        within += std::abs(off) < nearest->sigma_inclination;
+        ++errors.facets;
+    }
+    errors.rms_deg = degrees(std::sqrt(squares / errors.facets));
+    errors.within_sigma = double(within) / errors.facets;
+    return errors;
+}
+
+Errors errors_of(const FitResult& result, const Solid& truth, double least_area,
+                 double turn_deg = 0) {
+    Errors best;
+    for (int k = 0; k < 8; ++k) {
+        const Errors errors = errors_at(result, truth, least_area, radians(45.0 * k + turn_deg));
+        if (k == 0 || errors.rms_deg < best.rms_deg) best = errors;
+    }
+    return best;
+}
+
+// A cube of edge 2 seen along its diagonal (1, 1, 0) is a rectangle of 2 sqrt 2 by 2.
+TEST(ProjectedOutline, of_a_cube_along_a_diagonal_is_a_rectangle) {
+    const Vec3 across = glm::normalize(Vec3{1, -1, 0}), along{0, 0, 1};
+    const ProjectedOutline outline = projected_outline(test::cube().vertices, across, along);
+    ASSERT_EQ(outline.edges.size(), 4u);
+    double around = 0;
+    for (const auto& e : outline.edges) around += e.length;
+    EXPECT_NEAR(around, 4 * std::numbers::sqrt2 + 4, 1e-12);
+    EXPECT_NEAR(outline.nearest(0, 0).distance, -1, 1e-12);
+    EXPECT_NEAR(outline.nearest(2, 0.5).distance, 2 - std::numbers::sqrt2, 1e-12);
+}
+
+// Analytic gradient of half the cost against central differences of it: quadratic error, so that
+// a step of 1e-6 leaves 1e-6 of it, times a curvature of the order of one. At kinks, where a corner
+// leaves the outline within the step, there is no derivative: few of the unknowns meet one.
+TEST(PlaneSolver, gradient_is_that_of_central_differences) {
+    const Solid truth = off_standard(brilliant(), 0.3, 0.01, 3);
+    SilhouetteSet set = turntable_outlines(truth, {.views = 6, .points = 60, .sigma = 0.002});
+    PlaneFitProblem problem;
+    for (const Contour& c : set.contours) problem.contours.push_back(flattened(c, 0));
+    problem.motions.resize(1);
+    problem.motions[0].shift = {0.01, -0.02, 0.03};
+    problem.is_free = {true};
+    problem.stated_sigmas = {0};
+    problem.start_tilts.assign(truth.facets.size(), 0.03);
+    for (const Facet& f : truth.facets) problem.start.push_back(f.plane);
+    const PlaneSolver solver(problem);
+    PlaneState state{problem.start, problem.motions, {}, {}};
+    ASSERT_TRUE(solver.look(state));
+    const std::vector<double> sigmas{0.01};
+    const PlaneSolver::Weights weights = solver.weights(state, {1});
+    const auto equations = solver.equations(state, weights, sigmas, true);
+    int seen = 0, alike = 0, other = 0;
+    for (Eigen::Index i = 0; i < equations.gradient.size(); ++i) {
+        constexpr double k_step = 1e-6;
+        Eigen::VectorXd step = Eigen::VectorXd::Zero(equations.gradient.size());
+        double cost[2];
+        for (int side = 0; side < 2; ++side) {
+            step(i) = side == 0 ? -k_step : k_step;
+            PlaneState there = solver.moved(state, step);
+            ASSERT_TRUE(solver.look(there));
+            cost[side] = solver.cost(there, weights, sigmas);
+        }
+        const double difference = 0.5 * (cost[1] - cost[0]) / (2 * k_step);
+        const double allowed = 1e-3 * (1 + std::abs(difference)) + 1e-6 * equations.matrix(i, i);
+        (std::abs(equations.gradient(i) - difference) < allowed ? alike : other)++;
+        seen += std::abs(difference) > 1;
+    }
+    EXPECT_GT(seen, 60);
+    EXPECT_LT(other, 0.05 * alike);
+}
+
+// Without noise nothing but the outlines' finite number of points is between the fit and the truth.
+TEST(SilhouetteFit, finds_size_turn_and_every_facet_of_a_stone_that_is_no_standard) {
+    const Solid truth = off_standard(brilliant(), 0.4, 0.01, 7);
+    SilhouetteSet set = turntable_outlines(truth, {.views = 120, .points = 500, .sigma = 1e-4});
+    set.is_free = true;
+    const FitInput input = input_of(catalogue(1.15, 17, {3, -2, 5}), std::move(set));
+    const FitResult result = fit_stone(input);
+    EXPECT_TRUE(result.checks.closed && result.checks.convex);
+    const Errors errors = errors_of(result, truth, 0.1, 17);
+    EXPECT_LT(errors.rms_deg, 0.05);
+    EXPECT_LT(errors.worst_deg, 2);
+    ASSERT_TRUE(result.readings.back().silhouette);
+    EXPECT_LT(result.readings.back().silhouette->misfit.rms, 1.2e-4);
+}
+
+// Sigmas that say 68 %: of some 600 inclinations, most of which hang together in tens, the share
+// within one sigma scatters by sqrt(0.68 * 0.32 / 60) = 6 %.
+TEST(SilhouetteFit, sigmas_hold_and_are_found_from_the_residuals) {
+    double within = 0;
+    int count = 0;
+    constexpr int k_stones = 4;
+    for (unsigned seed = 1; seed <= k_stones; ++seed) {
+        const Solid truth = off_standard(brilliant(), 0.3, 0.008, 20 + seed);
+        SilhouetteSet set =
+            turntable_outlines(truth, {.views = 72, .points = 400, .sigma = 0.001, .seed = seed});
+        const FitResult result =
+            fit_stone(input_of(catalogue(1, 0, {0, 0, 0}), std::move(set)), without_findings());
+        const Errors errors = errors_of(result, truth, 0.02);
+        EXPECT_LT(errors_of(result, truth, 0.3).rms_deg, 0.05) << seed;
+        within += errors.within_sigma * errors.facets;
+        count += errors.facets;
+        ASSERT_TRUE(result.readings.back().silhouette);
+        const SilhouetteFinding& finding = *result.readings.back().silhouette;
+        EXPECT_TRUE(finding.estimated);
+        // Of 28 800 points: 1 / sqrt(2 n) = 0.4 %; five times that.
+        EXPECT_NEAR(finding.sigma, 0.001, 0.00002);
+    }
+    EXPECT_NEAR(within / count, 0.683, 0.18);
+}
+
+// Dust stands out over the outline, the holder hides the culet and stands out far.
+TEST(SilhouetteFit, dust_and_the_holder_do_not_count) {
+    const Solid truth = off_standard(brilliant(), 0.3, 0.008, 5);
+    SilhouetteSet set = turntable_outlines(truth, {.views = 72, .points = 400, .sigma = 0.001});
+    for (std::size_t c = 0; c < set.contours.size(); ++c) {
+        for (std::size_t i = 0; i < set.contours[c].points.size(); ++i) {
+            Vec3& p = set.contours[c].points[i];
+            if (p.z < -2.0) p.z -= 1.5;
+            if (c % 3 == 0 && i % 40 < 3) p *= 1.03;
+        }
+    }
+    set.is_free = true;
+    const FitResult result = fit_stone(input_of(catalogue(1.05, 5, {0, 0, 0}), std::move(set)));
+    const Errors errors = errors_of(result, truth, 0.3, 5);
+    EXPECT_LT(errors.rms_deg, 0.08);
+    EXPECT_GT(result.readings.back().silhouette->misfit.outliers, 500);
+}
+
+// Two independent values of one quantity are weighted by 1/sigma^2 (Gauss): an inclination read as
+// sure as the outlines know it, but two of its sigmas off, moves the facet by one.
+TEST(SilhouetteFit, readings_and_outlines_are_one_least_squares) {
+    const Solid truth = off_standard(brilliant(), 0.3, 0.008, 9);
+    const SilhouetteSet set =
+        turntable_outlines(truth, {.views = 72, .points = 400, .sigma = 0.002});
+    const Stone mesh = catalogue(1, 0, {0, 0, 0});
+    const FitResult alone = fit_stone(input_of(mesh, set), without_findings());
+    const auto facet = [](const FitResult& r, const char* name) {
+        return *std::find_if(r.facets.begin(), r.facets.end(),
+                             [&](const FittedFacet& f) { return f.name == name; });
+    };
+    const FittedFacet before = facet(alone, "P3");
+    WrittenReading w;
+    w.kind = "inclination";
+    w.of = {"P3"};
+    w.value = degrees(std::numbers::pi - before.inclination + 2 * before.sigma_inclination);
+    w.sigma = degrees(before.sigma_inclination);
+    const FitResult both = fit_stone(input_of(mesh, set, {w}), without_findings());
+    const FittedFacet after = facet(both, "P3");
+    // One more reading than there are unknowns; off by one sigma, as the outlines are.
+    EXPECT_NEAR(both.statistics.dof, 1, 0.01);
+    EXPECT_NEAR(both.statistics.chi2, 2, 0.02);
+    EXPECT_NEAR(after.inclination, before.inclination - before.sigma_inclination,
+                0.02 * before.sigma_inclination);
+    EXPECT_NEAR(after.sigma_inclination, before.sigma_inclination / std::numbers::sqrt2,
+                0.02 * before.sigma_inclination);
+}
+
+TEST(SilhouetteFit, refuses_meets_of_the_mesh_and_its_corners) {
+    const SilhouetteSet set = turntable_outlines(brilliant(), {.views = 12, .points = 200});
+    const Stone mesh = catalogue(1, 0, {0, 0, 0});
+    FitOptions options;
+    options.meets = MeetTreatment::soft;
+    options.meets_named = true;
+    EXPECT_THROW(fit_stone(input_of(mesh, set), options), InputError);
+    WrittenReading w;
+    w.kind = "distance";
+    w.of = {"v1", "v2"};
+    w.value = 1;
+    w.sigma = 0.1;
+    EXPECT_THROW(input_of(mesh, set, {w}), InputError);
+}
+
+}  // namespace
+}  // namespace culet
