@@ -185,9 +185,6 @@ int run_grade(GradeCommand command) {
     command.choices.report = command.report;
     command.choices.overrides = command.common.set;
     command.choices.quiet = command.common.quiet;
-    if (command.index && !(*command.index > 1 && *command.index < 10))
-        throw InputError(
-            fmt::format("--index is a refractive index above 1, found {:g}", *command.index));
     if (command.files.size() > k_most_designs)
         throw InputError(fmt::format("at most {} designs side by side", k_most_designs));
     if (!command.report.empty() && command.files.size() > 1)

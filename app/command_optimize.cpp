@@ -137,12 +137,10 @@ CutSheet sheet_of(const OptimizeOptions& options, const std::string& name) {
 int run_optimize(OptimizeCommand command) {
     if (fs::path(command.out).extension() != ".asc")
         throw InputError(command.out, "is written as a cut design: give it the ending .asc");
+    command.choices.command = "culet optimize";
     command.choices.index = command.index;
     command.choices.overrides = command.common.set;
     command.choices.quiet = command.common.quiet;
-    if (command.index && !(*command.index > 1 && *command.index < 10))
-        throw InputError(
-            fmt::format("--index is a refractive index above 1, found {:g}", *command.index));
     if (command.gain > 0 && !command.recut)
         throw InputError("--gain is of a stone that is cut anew: give --recut too");
     GradeInput input = load_for_grade(command.file, command.choices, false).front();

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
 
 #include "app/describe.h"
 #include "app/readings_form.h"
@@ -90,17 +89,11 @@ void describe_cutting(const Solid& solid, const CutSheet& sheet, Description& ab
                         {"indices", step.indices},
                         {"cut_to", depth_words(step.depth)}});
         const bool alike = step.most_angle_deg - step.least_angle_deg < 0.005;
-        std::string indices;
-        for (const double index : step.indices) {
-            // To a hundredth of a tooth, 0.04 degrees on a wheel of 96.
-            indices +=
-                fmt::format("{}{:g}", indices.empty() ? "" : " ", std::round(100 * index) / 100);
-        }
         about.lines.push_back(fmt::format(
             "{:<8} {:<9} {:>16}  {}", step.tier, name_of(step.part),
             alike ? fmt::format("{:.2f}", step.angle_deg)
                   : fmt::format("{:.2f} to {:.2f}", step.least_angle_deg, step.most_angle_deg),
-            step.part == StonePart::table || step.part == StonePart::culet ? "any" : indices));
+            index_settings(step, sheet.gear)));
     }
     about.object["gear"] = sheet.gear;
     about.object["cutting_list"] = std::move(list);

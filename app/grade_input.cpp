@@ -141,7 +141,10 @@ StoneUncertainty uncertainty_in(const fs::path& report, const Solid& solid) {
 
 std::vector<GradeInput> load_for_grade(const fs::path& file, const GradeChoices& choices,
                                        bool drawn) {
-    require_kind(file, {FileKind::solid, FileKind::stone}, "culet grade", choices.overrides);
+    if (choices.index && !(*choices.index > 1 && *choices.index < 10))
+        throw InputError(
+            fmt::format("--index is a refractive index above 1, found {:g}", *choices.index));
+    require_kind(file, {FileKind::solid, FileKind::stone}, choices.command, choices.overrides);
     std::vector<GradeInput> inputs;
     if (kind_of(file, choices.overrides) == FileKind::stone) {
         inputs = load_stone_file(file, choices, drawn);

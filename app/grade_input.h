@@ -29,6 +29,7 @@ struct GradeChoices {
     std::filesystem::path report;  ///< of a fit; empty: none
     std::vector<std::string> overrides;
     bool quiet = false;
+    const char* command = "culet grade";  ///< who asks, for messages
 };
 
 /// A stone file with readings is fitted; `drawn`: its mesh as it was drawn comes second. Throws

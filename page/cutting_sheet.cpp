@@ -29,17 +29,6 @@ std::string angle_text(const CuttingSheet& sheet, std::size_t step, const char* 
     return text;
 }
 
-std::string index_text(const CuttingStep& step, double gear) {
-    if (step.part == StonePart::table || step.part == StonePart::culet) return "any";
-    std::string text;
-    for (const double index : step.indices) {
-        // To a hundredth of a tooth, 0.04 degrees on a wheel of 96.
-        const double tooth = std::round(100 * index) / 100;
-        text += fmt::format("{}{:g}", text.empty() ? "" : " ", tooth == 0 ? std::abs(gear) : tooth);
-    }
-    return text;
-}
-
 std::vector<SheetRow> proportion_rows(const CuttingSheet& sheet) {
     const Proportions of = proportions(sheet.solid);
     const auto length = [&](double value) {
@@ -89,7 +78,7 @@ std::string cutting_sheet_page(const CuttingSheet& sheet) {
                          {"tier", step.tier},
                          {"part", name_of(step.part)},
                          {"angle", angle_text(sheet, i, "±")},
-                         {"indices", index_text(step, sheet.gear)},
+                         {"indices", index_settings(step, sheet.gear)},
                          {"depth", depth_words(step.depth)}});
     }
     for (const auto& [name, value] : proportion_rows(sheet))
@@ -126,7 +115,7 @@ std::string cutting_sheet_text(const CuttingSheet& sheet) {
         const CuttingStep& step = sheet.steps[i];
         text += fmt::format("{:>3}  {:<{}}  {:<8}  {:>{}}  {:<{}}  {}\n", i + 1, step.tier, tier,
                             name_of(step.part), angle_text(sheet, i, "+-"), angle,
-                            depth_words(step.depth), depth, index_text(step, sheet.gear));
+                            depth_words(step.depth), depth, index_settings(step, sheet.gear));
     }
     text += "\n";
     for (const auto& [name, value] : proportion_rows(sheet))

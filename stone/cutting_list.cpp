@@ -1,5 +1,7 @@
 #include "stone/cutting_list.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -137,6 +139,16 @@ std::string depth_words(const CutDepth& depth) {
             break;
     }
     return "size";
+}
+
+std::string index_settings(const CuttingStep& step, double gear) {
+    if (step.part == StonePart::table || step.part == StonePart::culet) return "any";
+    std::string text;
+    for (const double index : step.indices) {
+        const double tooth = std::round(100 * index) / 100;
+        text += fmt::format("{}{:g}", text.empty() ? "" : " ", tooth == 0 ? std::abs(gear) : tooth);
+    }
+    return text;
 }
 
 double least_girdle(const Solid& solid) {

@@ -43,6 +43,10 @@ std::vector<CuttingStep> cutting_list(const Solid& solid, const CutSheet& sheet,
 /// "meet G, P1", "centre point", ...
 std::string depth_words(const CutDepth& depth);
 
+/// Teeth to a hundredth, 0.04 degrees on a wheel of 96, with blanks between them; "any" of what
+/// lies level. The tooth at zero is called by the number of teeth.
+std::string index_settings(const CuttingStep& step, double gear);
+
 const char* name_of(StonePart part);
 
 /// The shortest edge between two girdle facets: the girdle where it is thinnest. 0 without one.

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <numeric>
 
 #include "stone/errors.h"
 #include "stone/largest_inside.h"
@@ -23,17 +22,6 @@ constexpr double k_first_step = 1.5, k_second_step = 0.5;  // degrees
 constexpr double k_enough_deg = 0.002;
 // What breaks a limit is worse than any cut within them; by how much says which way is out.
 constexpr double k_broken = 1e3, k_impossible = 1e6;
-
-double angle_from_level(const Vec3& normal) {
-    return std::atan2(std::hypot(normal.x, normal.y), std::abs(normal.z));
-}
-
-double mean_angle(const Solid& solid, const FacetTier& tier) {
-    double sum = 0;
-    for (const int f : tier.facets)
-        sum += angle_from_level(solid.facets[static_cast<std::size_t>(f)].plane.normal);
-    return sum / static_cast<double>(tier.facets.size());
-}
 
 class Search {
 public:

@@ -49,6 +49,13 @@ double height_at(const Plane& plane, const Vec3& at) {
 
 }  // namespace
 
+double mean_angle(const Solid& solid, const FacetTier& tier) {
+    double sum = 0;
+    for (const int f : tier.facets)
+        sum += angle_of(solid.facets[static_cast<std::size_t>(f)].plane.normal);
+    return sum / static_cast<double>(tier.facets.size());
+}
+
 struct TierDesign::Planes {
     std::vector<Plane> of;  // by facet
 };

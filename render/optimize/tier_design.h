@@ -15,6 +15,9 @@
 
 namespace culet {
 
+/// Mean angle from the horizontal of a tier's facets as they stand in `solid`, radians.
+double mean_angle(const Solid& solid, const FacetTier& tier);
+
 class TierDesign {
 public:
     /// `solid`: closed and convex, table up (+z). Throws InputError where it has no crown and no
