@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-
 #include "app/describe.h"
 #include "app/readings_form.h"
 #include "app/solid_input.h"
