@@ -5,7 +5,7 @@
 #include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/report_viewer.h"
-#include "app/solid_input.h"
+#include "stone/solid_input.h"
 #include "app/terminal.h"
 #include "compare/calibration/scene_comparison.h"
 #include "compare/calibration/several.h"

@@ -5,7 +5,7 @@
 #include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/readings_form.h"
-#include "app/solid_input.h"
+#include "stone/solid_input.h"
 #include "app/terminal.h"
 #include "render/export/povray.h"
 #include "render/scene/scene_io.h"

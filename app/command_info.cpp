@@ -8,7 +8,7 @@
 #include "app/material_list.h"
 #include "app/options.h"
 #include "app/readings_form.h"
-#include "app/solid_input.h"
+#include "stone/solid_input.h"
 #include "app/terminal.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"

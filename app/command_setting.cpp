@@ -7,7 +7,7 @@
 #include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/readings_form.h"
-#include "app/solid_input.h"
+#include "stone/solid_input.h"
 #include "app/terminal.h"
 #include "render/scene/setting_scene.h"
 #include "render/scene/stone_scene.h"

@@ -4,7 +4,7 @@
 
 #include "app/grade_input.h"
 #include "app/readings_form.h"
-#include "app/solid_input.h"
+#include "stone/solid_input.h"
 #include "page/cutting_sheet.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"

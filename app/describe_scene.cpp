@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/describe.h"
-#include "app/solid_input.h"
+#include "stone/solid_input.h"
 #include "render/image/image_io.h"
 #include "render/scene/scene_io.h"
 #include "stone/units.h"

@@ -2,7 +2,7 @@
 
 #include "app/describe.h"
 #include "app/readings_form.h"
-#include "app/solid_input.h"
+#include "stone/solid_input.h"
 #include "stone/caliper.h"
 #include "stone/cutting_list.h"
 #include "stone/proportions.h"

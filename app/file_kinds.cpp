@@ -5,60 +5,44 @@
 #include <algorithm>
 #include <fstream>
 
-#include "app/solid_input.h"
 #include "stone/errors.h"
-#include "stone/toml_file.h"
+#include "stone/solid_input.h"
 
 namespace culet {
 
 namespace {
 
 struct KindWords {
-    const char *is, *written;  ///< `a scene`, `a scene (TOML with [camera] and [light])`
-    const char* taken_by;      ///< commands for it
+    const char* written;   ///< `a scene (TOML with [camera] and [light])`
+    const char* taken_by;  ///< commands for it
 };
 
 KindWords words_of(FileKind kind) {
     switch (kind) {
         case FileKind::solid:
-            return {"a mesh or cut design", "a mesh or cut (.obj .off .ply .stl .asc .gem)",
+            return {"a mesh or cut (.obj .off .ply .stl .asc .gem)",
                     "culet info and culet convert take it, and a stone file names it: [stone] mesh "
                     "= \"...\""};
         case FileKind::stone:
-            return {"a stone file", "a stone file (TOML with [stone] and its readings)",
+            return {"a stone file (TOML with [stone] and its readings)",
                     "culet fit and culet info take it, and a scene names it: stone = \"...\""};
         case FileKind::scene:
-            return {"a scene", "a scene (TOML with a stone, [camera] and [light])",
+            return {"a scene (TOML with a stone, [camera] and [light])",
                     "culet render, probe and study take it"};
         case FileKind::job:
-            return {"a job", "a job (TOML with [fit] and [render])", "culet run takes it"};
+            return {"a job (TOML with [fit] and [render])", "culet run takes it"};
         case FileKind::material:
-            return {"a material", "a material (TOML with [material])",
+            return {"a material (TOML with [material])",
                     "a stone or scene names it: material = \"...\""};
         case FileKind::picture:
-            return {"a picture", "a picture (.png .jpg .tif .exr .hdr)",
-                    "culet compare and culet info take it"};
+            return {"a picture (.png .jpg .tif .exr .hdr)", "culet compare and culet info take it"};
         case FileKind::table:
-            return {"a table of readings", "a table of readings (.csv)",
+            return {"a table of readings (.csv)",
                     "a stone file names it: [stone] readings = \"...\""};
         case FileKind::unknown:
             break;
     }
-    return {"of an unknown kind", "", ""};
-}
-
-FileKind kind_of_toml(const std::filesystem::path& file,
-                      const std::vector<std::string>& overrides) {
-    const TomlTable root = read_toml(file, overrides);
-    if (root.has("fit") && !root.has("stone")) return FileKind::job;
-    if (root.has("camera") || root.has("light")) return FileKind::scene;
-    if (root.kind("stone") == TomlTable::Kind::table) return FileKind::stone;
-    // [render] of a job names a scene; of a scene, settings.
-    if (root.kind("render") == TomlTable::Kind::table && root.table("render")->has("scene"))
-        return FileKind::job;
-    if (root.has("render")) return FileKind::scene;
-    if (root.has("stone") || root.has("mesh")) return FileKind::scene;
-    return root.has("material") ? FileKind::material : FileKind::unknown;
+    return {"", ""};
 }
 
 // By the text that culet render leaves in a picture's header.
@@ -73,17 +57,6 @@ bool is_render(const std::filesystem::path& file) {
 
 }  // namespace
 
-FileKind kind_of(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-    if (is_solid_file(file)) return FileKind::solid;
-    const std::string extension = extension_of(file);
-    if (extension == "toml") return kind_of_toml(file, overrides);
-    if (extension == "csv") return FileKind::table;
-    for (const char* picture : {"exr", "hdr", "png", "jpg", "jpeg", "tif", "tiff"}) {
-        if (extension == picture) return FileKind::picture;
-    }
-    return FileKind::unknown;
-}
-
 void require_kind(const std::filesystem::path& file, const std::vector<FileKind>& taken,
                   const std::string& command, const std::vector<std::string>& overrides) {
     const FileKind kind = kind_of(file, overrides);
@@ -93,7 +66,7 @@ void require_kind(const std::filesystem::path& file, const std::vector<FileKind>
     for (const FileKind one : taken) {
         takes += fmt::format("{}{}", takes.empty() ? "" : " or ", words_of(one).written);
     }
-    throw InputError(file, fmt::format("is {}, and {} takes {}; {}", words_of(kind).is, command,
+    throw InputError(file, fmt::format("is {}, and {} takes {}; {}", words_for(kind), command,
                                        takes, words_of(kind).taken_by));
 }
 

@@ -1,16 +1,13 @@
 #pragma once
-// Which kind of file a name names, and what to say to somebody who gave the wrong kind.
+// What to say to somebody who gave a command the wrong kind of file.
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "stone/file_kind.h"
+
 namespace culet {
-
-enum class FileKind { solid, stone, scene, job, material, picture, table, unknown };
-
-/// By extension; TOML files by their tables. A TOML file that cannot be read throws InputError.
-FileKind kind_of(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 /// Throws InputError when `file` is of a kind that `command` (fit) does not take: it says what the
 /// file is, what the command takes, and which command takes the file. Kinds that cannot be told

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/file_kinds.h"
-#include "app/solid_input.h"
+#include "stone/solid_input.h"
 #include "app/terminal.h"
 #include "fit/fit.h"
 #include "fit/readings/measurement.h"

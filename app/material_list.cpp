@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "app/solid_input.h"
+#include "stone/solid_input.h"
 #include "page/material_page.h"
 #include "render/colour/material_colour.h"
 #include "stone/errors.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Meshes and cut designs as the commands take them.
+// Any mesh or cut design, with all that its file says.
 
 #include <filesystem>
 #include <optional>

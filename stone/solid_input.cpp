@@ -1,4 +1,4 @@
-#include "app/solid_input.h"
+#include "stone/solid_input.h"
 
 #include <cctype>
 
