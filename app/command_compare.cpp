@@ -5,7 +5,6 @@
 #include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/report_viewer.h"
-#include "stone/solid_input.h"
 #include "app/terminal.h"
 #include "compare/calibration/scene_comparison.h"
 #include "compare/calibration/several.h"
@@ -16,6 +15,7 @@
 #include "render/scene/scene_io.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "stone/solid_input.h"
 
 namespace culet {
 

@@ -5,7 +5,6 @@
 #include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/readings_form.h"
-#include "stone/solid_input.h"
 #include "app/terminal.h"
 #include "render/export/povray.h"
 #include "render/scene/scene_io.h"
@@ -13,6 +12,7 @@
 #include "stone/errors.h"
 #include "stone/mesh_io.h"
 #include "stone/output_file.h"
+#include "stone/solid_input.h"
 
 namespace culet {
 

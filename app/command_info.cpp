@@ -8,10 +8,10 @@
 #include "app/material_list.h"
 #include "app/options.h"
 #include "app/readings_form.h"
-#include "stone/solid_input.h"
 #include "app/terminal.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "stone/solid_input.h"
 #include "stone/stone_io.h"
 #include "stone/toml_file.h"
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/fit_uncertainty.h"
 #include "app/picture_output.h"
 #include "app/render_frames.h"
 #include "app/render_options.h"
@@ -19,8 +20,10 @@
 #include "render/planner/quick_picture.h"
 #include "render/planner/verify.h"
 #include "render/render.h"
+#include "render/uncertainty/picture_uncertainty.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "stone/quantile.h"
 
 namespace culet {
 
@@ -181,6 +184,8 @@ void require_sense(const RenderOptions& options) {
         throw InputError("a ray table is of one view: leave out --table, or --frames");
     if (options.out == "-" && options.stats == "-")
         throw InputError("stdout takes the picture or the stats, not both");
+    if (!options.uncertainty.empty() && !options.out.ends_with(".exr"))
+        throw InputError("--uncertainty adds layers to an OpenEXR picture: -o IMAGE.exr");
     if (!options.plan.empty() &&
         std::any_of(options.common.set.begin(), options.common.set.end(),
                     [](const std::string& set) { return set.starts_with("render."); }))
@@ -195,9 +200,40 @@ void say_verified(const Verification& found, bool quiet) {
     if (!found.holds()) say("the error bound does not hold", quiet);
 }
 
+// Layers of what the stone's fit leaves open.
+void add_uncertainty(const RenderOptions& options, const Scene& scene,
+                     const StoneUncertainty& uncertainty, RenderResult& result) {
+    const bool quiet = options.common.quiet;
+    const PictureUncertainty found =
+        picture_uncertainty(scene, plan_drawn(scene, result.stats), uncertainty, options.draws,
+                            progress_line("drawing stones from the uncertainty", quiet));
+    add_layers(found, result.picture);
+    std::vector<float> relative;
+    const std::size_t pixels = result.picture.pixels();
+    for (std::size_t p = 0; p < pixels; ++p) {
+        const float* mean = found.mean.data() + 3 * p;
+        const double light = luminance({mean[0], mean[1], mean[2]});
+        if (found.sigma_luminance[p] > 0 && light > 0)
+            relative.push_back(found.sigma_luminance[p] / static_cast<float>(light));
+    }
+    say(fmt::format("what the readings leave open moves half of the stone's pixels by more than "
+                    "{:.0f} % (one sigma, {} draws{}); culet compare PHOTO {} shows where a "
+                    "photograph is within it",
+                    relative.empty() ? 0 : 100 * double(quantile(relative, 0.5)), found.draws,
+                    found.correlated ? "" : ", facets taken as independent", options.out),
+        quiet);
+    if (found.left_out > 0)
+        say(fmt::format("{} draws were no closed stone and are left out", found.left_out), quiet);
+    if (uncertainty.unknown > 0)
+        say(fmt::format("{} facets have no uncertainty in {} and count as known exactly",
+                        uncertainty.unknown, options.uncertainty),
+            quiet);
+}
+
 // All frames of a turntable, of which the first is the picture; else the picture alone, written.
 RenderResult draw(const RenderOptions& options, const Scene& scene,
-                  const std::optional<SavedPlan>& saved, const PictureOutput& output,
+                  const std::optional<SavedPlan>& saved,
+                  const std::optional<StoneUncertainty>& uncertainty, const PictureOutput& output,
                   Drafts& drafts) {
     const bool quiet = options.common.quiet;
     const auto picture = [&](const Scene& now) {
@@ -210,6 +246,7 @@ RenderResult draw(const RenderOptions& options, const Scene& scene,
     if (options.frames) return draw_frames(frames_of(options), scene, picture, quiet);
     if (!saved && engine_of(scene.settings).approaches_truth()) drafts.first();
     RenderResult result = picture(scene);
+    if (uncertainty) add_uncertainty(options, scene, *uncertainty, result);
     output.write(result.picture,
                  {{"culet:scene", std::filesystem::path(options.scene).filename().string()},
                   {"culet:seed", std::to_string(options.common.seed)}});
@@ -228,6 +265,9 @@ int run_render(const RenderOptions& options) {
     if (!(options.table.empty() && options.views.empty()) &&
         scene.settings.engine != k_raytable_engine)
         throw InputError("--table and --views are for ray tables: add --engine raytable");
+    std::optional<StoneUncertainty> uncertainty;
+    if (!options.uncertainty.empty())
+        uncertainty = uncertainty_in(options.uncertainty, scene.stone);
     output.look_as(options.exposure, options.tonemap, scene);
     const bool nears_truth = engine_of(scene.settings).approaches_truth();
     if (options.verify && !nears_truth)
@@ -247,7 +287,7 @@ int run_render(const RenderOptions& options) {
     Drafts drafts(options, output, scene);
     RenderResult result;
     try {
-        result = draw(options, scene, saved, output, drafts);
+        result = draw(options, scene, saved, uncertainty, output, drafts);
     } catch (const Interrupted&) {
         if (!drafts.any()) throw;
         say(fmt::format("interrupted; {} holds a coarse picture", options.out), false);

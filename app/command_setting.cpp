@@ -7,7 +7,6 @@
 #include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/readings_form.h"
-#include "stone/solid_input.h"
 #include "app/terminal.h"
 #include "render/scene/setting_scene.h"
 #include "render/scene/stone_scene.h"
@@ -17,6 +16,7 @@
 #include "stone/name_suggestions.h"
 #include "stone/output_file.h"
 #include "stone/setting/setting.h"
+#include "stone/solid_input.h"
 #include "stone/stone_io.h"
 
 namespace culet {

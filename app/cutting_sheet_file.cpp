@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "app/fit_uncertainty.h"
 #include "app/grade_input.h"
 #include "app/readings_form.h"
-#include "stone/solid_input.h"
 #include "page/cutting_sheet.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
+#include "stone/solid_input.h"
 #include "stone/stone_io.h"
 #include "stone/units.h"
 
@@ -37,7 +38,9 @@ void write_cutting_sheet(const SheetOptions& options, const DescribeOptions& des
     sheet.refractive_index = cut.refractive_index;
     if (describe.width_mm > 0) sheet.unit = "mm";
     if (!options.report.empty()) {
-        const StoneUncertainty known = uncertainty_in(options.report, input.solid);
+        Stone stone;
+        stone.solid = input.solid;
+        const StoneUncertainty known = uncertainty_in(options.report, stone);
         for (const CuttingStep& step : sheet.steps) {
             double most = 0;
             for (const int f : step.facets)

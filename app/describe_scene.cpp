@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "app/describe.h"
-#include "stone/solid_input.h"
 #include "render/image/image_io.h"
 #include "render/scene/scene_io.h"
+#include "stone/solid_input.h"
 #include "stone/units.h"
 
 namespace culet {

@@ -2,10 +2,10 @@
 
 #include "app/describe.h"
 #include "app/readings_form.h"
-#include "stone/solid_input.h"
 #include "stone/caliper.h"
 #include "stone/cutting_list.h"
 #include "stone/proportions.h"
+#include "stone/solid_input.h"
 #include "stone/stone.h"
 #include "stone/units.h"
 

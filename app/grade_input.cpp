@@ -4,18 +4,18 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
 
 #include "app/file_kinds.h"
-#include "stone/solid_input.h"
+#include "app/fit_uncertainty.h"
 #include "app/terminal.h"
 #include "fit/fit.h"
 #include "fit/readings/measurement.h"
-#include "render/grade/upright.h"
 #include "stone/errors.h"
 #include "stone/material_io.h"
 #include "stone/output_file.h"
+#include "stone/solid_input.h"
 #include "stone/stone_io.h"
+#include "stone/upright.h"
 
 namespace culet {
 
@@ -23,43 +23,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using Json = nlohmann::json;
-
 Material material_called(const std::string& name) {
     return fs::path(name).extension() == ".toml" ? read_material(name) : catalogue_material(name);
-}
-
-// null, which stands for what is not known (the azimuth of a level facet), is 0.
-double number_of(const Json& facet, const char* key) {
-    const auto found = facet.find(key);
-    return found != facet.end() && found->is_number() ? found->get<double>() : 0;
-}
-
-double known(double sigma) {
-    return std::isfinite(sigma) ? sigma : 0;
-}
-
-// The report's facets are the mesh's, of which the planes may have left some no room.
-StoneUncertainty uncertainty_of(const FitResult& result) {
-    StoneUncertainty uncertainty;
-    std::vector<std::size_t> rows;  // of the covariance
-    for (const Facet& facet : result.solid.facets) {
-        for (std::size_t f = 0; f < result.facets.size(); ++f) {
-            const FittedFacet& fitted = result.facets[f];
-            if (fitted.name != facet.name) continue;
-            uncertainty.facets.push_back({known(fitted.sigma_inclination),
-                                          known(fitted.sigma_azimuth), known(fitted.sigma_offset)});
-            for (std::size_t k = 0; k < 3; ++k) rows.push_back(3 * f + k);
-            break;
-        }
-    }
-    if (result.facet_covariance.empty()) return uncertainty;
-    const std::size_t size = 3 * result.facets.size();
-    for (const std::size_t i : rows) {
-        for (const std::size_t j : rows)
-            uncertainty.covariance.push_back(known(result.facet_covariance[i * size + j]));
-    }
-    return uncertainty;
 }
 
 void take_material(const GradeChoices& choices, GradeInput& input) {
@@ -117,28 +82,6 @@ std::vector<GradeInput> load_stone_file(const fs::path& file, const GradeChoices
 
 }  // namespace
 
-StoneUncertainty uncertainty_in(const fs::path& report, const Solid& solid) {
-    const Json json = Json::parse(read_text(report), nullptr, false);
-    if (!json.is_object() || !json.contains("facets") || !json["facets"].is_array())
-        throw InputError(report, "is no report of culet fit (--report FIT.json writes one)");
-    StoneUncertainty uncertainty;
-    for (const Facet& facet : solid.facets) {
-        const Json* found = nullptr;
-        for (const Json& one : json["facets"]) {
-            if (one.is_object() && one.value("name", std::string()) == facet.name) found = &one;
-        }
-        if (found == nullptr) {
-            throw InputError(
-                report,
-                fmt::format("has no facet \"{}\": it is the report of another stone", facet.name));
-        }
-        uncertainty.facets.push_back({radians(number_of(*found, "sigma_inclination")),
-                                      radians(number_of(*found, "sigma_azimuth")),
-                                      number_of(*found, "sigma_offset")});
-    }
-    return uncertainty;
-}
-
 std::vector<GradeInput> load_for_grade(const fs::path& file, const GradeChoices& choices,
                                        bool drawn) {
     if (choices.index && !(*choices.index > 1 && *choices.index < 10))
@@ -163,7 +106,7 @@ std::vector<GradeInput> load_for_grade(const fs::path& file, const GradeChoices&
         take_material(choices, input);
         input.stone = standing_upright(input.stone);
         if (!choices.report.empty())
-            input.uncertainty = uncertainty_in(choices.report, input.stone.solid);
+            input.uncertainty = uncertainty_in(choices.report, input.stone);
     }
     return inputs;
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/grade/grade.h"
-#include "render/grade/grade_sigma.h"
+#include "render/uncertainty/drawn_stones.h"
 #include "stone/stone.h"
 
 namespace culet {
@@ -36,9 +36,5 @@ struct GradeChoices {
 /// InputError.
 std::vector<GradeInput> load_for_grade(const std::filesystem::path& file,
                                        const GradeChoices& choices, bool drawn);
-
-/// How sure the facets are by the report of their fit. Throws InputError where it is another
-/// stone's.
-StoneUncertainty uncertainty_in(const std::filesystem::path& report, const Solid& solid);
 
 }  // namespace culet

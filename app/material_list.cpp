@@ -8,12 +8,12 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "stone/solid_input.h"
 #include "page/material_page.h"
 #include "render/colour/material_colour.h"
 #include "stone/errors.h"
 #include "stone/material.h"
 #include "stone/output_file.h"
+#include "stone/solid_input.h"
 
 namespace culet {
 

@@ -76,13 +76,7 @@ RenderResult draw_frames(const Frames& frames, const Scene& scene,
         RenderResult result;
         if (frame == 0) {
             result = first(scene);
-            if (result.stats.plan) {
-                plan = *result.stats.plan;
-            } else {
-                plan.settings = scene.settings;
-                plan.settings.engine = result.stats.engine;
-            }
-            plan.checked_bound = result.stats.error_bound;
+            plan = plan_drawn(scene, result.stats);
             // A stone that turns does not make the lamp flicker.
             exposure = fmt::format("{}", output.exposure_of(result.picture));
         } else {

@@ -12,12 +12,13 @@ namespace culet {
 struct RenderOptions {
     CommonOptions common;
     std::string scene, out, stats, plan, engine, effects, check, exposure, size, tonemap, table,
-        views;
+        views, uncertainty;
     double view_step = 0.1;
     StoneScene stone;
     std::optional<int> depth, frames;
     double turn_deg = 360;
     std::optional<double> tolerance;
+    int draws = 100;
     bool spectral = false, explain = false, verify = false;
 };
 

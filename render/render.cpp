@@ -123,6 +123,18 @@ void forget_meter(RenderStats& stats) {
 
 }  // namespace
 
+ScenePlan plan_drawn(const Scene& scene, const RenderStats& stats) {
+    ScenePlan plan;
+    if (stats.plan) {
+        plan = *stats.plan;
+    } else {
+        plan.settings = scene.settings;
+        plan.settings.engine = stats.engine;
+    }
+    plan.checked_bound = stats.error_bound;
+    return plan;
+}
+
 bool leaves_something_open(const Scene& scene) {
     const RenderSettings& settings = scene.settings;
     // What stands around the stone is sampled at random: no pilot tells how near it is.

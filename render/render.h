@@ -22,6 +22,9 @@ RenderResult render(const Scene& scene, const Progress& progress = {},
 RenderResult render_as_planned(const Scene& scene, const ScenePlan& plan,
                                const Progress& progress = {});
 
+/// What a picture of the scene was drawn with, for further ones of the same stone and light.
+ScenePlan plan_drawn(const Scene& scene, const RenderStats& stats);
+
 /// Whether `render` chooses anything itself: then `allowed_ns` counts.
 bool leaves_something_open(const Scene& scene);
 

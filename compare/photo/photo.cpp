@@ -38,6 +38,21 @@ void note_camera(Photo& photo, const std::string& bytes) {
     if (format == "JPEG") photo.encoding += " JPEG";
 }
 
+// Nothing unless all of them are there.
+std::vector<float> bands_of(const Picture& picture) {
+    std::vector<float> bands;
+    for (std::size_t k = 0; k < k_band_channels.size(); ++k) {
+        const auto plane = std::find_if(
+            picture.planes.begin(), picture.planes.end(),
+            [&](const Picture::Plane& one) { return one.channel == k_band_channels[k]; });
+        if (plane == picture.planes.end()) return {};
+        bands.resize(k_band_channels.size() * picture.pixels());
+        for (std::size_t p = 0; p < picture.pixels(); ++p)
+            bands[k_band_channels.size() * p + k] = plane->values[p];
+    }
+    return bands;
+}
+
 }  // namespace
 
 Photo read_photo(const std::filesystem::path& file) {
@@ -55,6 +70,7 @@ Photo read_photo(const std::filesystem::path& file) {
     photo.coverage = std::move(read.picture.coverage);
     photo.saturation = read.white;
     photo.encoding = read.encoding;
+    photo.bands = bands_of(read.picture);
     for (Picture::Plane& plane : read.picture.planes) {
         if (plane.channel == "saturated") photo.saturated = std::move(plane.values);
     }

@@ -21,6 +21,9 @@ struct Photo {
     std::vector<float> variance;
     /// 0..1 for each pixel: over-exposed in every exposure there was; empty: see `saturation`.
     std::vector<float> saturated;
+    /// Of a render with its stone's uncertainty (render/image/picture.h, k_band_channels): four
+    /// levels of the luminance a pixel; empty: not known.
+    std::vector<float> bands;
     /// False: the values do not stand for light (a tone-mapped JPEG); shapes and places only.
     bool photometric = true;
     std::string not_photometric;     ///< why, in a few words; empty when `photometric`

@@ -92,6 +92,10 @@ std::string scores_json(const Comparison& comparison, const CompareSources& sour
                         {"sentence", sentence_of(comparison.reflexes)}};
     json["light_return"] = {{"photo", number(comparison.photo_light)},
                             {"render", number(comparison.render_light)}};
+    if (comparison.within)
+        json["within_readings"] = {{"one_sigma", number(comparison.within->within_one)},
+                                   {"two_sigma", number(comparison.within->within_two)},
+                                   {"pixels", comparison.within->pixels}};
     json["null"] = null_json(comparison);
     json["sensitivity"] = calibrated ? sensitivity_json(*calibrated) : Json::array();
     if (calibrated) {

@@ -65,6 +65,14 @@ struct ReflexCount {
 /// "37 of 42 reflexes found, 0.4 % of the diameter apart; 9 of 11 coloured ones of one hue"
 std::string sentence_of(const ReflexCount& reflexes);
 
+/// How much of a photograph is within what the readings leave open: the luminance's bands of stones
+/// drawn from the fit's uncertainty. Were the stone one of them, 0.683 and 0.954 would be.
+struct WithinReadings {
+    double within_one = 0, within_two = 0;  ///< share of the compared pixels within 1, 2 sigma
+    int pixels = 0;                         ///< compared, and not clipped by the camera
+    PixelMap map;                           ///< 0 within one sigma, 0.5 within two, 1 outside
+};
+
 struct Comparison {
     Verdict verdict = Verdict::refused;
     std::string reason;  ///< the verdict in one plain sentence
@@ -85,6 +93,7 @@ struct Comparison {
     std::vector<std::string> notes;
     bool simulated = false;
     std::uint64_t seed = 1;
+    std::optional<WithinReadings> within;  ///< of a render with bands (Photo::bands)
     ComparedPictures pictures;
 
     /// False when the answer should not be trusted: the registration was refused.

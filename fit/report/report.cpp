@@ -1,5 +1,10 @@
 // The fit report: the keys of docs/stone-files.md, and a few more.
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
 #include "fit/findings/result.h"
 #include "fit/findings/summary.h"
 #include "fit/report/assessment.h"
@@ -139,6 +144,26 @@ Json options_json(const FitOptions& options) {
             {"significance", options.significance}};
 }
 
+// Stands in the report for the covariance, which is written a row a line.
+constexpr std::string_view k_covariance_here = "\"facet covariance goes here\"";
+
+// Degrees and the stone's unit; six digits: a millionth of a sigma.
+std::string covariance_rows(const std::vector<double>& covariance) {
+    const auto size = static_cast<std::size_t>(std::lround(std::sqrt(covariance.size())));
+    const auto unit = [](std::size_t i) { return i % 3 == 2 ? 1 : degrees(1); };
+    std::string rows = "[";
+    for (std::size_t i = 0; i < size; ++i) {
+        rows += i == 0 ? "\n  [" : ",\n  [";
+        for (std::size_t j = 0; j < size; ++j) {
+            const double value = covariance[i * size + j] * unit(i) * unit(j);
+            if (j > 0) rows += ", ";
+            rows += std::isfinite(value) ? fmt::format("{:.6g}", value) : "null";
+        }
+        rows += "]";
+    }
+    return rows + (size > 0 ? "\n ]" : "]");
+}
+
 }  // namespace
 
 std::string fit_report(const FitResult& result) {
@@ -179,7 +204,10 @@ std::string fit_report(const FitResult& result) {
     report["seconds"] = result.log.seconds;
     report["options"] = options_json(result.log.options);
     report_assessment(result, report);
-    return report.dump(1) + "\n";
+    report["facet_covariance"] = k_covariance_here.substr(1, k_covariance_here.size() - 2);
+    std::string text = report.dump(1) + "\n";
+    return text.replace(text.rfind(k_covariance_here), k_covariance_here.size(),
+                        covariance_rows(result.facet_covariance));
 }
 
 }  // namespace culet

@@ -13,6 +13,7 @@
 #include "fit/silhouettes/registration.h"
 #include "fit/silhouettes/silhouette_start.h"
 #include "stone/errors.h"
+#include "stone/upright.h"
 
 namespace culet {
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "stone/units.h"
+#include "stone/upright.h"
 
 namespace culet {
 
@@ -23,12 +24,6 @@ Plane placed_plane(const Plane& plane, const Similarity& at) {
 }
 
 }  // namespace
-
-Vec3 up_of(const Stone& stone) {
-    const int facet = stone.up_facet.empty() ? -1 : find_facet(stone.solid, stone.up_facet);
-    return facet >= 0 ? stone.solid.facets[std::size_t(facet)].plane.normal
-                      : glm::normalize(stone.up);
-}
 
 std::vector<FlatContour> flattened(const std::vector<Contour>& contours, int set) {
     std::vector<FlatContour> all;

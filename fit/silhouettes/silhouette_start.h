@@ -22,9 +22,6 @@ struct SilhouetteStart {
 SilhouetteStart silhouette_start(const Stone& mesh,
                                  const std::vector<std::shared_ptr<const SilhouetteSet>>& sets);
 
-/// Unit: of the up facet's plane, or as the stone file has it.
-Vec3 up_of(const Stone& stone);
-
 /// In their order; `set` is the number of the set that they are of.
 std::vector<FlatContour> flattened(const std::vector<Contour>& contours, int set);
 

@@ -6,21 +6,9 @@
 #include <vector>
 
 #include "render/grade/grade.h"
+#include "render/uncertainty/drawn_stones.h"
 
 namespace culet {
-
-/// How sure one facet is: standard uncertainties of inclination and azimuth (radians) and of its
-/// distance from the stone's middle (the solid's unit). 0: known exactly.
-struct FacetUncertainty {
-    double inclination = 0, azimuth = 0, offset = 0;
-};
-
-struct StoneUncertainty {
-    std::vector<FacetUncertainty> facets;  ///< in the solid's order
-    /// Covariance of all of them, row by row, three a facet; empty: facets are independent.
-    std::vector<double> covariance;
-    bool correlated() const { return !covariance.empty(); }
-};
 
 struct GradeSigma {
     std::map<std::string, double> figures;  ///< by the names of grade_figures.h

@@ -224,8 +224,10 @@ Picture read_exr(const std::string& bytes, const std::filesystem::path& file, bo
             picture.spectral.emplace_back(pixels);
             slice(name, picture.spectral.back().data(), 1);
         }
-        for (const char* name : {"variance.R", "variance.G", "variance.B", "saturated"}) {
-            if (has(name)) picture.planes.push_back({name, std::vector<float>(pixels)});
+        std::vector<std::string> further{"variance.R", "variance.G", "variance.B", "saturated"};
+        further.insert(further.end(), k_band_channels.begin(), k_band_channels.end());
+        for (const std::string& name : further) {
+            if (has(name.c_str())) picture.planes.push_back({name, std::vector<float>(pixels)});
         }
         for (Picture::Plane& plane : picture.planes) slice(plane.channel, plane.values.data(), 1);
         const Imf::Header& header = input.header();

@@ -11,6 +11,10 @@
 
 namespace culet {
 
+/// Channels of an EXR with the luminance's levels in pictures of an uncertain stone
+/// (uncertainty/picture_uncertainty.h): two and one standard deviations below, and above.
+inline constexpr std::array<const char*, 4> k_band_channels{"p02.Y", "p16.Y", "p84.Y", "p98.Y"};
+
 /// Rows run from the top, columns from the left. Linear scene radiance in sRGB primaries (white
 /// D65).
 struct Picture {

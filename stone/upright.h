@@ -9,4 +9,10 @@ namespace culet {
 /// where the stone names one.
 Stone standing_upright(const Stone& stone);
 
+/// Its own up direction, unit: the up facet's normal where it names one.
+Vec3 up_of(const Stone& stone);
+
+/// A solid that stands upright, in the frame of the stone whose up direction is `up`.
+Solid turned_back(Solid upright, const Vec3& up);
+
 }  // namespace culet
