@@ -8,6 +8,7 @@
 #include "app/terminal.h"
 #include "compare/calibration/scene_comparison.h"
 #include "compare/calibration/several.h"
+#include "compare/calibration/within_readings.h"
 #include "compare/report/report.h"
 #include "compare/report/scores_json.h"
 #include "compare/report/several_page.h"
@@ -129,8 +130,8 @@ Report report_of(const CompareArguments& a, const std::string& photo, const Comp
 Compared compare_with_render(const CompareArguments& a, const std::string& version) {
     const Photo photo = read_photo(a.pictures.front()), render = read_photo(a.against());
     Compared result;
-    result.comparison =
-        compare(photo, render, options_of(a, photo), progress_line("comparing", a.common.quiet));
+    result.comparison = compare_with_bands(photo, render, options_of(a, photo),
+                                           progress_line("comparing", a.common.quiet));
     result.json = scores_json(result.comparison, {a.pictures.front(), a.against(), a.mask});
     result.report = report_of(a, a.pictures.front(), result.comparison, result.json, version);
     return result;
@@ -175,6 +176,12 @@ Compared compare_with_scene(const CompareArguments& a, const std::string& photo_
 
 void say_result(const CompareArguments& a, const Comparison& comparison) {
     say(fmt::format("{}: {}", name_of(comparison.verdict), comparison.reason), a.common.quiet);
+    if (comparison.within)
+        say(fmt::format(
+                "{:.0f} % of the pixels are within one sigma of what the readings leave open, "
+                "{:.0f} % within two (68 and 95 were the stone as fitted)",
+                100 * comparison.within->within_one, 100 * comparison.within->within_two),
+            a.common.quiet);
     if (!a.common.verbose) return;
     for (const Score& score : comparison.scores) {
         say(fmt::format("  {:14} {:>9}   chance {:.3f} ± {:.3f}", score.key,

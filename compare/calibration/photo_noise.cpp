@@ -6,6 +6,7 @@
 
 #include "compare/calibration/chance.h"
 #include "compare/calibration/photo_blur.h"
+#include "compare/photo/pixels.h"
 #include "compare/pose/picture_noise.h"
 
 namespace culet {
@@ -86,6 +87,25 @@ void set_blur_and_noise(CameraModel& camera, const MatchedPictures& pictures) {
     const double electrons = photo_electrons(pictures, camera.psf_px, camera.bits);
     camera.electrons =
         std::exp2(std::round(k_steps_per_octave * std::log2(electrons)) / k_steps_per_octave);
+}
+
+CameraModel camera_of(const Photo& photo, const AlignedPair& pair) {
+    CameraModel camera;
+    camera.clips = photo.saturation > 0;
+    camera.bits = bits_of(photo);
+    const double white = pair.pictures.white;
+    for (std::size_t c = 0; c < 3; ++c) camera.gain[c] = pair.gain[c] / white;
+    set_blur_and_noise(camera, pair.pictures);
+    const CloseUp& shown = pair.frame.photo;
+    camera.outline_from_background = shown.silhouette.source == "background";
+    // The median of what surrounds the stone.
+    const cv::Mat around = shown.silhouette.mask == 0;
+    std::vector<cv::Mat> channels;
+    cv::split(shown.colour, channels);
+    for (std::size_t c = 0; c < 3; ++c) {
+        camera.ground[c] = static_cast<float>(quantile(channels[c], around, 0.5) / white);
+    }
+    return camera;
 }
 
 }  // namespace culet

@@ -2,6 +2,7 @@
 // How noisy a photograph is, as the electrons that a camera with that noise would count.
 
 #include "compare/calibration/simulated_camera.h"
+#include "compare/scores/aligned_pair.h"
 #include "compare/scores/metrics.h"
 
 namespace culet {
@@ -18,5 +19,8 @@ double photo_electrons(const MatchedPictures& pictures, double psf_px, int bits)
 /// steps of a tenth of a pixel and of 9 % of noise, which is about what can be told: calibrations
 /// are kept by their camera.
 void set_blur_and_noise(CameraModel& camera, const MatchedPictures& pictures);
+
+/// What the photograph tells of its own camera.
+CameraModel camera_of(const Photo& photo, const AlignedPair& pair);
 
 }  // namespace culet

@@ -74,26 +74,6 @@ Mirrored mirrored(const Photo& photo, const CompareOptions& options) {
     return result;
 }
 
-// What the photograph tells of its own camera.
-CameraModel camera_of(const Photo& photo, const AlignedPair& pair) {
-    CameraModel camera;
-    camera.clips = photo.saturation > 0;
-    camera.bits = !camera.clips ? 0 : photo.encoding.find("16-bit") != std::string::npos ? 16 : 8;
-    const double white = pair.pictures.white;
-    for (std::size_t c = 0; c < 3; ++c) camera.gain[c] = pair.gain[c] / white;
-    set_blur_and_noise(camera, pair.pictures);
-    const CloseUp& shown = pair.frame.photo;
-    camera.outline_from_background = shown.silhouette.source == "background";
-    // The median of what surrounds the stone.
-    const cv::Mat around = shown.silhouette.mask == 0;
-    std::vector<cv::Mat> channels;
-    cv::split(shown.colour, channels);
-    for (std::size_t c = 0; c < 3; ++c) {
-        camera.ground[c] = static_cast<float>(quantile(channels[c], around, 0.5) / white);
-    }
-    return camera;
-}
-
 // What is left out, seen from the model's picture.
 std::vector<float> ignored_in_model(const Frame& frame, const Photo& model) {
     if (frame.photo.ignored.empty()) return {};

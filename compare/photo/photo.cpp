@@ -103,6 +103,11 @@ Photo read_photo(const std::filesystem::path& file) {
     return photo;
 }
 
+int bits_of(const Photo& photo) {
+    if (!(photo.saturation > 0)) return 0;
+    return photo.encoding.find("16-bit") != std::string::npos ? 16 : 8;
+}
+
 std::vector<float> read_mask(const std::filesystem::path& file, int width, int height) {
     const Photo mask = read_photo(file);
     if (mask.width != width || mask.height != height) {

@@ -43,6 +43,9 @@ Photo read_photo(const std::filesystem::path& file);
 
 constexpr double k_max_photo_pixels = 2e8;
 
+/// Of a sample in the file: 8 or 16; 0 for floats.
+int bits_of(const Photo& photo);
+
 /// A hand-painted mask: white (over half) is stone. One value 0 or 1 a pixel.
 /// Throws InputError when its size is not `width` x `height`.
 std::vector<float> read_mask(const std::filesystem::path& file, int width, int height);

@@ -113,12 +113,11 @@ std::string maps_section(const Report& report) {
     if (report.comparison->within)
         add(report.comparison->within->map, ColourMap::error, 0, 1.25,
             "What the readings leave open",
-            fmt::format(
-                "Luminance against stones drawn from the fit's uncertainty: {} % of the pixels "
-                "are within one sigma, {} % within two. Were the stone one of them, 68 % and "
-                "95 % would be; noise and blur of the camera lower that.",
-                decimals(100 * report.comparison->within->within_one, 0),
-                decimals(100 * report.comparison->within->within_two, 0)),
+            fmt::format("Luminance against stones drawn from the fit's uncertainty, "
+                        "as this camera would show them: {} % of the pixels are within one sigma, "
+                        "{} % within two. Were the stone as fitted, 68 % and 95 % would be.",
+                        decimals(100 * report.comparison->within->within_one, 0),
+                        decimals(100 * report.comparison->within->within_two, 0)),
             colour_bar(ColourMap::error,
                        "dark: within one sigma, purple: within two, bright: outside", "1", "2",
                        "more"));

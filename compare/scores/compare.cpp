@@ -14,7 +14,6 @@
 #include "compare/photo/pixels.h"
 #include "compare/scores/aligned_pair.h"
 #include "compare/scores/colour_distribution.h"
-#include "compare/scores/open_bands.h"
 #include "compare/scores/rotation_null.h"
 #include "compare/scores/rotation_verdict.h"
 #include "compare/scores/score_list.h"
@@ -224,7 +223,6 @@ Comparison scored(const AlignedPair& pair, const Photo& photo, const Photo& rend
     add_null(close, wavelets, pair.usable(part).clone(), frame.render_mask(part).clone(), options,
              progress, measures.calibrating, result);
     judge_by_rotations(result);
-    result.within = within_readings(pair, render);
     result.pictures.white = pictures.white;
     result.pictures.render = photo_of(pictures.render);
     result.pictures.mask = map_of({}, pictures.mask);
