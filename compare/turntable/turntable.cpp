@@ -1,0 +1,278 @@
+#include "compare/turntable/turntable.h"
+
+#include <ceres/ceres.h>
+#include <fmt/format.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "stone/errors.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+// Lines of sight nearer to each other, or to opposite, share no plane that is well known.
+constexpr double k_least_sine = 0.1;
+// Outlines are opposite when they are half a turn apart to so much of a step.
+constexpr double k_opposite = 0.05;
+constexpr std::size_t k_most_pairs = 4000;
+constexpr double k_loss_px = 1;
+
+using Hull = std::vector<glm::dvec2>;
+
+Hull hull_of(const BackLitOutline& outline) {
+    std::vector<cv::Point2f> points, hull;
+    for (const glm::dvec2& p : outline.points) points.emplace_back(float(p.x), float(p.y));
+    cv::convexHull(points, hull);
+    Hull result;
+    for (const cv::Point2f& p : hull) result.push_back({double(p.x), double(p.y)});
+    return result;
+}
+
+template <class T>
+using V3 = Eigen::Matrix<T, 3, 1>;
+
+// The camera's axes for an outline: towards it, to the right and up in the picture.
+template <class T>
+struct View {
+    V3<T> sight, right, up;
+};
+template <class T>
+View<T> view_at(double turn, const T& elevation) {
+    const T c = cos(elevation), s = sin(elevation);
+    const double x = std::cos(turn), y = std::sin(turn);
+    return {{c * x, c * y, s}, {T(-y), T(x), T(0)}, {-s * x, -s * y, c}};
+}
+
+// How far the outline reaches in a direction of space that is square to the line of sight.
+template <class T>
+T reach(const Hull& hull, const View<T>& view, const V3<T>& direction, const T* table) {
+    const T x = view.right.dot(direction), y = view.up.dot(direction);
+    const T c = cos(table[1]), s = sin(table[1]);
+    // Direction as the picture shows it: its up is the axis, turned by the roll.
+    const T u = c * x + s * y, v = c * y - s * x;
+    const auto number = [](const T& t) {
+        if constexpr (std::is_same_v<T, double>)
+            return t;
+        else
+            return t.a;
+    };
+    const double nu = number(u), nv = number(v);
+    std::size_t far = 0;
+    double most = -1e300;
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+        const double d = nu * hull[i].x + nv * hull[i].y;
+        if (d > most) {
+            most = d;
+            far = i;
+        }
+    }
+    return u * (T(hull[far].x) - table[0]) + v * hull[far].y;
+}
+
+// Both touch the plane through their lines of sight; `side`: +1 above, -1 below.
+struct SharedPlane {
+    const Hull *one, *other;
+    double turn_one, turn_other, side;
+
+    template <class T>
+    bool operator()(const T* const table, T* residual) const {
+        const View<T> a = view_at(turn_one, table[2]), b = view_at(turn_other, table[2]);
+        V3<T> normal = a.sight.cross(b.sight);
+        normal /= normal.norm();
+        if (normal.z() < T(0)) normal = -normal;
+        normal *= T(side);
+        residual[0] = reach(*one, a, normal, table) - reach(*other, b, normal, table);
+        return true;
+    }
+};
+
+// Half a turn apart: both touch the plane beside the axis.
+struct OppositeReach {
+    const Hull *one, *other;
+    double turn, side;
+
+    template <class T>
+    bool operator()(const T* const table, T* residual) const {
+        const View<T> a = view_at(turn, table[2]), b = view_at(turn + std::numbers::pi, table[2]);
+        const V3<T> normal = T(side) * a.right;
+        residual[0] = reach(*one, a, normal, table) - reach(*other, b, normal, table);
+        return true;
+    }
+};
+
+template <class Residual>
+ceres::CostFunction* cost(const Residual& residual) {
+    return new ceres::AutoDiffCostFunction<Residual, 1, 3>(new Residual(residual));
+}
+
+struct Problem {
+    std::vector<Hull> hulls;
+    std::vector<double> turns;
+    ceres::Problem ceres;
+    std::array<double, 3> table{0, 0, 0};
+    int opposite = 0, shared = 0;
+
+    void add(ceres::CostFunction* function) {
+        ceres.AddResidualBlock(function, new ceres::HuberLoss(k_loss_px), table.data());
+    }
+};
+
+void add_opposite(Problem& problem, double step) {
+    for (std::size_t i = 0; i < problem.hulls.size(); ++i) {
+        for (std::size_t j = i + 1; j < problem.hulls.size(); ++j) {
+            const double apart = problem.turns[j] - problem.turns[i] - std::numbers::pi;
+            if (std::abs(std::remainder(apart, 2 * std::numbers::pi)) > k_opposite * std::abs(step))
+                continue;
+            for (const double side : {1.0, -1.0})
+                problem.add(cost(
+                    OppositeReach{&problem.hulls[i], &problem.hulls[j], problem.turns[i], side}));
+            ++problem.opposite;
+        }
+    }
+}
+
+void add_shared(Problem& problem, const std::vector<BackLitOutline>& outlines) {
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    for (std::size_t i = 0; i < problem.hulls.size(); ++i) {
+        for (std::size_t j = i + 1; j < problem.hulls.size(); ++j) {
+            if (std::abs(std::sin(problem.turns[j] - problem.turns[i])) > k_least_sine)
+                pairs.emplace_back(i, j);
+        }
+    }
+    const std::size_t every = pairs.size() / k_most_pairs + 1;
+    for (std::size_t k = 0; k < pairs.size(); k += every) {
+        const auto [i, j] = pairs[k];
+        for (const double side : {1.0, -1.0}) {
+            const auto is_hidden = [&](const BackLitOutline& o) {
+                return side > 0 ? o.at_top : o.at_bottom;
+            };
+            if (is_hidden(outlines[i]) || is_hidden(outlines[j])) continue;
+            problem.add(cost(SharedPlane{&problem.hulls[i], &problem.hulls[j], problem.turns[i],
+                                         problem.turns[j], side}));
+            ++problem.shared;
+        }
+    }
+}
+
+// A table's flat top makes a kink at an elevation of 0, where the search would stop.
+constexpr std::array<double, 9> k_starts_deg{0, -0.5, 0.5, -1, 1, -2.5, 2.5, -6, 6};
+
+// The number of residuals.
+int solve(Problem& problem) {
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_QR;
+    options.max_num_iterations = 50;
+    options.function_tolerance = 1e-10;
+    options.logging_type = ceres::SILENT;
+    const std::array<double, 3> start = problem.table;
+    std::array<double, 3> best = start;
+    double least = 1e300;
+    for (const double elevation_deg : k_starts_deg) {
+        problem.table = start;
+        problem.table[2] = radians(elevation_deg);
+        ceres::Solver::Summary summary;
+        ceres::Solve(options, &problem.ceres, &summary);
+        if (!(summary.final_cost < least)) continue;
+        least = summary.final_cost;
+        best = problem.table;
+    }
+    problem.table = best;
+    return problem.ceres.NumResiduals();
+}
+
+void take_sigmas(Problem& problem, Turntable& table) {
+    ceres::Covariance covariance({});
+    const std::vector<const double*> block{problem.table.data()};
+    if (!covariance.Compute(block, &problem.ceres)) {
+        table.notes.push_back("the outlines do not fix the axis' inclination");
+        return;
+    }
+    std::array<double, 9> values;
+    covariance.GetCovarianceBlock(problem.table.data(), problem.table.data(), values.data());
+    table.sigma_axis_px = table.residual_px * std::sqrt(values[0]);
+    table.sigma_roll = table.residual_px * std::sqrt(values[4]);
+    table.sigma_elevation = table.residual_px * std::sqrt(values[8]);
+}
+
+}  // namespace
+
+Turntable turntable_of(const std::vector<BackLitOutline>& outlines, double step) {
+    if (outlines.size() < 3) throw InputError("a turntable needs three pictures at least");
+    Problem problem;
+    for (std::size_t i = 0; i < outlines.size(); ++i) {
+        problem.hulls.push_back(hull_of(outlines[i]));
+        // The stone turns one way, the camera goes round it the other way.
+        problem.turns.push_back(-step * static_cast<double>(i));
+    }
+    // A start: the middle of all that was seen.
+    double sum = 0;
+    for (const Hull& hull : problem.hulls) {
+        const auto [low, high] =
+            std::minmax_element(hull.begin(), hull.end(),
+                                [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x; });
+        sum += (low->x + high->x) / 2;
+    }
+    problem.table[0] = sum / static_cast<double>(outlines.size());
+    add_opposite(problem, step);
+    add_shared(problem, outlines);
+    if (problem.opposite == 0)
+        throw InputError(
+            fmt::format("no two of {} pictures are half a turn apart, {:g} degrees each: turn the "
+                        "stone all the way round, in steps that divide 180 degrees",
+                        outlines.size(), degrees(step)));
+    const int residuals_used = solve(problem);
+    Turntable table;
+    table.axis_px = problem.table[0];
+    table.roll = problem.table[1];
+    table.elevation = problem.table[2];
+    table.tangents = residuals_used;
+    std::vector<double> residuals;
+    ceres::Problem::EvaluateOptions evaluate;
+    evaluate.apply_loss_function = false;
+    problem.ceres.Evaluate(evaluate, nullptr, &residuals, nullptr, nullptr);
+    for (const double r : residuals) table.residual_px += r * r;
+    table.residual_px =
+        std::sqrt(table.residual_px / std::max(1.0, static_cast<double>(residuals.size()) - 3));
+    take_sigmas(problem, table);
+    return table;
+}
+
+std::vector<PlacedOutline> placed(const std::vector<BackLitOutline>& outlines, double step,
+                                  const Turntable& table, double scale) {
+    std::vector<PlacedOutline> result;
+    const double c = std::cos(table.roll), s = std::sin(table.roll);
+    for (std::size_t i = 0; i < outlines.size(); ++i) {
+        const View<double> view = view_at(-step * static_cast<double>(i), table.elevation);
+        PlacedOutline& one = result.emplace_back();
+        one.direction = {view.sight.x(), view.sight.y(), view.sight.z()};
+        for (const glm::dvec2& p : outlines[i].points) {
+            const double u = p.x - table.axis_px, v = p.y;
+            const V3<double> at =
+                scale * ((c * u - s * v) * view.right + (s * u + c * v) * view.up);
+            one.points.push_back({at.x(), at.y(), at.z()});
+        }
+    }
+    return result;
+}
+
+OutlineWidths widths_of(const std::vector<BackLitOutline>& outlines, const Turntable& table) {
+    OutlineWidths widths{1e300, 0};
+    const double c = std::cos(table.roll), s = std::sin(table.roll);
+    for (const BackLitOutline& outline : outlines) {
+        double low = 1e300, high = -1e300;
+        for (const glm::dvec2& p : outline.points) {
+            low = std::min(low, c * p.x - s * p.y);
+            high = std::max(high, c * p.x - s * p.y);
+        }
+        widths.least = std::min(widths.least, high - low);
+        widths.largest = std::max(widths.largest, high - low);
+    }
+    return widths;
+}
+
+}  // namespace culet

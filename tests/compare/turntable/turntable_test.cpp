@@ -1,0 +1,124 @@
+// Expectations: the axis and camera that the pictures were made with.
+
+#include "compare/turntable/turntable.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "stone/cuts/cuts.h"
+#include "stone/errors.h"
+#include "stone/units.h"
+#include "tests/compare/turned_stone.h"
+
+namespace culet {
+namespace {
+
+Solid stone_of_width(const char* cut, double width) {
+    Solid solid = make_cut(cut);
+    double radius = 0;
+    for (const Vec3& v : solid.vertices) radius = std::max(radius, std::hypot(v.x, v.y));
+    for (Vec3& v : solid.vertices) v *= width / 2 / radius;
+    for (Facet& f : solid.facets) f.plane.offset *= width / 2 / radius;
+    return solid;
+}
+
+std::vector<BackLitOutline> outlines_of(const Solid& solid, int count,
+                                        const synthetic::TurntableTruth& truth) {
+    std::mt19937_64 random(5);
+    std::vector<BackLitOutline> outlines;
+    for (int i = 0; i < count; ++i)
+        outlines.push_back(back_lit_outline(
+            synthetic::turned_picture(solid, 2 * std::numbers::pi * i / count, truth, random)));
+    return outlines;
+}
+
+synthetic::TurntableTruth small() {
+    synthetic::TurntableTruth truth;
+    truth.size = 320;
+    truth.pixel = 0.0225;
+    return truth;
+}
+
+// A straight edge blurred by a Gaussian falls to half where the edge is; noise of a hundredth of
+// the light over its slope, 0.4 of it a pixel, is 0.025 pixels for one point. A hundredth of a
+// pixel for the steps of 8 bits and for what lies between samples of the profile.
+TEST(BackLitOutline, lies_on_the_edges) {
+    const std::vector<NamedPlane> planes{{"T", {{0, 0, 1}, 1.5}},  {"B", {{0, 0, -1}, 1.5}},
+                                         {"E", {{1, 0, 0}, 2.5}},  {"W", {{-1, 0, 0}, 2.5}},
+                                         {"N", {{0, 1, 0}, 2.47}}, {"S", {{0, -1, 0}, 2.5}}};
+    const synthetic::TurntableTruth truth = small();
+    std::mt19937_64 random(1);
+    const BackLitOutline outline = back_lit_outline(
+        synthetic::turned_picture(intersect_half_spaces(planes).solid, 0, truth, random));
+    ASSERT_TRUE(outline.trouble.empty()) << outline.trouble;
+    EXPECT_GT(outline.contrast, 0.9);
+    EXPECT_FALSE(outline.at_left || outline.at_right || outline.at_top || outline.at_bottom);
+    // The side at y = 2.47, away from its ends.
+    double sum = 0;
+    int count = 0;
+    for (const glm::dvec2& p : outline.points) {
+        if (p.x < 0 || std::abs(p.y) * truth.pixel > 1.2) continue;
+        sum += p.x - 2.47 / truth.pixel;
+        ++count;
+    }
+    ASSERT_GT(count, 20);
+    EXPECT_NEAR(sum / count, 0, 4 * 0.025 / std::sqrt(count) + 0.01);
+}
+
+TEST(BackLitOutline, says_why_there_is_none) {
+    Photo photo;
+    photo.width = photo.height = 50;
+    photo.rgb.assign(3 * 2500, 0);
+    EXPECT_NE(back_lit_outline(photo).trouble, "");
+    photo.rgb.assign(3 * 2500, 0.7f);
+    EXPECT_NE(back_lit_outline(photo).trouble, "");
+}
+
+TEST(Turntable, is_found_from_outlines_alone) {
+    const Solid solid = stone_of_width("pear", 5);
+    synthetic::TurntableTruth truth = small();
+    truth.axis_px = 7.3;
+    truth.roll = radians(0.8);
+    truth.elevation = radians(1.5);
+    const Turntable found = turntable_of(outlines_of(solid, 24, truth), radians(15));
+    EXPECT_NEAR(found.axis_px, truth.axis_px, 0.1);
+    EXPECT_NEAR(degrees(found.roll), 0.8, 0.1);
+    EXPECT_NEAR(degrees(found.elevation), 1.5, 0.15);
+    EXPECT_LT(found.residual_px, 0.3);
+}
+
+TEST(Turntable, needs_opposite_pictures) {
+    const Solid solid = stone_of_width("round-brilliant", 5);
+    std::vector<BackLitOutline> outlines = outlines_of(solid, 24, small());
+    outlines.resize(10);
+    EXPECT_THROW(turntable_of(outlines, radians(15)), InputError);
+    outlines.resize(2);
+    EXPECT_THROW(turntable_of(outlines, radians(180)), InputError);
+}
+
+// The stone reaches as far as its outlines do, but for corners: a lens that blurs by one pixel
+// rounds them off by two.
+TEST(Turntable, places_outlines_around_the_stone) {
+    const Solid solid = stone_of_width("princess", 5);
+    synthetic::TurntableTruth truth = small();
+    truth.axis_px = -4.2;
+    truth.elevation = radians(1);
+    const std::vector<BackLitOutline> outlines = outlines_of(solid, 24, truth);
+    const Turntable table = turntable_of(outlines, radians(15));
+    for (const PlacedOutline& outline : placed(outlines, radians(15), table, truth.pixel)) {
+        for (const Vec3& direction :
+             {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{1, 0, 0}, Vec3{0, -1, 0}}) {
+            // In the picture's plane.
+            const Vec3 n = glm::normalize(
+                direction - glm::dot(direction, outline.direction) * outline.direction + 1e-12);
+            double stone = -1e300, seen = -1e300;
+            for (const Vec3& v : solid.vertices) stone = std::max(stone, glm::dot(v, n));
+            for (const Vec3& p : outline.points) seen = std::max(seen, glm::dot(p, n));
+            EXPECT_NEAR(seen, stone, 2.5 * truth.pixel);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace culet
