@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "compare/photo/pixels.h"
+#include "compare/turntable/sharp_corners.h"
 #include "stone/upper_median.h"
 
 namespace culet {
@@ -149,6 +150,9 @@ BackLitOutline back_lit_outline(const Photo& photo) {
         result.trouble = "the outline is too faint or too small: at least 100 points are needed";
         return result;
     }
+    SharpOutline sharp = sharpened(result.points);
+    result.points = std::move(sharp.points);
+    result.corners = std::move(sharp.corners);
     result.contrast = upper_median(contrasts);
     return result;
 }

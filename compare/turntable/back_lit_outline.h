@@ -12,6 +12,7 @@ namespace culet {
 struct BackLitOutline {
     /// In their order around the stone: x to the right, y up, pixels from the picture's middle.
     std::vector<glm::dvec2> points;
+    std::vector<glm::dvec2> corners;  ///< of its convex hull, not rounded by blur (sharp_corners.h)
     bool at_left = false, at_right = false, at_top = false, at_bottom = false;  ///< leaves there
     double contrast = 0;  ///< median of 1 - dark / bright across the outline
     std::string trouble;  ///< why there is none, for people; empty when all is well

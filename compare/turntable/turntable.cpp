@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <numbers>
-#include <opencv2/imgproc.hpp>
 
 #include "stone/errors.h"
 #include "stone/units.h"
@@ -23,15 +22,6 @@ constexpr std::size_t k_most_pairs = 4000;
 constexpr double k_loss_px = 1;
 
 using Hull = std::vector<glm::dvec2>;
-
-Hull hull_of(const BackLitOutline& outline) {
-    std::vector<cv::Point2f> points, hull;
-    for (const glm::dvec2& p : outline.points) points.emplace_back(float(p.x), float(p.y));
-    cv::convexHull(points, hull);
-    Hull result;
-    for (const cv::Point2f& p : hull) result.push_back({double(p.x), double(p.y)});
-    return result;
-}
 
 template <class T>
 using V3 = Eigen::Matrix<T, 3, 1>;
@@ -205,7 +195,7 @@ Turntable turntable_of(const std::vector<BackLitOutline>& outlines, double step)
     if (outlines.size() < 3) throw InputError("a turntable needs three pictures at least");
     Problem problem;
     for (std::size_t i = 0; i < outlines.size(); ++i) {
-        problem.hulls.push_back(hull_of(outlines[i]));
+        problem.hulls.push_back(outlines[i].corners);
         // The stone turns one way, the camera goes round it the other way.
         problem.turns.push_back(-step * static_cast<double>(i));
     }

@@ -10,12 +10,6 @@ namespace culet::synthetic {
 
 namespace {
 
-// Share of a pixel's light that passes an edge `distance` pixels away (positive: outside), through
-// a lens of that blur: the error function.
-double passed(double distance, double blur_px) {
-    return std::erfc(-distance / (std::sqrt(2.0) * blur_px)) / 2;
-}
-
 // Corners of the outline, pixels of the picture, clockwise as shown.
 std::vector<cv::Point2d> outline_of(const Solid& solid, double turn, const TurntableTruth& truth) {
     std::vector<cv::Point2f> all, hull;
@@ -54,29 +48,29 @@ Photo turned_picture(const Solid& solid, double turn, const TurntableTruth& trut
         if (normal.dot(inside - outline[i]) > 0) normal = -normal;
         edges.push_back({normal, normal.dot(outline[i])});
     }
+    // What of a pixel the nearest edge covers; then the lens.
+    cv::Mat covered(truth.size, truth.size, CV_32F);
+    for (int y = 0; y < truth.size; ++y) {
+        for (int x = 0; x < truth.size; ++x) {
+            double farthest = -1e300;
+            for (const Edge& edge : edges)
+                farthest =
+                    std::max(farthest, edge.normal.dot({double(x), double(y)}) - edge.offset);
+            covered.at<float>(y, x) = static_cast<float>(std::clamp(0.5 - farthest, 0.0, 1.0));
+        }
+    }
+    cv::GaussianBlur(covered, covered, {0, 0}, truth.blur_px);
     Photo photo;
     photo.width = photo.height = truth.size;
     photo.saturation = truth.eight_bit ? 1 : 0;
     std::normal_distribution<double> normal;
     for (int y = 0; y < truth.size; ++y) {
         for (int x = 0; x < truth.size; ++x) {
-            double farthest = -1e300, next = -1e300;
-            for (const Edge& edge : edges) {
-                const double d = edge.normal.dot({double(x), double(y)}) - edge.offset;
-                if (d > farthest) {
-                    next = farthest;
-                    farthest = d;
-                } else {
-                    next = std::max(next, d);
-                }
-            }
-            // Near a corner two edges count, as if they were square to each other.
-            const double covered =
-                (1 - passed(farthest, truth.blur_px)) * (1 - passed(next, truth.blur_px));
             const double u = 2.0 * x / truth.size - 1, v = 2.0 * y / truth.size - 1;
             const double spot =
                 0.6 * std::exp(-(std::pow(x - inside.x, 2) + std::pow(y - inside.y, 2)) / 800);
-            double light = 0.8 * (1 - 0.05 * (u * u + v * v)) * (1 - covered * (0.97 - spot));
+            double light = 0.8 * (1 - 0.05 * (u * u + v * v)) *
+                           (1 - double(covered.at<float>(y, x)) * (0.97 - spot));
             light = std::clamp(light + 0.8 * truth.noise * normal(random), 0.0, 1.0);
             if (truth.eight_bit) light = srgb_decoded(std::round(255 * srgb_encoded(light)) / 255);
             photo.rgb.insert(photo.rgb.end(), 3, static_cast<float>(light));
