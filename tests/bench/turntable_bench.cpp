@@ -12,6 +12,7 @@
 #include "fit/fit.h"
 #include "fit/silhouettes/contour_files.h"
 #include "stone/cuts/cuts.h"
+#include "stone/least_rotation.h"
 #include "stone/units.h"
 #include "tests/bench/cpu_time.h"
 #include "tests/compare/simulated_photo.h"
@@ -48,14 +49,16 @@ struct Errors {
 };
 
 // Each fitted facet against the true one that faces most as it does, the truth turned by `turn`.
+// Inclinations count from the table.
 Errors errors_of(const FitResult& fit, const Solid& truth, double turn) {
     const double c = std::cos(turn), s = std::sin(turn);
+    const Vec3 table = truth.facets[std::size_t(find_facet(truth, "T"))].plane.normal;
     Errors errors;
     for (const FittedFacet& facet : fit.facets) {
         if (!(facet.area > 0.02) || std::abs(facet.plane.normal.z) > 0.999) continue;
         double most = -2, inclination = 0;
         for (const Facet& f : truth.facets) {
-            const Vec3& n = f.plane.normal;
+            const Vec3 n = turned_with(table, {0, 0, 1}, f.plane.normal);
             const double cosine =
                 glm::dot(facet.plane.normal, Vec3{c * n.x - s * n.y, s * n.x + c * n.y, n.z});
             if (cosine <= most) continue;
