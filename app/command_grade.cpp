@@ -6,18 +6,14 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <optional>
 
-#include "app/grade_input.h"
-#include "app/grade_pictures.h"
+#include "app/graded.h"
 #include "app/options.h"
 #include "app/study_scene.h"
 #include "app/terminal.h"
 #include "page/grade_page.h"
 #include "render/grade/grade_figures.h"
-#include "render/grade/grade_json.h"
-#include "render/grade/path_section.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 #include "stone/units.h"
@@ -28,8 +24,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t k_most_tilts = 361, k_most_designs = 8;
-constexpr double k_most_tilt_deg = 85;
+constexpr std::size_t k_most_designs = 8;
 
 struct GradeCommand {
     CommonOptions common;
@@ -44,81 +39,11 @@ struct GradeCommand {
     bool page_alone = false;  ///< no summary
 };
 
-struct Graded {
-    GradeInput input;
-    Grade grade;
-    GradeSigma sigma;
-    std::vector<FacetCost> costs;
-    std::string json;
-};
-
-// "FROM:TO:STEP", or angles with commas between them; radians.
-std::vector<double> tilts_in(const std::string& text) {
-    const std::string expected =
-        "--tilts is FROM:TO:STEP or a list of angles, in degrees, within " +
-        fmt::format("{:g}", k_most_tilt_deg);
-    std::vector<double> tilts;
-    if (text.find(':') == std::string::npos) {
-        tilts = numbers_in(text, 1, k_most_tilts, expected);
-    } else {
-        std::string list = text;
-        for (char& c : list) c = c == ':' ? ',' : c;
-        const std::vector<double> range = numbers_in(list, 3, 3, expected);
-        const double steps = (range[1] - range[0]) / range[2];
-        if (!(range[2] != 0) || !(steps >= 0) || !(steps < k_most_tilts))
-            throw InputError(
-                fmt::format("{}, at most {} of them, found {}", expected, k_most_tilts, text));
-        const int count = static_cast<int>(steps + 1e-9);
-        for (int i = 0; i <= count; ++i) tilts.push_back(range[0] + i * range[2]);
-    }
-    for (double& tilt : tilts) {
-        if (!(std::abs(tilt) <= k_most_tilt_deg))
-            throw InputError(fmt::format("{}, found {}", expected, text));
-        tilt = radians(tilt);
-    }
-    return tilts;
-}
-
 GradeOptions options_of(const GradeCommand& command) {
-    GradeOptions options;
-    if (!(command.head_deg >= 0 && command.head_deg < 90))
-        throw InputError(fmt::format("--head is a half angle from 0 to 90 degrees, found {:g}",
-                                     command.head_deg));
-    options.head = radians(command.head_deg);
-    options.tilts = tilts_in(command.tilts);
+    GradeOptions options = grade_options(command.head_deg, command.tilts);
     options.seed = command.common.seed;
     options.threads = command.common.threads;
     return options;
-}
-
-Graded grade_one(const GradeCommand& command, const GradeOptions& options, GradeInput input) {
-    Graded graded;
-    const Material* material = input.has_material ? &input.stone.material : nullptr;
-    const GradeIndex index = grade_index(material, input.index);
-    const Solid& solid = input.stone.solid;
-    try {
-        graded.grade =
-            grade_stone(solid, index, options, progress_line("grade", command.common.quiet));
-    } catch (const InputError& error) {
-        throw InputError(input.file, error.what());
-    }
-    if (input.uncertainty)
-        graded.sigma = grade_sigma(solid, index, options, *input.uncertainty, command.draws,
-                                   progress_line("uncertainty", command.common.quiet));
-    graded.costs = facet_costs(solid, index, options);
-    GradeContext context;
-    context.name = input.name;
-    context.file = input.file;
-    context.material = material ? material->id : "";
-    context.crystal = material && material->optic != OpticCharacter::isotropic;
-    for (const Facet& facet : solid.facets) context.facets.push_back(facet.name);
-    context.options = options;
-    if (input.uncertainty) context.sigma = &graded.sigma;
-    context.costs = graded.costs;
-    context.notes = input.notes;
-    graded.json = grade_json(graded.grade, context);
-    graded.input = std::move(input);
-    return graded;
 }
 
 // One object; of several designs they stand in "designs".
@@ -159,20 +84,9 @@ void write_page(const GradeCommand& command, const std::vector<Graded>& all) {
     for (const std::string& file : command.files) view.command += " " + file;
     std::size_t number = 0;
     for (const Graded& one : all) {
-        GradeDesign design;
-        design.json = one.json;
-        Stone stone = one.input.stone;
-        if (!one.input.has_material || one.input.index) {
-            // What was graded: an index alone has no dispersion.
-            stone.material = one.input.has_material ? stone.material : Material();
-            if (!one.input.has_material) stone.material.index[0].n = one.grade.index.n;
-        }
-        design.pictures = draw_scopes(stone, folder, fmt::format("{}", ++number),
-                                      {command.size, command.common.threads});
-        design.section_json = section_json(
-            path_section(one.input.stone.solid, one.grade.index.n, radians(command.head_deg)));
-        design.solid = one.input.stone.solid;
-        view.designs.push_back(std::move(design));
+        view.designs.push_back(
+            design_for_page(one, folder, fmt::format("{}", ++number),
+                            {command.head_deg, command.size, command.common.threads}));
     }
     write_text(folder / "report.html", grade_page(view));
     write_text(folder / "grade.json", json_of(all));
@@ -205,7 +119,8 @@ int run_grade(GradeCommand command) {
             say(fmt::format("{}: {}", input.name, note), !command.common.verbose);
         const bool as_drawn = input.as_drawn;
         try {
-            all.push_back(grade_one(command, options, std::move(input)));
+            all.push_back(
+                grade_input(std::move(input), options, command.draws, command.common.quiet));
         } catch (const InputError& error) {
             // Drawn by hand, its facets need not be planar: what was asked for is the fitted stone.
             if (!as_drawn) throw;

@@ -60,14 +60,7 @@ std::vector<GradeInput> load_stone_file(const fs::path& file, const GradeChoices
         const FitResult result = fit_stone(problem, read_fit_options(file, choices.overrides),
                                            progress_line("fit", choices.quiet));
         GradeInput fitted = input;
-        fitted.stone.solid = result.solid;
-        fitted.stone.unit = result.unit;
-        fitted.stone.up_facet.clear();
-        fitted.stone.up = {0, 0, 1};
-        fitted.uncertainty = uncertainty_of(result);
-        fitted.trusted = result.usable();
-        fitted.notes.push_back(fmt::format("fitted to its readings: {}", name_of(result.status)));
-        if (!result.usable()) fitted.notes.push_back(result.message);
+        take_fit(result, fitted);
         both.push_back(std::move(fitted));
     } catch (const InputError& error) {
         throw InputError(read.mesh_file, error.what());
@@ -81,6 +74,22 @@ std::vector<GradeInput> load_stone_file(const fs::path& file, const GradeChoices
 }
 
 }  // namespace
+
+void take_fit(const FitResult& result, GradeInput& input) {
+    input.stone.solid = result.solid;
+    input.stone.unit = result.unit;
+    input.stone.up_facet.clear();
+    input.stone.up = {0, 0, 1};
+    input.uncertainty = uncertainty_of(result);
+    input.trusted = result.usable();
+    input.notes.push_back(fmt::format("fitted to its readings: {}", name_of(result.status)));
+    if (!result.usable()) input.notes.push_back(result.message);
+}
+
+void make_ready(const GradeChoices& choices, GradeInput& input) {
+    take_material(choices, input);
+    input.stone = standing_upright(input.stone);
+}
 
 std::vector<GradeInput> load_for_grade(const fs::path& file, const GradeChoices& choices,
                                        bool drawn) {
@@ -103,8 +112,7 @@ std::vector<GradeInput> load_for_grade(const fs::path& file, const GradeChoices&
         inputs.push_back(std::move(input));
     }
     for (GradeInput& input : inputs) {
-        take_material(choices, input);
-        input.stone = standing_upright(input.stone);
+        make_ready(choices, input);
         if (!choices.report.empty())
             input.uncertainty = uncertainty_in(choices.report, input.stone);
     }

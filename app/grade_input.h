@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "fit/findings/result.h"
 #include "render/grade/grade.h"
 #include "render/uncertainty/drawn_stones.h"
 #include "stone/stone.h"
@@ -36,5 +37,12 @@ struct GradeChoices {
 /// InputError.
 std::vector<GradeInput> load_for_grade(const std::filesystem::path& file,
                                        const GradeChoices& choices, bool drawn);
+
+/// The stone as fitted in place of the one as drawn, with how sure its facets are.
+void take_fit(const FitResult& result, GradeInput& input);
+
+/// What was asked for in place of the file's own material and index, and the stone table up, as
+/// `load_for_grade` does it. Throws InputError where there is neither material nor index.
+void make_ready(const GradeChoices& choices, GradeInput& input);
 
 }  // namespace culet

@@ -67,6 +67,7 @@ int run(int argc, char** argv) {
     add_command_study(program, exit_code);
     add_command_grade(program, exit_code);
     add_command_optimize(program, exit_code);
+    add_command_batch(program, exit_code);
     add_command_probe(program, exit_code);
     add_command_cut(program, exit_code);
     add_command_setting(program, exit_code);

@@ -52,6 +52,7 @@ void add_command_setting(CLI::App& program, int& exit_code);
 void add_command_grade(CLI::App& program, int& exit_code);
 void add_command_optimize(CLI::App& program, int& exit_code);
 void add_command_study(CLI::App& program, int& exit_code);
+void add_command_batch(CLI::App& program, int& exit_code);
 void add_command_view(CLI::App& program, int& exit_code);
 
 }  // namespace culet

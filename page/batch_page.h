@@ -1,0 +1,32 @@
+#pragma once
+// The page of `culet batch`: many stones, those first that need a look.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace culet {
+
+/// One row; NaN: not known.
+struct BatchPageJob {
+    std::string name;     ///< also of its folder in `jobs`
+    std::string status;   ///< as in the table
+    std::string message;  ///< why
+    bool good = false;
+    double outlier = 0;  ///< how unusual it is: a multiple of the usual deviation
+    double worst_reading = 0, chi2 = 0, dof = 0;  ///< of its fit; worst: |normalized|
+    double light_return = 0, fire = 0, leak = 0;  ///< of its grade; per cent, fractions
+    std::vector<std::string> files;               ///< in its folder, to open
+    std::string png;                              ///< bytes of a small picture; empty: none
+};
+
+struct BatchPage {
+    std::string version;
+    std::size_t good = 0, untrusted = 0, failed = 0, missing = 0;
+    std::vector<BatchPageJob> jobs;  ///< in the order in which they are shown
+};
+
+/// A whole page, to stand beside the folder `jobs` that its links lead to.
+std::string batch_page(const BatchPage& page);
+
+}  // namespace culet

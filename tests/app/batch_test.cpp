@@ -1,0 +1,240 @@
+// culet batch, as a laboratory runs it: many stones, some of them bad, on machines that die.
+
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "tests/app/run_program.h"
+#include "tests/scratch_folder.h"
+
+extern char** environ;
+
+namespace culet {
+namespace {
+
+namespace fs = std::filesystem;
+using test::ProgramRun;
+using test::run_culet;
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+// Every file below a folder, by its path from there.
+std::map<std::string, std::string> tree_of(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        std::ifstream stream(entry.path(), std::ios::binary);
+        std::string bytes;
+        if (entry.is_regular_file()) bytes.assign(std::istreambuf_iterator<char>(stream), {});
+        files[fs::relative(entry.path(), folder).string()] = std::move(bytes);
+    }
+    return files;
+}
+
+class BatchCommand : public testing::Test {
+protected:
+    void SetUp() override {
+        fs::create_directory(folder_ / "stones");
+        ASSERT_EQ(run_culet({"cut", "step", "-o", file("stones/mesh.obj"), "-q"}).exit_code, 0);
+    }
+    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(folder_ / name, std::ios::binary) << text;
+    }
+    // A stone with a reading and without a material: fitted in a moment, not graded.
+    void write_stone(const std::string& name, double depth) const {
+        write("stones/" + name,
+              "[stone]\nmesh = \"mesh.obj\"\nunit = \"mm\"\n"
+              "[[reading]]\nkind = \"depth\"\nvalue = " +
+                  std::to_string(depth) + "\nsigma = 0.01\n");
+    }
+    void write_stones(int count) const {
+        for (int i = 0; i < count; ++i)
+            write_stone("s" + std::to_string(100 + i) + ".toml", 0.6 + 0.001 * i);
+    }
+    Json json(const std::string& name) const {
+        std::ifstream stream(folder_ / name);
+        return Json::parse(stream);
+    }
+    ProgramRun batch(std::vector<std::string> more) const {
+        more.insert(more.begin(), {"batch"});
+        return run_culet(more);
+    }
+    test::ScratchFolder folder_;
+};
+
+TEST_F(BatchCommand, FitsAndGradesWhatAFolderHolds) {
+    write_stone("a.toml", 0.6);
+    ASSERT_EQ(run_culet({"cut", "step", "-o", file("stones/b.asc"), "-q"}).exit_code, 0);
+    write("stones/scene.toml", "stone = \"a.toml\"\n[light]\nconstant = 1.0\n");
+    write("stones/bad.toml", "[stone\n");
+    const ProgramRun run = batch(
+        {file("stones"), "-o", file("out"), "--index", "1.6", "--tilts", "0", "--pages", "-v"});
+    EXPECT_EQ(run.exit_code, 1);
+    EXPECT_THAT(run.err, HasSubstr("bad: bad.toml:1:"));
+    EXPECT_THAT(run.err, HasSubstr("left out: mesh.obj"));
+    EXPECT_THAT(run.err, HasSubstr("left out: scene.toml"));
+    EXPECT_THAT(run.out, HasSubstr("index.html"));
+    const Json table = json("out/table.json");
+    ASSERT_EQ(table.at("jobs").size(), 3u);
+    EXPECT_EQ(table["jobs"][0]["name"], "a");
+    EXPECT_GT(table["jobs"][0]["grade"]["iso"].get<double>(), 0);
+    EXPECT_EQ(table["jobs"][1]["status"], "graded");
+    EXPECT_EQ(table["jobs"][2]["status"], "failed");
+    EXPECT_EQ(table["jobs"][2]["exit_code"], 2);
+    EXPECT_EQ(table["counts"]["failed"], 1);
+    for (const char* name : {"fitted.obj", "fit.json", "fit.html", "grade.json", "grade.html",
+                             "stone.png", "job.json"})
+        EXPECT_TRUE(fs::exists(folder_ / ("out/jobs/a/" + std::string(name)))) << name;
+    EXPECT_FALSE(fs::exists(folder_ / "out/unfinished"));
+    // A job's grade is what culet grade says of its fitted stone.
+    const ProgramRun alone = run_culet({"grade", file("out/jobs/b/../../../stones/b.asc"),
+                                        "--index", "1.6", "--tilts", "0", "--json", "-", "-q"});
+    EXPECT_EQ(Json::parse(alone.out)["models"], json("out/jobs/b/grade.json")["models"]);
+    // The page has the picture in it, and the one that failed first.
+    const std::string page = tree_of(folder_ / "out")["index.html"];
+    EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
+    EXPECT_LT(page.find("bad.toml"), page.find("a, face up"));
+}
+
+TEST_F(BatchCommand, SharesMakeTheBytesOfOneRun) {
+    write_stones(12);
+    ASSERT_EQ(batch({file("stones"), "-o", file("one"), "-q", "--threads", "2"}).exit_code,
+              batch({file("stones"), "-o", file("again"), "-q", "--threads", "1"}).exit_code);
+    for (int k = 4; k >= 0; --k)
+        batch({file("stones"), "-o", file("shares"), "--shard", std::to_string(k) + "/5", "-q"});
+    EXPECT_FALSE(fs::exists(folder_ / "shares/table.csv"));
+    batch({"--merge", file("shares"), "-q"});
+    const auto one = tree_of(folder_ / "one");
+    EXPECT_EQ(one.size(), 5u + 12u * 4u);  // plan, table twice, page, jobs; each with three files
+    EXPECT_EQ(one, tree_of(folder_ / "again"));
+    EXPECT_EQ(one, tree_of(folder_ / "shares"));
+}
+
+TEST_F(BatchCommand, ResumeDoesWhatHasChanged) {
+    write_stones(3);
+    ASSERT_NE(batch({file("stones"), "-o", file("out"), "-q"}).exit_code, 2);
+    const auto before = tree_of(folder_ / "out");
+    const ProgramRun refused = batch({file("stones"), "-o", file("out")});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_THAT(refused.err, HasSubstr("--resume"));
+    EXPECT_EQ(before, tree_of(folder_ / "out"));
+    EXPECT_THAT(batch({file("stones"), "-o", file("out"), "--resume"}).err,
+                HasSubstr("0 jobs done"));
+    EXPECT_EQ(before, tree_of(folder_ / "out"));
+    write_stone("s101.toml", 0.7);
+    EXPECT_THAT(batch({file("stones"), "-o", file("out"), "--resume"}).err,
+                HasSubstr("1 jobs done"));
+    EXPECT_NE(before.at("jobs/s101/fit.json"), tree_of(folder_ / "out").at("jobs/s101/fit.json"));
+    // The mesh is a file of every stone's.
+    std::ofstream(folder_ / "stones/mesh.obj", std::ios::app) << "# looked at\n";
+    EXPECT_THAT(batch({file("stones"), "-o", file("out"), "--resume"}).err,
+                HasSubstr("3 jobs done"));
+    EXPECT_THAT(batch({file("stones"), "-o", file("out"), "--resume", "--seed", "2"}).err,
+                HasSubstr("3 jobs done"));
+}
+
+// The process and its workers are killed while they work; what stood as finished stands.
+TEST_F(BatchCommand, KilledTwentyTimesItLosesNothing) {
+    constexpr int k_stones = 60;
+    write_stones(k_stones);
+    ASSERT_NE(batch({file("stones"), "-o", file("whole"), "-q"}).exit_code, 2);
+    const auto whole = tree_of(folder_ / "whole");
+    std::mt19937 random(7);
+    std::uniform_int_distribution<int> milliseconds(20, 220);
+    const std::string stones = file("stones"), out = file("out");
+    int interrupted_at_work = 0;
+    for (int i = 0; i < 20; ++i) {
+        std::vector<const char*> words{CULET_PROGRAM, "batch",    stones.c_str(), "-o",
+                                       out.c_str(),   "--resume", "-q",           nullptr};
+        pid_t child = 0;
+        ASSERT_EQ(::posix_spawn(&child, words[0], nullptr, nullptr,
+                                const_cast<char* const*>(words.data()), environ),
+                  0);
+        ::usleep(1000u * static_cast<unsigned>(milliseconds(random)));
+        ::kill(child, SIGKILL);
+        int status = 0;
+        ASSERT_EQ(::waitpid(child, &status, 0), child);
+        interrupted_at_work += WIFSIGNALED(status) ? 1 : 0;
+        if (!fs::exists(folder_ / "out/jobs")) continue;
+        // Whatever is under its name is whole: the bytes of a run that nobody disturbed.
+        for (const auto& [name, bytes] : tree_of(folder_ / "out/jobs"))
+            ASSERT_EQ(bytes, whole.at("jobs/" + name)) << name << " after kill " << i;
+        for (const auto& entry : fs::directory_iterator(folder_ / "out/jobs"))
+            ASSERT_TRUE(fs::exists(entry.path() / "job.json")) << entry.path();
+    }
+    EXPECT_GE(interrupted_at_work, 5);
+    ASSERT_NE(batch({file("stones"), "-o", file("out"), "--resume", "-q"}).exit_code, 2);
+    EXPECT_EQ(whole, tree_of(folder_ / "out"));
+}
+
+TEST_F(BatchCommand, ATableOfJobs) {
+    write_stone("a.toml", 0.6);
+    write("jobs.csv",
+          "name;stone;fit.iterations\nfirst;stones/a.toml;\nsecond;stones/a.toml;50\n"
+          "gone;stones/none.toml;\n");
+    EXPECT_EQ(batch({file("jobs.csv"), "-o", file("out"), "-q"}).exit_code, 1);
+    const Json table = json("out/table.json");
+    ASSERT_EQ(table["jobs"].size(), 3u);
+    EXPECT_EQ(json("out/jobs/second/fit.json")["options"]["iterations"], 50);
+    EXPECT_EQ(table["jobs"][2]["status"], "failed");
+    EXPECT_THAT(table["jobs"][2]["message"].get<std::string>(), HasSubstr("stones/none.toml"));
+}
+
+TEST_F(BatchCommand, RefusesInOneLine) {
+    write_stone("a.toml", 0.6);
+    const auto refused = [&](const std::string& csv, const char* why) {
+        write("jobs.csv", csv);
+        const ProgramRun run = batch({file("jobs.csv"), "-o", file("out")});
+        EXPECT_EQ(run.exit_code, 2) << csv;
+        EXPECT_THAT(run.err, HasSubstr(why));
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+        EXPECT_FALSE(fs::exists(folder_ / "out"));
+    };
+    const std::string stone = "stones/a.toml";
+    refused("stone,name\n" + stone + ",../up\n", "jobs.csv:2");
+    refused("stone,name\n" + stone + ",\"two\nlines\"\n", "cannot be the name");
+    refused("stone,name\n" + stone + ",.hidden\n", "cannot be the name");
+    refused("stone,name\n" + stone + ",a\n" + stone + ",a\n", "line 2 already");
+    refused("stone,name\n,a\n", "no stone in this row");
+    refused("stone,nmae\n" + stone + ",a\n", "unknown column");
+    refused("name\na\n", "column stone");
+    refused("stone\n", "no jobs");
+    refused("", "is empty");
+    fs::create_directory(folder_ / "empty");
+    EXPECT_THAT(batch({file("empty"), "-o", file("out")}).err, HasSubstr("has no stone in it"));
+    EXPECT_THAT(batch({file("none"), "-o", file("out")}).err, HasSubstr("no such folder"));
+    EXPECT_THAT(batch({file("stones"), "-o", file("stones")}).err, HasSubstr("jobs themselves"));
+    EXPECT_THAT(batch({file("stones"), "-o", folder_.path().string()}).err,
+                HasSubstr("jobs themselves"));
+    EXPECT_THAT(batch({file("stones"), "-o", file("stones/a.toml")}).err, HasSubstr("is a file"));
+    EXPECT_THAT(batch({file("stones"), "-o", file("out"), "--shard", "5/5"}).err,
+                HasSubstr("0 to N - 1"));
+    EXPECT_THAT(batch({"--merge", file("stones")}).err, HasSubstr("holds no batch"));
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+// A file of the folder cannot break out of the results, or into the page.
+TEST_F(BatchCommand, HostileNamesAreMadeHarmless) {
+    fs::remove(folder_ / "stones/mesh.obj");
+    write("stones/<script>\n.toml", "[stone\n");
+    write("stones/-rf.toml", "[stone\n");
+    EXPECT_EQ(batch({file("stones"), "-o", file("out"), "-q"}).exit_code, 1);
+    const auto tree = tree_of(folder_ / "out");
+    EXPECT_EQ(tree.count("jobs/_script__/job.json"), 1u);
+    EXPECT_EQ(tree.count("jobs/_rf/job.json"), 1u);
+    EXPECT_EQ(tree.at("index.html").find("<script>\n."), std::string::npos);
+}
+
+}  // namespace
+}  // namespace culet
