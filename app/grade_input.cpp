@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "app/file_kinds.h"
@@ -60,10 +59,7 @@ std::vector<GradeInput> load_stone_file(const fs::path& file, const GradeChoices
         const FitResult result = fit_stone(problem, read_fit_options(file, choices.overrides),
                                            progress_line("fit", choices.quiet));
         GradeInput fitted = input;
-        fitted.stone.solid = result.solid;
-        fitted.stone.unit = result.unit;
-        fitted.stone.up_facet.clear();
-        fitted.stone.up = {0, 0, 1};
+        fitted.stone = fitted_stone(read.stone, result);
         fitted.uncertainty = uncertainty_of(result);
         fitted.trusted = result.usable();
         fitted.notes.push_back(fmt::format("fitted to its readings: {}", name_of(result.status)));
