@@ -29,14 +29,7 @@ struct FitCommand {
 // A solid that was fitted before, with the facets of the mesh.
 Solid earlier_fit(const std::string& name, const Solid& mesh) {
     Solid solid = read_solid(name).solid;
-    for (const Facet& facet : mesh.facets) {
-        if (find_facet(solid, facet.name) < 0) {
-            throw InputError(name,
-                             fmt::format("has no facet \"{}\" of the stone's mesh: --from takes "
-                                         "an earlier result of the same stone",
-                                         facet.name));
-        }
-    }
+    require_earlier_result(solid, mesh, name);
     return solid;
 }
 

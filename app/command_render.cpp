@@ -279,9 +279,7 @@ int run_render(const RenderOptions& options) {
         throw InputError(
             "--verify holds a picture against the truth at some pixels; with objects or several "
             "stones that is as noisy as the picture: say --set render.samples=256");
-    const bool paced = !saved && !scene.names_tolerance && scene.settings.check == Check::full &&
-                       leaves_something_open(scene);
-    if (paced) scene.settings.allowed_ns = k_usual_allowance_ns;
+    const bool paced = !saved && allow_usual_time(scene);
 
     const bool quiet = options.common.quiet;
     Drafts drafts(options, output, scene);
@@ -299,10 +297,7 @@ int run_render(const RenderOptions& options) {
     if (!options.stats.empty()) write_text(options.stats, stats_json(stats));
     if (stats.verification) say_verified(*stats.verification, quiet);
     if (options.common.verbose && !quiet) say_all_about(stats);
-    // A rough picture, for want of time.
-    const bool rough = paced && std::isnan(stats.error_bound);
-    const bool holds = !stats.verification || stats.verification->holds();
-    return rough || !holds ? exit_untrusted : exit_good;
+    return usable(stats, paced) ? exit_good : exit_untrusted;
 }
 
 }  // namespace

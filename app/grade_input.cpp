@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "app/file_kinds.h"
@@ -76,10 +75,7 @@ std::vector<GradeInput> load_stone_file(const fs::path& file, const GradeChoices
 }  // namespace
 
 void take_fit(const FitResult& result, GradeInput& input) {
-    input.stone.solid = result.solid;
-    input.stone.unit = result.unit;
-    input.stone.up_facet.clear();
-    input.stone.up = {0, 0, 1};
+    input.stone = fitted_stone(input.stone, result);
     input.uncertainty = uncertainty_of(result);
     input.trusted = result.usable();
     input.notes.push_back(fmt::format("fitted to its readings: {}", name_of(result.status)));

@@ -1,16 +1,12 @@
 #include "app/picture_output.h"
 
-#include <fmt/format.h>
 #include <unistd.h>
 
-#include <charconv>
-#include <cmath>
 #include <cstdio>
 
 #include "app/scratch_folder.h"
 #include "render/image/exposure.h"
-#include "render/scene/film_io.h"
-#include "render/scene/light_presets.h"
+#include "render/scene/shown_picture.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
 
@@ -40,24 +36,8 @@ PictureOutput::PictureOutput(std::string out, bool spectral) : out_(std::move(ou
 
 void PictureOutput::look_as(const std::string& exposure, const std::string& tonemap,
                             const Scene& scene) {
-    look_ = scene.film;
-    look_.degrees_per_pixel = degrees_per_pixel(scene.camera);
-    if (const auto map = tone_map_named(tonemap)) look_.tone_map = *map;
-    if (exposure.empty()) {
-        const LightPreset* preset = find_light_preset(scene.light_preset);
-        if (preset != nullptr && !preset->instrument) exposure_.reset();
-    } else if (exposure == "auto") {
-        exposure_.reset();
-    } else {
-        double factor = 0;
-        const char* const end = exposure.data() + exposure.size();
-        const auto [stop, problem] = std::from_chars(exposure.data(), end, factor);
-        if (problem != std::errc() || stop != end || !(factor > 0) || !std::isfinite(factor)) {
-            throw InputError(fmt::format(
-                "--exposure is auto, or a factor on linear light above 0, found \"{}\"", exposure));
-        }
-        exposure_ = factor;
-    }
+    look_ = look_of(scene, tonemap);
+    exposure_ = shown_exposure(exposure, scene);
 }
 
 double PictureOutput::exposure_of(const Picture& picture) const {

@@ -16,9 +16,7 @@ public:
     /// other endings, a place that cannot be written, and a terminal.
     PictureOutput(std::string out, bool spectral);
 
-    /// `exposure`: "auto", a factor, or empty: to the stone in a light that pictures are taken in,
-    /// and 1 where the scene's own lights or an instrument's are shown. `tonemap`: empty: the
-    /// scene's. Throws InputError.
+    /// As shown_picture.h says. Throws InputError.
     void look_as(const std::string& exposure, const std::string& tonemap, const Scene& scene);
 
     /// The factor that a picture is shown with.

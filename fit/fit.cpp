@@ -1,5 +1,7 @@
 #include "fit/fit.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 
 #include "fit/attempt.h"
@@ -10,6 +12,7 @@
 #include "fit/mesh/repair.h"
 #include "fit/take_outlines.h"
 #include "fit/uncertainty/prior_needed.h"
+#include "stone/errors.h"
 
 namespace culet {
 
@@ -113,6 +116,27 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (progress) progress(1);
     return result;
+}
+
+Stone fitted_stone(const Stone& drawn, const FitResult& result) {
+    Stone stone = drawn;
+    stone.solid = result.solid;
+    stone.unit = result.unit;
+    stone.up_facet.clear();
+    stone.up = {0, 0, 1};
+    return stone;
+}
+
+void require_earlier_result(const Solid& start, const Solid& mesh,
+                            const std::filesystem::path& file) {
+    for (const Facet& facet : mesh.facets) {
+        if (find_facet(start, facet.name) < 0) {
+            throw InputError(file,
+                             fmt::format("has no facet \"{}\" of the stone's mesh: --from takes "
+                                         "an earlier result of the same stone",
+                                         facet.name));
+        }
+    }
 }
 
 }  // namespace culet

@@ -6,6 +6,8 @@
 // hard constraints: every facet is planar, exact readings hold exactly, and so do the meets of the
 // mesh unless they are told to be soft or released.
 
+#include <filesystem>
+
 #include "fit/findings/result.h"
 #include "fit/model/options.h"
 #include "stone/progress.h"
@@ -32,6 +34,14 @@ FitResult fit_stone(const FitInput& input, const FitOptions& options = {},
 /// The same for a mesh that needs no repair, and readings bound to it.
 FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
                     const FitOptions& options = {}, const Progress& progress = {});
+
+/// The stone with the fitted solid, which stands upright: its up direction is +z.
+Stone fitted_stone(const Stone& drawn, const FitResult& result);
+
+/// Throws InputError, which names `file`, unless `start` has every facet of the mesh: an earlier
+/// result of the same stone, for FitOptions::start.
+void require_earlier_result(const Solid& start, const Solid& mesh,
+                            const std::filesystem::path& file);
 
 /// One JSON object, degrees and the stone's unit (`schema` 1).
 std::string fit_report(const FitResult& result);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "render/beams/frame_renderer.h"
 #include "render/engine/engine.h"
@@ -194,6 +195,19 @@ RenderResult render(const Scene& scene, const Progress& progress, const PictureS
                         stats.standard_error, tolerance));
     }
     return result;
+}
+
+bool allow_usual_time(Scene& scene) {
+    if (scene.names_tolerance || scene.settings.check != Check::full ||
+        !leaves_something_open(scene))
+        return false;
+    scene.settings.allowed_ns = k_usual_allowance_ns;
+    return true;
+}
+
+bool usable(const RenderStats& stats, bool was_allowed_usual_time) {
+    const bool rough = was_allowed_usual_time && std::isnan(stats.error_bound);
+    return !rough && (!stats.verification || stats.verification->holds());
 }
 
 }  // namespace culet

@@ -28,6 +28,14 @@ ScenePlan plan_drawn(const Scene& scene, const RenderStats& stats);
 /// Whether `render` chooses anything itself: then `allowed_ns` counts.
 bool leaves_something_open(const Scene& scene);
 
+/// Where nobody says how near the picture must be, and nothing is chosen by an earlier plan: allows
+/// it the usual time (k_usual_allowance_ns), and answers true.
+bool allow_usual_time(Scene& scene);
+
+/// False: the picture should not be trusted. It was allowed the usual time, which was too little to
+/// find out how near it is, or its error bound was held against the truth and is too low.
+bool usable(const RenderStats& stats, bool was_allowed_usual_time);
+
 /// STATS.json (docs/rendering.md) as text.
 std::string stats_json(const RenderStats& stats);
 
