@@ -39,7 +39,7 @@ View row_of(const BatchPageJob& job) {
             {"picture", job.png.empty() ? std::string() : png_uri(job.png)},
             {"good", job.good},
             {"status", status},
-            {"message", as_sentence(job.message)},
+            {"message", job.message},
             {"outlier", decimals(job.outlier, 1)},
             {"worst", decimals(job.worst_reading, 1)},
             {"chi2", decimals(job.chi2, 1)},

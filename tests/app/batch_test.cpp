@@ -45,7 +45,7 @@ class BatchCommand : public testing::Test {
 protected:
     void SetUp() override {
         fs::create_directory(folder_ / "stones");
-        ASSERT_EQ(run_culet({"cut", "step", "-o", file("stones/mesh.obj"), "-q"}).exit_code, 0);
+        ASSERT_EQ(run_culet({"cut", "emerald", "-o", file("stones/mesh.obj"), "-q"}).exit_code, 0);
     }
     std::string file(const std::string& name) const { return (folder_ / name).string(); }
     void write(const std::string& name, const std::string& text) const {
@@ -60,7 +60,7 @@ protected:
     }
     void write_stones(int count) const {
         for (int i = 0; i < count; ++i)
-            write_stone("s" + std::to_string(100 + i) + ".toml", 0.6 + 0.001 * i);
+            write_stone("s" + std::to_string(100 + i) + ".toml", 3.6 + 0.001 * i);
     }
     Json json(const std::string& name) const {
         std::ifstream stream(folder_ / name);
@@ -74,8 +74,8 @@ protected:
 };
 
 TEST_F(BatchCommand, FitsAndGradesWhatAFolderHolds) {
-    write_stone("a.toml", 0.6);
-    ASSERT_EQ(run_culet({"cut", "step", "-o", file("stones/b.asc"), "-q"}).exit_code, 0);
+    write_stone("a.toml", 3.6);
+    ASSERT_EQ(run_culet({"cut", "emerald", "-o", file("stones/b.asc"), "-q"}).exit_code, 0);
     write("stones/scene.toml", "stone = \"a.toml\"\n[light]\nconstant = 1.0\n");
     write("stones/bad.toml", "[stone\n");
     const ProgramRun run = batch(
@@ -98,8 +98,8 @@ TEST_F(BatchCommand, FitsAndGradesWhatAFolderHolds) {
         EXPECT_TRUE(fs::exists(folder_ / ("out/jobs/a/" + std::string(name)))) << name;
     EXPECT_FALSE(fs::exists(folder_ / "out/unfinished"));
     // A job's grade is what culet grade says of its fitted stone.
-    const ProgramRun alone = run_culet({"grade", file("out/jobs/b/../../../stones/b.asc"),
-                                        "--index", "1.6", "--tilts", "0", "--json", "-", "-q"});
+    const ProgramRun alone = run_culet(
+        {"grade", file("stones/b.asc"), "--index", "1.6", "--tilts", "0", "--json", "-", "-q"});
     EXPECT_EQ(Json::parse(alone.out)["models"], json("out/jobs/b/grade.json")["models"]);
     // The page has the picture in it, and the one that failed first.
     const std::string page = tree_of(folder_ / "out")["index.html"];
@@ -132,7 +132,7 @@ TEST_F(BatchCommand, ResumeDoesWhatHasChanged) {
     EXPECT_THAT(batch({file("stones"), "-o", file("out"), "--resume"}).err,
                 HasSubstr("0 jobs done"));
     EXPECT_EQ(before, tree_of(folder_ / "out"));
-    write_stone("s101.toml", 0.7);
+    write_stone("s101.toml", 3.7);
     EXPECT_THAT(batch({file("stones"), "-o", file("out"), "--resume"}).err,
                 HasSubstr("1 jobs done"));
     EXPECT_NE(before.at("jobs/s101/fit.json"), tree_of(folder_ / "out").at("jobs/s101/fit.json"));
@@ -179,7 +179,7 @@ TEST_F(BatchCommand, KilledTwentyTimesItLosesNothing) {
 }
 
 TEST_F(BatchCommand, ATableOfJobs) {
-    write_stone("a.toml", 0.6);
+    write_stone("a.toml", 3.6);
     write("jobs.csv",
           "name;stone;fit.iterations\nfirst;stones/a.toml;\nsecond;stones/a.toml;50\n"
           "gone;stones/none.toml;\n");
@@ -192,7 +192,7 @@ TEST_F(BatchCommand, ATableOfJobs) {
 }
 
 TEST_F(BatchCommand, RefusesInOneLine) {
-    write_stone("a.toml", 0.6);
+    write_stone("a.toml", 3.6);
     const auto refused = [&](const std::string& csv, const char* why) {
         write("jobs.csv", csv);
         const ProgramRun run = batch({file("jobs.csv"), "-o", file("out")});
@@ -207,7 +207,7 @@ TEST_F(BatchCommand, RefusesInOneLine) {
     refused("stone,name\n" + stone + ",.hidden\n", "cannot be the name");
     refused("stone,name\n" + stone + ",a\n" + stone + ",a\n", "line 2 already");
     refused("stone,name\n,a\n", "no stone in this row");
-    refused("stone,nmae\n" + stone + ",a\n", "unknown column");
+    refused("stone,wood\n" + stone + ",a\n", "unknown column");
     refused("name\na\n", "column stone");
     refused("stone\n", "no jobs");
     refused("", "is empty");
