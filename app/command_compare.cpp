@@ -179,7 +179,7 @@ void say_result(const CompareArguments& a, const Comparison& comparison) {
     if (comparison.within)
         say(fmt::format(
                 "{:.0f} % of the pixels are within one sigma of what the readings leave open, "
-                "{:.0f} % within two (68 and 95 were the stone as fitted)",
+                "{:.0f} % within two (68 and 95 of a stone that the readings allow)",
                 100 * comparison.within->within_one, 100 * comparison.within->within_two),
             a.common.quiet);
     if (!a.common.verbose) return;

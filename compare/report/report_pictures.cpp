@@ -115,7 +115,7 @@ std::string maps_section(const Report& report) {
             "What the readings leave open",
             fmt::format("Luminance against stones drawn from the fit's uncertainty, "
                         "as this camera would show them: {} % of the pixels are within one sigma, "
-                        "{} % within two. Were the stone as fitted, 68 % and 95 % would be.",
+                        "{} % within two. Of a stone that the readings allow, 68 % and 95 % are.",
                         decimals(100 * report.comparison->within->within_one, 0),
                         decimals(100 * report.comparison->within->within_two, 0)),
             colour_bar(ColourMap::error,
