@@ -2,14 +2,20 @@
 
 #include <fmt/format.h>
 
+#include "app/export_input.h"
 #include "app/file_kinds.h"
 #include "app/options.h"
 #include "app/readings_form.h"
 #include "app/terminal.h"
+#include "render/export/gltf_look.h"
 #include "render/export/povray.h"
 #include "render/scene/scene_io.h"
+#include "render/scene/stone_scene.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
+#include "stone/export/export_frame.h"
+#include "stone/export/gltf_write.h"
+#include "stone/export/step.h"
 #include "stone/mesh_io.h"
 #include "stone/output_file.h"
 #include "stone/solid_input.h"
@@ -18,12 +24,66 @@ namespace culet {
 
 namespace {
 
+// What corners of a stone read from a file may be off its planes by.
+constexpr double k_step_tolerance_mm = 1e-5;
+
 struct ConvertOptions {
     CommonOptions common;
     std::filesystem::path in, out;
     CutReading cut;
     std::string width;  // empty: as it is
+    std::string material, clearance;
 };
+
+bool is_for_other_programs(const std::filesystem::path& out) {
+    const std::string ending = extension_of(out);
+    return ending == "glb" || ending == "gltf" || ending == "step" || ending == "stp";
+}
+
+void say_of(const std::filesystem::path& file, const std::vector<std::string>& notes, bool quiet) {
+    for (const std::string& note : notes) say(fmt::format("{}: {}", file.string(), note), quiet);
+}
+
+std::vector<std::string> write_gltf(const ExportInput& input, const std::filesystem::path& out) {
+    const GltfForm form = extension_of(out) == "glb" ? GltfForm::binary : GltfForm::text;
+    if (!input.has_material) {
+        write_text(out, gltf_bytes(input.stone, std::nullopt, form));
+        return {"no material: a grey surface (--material NAME)"};
+    }
+    const GltfMaterial material =
+        gltf_material(input.stone.material, outline_width(input.stone.solid));
+    write_text(out, gltf_bytes(input.stone, material.look, form));
+    return material.notes;
+}
+
+// In mm, the girdle's plane at z = 0, the table up.
+int convert_for_others(const ConvertOptions& options) {
+    ExportChoices choices{options.common.set, options.cut, options.material, {}};
+    if (!options.width.empty()) choices.width_mm = length_mm(options.width, "--width");
+    ExportInput input = read_for_export(options.in, choices);
+    if (!options.clearance.empty()) {
+        input.stone.solid =
+            grown_outward(input.stone.solid, length_mm(options.clearance, "--clearance"));
+        input.stone.name += " seat";
+    }
+    std::vector<std::string> notes;
+    if (mesh_format(options.out)) {
+        write_mesh(input.stone.solid, options.out);
+    } else if (extension_of(options.out).starts_with("st")) {
+        const StepFile step =
+            step_text(planar_solid(input.stone.solid, input.stone.convex, k_step_tolerance_mm),
+                      input.stone.name);
+        write_text(options.out, step.text);
+        notes = step.notes;
+    } else {
+        notes = write_gltf(input, options.out);
+    }
+    const bool quiet = options.common.quiet;
+    say_of(options.in, input.notes, quiet);
+    say_of(options.in, input.details, quiet || !options.common.verbose);
+    say_of(options.out, notes, quiet);
+    return exit_good;
+}
 
 // A scene, for POV-Ray.
 int convert_scene(const ConvertOptions& options) {
@@ -45,13 +105,21 @@ int convert(const ConvertOptions& options) {
         if (!options.width.empty()) throw InputError("--width scales a stone, not a scene");
         return convert_scene(options);
     }
+    if (is_for_other_programs(options.out) ||
+        (!options.clearance.empty() && mesh_format(options.out)))
+        return convert_for_others(options);
+    if (!options.clearance.empty())
+        throw InputError("--clearance is for meshes, .glb, .gltf and .step");
+    if (!options.material.empty()) throw InputError("--material is for .glb and .gltf");
     if (!options.common.set.empty()) {
-        throw InputError("--set changes keys of a scene: the output must end in .pov");
+        throw InputError(
+            "--set changes keys of a stone or scene: the output must end in .pov, .glb, .gltf or "
+            ".step");
     }
     if (!mesh_format(options.out) && extension_of(options.out) != "asc") {
         throw InputError(options.out,
-                         "cannot be written: the name must end in .obj, .off, .ply, .stl or .asc, "
-                         "or .pov for a scene");
+                         "cannot be written: the name must end in .obj, .off, .ply, .stl, .asc, "
+                         ".glb, .gltf, .step or .stp, or .pov for a scene");
     }
     require_kind(options.in, {FileKind::solid}, "culet convert");
     SolidInput input = load_solid(options.in, options.cut);
@@ -91,13 +159,17 @@ int convert(const ConvertOptions& options) {
 
 void add_command_convert(CLI::App& program, int& exit_code) {
     auto options = std::make_shared<ConvertOptions>();
-    CLI::App* command =
-        program.add_subcommand("convert", "between mesh and cut formats; a scene to POV-Ray");
+    CLI::App* command = program.add_subcommand(
+        "convert", "between mesh and cut formats; to glTF and STEP; a scene to POV-Ray");
     command
         ->add_option("IN", options->in,
-                     "mesh (.obj .off .ply .stl), cut (.asc .gem) or scene (.toml)")
+                     "mesh (.obj .off .ply .stl), cut (.asc .gem), stone file or scene (.toml)")
         ->required();
-    command->add_option("OUT", options->out, ".obj, .off, .ply, .stl or .asc; of a scene: .pov")
+    command
+        ->add_option(
+            "OUT", options->out,
+            ".obj, .off, .ply, .stl or .asc; for Blender and the web .glb or .gltf; for CAD "
+            ".step; of a scene: .pov")
         ->required();
     command
         ->add_option("--meet-tolerance", options->cut.meet_tolerance,
@@ -110,6 +182,14 @@ void add_command_convert(CLI::App& program, int& exit_code) {
         ->add_option("--width", options->width,
                      "scale the stone to this width (W of culet info): the output is in mm")
         ->type_name("6.5mm");
+    command
+        ->add_option("--material", options->material,
+                     "of the stone in a .glb or .gltf: a name of the catalogue or a material file")
+        ->type_name("NAME");
+    command
+        ->add_option("--clearance", options->clearance,
+                     "grow a convex stone by so much on every side: what a seat for it takes away")
+        ->type_name("0.05mm");
     add_common(*command, options->common, true);
     command->footer(
         "Names, planes and all digits are kept as far as the format can hold them. A mesh with "
@@ -119,6 +199,8 @@ void add_command_convert(CLI::App& program, int& exit_code) {
         "  culet convert design.asc design.obj\n"
         "  culet convert --width 6.5mm design.asc stone.obj\n"
         "  culet convert scan.stl scan.ply\n"
+        "  culet convert --width 6.5mm --material diamond design.asc stone.glb\n"
+        "  culet convert --clearance 0.05mm fitted.obj seat.step\n"
         "  culet convert scene.toml scene.pov --set render.depth=9");
     command->callback([options, &exit_code] { exit_code = convert(*options); });
 }

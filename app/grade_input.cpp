@@ -22,10 +22,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Material material_called(const std::string& name) {
-    return fs::path(name).extension() == ".toml" ? read_material(name) : catalogue_material(name);
-}
-
 void take_material(const GradeChoices& choices, GradeInput& input) {
     if (!choices.material.empty()) {
         input.stone.material = material_called(choices.material);

@@ -223,4 +223,9 @@ Material read_material(const std::filesystem::path& file,
     return material_of(*table);
 }
 
+Material material_called(const std::string& name) {
+    return std::filesystem::path(name).extension() == ".toml" ? read_material(name)
+                                                              : catalogue_material(name);
+}
+
 }  // namespace culet

@@ -13,4 +13,7 @@ Material material_of(const TomlTable& table);
 Material read_material(const std::filesystem::path& file,
                        const std::vector<std::string>& overrides = {});
 
+/// Of an option --material: a name of the catalogue, or a material file where it ends in .toml.
+Material material_called(const std::string& name);
+
 }  // namespace culet

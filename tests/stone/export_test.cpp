@@ -1,0 +1,209 @@
+// Files for other programs, read back here by their own rules: the volume is that of the solid.
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <set>
+
+#include "stone/checks.h"
+#include "stone/cuts/cuts.h"
+#include "stone/errors.h"
+#include "stone/export/export_frame.h"
+#include "stone/export/gltf_write.h"
+#include "stone/export/step.h"
+
+namespace culet {
+namespace {
+
+using Json = nlohmann::json;
+
+// Entities of a STEP file by their numbers: name and what stands in the brackets.
+struct Entity {
+    std::string name, text;
+    std::vector<int> refers;
+};
+std::map<int, Entity> entities_of(const std::string& step) {
+    std::map<int, Entity> entities;
+    const std::regex line("#(\\d+)=([A-Z_0-9]+)\\((.*)\\);"), number("#(\\d+)");
+    for (std::sregex_iterator i(step.begin(), step.end(), line), end; i != end; ++i) {
+        Entity entity{(*i)[2], (*i)[3], {}};
+        for (std::sregex_iterator k(entity.text.begin(), entity.text.end(), number); k != end; ++k)
+            entity.refers.push_back(std::stoi((*k)[1]));
+        entities[std::stoi((*i)[1])] = entity;
+    }
+    return entities;
+}
+
+Vec3 point_of(const std::string& text) {
+    Vec3 p(0);
+    const std::size_t at = text.find(",(");
+    EXPECT_EQ(std::sscanf(text.c_str() + at + 2, "%lf,%lf,%lf", &p.x, &p.y, &p.z), 3) << text;
+    return p;
+}
+
+// Every edge is used twice, once each way; the corners of each face bound it; Gauss's theorem.
+TEST(Step, is_a_closed_body_of_the_same_volume) {
+    for (const char* cut : {"round-brilliant", "emerald", "pear"}) {
+        const Solid solid = make_cut(cut);
+        const std::map<int, Entity> all = entities_of(step_text(solid, cut).text);
+        std::map<int, int> uses, sum_of_ways;
+        double volume6 = 0;
+        int faces = 0, bodies = 0;
+        for (const auto& [id, entity] : all) {
+            if (entity.name == "MANIFOLD_SOLID_BREP") ++bodies;
+            if (entity.name != "ADVANCED_FACE") continue;
+            ++faces;
+            const std::string name = entity.text.substr(1, entity.text.find('\'', 1) - 1);
+            EXPECT_GE(find_facet(solid, name), 0) << name;
+            const Entity& loop = all.at(all.at(entity.refers[0]).refers[0]);
+            ASSERT_EQ(loop.name, "EDGE_LOOP");
+            std::vector<Vec3> corners;
+            for (const int oriented : loop.refers) {
+                const Entity& use = all.at(oriented);
+                const bool forward = use.text.ends_with(".T.");
+                const int edge = use.refers[0];
+                ++uses[edge];
+                sum_of_ways[edge] += forward ? 1 : -1;
+                const int vertex = all.at(edge).refers[forward ? 0 : 1];
+                corners.push_back(point_of(all.at(all.at(vertex).refers[0]).text));
+            }
+            for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+                volume6 += glm::dot(corners[0], glm::cross(corners[k], corners[k + 1]));
+        }
+        EXPECT_EQ(bodies, 1);
+        EXPECT_EQ(std::size_t(faces), solid.facets.size()) << cut;
+        for (const auto& [edge, count] : uses) {
+            EXPECT_EQ(count, 2) << edge;
+            EXPECT_EQ(sum_of_ways[edge], 0) << edge;
+        }
+        // Corners have all their digits; their planes may miss them by 1e-5 mm over the surface.
+        EXPECT_NEAR(volume6 / 6, volume(solid), 1e-9 * volume(solid)) << cut;
+        EXPECT_EQ(step_text(solid, cut).text, step_text(solid, cut).text);
+    }
+}
+
+struct Glb {
+    Json json;
+    std::string bytes;
+};
+Glb glb_of(const std::string& file) {
+    std::uint32_t words[5];
+    std::memcpy(words, file.data(), sizeof words);
+    EXPECT_EQ(words[0], 0x46546C67u);
+    EXPECT_EQ(words[1], 2u);
+    EXPECT_EQ(words[2], file.size());
+    EXPECT_EQ(words[3] % 4, 0u);
+    EXPECT_EQ(words[4], 0x4E4F534Au);
+    return {Json::parse(file.substr(20, words[3])), file.substr(28 + words[3])};
+}
+
+std::vector<Vec3> vectors_of(const Glb& glb, int accessor) {
+    const Json& a = glb.json["accessors"][accessor];
+    const Json& view = glb.json["bufferViews"][a["bufferView"].get<int>()];
+    const std::size_t start = view.value("byteOffset", std::size_t(0));
+    EXPECT_EQ(start % 4, 0u);
+    std::vector<Vec3> vectors;
+    for (std::size_t i = 0; i < a["count"].get<std::size_t>(); ++i) {
+        float xyz[3];
+        std::memcpy(xyz, glb.bytes.data() + start + 12 * i, 12);
+        vectors.push_back({double(xyz[0]), double(xyz[1]), double(xyz[2])});
+    }
+    return vectors;
+}
+
+// The rules of glTF 2.0 that readers trip over, and the true size in metres.
+TEST(Gltf, keeps_the_rules_and_the_size) {
+    Stone stone;
+    stone.solid = make_cut("round-brilliant");
+    stone.material = catalogue_material("diamond");
+    const Glb glb = glb_of(gltf_bytes(stone, gltf_look_of(stone.material), GltfForm::binary));
+    EXPECT_EQ(glb.json["asset"]["version"], "2.0");
+    std::set<std::string> used;
+    for (const Json& name : glb.json["extensionsUsed"]) used.insert(name);
+    for (const auto& [name, value] : glb.json["materials"][0]["extensions"].items())
+        EXPECT_EQ(used.count(name), 1u) << name;
+    EXPECT_FALSE(glb.json.contains("extensionsRequired"));
+    const Json& primitive = glb.json["meshes"][0]["primitives"][0];
+    const int positions = primitive["attributes"]["POSITION"];
+    const std::vector<Vec3> places = vectors_of(glb, positions);
+    Vec3 low(1e300), high(-1e300);
+    for (const Vec3& p : places) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(low[k], glb.json["accessors"][positions]["min"][k].get<double>());
+        EXPECT_EQ(high[k], glb.json["accessors"][positions]["max"][k].get<double>());
+    }
+    for (const Vec3& n : vectors_of(glb, primitive["attributes"]["NORMAL"]))
+        EXPECT_NEAR(glm::length(n), 1, 1e-6);
+    const Json& indices = glb.json["accessors"][primitive["indices"].get<int>()];
+    ASSERT_EQ(indices["componentType"], 5123);
+    const Json& view = glb.json["bufferViews"][indices["bufferView"].get<int>()];
+    double volume6 = 0;
+    for (std::size_t i = 0; i < indices["count"].get<std::size_t>(); i += 3) {
+        std::uint16_t corner[3];
+        std::memcpy(corner, glb.bytes.data() + view["byteOffset"].get<std::size_t>() + 2 * i, 6);
+        for (const std::uint16_t c : corner) ASSERT_LT(c, places.size());
+        volume6 += glm::dot(places[corner[0]], glm::cross(places[corner[1]], places[corner[2]]));
+    }
+    // Single precision of every corner.
+    EXPECT_NEAR(volume6 / 6 * 1e9, volume(stone.solid), 1e-5 * volume(stone.solid));
+    // The table up, which is +y; every facet by its name.
+    EXPECT_GT(vectors_of(glb, primitive["attributes"]["NORMAL"])[0].y, 0.999);
+    const Json& facets = glb.json["meshes"][0]["extras"]["facets"];
+    ASSERT_EQ(facets.size(), stone.solid.facets.size());
+    EXPECT_EQ(facets[0]["name"], "T");
+    // Sellmeier's diamond at the d line (Peter 1923: 2.4175), Abbe's number 55.3.
+    const Json& extensions = glb.json["materials"][0]["extensions"];
+    EXPECT_NEAR(extensions["KHR_materials_ior"]["ior"].get<double>(), 2.4175, 1e-3);
+    EXPECT_NEAR(extensions["KHR_materials_dispersion"]["dispersion"].get<double>(), 20 / 55.3,
+                0.01);
+}
+
+// Planes stand off by the clearance, so that every corner of the stone is inside by as much.
+TEST(Clearance, grows_every_plane) {
+    const Solid solid = make_cut("emerald"), seat = grown_outward(solid, 0.05);
+    ASSERT_EQ(seat.facets.size(), solid.facets.size());
+    for (const Facet& facet : seat.facets) {
+        double most = -1e300;
+        for (const Vec3& v : solid.vertices)
+            most = std::max(most, glm::dot(facet.plane.normal, v) - facet.plane.offset);
+        EXPECT_NEAR(most, -0.05, 1e-9) << facet.name;
+    }
+    EXPECT_THROW(grown_outward(solid, 0), InputError);
+    EXPECT_THROW(grown_outward(solid, -1), InputError);
+}
+
+// A cut that lies anywhere stands with its girdle's plane at 0 and its table up.
+TEST(ExportFrame, stands_on_the_girdle) {
+    Stone stone;
+    stone.solid = make_cut("round-brilliant");
+    for (Vec3& v : stone.solid.vertices) v = Vec3{v.z, v.x, v.y} + Vec3{3, 0, 0};
+    for (Facet& f : stone.solid.facets) {
+        const Vec3 n = f.plane.normal;
+        f.plane.normal = {n.z, n.x, n.y};
+        f.plane.offset += 3 * f.plane.normal.x;
+    }
+    stone.up_facet = "T";
+    stone.unit = LengthUnit::cm;
+    const Stone placed = in_export_frame(stone);
+    EXPECT_EQ(placed.unit, LengthUnit::mm);
+    const Facet& table = placed.solid.facets[std::size_t(find_facet(placed.solid, "T"))];
+    EXPECT_NEAR(table.plane.normal.z, 1, 1e-12);
+    double low = 0, high = 0;
+    for (const Vec3& v : placed.solid.vertices) {
+        low = std::min(low, v.z);
+        high = std::max(high, v.z);
+    }
+    EXPECT_LT(low, 0);
+    EXPECT_GT(high, 0);
+    EXPECT_NEAR(volume(placed.solid), 1000 * volume(stone.solid), 1e-6 * volume(placed.solid));
+}
+
+}  // namespace
+}  // namespace culet
