@@ -1,5 +1,7 @@
 #include "compare/turntable/back_lit_outline.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
@@ -22,6 +24,7 @@ constexpr int k_least_pixels = 400;
 constexpr double k_reach = 4, k_sample = 0.25;
 // A lens blurs over about so many pixels: points nearer to each other tell the same twice.
 constexpr int k_spacing = 3;
+constexpr std::size_t k_least_points = 40;
 constexpr int k_border = 6;  // pixels: the outline is not traced there
 
 // The ground as a quadric in the picture's coordinates (-1..1), by least squares.
@@ -146,8 +149,10 @@ BackLitOutline back_lit_outline(const Photo& photo) {
         result.points.push_back(
             {found->at.x - (light.cols - 1) / 2.0, (light.rows - 1) / 2.0 - found->at.y});
     }
-    if (result.points.size() < 100) {
-        result.trouble = "the outline is too faint or too small: at least 100 points are needed";
+    if (result.points.size() < k_least_points) {
+        result.trouble = fmt::format(
+            "the outline is too faint or too small: {} pixels along it are needed, found {}",
+            k_least_points * k_spacing, result.points.size() * k_spacing);
         return result;
     }
     SharpOutline sharp = sharpened(result.points);

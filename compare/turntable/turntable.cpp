@@ -195,6 +195,8 @@ Turntable turntable_of(const std::vector<BackLitOutline>& outlines, double step)
     if (outlines.size() < 3) throw InputError("a turntable needs three pictures at least");
     Problem problem;
     for (std::size_t i = 0; i < outlines.size(); ++i) {
+        if (outlines[i].corners.empty())
+            throw InputError(fmt::format("picture {}: {}", i + 1, outlines[i].trouble));
         problem.hulls.push_back(outlines[i].corners);
         // The stone turns one way, the camera goes round it the other way.
         problem.turns.push_back(-step * static_cast<double>(i));

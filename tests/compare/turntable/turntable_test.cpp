@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
@@ -75,6 +76,9 @@ TEST(BackLitOutline, says_why_there_is_none) {
     EXPECT_NE(back_lit_outline(photo).trouble, "");
 }
 
+// Corners between sides of under 18 pixels stay as the lens rounded them. On the diagonal of a
+// right angle a blur of one pixel comes to half where Phi(x)^2 = 1/2, 0.545 pixels from both sides:
+// 0.77 from the corner. Most corners of a stone are flatter, or their sides longer.
 TEST(Turntable, is_found_from_outlines_alone) {
     const Solid solid = stone_of_width("pear", 5);
     synthetic::TurntableTruth truth = small();
@@ -85,7 +89,7 @@ TEST(Turntable, is_found_from_outlines_alone) {
     EXPECT_NEAR(found.axis_px, truth.axis_px, 0.1);
     EXPECT_NEAR(degrees(found.roll), 0.8, 0.1);
     EXPECT_NEAR(degrees(found.elevation), 1.5, 0.15);
-    EXPECT_LT(found.residual_px, 0.3);
+    EXPECT_LT(found.residual_px, 0.77);
 }
 
 TEST(Turntable, needs_opposite_pictures) {
@@ -97,8 +101,23 @@ TEST(Turntable, needs_opposite_pictures) {
     EXPECT_THROW(turntable_of(outlines, radians(180)), InputError);
 }
 
-// The stone reaches as far as its outlines do, but for corners: a lens that blurs by one pixel
-// rounds them off by two.
+// Beyond the nearest edge of the stone's shadow, along `direction`; negative inside. The shadow is
+// convex: its edges are the planes along the line of sight through two vertices that leave all
+// others on one side.
+double beyond_shadow(const Solid& solid, const Vec3& direction, const Vec3& point) {
+    const Vec3 right = glm::normalize(glm::cross(Vec3(0, 0, 1), direction));
+    const Vec3 up = glm::cross(direction, right);
+    std::vector<cv::Point2f> all, hull;
+    for (const Vec3& v : solid.vertices)
+        all.emplace_back(float(glm::dot(v, right)), float(glm::dot(v, up)));
+    cv::convexHull(all, hull);
+    return -cv::pointPolygonTest(
+        hull, cv::Point2f(float(glm::dot(point, right)), float(glm::dot(point, up))), true);
+}
+
+// A point is off by its noise, 0.025 pixels (above), and four times that is not met in 2000; a
+// corner that is flatter than 8 degrees is rounded by a tenth of a pixel; the axis is off by 0.1 at
+// most, and the tilts by 0.1 degrees of the stone's radius, 111 pixels: 0.2.
 TEST(Turntable, places_outlines_around_the_stone) {
     const Solid solid = stone_of_width("princess", 5);
     synthetic::TurntableTruth truth = small();
@@ -106,17 +125,27 @@ TEST(Turntable, places_outlines_around_the_stone) {
     truth.elevation = radians(1);
     const std::vector<BackLitOutline> outlines = outlines_of(solid, 24, truth);
     const Turntable table = turntable_of(outlines, radians(15));
+    int points = 0;
     for (const PlacedOutline& outline : placed(outlines, radians(15), table, truth.pixel)) {
-        for (const Vec3& direction :
-             {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{1, 0, 0}, Vec3{0, -1, 0}}) {
-            // In the picture's plane.
-            const Vec3 n = glm::normalize(
-                direction - glm::dot(direction, outline.direction) * outline.direction + 1e-12);
-            double stone = -1e300, seen = -1e300;
-            for (const Vec3& v : solid.vertices) stone = std::max(stone, glm::dot(v, n));
-            for (const Vec3& p : outline.points) seen = std::max(seen, glm::dot(p, n));
-            EXPECT_NEAR(seen, stone, 2.5 * truth.pixel);
+        for (const Vec3& p : outline.points) {
+            EXPECT_NEAR(beyond_shadow(solid, outline.direction, p), 0,
+                        (0.1 + 0.1 + 0.1 + 0.2) * truth.pixel);
+            ++points;
         }
+    }
+    EXPECT_GT(points, 24 * 40);
+}
+
+TEST(Turntable, needs_an_outline_in_every_picture) {
+    std::vector<BackLitOutline> outlines =
+        outlines_of(stone_of_width("round-brilliant", 5), 4, small());
+    outlines[1] = BackLitOutline{};
+    outlines[1].trouble = "the picture is black";
+    try {
+        turntable_of(outlines, radians(90));
+        FAIL() << "a picture without an outline was taken";
+    } catch (const InputError& error) {
+        EXPECT_STREQ(error.what(), "picture 2: the picture is black");
     }
 }
 
