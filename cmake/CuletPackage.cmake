@@ -1,5 +1,5 @@
 # `cmake --workflow --preset deb`: build/culet_VERSION_ARCH.deb, for `apt install ./culet_*.deb`. It holds the program,
-# its manual pages and completion, and the engine of pages; the library's headers are for `cmake --install`.
+# its manual pages and completion, the engine of pages, and where it could be built the Python module; the library's headers are for `cmake --install`.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_VENDOR "The culet project")
 set(CPACK_PACKAGE_CONTACT "culet <culet@localhost>")
@@ -16,5 +16,9 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # What the engine gpu opens when it is asked for.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri")
+if(CULET_PYTHON)
+  # Of its module; the program needs no Python.
+  string(APPEND CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS ", python3, python3-numpy")
+endif()
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS ffmpeg)
 include(CPack)

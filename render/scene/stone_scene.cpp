@@ -11,6 +11,7 @@
 #include "stone/errors.h"
 #include "stone/gemcad_io.h"
 #include "stone/material.h"
+#include "stone/material_io.h"
 #include "stone/mesh_io.h"
 #include "stone/toml_file.h"
 
@@ -104,6 +105,28 @@ void set_size(const std::filesystem::path& file, Kind kind, const std::optional<
     }
 }
 
+// A view is a key of the scene, as others are.
+std::vector<std::string> keys_of(std::vector<std::string> overrides, const StoneScene& choices) {
+    if (choices.width_mm && !(*choices.width_mm > 0 && std::isfinite(*choices.width_mm)))
+        throw InputError(fmt::format("--width is in mm, found {:g}", *choices.width_mm));
+    if (is_view_preset(choices.light)) overrides.push_back("preset=\"" + choices.light + "\"");
+    return overrides;
+}
+
+std::string light_of(const StoneScene& choices) {
+    return is_view_preset(choices.light) ? std::string() : choices.light;
+}
+
+// The stone alone, in the light that was asked for or else the usual one.
+Scene alone(const TomlTable& root, const Stone& stone, const StoneScene& choices,
+            const std::vector<std::string>& notes) {
+    std::string light = light_of(choices);
+    if (choices.light.empty() && !root.has("light")) light = k_usual_light;
+    Scene scene = scene_of(root, &stone, light);
+    scene.notes.insert(scene.notes.begin(), notes.begin(), notes.end());
+    return scene;
+}
+
 }  // namespace
 
 double outline_width(const Solid& solid) {
@@ -117,14 +140,7 @@ bool has_size(const Solid& solid) {
 Scene read_any_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                      const StoneScene& choices) {
     const Kind kind = kind_of(file);
-    std::vector<std::string> keys = overrides;
-    std::string light = choices.light;
-    if (is_view_preset(light)) {
-        keys.push_back("preset=\"" + light + "\"");
-        light.clear();
-    }
-    if (choices.width_mm && !(*choices.width_mm > 0 && std::isfinite(*choices.width_mm)))
-        throw InputError(fmt::format("--width is in mm, found {:g}", *choices.width_mm));
+    const std::vector<std::string> keys = keys_of(overrides, choices);
     // From where the command is given, as other files on the command line.
     std::string material = choices.material;
     if (std::filesystem::path(material).extension() == ".toml")
@@ -136,7 +152,7 @@ Scene read_any_scene(const std::filesystem::path& file, const std::vector<std::s
                              "without a scene");
         TomlTable root = material.empty() ? read_toml(file, keys)
                                           : read_toml_with(file, {{"material", material}}, keys);
-        return scene_of(root, nullptr, light);
+        return scene_of(root, nullptr, light_of(choices));
     }
     std::vector<std::pair<std::string, std::string>> texts{
         {kind == Kind::stone ? "stone" : "mesh", file.filename().string()}};
@@ -151,11 +167,19 @@ Scene read_any_scene(const std::filesystem::path& file, const std::vector<std::s
     std::vector<std::string> notes;
     Stone stone = scene_stone_of(root, notes);
     set_size(file, kind, choices.width_mm, stone, notes);
-    if (light.empty() && !root.has("light") && !is_view_preset(choices.light))
-        light = k_usual_light;
-    Scene scene = scene_of(root, &stone, light);
-    scene.notes.insert(scene.notes.begin(), notes.begin(), notes.end());
-    return scene;
+    return alone(root, stone, choices, notes);
+}
+
+Scene scene_around(const Stone& stone, const std::vector<std::string>& overrides,
+                   const StoneScene& choices) {
+    const std::filesystem::path name = stone.name.empty() ? "the stone" : stone.name;
+    const TomlTable root = toml_beside(name, {}, keys_of(overrides, choices));
+    Stone shown = stone;
+    if (!choices.material.empty()) shown.material = material_called(choices.material);
+    std::vector<std::string> notes;
+    set_size(name, has_size(stone.solid) ? Kind::stone : Kind::mesh, choices.width_mm, shown,
+             notes);
+    return alone(root, shown, choices, notes);
 }
 
 }  // namespace culet

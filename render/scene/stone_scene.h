@@ -32,4 +32,8 @@ struct StoneScene {
 Scene read_any_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
                      const StoneScene& choices);
 
+/// The same of a stone at hand, with its own material where `choices` name none.
+Scene scene_around(const Stone& stone, const std::vector<std::string>& overrides,
+                   const StoneScene& choices = {});
+
 }  // namespace culet

@@ -1,0 +1,38 @@
+#pragma once
+// What Python's Stone and Scene hold.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fit/model/options.h"
+#include "fit/readings/measurement.h"
+#include "render/scene/scene.h"
+#include "render/scene/stone_scene.h"
+#include "render/uncertainty/drawn_stones.h"
+#include "stone/stone.h"
+
+namespace culet {
+
+/// A stone with all that its file says, and how sure its facets are where it was fitted.
+struct PythonStone {
+    std::string file;  ///< for messages
+    Stone stone;
+    bool has_material = false;
+    std::optional<double> index;  ///< of a cut design
+    std::vector<WrittenReading> readings;
+    FitOptions options;
+    std::optional<StoneUncertainty> uncertainty;
+    std::vector<std::string> notes;
+};
+
+/// A scene, and what it was made of: with other settings it is made anew.
+struct PythonScene {
+    std::string file;                  ///< empty: a stone in a light
+    std::optional<PythonStone> stone;  ///< in place of the file's, or alone
+    std::vector<std::string> overrides;
+    StoneScene choices;
+    Scene scene;
+};
+
+}  // namespace culet
