@@ -17,13 +17,13 @@ namespace culet {
 
 namespace {
 
-struct ProbeOptions {
+struct ProbeArguments {
     CommonOptions common;
     std::string scene, pixel, ray, json;
     int most = 20;
 };
 
-EyeRay ray_of(const ProbeOptions& options, const Scene& scene) {
+EyeRay ray_of(const ProbeArguments& options, const Scene& scene) {
     if (!options.pixel.empty()) {
         const auto xy = numbers_in(options.pixel, 2, 2, "--pixel is X,Y from the top left");
         if (xy[0] < 0 || xy[1] < 0 || xy[0] >= scene.camera.width || xy[1] >= scene.camera.height) {
@@ -42,7 +42,7 @@ EyeRay ray_of(const ProbeOptions& options, const Scene& scene) {
     return {{r[0], r[1], r[2]}, glm::normalize(direction)};
 }
 
-int run_probe(const ProbeOptions& options) {
+int run_probe(const ProbeArguments& options) {
     if (options.pixel.empty() == options.ray.empty()) {
         throw InputError("probe needs one of --pixel X,Y and --ray OX,OY,OZ,DX,DY,DZ");
     }
@@ -92,7 +92,7 @@ int run_probe(const ProbeOptions& options) {
 }  // namespace
 
 void add_command_probe(CLI::App& program, int& exit_code) {
-    auto options = std::make_shared<ProbeOptions>();
+    auto options = std::make_shared<ProbeArguments>();
     CLI::App* command = program.add_subcommand(
         "probe", "the light paths behind one pixel: which facets make this flash");
     command->add_option("scene", options->scene, "scene file (TOML)")

@@ -52,7 +52,7 @@ ExactFace exact_face(const Real& n1, const Real& n2, const Real& q1) {
     return face;
 }
 
-struct Case {
+struct FaceCase {
     double n1 = 1, n2 = 1, q1 = 0;
     ExactFace truth, nudged[6];
     FaceAmplitudes found;
@@ -91,7 +91,7 @@ ExactFace exact_of(const FaceAmplitudes& found) {
 }
 
 template <class Distance>
-Measured against_truth(const Case& c, Distance distance) {
+Measured against_truth(const FaceCase& c, Distance distance) {
     Measured m;
     m.error = distance(exact_of(c.found), c.truth);
     double sensitivity = 0;
@@ -101,9 +101,9 @@ Measured against_truth(const Case& c, Distance distance) {
     return m;
 }
 
-Case make_case(const TomlTable& face) {
+FaceCase make_case(const TomlTable& face) {
     face.refuse_unknown({"n1", "n2", "at", "past", "q"});
-    Case c;
+    FaceCase c;
     c.n1 = face.number("n1").value_or(1);
     c.n2 = face.number("n2").value_or(1.5);
     const Real n1 = c.n1, n2 = c.n2;
@@ -141,7 +141,7 @@ Case make_case(const TomlTable& face) {
 }  // namespace
 
 Subject face_subject(const HardCase&, const HardPoint&, const TomlTable& parameters) {
-    const auto c = std::make_shared<Case>(make_case(parameters.table("face").value()));
+    const auto c = std::make_shared<FaceCase>(make_case(parameters.table("face").value()));
     Subject subject;
     auto& is = subject.invariants;
     is["amplitudes"] = [c] { return against_truth(*c, amplitude_distance); };

@@ -32,7 +32,7 @@ namespace culet::hard {
 
 namespace {
 
-struct Case {
+struct FitCase {
     Solid truth;
     Stone mesh;
     std::vector<Reading> readings;
@@ -139,8 +139,8 @@ double shortest_edge(const Solid& solid) {
     return shortest;
 }
 
-Case make_case(const TomlTable& parameters) {
-    Case c;
+FitCase make_case(const TomlTable& parameters) {
+    FitCase c;
     const TomlTable stone = parameters.table("stone").value();
     c.truth = stone.text("shape") == "brilliant" ? test::brilliant() : hard_solid(stone);
     const std::string table_name = find_facet(c.truth, "T") >= 0 ? "T" : "";
@@ -162,7 +162,7 @@ Case make_case(const TomlTable& parameters) {
 }  // namespace
 
 Subject fit_subject(const HardCase&, const HardPoint&, const TomlTable& parameters) {
-    const auto c = std::make_shared<Case>(make_case(parameters));
+    const auto c = std::make_shared<FitCase>(make_case(parameters));
     Subject subject;
     auto& is = subject.invariants;
     is["status"] = [c] {

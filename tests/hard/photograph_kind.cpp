@@ -28,7 +28,7 @@ namespace culet::hard {
 
 namespace {
 
-struct Case {
+struct PhotographCase {
     Photo photo, render;
     std::vector<float> mask;
     std::vector<std::string> expected;
@@ -96,7 +96,7 @@ Photo make_photo(const TomlTable& t, const std::string& name, bool with_coverage
 
 Subject photograph_subject(const HardCase& hard_case, const HardPoint&,
                            const TomlTable& parameters) {
-    const auto c = std::make_shared<Case>();
+    const auto c = std::make_shared<PhotographCase>();
     c->photo = make_photo(parameters.table("photo").value(), hard_case.name + ".photo", false);
     c->render = make_photo(parameters.table("render").value(), hard_case.name + ".render", true);
     if (const auto mask = parameters.table("mask")) {

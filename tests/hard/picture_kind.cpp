@@ -23,7 +23,7 @@ namespace culet::hard {
 
 namespace {
 
-struct Case {
+struct PictureCase {
     Scene scene;
     std::optional<RenderResult> drawn;
 
@@ -83,7 +83,7 @@ void look_at_stone(const TomlTable& view, Scene& scene) {
 
 Subject picture_subject(const HardCase& hard_case, const HardPoint& point,
                         const TomlTable& parameters) {
-    const auto c = std::make_shared<Case>();
+    const auto c = std::make_shared<PictureCase>();
     Subject subject;
     auto& is = subject.invariants;
     std::string refusal;

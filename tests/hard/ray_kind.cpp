@@ -24,7 +24,7 @@ namespace culet::hard {
 
 namespace {
 
-struct Case {
+struct RayCase {
     Scene scene;
     std::vector<EyeRay> rays;
     double size = 1;
@@ -120,7 +120,7 @@ double imbalance(const ProbeResult& result) {
 }
 
 template <class Each>
-Measured worst_ray(const Case& c, Each each) {
+Measured worst_ray(const RayCase& c, Each each) {
     Measured worst;
     for (std::size_t i = 0; i < c.rays.size(); ++i) {
         const double error = each(c.rays[i], static_cast<unsigned>(i));
@@ -147,7 +147,7 @@ double apart(double a, double b) {
 
 Subject ray_subject(const HardCase& hard_case, const HardPoint& point,
                     const TomlTable& parameters) {
-    const auto c = std::make_shared<Case>();
+    const auto c = std::make_shared<RayCase>();
     c->scene = hard_scene(hard_case, point, parameters);
     c->size = diameter(c->scene.stone.solid);
     c->rays = make_rays(parameters.table("ray").value(), c->scene.stone.solid,
