@@ -16,7 +16,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # What the engine gpu opens when it is asked for.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libegl1, libgl1-mesa-dri")
-if(CULET_PYTHON)
+if(CULET_MODULE_PYTHON)
   # Of its module; the program needs no Python.
   string(APPEND CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS ", python3, python3-numpy")
 endif()
