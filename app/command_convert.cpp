@@ -8,8 +8,10 @@
 #include "app/readings_form.h"
 #include "app/terminal.h"
 #include "render/export/gltf_look.h"
+#include "render/export/mitsuba.h"
+#include "render/export/pbrt.h"
 #include "render/export/povray.h"
-#include "render/scene/scene_io.h"
+#include "render/image/image_io.h"
 #include "render/scene/stone_scene.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
@@ -85,13 +87,29 @@ int convert_for_others(const ConvertOptions& options) {
     return exit_good;
 }
 
-// A scene, for POV-Ray.
+bool is_scene_for_others(const std::filesystem::path& out) {
+    const std::string ending = extension_of(out);
+    return ending == "pov" || ending == "xml" || ending == "pbrt";
+}
+
+ExportedScene exported(const Scene& scene, const std::filesystem::path& out) {
+    if (extension_of(out) == "xml") return mitsuba_scene(scene, out.stem().string());
+    if (extension_of(out) == "pbrt") return pbrt_scene(scene, out.stem().string());
+    return povray_scene(scene);
+}
+
+// A scene, or a stone in the usual light, for another renderer. The file that names the others is
+// written last.
 int convert_scene(const ConvertOptions& options) {
-    if (extension_of(options.in) != "toml") {
-        throw InputError(options.in, "a .pov is written from a scene, a .toml file");
-    }
-    const Scene scene = read_scene(options.in, options.common.set);
-    const PovrayScene converted = povray_scene(scene);
+    StoneScene choices;
+    choices.material = options.material;
+    if (!options.width.empty()) choices.width_mm = length_mm(options.width, "--width");
+    const Scene scene = read_any_scene(options.in, options.common.set, choices);
+    const ExportedScene converted = exported(scene, options.out);
+    const std::filesystem::path folder = options.out.parent_path();
+    for (const auto& [name, text] : converted.meshes) write_text(folder / name, text);
+    if (converted.environment)
+        write_picture(converted.environment->second, folder / converted.environment->first);
     write_text(options.out, converted.text);
     for (const std::string& note : scene.notes) say(note, options.common.quiet);
     for (const std::string& note : converted.notes) {
@@ -101,8 +119,9 @@ int convert_scene(const ConvertOptions& options) {
 }
 
 int convert(const ConvertOptions& options) {
-    if (extension_of(options.out) == "pov") {
-        if (!options.width.empty()) throw InputError("--width scales a stone, not a scene");
+    if (is_scene_for_others(options.out)) {
+        if (!options.clearance.empty())
+            throw InputError("--clearance is for meshes, .glb, .gltf and .step");
         return convert_scene(options);
     }
     if (is_for_other_programs(options.out) ||
@@ -110,16 +129,18 @@ int convert(const ConvertOptions& options) {
         return convert_for_others(options);
     if (!options.clearance.empty())
         throw InputError("--clearance is for meshes, .glb, .gltf and .step");
-    if (!options.material.empty()) throw InputError("--material is for .glb and .gltf");
+    if (!options.material.empty())
+        throw InputError("--material is for .glb, .gltf, .pov, .xml and .pbrt");
     if (!options.common.set.empty()) {
         throw InputError(
-            "--set changes keys of a stone or scene: the output must end in .pov, .glb, .gltf or "
-            ".step");
+            "--set changes keys of a stone or scene: the output must end in .pov, .xml, .pbrt, "
+            ".glb, .gltf or .step");
     }
     if (!mesh_format(options.out) && extension_of(options.out) != "asc") {
         throw InputError(options.out,
                          "cannot be written: the name must end in .obj, .off, .ply, .stl, .asc, "
-                         ".glb, .gltf, .step or .stp, or .pov for a scene");
+                         ".glb, .gltf, .step or .stp, or for a renderer in .pov, .xml (Mitsuba) "
+                         "or .pbrt");
     }
     require_kind(options.in, {FileKind::solid}, "culet convert");
     SolidInput input = load_solid(options.in, options.cut);
@@ -160,7 +181,8 @@ int convert(const ConvertOptions& options) {
 void add_command_convert(CLI::App& program, int& exit_code) {
     auto options = std::make_shared<ConvertOptions>();
     CLI::App* command = program.add_subcommand(
-        "convert", "between mesh and cut formats; to glTF and STEP; a scene to POV-Ray");
+        "convert",
+        "between mesh and cut formats; to glTF and STEP; a scene to POV-Ray, Mitsuba or PBRT");
     command
         ->add_option("IN", options->in,
                      "mesh (.obj .off .ply .stl), cut (.asc .gem), stone file or scene (.toml)")
@@ -169,7 +191,7 @@ void add_command_convert(CLI::App& program, int& exit_code) {
         ->add_option(
             "OUT", options->out,
             ".obj, .off, .ply, .stl or .asc; for Blender and the web .glb or .gltf; for CAD "
-            ".step; of a scene: .pov")
+            ".step; for renderers .pov, .xml (Mitsuba 3) or .pbrt (PBRT-v4)")
         ->required();
     command
         ->add_option("--meet-tolerance", options->cut.meet_tolerance,
@@ -183,8 +205,10 @@ void add_command_convert(CLI::App& program, int& exit_code) {
                      "scale the stone to this width (W of culet info): the output is in mm")
         ->type_name("6.5mm");
     command
-        ->add_option("--material", options->material,
-                     "of the stone in a .glb or .gltf: a name of the catalogue or a material file")
+        ->add_option(
+            "--material", options->material,
+            "of the stone in .glb, .gltf, .pov, .xml and .pbrt: a name of the catalogue or a "
+            "material file")
         ->type_name("NAME");
     command
         ->add_option("--clearance", options->clearance,
@@ -193,15 +217,18 @@ void add_command_convert(CLI::App& program, int& exit_code) {
     add_common(*command, options->common, true);
     command->footer(
         "Names, planes and all digits are kept as far as the format can hold them. A mesh with "
-        "faults is converted as it is, with a warning and exit code 1. What POV-Ray cannot draw is "
-        "named on stderr and in the .pov.\n"
+        "faults is converted as it is, with a warning and exit code 1. What another renderer "
+        "cannot "
+        "draw is named on stderr and in its file.\n"
         "Examples:\n"
         "  culet convert design.asc design.obj\n"
         "  culet convert --width 6.5mm design.asc stone.obj\n"
         "  culet convert scan.stl scan.ply\n"
         "  culet convert --width 6.5mm --material diamond design.asc stone.glb\n"
         "  culet convert --clearance 0.05mm fitted.obj seat.step\n"
-        "  culet convert scene.toml scene.pov --set render.depth=9");
+        "  culet convert scene.toml scene.pov --set render.depth=9\n"
+        "  culet convert scene.toml scene.pbrt\n"
+        "  culet convert fitted.obj scene.xml --material sapphire_blue");
     command->callback([options, &exit_code] { exit_code = convert(*options); });
 }
 

@@ -9,18 +9,17 @@
 #include <iterator>
 #include <numbers>
 
+#include "render/export/optical_parts.h"
 #include "render/export/povray_objects.h"
+#include "render/export/scene_parts.h"
 #include "render/setup/optical_setup.h"
 #include "render/setup/scene_checks.h"
 #include "stone/errors.h"
-#include "stone/facet_triangles.h"
 
 namespace culet {
 
 namespace {
 
-// POV-Ray 3.7 holds corners in single precision: nearer ones are one.
-constexpr double k_single_precision = 1e-7;
 // The stone's diameter in POV-Ray's units is from this to twice this: hits nearer than 1e-4, which
 // POV-Ray does not take, are then nearer than single precision tells apart.
 constexpr double k_stone_size = 1024;
@@ -28,34 +27,11 @@ constexpr int k_highest_level = 256;      // that POV-Ray accepts
 constexpr int k_depth_by_tolerance = 64;  // written where the tolerance decides
 
 void refuse_what_has_no_picture(const Scene& scene) {
-    const Camera& camera = scene.camera;
-    const auto refuse = [](const char* what) {
-        throw InputError(fmt::format("{} cannot be carried to POV-Ray", what));
-    };
-    if (camera.cone) refuse("a conoscope's camera");
-    if (camera.optics.analyzer || camera.optics.retarder || camera.optics.two_windows)
-        refuse("an analyser, retarder or dichroscope before the eye");
-    if (polarised(scene.lights)) refuse("polarised light");
+    refuse_instruments(scene, "POV-Ray");
     if (scene.lights.environment)
-        refuse(
+        throw InputError(
             "an environment map (its texels would be looked up differently; use lobes, caps and "
-            "hemispheres)");
-}
-
-// What the renderer draws: of a convex stone the planes, whose corners are here computed anew where
-// they lie off them.
-Solid drawn_solid(const Stone& stone) {
-    const double tolerance = k_single_precision * diameter(stone.solid);
-    if (!stone.convex || planarity(stone.solid) <= tolerance) return stone.solid;
-    std::vector<NamedPlane> planes;
-    for (const Facet& facet : stone.solid.facets) planes.push_back({facet.name, facet.plane});
-    return contract_near_meets(intersect_half_spaces(planes).solid, tolerance).solid;
-}
-
-// Of the stone, or how far the eye is from what it looks at.
-double size_of(const Scene& scene) {
-    if (scene.has_stone()) return diameter(scene.stone.solid);
-    return glm::length(scene.camera.look_at - scene.camera.position);
+            "hemispheres) cannot be carried to POV-Ray");
 }
 
 class PovrayWriter {
@@ -63,11 +39,10 @@ public:
     explicit PovrayWriter(const Scene& scene)
         : scene_(scene),
           setup_(make_optical_setup(scene)),
-          colours_(one_wavelength() ? scene.settings.wavelengths_nm
-                                    : std::vector<double>{450, 500, 550, 610, 650}),
+          colours_(scene),
           scale_(std::exp2(std::ceil(std::log2(k_stone_size / size_of(scene))))) {}
 
-    PovrayScene write() {
+    ExportedScene write() {
         header();
         camera();
         distant_lights();
@@ -87,7 +62,7 @@ private:
         result_.text += '\n';
     }
     void note(const std::string& text) { result_.notes.push_back(text); }
-    bool one_wavelength() const { return scene_.settings.wavelengths_nm.size() == 1; }
+    bool one_wavelength() const { return colours_.one_wavelength(); }
 
     void header() {
         const Camera& camera = scene_.camera;
@@ -114,9 +89,7 @@ private:
 
     void camera() {
         const Camera& camera = scene_.camera;
-        const Vec3 forward = glm::normalize(camera.look_at - camera.position);
-        const Vec3 right = glm::normalize(glm::cross(forward, camera.up));
-        const Vec3 up = glm::cross(right, forward);
+        const auto [forward, right, up] = axes_of(camera);
         // Of the picture's plane; in POV-Ray's units for the orthographic camera.
         double width = 0;
         if (camera.orthographic_width) {
@@ -138,16 +111,7 @@ private:
         if (setup_.on(Effects::aperture)) note("the lens: the picture is that of a pinhole");
     }
 
-    Rgb rgb_of(const LightColour& light) {
-        if (const double* number = std::get_if<double>(&light.value))
-            return {*number, *number, *number};
-        if (const Rgb* rgb = std::get_if<Rgb>(&light.value))
-            return one_wavelength() ? colours_.rgb_of(colours_.spectrum_of(*rgb).data()) : *rgb;
-        const std::string& name = std::get<std::string>(light.value);
-        if (name != "D65" && !one_wavelength())
-            note(fmt::format("the spectrum of illuminant {}: its colour only", name));
-        return colours_.rgb_of(colours_.illuminant_relative(name.c_str()).data());
-    }
+    Rgb rgb_of(const LightColour& light) { return colours_.of(light, result_.notes); }
 
     // Distant lights add up: a function of the direction for each channel, or one for all.
     struct Term {
@@ -295,16 +259,11 @@ private:
                            povray_colour(rgb_of(radiance)));
     }
     void stone(const Stone& stone) {
-        const Solid solid = drawn_solid(stone);
-        line("mesh2 {{ vertex_vectors {{ {}", solid.vertices.size());
-        for (const Vec3& vertex : solid.vertices) line("    {}", povray_vector(scale_ * vertex));
-        std::vector<std::array<int, 3>> triangles;
-        for (const Facet& facet : solid.facets) {
-            for (const auto& triangle : facet_triangles(solid, facet))
-                triangles.push_back(triangle);
-        }
-        line("  }} face_indices {{ {}", triangles.size());
-        for (const auto& t : triangles) line("    <{}, {}, {}>", t[0], t[1], t[2]);
+        const TriangleMesh mesh = triangles_of(drawn_solid(stone));
+        line("mesh2 {{ vertex_vectors {{ {}", mesh.vertices.size());
+        for (const Vec3& vertex : mesh.vertices) line("    {}", povray_vector(scale_ * vertex));
+        line("  }} face_indices {{ {}", mesh.triangles.size());
+        for (const auto& t : mesh.triangles) line("    <{}, {}, {}>", t[0], t[1], t[2]);
         line("  }}");
         line("  pigment {{ rgbt 1 }}");
         line("  finish {{ ambient 0 diffuse 0 specular 0");
@@ -314,55 +273,33 @@ private:
     }
 
     void interior(const Stone& stone) {
-        constexpr double k_d_line_nm = 589.3, k_red_nm = 610, k_green_nm = 545, k_blue_nm = 465;
-        const Material& material = stone.material;
-        const int rays = ray_count(material.optic);
-        const double nm = one_wavelength() ? scene_.settings.wavelengths_nm[0] : k_d_line_nm;
-        // As the renderer does where double refraction is left out; uniaxial stones have two
-        // directions of the ordinary index.
-        const bool uniaxial = material.optic == OpticCharacter::uniaxial;
-        const auto mean = [&](const auto& of_ray) {
-            if (rays == 1) return of_ray(0);
-            return (of_ray(0) + (uniaxial ? of_ray(0) : of_ray(2)) + of_ray(1)) / 3;
-        };
-        const double n = mean([&](int ray) { return material.index[ray].at(nm); });
-        if (setup_.on(Effects::birefringence))
-            note(fmt::format("double refraction: the mean index {:.4f} is written", n));
-        if (setup_.on(Effects::dispersion))
-            note(fmt::format("dispersion: the index at {} nm is written", nm));
+        const bool one = one_wavelength();
+        const StoneOptics optics = optics_of(
+            stone, setup_, one, one ? scene_.settings.wavelengths_nm[0] : 0, result_.notes);
+        if (optics.disperses)
+            note(fmt::format("dispersion: the index at {} nm is written", optics.index_nm));
+        const double ior = optics.index / scene_.immersion;
         if (!setup_.on(Effects::absorption)) {
-            line("  interior {{ ior {} }}", n / scene_.immersion);
+            line("  interior {{ ior {} }}", ior);
             return;
         }
         // As a medium, because POV-Ray's fade_distance spares the partly reflected rays.
-        const double per_unit = mm_per(stone.unit) / scale_;
-        Rgb absorption{};
-        for (int c = 0; c < 3; ++c) {
-            const double at =
-                one_wavelength() ? nm : std::array{k_red_nm, k_green_nm, k_blue_nm}[c];
-            absorption[c] =
-                per_unit * mean([&](int ray) { return material.absorption_per_mm[ray].at(at); });
-        }
-        if (setup_.on(Effects::pleochroism)) note("pleochroism: the mean absorption is written");
-        for (int ray = 0; ray < rays; ++ray) {
-            if (one_wavelength() || material.absorption_per_mm[ray].is_constant()) continue;
-            note("the spectrum of absorption: three values for red, green and blue are written");
-            break;
-        }
-        line("  hollow interior {{ ior {} media {{ absorption {} }} }}", n / scene_.immersion,
+        Rgb absorption = optics.absorption;
+        for (double& value : absorption) value /= scale_;
+        line("  hollow interior {{ ior {} media {{ absorption {} }} }}", ior,
              povray_colour(absorption));
     }
 
     const Scene& scene_;
     OpticalSetup setup_;
-    WavelengthSet colours_;
+    LightRgb colours_;
     double scale_;
-    PovrayScene result_;
+    ExportedScene result_;
 };
 
 }  // namespace
 
-PovrayScene povray_scene(const Scene& scene) {
+ExportedScene povray_scene(const Scene& scene) {
     require_renderable(scene);
     refuse_what_has_no_picture(scene);
     return PovrayWriter(scene).write();

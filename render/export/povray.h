@@ -9,17 +9,9 @@
 // index and is 1 beyond the critical angle, `conserve_energy` gives the rest to the refracted ray,
 // and cut rays are black.)
 
-#include <string>
-#include <vector>
-
-#include "render/scene/scene.h"
+#include "render/export/scene_parts.h"
 
 namespace culet {
-
-struct PovrayScene {
-    std::string text;
-    std::vector<std::string> notes;  ///< what of the scene is not in it, one line each
-};
 
 /// Frame: POV-Ray's is left-handed with y up, so y and z change places; lengths are multiplied by a
 /// power of two, because POV-Ray takes no hit nearer than 1e-4 of its units.
@@ -32,6 +24,6 @@ struct PovrayScene {
 /// objects and how metals reflect at a slant (povray_objects.h). Throws InputError where no picture
 /// of sense would be left: polarised lights, optics before the eye, conoscopes, environment maps, a
 /// plane light seen from behind, and what the renderer refuses.
-PovrayScene povray_scene(const Scene& scene);
+ExportedScene povray_scene(const Scene& scene);
 
 }  // namespace culet

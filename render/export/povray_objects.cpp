@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <glm/geometric.hpp>
 #include <iterator>
 
+#include "render/export/scene_parts.h"
 #include "render/optics/conductor.h"
 #include "render/scene/surface_colour.h"
 
@@ -50,10 +50,6 @@ struct ShapeText {
         return text;
     }
 };
-
-void add_note(std::vector<std::string>& notes, const std::string& note) {
-    if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
-}
 
 struct SurfaceText {
     double scale, immersion;

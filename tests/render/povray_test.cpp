@@ -117,14 +117,14 @@ void expect_same_solid(const Solid& solid, const std::string& text) {
 bool holds(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
-bool noted(const PovrayScene& scene, const std::string& part) {
+bool noted(const ExportedScene& scene, const std::string& part) {
     return std::any_of(scene.notes.begin(), scene.notes.end(),
                        [&](const std::string& note) { return holds(note, part); });
 }
 
 TEST(Povray, meshes_are_the_stone_and_closed) {
     const Scene scene = stone_scene();
-    const PovrayScene written = povray_scene(scene);
+    const ExportedScene written = povray_scene(scene);
     expect_same_solid(scene.stone.solid, written.text);
     EXPECT_TRUE(written.notes.empty()) << written.notes.front();
 }
@@ -182,7 +182,7 @@ TEST(Povray, says_what_it_leaves_out) {
     scene.lights.sources.push_back(DiscLight{{0, 0, 1}, 0, 1, {std::string("A")}});
     EXPECT_TRUE(noted(povray_scene(scene), "illuminant A"));
     // Every note is also in the file.
-    const PovrayScene written = povray_scene(scene);
+    const ExportedScene written = povray_scene(scene);
     for (const std::string& note : written.notes) EXPECT_TRUE(holds(written.text, note)) << note;
 }
 

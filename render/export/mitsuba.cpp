@@ -1,0 +1,287 @@
+#include "render/export/mitsuba.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <iterator>
+#include <numbers>
+
+#include "render/export/optical_parts.h"
+#include "render/scene/surface_colour.h"
+#include "render/setup/scene_checks.h"
+
+namespace culet {
+
+namespace {
+
+constexpr int k_map_height = 512;
+constexpr int k_usual_samples = 64;
+
+std::string point(const Vec3& v) {
+    return fmt::format("{}, {}, {}", v.x, v.y, v.z);
+}
+std::string rgb(const char* name, const Rgb& c) {
+    return fmt::format(R"(<rgb name="{}" value="{}, {}, {}"/>)", name, c[0], c[1], c[2]);
+}
+// Columns of a matrix, row by row.
+std::string matrix(const Vec3& x, const Vec3& y, const Vec3& z, const Vec3& at) {
+    return fmt::format(
+        R"(<transform name="to_world"><matrix value="{} {} {} {} {} {} {} {} {} {} {} {} 0 0 0 1"/></transform>)",
+        x.x, y.x, z.x, at.x, x.y, y.y, z.y, at.y, x.z, y.z, z.z, at.z);
+}
+// Any two directions that make a right-handed frame with `z`, and it.
+std::string turned_to(const Vec3& z, double size, const Vec3& at) {
+    const Vec3 other = std::abs(z.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 x = glm::normalize(glm::cross(other, z));
+    return matrix(size * x, size * glm::cross(z, x), size * z, at);
+}
+std::string obj_text(const TriangleMesh& mesh) {
+    std::string text;
+    const auto out = std::back_inserter(text);
+    for (const Vec3& v : mesh.vertices) fmt::format_to(out, "v {} {} {}\n", v.x, v.y, v.z);
+    for (const auto& t : mesh.triangles)
+        fmt::format_to(out, "f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+    return text;
+}
+
+// Along one side of the picture: a film whose middle is where the line of sight is.
+struct FilmCut {
+    int film = 0, offset = 0;
+    double lost = 0;  // pixels between the line of sight and that middle
+};
+FilmCut film_cut(double sight, int pixels) {
+    const int twice = static_cast<int>(std::lround(2 * sight));
+    FilmCut cut;
+    cut.film = std::max(twice, 2 * pixels - twice);
+    cut.offset = twice >= pixels ? 0 : pixels - twice;
+    cut.lost = std::abs(sight - 0.5 * twice);
+    return cut;
+}
+
+class MitsubaWriter {
+public:
+    MitsubaWriter(const Scene& scene, std::string stem)
+        : scene_(scene), stem_(std::move(stem)), lights_(scene), size_(size_of(scene)) {}
+
+    ExportedScene write() {
+        line(R"(<?xml version="1.0" encoding="utf-8"?>)");
+        line("<!-- mitsuba -m scalar_rgb THIS.xml; lengths are the stone's -->");
+        line(R"(<scene version="3.0.0">)");
+        integrator();
+        camera();
+        distant_lights();
+        for (const Light& light : scene_.lights.sources)
+            std::visit([&](const auto& l) { near(l); }, light);
+        if (scene_.has_stone()) stone(scene_.stone);
+        for (const Stone& more : scene_.more_stones) stone(more);
+        for (const SceneObject& object : scene_.objects) this->object(object);
+        for (const std::string& note : result_.notes) line("  <!-- Not carried: {} -->", note);
+        line("</scene>");
+        return std::move(result_);
+    }
+
+private:
+    template <class... Args>
+    void line(fmt::format_string<Args...> format, Args&&... args) {
+        fmt::format_to(std::back_inserter(result_.text), format, std::forward<Args>(args)...);
+        result_.text += '\n';
+    }
+
+    void integrator() {
+        note_left_out(scene_, result_.notes);
+        line(R"(  <integrator type="volpath"><integer name="max_depth" value="{}"/></integrator>)",
+             scene_.settings.depth > 0 ? scene_.settings.depth + 1 : -1);
+    }
+
+    void camera() {
+        const Camera& camera = scene_.camera;
+        const bool parallel = camera.orthographic_width.has_value();
+        // The line of sight is the middle of a larger film, of which the picture is cut out.
+        const auto [sight_x, sight_y] = line_of_sight_in(camera);
+        const FilmCut x = film_cut(sight_x, camera.width), y = film_cut(sight_y, camera.height);
+        if (x.lost + y.lost > 1e-3)
+            add_note(result_.notes, "the place of the principal point within half a pixel");
+        line(R"(  <sensor type="{}">)", parallel ? "orthographic" : "perspective");
+        if (!parallel) {
+            const double tangent = std::tan(camera.fov / 2) * y.film / camera.height;
+            line(R"(    <string name="fov_axis" value="y"/><float name="fov" value="{}"/>)",
+                 degrees(2 * std::atan(tangent)));
+        }
+        line(R"(    <float name="near_clip" value="{}"/><float name="far_clip" value="{}"/>)",
+             1e-3 * size_, 10 * k_far_away * size_);
+        line(R"(    <transform name="to_world">)");
+        if (parallel) {
+            const double half = *camera.orthographic_width * x.film / camera.width / 2;
+            line(R"(      <scale x="{0}" y="{0}"/>)", half);
+        }
+        line(R"(      <lookat origin="{}" target="{}" up="{}"/>)", point(camera.position),
+             point(camera.look_at), point(camera.up));
+        line("    </transform>");
+        line(
+            R"(    <film type="hdrfilm"><integer name="width" value="{}"/><integer name="height" value="{}"/>)",
+            x.film, y.film);
+        if (x.film != camera.width || y.film != camera.height) {
+            line(
+                R"(      <integer name="crop_offset_x" value="{}"/><integer name="crop_offset_y" value="{}"/>)",
+                x.offset, y.offset);
+            line(
+                R"(      <integer name="crop_width" value="{}"/><integer name="crop_height" value="{}"/>)",
+                camera.width, camera.height);
+        }
+        line(R"(      <rfilter type="box"/></film>)");
+        line(
+            R"(    <sampler type="independent"><integer name="sample_count" value="{}"/></sampler>)",
+            scene_.settings.samples > 0 ? scene_.settings.samples : k_usual_samples);
+        line("  </sensor>");
+    }
+
+    void distant_lights() {
+        const Lights& lights = scene_.lights;
+        if (is_even(lights)) {
+            if (lights.constant > 0)
+                line(R"(  <emitter type="constant"><float name="radiance" value="{}"/></emitter>)",
+                     lights.constant);
+            return;
+        }
+        // Mitsuba's map has +y up, and its left edge at -z; y is turned up to z.
+        const auto direction = [](double column, double row) {
+            const double phi = std::numbers::pi * column / k_map_height;
+            const double theta = std::numbers::pi * row / k_map_height;
+            return Vec3{std::sin(phi) * std::sin(theta), std::cos(phi) * std::sin(theta),
+                        std::cos(theta)};
+        };
+        const std::string name = stem_ + "-light.exr";
+        result_.environment = {
+            name, distant_light_map(lights, lights_, 2 * k_map_height, k_map_height, direction)};
+        note_light_map(lights, lights_, 180.0 / k_map_height, result_.notes);
+        line(R"(  <emitter type="envmap"><string name="filename" value="{}"/>)", name);
+        line(R"(    {}</emitter>)", matrix({1, 0, 0}, {0, 0, 1}, {0, -1, 0}, Vec3(0)));
+    }
+
+    std::string glowing(const LightColour& light) {
+        return R"(<bsdf type="diffuse"><rgb name="reflectance" value="0, 0, 0"/></bsdf>)"
+               R"(<emitter type="area">)" +
+               rgb("radiance", lights_.of(light, result_.notes)) + "</emitter>";
+    }
+    template <class Distant>
+    void near(const Distant&) {}
+    void near(const SphereLight& sphere) {
+        const bool inside = glm::length(scene_.camera.position - sphere.center) < sphere.radius;
+        line(
+            R"(  <shape type="sphere"><point name="center" value="{}"/><float name="radius" value="{}"/>)",
+            point(sphere.center), sphere.radius);
+        line(R"(    <boolean name="flip_normals" value="{}"/>{}</shape>)", inside,
+             glowing(sphere.radiance));
+    }
+    void near(const PlaneLight& plane) {
+        add_note(result_.notes, "that a plane light is not there from behind: it is black");
+        if (!plane.u || !plane.v) {
+            add_note(result_.notes, "infinite planes: they end 1000 sizes of the stone away");
+            line(R"(  <shape type="rectangle">{}{}</shape>)",
+                 turned_to(plane.normal, k_far_away * size_, plane.point), glowing(plane.radiance));
+            return;
+        }
+        const bool left = glm::dot(glm::cross(*plane.u, *plane.v), plane.normal) < 0;
+        line(R"(  <shape type="rectangle">{}{}</shape>)",
+             matrix(left ? *plane.v : *plane.u, left ? *plane.u : *plane.v, plane.normal,
+                    plane.point),
+             glowing(plane.radiance));
+    }
+
+    // A mesh of its own file; corners are not rounded off.
+    std::string mesh(const TriangleMesh& mesh) {
+        const std::string name = fmt::format("{}-{}.obj", stem_, result_.meshes.size() + 1);
+        result_.meshes.emplace_back(name, obj_text(mesh));
+        return fmt::format(
+            R"(<shape type="obj"><string name="filename" value="{}"/><boolean name="face_normals" value="true"/>)",
+            name);
+    }
+    std::string dielectric(double index, const Rgb& absorption) const {
+        std::string text = fmt::format(
+            R"(<bsdf type="dielectric"><float name="int_ior" value="{}"/><float name="ext_ior" value="{}"/></bsdf>)",
+            index, scene_.immersion);
+        const double most = std::max({absorption[0], absorption[1], absorption[2]});
+        if (!(most > 0)) return text;
+        // Colours end at 1: the largest stands apart.
+        const Rgb share{absorption[0] / most, absorption[1] / most, absorption[2] / most};
+        return text + R"(<medium name="interior" type="homogeneous">)" + rgb("sigma_t", share) +
+               R"(<rgb name="albedo" value="0, 0, 0"/>)" +
+               fmt::format(R"(<float name="scale" value="{}"/></medium>)", most);
+    }
+    void stone(const Stone& stone) {
+        const StoneOptics optics = optics_of(stone, scene_, result_.notes);
+        if (optics.disperses)
+            add_note(result_.notes,
+                     fmt::format("dispersion: the index at {} nm is written", optics.index_nm));
+        line("  {}", mesh(triangles_of(drawn_solid(stone))));
+        line("    {}</shape>", dielectric(optics.index, optics.absorption));
+    }
+
+    std::string shape(const SphereShape& s) {
+        return fmt::format(
+            R"(<shape type="sphere"><point name="center" value="{}"/><float name="radius" value="{}"/>)",
+            point(s.center), s.radius);
+    }
+    std::string shape(const PlaneShape& s) {
+        add_note(result_.notes, "infinite planes: they end 1000 sizes of the stone away");
+        return R"(<shape type="rectangle">)" + turned_to(s.normal, k_far_away * size_, s.point);
+    }
+    std::string shape(const DiscShape& s) {
+        return R"(<shape type="disk">)" + turned_to(s.normal, s.radius, s.center);
+    }
+    std::string shape(const BoxShape& s) { return mesh(triangles_of(s)); }
+    std::string shape(const MeshShape& s) { return mesh(*s.mesh); }
+
+    // Both sides of what is open reflect.
+    static std::string two_sided(const std::string& bsdf) {
+        return R"(<bsdf type="twosided">)" + bsdf + "</bsdf>";
+    }
+    std::string surface(const DiffuseMaterial& m) {
+        return two_sided(R"(<bsdf type="diffuse">)" + rgb("reflectance", rgb_of(m.albedo)) +
+                         "</bsdf>");
+    }
+    std::string surface(const MetalMaterial& m) {
+        const MetalIndex index = finite_index_of(m);
+        const std::string alpha = m.roughness > 0
+                                      ? fmt::format(R"(<float name="alpha" value="{}"/>)"
+                                                    R"(<string name="distribution" value="ggx"/>)",
+                                                    m.roughness * m.roughness)
+                                      : std::string();
+        return two_sided(fmt::format(R"(<bsdf type="{}">{}{}{}</bsdf>)",
+                                     m.roughness > 0 ? "roughconductor" : "conductor",
+                                     rgb("eta", index.n), rgb("k", index.k), alpha));
+    }
+    std::string surface(const MirrorMaterial& m) {
+        return two_sided(R"(<bsdf type="conductor"><string name="material" value="none"/>)" +
+                         rgb("specular_reflectance", rgb_of(m.albedo)) + "</bsdf>");
+    }
+    std::string surface(const DielectricMaterial& m) {
+        return dielectric(m.index, rgb_of(m.absorption));
+    }
+    std::string surface(const EmitterMaterial& m) { return glowing(m.radiance); }
+
+    void object(const SceneObject& object) {
+        const std::string text = std::visit([&](const auto& s) { return shape(s); }, object.shape);
+        line("  {}", text);
+        line("    {}</shape>",
+             std::visit([&](const auto& m) { return surface(m); }, object.material));
+    }
+
+    const Scene& scene_;
+    std::string stem_;
+    LightRgb lights_;
+    double size_;
+    ExportedScene result_;
+};
+
+}  // namespace
+
+ExportedScene mitsuba_scene(const Scene& scene, const std::string& stem) {
+    require_renderable(scene);
+    refuse_instruments(scene, "Mitsuba");
+    return MitsubaWriter(scene, plain_stem(stem)).write();
+}
+
+}  // namespace culet

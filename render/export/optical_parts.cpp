@@ -1,0 +1,80 @@
+#include "render/export/optical_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "render/optics/conductor.h"
+#include "stone/export/mean_material.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+// The sodium line, and where red, green and blue are read off a spectrum of absorption (as
+// Material::absorption_from_rgb has them).
+constexpr double k_d_line_nm = 589.3;
+constexpr std::array<double, 3> k_rgb_nm{610, 545, 465};
+
+}  // namespace
+
+StoneOptics optics_of(const Stone& stone, const OpticalSetup& setup, bool one_wavelength,
+                      double wavelength_nm, std::vector<std::string>& notes) {
+    const Material& material = stone.material;
+    StoneOptics optics;
+    optics.index_nm = one_wavelength ? wavelength_nm : k_d_line_nm;
+    optics.index = mean_index(material, optics.index_nm);
+    optics.disperses = setup.on(Effects::dispersion);
+    if (setup.on(Effects::birefringence))
+        add_note(notes,
+                 fmt::format("double refraction: the mean index {:.4f} is written", optics.index));
+    if (!setup.on(Effects::absorption)) return optics;
+    for (std::size_t c = 0; c < 3; ++c)
+        optics.absorption[c] =
+            mm_per(stone.unit) *
+            mean_absorption(material, one_wavelength ? wavelength_nm : k_rgb_nm[c]);
+    if (setup.on(Effects::pleochroism))
+        add_note(notes, "pleochroism: the mean absorption is written");
+    const bool has_spectrum =
+        std::any_of(material.absorption_per_mm.begin(),
+                    material.absorption_per_mm.begin() + ray_count(material.optic),
+                    [](const Spectrum& spectrum) { return !spectrum.is_constant(); });
+    if (has_spectrum && !one_wavelength)
+        add_note(notes,
+                 "the spectrum of absorption: three values for red, green and blue are written");
+    return optics;
+}
+
+StoneOptics optics_of(const Stone& stone, const Scene& scene, std::vector<std::string>& notes) {
+    const std::vector<double>& nm = scene.settings.wavelengths_nm;
+    return optics_of(stone, make_optical_setup(scene), nm.size() == 1, nm.empty() ? 0 : nm.front(),
+                     notes);
+}
+
+MetalIndex finite_index_of(const MetalMaterial& metal) {
+    const double most = extinction_of_reflectance(0.9999);
+    MetalIndex index = index_of(metal);
+    for (double& k : index.k) k = std::min(k, most);
+    return index;
+}
+
+void note_left_out(const Scene& scene, std::vector<std::string>& notes) {
+    const OpticalSetup setup = make_optical_setup(scene);
+    if (setup.polarised) add_note(notes, "polarisation by the faces");
+    if (setup.on(Effects::aperture)) add_note(notes, "the lens: the picture is that of a pinhole");
+}
+
+void note_light_map(const Lights& lights, const LightRgb& rgb, double degrees,
+                    std::vector<std::string>& notes) {
+    for (const Light& light : lights.sources) {
+        if (is_near(light)) continue;
+        rgb.of(colour_of(light), notes);
+        if (has_edge(light))
+            add_note(notes, fmt::format("sharp edges of distant lights: the map has texels of "
+                                        "{:.2g} degrees",
+                                        degrees));
+    }
+}
+
+}  // namespace culet

@@ -1,0 +1,283 @@
+#include "render/export/pbrt.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <iterator>
+#include <numbers>
+
+#include "render/export/optical_parts.h"
+#include "render/scene/surface_colour.h"
+#include "render/setup/scene_checks.h"
+#include "stone/export/mean_material.h"
+
+namespace culet {
+
+namespace {
+
+constexpr int k_map_side = 1024;
+constexpr int k_pbrt_depth = 100;
+constexpr int k_pbrt_samples = 256;
+// PBRT samples from 360 to 830 nm, and takes a spectrum for 0 where it has no value; culet's own
+// wavelengths lie between 380 and 780.
+constexpr double k_first_nm = 360, k_last_nm = 830, k_step_nm = 10;
+constexpr double k_first_seen_nm = 380, k_last_seen_nm = 780;
+
+std::string numbers(const Vec3& v) {
+    return fmt::format("{} {} {}", v.x, v.y, v.z);
+}
+std::string numbers(const Rgb& c) {
+    return fmt::format("{} {} {}", c[0], c[1], c[2]);
+}
+// "spectrum NAME" with a value at each wavelength.
+template <class At>
+std::string spectrum(const char* name, const At& at) {
+    std::string text = fmt::format("\"spectrum {}\" [", name);
+    for (double nm = k_first_nm; nm <= k_last_nm; nm += k_step_nm) {
+        const double known = std::clamp(nm, k_first_seen_nm, k_last_seen_nm);
+        text += fmt::format(" {} {}", nm, at(known));
+    }
+    return text + " ]";
+}
+std::string triangle_mesh(const TriangleMesh& mesh) {
+    std::string text = "Shape \"trianglemesh\" \"point3 P\" [";
+    const auto out = std::back_inserter(text);
+    for (const Vec3& v : mesh.vertices) fmt::format_to(out, "\n    {}", numbers(v));
+    text += " ]\n    \"integer indices\" [";
+    for (const auto& t : mesh.triangles) fmt::format_to(out, "\n    {} {} {}", t[0], t[1], t[2]);
+    return text + " ]";
+}
+// Any two directions that make a right-handed frame with a normal.
+std::pair<Vec3, Vec3> beside(const Vec3& normal) {
+    const Vec3 other = std::abs(normal.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    const Vec3 u = glm::normalize(glm::cross(other, normal));
+    return {u, glm::cross(normal, u)};
+}
+// Its front is on the side of u x v.
+std::string rectangle(const Vec3& middle, const Vec3& u, const Vec3& v) {
+    TriangleMesh mesh;
+    mesh.vertices = {middle - u - v, middle + u - v, middle + u + v, middle - u + v};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return triangle_mesh(mesh);
+}
+
+class PbrtWriter {
+public:
+    PbrtWriter(const Scene& scene, std::string stem)
+        : scene_(scene),
+          stem_(std::move(stem)),
+          setup_(make_optical_setup(scene)),
+          lights_(scene),
+          size_(size_of(scene)) {}
+
+    ExportedScene write() {
+        line("# pbrt THIS.pbrt (version 4); lengths are the stone's");
+        note_left_out(scene_, result_.notes);
+        camera();
+        line("WorldBegin");
+        distant_lights();
+        for (const Light& light : scene_.lights.sources)
+            std::visit([&](const auto& l) { near(l); }, light);
+        if (scene_.has_stone()) stone(scene_.stone);
+        for (const Stone& more : scene_.more_stones) stone(more);
+        for (const SceneObject& object : scene_.objects) this->object(object);
+        for (const std::string& note : result_.notes) line("# Not carried: {}", note);
+        return std::move(result_);
+    }
+
+private:
+    template <class... Args>
+    void line(fmt::format_string<Args...> format, Args&&... args) {
+        fmt::format_to(std::back_inserter(result_.text), format, std::forward<Args>(args)...);
+        result_.text += '\n';
+    }
+
+    void camera() {
+        const Camera& camera = scene_.camera;
+        const RenderSettings& settings = scene_.settings;
+        const bool parallel = camera.orthographic_width.has_value();
+        // PBRT's camera sees the world of a left hand: x is turned over.
+        line("Scale -1 1 1");
+        line("LookAt {}  {}  {}", numbers(camera.position), numbers(camera.look_at),
+             numbers(camera.up));
+        // A pixel's side, in lengths or as a tangent: the window of 90 degrees has tangents.
+        const double side = parallel ? *camera.orthographic_width / camera.width
+                                     : 2 * std::tan(camera.fov / 2) / camera.height;
+        const auto [sight_x, sight_y] = line_of_sight_in(camera);
+        line("Camera \"{}\"{} \"float screenwindow\" [ {} {} {} {} ]",
+             parallel ? "orthographic" : "perspective", parallel ? "" : " \"float fov\" [ 90 ]",
+             -sight_x * side, (camera.width - sight_x) * side, (sight_y - camera.height) * side,
+             sight_y * side);
+        line(
+            "Film \"rgb\" \"string filename\" [ \"{}.exr\" ] \"integer xresolution\" [ {} ] "
+            "\"integer yresolution\" [ {} ]",
+            stem_, camera.width, camera.height);
+        line("PixelFilter \"box\"");
+        line("Sampler \"independent\" \"integer pixelsamples\" [ {} ]",
+             settings.samples > 0 ? settings.samples : k_pbrt_samples);
+        line("Integrator \"volpath\" \"integer maxdepth\" [ {} ]",
+             settings.depth > 0 ? settings.depth : k_pbrt_depth);
+    }
+
+    void distant_lights() {
+        const Lights& lights = scene_.lights;
+        if (is_even(lights)) {
+            if (lights.constant > 0)
+                line("LightSource \"infinite\" \"rgb L\" [ {0} {0} {0} ]", lights.constant);
+            return;
+        }
+        const std::string name = stem_ + "-light.exr";
+        result_.environment = {
+            name, distant_light_map(
+                      lights, lights_, k_map_side, k_map_side, [](double column, double row) {
+                          return equal_area_direction(column / k_map_side, row / k_map_side);
+                      })};
+        // Texels have one solid angle.
+        const double texel = std::sqrt(4 * std::numbers::pi) / k_map_side;
+        note_light_map(lights, lights_, degrees(texel), result_.notes);
+        line("LightSource \"infinite\" \"string filename\" [ \"{}\" ]", name);
+    }
+
+    void begin() { line("AttributeBegin"); }
+    void end() { line("AttributeEnd"); }
+
+    void glow(const LightColour& light, bool both_sides) {
+        line("  Material \"diffuse\" \"rgb reflectance\" [ 0 0 0 ]");
+        line("  AreaLightSource \"diffuse\" \"rgb L\" [ {} ] \"bool twosided\" [ {} ]",
+             numbers(lights_.of(light, result_.notes)), both_sides);
+    }
+    template <class Distant>
+    void near(const Distant&) {}
+    void near(const SphereLight& sphere) {
+        begin();
+        glow(sphere.radiance, true);
+        shape(SphereShape{sphere.center, sphere.radius});
+        end();
+    }
+    void near(const PlaneLight& plane) {
+        add_note(result_.notes, "that a plane light is not there from behind: it is black");
+        begin();
+        glow(plane.radiance, false);
+        if (!plane.u || !plane.v) {
+            shape(PlaneShape{plane.point, plane.normal});
+        } else {
+            const bool left = glm::dot(glm::cross(*plane.u, *plane.v), plane.normal) < 0;
+            line("  {}",
+                 rectangle(plane.point, left ? *plane.v : *plane.u, left ? *plane.u : *plane.v));
+        }
+        end();
+    }
+
+    // A medium of this absorption inside what follows.
+    void fill(const std::string& absorption) {
+        ++media_;
+        line("  MakeNamedMedium \"medium-{}\" \"string type\" \"homogeneous\"", media_);
+        line("    {}", absorption);
+        line("    \"rgb sigma_s\" [ 0 0 0 ]");
+        line("  MediumInterface \"medium-{}\" \"\"", media_);
+    }
+    void stone(const Stone& stone) {
+        begin();
+        std::vector<std::string> of_rgb;  // PBRT takes the spectrum
+        const StoneOptics optics = optics_of(stone, scene_, of_rgb);
+        if (setup_.on(Effects::birefringence))
+            add_note(result_.notes, "double refraction: the mean index is written");
+        if (setup_.on(Effects::pleochroism))
+            add_note(result_.notes, "pleochroism: the mean absorption is written");
+        if (optics.disperses) {
+            line("  Material \"dielectric\" {}", spectrum("eta", [&](double nm) {
+                     return mean_index(stone.material, nm) / scene_.immersion;
+                 }));
+        } else {
+            line("  Material \"dielectric\" \"float eta\" [ {} ]", optics.index / scene_.immersion);
+        }
+        if (optics.absorption != Rgb{}) {
+            if (lights_.one_wavelength()) {
+                fill(fmt::format("\"rgb sigma_a\" [ {} ]", numbers(optics.absorption)));
+            } else {
+                fill(spectrum("sigma_a", [&](double nm) {
+                    return mm_per(stone.unit) * mean_absorption(stone.material, nm);
+                }));
+            }
+        }
+        line("  {}", triangle_mesh(triangles_of(drawn_solid(stone))));
+        end();
+    }
+
+    void shape(const SphereShape& s) {
+        line("  Translate {}", numbers(s.center));
+        line("  Shape \"sphere\" \"float radius\" [ {} ]", s.radius);
+    }
+    void shape(const PlaneShape& s) {
+        add_note(result_.notes, "infinite planes: they end 1000 sizes of the stone away");
+        const auto [u, v] = beside(s.normal);
+        line("  {}", rectangle(s.point, k_far_away * size_ * u, k_far_away * size_ * v));
+    }
+    void shape(const DiscShape& s) {
+        const auto [u, v] = beside(s.normal);
+        line("  Transform [ {} 0  {} 0  {} 0  {} 1 ]", numbers(u), numbers(v), numbers(s.normal),
+             numbers(s.center));
+        line("  Shape \"disk\" \"float radius\" [ {} ]", s.radius);
+    }
+    void shape(const BoxShape& s) { line("  {}", triangle_mesh(triangles_of(s))); }
+    void shape(const MeshShape& s) { line("  {}", triangle_mesh(*s.mesh)); }
+
+    void surface(const DiffuseMaterial& m) {
+        line("  Material \"diffuse\" \"rgb reflectance\" [ {} ]", numbers(rgb_of(m.albedo)));
+    }
+    void surface(const MetalMaterial& m) {
+        const MetalIndex index = finite_index_of(m);
+        line("  Material \"conductor\" \"rgb eta\" [ {} ] \"rgb k\" [ {} ]", numbers(index.n),
+             numbers(index.k));
+        line("    \"float roughness\" [ {} ] \"bool remaproughness\" [ false ]",
+             m.roughness * m.roughness);
+    }
+    void surface(const MirrorMaterial& m) {
+        add_note(result_.notes,
+                 "mirrors of one reflectance at every angle: they reflect more at a slant");
+        line("  Material \"conductor\" \"rgb reflectance\" [ {} ]", numbers(rgb_of(m.albedo)));
+    }
+    void surface(const DielectricMaterial& m) {
+        line("  Material \"dielectric\" \"float eta\" [ {} ]", m.index / scene_.immersion);
+        const Rgb absorption = rgb_of(m.absorption);
+        if (absorption != Rgb{}) fill(fmt::format("\"rgb sigma_a\" [ {} ]", numbers(absorption)));
+    }
+    void surface(const EmitterMaterial& m) { glow(m.radiance, true); }
+
+    void object(const SceneObject& object) {
+        begin();
+        std::visit([&](const auto& m) { surface(m); }, object.material);
+        std::visit([&](const auto& s) { shape(s); }, object.shape);
+        end();
+    }
+
+    const Scene& scene_;
+    std::string stem_;
+    OpticalSetup setup_;
+    LightRgb lights_;
+    double size_;
+    int media_ = 0;
+    ExportedScene result_;
+};
+
+}  // namespace
+
+Vec3 equal_area_direction(double x, double y) {
+    const double u = 2 * x - 1, v = 2 * y - 1;
+    const double to_edge = 1 - (std::abs(u) + std::abs(v));  // of the inner square: z = 0
+    const double r = 1 - std::abs(to_edge);
+    const double phi = (r == 0 ? 1 : (std::abs(v) - std::abs(u)) / r + 1) * std::numbers::pi / 4;
+    const double level = r * std::sqrt(std::max(0.0, 2 - r * r));
+    return {std::copysign(std::cos(phi), u) * level, std::copysign(std::sin(phi), v) * level,
+            std::copysign(1 - r * r, to_edge)};
+}
+
+ExportedScene pbrt_scene(const Scene& scene, const std::string& stem) {
+    require_renderable(scene);
+    refuse_instruments(scene, "PBRT");
+    return PbrtWriter(scene, plain_stem(stem)).write();
+}
+
+}  // namespace culet
