@@ -136,8 +136,8 @@ TEST(Rooms, have_folders_that_include_each_other_one_way) {
 }
 
 // Pages are made from template files (templates/*.html.mustache), which escape by default: no tag
-// stands in a string of the program. Drawings are SVG, made where they are computed; Mitsuba's scenes
-// are XML.
+// stands in a string of the program. Drawings are SVG, made where they are computed; Mitsuba's
+// scenes are XML.
 TEST(Rooms, keep_html_in_template_files) {
     const std::set<std::string> drawings{"page/chart.cpp", "page/drawing.cpp",
                                          "compare/photo/calibration_board.cpp",
