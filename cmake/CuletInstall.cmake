@@ -19,4 +19,6 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/culetConfigVersion.cmake
 install(FILES ${CMAKE_BINARY_DIR}/culetConfig.cmake ${CMAKE_BINARY_DIR}/culetConfigVersion.cmake
   ${CMAKE_SOURCE_DIR}/cmake/CuletDependencies.cmake
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/culet)
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/samples/batch DESTINATION ${CMAKE_INSTALL_DATADIR}/culet USE_SOURCE_PERMISSIONS
+  COMPONENT program)
 install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
