@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
+#include "compare/light_probe/rim_compression.h"
 #include "compare/photo/pixels.h"
 #include "stone/upper_median.h"
 
@@ -19,6 +20,7 @@ namespace {
 constexpr int k_hough_side = 640;  // pixels of the longer side that Hough's transform sees
 constexpr int k_rays = 360;
 constexpr double k_clear_support = 0.85;  // no need to look further
+constexpr double k_one_ball = 0.25;       // of the radius: circles so near are about one ball
 
 struct EdgePoint {
     double x, y, strength;
@@ -302,6 +304,55 @@ BallCircle enlarged(const BallCircle& c, double factor) {
     return {(c.x + 0.5) * factor - 0.5, (c.y + 0.5) * factor - 0.5, c.radius * factor};
 }
 
+// Edges alone may be those of a can or a table. Where nothing is pressed together at any rim the
+// support counts; of equals the larger, for a ball's own reflections are circles too.
+void sort_by_evidence(const cv::Mat& whole, const cv::Mat& linear, std::vector<FoundBall>& found) {
+    cv::Mat soft;
+    cv::GaussianBlur(whole, soft, {}, 1.0);
+    const auto weigh = [&](FoundBall& ball) {
+        ball.evidence = ball.support * std::max(0.0, rim_compression(soft, ball.circle) - 1);
+    };
+    const auto sort = [&] {
+        std::stable_sort(found.begin(), found.end(), [](const FoundBall& a, const FoundBall& b) {
+            const double sa = a.support * std::pow(a.circle.radius, 0.15);
+            const double sb = b.support * std::pow(b.circle.radius, 0.15);
+            return std::pair(a.evidence, sa) > std::pair(b.evidence, sb);
+        });
+    };
+    for (FoundBall& ball : found) weigh(ball);
+    sort();
+    if (found.empty() || !(found.front().evidence > 0)) return;
+    // Circles that Hough's transform put beside a ball met edges of what it reflects.
+    const double worth = 0.5 * found.front().evidence;
+    for (FoundBall& ball : found) {
+        if (ball.evidence < worth) continue;
+        const BallCircle rough = ball.circle;
+        for (const double reach : {0.1, 0.25}) {
+            auto other = fitted_in_steps(whole, rough, reach);
+            if (!other) continue;
+            *other = to_a_fraction_of_a_pixel(linear, *other);
+            weigh(*other);
+            if (other->evidence > ball.evidence) ball = *other;
+        }
+    }
+    sort();
+    std::vector<FoundBall> distinct;
+    for (const FoundBall& ball : found) {
+        if (std::none_of(distinct.begin(), distinct.end(), [&](const FoundBall& k) {
+                return nearly_same(k.circle, ball.circle, 0.02);
+            }))
+            distinct.push_back(ball);
+    }
+    found = std::move(distinct);
+    FoundBall& best = found.front();
+    for (const FoundBall& other : found) {
+        if (nearly_same(other.circle, best.circle, k_one_ball)) continue;
+        if (other.evidence < k_rival_evidence * best.evidence) break;
+        best.rival = other.circle;
+        break;
+    }
+}
+
 }  // namespace
 
 std::optional<FoundBall> refined_ball(const Photo& photo, const BallCircle& rough, double reach) {
@@ -359,12 +410,6 @@ std::vector<FoundBall> find_balls(const Photo& photo, double least_support) {
             }
         }
     }
-    // Support is what counts; of equals the larger, for a ball's own reflections are circles too.
-    std::sort(found.begin(), found.end(), [](const FoundBall& a, const FoundBall& b) {
-        const double sa = a.support * std::pow(a.circle.radius, 0.15);
-        const double sb = b.support * std::pow(b.circle.radius, 0.15);
-        return sa > sb;
-    });
     const cv::Mat linear = luminance(colour_of(photo));
     for (FoundBall& ball : found) {
         ball.circle = enlarged(ball.circle, fx);
@@ -377,6 +422,7 @@ std::vector<FoundBall> find_balls(const Photo& photo, double least_support) {
         }
         ball = to_a_fraction_of_a_pixel(linear, ball);
     }
+    sort_by_evidence(whole, linear, found);
     return found;
 }
 

@@ -38,7 +38,7 @@ FoundBall ball_in(const ProbeView& view) {
                                      "from the top left",
                                      c.x, c.y, c.radius, photo.width, photo.height));
         }
-        return {c, 1, 0.25};
+        return {c, 1, 0, 0.25};
     }
     const std::vector<FoundBall> balls = find_balls(photo);
     for (const FoundBall& ball : balls) {
@@ -121,6 +121,14 @@ void judge(LightProbe& probe) {
                 "{}: the camera is taken to be {:g} ball radii away: say better with --distance",
                 view.name, view.distance));
         }
+    }
+    for (const ProbeViewResult& view : probe.views) {
+        if (!view.rival || !probe.doubt.empty()) continue;
+        probe.doubt = fmt::format(
+            "{}: the ball may be at {:.0f},{:.0f} with radius {:.0f} or at {:.0f},{:.0f} with "
+            "radius {:.0f}: look, and say which with --ball X,Y,RADIUS",
+            view.name, view.circle.x, view.circle.y, view.circle.radius, view.rival->x,
+            view.rival->y, view.rival->radius);
     }
     for (const ViewAlignment& a : probe.alignments) {
         if (a.ambiguous) {
@@ -232,6 +240,7 @@ LightProbe light_probe(const std::vector<ProbeView>& views, const ProbeOptions& 
         result.name = views[v].name;
         result.support = balls[v].support;
         result.found = !views[v].ball;
+        result.rival = balls[v].rival;
         result.over_exposed =
             over_exposed(views[v], *placed.cuts[v].picture, placed.cuts[v].prior.circle);
         result.distance_from = options.moved && v > 0               ? "the first ball"

@@ -49,6 +49,7 @@ struct ProbeViewResult {
     BallCircle circle;
     double support = 1;  ///< of the outline, when it was found
     bool found = false;
+    std::optional<BallCircle> rival;  ///< see FoundBall
     double distance = 0, focal_px = 0;
     std::string distance_from;  ///< "given", "focal length", "both views", "assumed"
     double gain = 1;            ///< that brings it to the first view

@@ -1,5 +1,5 @@
-// Stones as cutters bring them, as files: make_batch_stones COUNT FOLDER writes stone-00001.toml with its
-// mesh and an evening's readings, and so on. The same names hold the same stones.
+// Stones as cutters bring them, as files: make_batch_stones COUNT FOLDER writes stone-00001.toml
+// with its mesh and an evening's readings, and so on. The same names hold the same stones.
 
 #include <fmt/format.h>
 
@@ -20,8 +20,8 @@ void write_stone(const fs::path& folder, int number) {
     constexpr const char* k_cuts[]{"round-brilliant", "oval", "cushion", "step"};
     constexpr const char* k_materials[]{"diamond", "sapphire_blue", "quartz", "spinel"};
     const std::string name = fmt::format("stone-{:05}", number);
-    const bench::Evening evening = bench::cutters_evening(
-        k_cuts[number % 4], {}, bench::Slipped::none, std::uint64_t(number));
+    const bench::Evening evening =
+        bench::cutters_evening(k_cuts[number % 4], {}, bench::Slipped::none, std::uint64_t(number));
     write_solid(evening.design.solid, folder / (name + ".obj"));
     std::ofstream readings(folder / (name + ".csv"));
     readings << "kind,of,value,sigma\n";

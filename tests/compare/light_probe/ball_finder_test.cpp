@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "compare/light_probe/rim_compression.h"
+#include "compare/photo/pixels.h"
 #include "tests/compare/light_probe/simulated_ball.h"
 
 namespace culet {
@@ -87,6 +89,55 @@ INSTANTIATE_TEST_SUITE_P(Traced, Balls,
                          [](const testing::TestParamInfo<Case>& ball) {
                              return std::string(ball.param.name);
                          });
+
+// Reflected at the angle theta to the view, where the rim is at theta = 90 degrees, a small step
+// along the radius turns the ray 1 / cos^2(theta) = 1 / (1 - rho^2) times as far as one across it:
+// of a room of even detail the light changes as many times more. Over the ring from 0.93 to 0.99
+// that is 7 to 50; pixels and the lens take most of it. Of a flat picture of the same room there is
+// none.
+TEST(BallFinder, a_mirror_presses_the_room_together_at_its_rim) {
+    simulated::BallShot shot;
+    shot.width = 420;
+    shot.height = 320;
+    shot.radius = 120;
+    shot.centre_x = 210;
+    shot.centre_y = 160;
+    shot.samples = 3;
+    shot.background = clutter(9, shot.width, shot.height);
+    const auto taken = simulated::take(shot, simulated::room(4));
+    const cv::Mat light = luminance(colour_of(taken.photo));
+    const double ball = rim_compression(light, {taken.x, taken.y, taken.radius});
+    EXPECT_GT(ball, 2);
+    EXPECT_LT(ball, 50);
+    const double clutter_alone = rim_compression(light, {40, 40, 38});
+    EXPECT_LT(clutter_alone, ball / 1.5);
+    EXPECT_EQ(rim_compression(light, {-500, -500, 50}), 0);
+}
+
+// Two balls in one picture: nothing says which is meant.
+TEST(BallFinder, another_ball_is_a_rival) {
+    simulated::BallShot shot;
+    shot.width = 300;
+    shot.height = 280;
+    shot.radius = 100;
+    shot.centre_x = 150;
+    shot.centre_y = 140;
+    shot.samples = 3;
+    shot.background = clutter(9, shot.width, shot.height);
+    const auto one = simulated::take(shot, simulated::room(4));
+    EXPECT_FALSE(find_balls(one.photo).at(0).rival);
+    Photo two;
+    two.width = 600;
+    two.height = 280;
+    for (int y = 0; y < 280; ++y) {
+        const float* row = one.photo.rgb.data() + 900 * y;
+        for (int copy = 0; copy < 2; ++copy) two.rgb.insert(two.rgb.end(), row, row + 900);
+    }
+    const std::vector<FoundBall> found = find_balls(two);
+    ASSERT_FALSE(found.empty());
+    ASSERT_TRUE(found[0].rival);
+    EXPECT_NEAR(std::abs(found[0].rival->x - found[0].circle.x), 300, 3);
+}
 
 TEST(BallFinder, a_click_is_enough) {
     simulated::BallShot shot;
