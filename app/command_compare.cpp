@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/file_kinds.h"
+#include "app/fit_uncertainty.h"
 #include "app/options.h"
 #include "app/report_viewer.h"
 #include "app/terminal.h"
@@ -27,7 +28,7 @@ namespace fs = std::filesystem;
 struct CompareArguments {
     CommonOptions common;
     std::vector<std::string> pictures;  ///< photographs, then the render or the scene
-    std::string folder, json, mask, cache, start;
+    std::string folder, json, mask, cache, start, uncertainty;
     std::vector<std::string> ignored;
     bool simulated = false, calibrate = false, keep_pose = false;
     double budget = SceneCompareOptions{}.budget_seconds;
@@ -76,6 +77,7 @@ std::string command_line(const CompareArguments& a) {
             line += fmt::format(" --calibrate --budget {:g} --draws {}", a.budget, a.draws);
         if (!a.cache.empty()) line += " --cache " + a.cache;
         if (!a.start.empty()) line += " --start " + a.start;
+        if (!a.uncertainty.empty()) line += " --uncertainty " + a.uncertainty;
         if (a.keep_pose) line += " --keep-pose";
         for (const std::string& set : a.common.set) line += " --set " + set;
     }
@@ -149,6 +151,7 @@ Compared compare_with_scene(const CompareArguments& a, const std::string& photo_
     options.draws = a.draws;
     options.cache = a.cache.empty() ? fs::path(a.folder) / "cache" : fs::path(a.cache);
     options.start = start;
+    if (!a.uncertainty.empty()) options.uncertainty = uncertainty_in(a.uncertainty, scene.stone);
     SceneComparison compared = culet::compare_with_scene(
         photo, scene, options,
         progress_line(a.calibrate ? "comparing and calibrating" : "comparing", a.common.quiet));
@@ -215,6 +218,11 @@ int run_compare(const CompareArguments& a, const std::string& version) {
                 "--calibrate draws the stone anew: give the scene file (.toml) instead "
                 "of a render");
         }
+    }
+    if (!a.uncertainty.empty() && !a.against_scene()) {
+        throw InputError(
+            "--uncertainty draws stones anew: give the scene file (.toml) instead of a render, or "
+            "a render with its layers (culet render --uncertainty)");
     }
     if (!a.mask.empty() && a.photographs() > 1) {
         throw InputError("--mask belongs to one photograph: compare them one by one");
@@ -325,6 +333,11 @@ void add_command_compare(CLI::App& program, int& exit_code) {
         ->add_option("--start", arguments->start,
                      "mesh that the fit started from: would it have matched as well?")
         ->type_name("MESH");
+    command
+        ->add_option("--uncertainty", arguments->uncertainty,
+                     "report of the stone's fit: how much of the photograph is within what its "
+                     "readings leave open (scenes only; 100 stones are drawn)")
+        ->type_name("FIT.json");
     command->add_flag("--keep-pose", arguments->keep_pose,
                       "the scene's camera stands where it says: no pose is looked for");
     add_common(*command, arguments->common, true);
@@ -333,6 +346,7 @@ void add_command_compare(CLI::App& program, int& exit_code) {
         "  culet compare photo.jpg render.exr -o report\n"
         "  culet compare photo.tif render.exr -o report --mask stone.png --json scores.json\n"
         "  culet compare photo.jpg scene.toml -o report --calibrate\n"
+        "  culet compare photo.jpg scene.toml -o report --uncertainty fit.json\n"
         "  culet compare face-up.tif tilted.tif scene.toml -o report --calibrate --budget 120\n"
         "Exit codes: 0 compared, whatever the verdict (match, partial, no_evidence); 1 refused: "
         "the outlines do not fit; 2 could not be done.");

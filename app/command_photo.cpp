@@ -12,6 +12,8 @@
 #include "compare/photo/bracket.h"
 #include "compare/photo/lens.h"
 #include "compare/photo/white_balance.h"
+#include "page/chart.h"
+#include "render/colour/colour.h"
 #include "render/image/image_io.h"
 #include "stone/errors.h"
 #include "stone/output_file.h"
@@ -25,7 +27,7 @@ using Json = nlohmann::ordered_json;
 struct PhotoArguments {
     CommonOptions common;
     std::vector<std::string> shots, exposures;
-    std::string out, grey, white, camera, response, json;
+    std::string out, grey, white, camera, response, json, plot;
     bool chart = false, as_they_lie = false;
 };
 
@@ -88,8 +90,32 @@ Picture picture_of(const Photo& photo) {
     return picture;
 }
 
+// Light over the file's value, a line a channel, beside sRGB's.
+std::string plot_of(const ResponseCurve& curve) {
+    Chart chart;
+    chart.title = "Response of the camera";
+    chart.about = "linear light for each value of the file, in red, green and blue, beside sRGB's";
+    chart.x_label = "value in the file";
+    chart.y_label = "linear light, 1: green at 255";
+    chart.log_x = false;
+    const auto add = [&](const char* name, bool dashed, const auto& light) {
+        ChartSeries series;
+        series.name = name;
+        series.markers = false;
+        series.dashed = dashed;
+        for (int value = 1; value < 256; ++value)
+            series.points.push_back({double(value), light(value), "", ""});
+        chart.series.push_back(std::move(series));
+    };
+    constexpr const char* k_names[]{"red", "green", "blue"};
+    for (std::size_t c = 0; c < 3; ++c)
+        add(k_names[c], false, [&](int value) { return double(curve[c][std::size_t(value)]); });
+    add("sRGB", true, [](int value) { return srgb_decoded(value / 255.0); });
+    return draw_chart_svg(chart);
+}
+
 int run_photo(const PhotoArguments& a) {
-    for (const std::string& file : {a.out, a.json}) require_writable(file);
+    for (const std::string& file : {a.out, a.json, a.plot}) require_writable(file);
     if (!a.out.ends_with(".exr"))
         throw InputError(std::filesystem::path(a.out), "linear light is written as .exr");
     if (a.chart && !a.grey.empty()) throw InputError("--chart or --grey, not both");
@@ -145,6 +171,10 @@ int run_photo(const PhotoArguments& a) {
                         {"principal_px", {lens.principal_x, lens.principal_y}}};
     }
     json["response"] = merged.response == Response::calibrated ? "found" : "as read";
+    if (merged.curve) {
+        json["response_curve"] = {
+            {"R", (*merged.curve)[0]}, {"G", (*merged.curve)[1]}, {"B", (*merged.curve)[2]}};
+    }
     json["photometric"] = photo.photometric;
     if (!photo.photometric) json["not_photometric"] = photo.not_photometric;
     json["shots"] = Json::array();
@@ -163,11 +193,17 @@ int run_photo(const PhotoArguments& a) {
     write_picture(picture_of(photo), a.out, {}, text);
     if (!a.json.empty())
         write_text(a.json, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    if (merged.curve && !a.plot.empty()) write_text(a.plot, plot_of(*merged.curve));
     const std::string settings = text_of(photo.shot);
     say(fmt::format("{} x {} pixels from {} shot{}{}", photo.width, photo.height, a.shots.size(),
                     a.shots.size() == 1 ? "" : "s", settings.empty() ? "" : ", first " + settings),
         a.common.quiet);
     for (const std::string& note : merged.notes) say("note: " + note, a.common.quiet);
+    if (!merged.curve && !a.plot.empty())
+        say(fmt::format("note: {} is not written: the response was not found from the shots "
+                        "(--response found)",
+                        a.plot),
+            a.common.quiet);
     if (!photo.photometric) say("note: for shapes only: " + photo.not_photometric, a.common.quiet);
     return exit_good;
 }
@@ -197,6 +233,10 @@ void add_command_photo(CLI::App& program, int& exit_code) {
                      "of 8-bit files: srgb, or found from the shots (otherwise found from five or "
                      "more JPEGs)")
         ->check(CLI::IsMember({"srgb", "found"}));
+    command
+        ->add_option("--response-plot", a->plot,
+                     "the response that was found, as a chart beside sRGB's")
+        ->type_name("FILE.svg");
     command->add_option("--grey", a->grey, "where a grey card is")->type_name("X,Y,WIDTH,HEIGHT");
     command->add_flag("--chart", a->chart, "find a colour chart of 24 patches");
     command

@@ -13,9 +13,11 @@
 #include "compare/calibration/draft_renderer.h"
 #include "compare/calibration/photo_blur.h"
 #include "compare/calibration/photo_noise.h"
+#include "compare/calibration/within_readings.h"
 #include "compare/photo/pixels.h"
 #include "compare/scores/aligned_pair.h"
 #include "compare/scores/scored_pair.h"
+#include "render/uncertainty/picture_uncertainty.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
 #include "stone/units.h"
@@ -30,6 +32,7 @@ constexpr double k_margin = 0.18;     // of the diameter, around the stone
 constexpr double k_tolerance = 0.03;  // of the pictures that are compared
 // Of the time that is left: a stone of hundreds of facets must leave some for draws.
 constexpr double k_most_for_tilts = 0.4;
+constexpr double k_bar_for_pose = 0.1, k_bar_for_stones = 0.6;   // likewise
 constexpr double k_bar_for_tilts = 0.2, k_bar_for_scores = 0.3;  // of the progress: their ends
 // A pose is taken when it is sure (99 %) to two degrees, and to half a percent of the diameter:
 // reflexes are matched within 2 %. Such poses are 0.2 degrees off in the median (bench_pose), which
@@ -183,7 +186,7 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
         pose_options.limits.shift_px =
             std::max(1.0, k_pose_shift * stone_diameter_px(given, how.mask));
         result.pose = find_pose(given, scene.stone.solid, scene.camera, pose_options,
-                                part_of(progress, 0, 0.1));
+                                part_of(progress, 0, k_bar_for_pose));
         if (result.pose->usable()) {
             result.pose_used = true;
             result.scene.camera = result.pose->camera;
@@ -217,14 +220,23 @@ SceneComparison compare_with_scene(const Photo& given, const Scene& scene,
     result.scene.settings = renderer.settings();
     result.stats = renderer.stats();
     result.render = renderer.picture();
+    const double drawn = options.uncertainty ? k_bar_for_stones : k_bar_for_pose;
+    if (options.uncertainty) {
+        result.render.bands =
+            picture_uncertainty(result.scene, plan_drawn(result.scene, result.stats),
+                                *options.uncertainty, options.drawn_stones,
+                                part_of(progress, k_bar_for_pose, drawn))
+                .bands;
+    }
     const AlignedPair pair =
         aligned(*photo, how.mask, result.render, {.largest = how.largest, .ignored = how.ignored});
-    const Progress rest = part_of(progress, 0.1, 1);
+    const Progress rest = part_of(progress, drawn, 1);
     if (options.calibrate && pair.comparable()) {
         compare_calibrated(result, pair, *photo, renderer, options, how, start, rest);
     } else {
         result.comparison = scored(pair, *photo, result.render, how, rest);
     }
+    result.comparison.within = within_readings(pair, *photo, result.render);
     std::vector<std::string>& all_notes = result.comparison.notes;
     all_notes.insert(all_notes.end(), notes.begin(), notes.end());
     return result;

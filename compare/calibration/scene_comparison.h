@@ -10,6 +10,7 @@
 #include "compare/pose/find_pose.h"
 #include "compare/scores/compare.h"
 #include "render/render.h"
+#include "render/uncertainty/drawn_stones.h"
 
 namespace culet {
 
@@ -25,6 +26,10 @@ struct SceneCompareOptions {
     double largest = 256;
     std::filesystem::path cache{};  ///< folder of calibrations; empty: none is kept
     std::optional<Solid> start{};   ///< the mesh that the fit started from
+    /// How sure the stone's facets are: then `Comparison::within` says how much of the photograph
+    /// is within it, by so many drawn stones.
+    std::optional<StoneUncertainty> uncertainty{};
+    int drawn_stones = 100;
 };
 
 struct SceneComparison {

@@ -42,13 +42,14 @@ double variance_of(double light, double white, const CameraModel& camera) {
     return variance * white * white;
 }
 
-struct Light {
+struct SeenLight {
     double value = 0, variance = 0;  ///< luminance
 };
 
 // The photograph's light as the render has it.
-Light light_in_render(const cv::Vec3f& photo, const AlignedPair& pair, const CameraModel& camera) {
-    Light light;
+SeenLight light_in_render(const cv::Vec3f& photo, const AlignedPair& pair,
+                          const CameraModel& camera) {
+    SeenLight light;
     for (int c = 0; c < 3; ++c) {
         Rgb unit{0, 0, 0};
         unit[std::size_t(c)] = 1;
@@ -59,6 +60,8 @@ Light light_in_render(const cv::Vec3f& photo, const AlignedPair& pair, const Cam
     }
     return light;
 }
+
+}  // namespace
 
 std::optional<WithinReadings> within_readings(const AlignedPair& pair, const Photo& photo,
                                               const Photo& render) {
@@ -73,7 +76,7 @@ std::optional<WithinReadings> within_readings(const AlignedPair& pair, const Pho
         for (int x = 0; x < shown.cols; ++x) {
             float& value = result.map.values.emplace_back(std::numeric_limits<float>::quiet_NaN());
             if (pair.usable.at<unsigned char>(y, x) == 0) continue;
-            const Light light = light_in_render(shown.at<cv::Vec3f>(y, x), pair, camera);
+            const SeenLight light = light_in_render(shown.at<cv::Vec3f>(y, x), pair, camera);
             const auto& band = lower.at<cv::Vec3f>(y, x);
             const double middle = (double(band[1]) + double(band[2])) / 2;
             // The stone's spread and the camera's are independent of each other.
@@ -95,8 +98,6 @@ std::optional<WithinReadings> within_readings(const AlignedPair& pair, const Pho
     result.within_two /= result.pixels;
     return result;
 }
-
-}  // namespace
 
 Comparison compare_with_bands(const Photo& photo, const Photo& render,
                               const CompareOptions& options, const Progress& progress) {

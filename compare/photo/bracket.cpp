@@ -235,6 +235,7 @@ Bracket merge_bracket(std::vector<BracketShot> shots, const BracketOptions& opti
     if (result.response == Response::calibrated) {
         const ResponseCurve curve = find_response(shots);
         for (BracketShot& shot : shots) apply_response(curve, shot.photo);
+        result.curve = curve;
         result.notes.push_back(
             fmt::format("the camera's response was found from the {} shots", shots.size()));
     } else if (jpegs) {

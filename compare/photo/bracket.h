@@ -1,6 +1,7 @@
 #pragma once
 // Several exposures of one motionless scene as one picture in linear light.
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -29,6 +30,10 @@ struct BracketOptions {
     bool align = true;
 };
 
+/// Of a camera that writes 8 bits: linear light for each of the 256 values, a channel; increasing;
+/// 1 at 255 of green.
+using ResponseCurve = std::array<std::array<float, 256>, 3>;
+
 struct FrameShift {
     double x = 0,
            y = 0;  ///< pixels that the shot's content lies to the right of and below the first's
@@ -39,7 +44,8 @@ struct Bracket {
     /// `saturated`.
     Photo photo;
     Response response = Response::as_read;
-    std::vector<FrameShift> shifts;  ///< a shot
+    std::optional<ResponseCurve> curve;  ///< where it was found
+    std::vector<FrameShift> shifts;      ///< a shot
     /// Measured over stated ratio of exposures from each shot to the next darker one, 1 where they
     /// agree; empty for one shot.
     std::vector<double> exposure_ratios;

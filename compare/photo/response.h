@@ -1,15 +1,11 @@
 #pragma once
 // The response of a camera that writes 8-bit files, found from a series of exposures.
 
-#include <array>
 #include <vector>
 
 #include "compare/photo/bracket.h"
 
 namespace culet {
-
-/// Linear light for each of the 256 values, a channel; increasing; 1 at 255 of green.
-using ResponseCurve = std::array<std::array<float, 256>, 3>;
 
 /// The curve of Debevec & Malik 1997 (OpenCV's createCalibrateDebevec), made increasing. Shots as
 /// read by read_photo from 8-bit files, of one size, with their exposures. Throws InputError when

@@ -102,7 +102,8 @@ PythonComparison compare_scene(const PythonPhoto& photo, const PythonScene& scen
                                const py::object& mask, const py::object& ignored, bool simulated,
                                bool find_pose, bool calibrate, double budget, int draws,
                                const std::string& cache, const std::optional<PythonStone>& start,
-                               std::uint64_t seed, int threads, const py::object& progress) {
+                               const std::optional<PythonStone>& uncertain, std::uint64_t seed,
+                               int threads, const py::object& progress) {
     if (draws < 2) throw InputError("draws are 2 or more");
     SceneCompareOptions options;
     options.compare = options_of(photo, mask, ignored, simulated, seed, threads);
@@ -112,6 +113,7 @@ PythonComparison compare_scene(const PythonPhoto& photo, const PythonScene& scen
     options.draws = draws;
     options.cache = cache;
     if (start) options.start = start->stone.solid;
+    if (uncertain) options.uncertainty = uncertainty_for_scene(*uncertain, scene.scene);
     Scene drawn = scene.scene;
     drawn.settings.threads = threads;
     const std::string name = scene.file.empty() ? "a scene" : scene.file;
@@ -182,7 +184,7 @@ void bind_compare(py::module_& module) {
     module.def("compare_scene", compare_scene, py::arg("photo"), py::arg("scene"), py::arg("mask"),
                py::arg("ignored"), py::arg("simulated"), py::arg("find_pose"), py::arg("calibrate"),
                py::arg("budget"), py::arg("draws"), py::arg("cache"), py::arg("start"),
-               py::arg("seed"), py::arg("threads"), py::arg("progress"));
+               py::arg("uncertainty"), py::arg("seed"), py::arg("threads"), py::arg("progress"));
 }
 
 }  // namespace culet

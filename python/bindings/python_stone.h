@@ -35,4 +35,7 @@ struct PythonScene {
     Scene scene;
 };
 
+/// Of a fitted stone that the scene shows. Throws InputError.
+StoneUncertainty uncertainty_for_scene(const PythonStone& stone, const Scene& scene);
+
 }  // namespace culet

@@ -81,15 +81,7 @@ py::dict render_of(const PythonScene& python, bool spectral, std::uint64_t seed,
     scene.settings.seed = seed;
     scene.settings.threads = threads;
     std::optional<StoneUncertainty> uncertainty;
-    if (uncertain) {
-        if (!uncertain->uncertainty)
-            throw InputError(uncertain->file, "knows nothing of its uncertainty: give a Fit");
-        if (uncertain->uncertainty->facets.size() != scene.stone.solid.facets.size())
-            throw InputError(uncertain->file,
-                             "is not the stone of the scene: render the fit's "
-                             "own stone, stone=fit.stone");
-        uncertainty = uncertain->uncertainty;
-    }
+    if (uncertain) uncertainty = uncertainty_for_scene(*uncertain, scene);
     const bool paced = allow_usual_time(scene);
     const RenderResult result = wait_for(progress, [&](const Progress& told) {
         RenderResult drawn = render(scene, told);
@@ -111,6 +103,16 @@ PythonStone stone_in(const PythonScene& scene) {
 }
 
 }  // namespace
+
+StoneUncertainty uncertainty_for_scene(const PythonStone& stone, const Scene& scene) {
+    if (!stone.uncertainty)
+        throw InputError(stone.file, "knows nothing of its uncertainty: give a Fit");
+    if (stone.uncertainty->facets.size() != scene.stone.solid.facets.size())
+        throw InputError(stone.file,
+                         "is not the stone of the scene: take the fit's own stone, "
+                         "stone=fit.stone");
+    return *stone.uncertainty;
+}
 
 void bind_scene(py::module_& module) {
     py::class_<PythonScene>(

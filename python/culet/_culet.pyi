@@ -153,6 +153,7 @@ def compare_scene(
     draws: int,
     cache: str,
     start: Optional[Stone],
+    uncertainty: Optional[Stone],
     seed: int,
     threads: int,
     progress: _Progress,

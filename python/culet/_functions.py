@@ -230,6 +230,7 @@ def compare(
     draws: int = 8,
     cache: str = "",
     start: Union[Stone, Fit, File, None] = None,
+    uncertainty: Optional[Fit] = None,
     seed: int = 1,
     threads: int = 0,
     progress: Optional[Progress] = None,
@@ -243,7 +244,8 @@ def compare(
     and what is not to be compared. simulated: the photograph was computed; the report says so.
     Of scenes only: find_pose; calibrate: say what the scores mean for this stone, pose and light,
     within `budget` seconds (0: no limit), of `draws` a facet error, kept in the folder `cache`;
-    start: the mesh that the fit started from.
+    start: the mesh that the fit started from; uncertainty: the Fit of the scene's stone: how much of
+    the photograph is within what its readings leave open.
     """
     seen = _photo(photo, "the photograph")
     if isinstance(against, (str, os.PathLike)) and os.fspath(against).endswith(".toml"):
@@ -251,7 +253,8 @@ def compare(
     if isinstance(against, Scene):
         result = _culet.compare_scene(
             seen, against, mask, ignore, simulated, find_pose, calibrate, budget, draws, cache,
-            None if start is None else _stone_of(start), seed, threads, progress,
+            None if start is None else _stone_of(start),
+            None if uncertainty is None else uncertainty.stone, seed, threads, progress,
         )
     else:
         if calibrate:

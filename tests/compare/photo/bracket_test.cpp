@@ -141,6 +141,14 @@ TEST(Bracket, an_unknown_tone_curve_is_found_from_the_series) {
     const Bracket found = merge_bracket(shots);
     EXPECT_EQ(found.response, Response::calibrated);
     EXPECT_TRUE(found.photo.photometric);
+    // The curve turns the camera's values back: of green, at a quarter of white and at white.
+    ASSERT_TRUE(found.curve);
+    const auto written = [](double light) {
+        return std::size_t(std::lround(255 * std::pow(light, 1 / 1.6) * (1.15 - 0.15 * light)));
+    };
+    const auto& green = (*found.curve)[1];
+    EXPECT_NEAR(std::log2(green[written(0.5)] / green[written(0.125)]), 2, 0.12);
+    EXPECT_FLOAT_EQ(green[255], 1);
     const Bracket assumed = merge_bracket(shots, {Response::as_read, true});
     // The scale of a found curve is free: the spread about the mean is what counts.
     const auto spread = [](const Photo& photo) {
