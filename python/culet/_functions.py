@@ -124,7 +124,8 @@ def _settings(
     if engine is not None:
         keys.append(f'render.engine="{engine}"')
     if effects is not None:
-        keys.append("render.effects=" + json.dumps(effects if isinstance(effects, str) else list(effects)))
+        words = effects if isinstance(effects, str) else list(effects)
+        keys.append("render.effects=" + json.dumps(words))
     if tolerance is not None:
         keys.append(f"render.tolerance={float(tolerance)!r}")
     if depth is not None:
