@@ -29,6 +29,6 @@ def with_steeper_pavilion(degrees):
 
 
 # %%
-for turn in (-2.0, 0.0, 2.0):
+for turn in (0.0, 2.0):
     grade = culet.grade(with_steeper_pavilion(turn), tilts=[0])
     print(f"{turn:+.1f} degrees: weighted light return {grade['weighted_light_return']:.3f}")

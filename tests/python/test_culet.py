@@ -228,7 +228,7 @@ class LongWork(Scratch):
 
         other = threading.Thread(target=count)
         other.start()
-        culet.render(GARNET, size=400, tolerance=0.005, progress=told.append)
+        culet.render(GARNET, size=240, tolerance=0.005, progress=told.append)
         ended.set()
         other.join()
         self.assertTrue(told and all(0 <= f <= 1 for f in told))
