@@ -152,7 +152,7 @@ private:
             return Vec3{std::sin(phi) * std::sin(theta), std::cos(phi) * std::sin(theta),
                         std::cos(theta)};
         };
-        const std::string name = stem_ + "-light.exr";
+        const std::string name = stem_ + "-mitsuba-light.exr";
         result_.environment = {
             name, distant_light_map(lights, lights_, 2 * k_map_height, k_map_height, direction)};
         note_light_map(lights, lights_, 180.0 / k_map_height, result_.notes);
@@ -192,7 +192,7 @@ private:
 
     // A mesh of its own file; corners are not rounded off.
     std::string mesh(const TriangleMesh& mesh) {
-        const std::string name = fmt::format("{}-{}.obj", stem_, result_.meshes.size() + 1);
+        const std::string name = fmt::format("{}-mitsuba-{}.obj", stem_, result_.meshes.size() + 1);
         result_.meshes.emplace_back(name, obj_text(mesh));
         return fmt::format(
             R"(<shape type="obj"><string name="filename" value="{}"/><boolean name="face_normals" value="true"/>)",

@@ -128,7 +128,7 @@ private:
                 line("LightSource \"infinite\" \"rgb L\" [ {0} {0} {0} ]", lights.constant);
             return;
         }
-        const std::string name = stem_ + "-light.exr";
+        const std::string name = stem_ + "-pbrt-light.exr";
         result_.environment = {
             name, distant_light_map(
                       lights, lights_, k_map_side, k_map_side, [](double column, double row) {

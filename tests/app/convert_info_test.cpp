@@ -182,6 +182,27 @@ TEST_F(ConvertInfo, SceneGoesToPovray) {
     EXPECT_FALSE(std::filesystem::exists(file("a.pov")));
 }
 
+// Two from one scene into one folder: each finds its files, and the mesh that the scene is made of
+// stays as it was.
+TEST_F(ConvertInfo, SceneGoesToMitsubaAndPbrtInOneFolder) {
+    EXPECT_EQ(run_culet({"convert", k_design, file("scene-1.obj"), "-q"}).exit_code, 0);
+    const std::string mesh = text(file("scene-1.obj"));
+    write("scene.toml",
+          "mesh = \"scene-1.obj\"\nmaterial = \"diamond\"\n[light]\npreset = \"jeweller\"\n");
+    std::string map_of_mitsuba;
+    for (const char* name : {"scene.xml", "scene.pbrt"}) {
+        const ProgramRun run = run_culet({"convert", file("scene.toml"), file(name)});
+        EXPECT_EQ(run.exit_code, 0) << run.err;
+        EXPECT_NE(run.err.find("not carried: "), std::string::npos) << run.err;
+        if (map_of_mitsuba.empty()) map_of_mitsuba = text(file("scene-mitsuba-light.exr"));
+    }
+    EXPECT_FALSE(map_of_mitsuba.empty());
+    EXPECT_EQ(text(file("scene-mitsuba-light.exr")), map_of_mitsuba);
+    EXPECT_FALSE(text(file("scene-pbrt-light.exr")).empty());
+    EXPECT_FALSE(text(file("scene-mitsuba-1.obj")).empty());
+    EXPECT_EQ(text(file("scene-1.obj")), mesh);
+}
+
 // A file beyond the limit of its size (SIGXFSZ) is a failed write: a line, exit code 2, and nothing
 // left, not even a file under a temporary name.
 TEST_F(ConvertInfo, AFileThatMayNotGrowIsRefusedInALine) {

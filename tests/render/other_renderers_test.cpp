@@ -77,9 +77,10 @@ Vec3 pbrt_direction(const std::string& text, const Camera& camera, double x, dou
     return glm::normalize(forward - screen_x * side + screen_y * above);
 }
 
-// Mitsuba: the film's middle is the line of sight, its height spans the angle `fov`, and the crop
-// window is the picture.
-Vec3 mitsuba_direction(const std::string& text, const Camera& camera, double x, double y) {
+// Mitsuba: x of the camera is up x direction, to the left, and the film's columns run against it.
+// The film's middle is the line of sight, its height spans the angle `fov`, and the crop window is
+// the picture.
+Vec3 mitsuba_direction(const std::string& text, double x, double y) {
     const double fov = numbers_after(text, "\"fov\" value=\"").at(0) * k_pi / 180;
     const double film_width = numbers_after(text, "\"width\" value=\"").at(0),
                  film_height = numbers_after(text, "\"height\" value=\"").at(0);
@@ -87,11 +88,14 @@ Vec3 mitsuba_direction(const std::string& text, const Camera& camera, double x, 
         x += numbers_after(text, "\"crop_offset_x\" value=\"").at(0);
         y += numbers_after(text, "\"crop_offset_y\" value=\"").at(0);
     }
-    const Vec3 forward = glm::normalize(camera.look_at - camera.position);
-    const Vec3 right = glm::normalize(glm::cross(forward, camera.up));
+    const Vec3 eye = vector_at(numbers_after(text, "lookat origin=\""), 0),
+               at = vector_at(numbers_after(text, "target=\""), 0),
+               up = vector_at(numbers_after(text, "up=\""), 0);
+    const Vec3 forward = glm::normalize(at - eye);
+    const Vec3 left = glm::normalize(glm::cross(up, forward));
     const double side = 2 * std::tan(fov / 2) / film_height;
-    return glm::normalize(forward + side * (x - film_width / 2) * right +
-                          side * (film_height / 2 - y) * glm::cross(right, forward));
+    return glm::normalize(forward + side * (film_width / 2 - x) * left +
+                          side * (film_height / 2 - y) * glm::cross(forward, left));
 }
 
 TEST(OtherRenderers, look_through_the_same_pixels) {
@@ -104,7 +108,7 @@ TEST(OtherRenderers, look_through_the_same_pixels) {
         for (const auto& [x, y] : {std::pair{0.5, 0.5}, {119.5, 0.5}, {17.0, 66.0}, {60.0, 40.0}}) {
             const Vec3 truth = rays.through(x, y).direction;
             EXPECT_LT(glm::length(pbrt_direction(pbrt, scene.camera, x, y) - truth), 1e-12);
-            EXPECT_LT(glm::length(mitsuba_direction(mitsuba, scene.camera, x, y) - truth), 1e-12);
+            EXPECT_LT(glm::length(mitsuba_direction(mitsuba, x, y) - truth), 1e-12);
         }
     }
 }
@@ -323,9 +327,9 @@ TEST(OtherRenderers, names_beside_the_scene_are_plain) {
     Scene scene = garnet();
     scene.lights.sources.push_back(HemisphereLight{{0, 0, 1}, {1.0}});
     const ExportedScene mitsuba = mitsuba_scene(scene, "a \"<&> b");
-    EXPECT_EQ(mitsuba.environment->first, "a______b-light.exr");
+    EXPECT_EQ(mitsuba.environment->first, "a______b-mitsuba-light.exr");
     expect_well_formed(mitsuba.text);
-    EXPECT_EQ(pbrt_scene(scene, "a \"[]").environment->first, "a____-light.exr");
+    EXPECT_EQ(pbrt_scene(scene, "a \"[]").environment->first, "a____-pbrt-light.exr");
 }
 
 }  // namespace
