@@ -19,11 +19,19 @@ constexpr std::array<double, 3> k_rgb_nm{610, 545, 465};
 
 }  // namespace
 
-StoneOptics optics_of(const Stone& stone, const OpticalSetup& setup, bool one_wavelength,
-                      double wavelength_nm, std::vector<std::string>& notes) {
+OpticalSetup setup_of(const Stone& stone, const Scene& scene) {
+    Scene of_stone = scene;
+    of_stone.stone = stone;
+    return make_optical_setup(of_stone);
+}
+
+StoneOptics optics_of(const Stone& stone, const Scene& scene, std::vector<std::string>& notes) {
     const Material& material = stone.material;
+    const OpticalSetup setup = setup_of(stone, scene);
+    const std::vector<double>& nm = scene.settings.wavelengths_nm;
+    const bool one_wavelength = nm.size() == 1;
     StoneOptics optics;
-    optics.index_nm = one_wavelength ? wavelength_nm : k_d_line_nm;
+    optics.index_nm = one_wavelength ? nm.front() : k_d_line_nm;
     optics.index = mean_index(material, optics.index_nm);
     optics.disperses = setup.on(Effects::dispersion);
     if (setup.on(Effects::birefringence))
@@ -31,9 +39,8 @@ StoneOptics optics_of(const Stone& stone, const OpticalSetup& setup, bool one_wa
                  fmt::format("double refraction: the mean index {:.4f} is written", optics.index));
     if (!setup.on(Effects::absorption)) return optics;
     for (std::size_t c = 0; c < 3; ++c)
-        optics.absorption[c] =
-            mm_per(stone.unit) *
-            mean_absorption(material, one_wavelength ? wavelength_nm : k_rgb_nm[c]);
+        optics.absorption[c] = mm_per(stone.unit) *
+                               mean_absorption(material, one_wavelength ? nm.front() : k_rgb_nm[c]);
     if (setup.on(Effects::pleochroism))
         add_note(notes, "pleochroism: the mean absorption is written");
     const bool has_spectrum =
@@ -44,12 +51,6 @@ StoneOptics optics_of(const Stone& stone, const OpticalSetup& setup, bool one_wa
         add_note(notes,
                  "the spectrum of absorption: three values for red, green and blue are written");
     return optics;
-}
-
-StoneOptics optics_of(const Stone& stone, const Scene& scene, std::vector<std::string>& notes) {
-    const std::vector<double>& nm = scene.settings.wavelengths_nm;
-    return optics_of(stone, make_optical_setup(scene), nm.size() == 1, nm.empty() ? 0 : nm.front(),
-                     notes);
 }
 
 MetalIndex finite_index_of(const MetalMaterial& metal) {

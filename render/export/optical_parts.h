@@ -17,10 +17,10 @@ struct StoneOptics {
     Rgb absorption{};         ///< Napierian, per stone's unit; 0: none, or the scene has none
 };
 
+/// Which effects a stone of the scene has: the first decides nothing about the others.
+OpticalSetup setup_of(const Stone& stone, const Scene& scene);
+
 /// Notes say what is left out: double refraction, pleochroism, the spectrum of absorption.
-StoneOptics optics_of(const Stone& stone, const OpticalSetup& setup, bool one_wavelength,
-                      double wavelength_nm, std::vector<std::string>& notes);
-/// For a scene as it stands.
 StoneOptics optics_of(const Stone& stone, const Scene& scene, std::vector<std::string>& notes);
 
 /// Where an ideal conductor's k is infinite, the largest that reflects less than all: 0.9999.

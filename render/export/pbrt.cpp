@@ -66,11 +66,7 @@ std::string rectangle(const Vec3& middle, const Vec3& u, const Vec3& v) {
 class PbrtWriter {
 public:
     PbrtWriter(const Scene& scene, std::string stem)
-        : scene_(scene),
-          stem_(std::move(stem)),
-          setup_(make_optical_setup(scene)),
-          lights_(scene),
-          size_(size_of(scene)) {}
+        : scene_(scene), stem_(std::move(stem)), lights_(scene), size_(size_of(scene)) {}
 
     ExportedScene write() {
         line("# pbrt THIS.pbrt (version 4); lengths are the stone's");
@@ -182,9 +178,10 @@ private:
         begin();
         std::vector<std::string> of_rgb;  // PBRT takes the spectrum
         const StoneOptics optics = optics_of(stone, scene_, of_rgb);
-        if (setup_.on(Effects::birefringence))
+        const OpticalSetup setup = setup_of(stone, scene_);
+        if (setup.on(Effects::birefringence))
             add_note(result_.notes, "double refraction: the mean index is written");
-        if (setup_.on(Effects::pleochroism))
+        if (setup.on(Effects::pleochroism))
             add_note(result_.notes, "pleochroism: the mean absorption is written");
         if (optics.disperses) {
             line("  Material \"dielectric\" {}", spectrum("eta", [&](double nm) {
@@ -255,7 +252,6 @@ private:
 
     const Scene& scene_;
     std::string stem_;
-    OpticalSetup setup_;
     LightRgb lights_;
     double size_;
     int media_ = 0;

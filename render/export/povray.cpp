@@ -61,8 +61,7 @@ private:
         fmt::format_to(std::back_inserter(result_.text), format, std::forward<Args>(args)...);
         result_.text += '\n';
     }
-    void note(const std::string& text) { result_.notes.push_back(text); }
-    bool one_wavelength() const { return colours_.one_wavelength(); }
+    void note(const std::string& text) { add_note(result_.notes, text); }
 
     void header() {
         const Camera& camera = scene_.camera;
@@ -273,13 +272,11 @@ private:
     }
 
     void interior(const Stone& stone) {
-        const bool one = one_wavelength();
-        const StoneOptics optics = optics_of(
-            stone, setup_, one, one ? scene_.settings.wavelengths_nm[0] : 0, result_.notes);
+        const StoneOptics optics = optics_of(stone, scene_, result_.notes);
         if (optics.disperses)
             note(fmt::format("dispersion: the index at {} nm is written", optics.index_nm));
         const double ior = optics.index / scene_.immersion;
-        if (!setup_.on(Effects::absorption)) {
+        if (optics.absorption == Rgb{}) {
             line("  interior {{ ior {} }}", ior);
             return;
         }
