@@ -8,7 +8,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "render/export/optical_parts.h"
+#include "render/export/scene_writer.h"
 #include "render/scene/surface_colour.h"
 #include "render/setup/scene_checks.h"
 
@@ -31,11 +31,10 @@ std::string matrix(const Vec3& x, const Vec3& y, const Vec3& z, const Vec3& at) 
         R"(<transform name="to_world"><matrix value="{} {} {} {} {} {} {} {} {} {} {} {} 0 0 0 1"/></transform>)",
         x.x, y.x, z.x, at.x, x.y, y.y, z.y, at.y, x.z, y.z, z.z, at.z);
 }
-// Any two directions that make a right-handed frame with `z`, and it.
-std::string turned_to(const Vec3& z, double size, const Vec3& at) {
-    const Vec3 other = std::abs(z.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 x = glm::normalize(glm::cross(other, z));
-    return matrix(size * x, size * glm::cross(z, x), size * z, at);
+// A square of that half side, or a disc of that radius, that looks along `normal`.
+std::string turned_to(const Vec3& normal, double size, const Vec3& at) {
+    const auto [u, v] = in_plane(normal);
+    return matrix(size * u, size * v, normal, at);
 }
 std::string obj_text(const TriangleMesh& mesh) {
     std::string text;
@@ -60,10 +59,10 @@ FilmCut film_cut(double sight, int pixels) {
     return cut;
 }
 
-class MitsubaWriter {
+class MitsubaWriter : SceneWriter {
 public:
     MitsubaWriter(const Scene& scene, std::string stem)
-        : scene_(scene), stem_(std::move(stem)), lights_(scene), size_(size_of(scene)) {}
+        : SceneWriter(scene), stem_(std::move(stem)) {}
 
     ExportedScene write() {
         line(R"(<?xml version="1.0" encoding="utf-8"?>)");
@@ -72,23 +71,13 @@ public:
         integrator();
         camera();
         distant_lights();
-        for (const Light& light : scene_.lights.sources)
-            std::visit([&](const auto& l) { near(l); }, light);
-        if (scene_.has_stone()) stone(scene_.stone);
-        for (const Stone& more : scene_.more_stones) stone(more);
-        for (const SceneObject& object : scene_.objects) this->object(object);
+        everything_by(*this);
         for (const std::string& note : result_.notes) line("  <!-- Not carried: {} -->", note);
         line("</scene>");
         return std::move(result_);
     }
 
 private:
-    template <class... Args>
-    void line(fmt::format_string<Args...> format, Args&&... args) {
-        fmt::format_to(std::back_inserter(result_.text), format, std::forward<Args>(args)...);
-        result_.text += '\n';
-    }
-
     void integrator() {
         note_left_out(scene_, result_.notes);
         line(R"(  <integrator type="volpath"><integer name="max_depth" value="{}"/></integrator>)",
@@ -101,8 +90,7 @@ private:
         // The line of sight is the middle of a larger film, of which the picture is cut out.
         const auto [sight_x, sight_y] = line_of_sight_in(camera);
         const FilmCut x = film_cut(sight_x, camera.width), y = film_cut(sight_y, camera.height);
-        if (x.lost + y.lost > 1e-3)
-            add_note(result_.notes, "the place of the principal point within half a pixel");
+        if (x.lost + y.lost > 1e-3) note("the place of the principal point within half a pixel");
         line(R"(  <sensor type="{}">)", parallel ? "orthographic" : "perspective");
         if (!parallel) {
             const double tangent = std::tan(camera.fov / 2) * y.film / camera.height;
@@ -138,11 +126,11 @@ private:
     }
 
     void distant_lights() {
-        const Lights& lights = scene_.lights;
-        if (is_even(lights)) {
-            if (lights.constant > 0)
+        const DistantLights lights(scene_.lights, lights_, result_.notes);
+        if (lights.is_even()) {
+            if (scene_.lights.constant > 0)
                 line(R"(  <emitter type="constant"><float name="radiance" value="{}"/></emitter>)",
-                     lights.constant);
+                     scene_.lights.constant);
             return;
         }
         // Mitsuba's map has +y up, and its left edge at -z; y is turned up to z.
@@ -154,8 +142,8 @@ private:
         };
         const std::string name = stem_ + "-mitsuba-light.exr";
         result_.environment = {
-            name, distant_light_map(lights, lights_, 2 * k_map_height, k_map_height, direction)};
-        note_light_map(lights, lights_, 180.0 / k_map_height, result_.notes);
+            name, distant_light_map(lights, 2 * k_map_height, k_map_height, direction)};
+        note_light_map(lights, 180.0 / k_map_height, result_.notes);
         line(R"(  <emitter type="envmap"><string name="filename" value="{}"/>)", name);
         line(R"(    {}</emitter>)", matrix({1, 0, 0}, {0, 0, 1}, {0, -1, 0}, Vec3(0)));
     }
@@ -163,10 +151,8 @@ private:
     std::string glowing(const LightColour& light) {
         return R"(<bsdf type="diffuse"><rgb name="reflectance" value="0, 0, 0"/></bsdf>)"
                R"(<emitter type="area">)" +
-               rgb("radiance", lights_.of(light, result_.notes)) + "</emitter>";
+               rgb("radiance", rgb_of_light(light)) + "</emitter>";
     }
-    template <class Distant>
-    void near(const Distant&) {}
     void near(const SphereLight& sphere) {
         const bool inside = glm::length(scene_.camera.position - sphere.center) < sphere.radius;
         line(
@@ -176,17 +162,10 @@ private:
              glowing(sphere.radiance));
     }
     void near(const PlaneLight& plane) {
-        add_note(result_.notes, "that a plane light is not there from behind: it is black");
-        if (!plane.u || !plane.v) {
-            add_note(result_.notes, "infinite planes: they end 1000 sizes of the stone away");
-            line(R"(  <shape type="rectangle">{}{}</shape>)",
-                 turned_to(plane.normal, k_far_away * size_, plane.point), glowing(plane.radiance));
-            return;
-        }
-        const bool left = glm::dot(glm::cross(*plane.u, *plane.v), plane.normal) < 0;
-        line(R"(  <shape type="rectangle">{}{}</shape>)",
-             matrix(left ? *plane.v : *plane.u, left ? *plane.u : *plane.v, plane.normal,
-                    plane.point),
+        note(k_black_behind);
+        if (!plane.u || !plane.v) note(k_planes_end);
+        const auto [u, v] = extent_of(plane, k_far_away * size_);
+        line(R"(  <shape type="rectangle">{}{}</shape>)", matrix(u, v, plane.normal, plane.point),
              glowing(plane.radiance));
     }
 
@@ -213,8 +192,7 @@ private:
     void stone(const Stone& stone) {
         const StoneOptics optics = optics_of(stone, scene_, result_.notes);
         if (optics.disperses)
-            add_note(result_.notes,
-                     fmt::format("dispersion: the index at {} nm is written", optics.index_nm));
+            note(fmt::format("dispersion: the index at {} nm is written", optics.index_nm));
         line("  {}", mesh(triangles_of(drawn_solid(stone))));
         line("    {}</shape>", dielectric(optics.index, optics.absorption));
     }
@@ -225,7 +203,7 @@ private:
             point(s.center), s.radius);
     }
     std::string shape(const PlaneShape& s) {
-        add_note(result_.notes, "infinite planes: they end 1000 sizes of the stone away");
+        note(k_planes_end);
         return R"(<shape type="rectangle">)" + turned_to(s.normal, k_far_away * size_, s.point);
     }
     std::string shape(const DiscShape& s) {
@@ -269,11 +247,8 @@ private:
              std::visit([&](const auto& m) { return surface(m); }, object.material));
     }
 
-    const Scene& scene_;
+    friend SceneWriter;
     std::string stem_;
-    LightRgb lights_;
-    double size_;
-    ExportedScene result_;
 };
 
 }  // namespace

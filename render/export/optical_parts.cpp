@@ -19,30 +19,27 @@ constexpr std::array<double, 3> k_rgb_nm{610, 545, 465};
 
 }  // namespace
 
-OpticalSetup setup_of(const Stone& stone, const Scene& scene) {
-    Scene of_stone = scene;
-    of_stone.stone = stone;
-    return make_optical_setup(of_stone);
-}
-
 StoneOptics optics_of(const Stone& stone, const Scene& scene, std::vector<std::string>& notes) {
     const Material& material = stone.material;
-    const OpticalSetup setup = setup_of(stone, scene);
+    Scene of_stone = scene;
+    of_stone.stone = stone;
+    const OpticalSetup setup = make_optical_setup(of_stone);
     const std::vector<double>& nm = scene.settings.wavelengths_nm;
     const bool one_wavelength = nm.size() == 1;
     StoneOptics optics;
     optics.index_nm = one_wavelength ? nm.front() : k_d_line_nm;
     optics.index = mean_index(material, optics.index_nm);
     optics.disperses = setup.on(Effects::dispersion);
-    if (setup.on(Effects::birefringence))
+    optics.birefringent = setup.on(Effects::birefringence);
+    optics.pleochroic = setup.on(Effects::absorption) && setup.on(Effects::pleochroism);
+    if (optics.birefringent)
         add_note(notes,
                  fmt::format("double refraction: the mean index {:.4f} is written", optics.index));
     if (!setup.on(Effects::absorption)) return optics;
     for (std::size_t c = 0; c < 3; ++c)
         optics.absorption[c] = mm_per(stone.unit) *
                                mean_absorption(material, one_wavelength ? nm.front() : k_rgb_nm[c]);
-    if (setup.on(Effects::pleochroism))
-        add_note(notes, "pleochroism: the mean absorption is written");
+    if (optics.pleochroic) add_note(notes, "pleochroism: the mean absorption is written");
     const bool has_spectrum =
         std::any_of(material.absorption_per_mm.begin(),
                     material.absorption_per_mm.begin() + ray_count(material.optic),
@@ -66,16 +63,11 @@ void note_left_out(const Scene& scene, std::vector<std::string>& notes) {
     if (setup.on(Effects::aperture)) add_note(notes, "the lens: the picture is that of a pinhole");
 }
 
-void note_light_map(const Lights& lights, const LightRgb& rgb, double degrees,
-                    std::vector<std::string>& notes) {
-    for (const Light& light : lights.sources) {
-        if (is_near(light)) continue;
-        rgb.of(colour_of(light), notes);
-        if (has_edge(light))
-            add_note(notes, fmt::format("sharp edges of distant lights: the map has texels of "
-                                        "{:.2g} degrees",
-                                        degrees));
-    }
+void note_light_map(const DistantLights& lights, double degrees, std::vector<std::string>& notes) {
+    if (lights.has_edges())
+        add_note(notes, fmt::format("sharp edges of distant lights: the map has texels of "
+                                    "{:.2g} degrees",
+                                    degrees));
 }
 
 }  // namespace culet

@@ -13,14 +13,13 @@ namespace culet {
 struct StoneOptics {
     double index_nm = 589.3;  ///< the sodium line, or the scene's one wavelength
     double index = 1.5;       ///< there; of crystals the mean
-    bool disperses = false;   ///< and the scene calls for dispersion
-    Rgb absorption{};         ///< Napierian, per stone's unit; 0: none, or the scene has none
+    bool disperses = false;   ///< and the scene calls for it; likewise
+    bool birefringent = false, pleochroic = false;
+    Rgb absorption{};  ///< Napierian, per stone's unit; 0: none, or the scene has none
 };
 
-/// Which effects a stone of the scene has: the first decides nothing about the others.
-OpticalSetup setup_of(const Stone& stone, const Scene& scene);
-
-/// Notes say what is left out: double refraction, pleochroism, the spectrum of absorption.
+/// By the stone's own material: the first of a scene decides nothing about the others. Notes say
+/// what is left out: double refraction, pleochroism, the spectrum of absorption.
 StoneOptics optics_of(const Stone& stone, const Scene& scene, std::vector<std::string>& notes);
 
 /// Where an ideal conductor's k is infinite, the largest that reflects less than all: 0.9999.
@@ -30,7 +29,6 @@ MetalIndex finite_index_of(const MetalMaterial& metal);
 void note_left_out(const Scene& scene, std::vector<std::string>& notes);
 
 /// Notes on what a map of the distant lights loses; a texel is `degrees` wide.
-void note_light_map(const Lights& lights, const LightRgb& rgb, double degrees,
-                    std::vector<std::string>& notes);
+void note_light_map(const DistantLights& lights, double degrees, std::vector<std::string>& notes);
 
 }  // namespace culet

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "render/export/optical_parts.h"
+#include "render/export/scene_writer.h"
 #include "render/scene/surface_colour.h"
 #include "render/setup/scene_checks.h"
 #include "stone/export/mean_material.h"
@@ -49,24 +49,18 @@ std::string triangle_mesh(const TriangleMesh& mesh) {
     for (const auto& t : mesh.triangles) fmt::format_to(out, "\n    {} {} {}", t[0], t[1], t[2]);
     return text + " ]";
 }
-// Any two directions that make a right-handed frame with a normal.
-std::pair<Vec3, Vec3> beside(const Vec3& normal) {
-    const Vec3 other = std::abs(normal.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    const Vec3 u = glm::normalize(glm::cross(other, normal));
-    return {u, glm::cross(normal, u)};
-}
 // Its front is on the side of u x v.
-std::string rectangle(const Vec3& middle, const Vec3& u, const Vec3& v) {
+std::string rectangle(const Vec3& middle, const InPlane& half) {
+    const auto& [u, v] = half;
     TriangleMesh mesh;
     mesh.vertices = {middle - u - v, middle + u - v, middle + u + v, middle - u + v};
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
     return triangle_mesh(mesh);
 }
 
-class PbrtWriter {
+class PbrtWriter : SceneWriter {
 public:
-    PbrtWriter(const Scene& scene, std::string stem)
-        : scene_(scene), stem_(std::move(stem)), lights_(scene), size_(size_of(scene)) {}
+    PbrtWriter(const Scene& scene, std::string stem) : SceneWriter(scene), stem_(std::move(stem)) {}
 
     ExportedScene write() {
         line("# pbrt THIS.pbrt (version 4); lengths are the stone's");
@@ -74,22 +68,12 @@ public:
         camera();
         line("WorldBegin");
         distant_lights();
-        for (const Light& light : scene_.lights.sources)
-            std::visit([&](const auto& l) { near(l); }, light);
-        if (scene_.has_stone()) stone(scene_.stone);
-        for (const Stone& more : scene_.more_stones) stone(more);
-        for (const SceneObject& object : scene_.objects) this->object(object);
+        everything_by(*this);
         for (const std::string& note : result_.notes) line("# Not carried: {}", note);
         return std::move(result_);
     }
 
 private:
-    template <class... Args>
-    void line(fmt::format_string<Args...> format, Args&&... args) {
-        fmt::format_to(std::back_inserter(result_.text), format, std::forward<Args>(args)...);
-        result_.text += '\n';
-    }
-
     void camera() {
         const Camera& camera = scene_.camera;
         const RenderSettings& settings = scene_.settings;
@@ -118,21 +102,20 @@ private:
     }
 
     void distant_lights() {
-        const Lights& lights = scene_.lights;
-        if (is_even(lights)) {
-            if (lights.constant > 0)
-                line("LightSource \"infinite\" \"rgb L\" [ {0} {0} {0} ]", lights.constant);
+        const DistantLights lights(scene_.lights, lights_, result_.notes);
+        if (lights.is_even()) {
+            if (scene_.lights.constant > 0)
+                line("LightSource \"infinite\" \"rgb L\" [ {0} {0} {0} ]", scene_.lights.constant);
             return;
         }
         const std::string name = stem_ + "-pbrt-light.exr";
         result_.environment = {
-            name, distant_light_map(
-                      lights, lights_, k_map_side, k_map_side, [](double column, double row) {
-                          return equal_area_direction(column / k_map_side, row / k_map_side);
-                      })};
+            name, distant_light_map(lights, k_map_side, k_map_side, [](double column, double row) {
+                return equal_area_direction(column / k_map_side, row / k_map_side);
+            })};
         // Texels have one solid angle.
         const double texel = std::sqrt(4 * std::numbers::pi) / k_map_side;
-        note_light_map(lights, lights_, degrees(texel), result_.notes);
+        note_light_map(lights, degrees(texel), result_.notes);
         line("LightSource \"infinite\" \"string filename\" [ \"{}\" ]", name);
     }
 
@@ -142,10 +125,8 @@ private:
     void glow(const LightColour& light, bool both_sides) {
         line("  Material \"diffuse\" \"rgb reflectance\" [ 0 0 0 ]");
         line("  AreaLightSource \"diffuse\" \"rgb L\" [ {} ] \"bool twosided\" [ {} ]",
-             numbers(lights_.of(light, result_.notes)), both_sides);
+             numbers(rgb_of_light(light)), both_sides);
     }
-    template <class Distant>
-    void near(const Distant&) {}
     void near(const SphereLight& sphere) {
         begin();
         glow(sphere.radiance, true);
@@ -153,16 +134,11 @@ private:
         end();
     }
     void near(const PlaneLight& plane) {
-        add_note(result_.notes, "that a plane light is not there from behind: it is black");
+        note(k_black_behind);
         begin();
         glow(plane.radiance, false);
-        if (!plane.u || !plane.v) {
-            shape(PlaneShape{plane.point, plane.normal});
-        } else {
-            const bool left = glm::dot(glm::cross(*plane.u, *plane.v), plane.normal) < 0;
-            line("  {}",
-                 rectangle(plane.point, left ? *plane.v : *plane.u, left ? *plane.u : *plane.v));
-        }
+        if (!plane.u || !plane.v) note(k_planes_end);
+        line("  {}", rectangle(plane.point, extent_of(plane, k_far_away * size_)));
         end();
     }
 
@@ -178,11 +154,8 @@ private:
         begin();
         std::vector<std::string> of_rgb;  // PBRT takes the spectrum
         const StoneOptics optics = optics_of(stone, scene_, of_rgb);
-        const OpticalSetup setup = setup_of(stone, scene_);
-        if (setup.on(Effects::birefringence))
-            add_note(result_.notes, "double refraction: the mean index is written");
-        if (setup.on(Effects::pleochroism))
-            add_note(result_.notes, "pleochroism: the mean absorption is written");
+        if (optics.birefringent) note("double refraction: the mean index is written");
+        if (optics.pleochroic) note("pleochroism: the mean absorption is written");
         if (optics.disperses) {
             line("  Material \"dielectric\" {}", spectrum("eta", [&](double nm) {
                      return mean_index(stone.material, nm) / scene_.immersion;
@@ -208,12 +181,12 @@ private:
         line("  Shape \"sphere\" \"float radius\" [ {} ]", s.radius);
     }
     void shape(const PlaneShape& s) {
-        add_note(result_.notes, "infinite planes: they end 1000 sizes of the stone away");
-        const auto [u, v] = beside(s.normal);
-        line("  {}", rectangle(s.point, k_far_away * size_ * u, k_far_away * size_ * v));
+        note(k_planes_end);
+        line("  {}", rectangle(s.point, extent_of(PlaneLight{s.point, s.normal, {}, {}, {}},
+                                                  k_far_away * size_)));
     }
     void shape(const DiscShape& s) {
-        const auto [u, v] = beside(s.normal);
+        const auto [u, v] = in_plane(s.normal);
         line("  Transform [ {} 0  {} 0  {} 0  {} 1 ]", numbers(u), numbers(v), numbers(s.normal),
              numbers(s.center));
         line("  Shape \"disk\" \"float radius\" [ {} ]", s.radius);
@@ -232,8 +205,7 @@ private:
              m.roughness * m.roughness);
     }
     void surface(const MirrorMaterial& m) {
-        add_note(result_.notes,
-                 "mirrors of one reflectance at every angle: they reflect more at a slant");
+        note("mirrors of one reflectance at every angle: they reflect more at a slant");
         line("  Material \"conductor\" \"rgb reflectance\" [ {} ]", numbers(rgb_of(m.albedo)));
     }
     void surface(const DielectricMaterial& m) {
@@ -250,12 +222,9 @@ private:
         end();
     }
 
-    const Scene& scene_;
+    friend SceneWriter;
     std::string stem_;
-    LightRgb lights_;
-    double size_;
     int media_ = 0;
-    ExportedScene result_;
 };
 
 }  // namespace

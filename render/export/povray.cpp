@@ -9,9 +9,8 @@
 #include <iterator>
 #include <numbers>
 
-#include "render/export/optical_parts.h"
 #include "render/export/povray_objects.h"
-#include "render/export/scene_parts.h"
+#include "render/export/scene_writer.h"
 #include "render/setup/optical_setup.h"
 #include "render/setup/scene_checks.h"
 #include "stone/errors.h"
@@ -34,35 +33,23 @@ void refuse_what_has_no_picture(const Scene& scene) {
             "hemispheres) cannot be carried to POV-Ray");
 }
 
-class PovrayWriter {
+class PovrayWriter : SceneWriter {
 public:
     explicit PovrayWriter(const Scene& scene)
-        : scene_(scene),
+        : SceneWriter(scene),
           setup_(make_optical_setup(scene)),
-          colours_(scene),
-          scale_(std::exp2(std::ceil(std::log2(k_stone_size / size_of(scene))))) {}
+          scale_(std::exp2(std::ceil(std::log2(k_stone_size / size_)))) {}
 
     ExportedScene write() {
         header();
         camera();
         distant_lights();
-        near_lights();
-        if (scene_.has_stone()) stone(scene_.stone);
-        for (const Stone& more : scene_.more_stones) stone(more);
-        for (const SceneObject& object : scene_.objects)
-            line("{}", povray_object(object, scale_, scene_.immersion, result_.notes));
+        everything_by(*this);
         for (const std::string& note : result_.notes) line("// Not carried: {}", note);
         return std::move(result_);
     }
 
 private:
-    template <class... Args>
-    void line(fmt::format_string<Args...> format, Args&&... args) {
-        fmt::format_to(std::back_inserter(result_.text), format, std::forward<Args>(args)...);
-        result_.text += '\n';
-    }
-    void note(const std::string& text) { add_note(result_.notes, text); }
-
     void header() {
         const Camera& camera = scene_.camera;
         const RenderSettings& settings = scene_.settings;
@@ -110,8 +97,6 @@ private:
         if (setup_.on(Effects::aperture)) note("the lens: the picture is that of a pinhole");
     }
 
-    Rgb rgb_of(const LightColour& light) { return colours_.of(light, result_.notes); }
-
     // Distant lights add up: a function of the direction for each channel, or one for all.
     struct Term {
         std::string shape;  // 0..1; empty: 1
@@ -143,7 +128,7 @@ private:
             std::visit(
                 [&](const auto& l) {
                     if constexpr (!std::decay_t<decltype(l)>::k_is_near) {
-                        terms.push_back({shape(l), rgb_of(l.radiance)});
+                        terms.push_back({shape(l), rgb_of_light(l.radiance)});
                     }
                 },
                 light);
@@ -194,17 +179,7 @@ private:
              povray_colour({range * unit[0], range * unit[1], range * unit[2]}));
     }
 
-    void near_lights() {
-        for (const Light& light : scene_.lights.sources) {
-            std::visit(
-                [&](const auto& l) {
-                    if constexpr (std::decay_t<decltype(l)>::k_is_near) near_light(l);
-                },
-                light);
-        }
-    }
-
-    void near_light(const SphereLight& sphere) {
+    void near(const SphereLight& sphere) {
         // Seen from within a body POV-Ray 3.7 reflects nothing inside a second one: a dome round
         // the camera is turned inside out, so that the camera is outside.
         const bool inside = glm::length(scene_.camera.position - sphere.center) < sphere.radius;
@@ -212,7 +187,7 @@ private:
              scale_ * sphere.radius, glowing(sphere.radiance), inside ? " inverse" : "");
     }
 
-    void near_light(const PlaneLight& plane) {
+    void near(const PlaneLight& plane) {
         const double of_camera = height(plane, scene_.camera.position);
         double lowest = of_camera, highest = of_camera;
         for (const Vec3& corner : scene_.stone.solid.vertices) {
@@ -255,7 +230,10 @@ private:
     }
     std::string glowing(const LightColour& radiance) {
         return fmt::format("pigment {{ {} }} finish {{ ambient 0 diffuse 0 emission 1 }}",
-                           povray_colour(rgb_of(radiance)));
+                           povray_colour(rgb_of_light(radiance)));
+    }
+    void object(const SceneObject& object) {
+        line("{}", povray_object(object, scale_, scene_.immersion, result_.notes));
     }
     void stone(const Stone& stone) {
         const TriangleMesh mesh = triangles_of(drawn_solid(stone));
@@ -287,11 +265,9 @@ private:
              povray_colour(absorption));
     }
 
-    const Scene& scene_;
+    friend SceneWriter;
     OpticalSetup setup_;
-    LightRgb colours_;
     double scale_;
-    ExportedScene result_;
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "stone/errors.h"
 #include "stone/facet_triangles.h"
+#include "stone/perpendicular.h"
 
 namespace culet {
 
@@ -82,6 +83,20 @@ CameraAxes axes_of(const Camera& camera) {
     return {forward, right, glm::cross(right, forward)};
 }
 
+InPlane in_plane(const Vec3& normal) {
+    const Vec3 u = perpendicular_to(normal);
+    return {u, glm::cross(normal, u)};
+}
+
+InPlane extent_of(const PlaneLight& plane, double far) {
+    if (!plane.u || !plane.v) {
+        const auto [u, v] = in_plane(plane.normal);
+        return {far * u, far * v};
+    }
+    const bool left = glm::dot(glm::cross(*plane.u, *plane.v), plane.normal) < 0;
+    return left ? InPlane{*plane.v, *plane.u} : InPlane{*plane.u, *plane.v};
+}
+
 LightRgb::LightRgb(const Scene& scene)
     : one_wavelength_(scene.settings.wavelengths_nm.size() == 1),
       colours_(one_wavelength_ ? scene.settings.wavelengths_nm : k_colour_nodes) {}
@@ -97,31 +112,43 @@ Rgb LightRgb::of(const LightColour& light, std::vector<std::string>& notes) cons
     return colours_.rgb_of(colours_.illuminant_relative(name.c_str()).data());
 }
 
-Rgb distant_light(const Lights& lights, const LightRgb& rgb, const Vec3& direction) {
-    Rgb sum{lights.constant, lights.constant, lights.constant};
-    if (lights.environment) sum = lights.environment->at(direction);
-    std::vector<std::string> said;
-    const auto share = [&](const auto& light) {
-        using Kind = std::decay_t<decltype(light)>;
-        if constexpr (std::is_same_v<Kind, DiscLight>)
-            return share_of(light, cosines_of(light), direction);
-        else if constexpr (!Kind::k_is_near)
-            return share_of(light, direction);
-        else
-            return 0.0;
-    };
+DistantLights::DistantLights(const Lights& lights, const LightRgb& rgb,
+                             std::vector<std::string>& notes)
+    : lights_(lights) {
     for (const Light& light : lights.sources) {
-        const double part = std::visit(share, light);
-        if (part == 0) continue;
-        const Rgb colour = rgb.of(colour_of(light), said);
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += part * colour[c];
+        if (is_near(light)) continue;
+        const auto* cap = std::get_if<DiscLight>(&light);
+        parts_.push_back({&light, rgb.of(colour_of(light), notes),
+                          cap != nullptr ? cosines_of(*cap) : DiscCosines()});
     }
-    return sum;
 }
 
-bool is_even(const Lights& lights) {
-    return !lights.environment && std::all_of(lights.sources.begin(), lights.sources.end(),
-                                              [](const Light& light) { return is_near(light); });
+bool DistantLights::is_even() const {
+    return !lights_.environment && parts_.empty();
+}
+
+bool DistantLights::has_edges() const {
+    return std::any_of(parts_.begin(), parts_.end(),
+                       [](const Part& part) { return has_edge(*part.light); });
+}
+
+Rgb DistantLights::from(const Vec3& direction) const {
+    Rgb sum{lights_.constant, lights_.constant, lights_.constant};
+    if (lights_.environment) sum = lights_.environment->at(direction);
+    for (const Part& part : parts_) {
+        const auto share = [&](const auto& light) {
+            using Kind = std::decay_t<decltype(light)>;
+            if constexpr (std::is_same_v<Kind, DiscLight>)
+                return share_of(light, part.cosines, direction);
+            else if constexpr (!Kind::k_is_near)
+                return share_of(light, direction);
+            else
+                return 0.0;
+        };
+        const double of_light = std::visit(share, *part.light);
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += of_light * part.colour[c];
+    }
+    return sum;
 }
 
 std::string plain_stem(const std::string& stem) {

@@ -47,6 +47,15 @@ struct CameraAxes {
 };
 CameraAxes axes_of(const Camera& camera);
 
+/// Half-extents of a rectangle, or two unit vectors, whose cross product is along a normal.
+struct InPlane {
+    Vec3 u, v;
+};
+/// Any two unit vectors in the plane of that normal (unit).
+InPlane in_plane(const Vec3& normal);
+/// Of a light: infinite ones end `far` away.
+InPlane extent_of(const PlaneLight& plane, double far);
+
 /// What RGB the lights of a scene have for a renderer that knows no more.
 class LightRgb {
 public:
@@ -60,15 +69,32 @@ private:
     WavelengthSet colours_;
 };
 
-/// Linear light of all lights but near ones, from a direction (unit, towards the light).
-Rgb distant_light(const Lights& lights, const LightRgb& rgb, const Vec3& direction);
-/// True where that is the same from everywhere.
-bool is_even(const Lights& lights);
+/// All lights but near ones, in linear light.
+class DistantLights {
+public:
+    /// `lights` must outlive this. `notes`: as LightRgb::of.
+    DistantLights(const Lights& lights, const LightRgb& rgb, std::vector<std::string>& notes);
+    /// The same from everywhere.
+    bool is_even() const;
+    /// A light ends within a texel of a map.
+    bool has_edges() const;
+    /// From a direction (unit, towards the light).
+    Rgb from(const Vec3& direction) const;
+
+private:
+    struct Part {
+        const Light* light;
+        Rgb colour;
+        DiscCosines cosines;  // of a cap
+    };
+    const Lights& lights_;
+    std::vector<Part> parts_;
+};
 
 /// A picture of the distant lights, each texel the mean over 4 x 4 places in it. `direction`: the
 /// unit vector at a place of the picture, column 0..width, row 0..height.
 template <class DirectionAt>
-Picture distant_light_map(const Lights& lights, const LightRgb& rgb, int width, int height,
+Picture distant_light_map(const DistantLights& lights, int width, int height,
                           const DirectionAt& direction) {
     constexpr int k_places = 4;
     Picture map;
@@ -80,7 +106,7 @@ Picture distant_light_map(const Lights& lights, const LightRgb& rgb, int width, 
             for (int k = 0; k < k_places * k_places; ++k) {
                 const double column = x + (k % k_places + 0.5) / k_places;
                 const double row = y + (k / k_places + 0.5) / k_places;
-                const Rgb one = distant_light(lights, rgb, direction(column, row));
+                const Rgb one = lights.from(direction(column, row));
                 for (std::size_t c = 0; c < 3; ++c) sum[c] += one[c] / (k_places * k_places);
             }
             for (const double value : sum) map.rgb.push_back(static_cast<float>(value));

@@ -1,0 +1,54 @@
+#pragma once
+// What writes scenes for other renderers, line by line. Private to the folder.
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string>
+
+#include "render/export/optical_parts.h"
+#include "render/export/scene_parts.h"
+
+namespace culet {
+
+class SceneWriter {
+protected:
+    explicit SceneWriter(const Scene& scene)
+        : scene_(scene), lights_(scene), size_(size_of(scene)) {}
+
+    template <class... Args>
+    void line(fmt::format_string<Args...> format, Args&&... args) {
+        fmt::format_to(std::back_inserter(result_.text), format, std::forward<Args>(args)...);
+        result_.text += '\n';
+    }
+    void note(const std::string& text) { add_note(result_.notes, text); }
+    Rgb rgb_of_light(const LightColour& light) { return lights_.of(light, result_.notes); }
+
+    /// near(light), stone(stone) and object(object) of `writer`.
+    template <class Writer>
+    void everything_by(Writer& writer) {
+        for (const Light& light : scene_.lights.sources) {
+            std::visit(
+                [&](const auto& l) {
+                    if constexpr (std::decay_t<decltype(l)>::k_is_near) writer.near(l);
+                },
+                light);
+        }
+        if (scene_.has_stone()) writer.stone(scene_.stone);
+        for (const Stone& more : scene_.more_stones) writer.stone(more);
+        for (const SceneObject& object : scene_.objects) writer.object(object);
+    }
+
+    const Scene& scene_;
+    LightRgb lights_;
+    double size_;
+    ExportedScene result_;
+};
+
+/// Where a renderer has no infinite planes.
+inline constexpr const char* k_planes_end =
+    "infinite planes: they end 1000 sizes of the stone away";
+inline constexpr const char* k_black_behind =
+    "that a plane light is not there from behind: it is black";
+
+}  // namespace culet
