@@ -139,8 +139,14 @@ Compared compare_with_render(const CompareArguments& a, const std::string& versi
     return result;
 }
 
+// What is read beside the scene, once for all photographs.
+struct SceneExtras {
+    std::optional<Solid> start;
+    std::optional<StoneUncertainty> uncertainty;
+};
+
 Compared compare_with_scene(const CompareArguments& a, const std::string& photo_file,
-                            const Scene& scene, const std::optional<Solid>& start,
+                            const Scene& scene, const SceneExtras& extras,
                             const std::string& version) {
     const Photo photo = read_photo(photo_file);
     SceneCompareOptions options;
@@ -150,8 +156,8 @@ Compared compare_with_scene(const CompareArguments& a, const std::string& photo_
     options.budget_seconds = a.budget;
     options.draws = a.draws;
     options.cache = a.cache.empty() ? fs::path(a.folder) / "cache" : fs::path(a.cache);
-    options.start = start;
-    if (!a.uncertainty.empty()) options.uncertainty = uncertainty_in(a.uncertainty, scene.stone);
+    options.start = extras.start;
+    options.uncertainty = extras.uncertainty;
     SceneComparison compared = culet::compare_with_scene(
         photo, scene, options,
         progress_line(a.calibrate ? "comparing and calibrating" : "comparing", a.common.quiet));
@@ -228,11 +234,13 @@ int run_compare(const CompareArguments& a, const std::string& version) {
         throw InputError("--mask belongs to one photograph: compare them one by one");
     }
     std::optional<Scene> scene;
-    std::optional<Solid> start;
+    SceneExtras extras;
     if (a.against_scene()) {
         scene = read_scene(a.against(), a.common.set);
         scene->settings.threads = a.common.threads;
-        if (!a.start.empty()) start = load_solid(a.start).solid;
+        if (!a.start.empty()) extras.start = load_solid(a.start).solid;
+        if (!a.uncertainty.empty())
+            extras.uncertainty = uncertainty_in(a.uncertainty, scene->stone);
     }
     if (!a.json.empty()) require_writable(a.json);
     const OutputFolder folder(a.folder);
@@ -240,9 +248,9 @@ int run_compare(const CompareArguments& a, const std::string& version) {
     require_writable(page_file);
 
     if (a.photographs() == 1) {
-        const Compared one = scene
-                                 ? compare_with_scene(a, a.pictures.front(), *scene, start, version)
-                                 : compare_with_render(a, version);
+        const Compared one =
+            scene ? compare_with_scene(a, a.pictures.front(), *scene, extras, version)
+                  : compare_with_render(a, version);
         const std::string page = report_page(one.report);
         if (!a.json.empty()) write_text(a.json, one.json);
         write_text(page_file, page);
@@ -255,7 +263,7 @@ int run_compare(const CompareArguments& a, const std::string& version) {
     std::vector<std::string> pages;
     for (std::size_t i = 0; i < a.photographs(); ++i) {
         const std::string& file = a.pictures[i];
-        Compared one = compare_with_scene(a, file, *scene, start, version);
+        Compared one = compare_with_scene(a, file, *scene, extras, version);
         say(file, a.common.quiet);
         say_result(a, one.comparison);
         pages.push_back(report_page(one.report));

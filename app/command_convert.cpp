@@ -119,16 +119,13 @@ int convert_scene(const ConvertOptions& options) {
 }
 
 int convert(const ConvertOptions& options) {
-    if (is_scene_for_others(options.out)) {
-        if (!options.clearance.empty())
-            throw InputError("--clearance is for meshes, .glb, .gltf and .step");
-        return convert_scene(options);
-    }
-    if (is_for_other_programs(options.out) ||
-        (!options.clearance.empty() && mesh_format(options.out)))
-        return convert_for_others(options);
-    if (!options.clearance.empty())
+    const bool grows = !options.clearance.empty();
+    const bool to_scene = is_scene_for_others(options.out),
+               to_others = is_for_other_programs(options.out);
+    if (grows && (to_scene || (!to_others && !mesh_format(options.out))))
         throw InputError("--clearance is for meshes, .glb, .gltf and .step");
+    if (to_scene) return convert_scene(options);
+    if (to_others || grows) return convert_for_others(options);
     if (!options.material.empty())
         throw InputError("--material is for .glb, .gltf, .pov, .xml and .pbrt");
     if (!options.common.set.empty()) {
@@ -218,8 +215,7 @@ void add_command_convert(CLI::App& program, int& exit_code) {
     command->footer(
         "Names, planes and all digits are kept as far as the format can hold them. A mesh with "
         "faults is converted as it is, with a warning and exit code 1. What another renderer "
-        "cannot "
-        "draw is named on stderr and in its file.\n"
+        "cannot draw is named on stderr and in its file.\n"
         "Examples:\n"
         "  culet convert design.asc design.obj\n"
         "  culet convert --width 6.5mm design.asc stone.obj\n"

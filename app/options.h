@@ -39,6 +39,7 @@ void add_command_fit(CLI::App& program, int& exit_code);
 void add_command_register(CLI::App& program, int& exit_code);
 void add_command_render(CLI::App& program, int& exit_code);
 void add_command_compare(CLI::App& program, int& exit_code);
+void add_command_refine(CLI::App& program, int& exit_code);
 void add_command_camera(CLI::App& program, int& exit_code);
 void add_command_outline(CLI::App& program, int& exit_code);
 void add_command_photo(CLI::App& program, int& exit_code);

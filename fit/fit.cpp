@@ -99,6 +99,9 @@ FitResult fit_stone(const Stone& stone, const std::vector<Reading>& readings,
     const auto begin = std::chrono::steady_clock::now();
     Problem given{stone, readings, options};
     if (has_outlines(readings)) prepare_for_outlines(stone, given.options);
+    // What a photograph tells leads away from the mesh's corners, as a stone's planes do.
+    if (has_photographs(readings) && !options.meets_named)
+        given.options = with_free_corners(stone, given.options);
     // A change of the topology goes by what was found out.
     given.options.findings = options.findings || options.allow_topology;
     const bool asks = options.first_check || options.prior.source != Prior::Source::none;

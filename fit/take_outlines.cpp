@@ -137,15 +137,25 @@ bool has_outlines(const std::vector<Reading>& readings) {
                        [](const Reading& r) { return r.told != nullptr; });
 }
 
+bool has_photographs(const std::vector<Reading>& readings) {
+    return std::any_of(readings.begin(), readings.end(),
+                       [](const Reading& r) { return r.photograph != nullptr; });
+}
+
+FitOptions with_free_corners(const Stone& stone, FitOptions options) {
+    options.meets = MeetTreatment::released;
+    options.free_corners = true;
+    if (!options.start) options.start = stone.solid;
+    return options;
+}
+
 void prepare_for_outlines(const Stone& stone, FitOptions& options) {
     if (options.meets_named && options.meets != MeetTreatment::released) {
         throw InputError(
             "outlines show where each plane lies, and meets as they are: beside [[silhouette]] "
             "[fit] meets is \"released\", or is left out");
     }
-    options.meets = MeetTreatment::released;
-    options.free_corners = true;
-    if (!options.start) options.start = stone.solid;
+    options = with_free_corners(stone, options);
 }
 
 void describe_outlines(const std::vector<Reading>& readings, FitResult& result) {

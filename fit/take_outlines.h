@@ -26,6 +26,11 @@ void add_outlines(TakenOutlines taken, std::vector<Reading>& readings,
                   std::vector<std::string>& notes);
 
 bool has_outlines(const std::vector<Reading>& readings);
+bool has_photographs(const std::vector<Reading>& readings);
+
+/// Each plane lies where it is known to be, and meets are as they come: so beside outlines and
+/// photographs. The fit goes on from `stone`, unless it has a start.
+FitOptions with_free_corners(const Stone& stone, FitOptions options);
 
 /// The fit goes on from the stone of the outlines, whose corners are where its planes meet. Throws
 /// InputError when its options ask for meets of the mesh.

@@ -46,6 +46,20 @@ struct SilhouetteFinding {
     std::optional<SilhouetteMisfit> held_out;  ///< of outlines that took no part
 };
 
+/// How a photograph of the stone in known light suits the fitted stone (compare/refine).
+struct PhotographFinding {
+    double rms_before = 0, rms = 0;  ///< of the two pictures' difference in the root of light
+    double moves_told = 0;           ///< of the planes' moves, three a facet, how many it tells
+    /// Where it shows what the stone does not, in its pixels.
+    struct Place {
+        double x = 0, y = 0;
+        std::string facet;  ///< through which it is seen
+        bool brighter = false;
+        double deviations = 0, area = 0;  ///< over what is usual; as a share of the stone
+    };
+    std::vector<Place> contradictions;
+};
+
 struct FittedReading {
     std::string id;
     ReadingKind kind = ReadingKind::inclination;
@@ -59,6 +73,7 @@ struct FittedReading {
     double weight = 1;     ///< left to it by a robust loss
     std::string left_out;  ///< why it takes no part; empty: it does
     std::optional<SilhouetteFinding> silhouette;
+    std::optional<PhotographFinding> photograph;
 };
 
 /// How the meets of more than three facets were treated, and by how much they miss.

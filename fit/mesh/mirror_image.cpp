@@ -21,7 +21,8 @@ std::optional<Stone> mirrored_to_azimuths(const Stone& stone,
     double ways[2][2] = {{0, 0}, {0, 0}};
     int count = 0;
     for (const Reading& r : readings) {
-        if (r.told) return std::nullopt;  // outlines have shown which way round it is
+        // Outlines and photographs have shown which way round it is.
+        if (r.told || r.photograph) return std::nullopt;
         if (r.kind != ReadingKind::azimuth || r.datum.kind == Datum::Kind::facet) continue;
         const Vec3& n = stone.solid.facets[r.facets[0]].plane.normal;
         const double drawn = std::atan2(glm::dot(n, other), glm::dot(n, side));

@@ -154,7 +154,8 @@ void System::ReadingEquations::add(int r, std::optional<Replicates> replicates) 
         case ReadingKind::weight:
             return put(enclosed_volume(outline_), base_.value);
         case ReadingKind::meet:        // an incidence
-        case ReadingKind::silhouette:  // silhouette_equations.cpp
+        case ReadingKind::silhouette:  // known_plane_equations.cpp
+        case ReadingKind::photograph:
             return;
         case ReadingKind::parallel:
         case ReadingKind::coplanar:
@@ -330,8 +331,8 @@ std::vector<Equation> System::reading_equations(const Shape& shape,
     }
     std::vector<Equation> all = equations.take(), expected = expected_equations();
     std::move(expected.begin(), expected.end(), std::back_inserter(all));
-    std::vector<Equation> of_outlines = silhouette_equations();
-    std::move(of_outlines.begin(), of_outlines.end(), std::back_inserter(all));
+    std::vector<Equation> of_planes = known_plane_equations();
+    std::move(of_planes.begin(), of_planes.end(), std::back_inserter(all));
     return all;
 }
 

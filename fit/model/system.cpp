@@ -44,7 +44,7 @@ System::System(const Stone& stone, const std::vector<Reading>& readings, const F
     }
     bring_upright();
     list_incidences(options);
-    bring_outlines_inside();
+    list_known_planes();
     add_extras();
     if (options.prior.source != Prior::Source::none) {
         prior_ = make_prior(options.prior, solid_, up_facet_, half_width(), mesh_shape_);

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "fit/model/known_planes.h"
 #include "fit/model/options.h"
-#include "fit/model/outline_rows.h"
 #include "fit/model/parameters.h"
 #include "fit/model/prior.h"
 #include "fit/model/residuals.h"
@@ -22,11 +22,11 @@ namespace culet {
 struct Equation {
     enum class Role {
         reading,
-        relation,   ///< of symmetry, parallel and coplanar readings
-        incidence,  ///< a plane passes through a meet
-        released,   ///< likewise, held only so far that the meet has a place at all
-        expected,   ///< the prior of the facets (prior.h)
-        outlines    ///< what outlines tell of the planes, all of them together
+        relation,     ///< of symmetry, parallel and coplanar readings
+        incidence,    ///< a plane passes through a meet
+        released,     ///< likewise, held only so far that the meet has a place at all
+        expected,     ///< the prior of the facets (prior.h)
+        known_planes  ///< what outlines or a photograph tell of the planes
     };
     Role role = Role::reading;
     int reading = -1;  ///< index, or -1
@@ -87,7 +87,9 @@ public:
     void set_group_sigma(int group, double sigma) { group_sigmas_[std::size_t(group)] = sigma; }
     bool has_estimated_groups() const;
     bool has_prior() const { return !prior_.empty(); }
-    bool has_outlines() const { return outlines_ != nullptr; }
+    bool has_outlines() const { return has_outlines_; }
+    /// Outlines or photographs.
+    bool has_known_planes() const { return !known_planes_.empty(); }
     const PriorSigmas& prior_sigmas() const { return prior_.sigmas; }
     /// Of a reading from now on, in its unit (robust weights).
     void set_reading_sigma(int reading, double sigma) {
@@ -170,9 +172,11 @@ private:
     void add_extras();
     /// What the facets' prior says (prior.h).
     std::vector<Equation> expected_equations() const;
-    /// What outlines tell of the planes (silhouettes/silhouette_fit.h).
-    std::vector<Equation> silhouette_equations() const;
-    void bring_outlines_inside();
+    /// What outlines and photographs tell of the planes.
+    std::vector<Equation> known_plane_equations() const;
+    std::shared_ptr<const KnownPlanes> inside(const PlaneKnowledge& told,
+                                              const std::array<Vec3, 3>& upright) const;
+    void list_known_planes();
     void pair_facets();
     /// At this shape, what they say is but one thing: facets lean one way, azimuths are less than
     /// half a turn off.
@@ -206,7 +210,8 @@ private:
     std::vector<SymmetryMotion> exact_motions_;
     std::vector<bool> fixed_extras_;
     PriorModel prior_;
-    std::shared_ptr<const OutlineRows> outlines_;  // none: no outlines were taken
+    std::vector<std::shared_ptr<const KnownPlanes>> known_planes_;
+    bool has_outlines_ = false;
     int up_facet_ = -1;
     bool splits_ = false;
     std::array<double, 2> group_sigmas_{};

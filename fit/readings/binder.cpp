@@ -83,6 +83,7 @@ std::vector<Reading> Binder::bind(const WrittenReading& written, const std::stri
         case ReadingKind::mirror:
             return {of_symmetry(base)};
         case ReadingKind::silhouette:
+        case ReadingKind::photograph:
             break;
     }
     fail("unknown kind");

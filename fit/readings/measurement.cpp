@@ -15,10 +15,10 @@ namespace culet {
 
 namespace {
 
-constexpr std::array<const char*, 16> k_kind_names{
-    "inclination", "azimuth",     "dihedral", "distance",  "edge", "width",
-    "depth",       "table_width", "volume",   "weight",    "meet", "parallel",
-    "coplanar",    "rotation",    "mirror",   "silhouette"};
+constexpr std::array<const char*, 17> k_kind_names{
+    "inclination", "azimuth",     "dihedral", "distance",   "edge",      "width",
+    "depth",       "table_width", "volume",   "weight",     "meet",      "parallel",
+    "coplanar",    "rotation",    "mirror",   "silhouette", "photograph"};
 
 WrittenReading reading_of_table(const TomlTable& table) {
     table.refuse_unknown({"kind", "of", "value", "sigma", "exact", "released", "datum", "side",
@@ -68,7 +68,8 @@ std::optional<ReadingKind> reading_kind(std::string_view name) {
 bool is_relation(ReadingKind kind) {
     return kind == ReadingKind::meet || kind == ReadingKind::parallel ||
            kind == ReadingKind::coplanar || kind == ReadingKind::rotation ||
-           kind == ReadingKind::mirror || kind == ReadingKind::silhouette;
+           kind == ReadingKind::mirror || kind == ReadingKind::silhouette ||
+           kind == ReadingKind::photograph;
 }
 
 bool is_angle(ReadingKind kind) {

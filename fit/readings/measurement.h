@@ -32,16 +32,18 @@ enum class ReadingKind {
     rotation,
     mirror,
     silhouette,  ///< outlines: a table of its own, [[silhouette]]
+    photograph,  ///< of the stone in known light: given to culet refine, in no file
 };
 
 struct SilhouetteSet;
 struct OutlineKnowledge;
+struct PlaneKnowledge;
 
 const char* name_of(ReadingKind kind);
 std::optional<ReadingKind> reading_kind(std::string_view name);
 
-/// Says something about the shape (meet, parallel, coplanar, rotation, mirror, silhouette) and has
-/// no value.
+/// Says something about the shape (meet, parallel, coplanar, rotation, mirror, silhouette,
+/// photograph) and has no value.
 bool is_relation(ReadingKind kind);
 /// Its value is an angle: degrees in files, radians when bound.
 bool is_angle(ReadingKind kind);
@@ -127,6 +129,8 @@ struct Reading {
     std::shared_ptr<const SilhouetteSet> outlines;
     int outline_set = 0;
     std::shared_ptr<const OutlineKnowledge> told;
+    /// Photograph: what it tells (readings/plane_knowledge.h).
+    std::shared_ptr<const PlaneKnowledge> photograph;
 };
 
 /// Finds every name on the solid and gives every reading its id. A pattern over single facets makes

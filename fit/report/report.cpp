@@ -93,6 +93,21 @@ void add_silhouette(const SilhouetteFinding& finding, Json& reading) {
     if (finding.held_out) reading["held_out"] = misfit_json(*finding.held_out);
 }
 
+void add_photograph(const PhotographFinding& finding, Json& reading) {
+    reading["rms_before"] = json_number(finding.rms_before);
+    reading["rms"] = json_number(finding.rms);
+    reading["moves_told"] = json_number(finding.moves_told);
+    Json& places = reading["contradictions"] = Json::array();
+    for (const PhotographFinding::Place& place : finding.contradictions) {
+        places.push_back({{"x", json_number(place.x)},
+                          {"y", json_number(place.y)},
+                          {"facet", place.facet},
+                          {"photograph_is", place.brighter ? "brighter" : "darker"},
+                          {"deviations", json_number(place.deviations)},
+                          {"area", json_number(place.area)}});
+    }
+}
+
 Json readings_json(const std::vector<FittedReading>& readings) {
     Json json = Json::array();
     for (const FittedReading& r : readings) {
@@ -111,6 +126,7 @@ Json readings_json(const std::vector<FittedReading>& readings) {
              {"detectable", r.detectable > 0 ? json_number(unit * r.detectable) : Json(nullptr)},
              {"suspect", r.suspect}});
         if (r.silhouette) add_silhouette(*r.silhouette, json.back());
+        if (r.photograph) add_photograph(*r.photograph, json.back());
         if (!r.left_out.empty()) json.back()["left_out"] = r.left_out;
         if (r.rounding > 0) json.back()["rounding"] = json_number(unit * r.rounding);
     }

@@ -7,23 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "fit/readings/plane_knowledge.h"
 #include "fit/silhouettes/silhouette.h"
 #include "stone/stone.h"
 
 namespace culet {
 
-/// What outlines tell of a stone's planes, made linear: for each row, the sum over the facets of
-/// normal . (n - planes.normal) + offset * (d - planes.offset) is zero within one. Motions that
-/// outlines know nothing of, or that the frame of the fit holds, are left out of it. Planes that
-/// the outlines do not tell of are held to the mesh's within degrees and per cents: the rows hold
-/// all of them.
-struct OutlineKnowledge {
-    struct Row {
-        std::vector<Vec3> normal;    ///< of each facet
-        std::vector<double> offset;  ///< of each facet, per length
-    };
-    std::vector<Plane> planes;  ///< in the stone's frame and unit, in the order of its facets
-    std::vector<Row> rows;
+/// What outlines tell of a stone's planes; the rows' values are zero. Motions that outlines know
+/// nothing of, or that the frame of the fit holds, are left out of it. Planes that the outlines do
+/// not tell of are held to the mesh's within degrees and per cents: the rows hold all of them.
+struct OutlineKnowledge : PlaneKnowledge {
     std::vector<FrameMotion> motions;  ///< of the sets, to the stone's frame
     std::vector<double> sigmas;        ///< of the sets, across the outline
     std::vector<bool> estimated;       ///< sigma comes from the residuals

@@ -249,7 +249,7 @@ std::vector<Relaxation::Caliper> Relaxation::calipers_that_tell_the_turn() const
     // Mirrors and rotations of the stone have a place of their own, which would turn with it.
     // The facets' prior tells the turn by itself.
     if (!parameters_.orbits().empty() || !system_.mesh_shape().extras.empty() ||
-        system_.has_prior() || system_.has_outlines()) {
+        system_.has_prior() || system_.has_known_planes()) {
         return result;
     }
     int row = static_cast<int>(incidences_.size());

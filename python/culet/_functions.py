@@ -103,7 +103,7 @@ def scene(
 ) -> Scene:
     """A stone alone, seen face up.
 
-    light: a preset's name (`culet info --lights` lists them) or an instrument's; "": a jeweller's.
+    light: a preset's name (docs/gallery.md shows them) or an instrument's; "": a jeweller's.
     material: in place of the stone's. width_mm: of the narrower side of its outline, for designs
     without a size. overrides: keys of a scene file: ["camera.size=[640,480]"].
     """

@@ -44,7 +44,7 @@ class Grade:
     report: Dict[str, Any] = field(repr=False)
 
     def __getitem__(self, key: str) -> Any:
-        """A figure of the report: grade["light_return"]."""
+        """A figure of the report: grade["weighted_light_return"]."""
         return self.report[key]
 
     def keys(self) -> List[str]:

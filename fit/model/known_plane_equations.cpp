@@ -1,4 +1,4 @@
-// What outlines tell of the planes as equations of the fit.
+// What outlines and photographs tell of the planes as equations of the fit.
 
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -17,7 +17,7 @@ namespace {
 
 // About up, from where the stone was seen to where it stands now: of all normals together, those
 // that look sideways more.
-double turn_about_up(const OutlineRows& seen, const Shape& shape) {
+double turn_about_up(const KnownPlanes& seen, const Shape& shape) {
     double along = 0, across = 0;
     for (std::size_t f = 0; f < seen.normals.size(); ++f) {
         const Vec3 &was = seen.normals[f], &is = shape.normals[f];
@@ -61,9 +61,9 @@ private:
     double turn_size_ = 0;
 };
 
-Formula row_of(const std::shared_ptr<const OutlineRows>& seen, std::size_t k) {
+Formula row_of(const std::shared_ptr<const KnownPlanes>& seen, std::size_t k) {
     return [seen, k](const Shape& shape) {
-        const OutlineRows::Row& row = seen->rows[k];
+        const KnownPlanes::Row& row = seen->rows[k];
         const double turn = seen->turns ? turn_about_up(*seen, shape) : 0;
         const double cosine = std::cos(turn), sine = std::sin(turn);
         Quantity q;
@@ -87,40 +87,51 @@ Formula row_of(const std::shared_ptr<const OutlineRows>& seen, std::size_t k) {
 
 }  // namespace
 
-void System::bring_outlines_inside() {
-    const OutlineKnowledge* told = nullptr;
-    for (const Reading& r : readings_) {
-        if (r.told) told = r.told.get();
-    }
-    if (told == nullptr) return;
-    check(told->planes.size() == solid_.facets.size(), "outlines of another mesh");
+std::shared_ptr<const KnownPlanes> System::inside(const PlaneKnowledge& told,
+                                                  const std::array<Vec3, 3>& upright) const {
+    check(told.planes.size() == solid_.facets.size(), "planes of another mesh");
     const glm::dmat3 turn = turn_about_z(turn_);
-    const auto inside = [&](const Vec3& direction) { return turn * times(upright_, direction); };
-    auto rows = std::make_shared<OutlineRows>();
-    for (const Plane& plane : told->planes) {
-        rows->normals.push_back(inside(plane.normal));
-        rows->offsets.push_back((plane.offset - glm::dot(plane.normal, middle_)) / scale_);
+    const auto inside = [&](const Vec3& direction) { return turn * times(upright, direction); };
+    auto known = std::make_shared<KnownPlanes>();
+    for (const Plane& plane : told.planes) {
+        known->normals.push_back(inside(plane.normal));
+        known->offsets.push_back((plane.offset - glm::dot(plane.normal, middle_)) / scale_);
     }
-    for (const OutlineKnowledge::Row& row : told->rows) {
-        OutlineRows::Row& in = rows->rows.emplace_back();
+    for (const PlaneKnowledge::Row& row : told.rows) {
+        KnownPlanes::Row& in = known->rows.emplace_back();
+        in.value = row.value;
         for (std::size_t f = 0; f < row.normal.size(); ++f) {
             // The offset from the mesh's middle is smaller by normal . middle.
             in.normal.push_back(inside(row.normal[f] + row.offset[f] * middle_));
             in.offset.push_back(row.offset[f] * scale_);
         }
     }
-    rows->turns = !stone_.azimuth_from_mesh;
-    outlines_ = std::move(rows);
+    known->turns = !stone_.azimuth_from_mesh;
+    return known;
 }
 
-std::vector<Equation> System::silhouette_equations() const {
+void System::list_known_planes() {
+    const OutlineKnowledge* outlines = nullptr;  // of all sets together
+    for (const Reading& r : readings_) {
+        if (r.told) outlines = r.told.get();
+        // The stone as it was fitted, which stands straight.
+        if (r.photograph) known_planes_.push_back(inside(*r.photograph, outward_));
+    }
+    if (outlines == nullptr) return;
+    has_outlines_ = true;
+    known_planes_.push_back(inside(*outlines, upright_));
+}
+
+std::vector<Equation> System::known_plane_equations() const {
     std::vector<Equation> all;
-    if (!outlines_) return all;
-    for (std::size_t k = 0; k < outlines_->rows.size(); ++k) {
-        Equation e;
-        e.role = Equation::Role::outlines;
-        e.formula = row_of(outlines_, k);
-        all.push_back(std::move(e));
+    for (const auto& known : known_planes_) {
+        for (std::size_t k = 0; k < known->rows.size(); ++k) {
+            Equation e;
+            e.role = Equation::Role::known_planes;
+            e.value = known->rows[k].value;
+            e.formula = row_of(known, k);
+            all.push_back(std::move(e));
+        }
     }
     return all;
 }

@@ -1,0 +1,114 @@
+#include "compare/calibration/stone_samples.h"
+
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "compare/calibration/cropped_camera.h"
+#include "compare/calibration/photo_blur.h"
+#include "compare/photo/pixels.h"
+#include "compare/photo/resampling.h"
+#include "compare/scores/aligned_pair.h"
+
+namespace culet {
+
+namespace {
+
+constexpr double k_margin = 0.05;  // around the stone, of the diameter
+constexpr double k_nuisance_step = k_moved_by_unit / 2;
+
+}  // namespace
+
+cv::Mat root_light(const cv::Mat& colour, double white) {
+    cv::Mat root = luminance(cv::min(cv::max(colour / white, 0), 1));
+    cv::sqrt(root, root);
+    return root;
+}
+
+cv::Mat exposed(const Photo& picture, const CameraModel& camera) {
+    cv::Mat colour = colour_of(softened(picture, camera.psf_px)).clone();
+    multiply_channels(colour, camera.gain);
+    return colour;
+}
+
+cv::Mat inside_of(const Photo& sketch) {
+    return cv::Mat(sketch.height, sketch.width, CV_32F,
+                   const_cast<float*>(sketch.coverage.data())) > 0.99f;
+}
+
+Scene sampled_scene(const Scene& model) {
+    Scene sampled = model;
+    sampled.camera = cropped_to_stone(model.camera, model.stone.solid, k_samples_across, k_margin);
+    return sampled;
+}
+
+double sample_reduction(const Scene& model) {
+    return k_samples_across / projected_diameter(model.stone.solid, model.camera);
+}
+
+cv::Matx33d model_from_samples(const Scene& model, const Scene& sampled) {
+    const double reduction = sample_reduction(model);
+    const auto from = line_of_sight_in(sampled.camera), to = line_of_sight_in(model.camera);
+    cv::Matx33d result = cv::Matx33d::eye();
+    for (int i = 0; i < 2; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        result(i, i) = 1 / reduction;
+        result(i, 2) = (0.5 - from[k]) / reduction + to[k] - 0.5;
+    }
+    return result;
+}
+
+cv::Mat fine_picture(const Photo& picture, const CameraModel& camera, double psf_px, double blur) {
+    CameraModel lens = camera;
+    lens.psf_px = psf_px;
+    return softened(root_light(exposed(picture, lens), 1), blur);
+}
+
+std::vector<double> samples_of(const cv::Mat& plane, const cv::Mat& mask) {
+    std::vector<double> values;
+    for (int y = 0; y < mask.rows; ++y) {
+        for (int x = 0; x < mask.cols; ++x) {
+            if (mask.at<unsigned char>(y, x)) {
+                values.push_back(static_cast<double>(plane.at<float>(y, x)));
+            }
+        }
+    }
+    return values;
+}
+
+cv::Matx33d squared(const cv::Matx23d& m) {
+    return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), 0, 0, 1};
+}
+
+cv::Matx23d first_rows(const cv::Matx33d& m) {
+    return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2)};
+}
+
+// Derivatives by whole steps of the fine picture: on the samples' own grid they would be a fifth
+// too small where detail is finest, and what is left of a shift would look like tilts.
+std::vector<cv::Mat> nuisances_of(const cv::Mat& fine, const cv::Mat& softer,
+                                  const cv::Matx33d& fine_from_sample, cv::Size size) {
+    const auto moved = [&](double x, double y, double scale, double turn) {
+        const double mx = size.width / 2.0, my = size.height / 2.0;
+        const cv::Matx33d map(1 + scale, -turn, x - scale * mx + turn * my, turn, 1 + scale,
+                              y - scale * my - turn * mx, 0, 0, 1);
+        return resampled(fine, first_rows(fine_from_sample * map), size, Kernel::cubic,
+                         Beyond::nearest);
+    };
+    const double d = k_nuisance_step, around = 2 * k_nuisance_step / k_samples_across;
+    const cv::Mat still = moved(0, 0, 0, 0);
+    const cv::Mat right = moved(d, 0, 0, 0), left = moved(-d, 0, 0, 0), down = moved(0, d, 0, 0),
+                  up = moved(0, -d, 0, 0);
+    return {// Exposure and stray light.
+            still, cv::Mat(size, CV_32F, cv::Scalar(1)),
+            // To first order, registration.
+            right - left, down - up, moved(0, 0, around, 0) - moved(0, 0, -around, 0),
+            moved(0, 0, 0, around) - moved(0, 0, 0, -around),
+            // Blur, of light: through the root it brightens edges on either side.
+            resampled(softer, first_rows(fine_from_sample), size, Kernel::cubic, Beyond::nearest) -
+                still,
+            // Shift to second order.
+            right + left - 2 * still, down + up - 2 * still,
+            moved(d, d, 0, 0) + moved(-d, -d, 0, 0) - moved(d, -d, 0, 0) - moved(-d, d, 0, 0)};
+}
+
+}  // namespace culet

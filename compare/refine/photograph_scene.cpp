@@ -1,0 +1,57 @@
+#include "compare/refine/photograph_scene.h"
+
+#include <algorithm>
+
+#include "compare/calibration/cropped_camera.h"
+#include "compare/pose/find_pose.h"
+#include "compare/registration/frame.h"
+#include "stone/errors.h"
+#include "stone/units.h"
+
+namespace culet {
+
+namespace {
+
+constexpr double k_margin = 0.18;  // around the stone, of the diameter
+constexpr double k_largest = 256;  // pixels across: samples are 192
+// How sure a pose must be, 99 %: refining finds what is left of it.
+constexpr double k_pose_angle = radians(4.0), k_pose_shift = 0.01;
+
+}  // namespace
+
+PhotographScene photograph_scene(const Photo& photo, const std::vector<float>& mask,
+                                 const Scene& scene, bool find, int threads,
+                                 const Progress& progress) {
+    PhotographScene result{scene};
+    const double across = stone_diameter_px(photo, mask);
+    if (find) {
+        PoseOptions options;
+        options.mask = mask;
+        options.threads = threads;
+        options.limits.angle = k_pose_angle;
+        options.limits.shift_px = std::max(1.0, k_pose_shift * across);
+        // Near the scene's camera: turned by more, a stone looks like itself.
+        options.all_turns = options.both_chiralities = false;
+        FoundPose pose = find_pose(photo, scene.stone.solid, scene.camera, options, progress);
+        if (!pose.usable()) {
+            options.all_turns = options.both_chiralities = true;
+            pose = find_pose(photo, scene.stone.solid, scene.camera, options, progress);
+        }
+        if (!pose.usable()) {
+            throw InputError("its pose was not found: " + pose.trouble + ". " + pose.remedy +
+                             " Or give the scene the photograph's camera, and --keep-pose.");
+        }
+        if (pose.mirrored) {
+            throw InputError(
+                "it shows the stone mirrored, by its edges: turn the picture left to right");
+        }
+        result.scene.camera = pose.camera;
+        result.pose_angle = pose.sigmas.angle_99;
+    }
+    const double diameter = across > 0 ? std::min(across, k_largest) : k_largest;
+    result.scene.camera =
+        cropped_to_stone(result.scene.camera, scene.stone.solid, diameter, k_margin);
+    return result;
+}
+
+}  // namespace culet

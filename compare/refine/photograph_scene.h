@@ -1,0 +1,24 @@
+#pragma once
+// The scene as a photograph shows it: its camera where the photograph's stood.
+
+#include <vector>
+
+#include "compare/photo/photo.h"
+#include "render/scene/scene.h"
+#include "stone/progress.h"
+
+namespace culet {
+
+struct PhotographScene {
+    Scene scene;  ///< cut to the stone, at most 256 pixels across
+    /// How sure the pose is, 99 %, radians; 0: it was given.
+    double pose_angle = 0;
+};
+
+/// `find_pose`: the pose is found in the photograph; else the scene's camera stands where it says.
+/// Throws InputError where it cannot be found, or the photograph is mirrored.
+PhotographScene photograph_scene(const Photo& photo, const std::vector<float>& mask,
+                                 const Scene& scene, bool find_pose, int threads,
+                                 const Progress& progress = {});
+
+}  // namespace culet

@@ -1,0 +1,69 @@
+#include "compare/refine/picture_changes.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <opencv2/core.hpp>
+
+#include "compare/calibration/photo_blur.h"
+#include "compare/calibration/stone_samples.h"
+#include "compare/refine/plane_moves.h"
+#include "stone/errors.h"
+#include "stone/units.h"
+
+namespace culet {
+
+const double k_move_step = radians(0.15);
+
+namespace {
+
+constexpr double k_angle_step = radians(0.1);  // of the set-up
+
+cv::Mat sketched(const SketchedStone& stone, const Solid& solid, const SetUp& set_up) {
+    const Photo sketch =
+        *stone.renderer.sketch(set_up_scene(stone.sampled, solid, set_up, stone.middle));
+    cv::Mat root = root_light(exposed(sketch, stone.camera), 1);
+    root.setTo(0, ~stone.inside);
+    return softened(root, stone.blur);
+}
+
+}  // namespace
+
+PictureChanges picture_changes(const SketchedStone& stone, const cv::Mat& mask, int threads,
+                               const Progress& progress) {
+    const std::vector<FacetMoves> facets = moves_of(stone.solid);
+    const std::size_t moves = k_moves_of_a_facet * facets.size(), all = moves + k_set_up_angles;
+    const cv::Mat still = sketched(stone, stone.solid, stone.set_up);
+    PictureChanges changes;
+    changes.slopes.resize(all);
+    changes.bends.resize(all);
+    const auto change = [&](std::size_t k) {
+        cv::Mat either[2];
+        const double step = k < moves ? k_move_step : k_angle_step;
+        for (const int side : {0, 1}) {
+            const double amount = side ? -step : step;
+            if (k < moves) {
+                const std::size_t f = k / k_moves_of_a_facet;
+                const auto moved =
+                    with_plane_moved(stone.solid, f, facets[f], k % k_moves_of_a_facet, amount);
+                either[side] = moved ? sketched(stone, *moved, stone.set_up) : still;
+            } else {
+                SetUp other = stone.set_up;
+                angle_of(other, k - moves) += amount;
+                either[side] = sketched(stone, stone.solid, other);
+            }
+        }
+        changes.slopes[k] = samples_of((either[0] - either[1]) / (2 * step), mask);
+        changes.bends[k] = samples_of(either[0] + either[1] - 2 * still, mask);
+    };
+    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+    const auto batch = std::size_t(4 * arena.max_concurrency());
+    for (std::size_t done = 0; done < all; done += batch) {
+        if (progress && !progress(double(done) / double(all))) throw Interrupted();
+        arena.execute([&] { tbb::parallel_for(done, std::min(all, done + batch), change); });
+    }
+    return changes;
+}
+
+}  // namespace culet

@@ -1,0 +1,40 @@
+#pragma once
+// How the stone's picture changes with the moves of its planes and the angles of its set-up, by
+// sketches a little either way.
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "compare/calibration/draft_renderer.h"
+#include "compare/calibration/simulated_camera.h"
+#include "compare/refine/set_up.h"
+#include "stone/progress.h"
+
+namespace culet {
+
+/// By how much planes are moved either way, radians: changes are straight up to about there, and
+/// smaller ones drown in what a sketch leaves out.
+extern const double k_move_step;
+
+/// What a sketch is made of.
+struct SketchedStone {
+    const DraftRenderer& renderer;
+    const Scene& sampled;  ///< the camera of the samples
+    const Solid& solid;
+    SetUp set_up;
+    Vec3 middle{0};      ///< about which the set-up turns
+    CameraModel camera;  ///< of the samples
+    cv::Mat inside;      ///< CV_8U: what is outside is another's ground
+    double blur = 1;     ///< samples
+};
+
+/// Of the samples under `mask`: for each plane's moves, three a facet, then for each angle of the
+/// set-up, what a unit changes (per radian), and both sketches less twice the one between.
+struct PictureChanges {
+    std::vector<std::vector<double>> slopes, bends;
+};
+/// Throws Interrupted.
+PictureChanges picture_changes(const SketchedStone& stone, const cv::Mat& mask, int threads,
+                               const Progress& progress);
+
+}  // namespace culet

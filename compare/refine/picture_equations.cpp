@@ -1,0 +1,219 @@
+#include "compare/refine/picture_equations.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "stone/upper_median.h"
+
+namespace culet {
+
+namespace {
+
+constexpr double k_huber = 2;        // deviations beyond which a sample counts less
+constexpr int k_rounds = 3;          // of weights and noise: they settle in two
+constexpr double k_rounding = 1e-9;  // of the largest eigenvalue
+// Beyond this the noise is as good as independent. Blurred noise is correlated as
+// exp(-d^2 / 4 blur^2): at 8 by a ten-millionth; what else is correlated reaches farther.
+constexpr double k_reach = 8;  // blurs
+// Of a direction's prior variance over the picture's own: less than that tells nothing.
+constexpr double k_least_told = 0.01;
+// A picture cannot tell more moves than it has independent samples.
+constexpr double k_most_told = 0.75;
+
+double typical(const Eigen::VectorXd& values) {
+    std::vector<double> sizes;
+    for (const double v : values) sizes.push_back(std::abs(v));
+    return sizes.empty() ? 0 : 1.4826 * upper_median(sizes);
+}
+
+cv::Mat as_picture(const Eigen::VectorXd& values, const cv::Mat& mask) {
+    cv::Mat picture = cv::Mat::zeros(mask.size(), CV_32F);
+    Eigen::Index i = 0;
+    for (int y = 0; y < mask.rows; ++y) {
+        for (int x = 0; x < mask.cols; ++x) {
+            if (mask.at<unsigned char>(y, x)) picture.at<float>(y, x) = float(values[i++]);
+        }
+    }
+    return picture;
+}
+
+Eigen::VectorXd as_values(const cv::Mat& picture, const cv::Mat& mask, Eigen::Index samples) {
+    Eigen::VectorXd values(samples);
+    Eigen::Index i = 0;
+    for (int y = 0; y < mask.rows; ++y) {
+        for (int x = 0; x < mask.cols; ++x) {
+            if (mask.at<unsigned char>(y, x)) values[i++] = double(picture.at<float>(y, x));
+        }
+    }
+    return values;
+}
+
+// Weights of pairs of samples by how far apart they are: Bartlett's, so that the sum over all pairs
+// is never negative; over what they leave of blurred white noise, whose pairs are correlated as
+// exp(-d^2 / 4 blur^2).
+cv::Mat pair_weights(int reach, double blur) {
+    cv::Mat weights(2 * reach + 1, 2 * reach + 1, CV_32F);
+    double all = 0, left = 0;
+    for (int y = -reach; y <= reach; ++y) {
+        for (int x = -reach; x <= reach; ++x) {
+            const double weight =
+                (1 - std::abs(y) / (reach + 1.0)) * (1 - std::abs(x) / (reach + 1.0));
+            const double together = std::exp(-(x * x + y * y) / (4 * blur * blur));
+            weights.at<float>(y + reach, x + reach) = float(weight);
+            all += together;
+            left += weight * together;
+        }
+    }
+    return weights * (all / left);
+}
+
+// The same correlation itself.
+cv::Mat blurred_correlation(int reach, double blur) {
+    cv::Mat weights(2 * reach + 1, 2 * reach + 1, CV_32F);
+    for (int y = -reach; y <= reach; ++y) {
+        for (int x = -reach; x <= reach; ++x) {
+            weights.at<float>(y + reach, x + reach) =
+                float(std::exp(-(x * x + y * y) / (4 * blur * blur)));
+        }
+    }
+    return weights;
+}
+
+// Sums over all pairs of samples of the columns' products, each pair with its weight.
+Eigen::MatrixXd pair_sums(const Eigen::MatrixXd& columns, const cv::Mat& mask,
+                          const cv::Mat& weights) {
+    Eigen::MatrixXd near(columns.rows(), columns.cols());
+    for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+        cv::Mat sums;
+        cv::filter2D(as_picture(columns.col(k), mask), sums, CV_32F, weights, cv::Point(-1, -1), 0,
+                     cv::BORDER_CONSTANT);
+        near.col(k) = as_values(sums, mask, columns.rows());
+    }
+    const Eigen::MatrixXd sums = columns.transpose() * near;
+    return (sums + sums.transpose()) / 2;
+}
+
+// Over the noise, and with what the nuisances may explain taken out.
+struct Weighted {
+    Eigen::MatrixXd changes, nuisances;
+    Eigen::VectorXd difference;
+};
+
+Weighted weighted(const PictureEquations& e, const Eigen::VectorXd& weights) {
+    const Eigen::VectorXd scale = weights.cwiseSqrt().cwiseQuotient(e.noise);
+    return {scale.asDiagonal() * e.changes, scale.asDiagonal() * e.nuisances,
+            scale.cwiseProduct(e.difference)};
+}
+
+// Orthonormal directions that span the columns, whatever the columns' units.
+Eigen::MatrixXd span_of(Eigen::MatrixXd columns) {
+    for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+        const double length = columns.col(k).norm();
+        if (length > 0) columns.col(k) /= length;
+    }
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> parts(columns);
+    return parts.householderQ() * Eigen::MatrixXd::Identity(columns.rows(), parts.rank());
+}
+
+// The rows that tell anything beside what was known before, as rows that are independent of each
+// other: directions that the picture hardly sees would add nothing but their noise.
+void keep_what_tells(const Eigen::VectorXd& spread, MovesTold& told) {
+    const Eigen::MatrixXd scaled = told.rows * spread.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(scaled.transpose() * scaled);
+    const Eigen::Index all = spread.size();
+    Eigen::Index first = 0;
+    while (first < all && !(parts.eigenvalues()[first] > k_least_told)) ++first;
+    const Eigen::VectorXd lengths = parts.eigenvalues().tail(all - first).cwiseSqrt();
+    const Eigen::MatrixXd along = parts.eigenvectors().rightCols(all - first).transpose();
+    told.values =
+        lengths.cwiseInverse().asDiagonal() * (along * (scaled.transpose() * told.values));
+    told.rows = lengths.asDiagonal() * along * spread.cwiseInverse().asDiagonal();
+}
+
+}  // namespace
+
+MovesTold moves_told(const PictureEquations& e) {
+    const Eigen::Index samples = e.difference.size();
+    const Eigen::VectorXd prior = e.spread.cwiseAbs2().cwiseInverse();
+    MovesTold told;
+    told.weights = Eigen::VectorXd::Ones(samples);
+    const int reach =
+        std::min(int(std::ceil(k_reach * e.blur)), std::min(e.mask.rows, e.mask.cols) / 3);
+    const cv::Mat weights = pair_weights(reach, e.blur);
+    const cv::Mat correlation = blurred_correlation(reach, e.blur);
+    const Eigen::VectorXd bent = e.bent.cwiseQuotient(e.noise);
+    Eigen::VectorXd moves;
+    for (int round = 0; round < k_rounds; ++round) {
+        const Weighted w = weighted(e, told.weights);
+        const Eigen::MatrixXd open = span_of(w.nuisances);
+        const Eigen::MatrixXd changes = w.changes - open * (open.transpose() * w.changes);
+        const Eigen::VectorXd difference = w.difference - open * (open.transpose() * w.difference);
+        const Eigen::MatrixXd normal = changes.transpose() * changes;
+        const Eigen::VectorXd sums = changes.transpose() * difference;
+        if (round == 0) {
+            // As if the noise were what the blur makes of white noise.
+            const double area = 4 * CV_PI * e.blur * e.blur;
+            const double noise = std::pow(typical(difference), 2) * area;
+            moves =
+                (normal / noise + Eigen::MatrixXd(prior.asDiagonal())).ldlt().solve(sums / noise);
+        }
+        const Eigen::VectorXd residual = difference - changes * moves;
+        const Eigen::MatrixXd covariance =
+            pair_sums(residual.asDiagonal() * changes, e.mask, weights) +
+            pair_sums(bent.asDiagonal() * changes, e.mask, correlation);
+        told.independent =
+            double(samples) * residual.squaredNorm() /
+            std::max(pair_sums(residual, e.mask, weights)(0, 0), residual.squaredNorm());
+
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(covariance);
+        const Eigen::VectorXd floor = Eigen::VectorXd::Constant(
+            covariance.rows(), k_rounding * parts.eigenvalues().maxCoeff());
+        const Eigen::MatrixXd whiten =
+            parts.eigenvalues().cwiseMax(floor).cwiseSqrt().cwiseInverse().asDiagonal() *
+            parts.eigenvectors().transpose();
+        told.rows = whiten * normal;
+        told.values = whiten * sums;
+        const auto solve = [&] {
+            const Eigen::MatrixXd information = told.rows.transpose() * told.rows;
+            const Eigen::LDLT<Eigen::MatrixXd> both(information +
+                                                    Eigen::MatrixXd(prior.asDiagonal()));
+            moves = both.solve(told.rows.transpose() * told.values);
+            told.moves_told = both.solve(information).trace();
+        };
+        solve();
+        // Residuals are smaller than the noise by what the moves have taken up.
+        const double taken = std::min(told.moves_told / told.independent, k_most_told);
+        told.rows *= std::sqrt(1 - taken);
+        told.values *= std::sqrt(1 - taken);
+        solve();
+        // Samples far off, by the noise of one.
+        const Eigen::VectorXd off =
+            (difference - changes * moves).cwiseQuotient(told.weights.cwiseSqrt());
+        told.noise = typical(off);
+        if (round + 1 < k_rounds) {
+            told.weights =
+                (k_huber * told.noise * off.cwiseAbs().cwiseInverse().array()).min(1.0).matrix();
+        }
+    }
+    keep_what_tells(e.spread, told);
+    return told;
+}
+
+Eigen::VectorXd nuisances_beside(const PictureEquations& e, const MovesTold& told,
+                                 const Eigen::VectorXd& moves, const Eigen::VectorXd& spread) {
+    const Weighted w = weighted(e, told.weights);
+    const Eigen::MatrixXd nuisances = w.nuisances.leftCols(spread.size());
+    Eigen::MatrixXd normal = nuisances.transpose() * nuisances;
+    const double noise = told.noise * told.noise * double(e.difference.size()) / told.independent;
+    for (Eigen::Index k = 0; k < spread.size(); ++k) {
+        if (spread[k] > 0) normal(k, k) += noise / (spread[k] * spread[k]);
+    }
+    return normal.completeOrthogonalDecomposition().solve(nuisances.transpose() *
+                                                          (w.difference - w.changes * moves));
+}
+
+}  // namespace culet

@@ -1,0 +1,18 @@
+#pragma once
+// Where two pictures differ by more than is usual between them.
+
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+#include "compare/refine/photograph_evidence.h"
+
+namespace culet {
+
+/// `difference`: CV_32F, photograph less picture. Places are in its samples. Usual is the median
+/// of the differences' sizes.
+EvidenceFit picture_misfit(const cv::Mat& difference, const cv::Mat& mask);
+
+/// The facet that the scene's camera sees at a point of its picture; empty: none.
+std::string facet_seen_at(const Scene& scene, double x, double y);
+
+}  // namespace culet

@@ -1,0 +1,45 @@
+#pragma once
+// The small moves of a convex stone's planes: each facet turned about two axes through its middle,
+// and shifted along its normal.
+
+#include <optional>
+#include <vector>
+
+#include "stone/solid.h"
+
+namespace culet {
+
+constexpr std::size_t k_moves_of_a_facet = 3;
+
+/// Where a facet's moves are counted from. Turns are radians about `u` and `v`; a shift is a length
+/// over `reach`, so that all three change a picture about alike.
+struct FacetMoves {
+    Vec3 middle{0}, u{1, 0, 0}, v{0, 1, 0}, normal{0, 0, 1};
+    double reach = 1;  ///< a quarter of the stone's diameter
+};
+std::vector<FacetMoves> moves_of(const Solid& solid);
+
+/// The facet's plane after one of its moves (0 and 1: turns, 2: the shift).
+Plane moved_plane(const FacetMoves& facet, std::size_t move, double amount);
+
+/// The stone with one plane moved; nothing when the planes enclose none any more.
+std::optional<Solid> with_plane_moved(const Solid& solid, std::size_t facet, const FacetMoves& from,
+                                      std::size_t move, double amount);
+
+/// The moves, to first order, that bring each facet of `from` into the plane of the same name:
+/// three a facet. None for a facet that `to` has not.
+std::vector<double> moves_between(const Solid& from, const Solid& to);
+
+/// Moves, three a facet, of a stone that is shifted along x, y, z, turned about them (through its
+/// middle), or larger: of a unit of each.
+std::vector<std::vector<double>> moves_of_the_whole(const Solid& solid);
+
+/// Slopes of one number by a facet's moves as slopes by its plane: the number changes by
+/// normal . dn + offset * dd.
+struct PlaneSlopes {
+    Vec3 normal{0};
+    double offset = 0;
+};
+PlaneSlopes plane_slopes(const FacetMoves& facet, double by_u, double by_v, double by_shift);
+
+}  // namespace culet

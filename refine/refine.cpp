@@ -1,0 +1,263 @@
+#include "refine/refine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "compare/refine/photograph_evidence.h"
+#include "compare/refine/photograph_scene.h"
+#include "fit/readings/plane_knowledge.h"
+#include "stone/errors.h"
+
+namespace culet {
+
+namespace {
+
+// Facets off by 0.3 degrees move reflexes by one to three hundredths of the diameter: pictures are
+// blurred by as much at first. The last rounds only settle.
+struct Round {
+    double blur;  // in diameters
+    bool sketch_anew;
+};
+constexpr std::array<Round, 10> k_rounds{{{0.03, true},
+                                          {0.03, false},
+                                          {0.02, true},
+                                          {0.02, false},
+                                          {0.012, true},
+                                          {0.012, false},
+                                          {0.008, true},
+                                          {0.008, false},
+                                          {0.008, true},
+                                          {0.008, false}}};
+constexpr double k_poses = 0.15;  // of the progress: their end
+// After a step as much of it may be left to go, as reflexes do not move straight.
+constexpr double k_left_of_a_step = 1;
+constexpr double k_least_spread = radians(0.02), k_most_spread = radians(1);
+
+Progress part_of(const Progress& progress, double from, double to) {
+    if (!progress) return {};
+    return [=, &progress](double done) { return progress(from + (to - from) * done); };
+}
+
+double within_bounds(double sigma) {
+    return std::isfinite(sigma) ? std::clamp(sigma, k_least_spread, k_most_spread) : k_most_spread;
+}
+
+// How far each move may be off yet, by the fit: three a facet of its solid.
+std::vector<double> spreads(const FitResult& fit) {
+    std::vector<double> result;
+    const std::vector<FacetMoves> moves = moves_of(fit.solid);
+    for (std::size_t f = 0; f < fit.solid.facets.size(); ++f) {
+        const auto facet = std::find_if(
+            fit.facets.begin(), fit.facets.end(),
+            [&](const FittedFacet& one) { return one.name == fit.solid.facets[f].name; });
+        if (facet == fit.facets.end()) {
+            result.insert(result.end(), k_moves_of_a_facet, k_most_spread);
+            continue;
+        }
+        // Of a level facet there is no azimuth, and its turns are alike.
+        const double across = std::sin(facet->inclination) * facet->sigma_azimuth;
+        const double turn = std::isfinite(across)
+                                ? std::max(facet->sigma_inclination, std::abs(across))
+                                : facet->sigma_inclination;
+        result.insert(result.end(), 2, within_bounds(turn));
+        result.push_back(within_bounds(facet->sigma_offset / moves[f].reach));
+    }
+    return result;
+}
+
+// The rows are of the fitted solid's facets; the fit asks for the mesh's. Each may be off by
+// `inflation` more than it says.
+PlaneKnowledge knowledge_of(const PlaneEvidence& evidence, const FitResult& fit, double inflation) {
+    PlaneKnowledge knowledge;
+    std::vector<int> there;
+    for (const FittedFacet& facet : fit.facets) {
+        knowledge.planes.push_back(facet.plane);
+        there.push_back(find_facet(fit.solid, facet.name));
+    }
+    for (const PlaneEvidence::Row& row : evidence.rows) {
+        PlaneKnowledge::Row& told = knowledge.rows.emplace_back();
+        told.value = row.value / inflation;
+        for (const int f : there) {
+            const PlaneSlopes slopes = f < 0 ? PlaneSlopes{} : row.facets[std::size_t(f)];
+            told.normal.push_back(slopes.normal / inflation);
+            told.offset.push_back(slopes.offset / inflation);
+        }
+    }
+    return knowledge;
+}
+
+// How far what is known lies from the planes that were fitted, in squares, and how much of it the
+// fit was not free to follow.
+struct Misfit {
+    double squares = 0, redundancy = 0;
+};
+
+Misfit misfit_of(const PlaneKnowledge& known, const FitResult& fit) {
+    Misfit misfit;
+    const std::size_t size = 3 * fit.facets.size();
+    const bool covariance_known = fit.facet_covariance.size() == size * size;
+    const Vec3 middle = centroid(fit.solid);
+    for (const PlaneKnowledge::Row& row : known.rows) {
+        double off = -row.value;
+        std::vector<double> slopes;  // by inclination, azimuth, and the distance from the middle
+        for (std::size_t f = 0; f < fit.facets.size(); ++f) {
+            const Plane &plane = fit.facets[f].plane, &was = known.planes[f];
+            off += glm::dot(row.normal[f], plane.normal - was.normal) +
+                   row.offset[f] * (plane.offset - was.offset);
+            const Vec3& n = plane.normal;
+            const double across = std::hypot(n.x, n.y);
+            const Vec3 by_normal = row.normal[f] + row.offset[f] * middle;
+            const Vec3 level = across > 0 ? Vec3(n.x, n.y, 0) / across : Vec3(1, 0, 0);
+            slopes.push_back(glm::dot(by_normal, n.z * level - Vec3(0, 0, across)));
+            slopes.push_back(across * glm::dot(by_normal, Vec3(-level.y, level.x, 0)));
+            slopes.push_back(row.offset[f]);
+        }
+        double followed = covariance_known ? 0 : 0.5;
+        for (std::size_t i = 0; covariance_known && i < size; ++i) {
+            if (slopes[i] == 0) continue;
+            for (std::size_t j = 0; j < size; ++j) {
+                const double term = slopes[i] * slopes[j] * fit.facet_covariance[i * size + j];
+                if (std::isfinite(term)) followed += term;
+            }
+        }
+        misfit.squares += off * off;
+        misfit.redundancy += std::clamp(1 - followed, 0.0, 1.0);
+    }
+    return misfit;
+}
+
+double root_mean_square(const std::vector<double>& values) {
+    double squares = 0;
+    for (const double v : values) squares += v * v;
+    return std::sqrt(squares / double(std::max<std::size_t>(1, values.size())));
+}
+
+// One photograph and what came of it.
+struct Witness {
+    const RefinePhotograph* given = nullptr;
+    PhotographEvidence evidence;
+    PhotographFinding finding;
+    Reading reading;
+};
+
+Witness witness_of(const RefinePhotograph& given, const Scene& scene, const RefineOptions& options,
+                   const Progress& progress) {
+    try {
+        Scene own = scene;
+        if (given.camera) own.camera = *given.camera;
+        const PhotographScene posed =
+            photograph_scene(given.photo, given.mask, own, options.find_pose && !given.camera,
+                             options.threads, progress);
+        Witness witness{&given,
+                        PhotographEvidence(given.photo, given.mask, posed.scene, options.threads),
+                        {},
+                        {}};
+        witness.finding.rms_before = witness.evidence.fit_of(scene.stone.solid).rms;
+        witness.reading.id = given.name;
+        witness.reading.kind = ReadingKind::photograph;
+        return witness;
+    } catch (const InputError& error) {
+        throw InputError(given.name, error.what());
+    }
+}
+
+void take_misfit(const EvidenceFit& fit, PhotographFinding& finding) {
+    finding.rms = fit.rms;
+    for (const Contradiction& one : fit.contradictions) {
+        finding.contradictions.push_back(
+            {one.x, one.y, one.facet, one.is_brighter, one.deviations, one.area});
+    }
+}
+
+void describe(const std::vector<Witness>& witnesses, FitResult& result) {
+    for (const Witness& witness : witnesses) {
+        const std::string& name = witness.given->name;
+        for (std::string& line : photograph_words(name, witness.finding)) {
+            result.log.notes.push_back(std::move(line));
+        }
+        const auto reading = std::find_if(result.readings.begin(), result.readings.end(),
+                                          [&](const FittedReading& r) { return r.id == name; });
+        if (reading != result.readings.end()) reading->photograph = witness.finding;
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> photograph_words(const std::string& name,
+                                          const PhotographFinding& finding) {
+    std::vector<std::string> lines{fmt::format(
+        "{}: differs from the stone's picture by {:.3f} (root mean square of the root of light), "
+        "by {:.3f} before; it tells {:.0f} of the planes' moves",
+        name, finding.rms, finding.rms_before, finding.moves_told)};
+    for (const PhotographFinding::Place& place : finding.contradictions) {
+        lines.push_back(fmt::format(
+            "{}: at {:.0f}, {:.0f} (facet {}) {}, {:.0f} times what is usual: dust, an inclusion, "
+            "a light that the scene has not, or a facet that is farther off",
+            name, place.x, place.y, place.facet.empty() ? "none" : place.facet,
+            place.brighter ? "it shows a flash that the stone does not give"
+                           : "the stone gives a flash that it does not show",
+            place.deviations));
+    }
+    return lines;
+}
+
+RefineResult refine(const FitInput& input, const std::vector<RefinePhotograph>& photographs,
+                    const Scene& given, const RefineOptions& options, const Progress& progress) {
+    RefineResult result;
+    result.before = fit_stone(input, options.fit);
+    Scene scene = given;
+    scene.stone.solid = result.before.solid;
+    std::vector<Witness> witnesses;
+    const double each = k_poses / double(photographs.size());
+    for (std::size_t i = 0; i < photographs.size(); ++i) {
+        witnesses.push_back(witness_of(photographs[i], scene, options,
+                                       part_of(progress, each * double(i), each * double(i + 1))));
+    }
+
+    result.after = result.before;
+    const auto sketched = std::count_if(k_rounds.begin(), k_rounds.end(),
+                                        [](const Round& round) { return round.sketch_anew; });
+    const double share = (1 - k_poses) / double(std::size_t(sketched) * witnesses.size());
+    double done = k_poses, inflation = 1, step = 0;
+    for (const Round& round : k_rounds) {
+        std::vector<double> spread = spreads(result.after);
+        for (double& s : spread) s = std::max(s, k_left_of_a_step * step);
+        FitInput all = input;
+        for (Witness& witness : witnesses) {
+            const PlaneEvidence evidence =
+                witness.evidence.measure(result.after.solid, spread, round.blur, round.sketch_anew,
+                                         part_of(progress, done, done + share));
+            if (round.sketch_anew) done += share;
+            witness.finding.moves_told = evidence.moves_told;
+            witness.reading.photograph = std::make_shared<const PlaneKnowledge>(
+                knowledge_of(evidence, result.after, inflation));
+            all.readings.push_back(witness.reading);
+        }
+        FitOptions fit = options.fit;
+        fit.start = result.after.solid;
+        const Solid before = std::move(result.after.solid);
+        result.after = fit_stone(all, fit);
+        step = root_mean_square(moves_between(before, result.after.solid));
+        Misfit misfit;
+        for (Witness& witness : witnesses) {
+            witness.evidence.settle(result.after.solid);
+            const Misfit own = misfit_of(*witness.reading.photograph, result.after);
+            misfit.squares += own.squares;
+            misfit.redundancy += own.redundancy;
+        }
+        // Of the next round, as the photographs and the readings contradict each other in this one.
+        if (misfit.redundancy > 0)
+            inflation = std::max(1.0, inflation * std::sqrt(misfit.squares / misfit.redundancy));
+    }
+    for (Witness& witness : witnesses) {
+        take_misfit(witness.evidence.fit_of(result.after.solid), witness.finding);
+    }
+    describe(witnesses, result.after);
+    return result;
+}
+
+}  // namespace culet

@@ -1,0 +1,76 @@
+// What is known of planes from elsewhere (a photograph) in the fit of a stone.
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "fit/fit.h"
+#include "fit/readings/plane_knowledge.h"
+#include "tests/fit/test_stones.h"
+
+namespace culet {
+namespace {
+
+constexpr double k_sigma = 1e-4;
+
+// Of a cube with edges of 2: how far the normal of X+ leans up, and how far X- lies out.
+Reading photograph(const Solid& solid, double lean, double out) {
+    auto known = std::make_shared<PlaneKnowledge>();
+    for (const Facet& facet : solid.facets) known->planes.push_back(facet.plane);
+    const std::size_t facets = solid.facets.size();
+    const auto row = [&](const char* name, const Vec3& normal, double offset, double value) {
+        PlaneKnowledge::Row one{std::vector<Vec3>(facets, Vec3(0)), std::vector<double>(facets, 0),
+                                value / k_sigma};
+        const auto f = std::size_t(find_facet(solid, name));
+        one.normal[f] = normal / k_sigma;
+        one.offset[f] = offset / k_sigma;
+        return one;
+    };
+    known->rows.push_back(row("X+", {0, 0, 1}, 0, lean));
+    // Blind to shifts along x, as what is known from pictures is.
+    known->rows.push_back(row("X-", {0, 0, 0}, 1, out));
+    known->rows.back().offset[std::size_t(find_facet(solid, "X+"))] = 1 / k_sigma;
+    Reading reading;
+    reading.id = "photo";
+    reading.kind = ReadingKind::photograph;
+    reading.photograph = known;
+    return reading;
+}
+
+Reading caliper(ReadingKind kind, const Vec3& direction) {
+    Reading reading;
+    reading.kind = kind;
+    reading.id = kind == ReadingKind::depth ? "depth" : direction.x > 0 ? "x" : "y";
+    reading.direction = direction;
+    reading.has_direction = kind == ReadingKind::width;
+    reading.value = 2;
+    reading.sigma = 0.01;
+    return reading;
+}
+
+// Least squares of readings that know a hundredth as much: the planes are where the rows say, and
+// everything else where the mesh has it.
+TEST(KnownPlanes, move_the_fit) {
+    const Stone stone = test::stone_of(test::cube());
+    const double lean = 0.02, out = 0.01;
+    FitOptions options;
+    options.prior.source = Prior::Source::mesh;
+    const FitResult fit =
+        fit_stone(stone,
+                  {caliper(ReadingKind::width, {0, 1, 0}), caliper(ReadingKind::depth, {}),
+                   photograph(stone.solid, lean, out)},
+                  options);
+    EXPECT_EQ(fit.status, FitStatus::converged) << fit.message;
+    const auto plane = [&](const char* name) {
+        return fit.solid.facets[std::size_t(find_facet(fit.solid, name))].plane;
+    };
+    EXPECT_NEAR(plane("X+").normal.z, lean, 3 * k_sigma);
+    EXPECT_NEAR(plane("X+").offset + plane("X-").offset, 2 + out, 3 * k_sigma);
+    EXPECT_NEAR(plane("Y+").normal.z, 0, 3 * k_sigma);
+    const FittedFacet& leaning = fit.facets[std::size_t(find_facet(stone.solid, "X+"))];
+    EXPECT_NEAR(leaning.sigma_inclination, k_sigma, 0.05 * k_sigma);
+    EXPECT_EQ(fit.readings.back().kind, ReadingKind::photograph);
+}
+
+}  // namespace
+}  // namespace culet
