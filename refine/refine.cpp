@@ -9,7 +9,7 @@
 
 #include "compare/refine/photograph_evidence.h"
 #include "compare/refine/photograph_scene.h"
-#include "fit/readings/plane_knowledge.h"
+#include "fit/planes/plane_knowledge.h"
 #include "stone/errors.h"
 
 namespace culet {

@@ -7,7 +7,7 @@
 
 namespace culet {
 
-/// As PlaneKnowledge (readings/plane_knowledge.h): for each row, the sum over all facets of
+/// As PlaneKnowledge (planes/plane_knowledge.h): for each row, the sum over all facets of
 /// normal . (n - normals) + offset * (d - offsets) is `value` within one, where n is turned back
 /// about up to stand as the stone did when it was seen.
 struct KnownPlanes {

@@ -129,7 +129,7 @@ struct Reading {
     std::shared_ptr<const SilhouetteSet> outlines;
     int outline_set = 0;
     std::shared_ptr<const OutlineKnowledge> told;
-    /// Photograph: what it tells (readings/plane_knowledge.h).
+    /// Photograph: what it tells (planes/plane_knowledge.h).
     std::shared_ptr<const PlaneKnowledge> photograph;
 };
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "fit/readings/plane_knowledge.h"
+#include "fit/planes/plane_knowledge.h"
 #include "fit/silhouettes/silhouette.h"
 #include "stone/stone.h"
 

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -63,7 +65,7 @@ void write_stone(const fs::path& folder, const Solid& read) {
     write(folder / "readings.csv", csv);
     write(folder / "stone.toml",
           "[stone]\nname = \"step cut\"\nmesh = \"read.obj\"\nunit = \"mm\"\nup = [0, 0, 1]\n"
-          "readings = \"readings.csv\"\n[material]\nname = \"glass_bk7\"\n"
+          "readings = \"readings.csv\"\nmaterial = \"glass_bk7\"\n"
           "[fit]\nmeets = \"released\"\n");
 }
 
@@ -77,23 +79,25 @@ std::string scene_of(const std::string& stone) {
            "[render]\ntolerance = 0.02\n";
 }
 
-// Root mean square angle between facets of the same name, degrees, after the turn about z that
-// suits all of them best: nothing in the stone file says what azimuths count from.
+// Root mean square angle between facets of the same name, degrees, after the turn that suits all of
+// them best: photographs do not tell how the stone as a whole stands.
 double rms_deg(const Solid& solid, const Solid& truth) {
-    double along = 0, across = 0;
+    glm::dmat3 sum(0.0);
+    Vec3 turned(0);
+    const auto normal_in = [](const Solid& stone, const std::string& name) {
+        return stone.facets[std::size_t(find_facet(stone, name))].plane.normal;
+    };
     for (const Facet& facet : truth.facets) {
-        const Vec3 &n = facet.plane.normal,
-                   &is = solid.facets[std::size_t(find_facet(solid, facet.name))].plane.normal;
-        along += is.x * n.x + is.y * n.y;
-        across += is.x * n.y - is.y * n.x;
+        const Vec3& n = facet.plane.normal;
+        sum += glm::dmat3(1.0) - glm::outerProduct(n, n);
+        turned += glm::cross(n, normal_in(solid, facet.name));
     }
-    const double turn = std::atan2(across, along);
+    const Vec3 turn = glm::inverse(sum) * turned;
     double squares = 0;
     for (const Facet& facet : truth.facets) {
-        const Vec3& is = solid.facets[std::size_t(find_facet(solid, facet.name))].plane.normal;
-        const Vec3 turned{std::cos(turn) * is.x - std::sin(turn) * is.y,
-                          std::sin(turn) * is.x + std::cos(turn) * is.y, is.z};
-        squares += std::pow(degrees(glm::length(turned - facet.plane.normal)), 2);
+        const Vec3& n = facet.plane.normal;
+        const Vec3 off = normal_in(solid, facet.name) - n - glm::cross(turn, n);
+        squares += std::pow(degrees(glm::length(off)), 2);
     }
     return std::sqrt(squares / double(truth.facets.size()));
 }
@@ -106,8 +110,8 @@ protected:
         write_stone(folder(), read_);
         write_solid(truth_, folder() / "true.obj");
         write(folder() / "true.toml",
-              "[stone]\nmesh = \"true.obj\"\nunit = \"mm\"\nup = [0, 0, 1]\n[material]\n"
-              "name = \"glass_bk7\"\n");
+              "[stone]\nmesh = \"true.obj\"\nunit = \"mm\"\nup = [0, 0, 1]\n"
+              "material = \"glass_bk7\"\n");
         write(folder() / "true-scene.toml", scene_of("true.toml"));
         write(folder() / "scene.toml", scene_of("stone.toml"));
     }

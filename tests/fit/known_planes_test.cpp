@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "fit/fit.h"
-#include "fit/readings/plane_knowledge.h"
+#include "fit/planes/plane_knowledge.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {
