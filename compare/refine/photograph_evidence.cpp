@@ -71,6 +71,7 @@ PhotographEvidence::Parts::Parts(const Photo& photo, const std::vector<float>& m
       threads(n),
       middle(centroid(given.stone.solid)),
       renderer(given, k_tolerance) {
+    if (!is_convex(given.stone.solid)) throw InputError("only convex stones are refined");
     const auto first = renderer.sketch(sampled);
     if (!first) {
         throw InputError(

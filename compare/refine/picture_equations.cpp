@@ -19,6 +19,8 @@ constexpr double k_rounding = 1e-9;  // of the largest eigenvalue
 // Beyond this the noise is as good as independent. Blurred noise is correlated as
 // exp(-d^2 / 4 blur^2): at 8 by a ten-millionth; what else is correlated reaches farther.
 constexpr double k_reach = 8;  // blurs
+// Of a sample's `noise`: nothing is known better, not even of two pictures that are equal.
+constexpr double k_noise_floor = 0.1;
 // Of a direction's prior variance over the picture's own: less than that tells nothing.
 constexpr double k_least_told = 0.01;
 // A picture cannot tell more moves than it has independent samples.
@@ -146,6 +148,8 @@ MovesTold moves_told(const PictureEquations& e) {
     const cv::Mat weights = pair_weights(reach, e.blur);
     const cv::Mat correlation = blurred_correlation(reach, e.blur);
     const Eigen::VectorXd bent = e.bent.cwiseQuotient(e.noise);
+    // Of blurred white noise of variance 1, as many samples tell no more than one.
+    const double area = 4 * CV_PI * e.blur * e.blur;
     Eigen::VectorXd moves;
     for (int round = 0; round < k_rounds; ++round) {
         const Weighted w = weighted(e, told.weights);
@@ -155,19 +159,20 @@ MovesTold moves_told(const PictureEquations& e) {
         const Eigen::MatrixXd normal = changes.transpose() * changes;
         const Eigen::VectorXd sums = changes.transpose() * difference;
         if (round == 0) {
-            // As if the noise were what the blur makes of white noise.
-            const double area = 4 * CV_PI * e.blur * e.blur;
-            const double noise = std::pow(typical(difference), 2) * area;
+            const double noise = std::pow(std::max(typical(difference), k_noise_floor), 2) * area;
             moves =
                 (normal / noise + Eigen::MatrixXd(prior.asDiagonal())).ldlt().solve(sums / noise);
         }
         const Eigen::VectorXd residual = difference - changes * moves;
         const Eigen::MatrixXd covariance =
             pair_sums(residual.asDiagonal() * changes, e.mask, weights) +
-            pair_sums(bent.asDiagonal() * changes, e.mask, correlation);
-        told.independent =
-            double(samples) * residual.squaredNorm() /
-            std::max(pair_sums(residual, e.mask, weights)(0, 0), residual.squaredNorm());
+            pair_sums(bent.asDiagonal() * changes, e.mask, correlation) +
+            k_noise_floor * k_noise_floor * area * normal;
+        const double squares = residual.squaredNorm();
+        told.independent = squares > 0
+                               ? double(samples) * squares /
+                                     std::max(pair_sums(residual, e.mask, weights)(0, 0), squares)
+                               : double(samples) / area;
 
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(covariance);
         const Eigen::VectorXd floor = Eigen::VectorXd::Constant(
@@ -193,10 +198,12 @@ MovesTold moves_told(const PictureEquations& e) {
         // Samples far off, by the noise of one.
         const Eigen::VectorXd off =
             (difference - changes * moves).cwiseQuotient(told.weights.cwiseSqrt());
-        told.noise = typical(off);
+        told.noise = std::max(typical(off), k_noise_floor);
         if (round + 1 < k_rounds) {
-            told.weights =
-                (k_huber * told.noise * off.cwiseAbs().cwiseInverse().array()).min(1.0).matrix();
+            told.weights = (k_huber * told.noise *
+                            off.cwiseAbs().cwiseMax(k_noise_floor).cwiseInverse().array())
+                               .min(1.0)
+                               .matrix();
         }
     }
     keep_what_tells(e.spread, told);

@@ -90,6 +90,18 @@ TEST(PictureEquations, are_blind_to_nuisances) {
     EXPECT_NEAR(amounts[1], 3, 0.3);
 }
 
+// Of pictures that are equal, sigma is that of the least noise and the moves are none.
+TEST(PictureEquations, of_equal_pictures_are_finite) {
+    Chance chance(11);
+    PictureEquations e = equations(chance);
+    e.difference = Eigen::VectorXd::Zero(k_size * k_size);
+    const MovesTold told = moves_told(e);
+    EXPECT_TRUE(told.rows.allFinite());
+    EXPECT_LT(solved(told).norm(), 1e-12);
+    EXPECT_TRUE(
+        nuisances_beside(e, told, Eigen::VectorXd::Zero(8), Eigen::VectorXd::Zero(2)).allFinite());
+}
+
 // A move that changes nothing is not told.
 TEST(PictureEquations, tell_nothing_of_what_does_not_show) {
     Chance chance(7);
