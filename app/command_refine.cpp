@@ -28,18 +28,31 @@ namespace fs = std::filesystem;
 struct RefineArguments {
     CommonOptions common;
     std::vector<std::string> files;  ///< the stone, its photographs, the scene
+    std::vector<std::string> masks;
     std::string output, report;
     bool keep_pose = false;
 };
 
 std::vector<RefinePhotograph> photographs_of(const RefineArguments& a) {
+    const std::size_t count = a.files.size() - 2;
+    if (!a.masks.empty() && a.masks.size() != count) {
+        throw InputError(
+            fmt::format("--mask is given {} times for {} photographs: give one for "
+                        "each, in their order",
+                        a.masks.size(), count));
+    }
     std::vector<RefinePhotograph> photographs;
     std::set<std::string> names;
     for (std::size_t i = 1; i + 1 < a.files.size(); ++i) {
         std::string name = fs::path(a.files[i]).filename().string();
         // Of two folders, say.
         while (!names.insert(name).second) name += "'";
-        photographs.push_back({name, read_photo(a.files[i]), {}});
+        RefinePhotograph& photograph = photographs.emplace_back();
+        photograph.name = name;
+        photograph.photo = read_photo(a.files[i]);
+        if (a.masks.empty()) continue;
+        photograph.mask =
+            read_mask(a.masks[i - 1], photograph.photo.width, photograph.photo.height);
     }
     return photographs;
 }
@@ -119,6 +132,12 @@ void add_command_refine(CLI::App& program, int& exit_code) {
         ->add_option("--report,--json", arguments->report,
                      "report of the fit, with the photographs among its readings (- is stdout)")
         ->type_name("FIT.json");
+    command
+        ->add_option("--mask", arguments->masks,
+                     "picture of a photograph's size, white where the stone is; one for each "
+                     "photograph, in their order")
+        ->type_name("MASK")
+        ->allow_extra_args(false);
     command->add_flag("--keep-pose", arguments->keep_pose,
                       "the scene's camera is that of every photograph: no pose is looked for");
     add_common(*command, arguments->common, false);

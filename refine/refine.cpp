@@ -46,6 +46,16 @@ double within_bounds(double sigma) {
     return std::isfinite(sigma) ? std::clamp(sigma, k_least_spread, k_most_spread) : k_most_spread;
 }
 
+// The photograph's name before what is wrong with it.
+template <class Work>
+auto of_photograph(const std::string& name, const Work& work) {
+    try {
+        return work();
+    } catch (const InputError& error) {
+        throw InputError(name, error.what());
+    }
+}
+
 // How far each move may be off yet, by the fit: three a facet of its solid.
 std::vector<double> spreads(const FitResult& fit) {
     std::vector<double> result;
@@ -146,7 +156,7 @@ struct Witness {
 
 Witness witness_of(const RefinePhotograph& given, const Scene& scene, const RefineOptions& options,
                    const Progress& progress) {
-    try {
+    return of_photograph(given.name, [&] {
         Scene own = scene;
         if (given.camera) own.camera = *given.camera;
         const PhotographScene posed =
@@ -160,9 +170,7 @@ Witness witness_of(const RefinePhotograph& given, const Scene& scene, const Refi
         witness.reading.id = given.name;
         witness.reading.kind = ReadingKind::photograph;
         return witness;
-    } catch (const InputError& error) {
-        throw InputError(given.name, error.what());
-    }
+    });
 }
 
 void take_misfit(const EvidenceFit& fit, PhotographFinding& finding) {
@@ -228,9 +236,11 @@ RefineResult refine(const FitInput& input, const std::vector<RefinePhotograph>& 
         for (double& s : spread) s = std::max(s, k_left_of_a_step * step);
         FitInput all = input;
         for (Witness& witness : witnesses) {
-            const PlaneEvidence evidence =
-                witness.evidence.measure(result.after.solid, spread, round.blur, round.sketch_anew,
-                                         part_of(progress, done, done + share));
+            const PlaneEvidence evidence = of_photograph(witness.given->name, [&] {
+                return witness.evidence.measure(result.after.solid, spread, round.blur,
+                                                round.sketch_anew,
+                                                part_of(progress, done, done + share));
+            });
             if (round.sketch_anew) done += share;
             witness.finding.moves_told = evidence.moves_told;
             witness.reading.photograph = std::make_shared<const PlaneKnowledge>(

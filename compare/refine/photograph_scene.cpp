@@ -38,8 +38,10 @@ PhotographScene photograph_scene(const Photo& photo, const std::vector<float>& m
             pose = find_pose(photo, scene.stone.solid, scene.camera, options, progress);
         }
         if (!pose.usable()) {
-            throw InputError("its pose was not found: " + pose.trouble + ". " + pose.remedy +
-                             " Or give the scene the photograph's camera, and --keep-pose.");
+            throw InputError("its pose was not found: " + pose.trouble +
+                             ". What to do: culet register finds the pose and takes options; give "
+                             "the scene its camera, and refine --keep-pose. " +
+                             pose.remedy);
         }
         if (pose.mirrored) {
             throw InputError(
