@@ -11,6 +11,7 @@
 #include "compare/refine/photograph_scene.h"
 #include "fit/planes/plane_knowledge.h"
 #include "stone/errors.h"
+#include "stone/part_of_progress.h"
 
 namespace culet {
 
@@ -33,14 +34,7 @@ constexpr std::array<Round, 10> k_rounds{{{0.03, true},
                                           {0.008, true},
                                           {0.008, false}}};
 constexpr double k_poses = 0.15;  // of the progress: their end
-// After a step as much of it may be left to go, as reflexes do not move straight.
-constexpr double k_left_of_a_step = 1;
 constexpr double k_least_spread = radians(0.02), k_most_spread = radians(1);
-
-Progress part_of(const Progress& progress, double from, double to) {
-    if (!progress) return {};
-    return [=, &progress](double done) { return progress(from + (to - from) * done); };
-}
 
 double within_bounds(double sigma) {
     return std::isfinite(sigma) ? std::clamp(sigma, k_least_spread, k_most_spread) : k_most_spread;
@@ -159,13 +153,11 @@ Witness witness_of(const RefinePhotograph& given, const Scene& scene, const Refi
     return of_photograph(given.name, [&] {
         Scene own = scene;
         if (given.camera) own.camera = *given.camera;
-        const PhotographScene posed =
+        const Scene posed =
             photograph_scene(given.photo, given.mask, own, options.find_pose && !given.camera,
                              options.threads, progress);
-        Witness witness{&given,
-                        PhotographEvidence(given.photo, given.mask, posed.scene, options.threads),
-                        {},
-                        {}};
+        Witness witness{
+            &given, PhotographEvidence(given.photo, given.mask, posed, options.threads), {}, {}};
         witness.finding.rms_before = witness.evidence.fit_of(scene.stone.solid).rms;
         witness.reading.id = given.name;
         witness.reading.kind = ReadingKind::photograph;
@@ -233,7 +225,8 @@ RefineResult refine(const FitInput& input, const std::vector<RefinePhotograph>& 
     double done = k_poses, inflation = 1, step = 0;
     for (const Round& round : k_rounds) {
         std::vector<double> spread = spreads(result.after);
-        for (double& s : spread) s = std::max(s, k_left_of_a_step * step);
+        // After a step as much may be left to go, as reflexes do not move straight.
+        for (double& s : spread) s = std::max(s, step);
         FitInput all = input;
         for (Witness& witness : witnesses) {
             const PlaneEvidence evidence = of_photograph(witness.given->name, [&] {

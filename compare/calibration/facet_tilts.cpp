@@ -19,8 +19,6 @@ namespace culet {
 
 namespace {
 
-constexpr double k_inside = 0.025;  // of the outline, where blurs would bring in the ground
-constexpr double k_softer = 1.4;    // times the photograph's own blur
 // Of the angles by which facets are tilted. Changes are straight in the tilts up to about there;
 // smaller ones drown in what a sketch leaves out.
 constexpr double k_step_deg = 0.15;
@@ -121,17 +119,11 @@ FacetTilts::FacetTilts(const Scene& model, const DraftRenderer& renderer, const 
 
 std::optional<double> FacetTilts::facet_error_deg(const AlignedPair& pair) const {
     if (!usable() || !pair.enough()) return std::nullopt;
-    const Frame& frame = pair.frame;
     const MatchedPictures& pictures = pair.pictures;
     const cv::Mat seen =
         softened(root_light(pictures.photo, pictures.white), k_sample_blur * pictures.diameter);
-    const double scale = frame.photo.scale;
-    const cv::Matx33d close_up_from_photo(scale, 0, scale * (0.5 - frame.photo.corner.x) - 0.5, 0,
-                                          scale, scale * (0.5 - frame.photo.corner.y) - 0.5, 0, 0,
-                                          1);
-    const cv::Matx33d photo_from_model = squared(matrix_of(frame.render_from_photo)).inv();
     const cv::Matx23d close_up_from_sample =
-        first_rows(close_up_from_photo * photo_from_model * model_from_sample_);
+        first_rows(close_up_from_model(pair.frame) * model_from_sample_);
     cv::Mat difference =
         resampled(seen, close_up_from_sample, mask_.size(), Kernel::cubic, Beyond::nearest) -
         picture_;

@@ -20,6 +20,7 @@
 #include "render/uncertainty/picture_uncertainty.h"
 #include "stone/checks.h"
 #include "stone/errors.h"
+#include "stone/part_of_progress.h"
 #include "stone/units.h"
 
 namespace culet {
@@ -42,11 +43,6 @@ constexpr double k_pose_angle = radians(2.0), k_pose_shift = 0.005;
 
 // What a pose is off by less than this costs the scores nothing that shows.
 constexpr double k_worth_saying = radians(0.1);
-
-Progress part_of(const Progress& progress, double from, double to) {
-    if (!progress) return {};
-    return [=, &progress](double fraction) { return progress(from + (to - from) * fraction); };
-}
 
 template <class Value>
 void flip_rows(std::vector<Value>& values, int width, std::size_t channels) {

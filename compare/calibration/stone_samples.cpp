@@ -57,6 +57,14 @@ cv::Matx33d model_from_samples(const Scene& model, const Scene& sampled) {
     return result;
 }
 
+cv::Matx33d close_up_from_model(const Frame& frame) {
+    const double scale = frame.photo.scale;
+    const cv::Matx33d close_up_from_photo(scale, 0, scale * (0.5 - frame.photo.corner.x) - 0.5, 0,
+                                          scale, scale * (0.5 - frame.photo.corner.y) - 0.5, 0, 0,
+                                          1);
+    return close_up_from_photo * squared(matrix_of(frame.render_from_photo)).inv();
+}
+
 cv::Mat fine_picture(const Photo& picture, const CameraModel& camera, double psf_px, double blur) {
     CameraModel lens = camera;
     lens.psf_px = psf_px;

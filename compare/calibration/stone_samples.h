@@ -7,11 +7,14 @@
 
 #include "compare/calibration/draft_renderer.h"
 #include "compare/calibration/simulated_camera.h"
+#include "compare/registration/frame.h"
 
 namespace culet {
 
 constexpr double k_samples_across = 192;  // of the stone's diameter
 constexpr double k_sample_blur = 0.008;   // of the diameter
+constexpr double k_softer = 1.4;          // a softer lens: times the photograph's own blur
+constexpr double k_inside = 0.025;        // least distance from the outline, of the diameter
 
 /// Root of luminance, each colour clipped at white.
 cv::Mat root_light(const cv::Mat& colour, double white);
@@ -28,6 +31,9 @@ Scene sampled_scene(const Scene& model);
 double sample_reduction(const Scene& model);
 /// Pixels of the model's camera from samples; centres at whole numbers.
 cv::Matx33d model_from_samples(const Scene& model, const Scene& sampled);
+
+/// Pixels of a photograph's close-up from those of the model, as they were aligned.
+cv::Matx33d close_up_from_model(const Frame& frame);
 
 /// A model's picture through a lens of `psf_px` and blurred by `blur` (pixels), as fine as it is
 /// drawn.

@@ -23,9 +23,7 @@ namespace {
 
 constexpr double k_tolerance = 0.02;      // of the pictures that are held against the photograph
 constexpr double k_least_noise = 0.003;   // of the root of light
-constexpr double k_softer = 1.4;          // times the photograph's own blur
 constexpr double k_least_sharper = 0.25;  // the square of a blur goes no farther at once
-constexpr double k_inside = 0.025;        // least distance from the outline, of the diameter
 constexpr double k_inside_blurs = 2;      // likewise, in blurs: the ground is another one
 // How far a set-up goes in one step: found poses are 0.2 degrees off in the median.
 constexpr double k_angle_spread = radians(0.5);
@@ -90,12 +88,7 @@ PhotographEvidence::Parts::Parts(const Photo& photo, const std::vector<float>& m
     photo_diameter = pictures.diameter;
     reduction = sample_reduction(scene);
     model_from_sample = model_from_samples(scene, sampled);
-    const double scale = frame.photo.scale;
-    const cv::Matx33d close_up_from_photo(scale, 0, scale * (0.5 - frame.photo.corner.x) - 0.5, 0,
-                                          scale, scale * (0.5 - frame.photo.corner.y) - 0.5, 0, 0,
-                                          1);
-    close_up_from_sample =
-        close_up_from_photo * squared(matrix_of(frame.render_from_photo)).inv() * model_from_sample;
+    close_up_from_sample = close_up_from_model(frame) * model_from_sample;
     cv::distanceTransform(inside_of(*first), outline_distance, cv::DIST_L2, cv::DIST_MASK_PRECISE,
                           CV_32F);
 }
@@ -193,7 +186,6 @@ PlaneEvidence PhotographEvidence::measure(const Solid& solid, const std::vector<
 
     PlaneEvidence evidence;
     evidence.moves_told = p.told.moves_told;
-    evidence.independent = p.told.independent;
     for (Eigen::Index r = 0; r < p.told.rows.rows(); ++r) {
         PlaneEvidence::Row& row = evidence.rows.emplace_back();
         row.value = p.told.values[r];

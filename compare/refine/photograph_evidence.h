@@ -22,8 +22,7 @@ struct PlaneEvidence {
         double value = 0;
     };
     std::vector<Row> rows;
-    double moves_told = 0;   ///< of three a facet, how many the photograph tells
-    double independent = 0;  ///< samples that are independent of each other
+    double moves_told = 0;  ///< of three a facet, how many the photograph tells
 };
 
 /// Where the photograph shows what the stone does not.

@@ -19,10 +19,9 @@ constexpr double k_pose_angle = radians(4.0), k_pose_shift = 0.01;
 
 }  // namespace
 
-PhotographScene photograph_scene(const Photo& photo, const std::vector<float>& mask,
-                                 const Scene& scene, bool find, int threads,
-                                 const Progress& progress) {
-    PhotographScene result{scene};
+Scene photograph_scene(const Photo& photo, const std::vector<float>& mask, const Scene& scene,
+                       bool find, int threads, const Progress& progress) {
+    Scene result = scene;
     const double across = stone_diameter_px(photo, mask);
     if (find) {
         PoseOptions options;
@@ -47,12 +46,10 @@ PhotographScene photograph_scene(const Photo& photo, const std::vector<float>& m
             throw InputError(
                 "it shows the stone mirrored, by its edges: turn the picture left to right");
         }
-        result.scene.camera = pose.camera;
-        result.pose_angle = pose.sigmas.angle_99;
+        result.camera = pose.camera;
     }
     const double diameter = across > 0 ? std::min(across, k_largest) : k_largest;
-    result.scene.camera =
-        cropped_to_stone(result.scene.camera, scene.stone.solid, diameter, k_margin);
+    result.camera = cropped_to_stone(result.camera, scene.stone.solid, diameter, k_margin);
     return result;
 }
 

@@ -9,16 +9,10 @@
 
 namespace culet {
 
-struct PhotographScene {
-    Scene scene;  ///< cut to the stone, at most 256 pixels across
-    /// How sure the pose is, 99 %, radians; 0: it was given.
-    double pose_angle = 0;
-};
-
-/// `find_pose`: the pose is found in the photograph; else the scene's camera stands where it says.
-/// Throws InputError where it cannot be found, or the photograph is mirrored.
-PhotographScene photograph_scene(const Photo& photo, const std::vector<float>& mask,
-                                 const Scene& scene, bool find_pose, int threads,
-                                 const Progress& progress = {});
+/// Cut to the stone, at most 256 pixels across. `find_pose`: the pose is found in the photograph;
+/// else the scene's camera stands where it says. Throws InputError where it cannot be found, or the
+/// photograph is mirrored.
+Scene photograph_scene(const Photo& photo, const std::vector<float>& mask, const Scene& scene,
+                       bool find_pose, int threads, const Progress& progress = {});
 
 }  // namespace culet

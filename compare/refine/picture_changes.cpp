@@ -10,11 +10,8 @@
 #include "compare/calibration/stone_samples.h"
 #include "compare/refine/plane_moves.h"
 #include "stone/errors.h"
-#include "stone/units.h"
 
 namespace culet {
-
-const double k_move_step = radians(0.15);
 
 namespace {
 

@@ -9,12 +9,13 @@
 #include "compare/calibration/simulated_camera.h"
 #include "compare/refine/set_up.h"
 #include "stone/progress.h"
+#include "stone/units.h"
 
 namespace culet {
 
 /// By how much planes are moved either way, radians: changes are straight up to about there, and
 /// smaller ones drown in what a sketch leaves out.
-extern const double k_move_step;
+constexpr double k_move_step = radians(0.15);
 
 /// What a sketch is made of.
 struct SketchedStone {

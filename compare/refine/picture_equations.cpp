@@ -7,6 +7,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "compare/calibration/stone_samples.h"
 #include "stone/upper_median.h"
 
 namespace culet {
@@ -43,46 +44,28 @@ cv::Mat as_picture(const Eigen::VectorXd& values, const cv::Mat& mask) {
     return picture;
 }
 
-Eigen::VectorXd as_values(const cv::Mat& picture, const cv::Mat& mask, Eigen::Index samples) {
-    Eigen::VectorXd values(samples);
-    Eigen::Index i = 0;
-    for (int y = 0; y < mask.rows; ++y) {
-        for (int x = 0; x < mask.cols; ++x) {
-            if (mask.at<unsigned char>(y, x)) values[i++] = double(picture.at<float>(y, x));
-        }
-    }
-    return values;
-}
-
-// Weights of pairs of samples by how far apart they are: Bartlett's, so that the sum over all pairs
-// is never negative; over what they leave of blurred white noise, whose pairs are correlated as
-// exp(-d^2 / 4 blur^2).
-cv::Mat pair_weights(int reach, double blur) {
-    cv::Mat weights(2 * reach + 1, 2 * reach + 1, CV_32F);
-    double all = 0, left = 0;
-    for (int y = -reach; y <= reach; ++y) {
-        for (int x = -reach; x <= reach; ++x) {
-            const double weight =
-                (1 - std::abs(y) / (reach + 1.0)) * (1 - std::abs(x) / (reach + 1.0));
-            const double together = std::exp(-(x * x + y * y) / (4 * blur * blur));
-            weights.at<float>(y + reach, x + reach) = float(weight);
-            all += together;
-            left += weight * together;
-        }
-    }
-    return weights * (all / left);
-}
-
-// The same correlation itself.
+// Of pairs of samples of blurred white noise, by how far apart they are: exp(-d^2 / 4 blur^2).
 cv::Mat blurred_correlation(int reach, double blur) {
-    cv::Mat weights(2 * reach + 1, 2 * reach + 1, CV_32F);
+    cv::Mat correlation(2 * reach + 1, 2 * reach + 1, CV_32F);
     for (int y = -reach; y <= reach; ++y) {
         for (int x = -reach; x <= reach; ++x) {
-            weights.at<float>(y + reach, x + reach) =
+            correlation.at<float>(y + reach, x + reach) =
                 float(std::exp(-(x * x + y * y) / (4 * blur * blur)));
         }
     }
-    return weights;
+    return correlation;
+}
+
+// Weights of pairs of samples likewise: Bartlett's, so that the sum over all pairs is never
+// negative; over what they leave of such noise.
+cv::Mat pair_weights(const cv::Mat& correlation) {
+    const int reach = correlation.rows / 2;
+    cv::Mat line(correlation.rows, 1, CV_32F);
+    for (int y = -reach; y <= reach; ++y) {
+        line.at<float>(y + reach) = float(1 - std::abs(y) / (reach + 1.0));
+    }
+    const cv::Mat weights = line * line.t();
+    return weights * (cv::sum(correlation)[0] / weights.dot(correlation));
 }
 
 // Sums over all pairs of samples of the columns' products, each pair with its weight.
@@ -93,7 +76,8 @@ Eigen::MatrixXd pair_sums(const Eigen::MatrixXd& columns, const cv::Mat& mask,
         cv::Mat sums;
         cv::filter2D(as_picture(columns.col(k), mask), sums, CV_32F, weights, cv::Point(-1, -1), 0,
                      cv::BORDER_CONSTANT);
-        near.col(k) = as_values(sums, mask, columns.rows());
+        const std::vector<double> values = samples_of(sums, mask);
+        near.col(k) = Eigen::Map<const Eigen::VectorXd>(values.data(), columns.rows());
     }
     const Eigen::MatrixXd sums = columns.transpose() * near;
     return (sums + sums.transpose()) / 2;
@@ -145,8 +129,8 @@ MovesTold moves_told(const PictureEquations& e) {
     told.weights = Eigen::VectorXd::Ones(samples);
     const int reach =
         std::min(int(std::ceil(k_reach * e.blur)), std::min(e.mask.rows, e.mask.cols) / 3);
-    const cv::Mat weights = pair_weights(reach, e.blur);
     const cv::Mat correlation = blurred_correlation(reach, e.blur);
+    const cv::Mat weights = pair_weights(correlation);
     const Eigen::VectorXd bent = e.bent.cwiseQuotient(e.noise);
     // Of blurred white noise of variance 1, as many samples tell no more than one.
     const double area = 4 * CV_PI * e.blur * e.blur;

@@ -21,11 +21,10 @@ constexpr std::size_t k_most = 5;
 
 EvidenceFit picture_misfit(const cv::Mat& difference, const cv::Mat& mask) {
     EvidenceFit fit;
-    fit.rms =
-        cv::norm(difference, cv::NORM_L2, mask) / std::sqrt(std::max(1, cv::countNonZero(mask)));
+    const double samples = std::max(1, cv::countNonZero(mask));
+    fit.rms = cv::norm(difference, cv::NORM_L2, mask) / std::sqrt(samples);
     const double usual = 1.4826 * quantile(cv::abs(difference), mask, 0.5);
     if (!(usual > 0)) return fit;
-    const double least = k_least_area * cv::countNonZero(mask);
     for (const bool brighter : {true, false}) {
         const cv::Mat far =
             ((brighter ? difference : cv::Mat(-difference)) > k_deviations * usual) & mask;
@@ -33,11 +32,10 @@ EvidenceFit picture_misfit(const cv::Mat& difference, const cv::Mat& mask) {
         const int count = cv::connectedComponentsWithStats(far, labels, stats, centroids);
         for (int k = 1; k < count; ++k) {
             const int area = stats.at<int>(k, cv::CC_STAT_AREA);
-            if (area < least) continue;
+            if (area < k_least_area * samples) continue;
             const double mean = std::abs(cv::mean(difference, labels == k)[0]);
             fit.contradictions.push_back({centroids.at<double>(k, 0), centroids.at<double>(k, 1),
-                                          "", brighter, mean / usual,
-                                          area / double(cv::countNonZero(mask))});
+                                          "", brighter, mean / usual, area / samples});
         }
     }
     std::sort(

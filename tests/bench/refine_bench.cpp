@@ -11,14 +11,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "compare/calibration/cropped_camera.h"
 #include "compare/calibration/draft_renderer.h"
 #include "compare/calibration/facet_error.h"
 #include "compare/calibration/simulated_camera.h"
 #include "refine/refine.h"
 #include "stone/checks.h"
 #include "stone/cuts/cuts.h"
-#include "stone/errors.h"
 #include "stone/units.h"
 #include "tests/bench/cpu_time.h"
 
