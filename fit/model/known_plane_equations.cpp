@@ -19,8 +19,8 @@ namespace {
 // that look sideways more.
 double turn_about_up(const KnownPlanes& seen, const Shape& shape) {
     double along = 0, across = 0;
-    for (std::size_t f = 0; f < seen.normals.size(); ++f) {
-        const Vec3 &was = seen.normals[f], &is = shape.normals[f];
+    for (std::size_t f = 0; f < seen.planes.size(); ++f) {
+        const Vec3 &was = seen.planes[f].normal, &is = shape.normals[f];
         along += was.x * is.x + was.y * is.y;
         across += was.x * is.y - was.y * is.x;
     }
@@ -63,7 +63,7 @@ private:
 
 Formula row_of(const std::shared_ptr<const KnownPlanes>& seen, std::size_t k) {
     return [seen, k](const Shape& shape) {
-        const KnownPlanes::Row& row = seen->rows[k];
+        const PlaneKnowledge::Row& row = seen->rows[k];
         const double turn = seen->turns ? turn_about_up(*seen, shape) : 0;
         const double cosine = std::cos(turn), sine = std::sin(turn);
         Quantity q;
@@ -72,8 +72,8 @@ Formula row_of(const std::shared_ptr<const KnownPlanes>& seen, std::size_t k) {
         for (std::size_t f = 0; f < row.normal.size(); ++f) {
             const Vec3& a = row.normal[f];
             normal.emplace_back(cosine * a.x - sine * a.y, sine * a.x + cosine * a.y, a.z);
-            q.value += glm::dot(normal[f], shape.normals[f]) - glm::dot(a, seen->normals[f]) +
-                       offset[f] * (shape.offsets[f] - seen->offsets[f]);
+            q.value += glm::dot(normal[f], shape.normals[f]) - glm::dot(a, seen->planes[f].normal) +
+                       offset[f] * (shape.offsets[f] - seen->planes[f].offset);
         }
         BlindToMotions(shape).take_out(seen->turns, normal, offset);
         q.slopes.reserve(2 * normal.size());
@@ -94,11 +94,11 @@ std::shared_ptr<const KnownPlanes> System::inside(const PlaneKnowledge& told,
     const auto inside = [&](const Vec3& direction) { return turn * times(upright, direction); };
     auto known = std::make_shared<KnownPlanes>();
     for (const Plane& plane : told.planes) {
-        known->normals.push_back(inside(plane.normal));
-        known->offsets.push_back((plane.offset - glm::dot(plane.normal, middle_)) / scale_);
+        known->planes.push_back(
+            {inside(plane.normal), (plane.offset - glm::dot(plane.normal, middle_)) / scale_});
     }
     for (const PlaneKnowledge::Row& row : told.rows) {
-        KnownPlanes::Row& in = known->rows.emplace_back();
+        PlaneKnowledge::Row& in = known->rows.emplace_back();
         in.value = row.value;
         for (std::size_t f = 0; f < row.normal.size(); ++f) {
             // The offset from the mesh's middle is smaller by normal . middle.
