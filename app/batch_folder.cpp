@@ -8,9 +8,11 @@
 
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "app/batch_work.h"
@@ -25,6 +27,8 @@ namespace {
 
 constexpr std::size_t k_most_shares = 100000;
 constexpr const char* k_lock_file = ".lock";
+constexpr int k_tries = 100;
+constexpr std::chrono::milliseconds k_pause{10};
 
 void make_folder(const fs::path& folder) {
     std::error_code problem;
@@ -35,15 +39,20 @@ void make_folder(const fs::path& folder) {
 }
 
 // The lock of a folder that stays there: the last to leave takes it away. -1 where it went in the
-// meantime. Throws InputError where another process has it.
-int try_lock(const fs::path& folder) {
+// meantime. Throws InputError where another process has it and keeps it for `tries` pauses.
+int try_lock(const fs::path& folder, int tries) {
     const fs::path file = folder / k_lock_file;
     const int lock = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (lock < 0) {
         if (errno == ENOENT) return -1;
         throw InputError(folder, fmt::format("cannot be written: {}", std::strerror(errno)));
     }
-    if (::flock(lock, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    bool taken = true;
+    for (int i = 0; taken && i < tries; ++i) {
+        if (i > 0) std::this_thread::sleep_for(k_pause);
+        taken = ::flock(lock, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    }
+    if (taken) {
         ::close(lock);
         throw InputError(folder, "another culet batch is at work on this share: wait for its end");
     }
@@ -77,18 +86,22 @@ fs::path job_folder(const fs::path& folder, const std::string& name) {
     return folder / "jobs" / name;
 }
 
-BatchFolder::BatchFolder(fs::path folder, const BatchShare& share) : folder_(std::move(folder)) {
-    constexpr int k_tries = 100;
+std::string work_name(const BatchShare& share) {
+    return fmt::format("share-{}-of-{}", share.number, share.of);
+}
+
+BatchFolder::BatchFolder(fs::path folder, const std::string& work) : folder_(std::move(folder)) {
     make_folder(folder_);
     make_folder(folder_ / "jobs");
-    work_ = folder_ / "unfinished" / fmt::format("share-{}-of-{}", share.number, share.of);
+    work_ = folder_ / "unfinished" / work;
     for (int i = 0; lock_ < 0 && i < k_tries; ++i) {
         // Another share that comes to its end may take `unfinished` away in between.
         std::error_code problem;
         fs::create_directories(work_, problem);
         if (problem && problem != std::errc::no_such_file_or_directory)
             throw InputError(work_, fmt::format("cannot be made: {}", problem.message()));
-        lock_ = try_lock(work_);
+        // A worker of a batch that was killed holds its lock until it is ended too, a moment later.
+        lock_ = try_lock(work_, k_tries);
     }
     if (lock_ < 0) throw InputError(work_, "comes and goes: is another culet batch at work?");
     // What a process left that was killed.
@@ -113,7 +126,7 @@ void remove_unfinished(const fs::path& folder) {
         shares.push_back(entry.path());
     for (const fs::path& share : shares) {
         try {
-            const int lock = try_lock(share);
+            const int lock = try_lock(share, 1);
             fs::remove_all(share, ignored);
             if (lock >= 0) ::close(lock);
         } catch (const InputError&) {
@@ -148,6 +161,14 @@ void BatchFolder::finish(const std::string& name) const {
     }
     fs::rename(from, to, problem);
     if (problem) throw InputError(to, fmt::format("cannot be written: {}", problem.message()));
+}
+
+void BatchFolder::write(const std::string& name, const std::string& text) const {
+    write_text(work_ / name, text);
+    std::error_code problem;
+    fs::rename(work_ / name, folder_ / name, problem);
+    if (problem)
+        throw InputError(folder_ / name, fmt::format("cannot be written: {}", problem.message()));
 }
 
 void BatchFolder::drop(const std::string& name) const {

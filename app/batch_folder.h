@@ -1,12 +1,14 @@
 #pragma once
 // The folder of a batch's results: jobs.json, the plan; jobs/NAME, a finished job; and while it is
-// worked on, unfinished/share-K-of-N/NAME.
+// worked on, unfinished/share-K-of-N/NAME for a job and unfinished/table for what is made of all.
 
 #include <filesystem>
 #include <optional>
 #include <string>
 
 namespace culet {
+
+inline constexpr const char* k_plan_file = "jobs.json";
 
 /// One share of a batch: the jobs whose number, from 0, leaves `number` over when divided by `of`.
 struct BatchShare {
@@ -24,11 +26,14 @@ struct JobEnd {
     int exit_code = 0;
 };
 
-/// While it lives no other process works on the same share. Throws InputError: the folder cannot be
-/// made or written, or another process is at work.
+/// The name of what works on a share.
+std::string work_name(const BatchShare& share);
+
+/// While it lives no other process does the work of this name. Throws InputError: the folder cannot
+/// be made or written, or another process is at work.
 class BatchFolder {
 public:
-    BatchFolder(std::filesystem::path folder, const BatchShare& share);
+    BatchFolder(std::filesystem::path folder, const std::string& work);
     /// What is unfinished is removed.
     ~BatchFolder();
     BatchFolder(const BatchFolder&) = delete;
@@ -42,6 +47,9 @@ public:
     std::filesystem::path begun(const std::string& name) const { return work_ / name; }
     /// The work becomes the finished job at once and whole; one that was there before goes.
     void finish(const std::string& name) const;
+    /// A file of the folder itself, at once and whole; what is half written when the process is
+    /// killed lies among the unfinished.
+    void write(const std::string& name, const std::string& text) const;
     /// Away with what was begun.
     void drop(const std::string& name) const;
     /// The lock's file: a child process closes it.

@@ -188,7 +188,7 @@ std::string page_of(const std::vector<TableJson>& rows, const BatchCounts& count
 }  // namespace
 
 MergedBatch merge_batch(const fs::path& folder) {
-    const fs::path plan = folder / "jobs.json";
+    const fs::path plan = folder / k_plan_file;
     std::error_code problem;
     if (!fs::exists(plan, problem))
         throw InputError(folder, "holds no batch: it has no jobs.json (culet batch JOBS -o DIR)");
@@ -216,10 +216,11 @@ MergedBatch merge_batch(const fs::path& folder) {
                       {"failed", merged.counts.failed},
                       {"missing", merged.counts.missing}}},
                     {"jobs", rows}};
-    write_text(folder / "table.csv", table_csv(rows));
-    write_text(folder / "table.json",
+    const BatchFolder home(folder, "table");
+    home.write("table.csv", table_csv(rows));
+    home.write("table.json",
                table.dump(1, ' ', false, TableJson::error_handler_t::replace) + "\n");
-    write_text(folder / "index.html", page_of(rows, merged.counts, folder));
+    home.write("index.html", page_of(rows, merged.counts, folder));
     return merged;
 }
 

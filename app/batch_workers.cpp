@@ -200,7 +200,8 @@ void refuse_results(const BatchList& list, const BatchFolder& folder, const Batc
     }
 }
 
-void keep_plan(const std::string& plan, const fs::path& file, bool resume) {
+void keep_plan(const std::string& plan, const BatchFolder& folder, bool resume) {
+    const fs::path file = folder.path() / k_plan_file;
     std::error_code problem;
     const bool there = fs::exists(file, problem);
     if (there && read_text(file) == plan) return;
@@ -208,7 +209,7 @@ void keep_plan(const std::string& plan, const fs::path& file, bool resume) {
         throw InputError(file,
                          "is of another batch, or of other settings: --resume does anew what "
                          "has changed, another -o keeps these results");
-    write_text(file, plan);
+    folder.write(k_plan_file, plan);
 }
 
 }  // namespace
@@ -216,9 +217,9 @@ void keep_plan(const std::string& plan, const fs::path& file, bool resume) {
 ShareResult work_on_share(const BatchList& list, const BatchSettings& settings, const fs::path& out,
                           const ShareOptions& options) {
     const Clock::time_point start = Clock::now();
-    const BatchFolder folder(out, options.share);
+    const BatchFolder folder(out, work_name(options.share));
     if (!options.resume) refuse_results(list, folder, options.share);
-    keep_plan(batch_plan_json(list, settings), out / "jobs.json", options.resume);
+    keep_plan(batch_plan_json(list, settings), folder, options.resume);
     std::vector<std::size_t> jobs;
     for (std::size_t i = 0; i < list.jobs.size(); ++i) {
         if (options.share.has(i)) jobs.push_back(i);
