@@ -218,8 +218,7 @@ MergedBatch merge_batch(const fs::path& folder) {
                     {"jobs", rows}};
     const BatchFolder home(folder, "table");
     home.write("table.csv", table_csv(rows));
-    home.write("table.json",
-               table.dump(1, ' ', false, TableJson::error_handler_t::replace) + "\n");
+    home.write("table.json", table.dump(1, ' ', false, TableJson::error_handler_t::replace) + "\n");
     home.write("index.html", page_of(rows, merged.counts, folder));
     return merged;
 }

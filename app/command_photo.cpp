@@ -1,6 +1,7 @@
 // culet photo SHOT... -o PHOTO.exr: one or several shots to one picture in linear light.
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <cmath>
 #include <memory>
@@ -11,6 +12,7 @@
 #include "app/terminal.h"
 #include "compare/photo/bracket.h"
 #include "compare/photo/lens.h"
+#include "compare/photo/photo_picture.h"
 #include "compare/photo/white_balance.h"
 #include "page/chart.h"
 #include "render/colour/colour.h"
@@ -50,13 +52,15 @@ Bracket read_and_merge(const PhotoArguments& a) {
     }
     std::vector<BracketShot> shots;
     for (std::size_t i = 0; i < a.shots.size(); ++i) {
-        BracketShot shot{a.shots[i], read_photo(a.shots[i]), 1};
+        const std::filesystem::path file = a.shots[i];
+        BracketShot shot{a.shots[i], 1, [file] { return read_photo(file); }};
+        const auto noted = exposure_of(read_shot_data(file));
         if (!a.exposures.empty()) {
             shot.exposure = parse_exposure(a.exposures[i]);
-        } else if (const auto exposure = exposure_of(shot.photo.shot)) {
-            shot.exposure = *exposure;
+        } else if (noted) {
+            shot.exposure = *noted;
         } else if (a.shots.size() > 1) {
-            throw InputError(std::filesystem::path(a.shots[i]),
+            throw InputError(file,
                              "says no exposure time: give one for each photograph with --exposure "
                              "1/10,1/40,...");
         }
@@ -66,28 +70,7 @@ Bracket read_and_merge(const PhotoArguments& a) {
     options.align = !a.as_they_lie;
     if (a.response == "srgb") options.response = Response::as_read;
     if (a.response == "found") options.response = Response::calibrated;
-    return merge_bracket(std::move(shots), options, progress_line("merging", a.common.quiet));
-}
-
-Picture picture_of(const Photo& photo) {
-    Picture picture;
-    picture.width = photo.width;
-    picture.height = photo.height;
-    picture.rgb = photo.rgb;
-    picture.coverage = photo.coverage;
-    const std::size_t pixels = picture.pixels();
-    if (!photo.variance.empty()) {
-        for (std::size_t c = 0; c < 3; ++c) {
-            std::vector<float> plane(pixels);
-            for (std::size_t i = 0; i < pixels; ++i) plane[i] = photo.variance[3 * i + c];
-            picture.planes.push_back({c == 0   ? "variance.R"
-                                      : c == 1 ? "variance.G"
-                                               : "variance.B",
-                                      std::move(plane)});
-        }
-    }
-    if (!photo.saturated.empty()) picture.planes.push_back({"saturated", photo.saturated});
-    return picture;
+    return merge_bracket(shots, options, progress_line("merging", a.common.quiet));
 }
 
 // Light over the file's value, a line a channel, beside sRGB's.
@@ -114,7 +97,53 @@ std::string plot_of(const ResponseCurve& curve) {
     return draw_chart_svg(chart);
 }
 
+// Returns what is said of it in the JSON.
+Json balance_white(const PhotoArguments& a, Bracket& merged) {
+    Photo& photo = merged.photo;
+    Json white;
+    const Photo other = a.white.empty() ? Photo{} : read_photo(a.white);
+    const Photo& with_card = a.white.empty() ? photo : other;
+    const std::string where = a.white.empty() ? a.shots[0] : a.white;
+    if (a.chart) {
+        const auto chart = find_colour_chart(with_card);
+        if (!chart) {
+            throw InputError(std::filesystem::path(where),
+                             "no colour chart of 24 patches found: show it whole, flat and "
+                             "evenly lit, or give a grey card with --grey X,Y,WIDTH,HEIGHT");
+        }
+        balance(photo, chart->gain);
+        apply_colour_matrix(photo, chart->matrix);
+        white = {{"from", "chart"},
+                 {"gain", chart->gain},
+                 {"matrix", chart->matrix},
+                 {"deltaE00_before", chart->before},
+                 {"deltaE00_after", chart->after}};
+        say(fmt::format("colour chart: {:.1f} to {:.1f} CIEDE2000 on average", chart->before,
+                        chart->after),
+            a.common.quiet);
+    } else {
+        const GreyCard card = measure_grey(with_card, rectangle_in(a.grey));
+        balance(photo, card.gain);
+        white = {{"from", "card"},
+                 {"gain", card.gain},
+                 {"level", card.level},
+                 {"unevenness", card.unevenness}};
+        say(fmt::format("white balance: red x {:.3f}, blue x {:.3f}", card.gain[0], card.gain[2]),
+            a.common.quiet);
+        if (card.unevenness > 0.1) {
+            merged.notes.push_back(
+                fmt::format("the grey card varies by {:.0f} %: a shadow or a gloss lies on it",
+                            100 * card.unevenness));
+        }
+    }
+    return white;
+}
+
 int run_photo(const PhotoArguments& a) {
+    // Photos come and go by the dozen: their memory is kept for the next one, since the system
+    // wipes what it gives anew, which takes a quarter of the time.
+    mallopt(M_MMAP_THRESHOLD, 1 << 30);
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
     for (const std::string& file : {a.out, a.json, a.plot}) require_writable(file);
     if (!a.out.ends_with(".exr"))
         throw InputError(std::filesystem::path(a.out), "linear light is written as .exr");
@@ -126,44 +155,7 @@ int run_photo(const PhotoArguments& a) {
     Photo& photo = merged.photo;
     Json json{{"schema", 1}, {"size", {photo.width, photo.height}}};
 
-    if (!a.grey.empty() || a.chart) {
-        const Photo other = a.white.empty() ? Photo{} : read_photo(a.white);
-        const Photo& with_card = a.white.empty() ? photo : other;
-        const std::string where = a.white.empty() ? a.shots[0] : a.white;
-        if (a.chart) {
-            const auto chart = find_colour_chart(with_card);
-            if (!chart) {
-                throw InputError(std::filesystem::path(where),
-                                 "no colour chart of 24 patches found: show it whole, flat and "
-                                 "evenly lit, or give a grey card with --grey X,Y,WIDTH,HEIGHT");
-            }
-            balance(photo, chart->gain);
-            apply_colour_matrix(photo, chart->matrix);
-            json["white"] = {{"from", "chart"},
-                             {"gain", chart->gain},
-                             {"matrix", chart->matrix},
-                             {"deltaE00_before", chart->before},
-                             {"deltaE00_after", chart->after}};
-            say(fmt::format("colour chart: {:.1f} to {:.1f} CIEDE2000 on average", chart->before,
-                            chart->after),
-                a.common.quiet);
-        } else {
-            const GreyCard card = measure_grey(with_card, rectangle_in(a.grey));
-            balance(photo, card.gain);
-            json["white"] = {{"from", "card"},
-                             {"gain", card.gain},
-                             {"level", card.level},
-                             {"unevenness", card.unevenness}};
-            say(fmt::format("white balance: red x {:.3f}, blue x {:.3f}", card.gain[0],
-                            card.gain[2]),
-                a.common.quiet);
-            if (card.unevenness > 0.1) {
-                merged.notes.push_back(
-                    fmt::format("the grey card varies by {:.0f} %: a shadow or a gloss lies on it",
-                                100 * card.unevenness));
-            }
-        }
-    }
+    if (!a.grey.empty() || a.chart) json["white"] = balance_white(a, merged);
     if (!a.camera.empty()) {
         const Lens lens = lens_for(read_lens(a.camera), photo.width, photo.height, a.shots[0]);
         undistort(photo, lens);

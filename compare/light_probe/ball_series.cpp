@@ -73,31 +73,23 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
                         "the order of the files",
                         series.exposures.size(), files.size()));
     }
-    std::vector<Photo> photos;
+    std::vector<ShotData> notes;
     std::vector<SortedShot> shots;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        photos.push_back(read_photo(files[i]));
-        if (photos[i].not_finite > 0) {
-            throw InputError(files[i], fmt::format("{} samples are no numbers (NaN or infinite): "
-                                                   "export it again",
-                                                   photos[i].not_finite));
-        }
-        std::optional<double> exposure;
-        if (!series.exposures.empty()) {
-            exposure = series.exposures[i];
-        } else if (photos[i].saturation > 0) {
-            exposure = exposure_of(photos[i].shot);
-        }
-        shots.push_back({files[i], exposure});
-        if (progress &&
-            !progress(0.6 * static_cast<double>(i + 1) / static_cast<double>(files.size())))
-            throw Interrupted();
+        notes.push_back(read_shot_data(files[i]));
+        shots.push_back({files[i], series.exposures.empty()
+                                       ? exposure_of(notes[i])
+                                       : std::optional<double>(series.exposures[i])});
     }
     if (groups.empty()) groups = views_of(shots);
 
     ReadSeries result;
     double first_exposure = 0;
     for (std::size_t g = 0; g < groups.size(); ++g) {
+        const Progress view_progress = [&](double part) {
+            return !progress ||
+                   progress((static_cast<double>(g) + part) / static_cast<double>(groups.size()));
+        };
         std::vector<BracketShot> bracket;
         bool known = true;
         for (const std::size_t i : groups[g]) {
@@ -109,16 +101,13 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
                                      "--exposure 1/10,1/40,...");
                 }
             }
-            bracket.push_back(
-                {files[i].string(), std::move(photos[i]), shots[i].exposure.value_or(1.0)});
+            bracket.push_back({files[i].string(), shots[i].exposure.value_or(1.0),
+                               [file = files[i]] { return read_photo(file); }});
         }
         const double exposure = bracket[0].exposure;
         if (g == 0) first_exposure = exposure;
-        const Photo& sample = bracket[0].photo;
-        const double diagonal = std::hypot(sample.width, sample.height);
-        const double focal_px = focal_px_of(sample.shot, diagonal);
-        const std::string name = bracket[0].name;
-        Bracket merged = merge_bracket(std::move(bracket));
+        const std::string& name = bracket[0].name;
+        Bracket merged = merge_bracket(bracket, {}, view_progress);
         // Everything in units of the first shot of all.
         if (known && first_exposure > 0) {
             const auto scale = static_cast<float>(first_exposure / exposure);
@@ -135,7 +124,8 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
         ProbeView view;
         view.name = name;
         view.photo = std::move(merged.photo);
-        view.focal_px = focal_px;
+        view.focal_px =
+            focal_px_of(notes[groups[g][0]], std::hypot(view.photo.width, view.photo.height));
         if (series.lens) {
             const Lens lens =
                 lens_for(*series.lens, view.photo.width, view.photo.height, view.name);
@@ -144,9 +134,6 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
             view.principal = PixelPlace{lens.principal_x, lens.principal_y};
         }
         result.views.push_back(std::move(view));
-        if (progress &&
-            !progress(0.6 + 0.4 * static_cast<double>(g + 1) / static_cast<double>(groups.size())))
-            throw Interrupted();
     }
     return result;
 }

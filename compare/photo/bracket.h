@@ -12,10 +12,11 @@
 
 namespace culet {
 
+/// A shot of a series, read when it is needed: a long series does not fit into memory.
 struct BracketShot {
     std::string name;
-    Photo photo;
-    double exposure = 1;  ///< relative amount of light let in; larger is brighter
+    double exposure = 1;          ///< relative amount of light let in; larger is brighter
+    std::function<Photo()> read;  ///< the same photo each time it is called
 };
 
 enum class Response {
@@ -57,9 +58,11 @@ struct Bracket {
 /// what is over-exposed left out and what is near it faded out, so that there is no edge. A pixel
 /// that every shot over-exposes keeps the darkest shot's value and is marked.
 /// Shots are aligned to the first by shifts (correlation of log-luminance, to a tenth of a pixel);
-/// only shifts over 0.1 pixels are applied. Throws InputError: sizes that differ, the same exposure
+/// only shifts over 0.1 pixels are applied. Shots are read from the brightest to the darkest, once
+/// to look at and once to add; beside the sums, two of them are in memory at a time, and as many as
+/// fit into 512 MiB are kept in between. Throws InputError: sizes that differ, the same exposure
 /// twice, not-finite samples, all black.
-Bracket merge_bracket(std::vector<BracketShot> shots, const BracketOptions& options = {},
+Bracket merge_bracket(const std::vector<BracketShot>& shots, const BracketOptions& options = {},
                       const Progress& progress = {});
 
 }  // namespace culet

@@ -25,9 +25,13 @@ std::string first_bytes(const std::filesystem::path& file) {
     return bytes;
 }
 
+ShotData shot_data_of(const std::string& bytes, const std::string& format) {
+    return format == "JPEG" || format == "TIFF" ? shot_data(bytes) : ShotData{};
+}
+
 void note_camera(Photo& photo, const std::string& bytes) {
     const std::string format = picture_header(bytes).format;
-    if (format == "JPEG" || format == "TIFF") photo.shot = shot_data(bytes);
+    photo.shot = shot_data_of(bytes, format);
     if (!photo.shot.processed.empty()) {
         photo.photometric = false;
         photo.not_photometric = photo.shot.processed;
@@ -101,6 +105,14 @@ Photo read_photo(const std::filesystem::path& file) {
     if (negative > 0)
         photo.notes.push_back(fmt::format("{} negative samples count as 0", negative));
     return photo;
+}
+
+ShotData read_shot_data(const std::filesystem::path& file) {
+    if (has_raw_extension(file)) return read_raw_shot_data(file);
+    std::error_code problem;
+    if (!std::filesystem::exists(file, problem)) throw InputError(file, "no such file");
+    const std::string bytes = first_bytes(file);
+    return shot_data_of(bytes, picture_header(bytes).format);
 }
 
 int bits_of(const Photo& photo) {

@@ -41,6 +41,10 @@ struct Photo {
 /// `k_max_photo_pixels`.
 Photo read_photo(const std::filesystem::path& file);
 
+/// What the camera noted, without the picture. Throws InputError for a file that is missing or, a
+/// raw file, broken.
+ShotData read_shot_data(const std::filesystem::path& file);
+
 constexpr double k_max_photo_pixels = 2e8;
 
 /// Of a sample in the file: 8 or 16; 0 for floats.

@@ -31,6 +31,23 @@ void require(const std::filesystem::path& file, int code) {
     if (code != LIBRAW_SUCCESS) refuse(file, libraw_strerror(code));
 }
 
+// The processor reads from `bytes` as long as it works.
+void open(const std::filesystem::path& file, const std::string& bytes, LibRaw& processor) {
+    if (bytes.empty()) throw InputError(file, "is empty: expected a raw file");
+    processor.imgdata.params.max_raw_memory_mb = 1024;
+    require(file, processor.open_buffer(const_cast<char*>(bytes.data()), bytes.size()));
+}
+
+// EXIF, and what only the maker's own notes say.
+ShotData shot_data_of(const std::string& bytes, const libraw_data_t& data) {
+    ShotData shot = shot_data(bytes);
+    if (shot.seconds == 0 && data.other.shutter > 0) shot.seconds = data.other.shutter;
+    if (shot.f_number == 0 && data.other.aperture > 0) shot.f_number = data.other.aperture;
+    if (shot.iso == 0 && data.other.iso_speed > 0) shot.iso = data.other.iso_speed;
+    if (shot.focal_mm == 0 && data.other.focal_len > 0) shot.focal_mm = data.other.focal_len;
+    return shot;
+}
+
 // 1 where a sensor sample reaches the white level, spread to the neighbours that a demosaiced
 // pixel is made of.
 cv::Mat saturation_mask(const libraw_data_t& data) {
@@ -91,13 +108,11 @@ bool has_raw_extension(const std::filesystem::path& file) {
 }
 
 Photo read_raw(const std::filesystem::path& file) {
-    std::string bytes = read_text(file, k_most_bytes);
-    if (bytes.empty()) throw InputError(file, "is empty: expected a raw file");
+    const std::string bytes = read_text(file, k_most_bytes);
     // The processor holds large tables: not on the stack.
     const auto processor = std::make_unique<LibRaw>();
     libraw_data_t& data = processor->imgdata;
-    data.params.max_raw_memory_mb = 1024;
-    require(file, processor->open_buffer(bytes.data(), bytes.size()));
+    open(file, bytes, *processor);
     const double pixels = static_cast<double>(data.sizes.width) * data.sizes.height;
     if (!(pixels >= 1) || pixels > k_max_photo_pixels) {
         throw InputError(
@@ -156,14 +171,15 @@ Photo read_raw(const std::filesystem::path& file) {
     }
     photo.saturation = 1;
     photo.encoding = "linear raw";
-    photo.shot = shot_data(bytes);
-    if (photo.shot.seconds == 0 && data.other.shutter > 0) photo.shot.seconds = data.other.shutter;
-    if (photo.shot.f_number == 0 && data.other.aperture > 0)
-        photo.shot.f_number = data.other.aperture;
-    if (photo.shot.iso == 0 && data.other.iso_speed > 0) photo.shot.iso = data.other.iso_speed;
-    if (photo.shot.focal_mm == 0 && data.other.focal_len > 0)
-        photo.shot.focal_mm = data.other.focal_len;
+    photo.shot = shot_data_of(bytes, data);
     return photo;
+}
+
+ShotData read_raw_shot_data(const std::filesystem::path& file) {
+    const std::string bytes = read_text(file, k_most_bytes);
+    const auto processor = std::make_unique<LibRaw>();
+    open(file, bytes, *processor);
+    return shot_data_of(bytes, processor->imgdata);
 }
 
 }  // namespace culet

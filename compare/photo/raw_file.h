@@ -19,4 +19,7 @@ bool has_raw_extension(const std::filesystem::path& file);
 /// Throws InputError.
 Photo read_raw(const std::filesystem::path& file);
 
+/// What the camera noted, without the picture. Throws InputError.
+ShotData read_raw_shot_data(const std::filesystem::path& file);
+
 }  // namespace culet

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 #include <opencv2/photo.hpp>
+#include <vector>
 
 #include "render/colour/colour.h"
 #include "stone/errors.h"
@@ -12,28 +13,37 @@ namespace culet {
 
 namespace {
 
-// The value of the 8-bit file that read_photo decoded; exact.
-int code_of(float linear) {
-    return std::clamp(static_cast<int>(std::lround(255 * srgb_encoded(linear))), 0, 255);
-}
+// The values of an 8-bit file from what read_photo made of them; exact: two of them are never as
+// near to each other as two places of the table (1 / (255 * 12.92) where it is dark).
+class FileValues {
+public:
+    FileValues() : codes_(k_places + 1) {
+        for (std::size_t code = 0; code < 256; ++code)
+            codes_[place(static_cast<float>(srgb_decoded(static_cast<double>(code) / 255)))] =
+                static_cast<unsigned char>(code);
+    }
+    unsigned char of(float linear) const { return codes_[place(linear)]; }
+
+private:
+    static constexpr int k_places = 8192;
+    static std::size_t place(float linear) {
+        return static_cast<std::size_t>(std::clamp(linear, 0.0f, 1.0f) * k_places + 0.5f);
+    }
+    std::vector<unsigned char> codes_;
+};
 
 }  // namespace
 
-ResponseCurve find_response(const std::vector<BracketShot>& shots) {
+ResponseCurve find_response(const std::vector<Photo>& shots, const std::vector<double>& exposures) {
+    const FileValues values;
     std::vector<cv::Mat> pictures;
     std::vector<float> times;
-    for (const BracketShot& shot : shots) {
-        cv::Mat picture(shot.photo.height, shot.photo.width, CV_8UC3);
-        for (int y = 0; y < picture.rows; ++y) {
-            for (int x = 0; x < picture.cols; ++x) {
-                const std::size_t at = 3 * (static_cast<std::size_t>(y) * shot.photo.width + x);
-                for (int c = 0; c < 3; ++c)
-                    picture.at<cv::Vec3b>(y, x)[c] =
-                        static_cast<unsigned char>(code_of(shot.photo.rgb[at + c]));
-            }
-        }
+    for (std::size_t k = 0; k < shots.size(); ++k) {
+        cv::Mat picture(shots[k].height, shots[k].width, CV_8UC3);
+        for (std::size_t i = 0; i < shots[k].rgb.size(); ++i)
+            picture.data[i] = values.of(shots[k].rgb[i]);
         pictures.push_back(picture);
-        times.push_back(static_cast<float>(shot.exposure / shots[0].exposure));
+        times.push_back(static_cast<float>(exposures[k] / exposures[0]));
     }
     cv::Mat response;
     try {
@@ -70,8 +80,11 @@ ResponseCurve find_response(const std::vector<BracketShot>& shots) {
 }
 
 void apply_response(const ResponseCurve& curve, Photo& photo) {
-    for (std::size_t i = 0; i < photo.rgb.size(); ++i)
-        photo.rgb[i] = curve[i % 3][static_cast<std::size_t>(code_of(photo.rgb[i]))];
+    const FileValues values;
+    for (std::size_t i = 0; i < photo.rgb.size(); i += 3) {
+        for (std::size_t c = 0; c < 3; ++c)
+            photo.rgb[i + c] = curve[c][values.of(photo.rgb[i + c])];
+    }
 }
 
 }  // namespace culet

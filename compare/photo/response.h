@@ -8,9 +8,9 @@
 namespace culet {
 
 /// The curve of Debevec & Malik 1997 (OpenCV's createCalibrateDebevec), made increasing. Shots as
-/// read by read_photo from 8-bit files, of one size, with their exposures. Throws InputError when
-/// the series does not determine it.
-ResponseCurve find_response(const std::vector<BracketShot>& shots);
+/// read by read_photo from 8-bit files, of one size, with their exposures; some thousand of their
+/// pixels will do. Throws InputError when the series does not determine it.
+ResponseCurve find_response(const std::vector<Photo>& shots, const std::vector<double>& exposures);
 
 /// The photo's values, which are sRGB-decoded, replaced by the curve's.
 void apply_response(const ResponseCurve& curve, Photo& photo);

@@ -6,7 +6,6 @@
 #include <ImfHeader.h>
 #include <ImfIO.h>
 #include <ImfInputFile.h>
-#include <ImfOutputFile.h>
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 #include <fmt/format.h>
@@ -54,12 +53,6 @@ private:
     std::uint64_t at_ = 0;
 };
 
-std::string one_line(const char* what) {
-    std::string text(what);
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
-
 // The size a header states is checked before the library makes room for it: pictures, tiles and
 // offset tables of a hostile header would take gigabytes.
 void check_header(const Imf::Header& header, std::size_t bytes, const std::filesystem::path& file) {
@@ -105,13 +98,6 @@ std::optional<double> wavelength_of(std::string name) {
     return nm;
 }
 
-// The layout writes the decimal point as a comma: a point would start a layer.
-std::string channel_of(std::size_t stokes, double nm) {
-    std::string text = fmt::format("{:.3f}", nm);
-    std::replace(text.begin(), text.end(), '.', ',');
-    return fmt::format("S{}.{}nm", stokes, text);
-}
-
 std::string names_of(const Imf::ChannelList& channels) {
     std::string names;
     int count = 0;
@@ -154,6 +140,12 @@ void check_attributes(const std::string& bytes, const std::filesystem::path& fil
 }
 
 }  // namespace
+
+std::string one_line(const char* what) {
+    std::string text(what);
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
 
 Picture read_exr(const std::string& bytes, const std::filesystem::path& file, bool& had_alpha) {
     try {
@@ -249,63 +241,6 @@ Picture read_exr(const std::string& bytes, const std::filesystem::path& file, bo
     } catch (const std::exception& error) {
         throw InputError(file,
                          fmt::format("is no EXR that can be read: {}", one_line(error.what())));
-    }
-}
-
-void write_exr(const Picture& picture, const std::filesystem::path& file,
-               const std::vector<std::pair<std::string, std::string>>& text) {
-    try {
-        Imf::Header header(picture.width, picture.height);
-        header.compression() = Imf::ZIP_COMPRESSION;
-        for (const auto& [key, value] : text) header.insert(key, Imf::StringAttribute(value));
-        const std::size_t pixels = picture.pixels();
-        std::array<std::vector<float>, 3> planes;
-        for (std::size_t c = 0; c < 3; ++c) {
-            planes[c].resize(pixels);
-            for (std::size_t i = 0; i < pixels; ++i) planes[c][i] = picture.rgb[3 * i + c];
-        }
-        Imf::FrameBuffer frame;
-        const auto slice = [&](const std::string& name, const std::vector<float>& plane) {
-            header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-            frame.insert(
-                name,
-                Imf::Slice(Imf::FLOAT,
-                           const_cast<char*>(reinterpret_cast<const char*>(plane.data())),
-                           sizeof(float), sizeof(float) * static_cast<std::size_t>(picture.width)));
-        };
-        slice("R", planes[0]);
-        slice("G", planes[1]);
-        slice("B", planes[2]);
-        if (!picture.coverage.empty()) slice("A", picture.coverage);
-        if (!picture.spectral.empty()) {
-            header.insert("spectralLayoutVersion", Imf::StringAttribute("1.0"));
-            header.insert("emissiveUnits", Imf::StringAttribute("relative to CIE D65"));
-        }
-        for (std::size_t i = 0; i < picture.spectral.size(); ++i) {
-            const std::string name = channel_of(0, picture.wavelengths_nm[i]);
-            if (frame.findSlice(name) != nullptr) {
-                throw InputError(
-                    "two wavelengths are closer than 0.001 nm, which their names cannot tell");
-            }
-            slice(name, picture.spectral[i]);
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (!picture.polarised[k].empty())
-                    slice(channel_of(k + 1, picture.wavelengths_nm[i]), picture.polarised[k][i]);
-            }
-        }
-        if (!picture.polarised[0].empty())
-            header.insert("polarisationHandedness", Imf::StringAttribute("right"));
-        for (const Picture::Plane& plane : picture.planes) slice(plane.channel, plane.values);
-        if (picture.environment == Picture::Environment::lat_long)
-            Imf::addEnvmap(header, Imf::ENVMAP_LATLONG);
-        if (picture.environment == Picture::Environment::cube)
-            Imf::addEnvmap(header, Imf::ENVMAP_CUBE);
-        if (!picture.standard_error.empty()) slice("standard_error.Y", picture.standard_error);
-        Imf::OutputFile output(file.c_str(), header, 0);
-        output.setFrameBuffer(frame);
-        output.writePixels(picture.height);
-    } catch (const std::exception& error) {
-        throw InputError(file, fmt::format("cannot be written: {}", one_line(error.what())));
     }
 }
 

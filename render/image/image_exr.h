@@ -13,8 +13,12 @@ namespace culet {
 Picture read_exr(const std::string& bytes, const std::filesystem::path& file, bool& had_alpha);
 
 /// Channels R, G, B, A when coverage is known, S0.589,300nm for spectral planes and S1 to S3 for
-/// their polarisation (Fichet et al. 2021), and standard_error.Y where paths were chosen at random.
+/// their polarisation (Fichet et al. 2021), standard_error.Y where paths were chosen at random, and
+/// further planes by their names. R, G, B, A as the picture's samples are held, others as floats.
 void write_exr(const Picture& picture, const std::filesystem::path& file,
                const std::vector<std::pair<std::string, std::string>>& text);
+
+/// The library's message, for an error's line.
+std::string one_line(const char* what);
 
 }  // namespace culet

@@ -32,6 +32,8 @@ struct Picture {
         std::vector<float> values;
     };
     std::vector<Plane> planes;
+    /// How an EXR holds R, G, B and A: in 32 or in 16 bits (binary16, to 65504).
+    enum class Samples { single, half } samples = Samples::single;
     /// Texts of an EXR that was read whose key begins with `culet:`.
     std::vector<std::pair<std::string, std::string>> text;
     /// Set on a picture of all directions (environment_layout.h), so that other programs know.

@@ -188,7 +188,8 @@ TEST_F(BatchCommand, KilledTwentyTimesItLosesNothing) {
         interrupted_at_work += WIFSIGNALED(status) ? 1 : 0;
         // What is done leaves nothing to disturb: from the beginning again.
         if (!WIFSIGNALED(status)) {
-            ASSERT_THAT(differences(whole, tree_of(folder_ / "out")), IsEmpty()) << "after kill " << i;
+            ASSERT_THAT(differences(whole, tree_of(folder_ / "out")), IsEmpty())
+                << "after kill " << i;
             fs::remove_all(folder_ / "out");
         }
         if (!fs::exists(folder_ / "out/jobs")) continue;

@@ -1,0 +1,70 @@
+#pragma once
+// Shots of one series added up, one after the other. Inside this room only.
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "compare/photo/photo.h"
+
+namespace culet {
+
+/// 1 where a pixel is well below the level at which the camera clips, 0 at it.
+inline float unclipped(const Photo& photo, std::size_t pixel) {
+    constexpr float k_fade_from = 0.85f, k_fade_to = 0.97f;  // of saturation
+    if (!photo.saturated.empty() && photo.saturated[pixel] > 0) return 0;
+    if (photo.saturation <= 0) return 1;
+    const float* rgb = photo.rgb.data() + 3 * pixel;
+    const float level = std::max({rgb[0], rgb[1], rgb[2]}) / static_cast<float>(photo.saturation);
+    if (level <= k_fade_from) return 1;
+    const float u = std::max((k_fade_to - level) / (k_fade_to - k_fade_from), 0.0f);
+    return u * u * (3 - 2 * u);
+}
+
+/// Variance of a shot's value: shot noise and reading noise of a small camera, and rounding where
+/// the file has 8 bits.
+class ShotNoise {
+public:
+    /// `saturation` as in Photo.
+    ShotNoise(double saturation, bool eight_bits);
+    /// Of a value that was read as about `value`.
+    float variance(float value) const {
+        const float level = std::max(value / full_, 0.0f);
+        float variance =
+            (level * k_full_well + k_read_noise * k_read_noise) / (k_full_well * k_full_well);
+        if (!rounding_.empty()) {
+            const float step = std::min(level, 1.0f) * float(k_steps) + 0.5f;
+            variance += rounding_[static_cast<std::size_t>(step)];
+        }
+        return variance * full_ * full_;
+    }
+
+private:
+    static constexpr float k_full_well = 20000;  // electrons at saturation, of a small camera
+    static constexpr float k_read_noise = 4;     // electrons
+    // Finer than the steps of an 8-bit file where it is dark (1 / (255 * 12.92)).
+    static constexpr std::size_t k_steps = 4096;
+    float full_ = 1;
+    std::vector<float> rounding_;  // over value / full, evenly; empty: none
+};
+
+/// The mean of the shots' values over their exposures, weighted by the inverse of their variance.
+class ExposureSum {
+public:
+    explicit ExposureSum(std::size_t pixels);
+
+    /// From the brightest shot to the darkest: what the brighter ones say sets the variance, so
+    /// that a shot's noise does not choose its own weight. The `last` one's value is taken where
+    /// every shot is over-exposed.
+    void add(const Photo& shot, double exposure, const ShotNoise& noise, bool last);
+
+    /// Into `rgb`, `variance` and `saturated`, in the units of a shot of `exposure`. The sums are
+    /// spent. Returns how many pixels every shot over-exposed.
+    std::size_t take(double exposure, Photo& merged);
+
+private:
+    std::vector<float> sum_, weight_;  // a sample
+    std::vector<float> over_;          // a pixel
+};
+
+}  // namespace culet

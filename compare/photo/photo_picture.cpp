@@ -1,0 +1,63 @@
+#include "compare/photo/photo_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace culet {
+
+namespace {
+
+// IEEE 754 binary16: 10 bits of fraction, from 2^-14 to 65504.
+constexpr int k_half_fraction = 10, k_half_least_exponent = -14;
+constexpr float k_half_most = 65504;
+// Of the variance that rounding may add.
+constexpr double k_share = 1.0 / 16;
+
+bool fits_half_floats(const Photo& photo) {
+    if (photo.variance.size() != photo.rgb.size()) return false;
+    for (std::size_t i = 0; i < photo.rgb.size(); ++i) {
+        const float value = photo.rgb[i];
+        if (value > k_half_most) return false;
+        const int exponent = value > 0 ? std::ilogb(value) : k_half_least_exponent;
+        const double step =
+            std::ldexp(1.0, std::max(exponent, k_half_least_exponent) - k_half_fraction);
+        // Evenly distributed: step^2 / 12.
+        if (step * step / 12 > k_share * photo.variance[i]) return false;
+    }
+    return true;
+}
+
+// A variance rests on a guess of the camera, and its last digits are noise, which does not
+// compress: six of its bits are kept.
+float rounded(float variance) {
+    constexpr float k_steps = 64;
+    int exponent = 0;
+    const float fraction = std::frexp(variance, &exponent);
+    return std::ldexp(std::nearbyint(fraction * k_steps) / k_steps, exponent);
+}
+
+}  // namespace
+
+Picture picture_of(Photo photo) {
+    Picture picture;
+    picture.width = photo.width;
+    picture.height = photo.height;
+    picture.samples = fits_half_floats(photo) ? Picture::Samples::half : Picture::Samples::single;
+    picture.rgb = std::move(photo.rgb);
+    picture.coverage = std::move(photo.coverage);
+    constexpr std::array k_names{"variance.R", "variance.G", "variance.B"};
+    for (std::size_t c = 0; c < k_names.size() && !photo.variance.empty(); ++c) {
+        std::vector<float> plane(picture.pixels());
+        for (std::size_t i = 0; i < plane.size(); ++i)
+            plane[i] = rounded(photo.variance[3 * i + c]);
+        picture.planes.push_back({k_names[c], std::move(plane)});
+    }
+    if (!photo.saturated.empty())
+        picture.planes.push_back({"saturated", std::move(photo.saturated)});
+    return picture;
+}
+
+}  // namespace culet
