@@ -169,12 +169,15 @@ int run_light(const LightArguments& a) {
             a.common.quiet);
     }
     for (std::size_t v = 0; v < probe.alignments.size(); ++v) {
-        say(fmt::format("the camera went round by {:.2f} degrees; the views agree with correlation "
-                        "{:.3f}, within {:.2f} stops on average",
-                        degrees(probe.views[v + 1].turned), probe.alignments[v].correlation,
-                        probe.mean_disagreement),
+        say(fmt::format("{}: {:.2f} degrees from the first camera; agrees with correlation {:.3f}, "
+                        "half of what both show within {:.2f} stops",
+                        probe.views[v + 1].name, degrees(probe.views[v + 1].turned),
+                        probe.alignments[v].correlation, probe.alignments[v].residual),
             a.common.quiet);
     }
+    if (!probe.alignments.empty())
+        say(fmt::format("two views differ by {:.2f} stops on average", probe.mean_disagreement),
+            a.common.quiet);
     for (const std::string& note : read.notes) say("note: " + note, a.common.quiet);
     for (const std::string& note : probe.notes) say("note: " + note, a.common.quiet);
     if (!probe.usable()) say("not to be trusted: " + probe.doubt, a.common.quiet);
@@ -188,8 +191,8 @@ void add_command_light(CLI::App& program, int& exit_code) {
     CLI::App* command = program.add_subcommand(
         "light", "photographs of a mirror ball to the light around it, as an environment");
     command->add_option("PHOTO", a->photos,
-                        "photographs: one view, or two from places about 90 degrees apart; several "
-                        "exposures of a view are told apart by their EXIF data");
+                        "photographs: one view, or two to six from places up to 90 degrees from "
+                        "the next; several exposures of a view are told apart by their EXIF data");
     command->add_option("-o,--output", a->out, "lat-long environment, .exr or .hdr")
         ->required()
         ->type_name("ENV");

@@ -19,8 +19,9 @@ namespace {
 
 constexpr int k_hough_side = 640;  // pixels of the longer side that Hough's transform sees
 constexpr int k_rays = 360;
-constexpr double k_clear_support = 0.85;  // no need to look further
-constexpr double k_one_ball = 0.25;       // of the radius: circles so near are about one ball
+constexpr double k_size_step = 1.6;
+constexpr std::size_t k_circles_of_a_size = 6;
+constexpr double k_one_ball = 0.25;  // of the radius: circles so near are about one ball
 
 struct EdgePoint {
     double x, y, strength;
@@ -285,12 +286,17 @@ std::optional<FoundBall> fitted_in_steps(const cv::Mat& plane, const BallCircle&
 
 std::vector<BallCircle> hough_circles(const cv::Mat& picture, double edge, double threshold) {
     const int shorter = std::min(picture.cols, picture.rows);
-    std::vector<cv::Vec3f> circles;
-    cv::HoughCircles(picture, circles, cv::HOUGH_GRADIENT, 2, shorter / 20.0, edge, threshold,
-                     std::max(6, shorter / 20), shorter * 6 / 10);
     std::vector<BallCircle> result;
-    for (std::size_t i = 0; i < std::min<std::size_t>(circles.size(), 8); ++i)
-        result.push_back({circles[i][0], circles[i][1], circles[i][2]});
+    // Large circles meet more edges by chance: each size has places of its own.
+    const double largest = 0.6 * shorter;
+    for (double least = std::max(6.0, shorter / 20.0); least < largest; least *= k_size_step) {
+        std::vector<cv::Vec3f> circles;
+        cv::HoughCircles(picture, circles, cv::HOUGH_GRADIENT, 2, shorter / 20.0, edge, threshold,
+                         static_cast<int>(least),
+                         static_cast<int>(std::min(least * k_size_step, largest)));
+        for (std::size_t i = 0; i < std::min(circles.size(), k_circles_of_a_size); ++i)
+            result.push_back({circles[i][0], circles[i][1], circles[i][2]});
+    }
     return result;
 }
 
@@ -310,7 +316,9 @@ void sort_by_evidence(const cv::Mat& whole, const cv::Mat& linear, std::vector<F
     cv::Mat soft;
     cv::GaussianBlur(whole, soft, {}, 1.0);
     const auto weigh = [&](FoundBall& ball) {
-        ball.evidence = ball.support * std::max(0.0, rim_compression(soft, ball.circle) - 1);
+        const RimLook rim = rim_look(soft, ball.circle);
+        ball.evidence = ball.support * std::max(0.0, rim.compression - 1) * (1 - rim.alike);
+        return ball.support * std::max(0.0, rim.compression - 1);
     };
     const auto sort = [&] {
         std::stable_sort(found.begin(), found.end(), [](const FoundBall& a, const FoundBall& b) {
@@ -327,12 +335,17 @@ void sort_by_evidence(const cv::Mat& whole, const cv::Mat& linear, std::vector<F
     for (FoundBall& ball : found) {
         if (ball.evidence < worth) continue;
         const BallCircle rough = ball.circle;
-        for (const double reach : {0.1, 0.25}) {
-            auto other = fitted_in_steps(whole, rough, reach);
-            if (!other) continue;
-            *other = to_a_fraction_of_a_pixel(linear, *other);
-            weigh(*other);
-            if (other->evidence > ball.evidence) ball = *other;
+        double pressed = weigh(ball);
+        for (const double size : {1.0, 0.94, 1.06}) {
+            for (const double reach : {0.05, 0.1, 0.25}) {
+                auto other = fitted_in_steps(whole, {rough.x, rough.y, size * rough.radius}, reach);
+                if (!other) continue;
+                *other = to_a_fraction_of_a_pixel(linear, *other);
+                const double other_pressed = weigh(*other);
+                if (other_pressed <= pressed) continue;
+                pressed = other_pressed;
+                ball = *other;
+            }
         }
     }
     sort();
@@ -388,13 +401,8 @@ std::vector<FoundBall> find_balls(const Photo& photo, double least_support) {
     cv::GaussianBlur(small, small, {}, 1.0);
     std::vector<BallCircle> tried;
     std::vector<FoundBall> found;
-    const auto has_clear_one = [&] {
-        return std::any_of(found.begin(), found.end(),
-                           [](const FoundBall& b) { return b.support > k_clear_support; });
-    };
     for (const Look& look : looks) {
         for (const double threshold : {120.0, 80.0, 50.0}) {
-            if (has_clear_one()) break;
             for (const BallCircle& c : hough_circles(look.picture, look.edge, threshold)) {
                 const bool known =
                     std::any_of(tried.begin(), tried.end(),

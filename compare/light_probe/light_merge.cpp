@@ -96,6 +96,22 @@ double fill_holes(EnvironmentMap& map, const std::vector<double>& weight) {
     return empty_sr;
 }
 
+// Of views that differ by chance any two are so many stops apart: sqrt(2) standard deviations. NaN
+// where fewer than two see the texel.
+float stops_apart(const std::vector<std::vector<float>>& levels, std::size_t texel, double floor) {
+    double n = 0, sum = 0, squares = 0;
+    for (const std::vector<float>& view : levels) {
+        if (view[texel] < 0) continue;
+        const double stops = std::log2(view[texel] + floor);
+        ++n;
+        sum += stops;
+        squares += stops * stops;
+    }
+    if (n < 2) return std::numeric_limits<float>::quiet_NaN();
+    const double variance = std::max(squares - sum * sum / n, 0.0) / (n - 1);
+    return static_cast<float>(std::sqrt(2 * variance));
+}
+
 // Rows of a view's picture that the ball fills.
 struct Rows {
     int from, to, left, right;
@@ -256,8 +272,8 @@ MergedLight merge_views(const std::vector<BallView>& views, const std::vector<do
     merged.over_exposed.assign(texels, 0);
     merged.disagreement.assign(texels, std::numeric_limits<float>::quiet_NaN());
     std::vector<double> sum(3 * texels, 0), weight(texels, 0), over(texels, 0);
-    std::vector<float> low(texels, 0), high(texels, 0);
-    std::vector<int> seen_by(texels, 0);
+    // A view's luminance; below 0 where it is too near a rim to say who is right.
+    std::vector<std::vector<float>> levels(views.size(), std::vector<float>(texels, -1));
     double mean = 0;
     const double steps = static_cast<double>(views.size()) + passes;
     const auto report = [&](double done) {
@@ -274,11 +290,7 @@ MergedLight merge_views(const std::vector<BallView>& views, const std::vector<do
             for (std::size_t c = 0; c < 3; ++c) sum[3 * i + c] += q * gains[v] * map.rgb[3 * i + c];
             merged.coverage[i] =
                 1 - (1 - merged.coverage[i]) * (1 - static_cast<float>(q > k_seen ? q : 0));
-            if (q < 0.01) continue;  // too near a rim to say who is right
-            const float y = static_cast<float>(gains[v] * luminance(&map.rgb[3 * i]));
-            low[i] = seen_by[i] == 0 ? y : std::min(low[i], y);
-            high[i] = seen_by[i] == 0 ? y : std::max(high[i], y);
-            ++seen_by[i];
+            if (q >= 0.01) levels[v][i] = static_cast<float>(gains[v] * luminance(&map.rgb[3 * i]));
         }
     }
     for (std::size_t i = 0; i < texels; ++i) {
@@ -288,10 +300,9 @@ MergedLight merge_views(const std::vector<BallView>& views, const std::vector<do
         merged.over_exposed[i] = static_cast<float>(over[i] / weight[i]);
         mean += luminance(&merged.map.rgb[3 * i]) / static_cast<double>(texels);
     }
-    for (std::size_t i = 0; i < texels; ++i) {
-        const auto floor = static_cast<float>(1e-3 * mean);
-        if (seen_by[i] >= 2 && mean > 0)
-            merged.disagreement[i] = std::log2((high[i] + floor) / (low[i] + floor));
+    if (mean > 0) {
+        for (std::size_t i = 0; i < texels; ++i)
+            merged.disagreement[i] = stops_apart(levels, i, 1e-3 * mean);
     }
     merged.filled_sr = fill_holes(merged.map, weight);
     std::vector<PixelParts> pixels;

@@ -1,6 +1,7 @@
 #include "compare/light_probe/rim_compression.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace culet {
@@ -13,11 +14,13 @@ constexpr double k_inner = 0.93, k_outer = 0.99;
 constexpr double k_edge = 3;
 // Of a file of 8 bits, in light from 0 to 1: smaller changes say nothing.
 constexpr double k_step = 1.0 / 255;
+constexpr std::size_t k_rings = 6;
 
 }  // namespace
 
-double rim_compression(const cv::Mat& light, const BallCircle& circle) {
+RimLook rim_look(const cv::Mat& light, const BallCircle& circle) {
     double along = 0, across = 0;
+    std::array<double, k_rings> outwards{};
     const double reach = std::min(k_outer * circle.radius, circle.radius - k_edge);
     const int top = std::max(1, static_cast<int>(std::ceil(circle.y - reach))),
               bottom = std::min(light.rows - 2, static_cast<int>(std::floor(circle.y + reach))),
@@ -29,11 +32,17 @@ double rim_compression(const cv::Mat& light, const BallCircle& circle) {
             if (r < k_inner * circle.radius || r > reach || r == 0) continue;
             const double gx = double(light.at<float>(y, x + 1) - light.at<float>(y, x - 1)),
                          gy = double(light.at<float>(y + 1, x) - light.at<float>(y - 1, x));
-            along += std::abs(gx * dx + gy * dy) / r;
+            const double radial = (gx * dx + gy * dy) / r;
+            const double depth = (r / circle.radius - k_inner) / (k_outer - k_inner);
+            outwards[std::min(static_cast<std::size_t>(depth * k_rings), k_rings - 1)] += radial;
+            along += std::abs(radial);
             across += std::abs(gx * dy - gy * dx) / r + k_step;
         }
     }
-    return across > 0 ? along / across : 0;
+    RimLook look;
+    if (across > 0) look.compression = along / across;
+    for (const double sum : outwards) look.alike += along > 0 ? std::abs(sum) / along : 0;
+    return look;
 }
 
 }  // namespace culet

@@ -7,11 +7,19 @@
 
 namespace culet {
 
-/// How many times more the light changes along the radius than across it, in a ring inside the
-/// circle's rim. A mirror ball presses the room together towards its rim: at the share rho of its
-/// radius 1 / (1 - rho^2) times, from the angles of reflection; 7 to 50 times in this ring, less
-/// where the picture is soft. Elsewhere it is about 1. `light`: CV_32F, one channel, 0 to 1; 0
-/// where the ring is not in the picture.
-double rim_compression(const cv::Mat& light, const BallCircle& circle);
+/// What lies in a ring inside a circle's rim.
+struct RimLook {
+    /// How many times more the light changes along the radius than across it. A mirror ball presses
+    /// the room together towards its rim: at the share rho of its radius 1 / (1 - rho^2) times,
+    /// from the angles of reflection; 7 to 50 times in this ring, less where the picture is soft.
+    /// Elsewhere it is about 1.
+    double compression = 0;
+    /// 0..1: how much of the change along the radius is the same all round. A ball shows something
+    /// else on each side; a lid, a ring or a plate has the same edge everywhere.
+    double alike = 0;
+};
+
+/// `light`: CV_32F, one channel, 0 to 1. Zeros where the ring is not in the picture.
+RimLook rim_look(const cv::Mat& light, const BallCircle& circle);
 
 }  // namespace culet

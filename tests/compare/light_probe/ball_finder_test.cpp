@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "compare/light_probe/rim_compression.h"
 #include "compare/photo/pixels.h"
@@ -106,12 +107,20 @@ TEST(BallFinder, a_mirror_presses_the_room_together_at_its_rim) {
     shot.background = clutter(9, shot.width, shot.height);
     const auto taken = simulated::take(shot, simulated::room(4));
     const cv::Mat light = luminance(colour_of(taken.photo));
-    const double ball = rim_compression(light, {taken.x, taken.y, taken.radius});
-    EXPECT_GT(ball, 2);
-    EXPECT_LT(ball, 50);
-    const double clutter_alone = rim_compression(light, {40, 40, 38});
-    EXPECT_LT(clutter_alone, ball / 1.5);
-    EXPECT_EQ(rim_compression(light, {-500, -500, 50}), 0);
+    const RimLook ball = rim_look(light, {taken.x, taken.y, taken.radius});
+    EXPECT_GT(ball.compression, 2);
+    EXPECT_LT(ball.compression, 50);
+    EXPECT_LT(rim_look(light, {40, 40, 38}).compression, ball.compression / 1.5);
+    EXPECT_EQ(rim_look(light, {-500, -500, 50}).compression, 0);
+
+    // A lid: rings inside each other, each of one brightness. All of its change along the radius is
+    // the same all round; the ball shows something else on each side.
+    cv::Mat lid(300, 300, CV_32F, cv::Scalar(0.5));
+    for (const auto& [radius, grey] : {std::pair(120, 0.1), {116, 0.4}, {113, 0.2}, {100, 0.15}})
+        cv::circle(lid, {150, 150}, radius, cv::Scalar(grey), cv::FILLED, cv::LINE_8);
+    const double all_round = rim_look(lid, {150, 150, 120}).alike;
+    EXPECT_GT(all_round, 0.9);
+    EXPECT_LT(ball.alike, 0.75 * all_round);
 }
 
 // Two balls in one picture: nothing says which is meant.
