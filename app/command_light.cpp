@@ -176,7 +176,10 @@ int run_light(const LightArguments& a) {
             a.common.quiet);
     }
     if (!probe.alignments.empty())
-        say(fmt::format("two views differ by {:.2f} stops on average", probe.mean_disagreement),
+        say(fmt::format(
+                "two views differ by less than {:.2f} stops over half of what they show, by "
+                "{:.2f} on average",
+                probe.middle_disagreement, probe.mean_disagreement),
             a.common.quiet);
     for (const std::string& note : read.notes) say("note: " + note, a.common.quiet);
     for (const std::string& note : probe.notes) say("note: " + note, a.common.quiet);

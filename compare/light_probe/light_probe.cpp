@@ -21,6 +21,7 @@ namespace {
 
 constexpr double k_smallest_radius = 20;  // pixels
 constexpr double k_usual_distance = 30;   // radii, where nothing says better
+constexpr double k_much = 0.7;            // stops between two views
 constexpr int k_narrowest = 128, k_widest = 4096;
 
 [[noreturn]] void refuse(const ProbeView& view, const std::string& message) {
@@ -75,6 +76,40 @@ double over_exposed(const ProbeView& view, const Photo& picture, const BallCircl
     return over / std::max(pixels, 1.0);
 }
 
+void doubt_views(LightProbe& probe) {
+    for (std::size_t v = 0; v < probe.alignments.size(); ++v) {
+        const ViewAlignment& a = probe.alignments[v];
+        if (!a.ambiguous) continue;
+        probe.doubt = fmt::format(
+            "{}: the views do not fit together in one way only (correlation {:.2f}, the next best "
+            "turn {:.2f}): {}, or check that they show one room",
+            probe.views[v + 1].name, a.correlation, a.rival,
+            probe.views.size() == 2 ? "say how far the camera went with --turned DEGREES"
+                                    : "leave it out");
+    }
+    if (!probe.doubt.empty() || probe.alignments.empty()) return;
+    if (probe.middle_disagreement <= k_much) {
+        if (probe.mean_disagreement > k_much) {
+            probe.notes.push_back(
+                "what is near the ball, and the photographer, is elsewhere in each view: light "
+                "from there is a mean (see the disagreement picture)");
+        }
+        return;
+    }
+    const auto worst = std::max_element(
+        probe.alignments.begin(), probe.alignments.end(),
+        [](const ViewAlignment& a, const ViewAlignment& b) { return a.residual < b.residual; });
+    const std::string what_to_do =
+        probe.views.size() == 2
+            ? "look"
+            : fmt::format("leave out {}, which differs the most, or look",
+                          probe.views[std::size_t(worst - probe.alignments.begin()) + 1].name);
+    probe.doubt = fmt::format(
+        "the views differ by {:.1f} stops over half of the room: {} at the disagreement picture "
+        "(did lights change or the ball move?)",
+        probe.middle_disagreement, what_to_do);
+}
+
 // What is worth saying to people, and whether the result can be trusted.
 void judge(LightProbe& probe) {
     double omega_sum = 0, covered = 0;
@@ -96,6 +131,7 @@ void judge(LightProbe& probe) {
     probe.covered = covered / omega_sum;
     if (!stops.empty()) {
         probe.mean_disagreement = sum / static_cast<double>(stops.size());
+        probe.middle_disagreement = quantile(stops, 0.5);
         probe.worst_disagreement = quantile(std::move(stops), 0.99);
     }
     const double missing = 100 * (1 - probe.covered);
@@ -130,21 +166,7 @@ void judge(LightProbe& probe) {
             view.name, view.circle.x, view.circle.y, view.circle.radius, view.rival->x,
             view.rival->y, view.rival->radius);
     }
-    for (const ViewAlignment& a : probe.alignments) {
-        if (a.ambiguous) {
-            probe.doubt = fmt::format(
-                "the views do not fit together in one way only (correlation {:.2f}, "
-                "the next best turn {:.2f}): say how far the camera went with "
-                "--turned DEGREES, or check that both show one room",
-                a.correlation, a.rival);
-        }
-    }
-    if (probe.doubt.empty() && probe.views.size() > 1 && probe.mean_disagreement > 0.7) {
-        probe.doubt = fmt::format(
-            "the views differ by {:.1f} stops on average: look at the disagreement picture (did "
-            "lights change or the ball move?)",
-            probe.mean_disagreement);
-    }
+    doubt_views(probe);
     for (const NearLight& near : probe.near_lights) {
         probe.notes.insert(probe.notes.end(), near.notes.begin(), near.notes.end());
         if (!near.usable() && probe.doubt.empty()) probe.doubt = near.doubt;

@@ -63,7 +63,8 @@ struct LightProbe {
     MergedLight light;  ///< radiance in the units of the first view
     std::vector<ProbeViewResult> views;
     std::vector<ViewAlignment> alignments;  ///< of the second and further views to the first
-    double mean_disagreement = 0, worst_disagreement = 0;  ///< stops: mean, 99 % of what two see
+    /// Stops between two views: the mean, half and 99 % of what two see are below.
+    double mean_disagreement = 0, middle_disagreement = 0, worst_disagreement = 0;
     double covered = 0;                                    ///< share of all directions
     bool moved = false;                                    ///< views are balls, not cameras
     std::vector<NearLight> near_lights;  ///< lengths in the stone's unit, radiance as the map's

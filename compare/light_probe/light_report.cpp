@@ -123,6 +123,7 @@ std::string light_json(const LightProbe& probe, const ProbeOptions& options) {
         {"filled_sr", number(probe.light.filled_sr)},
         {"disagreement",
          {{"mean_stops", number(probe.mean_disagreement)},
+          {"median_stops", number(probe.middle_disagreement)},
           {"worst_percent_stops", number(probe.worst_disagreement)}}},
         {"reflectance", options.reflectance},
         {"towards_deg", {degrees(options.towards_azimuth), degrees(options.towards_elevation)}}};
@@ -182,14 +183,15 @@ std::string coverage_png(const LightProbe& probe) {
                fmt::format("Coverage: {:.1f} % of all directions are seen", 100 * probe.covered),
                painted(light.coverage, light.map.width, light.map.height, 1, ColourMap::error),
                ColourMap::error, "unseen", "in the middle of a ball");
-    const std::string caption =
-        probe.views.size() > 1 && !probe.moved
-            ? fmt::format("Disagreement of the views: {:.2f} stops on average, 99 % below {:.2f}",
-                          probe.mean_disagreement, probe.worst_disagreement)
-            : std::string("Disagreement: needs a second view");
+    const std::string caption = probe.views.size() > 1 && !probe.moved
+                                    ? fmt::format(
+                                          "Two views differ by less than {:.2f} stops over half of "
+                                          "the room, {:.2f} over 99 %",
+                                          probe.middle_disagreement, probe.worst_disagreement)
+                                    : std::string("Disagreement: needs a second view");
     draw_panel(sheet, panel, caption,
                painted(light.disagreement, light.map.width, light.map.height, 2, ColourMap::error),
-               ColourMap::error, "0 stops", "2 and more; grey: fewer than two see it");
+               ColourMap::error, "0 stops", "2 and more; grey: one view");
     return png_bytes(sheet);
 }
 

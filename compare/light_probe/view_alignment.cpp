@@ -236,29 +236,31 @@ MirrorBall ball_of(const ViewPrior& prior, double otherwise) {
                                    prior.distance > 0 ? prior.distance : otherwise);
 }
 
-ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
-                          const BallView& second, const ViewPrior& second_prior,
-                          const std::optional<glm::dmat3>& turned) {
+RoughTurn rough_turn(const BallView& first, const BallView& second) {
     // In camera frames, whatever the views' own worlds are.
     BallView a = first, b = second;
     a.world_from_camera = b.world_from_camera = glm::dmat3(1.0);
-    CoarseResult coarse{{turned.value_or(glm::dmat3(1.0)), 1}, -1};
-    if (!turned) coarse = over_all_rotations(view_map(a, 256), view_map(b, 256));
+    const CoarseResult coarse = over_all_rotations(view_map(a, 256), view_map(b, 256));
+    return {coarse.best.rotation, coarse.best.score, coarse.rival};
+}
 
-    const RefinedViews fine = refine_views(a, first_prior, b, second_prior, coarse.best.rotation);
-    ViewAlignment result{fine.first_from_second,
-                         fine.correlation,
-                         coarse.rival,
-                         fine.gain,
-                         fine.residual,
-                         fine.sigma,
-                         fine.first,
-                         fine.second,
-                         false};
-    // Beside chance: a rotation that is far off must be clearly worse, and the best must be good.
-    result.ambiguous =
-        !turned && (coarse.best.score < 0.5 || coarse.rival > coarse.best.score - 0.05);
-    return result;
+ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
+                          const BallView& second, const ViewPrior& second_prior,
+                          const RoughTurn& rough) {
+    BallView a = first, b = second;
+    a.world_from_camera = b.world_from_camera = glm::dmat3(1.0);
+    const RefinedViews fine =
+        refine_views(a, first_prior, b, second_prior, rough.first_from_second);
+    return {fine.first_from_second, fine.correlation, rough.rival, fine.gain,
+            fine.residual,          fine.sigma,       fine.first,  fine.second,
+            rough.ambiguous()};
+}
+
+ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
+                          const BallView& second, const ViewPrior& second_prior,
+                          const std::optional<glm::dmat3>& turned) {
+    return align_views(first, first_prior, second, second_prior,
+                       turned ? RoughTurn{*turned} : rough_turn(first, second));
 }
 
 }  // namespace culet

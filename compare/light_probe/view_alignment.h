@@ -33,6 +33,23 @@ struct ViewAlignment {
     bool ambiguous = false;
 };
 
+/// A rotation right to a fraction of a degree, by what two pictures show.
+struct RoughTurn {
+    glm::dmat3 first_from_second{1.0};
+    double correlation = 1;  ///< of low-passed log-luminance
+    double rival = -1;       ///< of the best quite different rotation
+    /// Beside chance: a rotation that is far off must be clearly worse, and the best must be good.
+    bool ambiguous() const { return correlation < 0.5 || rival > correlation - 0.05; }
+};
+
+/// The best over all rotations, with the balls where the views say. Deterministic.
+RoughTurn rough_turn(const BallView& first, const BallView& second);
+
+/// From a rotation that is known or was found roughly.
+ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
+                          const BallView& second, const ViewPrior& second_prior,
+                          const RoughTurn& rough);
+
 /// Best over all rotations: correlation of what both show, first coarse over SO(3) (quaternions of
 /// Alexa 2022, eq. 6: super-Fibonacci spirals), then by least squares on the pictures, together
 /// with the outlines within their sigmas and the distance where it is not known. Deterministic.

@@ -63,6 +63,37 @@ void keep_refined(ViewPrior& prior, const MirrorBall& ball) {
     if (prior.focal_px <= 0) prior.distance = ball.distance();
 }
 
+// A view that is placed, and one that is not.
+struct SurePair {
+    std::size_t placed, to_place;
+    RoughTurn turn;
+};
+
+bool less_sure(const SurePair& a, const SurePair& b) {
+    const auto sureness = [](const SurePair& pair) {
+        return std::pair(!pair.turn.ambiguous(), pair.turn.correlation);
+    };
+    return sureness(a) < sureness(b);
+}
+
+bool is_in(const std::vector<std::size_t>& list, std::size_t number) {
+    return std::find(list.begin(), list.end(), number) != list.end();
+}
+
+ViewAlignment place(PlacedViews& views, const SurePair& pair) {
+    const std::size_t at = pair.placed, v = pair.to_place;
+    const ViewAlignment found = align_views(views.seen[at], views.cuts[at].prior, views.seen[v],
+                                            views.cuts[v].prior, pair.turn);
+    views.seen[at].ball = found.first;
+    views.seen[v].ball = found.second;
+    views.seen[v].world_from_camera = views.seen[at].world_from_camera * found.first_from_second;
+    views.gains[v] = views.gains[at] * usual_gain(found.gain);
+    views.places[v].turned_sigma = found.sigma;
+    keep_refined(views.cuts[at].prior, found.first);
+    keep_refined(views.cuts[v].prior, found.second);
+    return found;
+}
+
 }  // namespace
 
 glm::dmat3 world_from_camera(double azimuth, double elevation) {
@@ -73,33 +104,34 @@ glm::dmat3 world_from_camera(double azimuth, double elevation) {
 }
 
 void align_all(PlacedViews& views, const ProbeOptions& options, const Progress& progress) {
-    for (std::size_t v = 1; v < views.seen.size(); ++v) {
-        std::optional<glm::dmat3> turned;
-        if (options.turned) turned = about_vertical(*options.turned);
-        // To the first view; further ones, where the first shows too little in common, to others.
-        std::size_t to = 0;
-        std::optional<ViewAlignment> best;
-        for (std::size_t candidate = 0; candidate < v; ++candidate) {
-            ViewAlignment a =
-                align_views(views.seen[candidate], views.cuts[candidate].prior, views.seen[v],
-                            views.cuts[v].prior, candidate == 0 && v == 1 ? turned : std::nullopt);
-            if (!best || (best->ambiguous && !a.ambiguous)) {
-                best = a;
-                to = candidate;
-            }
-            if (!best->ambiguous) break;
+    const std::size_t count = views.seen.size();
+    std::vector<std::optional<ViewAlignment>> found(count);
+    // Views next to each other share the most: the surest pair with a view that is placed already
+    // places the next one. All pairs are tried roughly when both of their views are there.
+    std::vector<SurePair> pairs;
+    std::vector<std::size_t> placed{0};
+    const auto try_with = [&](std::size_t at, std::size_t v) {
+        RoughTurn turn;
+        if (options.turned && at == 0 && v == 1)
+            turn.first_from_second = about_vertical(*options.turned);
+        else
+            turn = rough_turn(views.seen[at], views.seen[v]);
+        pairs.push_back({at, v, turn});
+    };
+    double done = 0;
+    const double all = static_cast<double>(count * (count - 1)) / 2;
+    while (placed.size() < count) {
+        for (std::size_t v = 1; v < count; ++v) {
+            if (is_in(placed, v)) continue;
+            try_with(placed.back(), v);
+            if (!progress(++done / all)) throw Interrupted();
         }
-        views.seen[to].ball = best->first;
-        views.seen[v].ball = best->second;
-        views.seen[v].world_from_camera =
-            views.seen[to].world_from_camera * best->first_from_second;
-        views.gains[v] = views.gains[to] * usual_gain(best->gain);
-        views.places[v].turned_sigma = best->sigma;
-        keep_refined(views.cuts[to].prior, best->first);
-        views.alignments.push_back(*best);
-        if (!progress(static_cast<double>(v) / static_cast<double>(views.seen.size() - 1)))
-            throw Interrupted();
+        std::erase_if(pairs, [&](const SurePair& pair) { return is_in(placed, pair.to_place); });
+        const SurePair best = *std::max_element(pairs.begin(), pairs.end(), less_sure);
+        found[best.to_place] = place(views, best);
+        placed.push_back(best.to_place);
     }
+    for (std::size_t v = 1; v < count; ++v) views.alignments.push_back(*found[v]);
 }
 
 void align_without_near_lights(PlacedViews& views, std::vector<ViewPrior> priors) {

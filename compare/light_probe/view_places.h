@@ -16,14 +16,15 @@ struct PlacedViews {
     std::vector<BallView> seen;
     std::vector<double> gains;      ///< to the first view's units
     std::vector<BallPlace> places;  ///< centre and turned_sigma; the view as of the last call
-    /// Of the second and further views to the first or another before them.
+    /// Of the second and further views to the one that placed them.
     std::vector<ViewAlignment> alignments;
 };
 
 /// Columns: right, up, backwards of a camera that looks to this azimuth and elevation.
 glm::dmat3 world_from_camera(double azimuth, double elevation);
 
-/// Every view against an earlier one, from all turns or from the one that is known.
+/// Every view against one that is placed already, the surest pair first; from all turns or from the
+/// one that is known.
 void align_all(PlacedViews& views, const ProbeOptions& options, const Progress& progress);
 
 /// The last fraction of the turns to the first view again, by what is not left out, and from the

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -172,6 +173,32 @@ TEST(LightProbe, the_turn_is_as_sure_as_it_says) {
     EXPECT_GT(squares, 7.0);
     EXPECT_LT(squares, 42.3);
     EXPECT_LE(beyond, 2);
+}
+
+// All round the ball, in no order: the second camera stands opposite the first, where the two share
+// little, and is placed by one between them. Expectation: where the cameras stood; each link of the
+// chain may be off as one turn between two views (two_views_give_the_panorama_back).
+TEST(LightProbe, views_are_placed_by_their_neighbours) {
+    const auto panorama = simulated::room(17);
+    const std::array azimuths{0.0, 3.1, 1.6};
+    std::vector<ProbeView> views;
+    for (const double azimuth : azimuths)
+        views.push_back(view_of(shot_at(azimuth, 0.02 * azimuth, 90), panorama,
+                                "at " + std::to_string(azimuth), true));
+    ProbeOptions options = chrome();
+    options.distance = 25;
+    options.width = 128;
+    options.passes = 5;
+    const LightProbe probe = light_probe(views, options);
+    EXPECT_TRUE(probe.usable()) << probe.doubt;
+    ASSERT_EQ(probe.alignments.size(), 2u);
+    for (std::size_t v = 1; v < views.size(); ++v) {
+        EXPECT_LT(simulated::angle_apart(probe.views[v].world_from_camera,
+                                         simulated::camera_at(azimuths[v], 0.02 * azimuths[v])),
+                  radians(2 * 0.25))
+            << v;
+    }
+    EXPECT_LT(probe.middle_disagreement, 0.1);
 }
 
 TEST(LightProbe, unequal_exposures_are_brought_together) {
