@@ -65,8 +65,8 @@ struct LightProbe {
     std::vector<ViewAlignment> alignments;  ///< of the second and further views to the first
     /// Stops between two views: the mean, half and 99 % of what two see are below.
     double mean_disagreement = 0, middle_disagreement = 0, worst_disagreement = 0;
-    double covered = 0;                                    ///< share of all directions
-    bool moved = false;                                    ///< views are balls, not cameras
+    double covered = 0;                  ///< share of all directions
+    bool moved = false;                  ///< views are balls, not cameras
     std::vector<NearLight> near_lights;  ///< lengths in the stone's unit, radiance as the map's
     std::vector<std::string> notes;      ///< for people, one line each
     /// Empty when the result can be trusted; else why not.
