@@ -1,0 +1,22 @@
+// Makes the pictures anew that golden_test.cpp holds others against. Look at them before they are
+// committed.
+
+#include <fmt/format.h>
+
+#include "tests/render/golden/golden_picture.h"
+
+int main() {
+    using namespace culet::test;
+    constexpr std::uint64_t k_pictures = 16, k_first_seed = 101;
+    for (const std::string& scene : golden_scenes()) {
+        for (const char* engine : {"auto", "reference"}) {
+            std::vector<culet::Picture> pictures;
+            for (std::uint64_t k = 0; k < k_pictures; ++k)
+                pictures.push_back(drawn(scene, engine, k_first_seed + k));
+            const GoldenPicture golden = golden_of(pictures);
+            write_golden(golden, golden_file(scene, engine));
+            fmt::print("{} by {}: ratio {:.3f} +- {:.3f}\n", scene, engine, golden.ratio_mean,
+                       golden.ratio_sigma);
+        }
+    }
+}
