@@ -13,7 +13,7 @@ constexpr double k_inner = 0.93, k_outer = 0.99;
 // Pixels: the rim itself is an edge of any circle, which the lens spreads so far.
 constexpr double k_edge = 3;
 // Of a file of 8 bits, in light from 0 to 1: smaller changes say nothing.
-constexpr double k_step = 1.0 / 255;
+constexpr double k_least_change = 1.0 / 255;
 constexpr std::size_t k_rings = 6;
 
 }  // namespace
@@ -36,7 +36,7 @@ RimLook rim_look(const cv::Mat& light, const BallCircle& circle) {
             const double depth = (r / circle.radius - k_inner) / (k_outer - k_inner);
             outwards[std::min(static_cast<std::size_t>(depth * k_rings), k_rings - 1)] += radial;
             along += std::abs(radial);
-            across += std::abs(gx * dy - gy * dx) / r + k_step;
+            across += std::abs(gx * dy - gy * dx) / r + k_least_change;
         }
     }
     RimLook look;
