@@ -13,8 +13,8 @@ namespace culet {
 
 /// What `work(progress)` returns or throws. It runs in a thread of its own, without Python's global
 /// lock. This one wakes up twenty times a second: it looks for Ctrl-C (KeyboardInterrupt), and
-/// calls `told`, Python's callable or None, with the fraction done. Where that returns False or
-/// raises, the work is asked to stop; the first ends as Interrupted.
+/// calls `told`, Python's callable or None, with the fraction done, once at least. Where that
+/// returns False or raises, the work is asked to stop; the first ends as Interrupted.
 template <class Work>
 auto wait_for(const pybind11::object& told, Work work) {
     std::atomic<double> done{0};
@@ -38,6 +38,8 @@ auto wait_for(const pybind11::object& told, Work work) {
             const pybind11::object answer = told(before);
             if (answer.is(pybind11::bool_(false))) stop = true;
         }
+        // Work that was over before this thread woke up.
+        if (!told.is_none() && !stop && done > before) told(done.load());
     } catch (...) {
         stop = true;
         const pybind11::gil_scoped_release unlocked;

@@ -228,20 +228,25 @@ class LongWork(Scratch):
 
         other = threading.Thread(target=count)
         other.start()
-        culet.render(GARNET, size=240, tolerance=0.005, progress=told.append)
+        culet.render(GARNET, size=800, tolerance=0.002, progress=told.append)
         ended.set()
         other.join()
         self.assertTrue(told and all(0 <= f <= 1 for f in told))
         # Another thread ran meanwhile: without the lock released it would have stood still.
         self.assertGreater(len(ticks), 5)
 
+    def test_tells_of_short_work_too(self):
+        told = []
+        culet.render(GARNET, size=8, tolerance=0.2, progress=told.append)
+        self.assertTrue(told)
+
     def test_ends_where_progress_says_so(self):
         with self.assertRaises(culet.Interrupted):
-            culet.render(GARNET, size=400, tolerance=0.002, progress=lambda done: False)
+            culet.render(GARNET, size=800, tolerance=0.002, progress=lambda done: False)
         with self.assertRaisesRegex(KeyError, "mine"):
             def fails(done):
                 raise KeyError("mine")
-            culet.render(GARNET, size=400, tolerance=0.002, progress=fails)
+            culet.render(GARNET, size=800, tolerance=0.002, progress=fails)
 
     def test_ends_with_control_c(self):
         timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
