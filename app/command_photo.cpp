@@ -54,10 +54,9 @@ Bracket read_and_merge(const PhotoArguments& a) {
     for (std::size_t i = 0; i < a.shots.size(); ++i) {
         const std::filesystem::path file = a.shots[i];
         BracketShot shot{a.shots[i], 1, [file] { return read_photo(file); }};
-        const auto noted = exposure_of(read_shot_data(file));
         if (!a.exposures.empty()) {
             shot.exposure = parse_exposure(a.exposures[i]);
-        } else if (noted) {
+        } else if (const auto noted = exposure_of(read_shot_data(file))) {
             shot.exposure = *noted;
         } else if (a.shots.size() > 1) {
             throw InputError(file,

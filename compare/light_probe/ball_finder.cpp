@@ -80,8 +80,9 @@ void sort_by_evidence(const cv::Mat& whole, const cv::Mat& linear, std::vector<F
     cv::GaussianBlur(whole, soft, {}, 1.0);
     const auto weigh = [&](FoundBall& ball) {
         const RimLook rim = rim_look(soft, ball.circle);
-        ball.evidence = ball.support * std::max(0.0, rim.compression - 1) * (1 - rim.alike);
-        return ball.support * std::max(0.0, rim.compression - 1);
+        const double pressed = ball.support * std::max(0.0, rim.compression - 1);
+        ball.evidence = pressed * (1 - rim.alike);
+        return pressed;
     };
     const auto sort = [&] {
         std::stable_sort(found.begin(), found.end(), [](const FoundBall& a, const FoundBall& b) {

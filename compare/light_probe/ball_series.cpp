@@ -73,12 +73,10 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
                         "the order of the files",
                         series.exposures.size(), files.size()));
     }
-    std::vector<ShotData> notes;
     std::vector<SortedShot> shots;
     for (std::size_t i = 0; i < files.size(); ++i) {
-        notes.push_back(read_shot_data(files[i]));
         shots.push_back({files[i], series.exposures.empty()
-                                       ? exposure_of(notes[i])
+                                       ? exposure_of(read_shot_data(files[i]))
                                        : std::optional<double>(series.exposures[i])});
     }
     if (groups.empty()) groups = views_of(shots);
@@ -125,7 +123,7 @@ ReadSeries read_ball_series(const BallSeries& series, const Progress& progress) 
         view.name = name;
         view.photo = std::move(merged.photo);
         view.focal_px =
-            focal_px_of(notes[groups[g][0]], std::hypot(view.photo.width, view.photo.height));
+            focal_px_of(view.photo.shot, std::hypot(view.photo.width, view.photo.height));
         if (series.lens) {
             const Lens lens =
                 lens_for(*series.lens, view.photo.width, view.photo.height, view.name);

@@ -256,11 +256,4 @@ ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
             rough.ambiguous()};
 }
 
-ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
-                          const BallView& second, const ViewPrior& second_prior,
-                          const std::optional<glm::dmat3>& turned) {
-    return align_views(first, first_prior, second, second_prior,
-                       turned ? RoughTurn{*turned} : rough_turn(first, second));
-}
-
 }  // namespace culet

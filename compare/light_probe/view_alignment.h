@@ -1,7 +1,6 @@
 #pragma once
 // How the camera turned around the ball between two pictures, found from what both show.
 
-#include <optional>
 #include <string>
 
 #include "compare/light_probe/ball_view.h"
@@ -42,20 +41,14 @@ struct RoughTurn {
     bool ambiguous() const { return correlation < 0.5 || rival > correlation - 0.05; }
 };
 
-/// The best over all rotations, with the balls where the views say. Deterministic.
+/// Best over all rotations: correlation of what both show, coarse over SO(3) (quaternions of Alexa
+/// 2022, eq. 6: super-Fibonacci spirals), with the balls where the views say. Deterministic.
 RoughTurn rough_turn(const BallView& first, const BallView& second);
 
-/// From a rotation that is known or was found roughly.
+/// From a rotation that is known or was found roughly: by least squares on the pictures, together
+/// with the outlines within their sigmas and the distance where it is not known. Deterministic.
 ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
                           const BallView& second, const ViewPrior& second_prior,
                           const RoughTurn& rough);
-
-/// Best over all rotations: correlation of what both show, first coarse over SO(3) (quaternions of
-/// Alexa 2022, eq. 6: super-Fibonacci spirals), then by least squares on the pictures, together
-/// with the outlines within their sigmas and the distance where it is not known. Deterministic.
-/// `turned` is a rotation that is known beforehand (only the fine part is done then).
-ViewAlignment align_views(const BallView& first, const ViewPrior& first_prior,
-                          const BallView& second, const ViewPrior& second_prior,
-                          const std::optional<glm::dmat3>& turned = std::nullopt);
 
 }  // namespace culet

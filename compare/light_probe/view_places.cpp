@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/photo.hpp>
+#include <optional>
 
 #include "stone/errors.h"
 
@@ -107,23 +108,19 @@ void align_all(PlacedViews& views, const ProbeOptions& options, const Progress& 
     const std::size_t count = views.seen.size();
     std::vector<std::optional<ViewAlignment>> found(count);
     // Views next to each other share the most: the surest pair with a view that is placed already
-    // places the next one. All pairs are tried roughly when both of their views are there.
+    // places the next one.
     std::vector<SurePair> pairs;
     std::vector<std::size_t> placed{0};
-    const auto try_with = [&](std::size_t at, std::size_t v) {
-        RoughTurn turn;
-        if (options.turned && at == 0 && v == 1)
-            turn.first_from_second = about_vertical(*options.turned);
-        else
-            turn = rough_turn(views.seen[at], views.seen[v]);
-        pairs.push_back({at, v, turn});
-    };
     double done = 0;
     const double all = static_cast<double>(count * (count - 1)) / 2;
     while (placed.size() < count) {
         for (std::size_t v = 1; v < count; ++v) {
             if (is_in(placed, v)) continue;
-            try_with(placed.back(), v);
+            const std::size_t at = placed.back();
+            pairs.push_back({at, v,
+                             options.turned && at == 0 && v == 1
+                                 ? RoughTurn{about_vertical(*options.turned)}
+                                 : rough_turn(views.seen[at], views.seen[v])});
             if (!progress(++done / all)) throw Interrupted();
         }
         std::erase_if(pairs, [&](const SurePair& pair) { return is_in(placed, pair.to_place); });
@@ -141,7 +138,7 @@ void align_without_near_lights(PlacedViews& views, std::vector<ViewPrior> priors
         const double outline = turned_by_outline(priors[v]);
         const ViewAlignment again =
             align_views(painted_over(views.seen[0]), priors[0], painted_over(views.seen[v]),
-                        priors[v], camera_from_world * views.seen[v].world_from_camera);
+                        priors[v], RoughTurn{camera_from_world * views.seen[v].world_from_camera});
         views.seen[0].ball = again.first;
         views.seen[v].ball = again.second;
         keep_refined(priors[0], again.first);

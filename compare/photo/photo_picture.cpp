@@ -1,10 +1,11 @@
 #include "compare/photo/photo_picture.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
+
+#include "render/image/image_exr.h"
 
 namespace culet {
 
@@ -48,12 +49,11 @@ Picture picture_of(Photo photo) {
     picture.samples = fits_half_floats(photo) ? Picture::Samples::half : Picture::Samples::single;
     picture.rgb = std::move(photo.rgb);
     picture.coverage = std::move(photo.coverage);
-    constexpr std::array k_names{"variance.R", "variance.G", "variance.B"};
-    for (std::size_t c = 0; c < k_names.size() && !photo.variance.empty(); ++c) {
+    for (std::size_t c = 0; c < k_variance_channels.size() && !photo.variance.empty(); ++c) {
         std::vector<float> plane(picture.pixels());
         for (std::size_t i = 0; i < plane.size(); ++i)
             plane[i] = rounded(photo.variance[3 * i + c]);
-        picture.planes.push_back({k_names[c], std::move(plane)});
+        picture.planes.push_back({k_variance_channels[c], std::move(plane)});
     }
     if (!photo.saturated.empty())
         picture.planes.push_back({"saturated", std::move(photo.saturated)});

@@ -216,7 +216,8 @@ Picture read_exr(const std::string& bytes, const std::filesystem::path& file, bo
             picture.spectral.emplace_back(pixels);
             slice(name, picture.spectral.back().data(), 1);
         }
-        std::vector<std::string> further{"variance.R", "variance.G", "variance.B", "saturated"};
+        std::vector<std::string> further{"saturated"};
+        further.insert(further.begin(), k_variance_channels.begin(), k_variance_channels.end());
         further.insert(further.end(), k_band_channels.begin(), k_band_channels.end());
         for (const std::string& name : further) {
             if (has(name.c_str())) picture.planes.push_back({name, std::vector<float>(pixels)});

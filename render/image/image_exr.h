@@ -1,12 +1,16 @@
 #pragma once
 // OpenEXR files, which OpenCV reads without names of channels.
 
+#include <array>
 #include <filesystem>
 #include <string>
 
 #include "render/image/picture.h"
 
 namespace culet {
+
+/// Planes of a Picture with the variance of R, G and B.
+inline constexpr std::array k_variance_channels{"variance.R", "variance.G", "variance.B"};
 
 /// R, G, B (or Y), A and spectral planes of the file's bytes; 16-bit, 32-bit float and integer
 /// channels. Memory is taken only for what the file can hold. Throws InputError naming `file`.

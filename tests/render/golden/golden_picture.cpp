@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/image/image_exr.h"
 #include "render/image/image_io.h"
 #include "render/render.h"
 #include "render/scene/scene_io.h"
@@ -19,15 +20,14 @@ constexpr double k_tolerance = 0.05;
 // Of the mean radiance: a fifth of the tolerance. What differs less was not asked for, and other
 // processors may round a ray at an edge to its other side.
 constexpr double k_floor = k_tolerance / 5;
-constexpr const char* k_names[]{"variance.R", "variance.G", "variance.B"};
+
+}  // namespace
 
 double mean_radiance(const Picture& picture) {
     double sum = 0;
     for (const float value : picture.rgb) sum += value;
     return sum / static_cast<double>(picture.rgb.size());
 }
-
-}  // namespace
 
 std::vector<std::string> golden_scenes() {
     std::vector<std::string> names;
@@ -108,7 +108,7 @@ void write_golden(const GoldenPicture& golden, const std::filesystem::path& file
     for (std::size_t c = 0; c < 3; ++c) {
         std::vector<float> plane(picture.pixels());
         for (std::size_t i = 0; i < plane.size(); ++i) plane[i] = golden.variance[3 * i + c];
-        picture.planes.push_back({k_names[c], std::move(plane)});
+        picture.planes.push_back({k_variance_channels[c], std::move(plane)});
     }
     write_picture(picture, file, {},
                   {{"culet:count", fmt::format("{}", golden.count)},
@@ -121,9 +121,9 @@ GoldenPicture read_golden(const std::filesystem::path& file) {
     golden.mean = read_picture(file).picture;
     golden.variance.resize(golden.mean.rgb.size());
     for (std::size_t c = 0; c < 3; ++c) {
-        const auto plane =
-            std::find_if(golden.mean.planes.begin(), golden.mean.planes.end(),
-                         [&](const Picture::Plane& one) { return one.channel == k_names[c]; });
+        const auto plane = std::find_if(
+            golden.mean.planes.begin(), golden.mean.planes.end(),
+            [&](const Picture::Plane& one) { return one.channel == k_variance_channels[c]; });
         check(plane != golden.mean.planes.end(), "a golden picture has its variance");
         for (std::size_t i = 0; i < golden.mean.pixels(); ++i)
             golden.variance[3 * i + c] = plane->values[i];

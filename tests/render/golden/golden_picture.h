@@ -15,6 +15,8 @@ std::vector<std::string> golden_scenes();
 /// The scene, small, drawn by an engine with a seed.
 Picture drawn(const std::string& scene, const std::string& engine, std::uint64_t seed);
 
+double mean_radiance(const Picture& picture);
+
 struct GoldenPicture {
     Picture mean;                 ///< of `count` pictures with seeds of their own
     std::vector<float> variance;  ///< of one picture, a sample (3 a pixel)

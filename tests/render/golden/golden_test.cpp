@@ -19,9 +19,7 @@ class Golden : public testing::TestWithParam<std::tuple<std::string, std::string
 std::string left_behind(const Picture& picture, const GoldenPicture& golden,
                         const std::string& name) {
     Picture off = picture;
-    double mean = 0;
-    for (const float value : golden.mean.rgb) mean += value;
-    mean /= static_cast<double>(golden.mean.rgb.size());
+    const double mean = mean_radiance(golden.mean);
     for (std::size_t i = 0; i < off.rgb.size(); ++i)
         off.rgb[i] = std::max(0.2f + float(10 * (picture.rgb[i] - golden.mean.rgb[i]) / mean), 0.f);
     const std::filesystem::path folder = std::filesystem::current_path() / "golden-failures";
