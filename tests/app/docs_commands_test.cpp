@@ -69,7 +69,7 @@ std::string help_of(const std::string& command, std::map<std::string, std::strin
     return it->second;
 }
 
-TEST(DocsCommands, name_commands_and_options_that_the_program_has) {
+TEST(DocsCommands, NameCommandsAndOptionsThatTheProgramHas) {
     std::map<std::string, std::string> help;
     int commands = 0;
     for (auto it = fs::recursive_directory_iterator(CULET_SOURCE_DIR);

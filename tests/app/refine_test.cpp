@@ -123,7 +123,7 @@ protected:
 };
 
 // Off by 0.3 degrees before; the aim of the command is 0.1.
-TEST_F(RefineCommand, finds_facets_that_readings_have_wrong) {
+TEST_F(RefineCommand, FindsFacetsThatReadingsHaveWrong) {
     const ProgramRun drawn = run_culet({"render", at("true-scene.toml"), "-o", at("photo.exr")});
     ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
     const ProgramRun run =
@@ -143,7 +143,7 @@ TEST_F(RefineCommand, finds_facets_that_readings_have_wrong) {
     EXPECT_LT(reading["rms"].get<double>(), 0.3 * reading["rms_before"].get<double>());
 }
 
-TEST_F(RefineCommand, says_what_is_missing) {
+TEST_F(RefineCommand, SaysWhatIsMissing) {
     ProgramRun run = run_culet({"refine", at("stone.toml"), at("scene.toml"), "-o", at("r.obj")});
     EXPECT_EQ(run.exit_code, 2);
     EXPECT_NE(run.err.find("STONE.toml PHOTO... SCENE.toml"), std::string::npos) << run.err;

@@ -85,17 +85,17 @@ void expect_found(const ProgramRun& run) {
     EXPECT_LT(angle_to_truth(run), stated);
 }
 
-TEST_F(RegisterSample, is_found_as_it_is) {
+TEST_F(RegisterSample, IsFoundAsItIs) {
     expect_found(registered(k_photo));
 }
 
-TEST_F(RegisterSample, is_found_as_a_jpeg) {
+TEST_F(RegisterSample, IsFoundAsAJpeg) {
     const cv::Mat photo = cv::imread(k_photo);
     cv::imwrite(file("photo.jpg"), photo, {cv::IMWRITE_JPEG_QUALITY, 85});
     expect_found(registered(file("photo.jpg")));
 }
 
-TEST_F(RegisterSample, is_found_when_cropped) {
+TEST_F(RegisterSample, IsFoundWhenCropped) {
     const cv::Mat photo = cv::imread(k_photo);
     cv::imwrite(file("cropped.png"), photo(cv::Rect(30, 10, 420, 365)));
     expect_found(registered(file("cropped.png")));
@@ -103,13 +103,13 @@ TEST_F(RegisterSample, is_found_when_cropped) {
 
 // Every limit can be set: what is taken by default is refused when more is asked for, in words that
 // name the option.
-TEST_F(RegisterSample, is_refused_when_it_must_be_surer) {
+TEST_F(RegisterSample, IsRefusedWhenItMustBeSurer) {
     const ProgramRun run = registered(k_photo, {"--within-deg", "0.01"});
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_NE(run.err.find("--within-deg"), std::string::npos) << run.err;
 }
 
-TEST_F(RegisterSample, is_refused_from_the_wrong_side) {
+TEST_F(RegisterSample, IsRefusedFromTheWrongSide) {
     // Turned over: the scene's camera looks at the pavilion.
     const ProgramRun run = registered(k_photo, {"--set", "camera.position=[0, 0, -120]"});
     EXPECT_EQ(run.exit_code, 1) << run.out;

@@ -53,7 +53,7 @@ protected:
     test::ScratchFolder folder_;
 };
 
-TEST_F(Register, writes_a_scene_that_renders_at_once) {
+TEST_F(Register, WritesASceneThatRendersAtOnce) {
     fs::create_directory(folder_ / "out");
     const ProgramRun run = run_culet({"register", file("photo.png"), file("start.toml"), "-o",
                                       file("out/posed.toml"), "--overlay", file("out/overlay.png"),
@@ -80,7 +80,7 @@ TEST_F(Register, writes_a_scene_that_renders_at_once) {
     EXPECT_GT(nlohmann::json::parse(compared.out).at("registration").at("iou"), 0.99);
 }
 
-TEST_F(Register, refuses_with_its_outputs_written) {
+TEST_F(Register, RefusesWithItsOutputsWritten) {
     EXPECT_EQ(run_culet({"cut", "trillion", "-o", file("stone.obj"), "-q"}).exit_code, 0);
     const ProgramRun run =
         run_culet({"register", file("photo.png"), file("start.toml"), "-o", file("posed.toml"),
@@ -96,7 +96,7 @@ TEST_F(Register, refuses_with_its_outputs_written) {
     EXPECT_TRUE(fs::exists(file("posed.toml")) && fs::exists(file("overlay.png")));
 }
 
-TEST_F(Register, leaves_nothing_behind_when_it_cannot) {
+TEST_F(Register, LeavesNothingBehindWhenItCannot) {
     const std::vector<std::vector<std::string>> calls{
         {"register", file("none.png"), file("start.toml"), "-o", file("posed.toml")},
         {"register", file("photo.png"), file("none.toml"), "-o", file("posed.toml")},

@@ -53,7 +53,7 @@ protected:
     test::ScratchFolder folder_;
 };
 
-TEST_F(Slips, bare_program_says_what_to_begin_with) {
+TEST_F(Slips, BareProgramSaysWhatToBeginWith) {
     const ProgramRun run = run_culet({});
     EXPECT_EQ(run.exit_code, 2);
     EXPECT_TRUE(run.out.empty());
@@ -62,7 +62,7 @@ TEST_F(Slips, bare_program_says_what_to_begin_with) {
     EXPECT_LE(std::count(run.err.begin(), run.err.end(), '\n'), 12);
 }
 
-TEST_F(Slips, misspelt_options_and_commands_are_answered_with_the_nearest) {
+TEST_F(Slips, MisspeltOptionsAndCommandsAreAnsweredWithTheNearest) {
     // Even where something that must be given is missing too.
     expect_answer({"render", "scene.toml", "--tollerance", "0.1"},
                   {"culet render", "\"--tollerance\"", "\"--tolerance\""});
@@ -75,7 +75,7 @@ TEST_F(Slips, misspelt_options_and_commands_are_answered_with_the_nearest) {
                   {"--pavilion-angle"});
 }
 
-TEST_F(Slips, units_behind_numbers_are_taken_or_told) {
+TEST_F(Slips, UnitsBehindNumbersAreTakenOrTold) {
     const auto cut = [this](const std::string& name, const std::vector<std::string>& parameters) {
         std::vector<std::string> all{"cut", "round-brilliant", "-q", "-o", file(name)};
         all.insert(all.end(), parameters.begin(), parameters.end());
@@ -96,7 +96,7 @@ TEST_F(Slips, units_behind_numbers_are_taken_or_told) {
                   {"write 12 without \"deg\""});
 }
 
-TEST_F(Slips, a_file_of_the_wrong_kind_is_told_with_the_command_that_takes_it) {
+TEST_F(Slips, AFileOfTheWrongKindIsToldWithTheCommandThatTakesIt) {
     write_files();
     const std::string out = file("out");
     expect_answer({"fit", file("scene.toml"), "-o", file("a.obj")},
@@ -126,7 +126,7 @@ std::string without_texts(const std::string& png) {
     return bare;
 }
 
-TEST_F(Slips, swapped_photograph_and_render_are_told) {
+TEST_F(Slips, SwappedPhotographAndRenderAreTold) {
     write_files();
     ASSERT_EQ(run_culet({"render", file("scene.toml"), "-q", "-o", file("render.png")}).exit_code,
               0);
@@ -147,13 +147,13 @@ TEST_F(Slips, swapped_photograph_and_render_are_told) {
     }
 }
 
-TEST_F(Slips, text_without_quotes_is_told) {
+TEST_F(Slips, TextWithoutQuotesIsTold) {
     write("stone.toml", "[stone]\nname = Dravite\n");
     expect_answer({"fit", file("stone.toml"), "-o", file("a.obj")},
                   {"stone.toml:2:", "name = \"Dravite\""});
 }
 
-TEST_F(Slips, foreign_text_is_shortened_and_made_safe) {
+TEST_F(Slips, ForeignTextIsShortenedAndMadeSafe) {
     write("stone.toml", "[stone]\nmesh = \"a.obj\"\nmaterial = \"" + std::string(3000000, 'x') +
                             "\\u001b[31m\"\n");
     const ProgramRun run = run_culet({"fit", file("stone.toml"), "-o", file("a.obj")});
@@ -162,7 +162,7 @@ TEST_F(Slips, foreign_text_is_shortened_and_made_safe) {
     EXPECT_EQ(run.err.find('\x1b'), std::string::npos);
 }
 
-TEST_F(Slips, missing_colour_is_said_when_a_picture_is_drawn) {
+TEST_F(Slips, MissingColourIsSaidWhenAPictureIsDrawn) {
     write_files();
     const std::vector<std::string> draw{"render", file("scene.toml"),   "-o", file("a.png"),
                                         "--set",  "material=aquamarine"};
@@ -184,7 +184,7 @@ TEST_F(Slips, missing_colour_is_said_when_a_picture_is_drawn) {
                   {"\"sapphire_blue\"", "--materials"});
 }
 
-TEST_F(Slips, materials_are_listed_by_word_as_text_json_and_page) {
+TEST_F(Slips, MaterialsAreListedByWordAsTextJsonAndPage) {
     const ProgramRun all = run_culet({"info", "--materials"});
     EXPECT_EQ(all.exit_code, 0) << all.err;
     EXPECT_EQ(all.out.find('\x1b'), std::string::npos) << "no colours where no terminal is";

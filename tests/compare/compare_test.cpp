@@ -39,7 +39,7 @@ StonePicture small() {
     return picture;
 }
 
-TEST(Compare, a_picture_compared_with_itself_scores_perfect) {
+TEST(Compare, APictureComparedWithItselfScoresPerfect) {
     const Photo photo = draw(small());
     const Comparison c = compare(photo, photo);
     EXPECT_EQ(c.verdict, Verdict::match);
@@ -60,7 +60,7 @@ TEST(Compare, a_picture_compared_with_itself_scores_perfect) {
 // (the stairs of the mask after smoothing) and every fourth is independent, so that with 300 points
 // the centre is good to 0.03 px, the scale to 0.03 / radius, the turn to 0.03 / (0.1 radius),
 // 0.1 being the root mean square lever of this outline; four standard deviations are allowed.
-TEST(Compare, a_known_move_is_recovered_from_the_coverage) {
+TEST(Compare, AKnownMoveIsRecoveredFromTheCoverage) {
     StonePicture still = small();
     still.with_coverage = true;
     StonePicture moved = still;
@@ -86,7 +86,7 @@ TEST(Compare, a_known_move_is_recovered_from_the_coverage) {
 // Segmented on different grounds the outlines may each be off by half a pixel all round.
 // Another picture in the render's place lies where one that was aligned itself would: both outlines
 // are the coverage's.
-TEST(AlignedPair, takes_another_picture_of_the_renders_outline) {
+TEST(AlignedPair, TakesAnotherPictureOfTheRendersOutline) {
     StonePicture still = small();
     still.with_coverage = true;
     StonePicture moved = still;
@@ -103,7 +103,7 @@ TEST(AlignedPair, takes_another_picture_of_the_renders_outline) {
     EXPECT_EQ(put.compared_pixels, own.compared_pixels);
 }
 
-TEST(Compare, a_known_move_is_recovered_from_the_background) {
+TEST(Compare, AKnownMoveIsRecoveredFromTheBackground) {
     const StonePicture still = small();
     StonePicture moved = still;
     moved.centre_x += 6.3;
@@ -118,7 +118,7 @@ TEST(Compare, a_known_move_is_recovered_from_the_background) {
 
 // A disc's outline is a disc: its centre is where it was drawn to a tenth of a pixel, its diameter
 // to a pixel.
-TEST(Compare, the_outline_from_the_background_is_where_the_stone_is) {
+TEST(Compare, TheOutlineFromTheBackgroundIsWhereTheStoneIs) {
     StonePicture round = small();
     round.flatness = 1;
     round.sides = 0;
@@ -130,7 +130,7 @@ TEST(Compare, the_outline_from_the_background_is_where_the_stone_is) {
     EXPECT_NEAR(r.photo_diameter_px, 90 * std::sqrt(1.1), 1);
 }
 
-TEST(Compare, a_photo_of_four_times_the_pixels_is_compared_at_the_renders_size) {
+TEST(Compare, APhotoOfFourTimesThePixelsIsComparedAtTheRendersSize) {
     const StonePicture still = small();
     StonePicture large = still;
     large.width *= 4;
@@ -146,7 +146,7 @@ TEST(Compare, a_photo_of_four_times_the_pixels_is_compared_at_the_renders_size) 
     EXPECT_GT(*score(c, "zncc").value, 0.99);
 }
 
-TEST(Compare, gain_of_each_channel_is_recovered) {
+TEST(Compare, GainOfEachChannelIsRecovered) {
     StonePicture photo = small();
     photo.gain[0] = 0.5;
     photo.gain[1] = 0.8;
@@ -159,7 +159,7 @@ TEST(Compare, gain_of_each_channel_is_recovered) {
     EXPECT_NEAR(*score(c, "zncc").value, 1, 1e-3);
 }
 
-TEST(Compare, clipped_pixels_do_not_pull_the_gain) {
+TEST(Compare, ClippedPixelsDoNotPullTheGain) {
     StonePicture photo = small();
     for (double& gain : photo.gain) gain = 3;
     const Comparison c = compare(draw(photo), draw(small()));
@@ -169,7 +169,7 @@ TEST(Compare, clipped_pixels_do_not_pull_the_gain) {
 
 // What a camera adds: a blur of 0.7 pixels, shot and read noise, 8 bits. The pose must hold and the
 // verdict with it.
-TEST(Compare, noise_and_blur_of_a_camera_do_not_upset_it) {
+TEST(Compare, NoiseAndBlurOfACameraDoNotUpsetIt) {
     StonePicture turned = small();
     turned.turn = 0.05;
     Photo photo = draw(turned);
@@ -190,7 +190,7 @@ TEST(Compare, noise_and_blur_of_a_camera_do_not_upset_it) {
     EXPECT_NEAR(c.registration.scale, 1, 0.02);
 }
 
-TEST(Compare, another_pattern_in_the_same_outline_is_no_evidence) {
+TEST(Compare, AnotherPatternInTheSameOutlineIsNoEvidence) {
     StonePicture other = small();
     other.pattern = 9;
     const Comparison c = compare(draw(other), draw(small()));
@@ -199,7 +199,7 @@ TEST(Compare, another_pattern_in_the_same_outline_is_no_evidence) {
     EXPECT_LT(*score(c, "zncc").value, 0.4);
 }
 
-TEST(Compare, scores_fall_as_the_pattern_moves_away) {
+TEST(Compare, ScoresFallAsThePatternMovesAway) {
     double last_zncc = 2, last_delta = -1;
     for (const double shift : {0.0, 0.05, 0.15, 0.5}) {
         StonePicture wrong = small();
@@ -212,7 +212,7 @@ TEST(Compare, scores_fall_as_the_pattern_moves_away) {
     }
 }
 
-TEST(Compare, a_mirrored_picture_is_not_turned_back_silently) {
+TEST(Compare, AMirroredPictureIsNotTurnedBackSilently) {
     StonePicture mirrored = small();
     mirrored.mirrored = true;
     mirrored.flatness = 0.95;
@@ -223,7 +223,7 @@ TEST(Compare, a_mirrored_picture_is_not_turned_back_silently) {
     EXPECT_LT(*score(c, "zncc").value, 0.5);
 }
 
-TEST(Compare, a_quarter_turn_is_refused_with_a_hint) {
+TEST(Compare, AQuarterTurnIsRefusedWithAHint) {
     StonePicture quarter = small();
     quarter.turn = std::numbers::pi / 2;
     const Comparison c = compare(draw(quarter), draw(small()));
@@ -235,7 +235,7 @@ TEST(Compare, a_quarter_turn_is_refused_with_a_hint) {
     EXPECT_FALSE(c.pictures.render_outline.values.empty());
 }
 
-TEST(Compare, another_outline_is_refused) {
+TEST(Compare, AnotherOutlineIsRefused) {
     StonePicture narrow = small();
     narrow.flatness = 0.5;
     const Comparison c = compare(draw(narrow), draw(small()));
@@ -243,7 +243,7 @@ TEST(Compare, another_outline_is_refused) {
     EXPECT_THAT(c.reason, HasSubstr("overlap"));
 }
 
-TEST(Compare, a_round_stone_keeps_its_turn_and_says_so) {
+TEST(Compare, ARoundStoneKeepsItsTurnAndSaysSo) {
     StonePicture round = small();
     round.flatness = 1;
     round.sides = 400;
@@ -255,7 +255,7 @@ TEST(Compare, a_round_stone_keeps_its_turn_and_says_so) {
     EXPECT_THAT(c.registration.warnings, testing::Contains(HasSubstr("round")));
 }
 
-TEST(Compare, a_light_ground_and_a_dark_box_both_show_the_stone) {
+TEST(Compare, ALightGroundAndADarkBoxBothShowTheStone) {
     StonePicture light = small();
     light.ground = 0.95;
     const Comparison c = compare(draw(light), draw(small()));
@@ -263,19 +263,19 @@ TEST(Compare, a_light_ground_and_a_dark_box_both_show_the_stone) {
     EXPECT_EQ(c.verdict, Verdict::match);
 }
 
-TEST(Compare, a_black_photo_is_refused) {
+TEST(Compare, ABlackPhotoIsRefused) {
     const Comparison c = compare(synthetic::flat(150, 136, 0), draw(small()));
     EXPECT_EQ(c.verdict, Verdict::refused);
     EXPECT_THAT(c.reason, HasSubstr("black"));
 }
 
-TEST(Compare, a_photo_of_one_colour_is_refused) {
+TEST(Compare, APhotoOfOneColourIsRefused) {
     const Comparison c = compare(synthetic::flat(150, 136, 0.5f), draw(small()));
     EXPECT_EQ(c.verdict, Verdict::refused);
     EXPECT_THAT(c.reason, HasSubstr("--mask"));
 }
 
-TEST(Compare, a_stone_of_one_colour_holds_no_evidence) {
+TEST(Compare, AStoneOfOneColourHoldsNoEvidence) {
     StonePicture plain = small();
     plain.with_coverage = true;
     Photo photo = draw(plain);
@@ -286,7 +286,7 @@ TEST(Compare, a_stone_of_one_colour_holds_no_evidence) {
     EXPECT_THAT(c.reason, HasSubstr("one brightness"));
 }
 
-TEST(Compare, a_black_render_inside_its_coverage_holds_no_evidence) {
+TEST(Compare, ABlackRenderInsideItsCoverageHoldsNoEvidence) {
     StonePicture plain = small();
     plain.with_coverage = true;
     Photo render = draw(plain);
@@ -297,7 +297,7 @@ TEST(Compare, a_black_render_inside_its_coverage_holds_no_evidence) {
 }
 
 // A pattern of rings is the same however it is turned: the null must not be made of copies.
-TEST(Compare, a_render_that_looks_the_same_turned_gives_no_null) {
+TEST(Compare, ARenderThatLooksTheSameTurnedGivesNoNull) {
     StonePicture round = small();
     round.flatness = 1;
     round.sides = 400;
@@ -317,7 +317,7 @@ TEST(Compare, a_render_that_looks_the_same_turned_gives_no_null) {
     EXPECT_THAT(c.reason, HasSubstr("however it is turned"));
 }
 
-TEST(Compare, a_mask_of_three_pixels_is_refused) {
+TEST(Compare, AMaskOfThreePixelsIsRefused) {
     const Photo photo = draw(small());
     CompareOptions options;
     options.mask.assign(static_cast<std::size_t>(photo.width * photo.height), 0.0f);
@@ -328,7 +328,7 @@ TEST(Compare, a_mask_of_three_pixels_is_refused) {
 }
 
 // All but three pixels left out; and all but a corner, which is compared as if nothing were wrong.
-TEST(Compare, what_is_to_be_ignored_is_left_out_of_every_score) {
+TEST(Compare, WhatIsToBeIgnoredIsLeftOutOfEveryScore) {
     StonePicture p;
     p.with_coverage = true;
     const Photo photo = draw(p);
@@ -352,7 +352,7 @@ TEST(Compare, what_is_to_be_ignored_is_left_out_of_every_score) {
     EXPECT_EQ(compare(photo, photo, options).verdict, Verdict::refused);
 }
 
-TEST(Compare, a_photograph_that_is_no_photometry_gets_scores_of_geometry) {
+TEST(Compare, APhotographThatIsNoPhotometryGetsScoresOfGeometry) {
     Photo photo = draw({});
     const Photo render = photo;
     photo.photometric = false;
@@ -368,14 +368,14 @@ TEST(Compare, a_photograph_that_is_no_photometry_gets_scores_of_geometry) {
     EXPECT_NE(scores_json(result).find("\"geometry_only\": true"), std::string::npos);
 }
 
-TEST(Compare, a_mask_that_fills_the_picture_does_no_harm) {
+TEST(Compare, AMaskThatFillsThePictureDoesNoHarm) {
     const Photo photo = draw(small());
     CompareOptions options;
     options.mask.assign(static_cast<std::size_t>(photo.width * photo.height), 1.0f);
     EXPECT_EQ(compare(photo, photo, options).verdict, Verdict::refused);
 }
 
-TEST(Compare, tiny_pictures_are_refused) {
+TEST(Compare, TinyPicturesAreRefused) {
     for (const int size : {1, 2, 7}) {
         const Photo tiny = synthetic::flat(size, size, 0.3f);
         EXPECT_EQ(compare(tiny, tiny).verdict, Verdict::refused);
@@ -383,7 +383,7 @@ TEST(Compare, tiny_pictures_are_refused) {
     }
 }
 
-TEST(Compare, the_same_seed_gives_the_same_bytes_and_another_seed_another_null) {
+TEST(Compare, TheSameSeedGivesTheSameBytesAndAnotherSeedAnotherNull) {
     StonePicture wrong = small();
     wrong.cell_shift = 0.1;
     const Photo photo = draw(small()), render = draw(wrong);
@@ -394,7 +394,7 @@ TEST(Compare, the_same_seed_gives_the_same_bytes_and_another_seed_another_null) 
     EXPECT_FALSE(first == scores_json(compare(photo, render, other)));
 }
 
-TEST(Compare, scale_of_the_light_does_not_matter_for_linear_pictures) {
+TEST(Compare, ScaleOfTheLightDoesNotMatterForLinearPictures) {
     StonePicture wrong = small();
     wrong.cell_shift = 0.1;
     Photo photo = draw(small()), render = draw(wrong);
@@ -407,14 +407,14 @@ TEST(Compare, scale_of_the_light_does_not_matter_for_linear_pictures) {
     EXPECT_NEAR(*score(bright, "ssim").value, *score(plain, "ssim").value, 1e-6);
 }
 
-TEST(Compare, a_stop_from_progress_interrupts) {
+TEST(Compare, AStopFromProgressInterrupts) {
     const Photo photo = draw(small());
     int calls = 0;
     EXPECT_THROW(compare(photo, photo, {}, [&](double) { return ++calls < 3; }), Interrupted);
     EXPECT_EQ(calls, 3);
 }
 
-TEST(ScoresJson, has_the_keys_that_outsiders_rely_on_and_no_infinities) {
+TEST(ScoresJson, HasTheKeysThatOutsidersRelyOnAndNoInfinities) {
     const Photo photo = draw(small());
     const std::string text = scores_json(compare(photo, photo), {"a \"b\"\xff.png", "r.exr", ""});
     const auto json = nlohmann::json::parse(text);

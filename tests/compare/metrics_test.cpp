@@ -43,7 +43,7 @@ cv::Mat flat(double r, double g, double b, int size = 48) {
 
 // An independent implementation: OpenCV's, which takes 8-bit pictures (on floats its constants are
 // wrong). Rounding to 8 bits on both sides is all that may differ.
-TEST(Ssim, agrees_with_opencv_on_8_bits) {
+TEST(Ssim, AgreesWithOpencvOn8Bits) {
     const cv::Mat photo = noise(96, 1), render = 0.7 * photo + 0.3 * noise(96, 2);
     cv::Mat photo_bytes, render_bytes;
     ShownPictures pictures = shown(pair_of(photo, render));
@@ -60,7 +60,7 @@ TEST(Ssim, agrees_with_opencv_on_8_bits) {
 }
 
 // The trap of SSIM's constants: on 0..1 floats without scaling this would come out near 0.99.
-TEST(Ssim, a_copy_at_half_brightness_is_far_from_perfect) {
+TEST(Ssim, ACopyAtHalfBrightnessIsFarFromPerfect) {
     const cv::Mat photo = noise(96, 1);
     const cv::Mat half = 0.25 * photo;
     const MatchedPictures pictures = pair_of(photo, half);
@@ -68,7 +68,7 @@ TEST(Ssim, a_copy_at_half_brightness_is_far_from_perfect) {
     EXPECT_NEAR(*zncc(pictures, 0.02), 1, 1e-6);
 }
 
-TEST(Ssim, bounds_and_symmetry) {
+TEST(Ssim, BoundsAndSymmetry) {
     const cv::Mat photo = noise(64, 1), render = noise(64, 2);
     const MatchedPictures ab = pair_of(photo, render), ba = pair_of(render, photo);
     EXPECT_NEAR(ssim(shown(ab), ab.mask).mean, ssim(shown(ba), ba.mask).mean, 1e-6);
@@ -78,7 +78,7 @@ TEST(Ssim, bounds_and_symmetry) {
 }
 
 // An error of 0.1 of full scale everywhere is 20 dB by definition.
-TEST(Psnr, of_a_known_error) {
+TEST(Psnr, OfAKnownError) {
     ShownPictures pictures;
     pictures.photo = cv::Mat(8, 8, CV_32FC3, cv::Scalar(0.5, 0.5, 0.5));
     pictures.render = cv::Mat(8, 8, CV_32FC3, cv::Scalar(0.6, 0.6, 0.6));
@@ -88,7 +88,7 @@ TEST(Psnr, of_a_known_error) {
     EXPECT_FALSE(psnr(pictures, mask).has_value());
 }
 
-TEST(Zncc, of_a_negative_is_minus_one_and_of_flat_is_nothing) {
+TEST(Zncc, OfANegativeIsMinusOneAndOfFlatIsNothing) {
     cv::Mat photo = noise(64, 3), negative;
     // sqrt of the negative is 1 - sqrt of the positive.
     cv::Mat root;
@@ -101,7 +101,7 @@ TEST(Zncc, of_a_negative_is_minus_one_and_of_flat_is_nothing) {
     EXPECT_FALSE(zncc(pair_of(photo, flat(0.3, 0.3, 0.3, 64)), 0.02).has_value());
 }
 
-TEST(Zncc, sees_nothing_outside_the_mask) {
+TEST(Zncc, SeesNothingOutsideTheMask) {
     const cv::Mat photo = noise(64, 4);
     cv::Mat render = photo.clone();
     MatchedPictures pictures = pair_of(photo, render);
@@ -117,7 +117,7 @@ TEST(Zncc, sees_nothing_outside_the_mask) {
     EXPECT_EQ(flip(pictures).mean, 0);
 }
 
-TEST(Gain, is_exact_for_a_scaled_copy_and_robust_to_reflexes) {
+TEST(Gain, IsExactForAScaledCopyAndRobustToReflexes) {
     const cv::Mat render = noise(64, 5);
     cv::Mat photo = render.clone();
     cv::multiply(photo, cv::Scalar(0.5, 2, 1), photo);
@@ -133,7 +133,7 @@ TEST(Gain, is_exact_for_a_scaled_copy_and_robust_to_reflexes) {
 
 // Andersson et al. (2020): equal pictures 0; green against blue is the largest difference, 1; black
 // against white 0.967 by equations 4 to 6 (HyAB 100).
-TEST(Flip, has_the_published_ends_of_its_scale) {
+TEST(Flip, HasThePublishedEndsOfItsScale) {
     const auto at_middle = [](const cv::Mat& a, const cv::Mat& b) {
         return flip_map(a, b).at<float>(a.rows / 2, a.cols / 2);
     };
@@ -142,7 +142,7 @@ TEST(Flip, has_the_published_ends_of_its_scale) {
     EXPECT_NEAR(at_middle(flat(0, 0, 0), flat(1, 1, 1)), 0.967, 1e-3);
 }
 
-TEST(Flip, is_symmetric_and_within_0_and_1) {
+TEST(Flip, IsSymmetricAndWithin0And1) {
     const cv::Mat a = noise(64, 6), b = noise(64, 7);
     const cv::Mat ab = flip_map(a, b), ba = flip_map(b, a);
     EXPECT_LT(cv::norm(ab, ba, cv::NORM_INF), 1e-5);
@@ -152,7 +152,7 @@ TEST(Flip, is_symmetric_and_within_0_and_1) {
     EXPECT_LE(high, 1);
 }
 
-TEST(CwSsim, is_one_for_equal_pictures_and_forgives_a_small_shift) {
+TEST(CwSsim, IsOneForEqualPicturesAndForgivesASmallShift) {
     const cv::Mat photo = noise(160, 8, 3), other = noise(160, 9, 3);
     const MatchedPictures same = pair_of(photo, photo), wrong = pair_of(photo, other);
     const cv::Mat moved =
@@ -227,7 +227,7 @@ double cw_ssim_everywhere(const MatchedPictures& pictures) {
     return sum / 12;
 }
 
-TEST(CwSsim, at_few_places_is_that_at_every_pixel) {
+TEST(CwSsim, AtFewPlacesIsThatAtEveryPixel) {
     for (const int other : {8, 9, 11}) {
         MatchedPictures pictures = pair_of(noise(160, 8, 3), noise(160, other, 3));
         if (other == 11)
@@ -245,7 +245,7 @@ TEST(CwSsim, at_few_places_is_that_at_every_pixel) {
 
 // Expected: all scores look at the stone alone, so that a part of the frame that holds it is
 // enough. Wavelets run round the frame's ends, which a part brings nearer.
-TEST(ScoredPart, of_the_frame_gives_the_whole_frames_scores) {
+TEST(ScoredPart, OfTheFrameGivesTheWholeFramesScores) {
     MatchedPictures whole = pair_of(noise(200, 12, 2), noise(200, 13, 2));
     whole.render = 0.5 * whole.photo + 0.5 * whole.render;
     whole.mask.setTo(0);
@@ -271,7 +271,7 @@ TEST(ScoredPart, of_the_frame_gives_the_whole_frames_scores) {
 }
 
 // Expected: keys are names in the JSON, and a perfect score is stretched beyond any other.
-TEST(ScoreTable, has_each_key_once_and_says_which_way_is_better) {
+TEST(ScoreTable, HasEachKeyOnceAndSaysWhichWayIsBetter) {
     std::set<std::string> keys;
     for (const ScoreKind& kind : score_kinds()) {
         EXPECT_TRUE(keys.insert(kind.key).second) << kind.key;
@@ -283,7 +283,7 @@ TEST(ScoreTable, has_each_key_once_and_says_which_way_is_better) {
 }
 
 // A stone that fills the frame: nothing is asked for beyond it.
-TEST(ScoredPart, ends_where_the_frame_does) {
+TEST(ScoredPart, EndsWhereTheFrameDoes) {
     const MatchedPictures pictures = pair_of(noise(64, 1), noise(64, 2));
     EXPECT_EQ(part_to_score(pictures), cv::Rect(0, 0, 64, 64));
 }
@@ -298,7 +298,7 @@ cv::Mat spots(const std::vector<cv::Point>& middles, int radius = 3) {
 
 // Four spots of 200 pixels; the render has the first two, one of them 2 pixels (1 % of the
 // diameter) away, the third 10 pixels away (too far), and one of its own.
-TEST(Reflexes, are_counted_and_matched) {
+TEST(Reflexes, AreCountedAndMatched) {
     const auto match = match_reflexes(pair_of(spots({{40, 40}, {150, 40}, {40, 150}, {150, 150}}),
                                               spots({{40, 40}, {152, 40}, {50, 150}, {100, 100}})));
     ASSERT_TRUE(match.has_value());
@@ -310,19 +310,19 @@ TEST(Reflexes, are_counted_and_matched) {
     EXPECT_NEAR(*match->displacement, 0.01, 1e-9);
 }
 
-TEST(Reflexes, of_another_size_do_not_match) {
+TEST(Reflexes, OfAnotherSizeDoNotMatch) {
     const auto match = match_reflexes(pair_of(spots({{100, 100}}), spots({{100, 100}}, 9)));
     EXPECT_EQ(match->matched, 0);
     EXPECT_FALSE(match->displacement.has_value());
 }
 
-TEST(Reflexes, of_a_flat_photo_are_none) {
+TEST(Reflexes, OfAFlatPhotoAreNone) {
     EXPECT_FALSE(match_reflexes(pair_of(flat(0.2, 0.2, 0.2),
                                         spots({{20, 20}})(cv::Rect(0, 0, 48, 48)).clone()))
                      .has_value());
 }
 
-TEST(Resampling, a_shift_by_whole_pixels_moves_samples_unchanged) {
+TEST(Resampling, AShiftByWholePixelsMovesSamplesUnchanged) {
     const cv::Mat picture = noise(32, 10);
     for (const Kernel kernel : {Kernel::linear, Kernel::cubic}) {
         const cv::Mat moved =
@@ -332,7 +332,7 @@ TEST(Resampling, a_shift_by_whole_pixels_moves_samples_unchanged) {
 }
 
 // Both kernels reproduce a linear ramp exactly (their order is at least one).
-TEST(Resampling, reproduces_a_ramp) {
+TEST(Resampling, ReproducesARamp) {
     cv::Mat ramp(32, 32, CV_32F);
     for (int y = 0; y < 32; ++y) {
         for (int x = 0; x < 32; ++x) ramp.at<float>(y, x) = static_cast<float>(3 * x + 2 * y + 5);
@@ -345,7 +345,7 @@ TEST(Resampling, reproduces_a_ramp) {
     }
 }
 
-TEST(Resampling, far_outside_is_nothing_or_the_border) {
+TEST(Resampling, FarOutsideIsNothingOrTheBorder) {
     const cv::Mat picture(4, 4, CV_32F, cv::Scalar(2));
     const cv::Matx23d away(1, 0, 1e12, 0, 1, -1e12);
     EXPECT_EQ(cv::countNonZero(resampled(picture, away, {4, 4}, Kernel::cubic, Beyond::nothing)),

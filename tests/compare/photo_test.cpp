@@ -30,11 +30,14 @@ protected:
     void write(const std::string& name, const std::string& bytes) const {
         std::ofstream(file(name), std::ios::binary) << bytes;
     }
+    // Behind the file's name, which might hold the very words that are looked for.
     std::string complaint(const std::string& name) const {
         try {
             read_photo(file(name));
         } catch (const InputError& error) {
-            return error.what();
+            const std::string message = error.what(), path = file(name).string();
+            EXPECT_EQ(message.substr(0, path.size()), path);
+            return message.substr(path.size());
         }
         return "read";
     }
@@ -43,7 +46,7 @@ private:
     fs::path folder_;
 };
 
-TEST_F(PhotoFiles, eight_and_sixteen_bits_are_decoded_alike) {
+TEST_F(PhotoFiles, EightAndSixteenBitsAreDecodedAlike) {
     cv::Mat eight(2, 3, CV_8UC3, cv::Scalar(64, 128, 255)), sixteen;  // blue, green, red
     eight.convertTo(sixteen, CV_16U, 257);
     cv::imwrite(file("8.png"), eight);
@@ -61,14 +64,14 @@ TEST_F(PhotoFiles, eight_and_sixteen_bits_are_decoded_alike) {
     }
 }
 
-TEST_F(PhotoFiles, grey_pictures_have_three_equal_channels) {
+TEST_F(PhotoFiles, GreyPicturesHaveThreeEqualChannels) {
     cv::imwrite(file("grey.png"), cv::Mat(2, 2, CV_8U, cv::Scalar(128)));
     const Photo photo = read_photo(file("grey.png"));
     ASSERT_EQ(photo.rgb.size(), 12u);
     for (const float v : photo.rgb) EXPECT_NEAR(v, 0.2158605, 1e-6);
 }
 
-TEST_F(PhotoFiles, floats_are_linear_and_keep_their_range) {
+TEST_F(PhotoFiles, FloatsAreLinearAndKeepTheirRange) {
     cv::Mat floats(2, 2, CV_32FC3, cv::Scalar(0.25, 3, 40));
     floats.at<cv::Vec3f>(0, 0) = {-1, std::nanf(""), 7};
     cv::imwrite(file("a.exr"), floats);
@@ -81,7 +84,7 @@ TEST_F(PhotoFiles, floats_are_linear_and_keep_their_range) {
     EXPECT_EQ(photo.notes.size(), 2u);
 }
 
-TEST_F(PhotoFiles, alpha_is_the_stones_coverage) {
+TEST_F(PhotoFiles, AlphaIsTheStonesCoverage) {
     cv::Mat with_alpha(1, 2, CV_8UC4, cv::Scalar(10, 20, 30, 0));
     with_alpha.at<cv::Vec4b>(0, 1)[3] = 255;
     cv::imwrite(file("a.png"), with_alpha);
@@ -92,7 +95,7 @@ TEST_F(PhotoFiles, alpha_is_the_stones_coverage) {
 }
 
 // EXIF orientation 6: the camera was turned, the picture is shown a quarter turn clockwise.
-TEST_F(PhotoFiles, a_jpeg_is_turned_upright) {
+TEST_F(PhotoFiles, AJpegIsTurnedUpright) {
     cv::Mat wide(16, 48, CV_8UC3, cv::Scalar(0, 0, 0));
     wide.colRange(0, 16).setTo(cv::Scalar(255, 255, 255));
     std::vector<unsigned char> jpeg;
@@ -111,7 +114,7 @@ TEST_F(PhotoFiles, a_jpeg_is_turned_upright) {
     EXPECT_LT(photo.rgb[photo.rgb.size() - 1], 0.1f);
 }
 
-TEST_F(PhotoFiles, what_is_no_picture_is_named) {
+TEST_F(PhotoFiles, WhatIsNoPictureIsNamed) {
     EXPECT_THAT(complaint("missing.png"), HasSubstr("no such file"));
     fs::create_directory(file("folder.png"));
     EXPECT_THAT(complaint("folder.png"), HasSubstr("folder"));
@@ -123,7 +126,7 @@ TEST_F(PhotoFiles, what_is_no_picture_is_named) {
     EXPECT_THAT(complaint("raw.cr2"), HasSubstr("raw files"));
 }
 
-TEST_F(PhotoFiles, broken_pictures_are_named) {
+TEST_F(PhotoFiles, BrokenPicturesAreNamed) {
     cv::Mat some(64, 64, CV_8UC3, cv::Scalar(1, 2, 3));
     cv::randu(some, 0, 255);
     for (const char* extension : {".png", ".exr", ".hdr"}) {
@@ -135,13 +138,15 @@ TEST_F(PhotoFiles, broken_pictures_are_named) {
         std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
         for (const std::size_t keep : {std::size_t{12}, std::size_t{60}, bytes.size() / 8}) {
             write(name, bytes.substr(0, keep));
-            EXPECT_THAT(complaint(name), HasSubstr("broken")) << name << " " << keep;
+            EXPECT_THAT(complaint(name),
+                        AnyOf(HasSubstr("cut off"), HasSubstr("too early"), HasSubstr("broken")))
+                << name << " " << keep;
         }
     }
 }
 
 // A header of 4 billion pixels and no data must not be believed.
-TEST_F(PhotoFiles, absurd_sizes_are_refused_before_anything_is_allocated) {
+TEST_F(PhotoFiles, AbsurdSizesAreRefusedBeforeAnythingIsAllocated) {
     std::string png("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\1\0\0\0\1\0\0\x08\2\0\0\0", 29);
     write("huge.png", png);
     EXPECT_THAT(complaint("huge.png"), HasSubstr("65536 x 65536"));
@@ -149,7 +154,7 @@ TEST_F(PhotoFiles, absurd_sizes_are_refused_before_anything_is_allocated) {
     EXPECT_THAT(complaint("huge.hdr"), HasSubstr("99999 x 99999"));
 }
 
-TEST_F(PhotoFiles, a_mask_of_another_size_is_refused) {
+TEST_F(PhotoFiles, AMaskOfAnotherSizeIsRefused) {
     cv::imwrite(file("mask.png"), cv::Mat(4, 5, CV_8U, cv::Scalar(255)));
     EXPECT_EQ(read_mask(file("mask.png"), 5, 4).size(), 20u);
     try {
@@ -161,7 +166,7 @@ TEST_F(PhotoFiles, a_mask_of_another_size_is_refused) {
     }
 }
 
-TEST_F(PhotoFiles, a_mask_is_cut_at_half_of_its_encoded_brightness) {
+TEST_F(PhotoFiles, AMaskIsCutAtHalfOfItsEncodedBrightness) {
     cv::Mat mask(1, 3, CV_8U);
     mask.at<unsigned char>(0, 0) = 120;
     mask.at<unsigned char>(0, 1) = 135;
@@ -171,7 +176,7 @@ TEST_F(PhotoFiles, a_mask_is_cut_at_half_of_its_encoded_brightness) {
     EXPECT_EQ(stone, (std::vector<float>{0, 1, 1}));
 }
 
-TEST(PictureHeader, never_reads_past_the_end) {
+TEST(PictureHeader, NeverReadsPastTheEnd) {
     const std::string starts[] = {"\x89PNG\r\n\x1a\n",
                                   "\xff\xd8\xff",
                                   std::string("II*\0", 4),

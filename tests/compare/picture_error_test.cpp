@@ -21,7 +21,7 @@ Picture grey(float value, int width = 40, int height = 30) {
     return picture;
 }
 
-TEST(PictureError, is_nothing_for_equal_pictures) {
+TEST(PictureError, IsNothingForEqualPictures) {
     const PictureJudge judge(grey(0.5f));
     const PictureError error = judge.error_of(grey(0.5f));
     EXPECT_EQ(judge.stone_pixels(), 600);
@@ -34,7 +34,7 @@ TEST(PictureError, is_nothing_for_equal_pictures) {
 
 // Closed forms: 0.05 of 0.5 is a tenth, white is five times 0.5, and the noise of the encoded
 // picture is the difference of the encodings.
-TEST(PictureError, of_an_offset_has_a_closed_form) {
+TEST(PictureError, OfAnOffsetHasAClosedForm) {
     const PictureJudge judge(grey(0.5f));
     const PictureError error = judge.error_of(grey(0.55f));
     EXPECT_NEAR(error.mean, 0.1, 1e-6);
@@ -48,7 +48,7 @@ TEST(PictureError, of_an_offset_has_a_closed_form) {
     EXPECT_TRUE(std::isnan(map.values[39]));
 }
 
-TEST(PictureError, tells_the_mean_from_the_root_mean_square) {
+TEST(PictureError, TellsTheMeanFromTheRootMeanSquare) {
     Picture one_pixel = grey(0.5f);
     for (int c = 0; c < 3; ++c) one_pixel.rgb[static_cast<std::size_t>(c)] = 0.8f;
     const PictureError error = PictureJudge(grey(0.5f)).error_of(one_pixel);
@@ -56,19 +56,19 @@ TEST(PictureError, tells_the_mean_from_the_root_mean_square) {
     EXPECT_NEAR(error.rmse, 0.6 / std::sqrt(600.0), 1e-7);
 }
 
-TEST(PictureError, does_not_look_beside_the_stone) {
+TEST(PictureError, DoesNotLookBesideTheStone) {
     Picture other = grey(0.5f);
     other.rgb[3 * 39] = 7;
     EXPECT_EQ(PictureJudge(grey(0.5f)).error_of(other).mean, 0);
 }
 
-TEST(PictureError, of_a_black_truth_is_infinite_or_nothing) {
+TEST(PictureError, OfABlackTruthIsInfiniteOrNothing) {
     const PictureJudge judge(grey(0));
     EXPECT_EQ(judge.error_of(grey(0)).mean, 0);
     EXPECT_TRUE(std::isinf(judge.error_of(grey(0.1f)).mean));
 }
 
-TEST(PictureError, refuses_pictures_of_another_size) {
+TEST(PictureError, RefusesPicturesOfAnotherSize) {
     EXPECT_THROW(PictureJudge(grey(0.5f)).error_of(grey(0.5f, 41)), InternalError);
 }
 

@@ -54,7 +54,7 @@ std::vector<Camera> several_cameras(const Solid& solid) {
 
 // Expected: the ray that the renderer sends through the picture point passes the point of the
 // stone.
-TEST(StoneView, sees_points_where_the_renderer_does) {
+TEST(StoneView, SeesPointsWhereTheRendererDoes) {
     const Solid solid = make_cut("oval");
     for (const Camera& camera : several_cameras(solid)) {
         const StoneView view = stone_view(camera, centroid(solid));
@@ -68,7 +68,7 @@ TEST(StoneView, sees_points_where_the_renderer_does) {
     }
 }
 
-TEST(StoneView, and_camera_are_the_same_thing) {
+TEST(StoneView, AndCameraAreTheSameThing) {
     const Solid solid = make_cut("oval");
     for (const Camera& camera : several_cameras(solid)) {
         const StoneView view = stone_view(camera, centroid(solid));
@@ -83,7 +83,7 @@ TEST(StoneView, and_camera_are_the_same_thing) {
 }
 
 // Expected: a camera's picture cut out of a larger one's, pixel for pixel.
-TEST(PrincipalPoint, cuts_a_part_out_of_a_larger_picture) {
+TEST(PrincipalPoint, CutsAPartOutOfALargerPicture) {
     for (const bool orthographic : {false, true}) {
         Camera large;
         large.width = 200;
@@ -108,21 +108,21 @@ TEST(PrincipalPoint, cuts_a_part_out_of_a_larger_picture) {
 }
 
 // Expected: the orders of the cuts' point groups (C8v, C2v, Cs, C3v).
-TEST(Symmetry, of_a_model_is_found_to_the_last_turn) {
+TEST(Symmetry, OfAModelIsFoundToTheLastTurn) {
     EXPECT_EQ(symmetries_of(WireSolid(make_cut("round-brilliant"))).size(), 16u);
     EXPECT_EQ(symmetries_of(WireSolid(make_cut("step"))).size(), 4u);
     EXPECT_EQ(symmetries_of(WireSolid(make_cut("pear"))).size(), 2u);
     EXPECT_EQ(symmetries_of(WireSolid(make_cut("trillion"))).size(), 6u);
 }
 
-TEST(Symmetry, is_gone_when_facets_are_off) {
+TEST(Symmetry, IsGoneWhenFacetsAreOff) {
     std::mt19937_64 random(5);
     const Solid solid = synthetic::tilted_facets(make_cut("step"), radians(0.3), random);
     EXPECT_EQ(symmetries_of(WireSolid(solid)).size(), 1u);
 }
 
 // Expected: the place of the step, which is put in in linear light and blurred by a known Gaussian.
-TEST(EdgeSearch, finds_a_step_to_a_twentieth_of_a_pixel) {
+TEST(EdgeSearch, FindsAStepToATwentiethOfAPixel) {
     for (const double place : {20.0, 20.21, 20.5, 20.83}) {
         cv::Mat picture(40, 40, CV_32FC3);
         for (int y = 0; y < 40; ++y) {
@@ -142,7 +142,7 @@ TEST(EdgeSearch, finds_a_step_to_a_twentieth_of_a_pixel) {
     }
 }
 
-TEST(EdgeSearch, finds_nothing_in_a_plain_picture) {
+TEST(EdgeSearch, FindsNothingInAPlainPicture) {
     const cv::Mat picture(40, 40, CV_32FC3, cv::Scalar(0.3, 0.3, 0.3));
     WirePoint point;
     point.at = {20, 20};
@@ -151,7 +151,7 @@ TEST(EdgeSearch, finds_nothing_in_a_plain_picture) {
 }
 
 // Expected: the changed view's own projection, and its differences.
-TEST(ChangedView, sees_points_as_the_view_does_and_knows_how_they_move) {
+TEST(ChangedView, SeesPointsAsTheViewDoesAndKnowsHowTheyMove) {
     const Solid solid = make_cut("oval");
     const ViewChange change{0.02, -0.03, 0.05, 2, -3, 0.04, 0.1, 1.5, -0.5};
     for (const Camera& camera : several_cameras(solid)) {
@@ -186,7 +186,7 @@ TEST(ChangedView, sees_points_as_the_view_does_and_knows_how_they_move) {
 }
 
 // Expected: both changed planes hold the moved point; its slopes are its differences.
-TEST(MovedEdge, is_where_the_changed_facets_meet) {
+TEST(MovedEdge, IsWhereTheChangedFacetsMeet) {
     const WireSolid wire(make_cut("step"));
     const std::array<FacetChange, 2> changes{FacetChange{0.02, -0.03, 0.01},
                                              FacetChange{-0.015, 0.04, -0.02}};
@@ -217,7 +217,7 @@ TEST(MovedEdge, is_where_the_changed_facets_meet) {
 }
 
 // A share of nothing is no share: most of the places elsewhere have no point of a single edge.
-TEST(EdgeSupport, of_one_point_is_a_number) {
+TEST(EdgeSupport, OfOnePointIsANumber) {
     const cv::Mat picture(60, 60, CV_32FC3, cv::Scalar(0.3, 0.3, 0.3));
     WirePoint point;
     point.at = {30, 30};
@@ -229,7 +229,7 @@ TEST(EdgeSupport, of_one_point_is_a_number) {
 }
 
 // Expected: the view whose own projection gave the edges.
-TEST(PoseSolver, returns_to_the_view_that_edges_come_from) {
+TEST(PoseSolver, ReturnsToTheViewThatEdgesComeFrom) {
     const WireSolid wire(make_cut("pear"));
     for (const double diameters : {0.0, 8.0}) {
         const Camera camera = synthetic::camera_at(wire.solid, standpoint(18, diameters, 400));
@@ -255,7 +255,7 @@ TEST(PoseSolver, returns_to_the_view_that_edges_come_from) {
 
 // Expected: size and place of the view that the mask was painted from. A mask's pixels are known to
 // half a pixel each, and 72 tangents average that.
-TEST(OutlineShape, gives_size_and_place) {
+TEST(OutlineShape, GivesSizeAndPlace) {
     const WireSolid wire(make_cut("oval"));
     const Camera camera = synthetic::camera_at(wire.solid, standpoint(15, 0, 400));
     const StoneView truth = stone_view(camera, wire.middle);
@@ -326,7 +326,7 @@ double shift_to_truth(const Shot& made, const FoundPose& pose) {
 }
 
 // Expected: the camera that took the picture, within the 99 % that the pose itself promises.
-TEST(FindPose, finds_the_camera_of_a_brilliant_from_25_degrees_away) {
+TEST(FindPose, FindsTheCameraOfABrilliantFrom25DegreesAway) {
     const Shot made = shot("round-brilliant", 0.2, 20, 12, "overcast", 320, 11);
     PoseOptions options;
     options.limits.angle = radians(1);
@@ -345,7 +345,7 @@ TEST(FindPose, finds_the_camera_of_a_brilliant_from_25_degrees_away) {
 }
 
 // Facets that are off by 0.2 degrees hide the view by more than 0.1 degrees: said, not hidden.
-TEST(FindPose, refuses_what_it_cannot_promise) {
+TEST(FindPose, RefusesWhatItCannotPromise) {
     const Shot made = shot("trillion", 0.2, 4, 8, "dome", 240, 12);
     PoseOptions options;
     options.search = radians(12);
@@ -357,7 +357,7 @@ TEST(FindPose, refuses_what_it_cannot_promise) {
 }
 
 // Expected of a photograph from below: no pose of the crown, whose outline is the same.
-TEST(FindPose, refuses_a_photograph_of_the_other_side) {
+TEST(FindPose, RefusesAPhotographOfTheOtherSide) {
     Shot made = shot("round-brilliant", 0.2, 175, 12, "overcast", 320, 17);
     const Camera start = synthetic::camera_at(made.model, standpoint(5, 12, 320));
     const FoundPose pose = find_pose(made.photo, made.model, start);
@@ -366,7 +366,7 @@ TEST(FindPose, refuses_a_photograph_of_the_other_side) {
 }
 
 // Expected: the camera that took the whole picture, told by no more than the part that is left.
-TEST(FindPose, finds_the_camera_of_a_cropped_photograph) {
+TEST(FindPose, FindsTheCameraOfACroppedPhotograph) {
     Shot made = shot("round-brilliant", 0.2, 20, 12, "overcast", 320, 11);
     const Camera start = rough_start(made, 15, 1.1, 3);
     made.photo = synthetic::cropped(made.photo, 30, 12, 270, 300);
@@ -376,7 +376,7 @@ TEST(FindPose, finds_the_camera_of_a_cropped_photograph) {
     EXPECT_LT(angle_to_truth(made, pose, 8), pose.sigmas.angle_99);
 }
 
-TEST(FindPose, refuses_another_stone) {
+TEST(FindPose, RefusesAnotherStone) {
     const Shot made = shot("pear", 0.2, 10, 12, "dome", 240, 13);
     PoseOptions options;
     options.search = radians(12);
@@ -389,7 +389,7 @@ TEST(FindPose, refuses_another_stone) {
     EXPECT_EQ(pose_overlay(made.photo, made.model, pose).substr(1, 3), "PNG");
 }
 
-TEST(FindPose, sees_that_a_photograph_is_mirrored) {
+TEST(FindPose, SeesThatAPhotographIsMirrored) {
     // A stone without any symmetry of its own, and a model that knows it.
     Shot made = shot("pear", 2.5, 15, 0, "overcast", 320, 14);
     made.model = made.scene.stone.solid;
@@ -411,7 +411,7 @@ TEST(FindPose, sees_that_a_photograph_is_mirrored) {
     EXPECT_LT(angle_to_truth(made, mirrored, 1), mirrored.sigmas.angle_99);
 }
 
-TEST(FindPose, does_not_depend_on_the_number_of_threads) {
+TEST(FindPose, DoesNotDependOnTheNumberOfThreads) {
     const Shot made = shot("step", 0.2, 12, 12, "overcast", 240, 15);
     PoseOptions options;
     options.search = radians(12);
@@ -422,7 +422,7 @@ TEST(FindPose, does_not_depend_on_the_number_of_threads) {
     EXPECT_EQ(one, pose_json(find_pose(made.photo, made.model, start, options)));
 }
 
-TEST(FindPose, refuses_a_black_picture_and_a_stone_of_ten_pixels) {
+TEST(FindPose, RefusesABlackPictureAndAStoneOfTenPixels) {
     Photo photo;
     photo.width = photo.height = 64;
     photo.rgb.assign(3 * 64 * 64, 0.0f);
@@ -436,14 +436,14 @@ TEST(FindPose, refuses_a_black_picture_and_a_stone_of_ten_pixels) {
     EXPECT_FALSE(find_pose(photo, solid, camera, options).usable());
 }
 
-TEST(FindPose, answers_a_stop) {
+TEST(FindPose, AnswersAStop) {
     const Shot made = shot("step", 0, 12, 12, "overcast", 160, 16);
     EXPECT_THROW(
         find_pose(made.photo, made.model, made.scene.camera, {}, [](double) { return false; }),
         Interrupted);
 }
 
-TEST(FindPose, says_what_it_cannot_work_with) {
+TEST(FindPose, SaysWhatItCannotWorkWith) {
     Photo photo;
     photo.width = photo.height = 64;
     photo.rgb.assign(3 * 64 * 64, 0.5f);

@@ -127,7 +127,7 @@ std::string nesting_fault(const std::string& page) {
     return open.empty() ? "" : "<" + open.back() + "> is never closed";
 }
 
-TEST(Report, has_every_section_when_all_data_is_there) {
+TEST(Report, HasEverySectionWhenAllDataIsThere) {
     const std::string page = report_page(full_report());
     for (const char* id :
          {"pictures", "maps", "scores", "registration", "changes", "fit", "plan", "provenance"}) {
@@ -136,7 +136,7 @@ TEST(Report, has_every_section_when_all_data_is_there) {
     EXPECT_EQ(nesting_fault(page), "");
 }
 
-TEST(Report, opens_the_stone_where_it_has_a_viewer) {
+TEST(Report, OpensTheStoneWhereItHasAViewer) {
     Report report = full_report();
     EXPECT_EQ(report_page(report).find("wasm-unsafe-eval"), std::string::npos);
     report.viewer_html = "<!doctype html><script>1 < 2</script>";
@@ -148,7 +148,7 @@ TEST(Report, opens_the_stone_where_it_has_a_viewer) {
     EXPECT_EQ(page.find("1 < 2"), std::string::npos);
 }
 
-TEST(Report, has_only_the_sections_whose_data_is_there) {
+TEST(Report, HasOnlyTheSectionsWhoseDataIsThere) {
     Report report;
     report.fit_json = fit_json("T");
     const std::string page = report_page(report);
@@ -170,7 +170,7 @@ void expect_order(const std::string& page, const std::vector<std::string>& parts
     }
 }
 
-TEST(Report, begins_with_the_verdicts_then_what_to_look_at_then_the_picture) {
+TEST(Report, BeginsWithTheVerdictsThenWhatToLookAtThenThePicture) {
     Report report = full_report();
     expect_order(
         report_page(report),
@@ -190,7 +190,7 @@ TEST(Report, begins_with_the_verdicts_then_what_to_look_at_then_the_picture) {
                  {"class=\"verdict", "<section id=\"look\"", "<section id=\"drawing\" aria"});
 }
 
-TEST(Report, shows_the_stone_well_exposed) {
+TEST(Report, ShowsTheStoneWellExposed) {
     // Of a hundred values nine in ten are dull and the rest are glints: white is such that the
     // median is shown at 0.4, but neither more than 7 nor fewer than 2 of them are over white.
     std::vector<float> dull(90, 0.1f), glints{0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.8f, 0.9f, 1, 2, 3};
@@ -200,11 +200,11 @@ TEST(Report, shows_the_stone_well_exposed) {
     EXPECT_FALSE(white_for_stone({0, 0, std::numeric_limits<float>::quiet_NaN()}));
 }
 
-TEST(Report, of_nothing_is_still_a_page) {
+TEST(Report, OfNothingIsStillAPage) {
     EXPECT_EQ(nesting_fault(report_page({})), "");
 }
 
-TEST(Report, loads_nothing) {
+TEST(Report, LoadsNothing) {
     const std::string page = report_page(full_report());
     EXPECT_THAT(page, Not(HasSubstr("http:")));
     EXPECT_THAT(page, Not(HasSubstr("https:")));
@@ -218,7 +218,7 @@ TEST(Report, loads_nothing) {
     }
 }
 
-TEST(Report, escapes_hostile_names_everywhere) {
+TEST(Report, EscapesHostileNamesEverywhere) {
     const std::string page = report_page(full_report(k_hostile));
     EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
     EXPECT_THAT(page, HasSubstr("&lt;script&gt;alert(&#39;x&#39;)"));
@@ -226,7 +226,7 @@ TEST(Report, escapes_hostile_names_everywhere) {
     EXPECT_EQ(nesting_fault(page), "");
 }
 
-TEST(Report, holds_the_json_that_json_writes) {
+TEST(Report, HoldsTheJsonThatJsonWrites) {
     const Report report = full_report(k_hostile);
     const std::string page = report_page(report);
     const std::string mark = "<script type=\"application/json\" id=\"culet-data\">";
@@ -236,7 +236,7 @@ TEST(Report, holds_the_json_that_json_writes) {
     EXPECT_EQ(data["fit"], nlohmann::json::parse(report.fit_json));
 }
 
-TEST(Report, says_that_a_photograph_is_simulated_wherever_it_appears) {
+TEST(Report, SaysThatAPhotographIsSimulatedWhereverItAppears) {
     Report report = full_report();
     const auto count = [](const std::string& page, const std::string& what) {
         int found = 0;
@@ -255,11 +255,11 @@ TEST(Report, says_that_a_photograph_is_simulated_wherever_it_appears) {
     EXPECT_EQ(count(report_page(report), "imulated photograph"), 0);
 }
 
-TEST(Report, marks_suspects_in_words) {
+TEST(Report, MarksSuspectsInWords) {
     EXPECT_THAT(report_page(full_report()), HasSubstr("<span class=\"badge\">suspect</span>"));
 }
 
-TEST(Report, of_a_refused_comparison_shows_both_outlines_and_the_reason) {
+TEST(Report, OfARefusedComparisonShowsBothOutlinesAndTheReason) {
     auto narrow = small_stone();
     narrow.flatness = 0.45;
     Report report;
@@ -273,13 +273,13 @@ TEST(Report, of_a_refused_comparison_shows_both_outlines_and_the_reason) {
     EXPECT_EQ(nesting_fault(page), "");
 }
 
-TEST(Report, of_a_black_photograph_is_a_page) {
+TEST(Report, OfABlackPhotographIsAPage) {
     Report report;
     report.comparison = compare(synthetic::flat(64, 64, 0), draw(small_stone()));
     EXPECT_EQ(nesting_fault(report_page(report)), "");
 }
 
-TEST(Report, refuses_text_that_is_no_json) {
+TEST(Report, RefusesTextThatIsNoJson) {
     Report report;
     report.fit_json = "{\"status\": ";
     EXPECT_THROW(report_page(report), InputError);
@@ -287,7 +287,7 @@ TEST(Report, refuses_text_that_is_no_json) {
     EXPECT_THROW(report_page(report), InputError);
 }
 
-TEST(Report, survives_json_of_unexpected_shape) {
+TEST(Report, SurvivesJsonOfUnexpectedShape) {
     Report report;
     report.fit_json =
         R"({"status": 7, "facets": {"a": 1}, "readings": [1, null, {"of": 3}, {"id": []}],
@@ -296,7 +296,7 @@ TEST(Report, survives_json_of_unexpected_shape) {
     EXPECT_EQ(nesting_fault(report_page(report)), "");
 }
 
-TEST(Report, is_the_same_bytes_each_time) {
+TEST(Report, IsTheSameBytesEachTime) {
     EXPECT_EQ(report_page(full_report()), report_page(full_report()));
 }
 

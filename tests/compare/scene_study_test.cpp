@@ -35,7 +35,7 @@ const SceneStudy& studied() {
     return study;
 }
 
-TEST(SceneStudy, front_falls_as_time_grows_and_nothing_beats_it) {
+TEST(SceneStudy, FrontFallsAsTimeGrowsAndNothingBeatsIt) {
     const SceneStudy& study = studied();
     ASSERT_FALSE(study.front.empty());
     EXPECT_EQ(study.width, 24);
@@ -56,7 +56,7 @@ TEST(SceneStudy, front_falls_as_time_grows_and_nothing_beats_it) {
     }
 }
 
-TEST(SceneStudy, claims_no_error_below_that_of_the_reference) {
+TEST(SceneStudy, ClaimsNoErrorBelowThatOfTheReference) {
     const SceneStudy& study = studied();
     EXPECT_GT(study.reference.noise.mean, 0);
     for (const StudiedRender& render : study.renders) {
@@ -65,7 +65,7 @@ TEST(SceneStudy, claims_no_error_below_that_of_the_reference) {
     }
 }
 
-TEST(SceneStudy, advises_the_cheapest_that_meets_the_tolerance) {
+TEST(SceneStudy, AdvisesTheCheapestThatMeetsTheTolerance) {
     const SceneStudy& study = studied();
     ASSERT_EQ(study.advice.size(), 1u);
     const StudyAdvice& advice = study.advice.front();
@@ -82,7 +82,7 @@ TEST(SceneStudy, advises_the_cheapest_that_meets_the_tolerance) {
 
 // In a constant light without absorption every path ends at the same radiance: what is not cut is
 // exactly 1, whatever the setting (conservation of energy).
-TEST(SceneStudy, of_a_furnace_finds_no_error_but_what_is_cut) {
+TEST(SceneStudy, OfAFurnaceFindsNoErrorButWhatIsCut) {
     Scene scene = scene_within(0.03);
     scene.lights = {};
     scene.lights.constant = 1;
@@ -99,7 +99,7 @@ TEST(SceneStudy, of_a_furnace_finds_no_error_but_what_is_cut) {
     }
 }
 
-TEST(SceneStudy, measures_the_same_errors_again) {
+TEST(SceneStudy, MeasuresTheSameErrorsAgain) {
     const SceneStudy &one = studied(), two = study_scene(scene_within(0.1), quick(0.1));
     // How many rays there was time for depends on the machine.
     if (one.reference.samples != two.reference.samples) GTEST_SKIP() << "another reference";
@@ -115,7 +115,7 @@ TEST(SceneStudy, measures_the_same_errors_again) {
     EXPECT_GT(both, 3);
 }
 
-TEST(SceneStudy, writes_rows_as_json_and_csv) {
+TEST(SceneStudy, WritesRowsAsJsonAndCsv) {
     const SceneStudy& study = studied();
     const auto json = nlohmann::json::parse(scene_study_json(study));
     EXPECT_EQ(json["schema"], 1);
@@ -133,13 +133,13 @@ TEST(SceneStudy, writes_rows_as_json_and_csv) {
         EXPECT_TRUE(picture.picture.starts_with("data:image/png;base64,"));
 }
 
-TEST(SceneStudy, of_a_scene_whose_stone_is_not_seen_says_so) {
+TEST(SceneStudy, OfASceneWhoseStoneIsNotSeenSaysSo) {
     Scene scene = scene_within(0.1);
     scene.camera.look_at = {12, 10, 18};
     EXPECT_THROW(study_scene(scene, quick(0.1)), InputError);
 }
 
-TEST(SceneStudy, stops_when_asked) {
+TEST(SceneStudy, StopsWhenAsked) {
     EXPECT_THROW(study_scene(scene_within(0.1), quick(0.1), [](double) { return false; }),
                  Interrupted);
 }

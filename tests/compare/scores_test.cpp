@@ -80,7 +80,7 @@ MatchedPictures linear_pair(const cv::Mat& photo, const cv::Mat& render) {
 // scikit-image 0.19.3, skimage.metrics.structural_similarity(a, b, gaussian_weights=True,
 // sigma=1.5, use_sample_covariance=False, data_range=255) of the green channels: it leaves a border
 // of 5 pixels out of the mean, and so does the mask here.
-TEST(Ssim, equals_scikit_image_with_the_same_settings) {
+TEST(Ssim, EqualsScikitImageWithTheSameSettings) {
     const ShownPictures pictures = shown_bytes();
     cv::Mat mask(pictures.photo_luma.size(), CV_8U, cv::Scalar(0));
     mask(cv::Rect(5, 5, mask.cols - 10, mask.rows - 10)).setTo(255);
@@ -88,19 +88,19 @@ TEST(Ssim, equals_scikit_image_with_the_same_settings) {
 }
 
 // scikit-image 0.19.3, skimage.metrics.peak_signal_noise_ratio(a, b, data_range=255) of R G B.
-TEST(Psnr, equals_scikit_image_with_the_same_settings) {
+TEST(Psnr, EqualsScikitImageWithTheSameSettings) {
     const ShownPictures pictures = shown_bytes();
     EXPECT_NEAR(*psnr(pictures, everywhere(pictures.photo_luma)), 21.248210604, 1e-4);
 }
 
 // scikit-image 0.19.3, skimage.metrics.normalized_mutual_information(a, b, bins=64).
-TEST(NormalizedInformation, equals_scikit_image_with_the_same_bins) {
+TEST(NormalizedInformation, EqualsScikitImageWithTheSameBins) {
     const ShownPictures pictures = shown_bytes();
     EXPECT_NEAR(*normalized_information(pictures, everywhere(pictures.photo_luma)), 1.154984341,
                 1e-3);
 }
 
-TEST(NormalizedInformation, is_two_through_any_tone_curve_and_nothing_of_flat_pictures) {
+TEST(NormalizedInformation, IsTwoThroughAnyToneCurveAndNothingOfFlatPictures) {
     ShownPictures pictures = shown_bytes();
     // 64 levels apart from each other whatever the curve: the steps stay what they are.
     pictures.photo_luma = cv::Mat(16, 64, CV_32F);
@@ -120,7 +120,7 @@ TEST(NormalizedInformation, is_two_through_any_tone_curve_and_nothing_of_flat_pi
 // filters (numpy 1.24, scipy 1.10), with the constants of the authors' program: radius 10 for every
 // contrast sensitivity, 9 for the features, edges repeated. 67 pixels a degree. The authors' own
 // example pictures are not at hand.
-TEST(Flip, equals_an_independent_implementation) {
+TEST(Flip, EqualsAnIndependentImplementation) {
     const cv::Mat map =
         flip_map(decoded(bytes_by_formula(false)), decoded(bytes_by_formula(true)), 67);
     EXPECT_NEAR(cv::mean(map)[0], 0.390596, 1e-4);
@@ -129,7 +129,7 @@ TEST(Flip, equals_an_independent_implementation) {
     EXPECT_NEAR(map.at<float>(79, 95), 0.570811, 3e-4);
 }
 
-TEST(Gmsd, is_nothing_for_equal_pictures_and_grows_with_a_blur) {
+TEST(Gmsd, IsNothingForEqualPicturesAndGrowsWithABlur) {
     ShownPictures pictures = shown_bytes();
     const cv::Mat mask = everywhere(pictures.photo_luma);
     pictures.render_luma = pictures.photo_luma.clone();
@@ -146,7 +146,7 @@ TEST(Gmsd, is_nothing_for_equal_pictures_and_grows_with_a_blur) {
 
 // All of one colour: the distance is that of the two colours, wherever the pixels lie. Lightness
 // of 0.18 and 0.5 by the CIE formula: 116 cbrt(Y) - 16.
-TEST(ColourDistributions, of_flat_pictures_have_a_closed_form) {
+TEST(ColourDistributions, OfFlatPicturesHaveAClosedForm) {
     const cv::Mat dark(20, 20, CV_32FC3, cv::Scalar(0.18, 0.18, 0.18)),
         light(20, 20, CV_32FC3, cv::Scalar(0.5, 0.5, 0.5));
     const ColourDistributions result = colour_distributions(linear_pair(dark, light));
@@ -156,7 +156,7 @@ TEST(ColourDistributions, of_flat_pictures_have_a_closed_form) {
 }
 
 // A shuffled picture has the same colours: no distance, whatever its pattern.
-TEST(ColourDistributions, do_not_see_where_colours_are) {
+TEST(ColourDistributions, DoNotSeeWhereColoursAre) {
     const cv::Mat photo = decoded(bytes_by_formula(false));
     cv::Mat mirrored;
     cv::flip(photo, mirrored, -1);
@@ -165,7 +165,7 @@ TEST(ColourDistributions, do_not_see_where_colours_are) {
     EXPECT_NEAR(result.body_difference, 0, 1e-6);
 }
 
-TEST(Reflexes, agree_in_hue_or_not) {
+TEST(Reflexes, AgreeInHueOrNot) {
     const auto with = [](const cv::Scalar& left, const cv::Scalar& right) {
         cv::Mat picture(200, 200, CV_32FC3, cv::Scalar(0.03, 0.03, 0.03));
         cv::circle(picture, {60, 100}, 5, left, cv::FILLED);

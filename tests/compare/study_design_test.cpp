@@ -34,7 +34,7 @@ std::set<std::string> settings_of(const std::vector<StudyCandidate>& design,
     return settings;
 }
 
-TEST(StudyDesign, leaves_nothing_open_in_the_reference) {
+TEST(StudyDesign, LeavesNothingOpenInTheReference) {
     Scene scene = test::cube_scene();
     scene.settings.engine = "preview";
     scene.settings.depth = 3;
@@ -52,7 +52,7 @@ TEST(StudyDesign, leaves_nothing_open_in_the_reference) {
     EXPECT_EQ(exact_settings(scene, 0.001, 57).wavelengths_nm, std::vector<double>{589.3});
 }
 
-TEST(StudyDesign, varies_what_the_scene_calls_for) {
+TEST(StudyDesign, VariesWhatTheSceneCallsFor) {
     const StudyGround ground = ground_of(test::cube_scene());
     const auto design = study_design(ground);
     EXPECT_EQ(settings_of(design, "automatic").size(), 2u);
@@ -66,7 +66,7 @@ TEST(StudyDesign, varies_what_the_scene_calls_for) {
     EXPECT_TRUE(settings_of(design, "crystal beams").empty()) << "the stone is isotropic";
 }
 
-TEST(StudyDesign, of_a_crystal_has_its_waves) {
+TEST(StudyDesign, OfACrystalHasItsWaves) {
     Scene scene = test::cube_scene();
     scene.stone.material = catalogue_material("zircon_high");
     const auto design = study_design(ground_of(scene));
@@ -74,7 +74,7 @@ TEST(StudyDesign, of_a_crystal_has_its_waves) {
     EXPECT_TRUE(settings_of(design, "effects").contains("without birefringence"));
 }
 
-TEST(StudyDesign, is_drawn_by_the_reference_where_beams_cannot) {
+TEST(StudyDesign, IsDrawnByTheReferenceWhereBeamsCannot) {
     StudyGround ground = ground_of(test::cube_scene());
     ground.beams = false;
     for (const StudyCandidate& one : study_design(ground)) {
@@ -82,7 +82,7 @@ TEST(StudyDesign, is_drawn_by_the_reference_where_beams_cannot) {
     }
 }
 
-TEST(StudyDesign, neighbours_differ_in_one_thing_each) {
+TEST(StudyDesign, NeighboursDifferInOneThingEach) {
     const StudyGround ground = ground_of(test::cube_scene());
     RenderSettings settings = exact_settings(ground.scene, 0.01, 15);
     settings.engine = "beams";
@@ -98,7 +98,7 @@ TEST(StudyDesign, neighbours_differ_in_one_thing_each) {
     EXPECT_GE(neighbours.size(), 6u);
 }
 
-TEST(StudyDesign, tells_settings_that_draw_the_same) {
+TEST(StudyDesign, TellsSettingsThatDrawTheSame) {
     const StudyGround ground = ground_of(test::cube_scene());
     const RenderSettings settings = exact_settings(ground.scene, 0.01, 15);
     RenderSettings other = settings;

@@ -65,19 +65,19 @@ void expect_same_stone(const Solid& solid, const std::string& name) {
     EXPECT_EQ(face_names(reader, shape), names);
 }
 
-TEST(OpenCascade, reads_every_cut) {
+TEST(OpenCascade, ReadsEveryCut) {
     for (const CutKind& kind : cut_kinds()) {
         SCOPED_TRACE(kind.name);
         expect_same_stone(planar_solid(make_cut(kind.name), kind.convex, 1e-9), kind.name);
     }
 }
 
-TEST(OpenCascade, reads_the_seat_of_a_setting) {
+TEST(OpenCascade, ReadsTheSeatOfASetting) {
     const Solid seat = grown_outward(make_cut("round-brilliant"), 0.05);
     expect_same_stone(planar_solid(seat, true, 1e-9), "seat");
 }
 
-TEST(OpenCascade, reads_a_name_with_quotes_and_umlauts) {
+TEST(OpenCascade, ReadsANameWithQuotesAndUmlauts) {
     Solid solid = make_cut("emerald");
     solid.facets[0].name = "T 'top'";
     expect_same_stone(solid, "Rubin 'grün'");

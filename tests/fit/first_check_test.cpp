@@ -62,7 +62,7 @@ protected:
     Stone stone_;
 };
 
-TEST_F(FirstCheck, names_swapped_digits_with_file_line_and_slip) {
+TEST_F(FirstCheck, NamesSwappedDigitsWithFileLineAndSlip) {
     const std::vector<Doubt> doubts = first_check(stone_, mains(38.3), true);
     ASSERT_EQ(doubts.size(), 1u);
     EXPECT_EQ(doubts[0].reading, 4u);
@@ -72,18 +72,18 @@ TEST_F(FirstCheck, names_swapped_digits_with_file_line_and_slip) {
     EXPECT_THAT(doubts[0].what, HasSubstr("4.5 degrees from its seven sisters (33.7 to 33.9)"));
 }
 
-TEST_F(FirstCheck, a_main_half_a_degree_off_is_a_finding_and_no_slip) {
+TEST_F(FirstCheck, AMainHalfADegreeOffIsAFindingAndNoSlip) {
     EXPECT_TRUE(first_check(stone_, mains(34.3), true).empty());
 }
 
-TEST_F(FirstCheck, lone_angles_are_held_against_the_mesh) {
+TEST_F(FirstCheck, LoneAnglesAreHeldAgainstTheMesh) {
     const auto one = bind_readings({row("inclination", {"C1"}, 56.2, 0.1, 2)}, stone_);
     const std::vector<Doubt> doubts = first_check(stone_, one, true);
     ASSERT_EQ(doubts.size(), 1u);
     EXPECT_EQ(doubts[0].slip, "counted from the other side");
 }
 
-TEST_F(FirstCheck, lengths_are_held_against_each_other_and_the_mesh) {
+TEST_F(FirstCheck, LengthsAreHeldAgainstEachOtherAndTheMesh) {
     EXPECT_TRUE(first_check(stone_, lengths(6.50, depth(), carats()), true).empty());
     const auto only = [&](const std::vector<Reading>& readings, std::size_t wanted) {
         const std::vector<Doubt> doubts = first_check(stone_, readings, true);
@@ -95,13 +95,13 @@ TEST_F(FirstCheck, lengths_are_held_against_each_other_and_the_mesh) {
     only(lengths(6.50, depth(), carats() / 5), 5);   // grams
 }
 
-TEST_F(FirstCheck, a_row_for_a_whole_tier_does_not_vouch_for_itself) {
+TEST_F(FirstCheck, ARowForAWholeTierDoesNotVouchForItself) {
     // Eight equal values from one row: wrong all together.
     const auto readings = bind_readings({row("inclination", {"C*"}, 43.3, 0.1, 2)}, stone_);
     EXPECT_EQ(first_check(stone_, readings, true).size(), 8u);
 }
 
-TEST_F(FirstCheck, a_tier_whose_facets_differ_by_design_is_no_slip) {
+TEST_F(FirstCheck, ATierWhoseFacetsDifferByDesignIsNoSlip) {
     Stone oval;
     oval.solid = make_cut("oval", {{"ratio", 1.4}});
     oval.up_facet = "T";
@@ -115,7 +115,7 @@ TEST_F(FirstCheck, a_tier_whose_facets_differ_by_design_is_no_slip) {
     EXPECT_TRUE(first_check(oval, bind_readings(rows, oval), true).empty());
 }
 
-TEST_F(FirstCheck, a_fit_goes_on_without_the_doubted_reading_and_lists_it_first) {
+TEST_F(FirstCheck, AFitGoesOnWithoutTheDoubtedReadingAndListsItFirst) {
     const Evening evening = cutters_evening("round-brilliant", {}, Slipped::digits_swapped, 3);
     const std::vector<Reading> readings = bind_readings(evening.rows, evening.design);
     FitOptions options;
@@ -133,7 +133,7 @@ TEST_F(FirstCheck, a_fit_goes_on_without_the_doubted_reading_and_lists_it_first)
                 result.checks.missing_facets.empty());
 }
 
-TEST_F(FirstCheck, two_steep_mains_are_told_in_one_sentence) {
+TEST_F(FirstCheck, TwoSteepMainsAreToldInOneSentence) {
     std::vector<Reading> readings = mains(33.8);
     readings[2].value += radians(0.5);
     readings[3].value += radians(0.5);
@@ -148,7 +148,7 @@ TEST_F(FirstCheck, two_steep_mains_are_told_in_one_sentence) {
               "C3 and C4 are 0.6 degrees (+- 0.1) steeper than the other crown mains");
 }
 
-TEST_F(FirstCheck, mains_that_are_alike_give_no_sentence) {
+TEST_F(FirstCheck, MainsThatAreAlikeGiveNoSentence) {
     EXPECT_TRUE(tier_findings(stone_, mains(33.8), {}, true)[0].odd.empty());
 }
 

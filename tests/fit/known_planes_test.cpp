@@ -50,7 +50,7 @@ Reading caliper(ReadingKind kind, const Vec3& direction) {
 
 // Least squares of readings that know a hundredth as much: the planes are where the rows say, and
 // everything else where the mesh has it.
-TEST(KnownPlanes, move_the_fit) {
+TEST(KnownPlanes, MoveTheFit) {
     const Stone stone = test::stone_of(test::cube());
     const double lean = 0.02, out = 0.01;
     FitOptions options;

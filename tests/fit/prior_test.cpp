@@ -28,7 +28,7 @@ FitOptions with_prior() {
 
 class PriorOfCut : public testing::TestWithParam<const char*> {};
 
-TEST_P(PriorOfCut, an_evening_of_readings_gives_a_whole_stone) {
+TEST_P(PriorOfCut, AnEveningOfReadingsGivesAWholeStone) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const Evening evening = cutters_evening(GetParam(), {}, Slipped::none, seed);
         const FitResult result =
@@ -43,7 +43,7 @@ TEST_P(PriorOfCut, an_evening_of_readings_gives_a_whole_stone) {
 
 // A chi-square of squared errors over sigmas squared of some 70 facets that hang together: twice
 // the expected value would be a sigma that is 1.4 times too small.
-TEST_P(PriorOfCut, sigmas_hold_for_facets_that_nobody_read) {
+TEST_P(PriorOfCut, SigmasHoldForFacetsThatNobodyRead) {
     double squares = 0;
     int count = 0;
     for (std::uint64_t seed = 11; seed <= 16; ++seed) {
@@ -64,10 +64,10 @@ TEST_P(PriorOfCut, sigmas_hold_for_facets_that_nobody_read) {
     EXPECT_GT(squares / count, 0.3);
 }
 
-INSTANTIATE_TEST_SUITE_P(cuts, PriorOfCut,
+INSTANTIATE_TEST_SUITE_P(Cuts, PriorOfCut,
                          testing::Values("round-brilliant", "oval", "cushion", "step"));
 
-TEST(Prior, is_left_out_where_the_readings_hold_the_stone) {
+TEST(Prior, IsLeftOutWhereTheReadingsHoldTheStone) {
     const bench::Truth truth = bench::make_truth(bench::TruthKind::step, false, 1);
     std::vector<WrittenReading> rows = bench::read_by_instruments(truth, 5);
     for (const WrittenReading& w : bench::read_azimuths(truth, 5)) rows.push_back(w);
@@ -82,7 +82,7 @@ TEST(Prior, is_left_out_where_the_readings_hold_the_stone) {
     for (const FittedFacet& facet : with.facets) EXPECT_EQ(facet.read_inclination, 1);
 }
 
-TEST(Prior, a_reading_draws_its_facet_and_is_told_from_the_prior) {
+TEST(Prior, AReadingDrawsItsFacetAndIsToldFromThePrior) {
     Stone stone;
     stone.solid = make_cut("round-brilliant");
     stone.up_facet = "T";
@@ -111,7 +111,7 @@ TEST(Prior, a_reading_draws_its_facet_and_is_told_from_the_prior) {
     }
 }
 
-TEST(Prior, soft_symmetry_of_few_readings_ends) {
+TEST(Prior, SoftSymmetryOfFewReadingsEnds) {
     // The users' second job: 80 readings of 128 freedoms and a rotation within a sigma.
     for (const double sigma : {0.3, 0.5}) {
         Evening evening = cutters_evening("round-brilliant", {}, Slipped::none, 2);

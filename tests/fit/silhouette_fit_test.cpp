@@ -112,7 +112,7 @@ Errors errors_of(const FitResult& result, const Solid& truth, double least_area,
 }
 
 // A cube of edge 2 seen along its diagonal (1, 1, 0) is a rectangle of 2 sqrt 2 by 2.
-TEST(ProjectedOutline, of_a_cube_along_a_diagonal_is_a_rectangle) {
+TEST(ProjectedOutline, OfACubeAlongADiagonalIsARectangle) {
     const Vec3 across = glm::normalize(Vec3{1, -1, 0}), along{0, 0, 1};
     const ProjectedOutline outline = projected_outline(test::cube().vertices, across, along);
     ASSERT_EQ(outline.edges.size(), 4u);
@@ -126,7 +126,7 @@ TEST(ProjectedOutline, of_a_cube_along_a_diagonal_is_a_rectangle) {
 // Analytic gradient of half the cost against central differences of it: quadratic error, so that
 // a step of 1e-6 leaves 1e-6 of it, times a curvature of the order of one. At kinks, where a corner
 // leaves the outline within the step, there is no derivative: few of the unknowns meet one.
-TEST(PlaneSolver, gradient_is_that_of_central_differences) {
+TEST(PlaneSolver, GradientIsThatOfCentralDifferences) {
     const Solid truth = off_standard(brilliant(), 0.3, 0.01, 3);
     SilhouetteSet set = turntable_outlines(truth, {.views = 6, .points = 60, .sigma = 0.002});
     PlaneFitProblem problem;
@@ -164,7 +164,7 @@ TEST(PlaneSolver, gradient_is_that_of_central_differences) {
 }
 
 // Without noise nothing but the outlines' finite number of points is between the fit and the truth.
-TEST(SilhouetteFit, finds_size_turn_and_every_facet_of_a_stone_that_is_no_standard) {
+TEST(SilhouetteFit, FindsSizeTurnAndEveryFacetOfAStoneThatIsNoStandard) {
     const Solid truth = off_standard(brilliant(), 0.4, 0.01, 7);
     SilhouetteSet set = turntable_outlines(truth, {.views = 120, .points = 500, .sigma = 1e-4});
     set.is_free = true;
@@ -180,7 +180,7 @@ TEST(SilhouetteFit, finds_size_turn_and_every_facet_of_a_stone_that_is_no_standa
 
 // Sigmas that say 68 %: of some 600 inclinations, most of which hang together in tens, the share
 // within one sigma scatters by sqrt(0.68 * 0.32 / 60) = 6 %.
-TEST(SilhouetteFit, sigmas_hold_and_are_found_from_the_residuals) {
+TEST(SilhouetteFit, SigmasHoldAndAreFoundFromTheResiduals) {
     double within = 0;
     int count = 0;
     constexpr int k_stones = 4;
@@ -204,7 +204,7 @@ TEST(SilhouetteFit, sigmas_hold_and_are_found_from_the_residuals) {
 }
 
 // Dust stands out over the outline, the holder hides the culet and stands out far.
-TEST(SilhouetteFit, dust_and_the_holder_do_not_count) {
+TEST(SilhouetteFit, DustAndTheHolderDoNotCount) {
     const Solid truth = off_standard(brilliant(), 0.3, 0.008, 5);
     SilhouetteSet set = turntable_outlines(truth, {.views = 72, .points = 400, .sigma = 0.001});
     for (std::size_t c = 0; c < set.contours.size(); ++c) {
@@ -223,7 +223,7 @@ TEST(SilhouetteFit, dust_and_the_holder_do_not_count) {
 
 // Two independent values of one quantity are weighted by 1/sigma^2 (Gauss): an inclination read as
 // sure as the outlines know it, but two of its sigmas off, moves the facet by one.
-TEST(SilhouetteFit, readings_and_outlines_are_one_least_squares) {
+TEST(SilhouetteFit, ReadingsAndOutlinesAreOneLeastSquares) {
     const Solid truth = off_standard(brilliant(), 0.3, 0.008, 9);
     const SilhouetteSet set =
         turntable_outlines(truth, {.views = 72, .points = 400, .sigma = 0.002});
@@ -250,7 +250,7 @@ TEST(SilhouetteFit, readings_and_outlines_are_one_least_squares) {
                 0.02 * before.sigma_inclination);
 }
 
-TEST(SilhouetteFit, refuses_meets_of_the_mesh_and_its_corners) {
+TEST(SilhouetteFit, RefusesMeetsOfTheMeshAndItsCorners) {
     const SilhouetteSet set = turntable_outlines(brilliant(), {.views = 12, .points = 200});
     const Stone mesh = catalogue(1, 0, {0, 0, 0});
     FitOptions options;

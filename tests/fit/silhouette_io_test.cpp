@@ -35,7 +35,7 @@ protected:
 
 // A triangle has three sides, and each is held by two points of Gauss's rule: 0.2113 and 0.7887 of
 // the way.
-TEST_F(SilhouetteFiles, a_polygon_of_few_corners_is_one_of_sides) {
+TEST_F(SilhouetteFiles, APolygonOfFewCornersIsOneOfSides) {
     const auto contours =
         read_contours(file("contours.json", R"({"unit": "cm", "contours": [{"direction": [0, 0, 2],
             "points": [[0, 0, 5], [1, 0, 5], [0, 1, 5]], "sigma": 0.001, "weight": 4}]})"),
@@ -48,7 +48,7 @@ TEST_F(SilhouetteFiles, a_polygon_of_few_corners_is_one_of_sides) {
     EXPECT_DOUBLE_EQ(contours[0].weights[0], 4);
 }
 
-TEST_F(SilhouetteFiles, refusals_say_what_is_wrong_and_where) {
+TEST_F(SilhouetteFiles, RefusalsSayWhatIsWrongAndWhere) {
     EXPECT_THAT(refusal("{"), HasSubstr("not JSON"));
     EXPECT_THAT(refusal("[]"), HasSubstr("no list `contours`"));
     EXPECT_THAT(refusal(R"({"contours": []})"), HasSubstr("holds no contour"));
@@ -69,7 +69,7 @@ TEST_F(SilhouetteFiles, refusals_say_what_is_wrong_and_where) {
                 HasSubstr("`sigma`"));
 }
 
-TEST_F(SilhouetteFiles, a_scanners_sides_of_no_confidence_are_left_out) {
+TEST_F(SilhouetteFiles, AScannersSidesOfNoConfidenceAreLeftOut) {
     const std::string text =
         "# num_shadow_contours\r\n 1\r\n\r\n 3 1 0 0\r\n"
         "1.0 0\r\n 0 0 0\r\n 0 1 0\r\n 1.0 0\r\n 0 1 0\r\n 0 0 3\r\n 0.0 4\r\n 0 0 3\r\n 0 0 0\r\n";
@@ -89,7 +89,7 @@ TEST_F(SilhouetteFiles, a_scanners_sides_of_no_confidence_are_left_out) {
     EXPECT_THROW(read_shadow_contours(file("bad.dat", "1 3 1 0 nan"), LengthUnit::mm), InputError);
 }
 
-TEST_F(SilhouetteFiles, a_table_holds_every_nth_outline_out) {
+TEST_F(SilhouetteFiles, ATableHoldsEveryNthOutlineOut) {
     std::string contours;
     for (int k = 0; k < 5; ++k) {
         contours += std::string(k == 0 ? "" : ",") +

@@ -69,7 +69,7 @@ Json without_times(const Study& study) {
     return json;
 }
 
-TEST(Study, has_a_row_for_each_way_of_fitting) {
+TEST(Study, HasARowForEachWayOfFitting) {
     const Case c(true);
     const Study study = study_fit(c.stone, c.readings, without_limit(2));
     ASSERT_EQ(study.status, FitStatus::converged) << study.message;
@@ -113,7 +113,7 @@ TEST(Study, has_a_row_for_each_way_of_fitting) {
 // Information is a sum over readings (Fisher): taking some away can only raise the limit. A convex
 // polyhedron of E edges has E + 6 freedoms (Steinitz), six of them its place in space; readings see
 // E and where azimuths begin, and no fewer than E + 1 readings hold them.
-TEST(Study, raises_the_limit_as_readings_go_until_each_is_needed) {
+TEST(Study, RaisesTheLimitAsReadingsGoUntilEachIsNeeded) {
     const Case c;
     StudyOptions options = without_limit(1);
     options.times = false;
@@ -136,7 +136,7 @@ TEST(Study, raises_the_limit_as_readings_go_until_each_is_needed) {
 
 // Least squares with the right weights reaches the Cramer-Rao limit (Gauss-Markov) as far as the
 // stone is linear over the size of the errors: the ratio is 1 within its own scatter.
-TEST(Study, comes_to_the_cramer_rao_limit) {
+TEST(Study, ComesToTheCramerRaoLimit) {
     const Case c;
     StudyOptions options = without_limit(30, 3);
     options.times = false;
@@ -152,7 +152,7 @@ TEST(Study, comes_to_the_cramer_rao_limit) {
     EXPECT_LT(study.limits.front().ratio, 1.05);
 }
 
-TEST(Study, is_the_same_each_time_apart_from_the_times) {
+TEST(Study, IsTheSameEachTimeApartFromTheTimes) {
     const Case c(true);
     const Json first = without_times(study_fit(c.stone, c.readings, without_limit(1, 9)));
     EXPECT_EQ(first, without_times(study_fit(c.stone, c.readings, without_limit(1, 9))));
@@ -160,7 +160,7 @@ TEST(Study, is_the_same_each_time_apart_from_the_times) {
 }
 
 // A budget cuts draws off; what is left is what a longer study begins with.
-TEST(Study, ends_when_its_budget_is_spent) {
+TEST(Study, EndsWhenItsBudgetIsSpent) {
     const Case c;
     StudyOptions options = without_limit(3);
     options.budget_seconds = 1e-6;
@@ -171,7 +171,7 @@ TEST(Study, ends_when_its_budget_is_spent) {
     EXPECT_EQ(Json::parse(study_json(cut))["settings"].size(), 0u);
 }
 
-TEST(Study, makes_soft_meets_and_symmetries_exact_for_the_limit) {
+TEST(Study, MakesSoftMeetsAndSymmetriesExactForTheLimit) {
     Case c;
     StudyOptions options = without_limit(1);
     options.fit.meets = MeetTreatment::soft;
@@ -182,7 +182,7 @@ TEST(Study, makes_soft_meets_and_symmetries_exact_for_the_limit) {
     EXPECT_FALSE(study.limits.empty()) << study.limit_message;
 }
 
-TEST(Study, of_readings_that_leave_the_stone_open_has_no_limit) {
+TEST(Study, OfReadingsThatLeaveTheStoneOpenHasNoLimit) {
     Case c;
     c.readings.resize(10);
     StudyOptions options = without_limit(1);
@@ -194,7 +194,7 @@ TEST(Study, of_readings_that_leave_the_stone_open_has_no_limit) {
     EXPECT_FALSE(study.usable());
 }
 
-TEST(Study, stops_when_it_is_told_to) {
+TEST(Study, StopsWhenItIsToldTo) {
     const Case c(true);
     int calls = 0;
     EXPECT_THROW(study_fit(c.stone, c.readings, without_limit(3),

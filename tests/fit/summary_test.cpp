@@ -41,7 +41,7 @@ FitResult result() {
     return r;
 }
 
-TEST(Summary, names_the_least_sure_facets) {
+TEST(Summary, NamesTheLeastSureFacets) {
     const auto lines = fit_summary(result());
     EXPECT_THAT(lines.front(), HasSubstr("chi-square 48.9, where 94.0 is expected"));
     EXPECT_THAT(lines, Contains(HasSubstr("Least sure are P2 (0.3 degrees), P3 (0.2 degrees)")));
@@ -50,7 +50,7 @@ TEST(Summary, names_the_least_sure_facets) {
 
 // Without its own reading of 43.4 the facet would come to 43.4 - 4.5 / 0.5 = 34.4: the residual is
 // the redundancy's part of the error.
-TEST(Summary, says_what_the_others_say_of_a_suspect) {
+TEST(Summary, SaysWhatTheOthersSayOfASuspect) {
     FitResult r = result();
     r.status = FitStatus::contradictory;
     r.findings.suspects = {"r0"};
@@ -60,7 +60,7 @@ TEST(Summary, says_what_the_others_say_of_a_suspect) {
             "Look again at r0 (inclination of P1: read 43.4, the others say 34.4, off by 12.3")));
 }
 
-TEST(Summary, names_the_slip_that_would_explain_a_suspect) {
+TEST(Summary, NamesTheSlipThatWouldExplainASuspect) {
     FitResult r = result();
     r.findings.suspects = {"r0"};
     r.findings.proposals = {
@@ -69,7 +69,7 @@ TEST(Summary, names_the_slip_that_would_explain_a_suspect) {
                 Contains(HasSubstr("the others say 34.41 +- 0.1 (digits swapped: 34.4?)")));
 }
 
-TEST(Summary, names_a_set_only_where_no_single_reading_explains) {
+TEST(Summary, NamesASetOnlyWhereNoSingleReadingExplains) {
     FitResult r = result();
     r.findings.disagreeing = {"a", "b", "c"};
     EXPECT_THAT(fit_summary(r), Contains("Readings that cannot hold together, though without any "
@@ -78,7 +78,7 @@ TEST(Summary, names_a_set_only_where_no_single_reading_explains) {
     EXPECT_THAT(fit_summary(r), Not(Contains(HasSubstr("cannot hold together"))));
 }
 
-TEST(Summary, tells_what_was_found_out) {
+TEST(Summary, TellsWhatWasFoundOut) {
     FitResult r = result();
     r.findings.undetermined_words = {"nothing measured fixes the azimuth of star S3"};
     r.findings.help = {{ReadingKind::azimuth, {"S3"}, 0.1, 0.02, true}, {}};
@@ -112,7 +112,7 @@ TEST(Summary, tells_what_was_found_out) {
     }
 }
 
-TEST(Summary, says_what_is_open_and_what_nothing_checks) {
+TEST(Summary, SaysWhatIsOpenAndWhatNothingChecks) {
     FitResult r = result();
     r.status = FitStatus::undetermined;
     r.message = "2 freedoms";
@@ -124,7 +124,7 @@ TEST(Summary, says_what_is_open_and_what_nothing_checks) {
     EXPECT_THAT(lines, Contains(HasSubstr("Nothing checks 1 of 1 readings (r0)")));
 }
 
-TEST(Summary, of_a_failure_says_not_to_rely_on_it) {
+TEST(Summary, OfAFailureSaysNotToRelyOnIt) {
     FitResult r;
     r.message = "the fitted stone is not closed";
     const auto lines = fit_summary(r);
@@ -132,7 +132,7 @@ TEST(Summary, of_a_failure_says_not_to_rely_on_it) {
     EXPECT_EQ(lines[0], "Do not rely on this stone: the fitted stone is not closed.");
 }
 
-TEST(Summary, survives_what_is_not_known) {
+TEST(Summary, SurvivesWhatIsNotKnown) {
     FitResult r = result();
     for (FittedFacet& f : r.facets) f.sigma_inclination = f.sigma_azimuth = std::nan("");
     r.readings[0].redundancy = std::nan("");

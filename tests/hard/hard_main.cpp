@@ -22,7 +22,7 @@ private:
 };
 
 // A corpus that was not found must not pass for one that holds.
-TEST(HardCorpus, has_cases_in_every_section) {
+TEST(HardCorpus, HasCasesInEverySection) {
     std::set<std::string> found;
     for (const HardCase& one : read_corpus(CULET_SOURCE_DIR "/tests/hard"))
         found.insert(one.section);

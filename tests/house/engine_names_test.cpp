@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(EngineNames, stand_in_no_other_file_as_text) {
+TEST(EngineNames, StandInNoOtherFileAsText) {
     const std::regex as_text(R"re(engine\w*\s*(==|!=|=)\s*"|"\s*(==|!=)\s*\w*engine)re");
     int files = 0;
     for (const char* room : {"render", "compare", "app"}) {

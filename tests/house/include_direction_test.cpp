@@ -30,7 +30,7 @@ bool is_source(const fs::path& file) {
     return file.extension() == ".h" || file.extension() == ".cpp";
 }
 
-TEST(Rooms, include_only_what_they_may_see) {
+TEST(Rooms, IncludeOnlyWhatTheyMaySee) {
     const std::regex include_line(R"(^\s*#\s*include\s*"([a-z_]+)/)");
     const std::regex quoted_line(R"(^\s*#\s*include\s*"([^"]+)\")");
     for (const auto& [room, visible] : k_may_see) {
@@ -69,7 +69,7 @@ std::set<std::string> includes_of(const fs::path& file) {
 // Heavy libraries stay behind small headers: whatever a room shows to other rooms, with all that it
 // includes, holds only lower rooms, GLM and the standard library (docs/architecture.md). Headers
 // that stay inside their room may show Eigen or OpenCV to their neighbours.
-TEST(Rooms, show_no_heavy_library_to_other_rooms) {
+TEST(Rooms, ShowNoHeavyLibraryToOtherRooms) {
     const std::regex heavy(
         R"(#\s*include\s*<(CGAL|OpenMesh|ceres|Eigen|opencv2|Imath|OpenEXR|Imf|toml\+\+|nlohmann|kainjow|tbb))");
     const fs::path source(CULET_SOURCE_DIR);
@@ -104,7 +104,7 @@ TEST(Rooms, show_no_heavy_library_to_other_rooms) {
 
 // Folders inside a room do not include each other in circles; files that stand in no folder count
 // as one.
-TEST(Rooms, have_folders_that_include_each_other_one_way) {
+TEST(Rooms, HaveFoldersThatIncludeEachOtherOneWay) {
     const fs::path source(CULET_SOURCE_DIR);
     for (const std::string room :
          {"stone", "page", "fit", "render", "viewer", "compare", "refine", "app", "python"}) {
@@ -139,7 +139,7 @@ TEST(Rooms, have_folders_that_include_each_other_one_way) {
 // Pages are made from template files (templates/*.html.mustache), which escape by default: no tag
 // stands in a string of the program. Drawings are SVG, made where they are computed; Mitsuba's
 // scenes are XML.
-TEST(Rooms, keep_html_in_template_files) {
+TEST(Rooms, KeepHtmlInTemplateFiles) {
     const std::set<std::string> drawings{"page/chart.cpp", "page/drawing.cpp",
                                          "compare/photo/calibration_board.cpp",
                                          "render/export/mitsuba.cpp"};

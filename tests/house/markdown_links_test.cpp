@@ -147,7 +147,7 @@ std::vector<std::string> faults(const fs::path& file, const std::string& text) {
     return faults;
 }
 
-TEST(MarkdownLinks, lead_to_files_and_headings_that_are_there) {
+TEST(MarkdownLinks, LeadToFilesAndHeadingsThatAreThere) {
     int links = 0;
     for (const fs::path& file : markdown_files()) {
         const std::string text = content(file);
@@ -157,7 +157,7 @@ TEST(MarkdownLinks, lead_to_files_and_headings_that_are_there) {
     EXPECT_GT(links, 100);
 }
 
-TEST(MarkdownLinks, of_every_page_stand_in_the_table_of_contents) {
+TEST(MarkdownLinks, OfEveryPageStandInTheTableOfContents) {
     const fs::path docs = fs::path(CULET_SOURCE_DIR) / "docs";
     std::set<std::string> listed;
     for (const Link& link : links_of(content(docs / "README.md"))) listed.insert(link.target);
@@ -169,7 +169,7 @@ TEST(MarkdownLinks, of_every_page_stand_in_the_table_of_contents) {
 }
 
 // The check itself: broken links of every kind are found, at their lines, and no others.
-TEST(MarkdownLinks, that_are_broken_are_found) {
+TEST(MarkdownLinks, ThatAreBrokenAreFound) {
     const fs::path here = fs::path(CULET_SOURCE_DIR) / "docs" / "README.md";
     const std::string text =
         "# One `two`: three?\n[a](#one-two-three) [b](../LICENSE) [c](https://example.org/x#y)\n"

@@ -33,7 +33,7 @@ std::vector<std::pair<double, double>> circles(const std::string& svg) {
 }
 
 // The middle, on a logarithmic axis, of 1 and 100 is 10.
-TEST(Chart, is_logarithmic_where_asked) {
+TEST(Chart, IsLogarithmicWhereAsked) {
     Chart chart = two_points(1, 0.01, 100, 1);
     chart.series[0].points.push_back({10, 0.1, "", ""});
     const auto at = circles(draw_chart_svg(chart));
@@ -44,7 +44,7 @@ TEST(Chart, is_logarithmic_where_asked) {
     EXPECT_GT(at[0].second, at[1].second);  // up is more
 }
 
-TEST(Chart, says_what_it_shows_in_words) {
+TEST(Chart, SaysWhatItShowsInWords) {
     const std::string svg = draw_chart_svg(two_points(1, 1, 20, 30));
     EXPECT_EQ(xml_fault(svg), "");
     EXPECT_THAT(svg, HasSubstr("<title>title</title>"));
@@ -53,7 +53,7 @@ TEST(Chart, says_what_it_shows_in_words) {
     EXPECT_THAT(svg, HasSubstr(">a</text>"));
 }
 
-TEST(Chart, leaves_out_what_has_no_place) {
+TEST(Chart, LeavesOutWhatHasNoPlace) {
     Chart chart = two_points(1, 1, 0, 3);
     chart.series[0].points.push_back({std::nan(""), 1, "c", "third"});
     chart.series[0].points.push_back({1, -1, "d", "fourth"});
@@ -66,7 +66,7 @@ TEST(Chart, leaves_out_what_has_no_place) {
 }
 
 // One point, equal points, a narrow and a very wide range: some ticks, not thousands.
-TEST(Chart, has_a_few_ticks_at_any_range) {
+TEST(Chart, HasAFewTicksAtAnyRange) {
     for (const auto& [low, high] :
          {std::pair(3.0, 3.0), std::pair(1.0, 1.001), std::pair(98., 212.), std::pair(1e-12, 1e12),
           std::pair(0.12, 0.25)}) {
@@ -83,7 +83,7 @@ TEST(Chart, has_a_few_ticks_at_any_range) {
     }
 }
 
-TEST(Chart, escapes_hostile_words) {
+TEST(Chart, EscapesHostileWords) {
     const std::string hostile = "<script>&\"\xff";
     Chart chart = two_points(1, 1, 2, 2);
     chart.title = chart.about = chart.x_label = chart.series[0].name =

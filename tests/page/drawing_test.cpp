@@ -75,7 +75,7 @@ std::vector<Solid> stones() {
 
 // Orthographic projection: a facet's picture has its area times the cosine of its tilt (closed
 // form), to the two decimals in which corners are written.
-TEST(Drawing, has_the_projected_areas) {
+TEST(Drawing, HasTheProjectedAreas) {
     for (const Solid& solid : stones()) {
         for (const ViewSide side : k_sides) {
             const double scale = view_of(solid, side, 1000).scale;
@@ -102,7 +102,7 @@ TEST(Drawing, has_the_projected_areas) {
     }
 }
 
-TEST(Drawing, names_every_facet_in_sight_once) {
+TEST(Drawing, NamesEveryFacetInSightOnce) {
     for (const Solid& solid : stones()) {
         for (const ViewSide side : k_sides) {
             const std::string svg = draw_facets_svg(solid, side);
@@ -119,7 +119,7 @@ TEST(Drawing, names_every_facet_in_sight_once) {
 }
 
 // Names inside a facet stay inside: the corners of the box of the text lie within the outline.
-TEST(Drawing, keeps_names_within_their_facets) {
+TEST(Drawing, KeepsNamesWithinTheirFacets) {
     for (const Solid& solid : stones()) {
         for (const ViewSide side : k_sides) {
             const FacetView view = view_of(solid, side, 1000);
@@ -154,7 +154,7 @@ TEST(Drawing, keeps_names_within_their_facets) {
     }
 }
 
-TEST(Drawing, keeps_led_names_apart) {
+TEST(Drawing, KeepsLedNamesApart) {
     const Solid solid = make_cut("round-brilliant");
     const FacetView view = view_of(solid, ViewSide::girdle, 1000);
     const FacetLabels labels = place_labels(solid, view);
@@ -169,7 +169,7 @@ TEST(Drawing, keeps_led_names_apart) {
     EXPECT_GT(led, 0);
 }
 
-TEST(Drawing, shows_the_facets_that_face_the_viewer) {
+TEST(Drawing, ShowsTheFacetsThatFaceTheViewer) {
     const std::string crown = draw_facets_svg(bevelled(), ViewSide::crown);
     const std::string pavilion = draw_facets_svg(bevelled(), ViewSide::pavilion);
     EXPECT_THAT(crown, HasSubstr("aria-label=\"T\""));
@@ -184,7 +184,7 @@ TEST(Drawing, shows_the_facets_that_face_the_viewer) {
 }
 
 // The bevel lies at +x: right of the top from above, left as the stone is turned over.
-TEST(Drawing, has_the_frames_it_promises) {
+TEST(Drawing, HasTheFramesItPromises) {
     const std::string crown = draw_facets_svg(bevelled(), ViewSide::crown);
     EXPECT_THAT(crown, HasSubstr("viewBox=\"0 0 1000 1000\""));
     for (const auto& c : drawn(crown, "C")) EXPECT_GT(c.x, 500);
@@ -210,7 +210,7 @@ TEST(Drawing, has_the_frames_it_promises) {
 }
 
 // A stone with a notch: the nearer wall is drawn after what it hides.
-TEST(Drawing, draws_near_facets_last) {
+TEST(Drawing, DrawsNearFacetsLast) {
     const Solid heart = make_cut("heart");
     const FacetView view = view_of(heart, ViewSide::girdle, 1000);
     double before = -std::numeric_limits<double>::max();
@@ -222,7 +222,7 @@ TEST(Drawing, draws_near_facets_last) {
     }
 }
 
-TEST(Drawing, of_a_broken_solid_is_empty_or_whole) {
+TEST(Drawing, OfABrokenSolidIsEmptyOrWhole) {
     Solid solid = bevelled();
     EXPECT_EQ(draw_facets_svg(Solid{}, ViewSide::crown), "");
     solid.vertices[0].x = std::nan("");
@@ -235,7 +235,7 @@ TEST(Drawing, of_a_broken_solid_is_empty_or_whole) {
     EXPECT_EQ(xml_fault(drawing_svg("a", "b", solid, {}, {})), "");
 }
 
-TEST(Drawing, escapes_and_shortens_hostile_names) {
+TEST(Drawing, EscapesAndShortensHostileNames) {
     const std::string hostile = "<script>alert('x')</script>&\"\xff" + std::string(100000, 'W');
     const Solid solid = bevelled(hostile);
     PaintLegend legend;
@@ -247,7 +247,7 @@ TEST(Drawing, escapes_and_shortens_hostile_names) {
 }
 
 // 1 000 facets of equal size in sight: every one has its title, names only as many as have room.
-TEST(Drawing, of_a_thousand_facets_is_whole) {
+TEST(Drawing, OfAThousandFacetsIsWhole) {
     std::vector<NamedPlane> planes{{"B", {Vec3(0, 0, -1), 0.1}}};
     for (int i = 0; i < 1000; ++i) {
         const double z = 0.05 + 0.9 * i / 1000.0, r = std::sqrt(1 - z * z),
@@ -275,7 +275,7 @@ const char* const k_report = R"({"status": "contradictory",
                  {"id": "r1", "of": ["C", "T"], "normalized": 2.0}],
     "undetermined": [{"facet": "B", "freedom": "inclination"}], "suspects": ["r0"]})";
 
-TEST(FitPaint, colours_facets_by_their_worst_reading) {
+TEST(FitPaint, ColoursFacetsByTheirWorstReading) {
     const Solid solid = bevelled();
     const FitPaint paint = fit_paint(solid, k_report, FitColour::residual);
     ASSERT_EQ(paint.facets.size(), solid.facets.size());
@@ -292,7 +292,7 @@ TEST(FitPaint, colours_facets_by_their_worst_reading) {
 }
 
 // A vertical facet's normal moves by the root of the squares of both its angles: 0.03, 0.04, 0.05.
-TEST(FitPaint, colours_facets_by_how_far_their_normals_may_be_off) {
+TEST(FitPaint, ColoursFacetsByHowFarTheirNormalsMayBeOff) {
     const Solid solid = bevelled();
     const FitPaint paint = fit_paint(solid, k_report, FitColour::uncertainty);
     const auto of = [&](const char* name) {
@@ -306,7 +306,7 @@ TEST(FitPaint, colours_facets_by_how_far_their_normals_may_be_off) {
     EXPECT_THAT(of("B").about, HasSubstr("left open by the readings: inclination"));
 }
 
-TEST(FitPaint, of_no_report_is_plain) {
+TEST(FitPaint, OfNoReportIsPlain) {
     const FitPaint paint = fit_paint(bevelled(), "", FitColour::uncertainty);
     for (const FacetPaint& own : paint.facets) EXPECT_FALSE(own.marked);
     EXPECT_THROW(fit_paint(bevelled(), "[1", FitColour::residual), InputError);
@@ -317,7 +317,7 @@ TEST(FitPaint, of_no_report_is_plain) {
 }
 
 // Told apart without hues: lightness (CIE luminance) falls all the way.
-TEST(ColourMaps, of_drawings_get_darker_all_the_way) {
+TEST(ColourMaps, OfDrawingsGetDarkerAllTheWay) {
     for (const ColourMap map : {ColourMap::residual, ColourMap::uncertainty}) {
         double before = 2;
         for (int i = 0; i <= 50; ++i) {

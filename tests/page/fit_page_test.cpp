@@ -66,7 +66,7 @@ FitView view(const Json& fit) {
     return {fit.dump(), std::nullopt, "mm"};
 }
 
-TEST(FitPage, card_is_in_plain_words_without_statistics) {
+TEST(FitPage, CardIsInPlainWordsWithoutStatistics) {
     const std::string card = fit_card(view(converged())), tiles = fit_tiles(view(converged()));
     EXPECT_THAT(card, HasSubstr("The stone agrees with the readings"));
     EXPECT_THAT(card, HasSubstr("No reading is in doubt."));
@@ -76,14 +76,14 @@ TEST(FitPage, card_is_in_plain_words_without_statistics) {
     EXPECT_THAT(tiles, HasSubstr("<b>1 of 2</b><span>the rest supposed near the design</span>"));
 }
 
-TEST(FitPage, counts_rows_beside_readings) {
+TEST(FitPage, CountsRowsBesideReadings) {
     Json fit = converged();
     fit["readings"] = {reading("r0.C1", 1), reading("r0.C2.1", 1), reading("mine.1", 1),
                        reading("mine.2", 1)};
     EXPECT_THAT(fit_tiles(view(fit)), HasSubstr("<b>4</b><span>from 3 rows; none suspect</span>"));
 }
 
-TEST(FitPage, card_tells_what_stands_out) {
+TEST(FitPage, CardTellsWhatStandsOut) {
     Json fit = converged();
     fit["tier_angles"] = {{{"what", {"P3 is 0.6 degrees (+- 0.1) steeper", "P5 is flatter"}}}};
     EXPECT_THAT(fit_card(view(fit)),
@@ -91,7 +91,7 @@ TEST(FitPage, card_tells_what_stands_out) {
     EXPECT_THAT(fit_look_section(view(fit)), HasSubstr("<li>P5 is flatter.</li>"));
 }
 
-TEST(FitPage, names_the_slip_and_what_to_do) {
+TEST(FitPage, NamesTheSlipAndWhatToDo) {
     EXPECT_THAT(fit_card(view(slipped())), HasSubstr("One reading contradicts the others"));
     EXPECT_THAT(fit_card(view(slipped())),
                 HasSubstr("readings.csv line 10: inclination of C5 38.3° is 4.5° away. It is left "
@@ -102,7 +102,7 @@ TEST(FitPage, names_the_slip_and_what_to_do) {
                           "otherwise read it again."));
 }
 
-TEST(FitPage, tells_of_a_suspect_that_the_fit_still_heeds) {
+TEST(FitPage, TellsOfASuspectThatTheFitStillHeeds) {
     Json fit = slipped();
     fit["doubts"] = Json::array();
     fit["readings"][0].erase("left_out");
@@ -113,7 +113,7 @@ TEST(FitPage, tells_of_a_suspect_that_the_fit_still_heeds) {
                           "takes it in."));
 }
 
-TEST(FitPage, card_of_every_status) {
+TEST(FitPage, CardOfEveryStatus) {
     Json fit = converged();
     fit["message"] = "too little was read";
     for (const auto& [status, word] :
@@ -128,7 +128,7 @@ TEST(FitPage, card_of_every_status) {
     EXPECT_THAT(fit_card(view(fit)), HasSubstr("does not say how the fit ended"));
 }
 
-TEST(FitPage, says_what_is_open_a_facet_a_line_and_folds_long_lists) {
+TEST(FitPage, SaysWhatIsOpenAFacetALineAndFoldsLongLists) {
     Json fit = converged();
     for (int f = 0; f < 12; ++f) {
         for (const char* freedom : {"inclination", "offset"}) {
@@ -142,7 +142,7 @@ TEST(FitPage, says_what_is_open_a_facet_a_line_and_folds_long_lists) {
     EXPECT_THAT(section, HasSubstr("<summary>4 more</summary>"));
 }
 
-TEST(FitPage, says_what_to_read_next_only_where_it_is_worth_it) {
+TEST(FitPage, SaysWhatToReadNextOnlyWhereItIsWorthIt) {
     Json fit = converged();
     fit["help"] = {{{"kind", "azimuth"}, {"of", {"G29"}}, {"reduces", 0.36}},
                    {{"kind", "dihedral"}, {"of", {"P5", "P4"}}, {"closes", true}},
@@ -155,7 +155,7 @@ TEST(FitPage, says_what_to_read_next_only_where_it_is_worth_it) {
     EXPECT_THAT(section, Not(HasSubstr("depth")));
 }
 
-TEST(FitPage, has_nothing_to_look_at_where_there_is_nothing) {
+TEST(FitPage, HasNothingToLookAtWhereThereIsNothing) {
     EXPECT_THAT(fit_look_section(view(converged())), IsEmpty());
     for (const FitView& none : {FitView{}, view(Json::object())}) {
         EXPECT_EQ(fit_card(none) + fit_tiles(none) + fit_look_section(none) +
@@ -165,7 +165,7 @@ TEST(FitPage, has_nothing_to_look_at_where_there_is_nothing) {
     }
 }
 
-TEST(FitPage, shows_calipers_beside_the_diameter) {
+TEST(FitPage, ShowsCalipersBesideTheDiameter) {
     Json fit = converged();
     const auto add = [&](const char* name, double value, double sigma, const char* unit) {
         fit["proportions"].push_back(
@@ -186,7 +186,7 @@ TEST(FitPage, shows_calipers_beside_the_diameter) {
     EXPECT_THAT(section, HasSubstr("58.44 ± 0.26\u00a0mm³"));
 }
 
-TEST(FitPage, tables_are_folded_with_their_counts_and_have_sensible_digits) {
+TEST(FitPage, TablesAreFoldedWithTheirCountsAndHaveSensibleDigits) {
     const std::string section = fit_section(view(converged()));
     EXPECT_THAT(section, HasSubstr("<summary>2 facets as fitted</summary>"));
     EXPECT_THAT(section, HasSubstr("<summary>2 readings and"));
@@ -198,7 +198,7 @@ TEST(FitPage, tables_are_folded_with_their_counts_and_have_sensible_digits) {
     }
 }
 
-TEST(FitPage, escapes_names_in_every_sentence) {
+TEST(FitPage, EscapesNamesInEverySentence) {
     const std::string evil = "<script>alert(1)</script>";
     Json fit = slipped();
     fit["doubts"] = {evil};
@@ -221,7 +221,7 @@ TEST(FitPage, escapes_names_in_every_sentence) {
     EXPECT_THAT(page, Not(HasSubstr("<script")));
 }
 
-TEST(FitPage, refuses_what_is_no_report) {
+TEST(FitPage, RefusesWhatIsNoReport) {
     EXPECT_THROW(fit_card({"[1]", std::nullopt, "mm"}), InputError);
 }
 

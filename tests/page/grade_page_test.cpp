@@ -30,7 +30,7 @@ GradeDesign design(const std::string& name) {
             {}};
 }
 
-TEST(GradePage, shows_figures_with_their_sigmas_costs_and_notes) {
+TEST(GradePage, ShowsFiguresWithTheirSigmasCostsAndNotes) {
     const std::string page = grade_page({{design("Mine")}, "0.2", "culet grade mine.asc"});
     EXPECT_THAT(page, HasSubstr("70.12 ± 0.46 %"));
     EXPECT_THAT(page, HasSubstr("60.00 %"));
@@ -43,7 +43,7 @@ TEST(GradePage, shows_figures_with_their_sigmas_costs_and_notes) {
     EXPECT_THAT(page, HasSubstr("its two waves go one way"));
 }
 
-TEST(GradePage, sets_designs_side_by_side) {
+TEST(GradePage, SetsDesignsSideBySide) {
     const std::string page = grade_page({{design("Mine"), design("Yours")}, "0.2", "culet grade"});
     EXPECT_THAT(page, HasSubstr("2 designs"));
     EXPECT_THAT(page, HasSubstr(">Mine</th>"));
@@ -51,7 +51,7 @@ TEST(GradePage, sets_designs_side_by_side) {
     EXPECT_THAT(page, HasSubstr("iso, about x and (dashed) y"));
 }
 
-TEST(GradePage, draws_light_paths_by_how_they_end) {
+TEST(GradePage, DrawsLightPathsByHowTheyEnd) {
     const std::string drawing = section_drawing(k_section);
     EXPECT_THAT(drawing, HasSubstr("class=\"path-leak\""));
     EXPECT_THAT(drawing, HasSubstr("azimuth 22.5"));

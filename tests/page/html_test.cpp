@@ -8,7 +8,7 @@ namespace culet {
 namespace {
 
 // RFC 4648, section 10.
-TEST(Html, base64_of_the_published_vectors) {
+TEST(Html, Base64OfThePublishedVectors) {
     EXPECT_EQ(base64(""), "");
     EXPECT_EQ(base64("f"), "Zg==");
     EXPECT_EQ(base64("fo"), "Zm8=");
@@ -18,7 +18,7 @@ TEST(Html, base64_of_the_published_vectors) {
     EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
 }
 
-TEST(Html, bytes_of_base64_of_the_published_vectors) {
+TEST(Html, BytesOfBase64OfThePublishedVectors) {
     for (const char* text : {"", "f", "fo", "foo", "foob", "fooba", "foobar"})
         EXPECT_EQ(bytes_of_base64(base64(text)), text);
     std::string all;
@@ -28,7 +28,7 @@ TEST(Html, bytes_of_base64_of_the_published_vectors) {
         EXPECT_EQ(bytes_of_base64(broken), std::nullopt) << broken;
 }
 
-TEST(Html, numbers_are_written_for_readers) {
+TEST(Html, NumbersAreWrittenForReaders) {
     EXPECT_EQ(decimals(-0.001, 2), "0.00");
     EXPECT_EQ(decimals(-1.5, 1),
               "\xe2\x88\x92"
@@ -43,7 +43,7 @@ TEST(Html, numbers_are_written_for_readers) {
               "13");
 }
 
-TEST(Html, escapes_text_and_replaces_what_is_not_utf8) {
+TEST(Html, EscapesTextAndReplacesWhatIsNotUtf8) {
     EXPECT_EQ(escaped("a<b>&\"'"), "a&lt;b&gt;&amp;&quot;&#39;");
     EXPECT_EQ(escaped("\xc3\xa9\xe2\x82\xac"), "\xc3\xa9\xe2\x82\xac");
     EXPECT_EQ(escaped("\xc3"), "\xef\xbf\xbd");

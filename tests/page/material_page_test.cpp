@@ -7,7 +7,7 @@
 namespace culet {
 namespace {
 
-TEST(MaterialPage, shows_colours_rays_in_order_and_what_is_missing) {
+TEST(MaterialPage, ShowsColoursRaysInOrderAndWhatIsMissing) {
     const std::string page = material_page(
         R"({"width_mm": 6.5, "light_path_mm": 8.7, "materials": [
             {"id": "red", "name": "Red <stone>", "index_589nm": {"o": 1.768, "e": 1.76},

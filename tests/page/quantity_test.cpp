@@ -13,7 +13,7 @@ namespace {
 constexpr double k_nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double k_infinite = std::numeric_limits<double>::infinity();
 
-TEST(Quantity, has_two_digits_of_sigma_and_the_value_to_the_same_place) {
+TEST(Quantity, HasTwoDigitsOfSigmaAndTheValueToTheSamePlace) {
     EXPECT_EQ(quantity(33.78684, 0.098784, "deg"), "33.787 ± 0.099°");
     EXPECT_EQ(quantity(10.168568, 0.0064658, "mm"), "10.1686 ± 0.0065\u00a0mm");
     EXPECT_EQ(quantity(58.43847, 0.25538, "mm3"), "58.44 ± 0.26\u00a0mm³");
@@ -22,37 +22,37 @@ TEST(Quantity, has_two_digits_of_sigma_and_the_value_to_the_same_place) {
     EXPECT_EQ(quantity(214336.4, 1234, "mm"), "214300 ± 1200\u00a0mm");
 }
 
-TEST(Quantity, rounds_sigma_before_its_digits_are_counted) {
+TEST(Quantity, RoundsSigmaBeforeItsDigitsAreCounted) {
     EXPECT_EQ(quantity(5, 0.0996, "mm"), "5.00 ± 0.10\u00a0mm");
     EXPECT_EQ(quantity(500, 99.7, "mm"), "500 ± 100\u00a0mm");
 }
 
-TEST(Quantity, of_negative_values_has_a_true_minus_and_no_negative_zero) {
+TEST(Quantity, OfNegativeValuesHasATrueMinusAndNoNegativeZero) {
     EXPECT_EQ(quantity(-0.0268, 0.1, "deg"), "−0.03 ± 0.10°");
     EXPECT_EQ(quantity(-0.0004, 0.1, "deg"), "0.00 ± 0.10°");
 }
 
-TEST(Quantity, finer_than_any_display_is_exact) {
+TEST(Quantity, FinerThanAnyDisplayIsExact) {
     EXPECT_EQ(quantity(0, 4.8e-21, "deg"), "0° (held exactly)");
     EXPECT_EQ(quantity(90, 0, "deg"), "90° (held exactly)");
     EXPECT_EQ(quantity(45.125, 1e-9, "deg"), "45.125° (held exactly)");
     EXPECT_EQ(quantity(1e-27, 0, "deg"), "0° (held exactly)");
 }
 
-TEST(Quantity, without_a_usable_sigma_is_the_value_alone) {
+TEST(Quantity, WithoutAUsableSigmaIsTheValueAlone) {
     EXPECT_EQ(quantity(6.52, std::nullopt, "mm"), "6.5200\u00a0mm");
     EXPECT_EQ(quantity(6.52, k_nan, "mm"), "6.5200\u00a0mm");
     EXPECT_EQ(quantity(6.52, k_infinite, "mm"), "6.5200\u00a0mm");
     EXPECT_EQ(quantity(6.52, -1, "mm"), "6.5200\u00a0mm");
 }
 
-TEST(Quantity, of_nothing_is_a_dash) {
+TEST(Quantity, OfNothingIsADash) {
     EXPECT_EQ(quantity(std::nullopt, 0.1, "deg"), "–");
     EXPECT_EQ(quantity(k_nan, 0.1, "deg"), "–");
     EXPECT_EQ(quantity(k_infinite, 0.1, "deg"), "–");
 }
 
-TEST(Quantity, of_huge_numbers_stays_short) {
+TEST(Quantity, OfHugeNumbersStaysShort) {
     EXPECT_EQ(quantity(41, 214336, "deg"), "not known");
     EXPECT_EQ(quantity(1e300, 1e299, "mm"), "1.0e+300 ± 1.0e+299\u00a0mm");
     EXPECT_LT(quantity(1e300, 0.1, "mm").size(), 40u);
@@ -60,7 +60,7 @@ TEST(Quantity, of_huge_numbers_stays_short) {
     EXPECT_LT(quantity(-1e300, std::nullopt, "mm").size(), 40u);
 }
 
-TEST(Quantity, names_no_slip_where_nothing_checks) {
+TEST(Quantity, NamesNoSlipWhereNothingChecks) {
     EXPECT_EQ(smallest_slip(0.53, 33.8, "deg"), "0.53°");
     EXPECT_EQ(smallest_slip(214336, 33.8, "deg"), "any slip would pass");
     EXPECT_EQ(smallest_slip(7.15, 6.52, "mm"), "any slip would pass");
@@ -69,11 +69,11 @@ TEST(Quantity, names_no_slip_where_nothing_checks) {
     EXPECT_EQ(smallest_slip(0, 6.52, "mm"), "–");
 }
 
-TEST(Quantity, leaves_escaping_to_the_page) {
+TEST(Quantity, LeavesEscapingToThePage) {
     EXPECT_EQ(quantity(1, 0.1, "<b>"), "1.00 ± 0.10\u00a0<b>");
 }
 
-TEST(Quantity, typesets_sentences_of_the_fit_and_not_names) {
+TEST(Quantity, TypesetsSentencesOfTheFitAndNotNames) {
     EXPECT_EQ(typeset("P3 and P4 are 0.6 degrees (+- 0.1) steeper"),
               "P3 and P4 are 0.6° (± 0.1) steeper");
     EXPECT_EQ(typeset("an area of 0.019 mm2, a volume of 3 mm3."),

@@ -42,7 +42,7 @@ nlohmann::json study() {
         "left_out": ["depth 4: took over 9 s"], "notes": [], "options": {"budget": 120}})");
 }
 
-TEST(SceneStudyPage, shows_advice_front_and_settings) {
+TEST(SceneStudyPage, ShowsAdviceFrontAndSettings) {
     const std::string page =
         scene_study_page({study().dump(),
                           "",
@@ -63,21 +63,21 @@ TEST(SceneStudyPage, shows_advice_front_and_settings) {
     EXPECT_EQ(xml_fault(scene_study_chart(study().dump())), "");
 }
 
-TEST(SceneStudyPage, chart_has_engines_front_and_noise) {
+TEST(SceneStudyPage, ChartHasEnginesFrontAndNoise) {
     const std::string svg = scene_study_chart(study().dump());
     for (const char* name : {">front<", ">preview<", ">reference<", ">automatic<", ">noise<"})
         EXPECT_THAT(svg, HasSubstr(name));
     EXPECT_THAT(svg, Not(HasSubstr(">beams<"))) << "none but the automatic one";
 }
 
-TEST(SceneStudyPage, writes_a_plain_table) {
+TEST(SceneStudyPage, WritesAPlainTable) {
     const std::string text = scene_study_table(study().dump());
     EXPECT_THAT(text, HasSubstr("preview, 3 wavelengths"));
     EXPECT_THAT(text, HasSubstr("<=0.0020"));
     for (const char c : text) EXPECT_GT(c, 0) << text;  // plain letters only
 }
 
-TEST(SceneStudyPage, survives_json_of_unexpected_shape) {
+TEST(SceneStudyPage, SurvivesJsonOfUnexpectedShape) {
     const char* odd =
         R"({"settings": [1, {"engine": 3, "cpu_seconds": "x"}, null], "front": [[], 7],
                           "size": [1], "scene_size": {"a": 1}, "recommendations": [3, {}],

@@ -35,7 +35,7 @@ nlohmann::json study() {
         "limit_made_exact": true, "limit_message": "fewer than 6 readings", "left_out": ["x 1"]})");
 }
 
-TEST(StudyPage, shows_tables_and_charts) {
+TEST(StudyPage, ShowsTablesAndCharts) {
     const std::string page = study_page({study().dump(), "", "1.2", "culet study s"});
     EXPECT_THAT(page, HasSubstr("<h1>Stone &amp; &lt;co&gt;</h1>"));
     EXPECT_THAT(page, HasSubstr("<section id=\"time\""));
@@ -49,14 +49,14 @@ TEST(StudyPage, shows_tables_and_charts) {
     EXPECT_EQ(xml_fault(study_limit_chart(study().dump())), "");
 }
 
-TEST(StudyPage, writes_a_plain_table) {
+TEST(StudyPage, WritesAPlainTable) {
     const std::string text = study_table(study().dump());
     EXPECT_THAT(text, HasSubstr("most steps  100 *            2/2      2/2    2/2"));
     EXPECT_THAT(text, HasSubstr("1.020"));
     for (const char c : text) EXPECT_GT(c, 0) << text;  // plain letters only
 }
 
-TEST(StudyPage, of_an_empty_study_says_why) {
+TEST(StudyPage, OfAnEmptyStudySaysWhy) {
     const std::string page = study_page({R"({"status": "not_converged", "message": "no stone",
                         "limit_message": "there is no fitted stone to study"})"});
     EXPECT_THAT(page, HasSubstr("not converged"));
@@ -66,7 +66,7 @@ TEST(StudyPage, of_an_empty_study_says_why) {
     EXPECT_EQ(study_time_chart("{}"), "");
 }
 
-TEST(StudyPage, survives_json_of_unexpected_shape) {
+TEST(StudyPage, SurvivesJsonOfUnexpectedShape) {
     const char* odd = R"({"settings": [1, {"sweep": 3, "seconds": "x"}, null], "limits": [[]],
                           "options": [1], "left_out": {"a": 1}, "unit": 4, "name": []})";
     EXPECT_NO_THROW(study_page({odd}));

@@ -14,20 +14,20 @@
 namespace culet {
 namespace {
 
-TEST(Template, escapes_what_does_not_say_that_it_is_html) {
+TEST(Template, EscapesWhatDoesNotSayThatItIsHtml) {
     const Template form{"form", "<p>{{text}}{{{text_html}}}</p>"};
     EXPECT_EQ(filled(form, {{"text", "<b>\x01"}, {"text_html", "<i>"}}),
               "<p>&lt;b&gt;\xef\xbf\xbd<i></p>");
 }
 
-TEST(Template, repeats_lists_and_leaves_out_what_is_empty) {
+TEST(Template, RepeatsListsAndLeavesOutWhatIsEmpty) {
     const Template form{"form", "{{#rows}}{{name}};{{/rows}}{{#note}}({{note}}){{/note}}"};
     const std::vector<View> rows{{{"name", "a"}}, {{"name", "b"}}};
     EXPECT_EQ(filled(form, {{"rows", rows}, {"note", ""}}), "a;b;");
     EXPECT_EQ(filled(form, {{"rows", std::vector<View>{}}, {"note", "n"}}), "(n)");
 }
 
-TEST(Template, refuses_names_that_are_not_there) {
+TEST(Template, RefusesNamesThatAreNotThere) {
     for (const char* text : {"{{gone}}", "{{{gone}}}", "{{#gone}}x{{/gone}}", "{{^gone}}x{{/gone}}",
                              "{{>gone}}", "{{#open}}"}) {
         EXPECT_THROW(filled({"form", text}, {{"open", true}}), std::logic_error) << text;
@@ -35,7 +35,7 @@ TEST(Template, refuses_names_that_are_not_there) {
 }
 
 // Of page/template.h: what stands as it is says so by its name.
-TEST(Template, files_write_nothing_unescaped_but_what_is_named_so) {
+TEST(Template, FilesWriteNothingUnescapedButWhatIsNamedSo) {
     const std::regex raw(R"(\{\{(\{|&)\s*([a-z_.]*))"), named(R"(.*_(html|svg|css|js|json))");
     for (const char* folder :
          {"page/templates", "compare/report/templates", "tests/hard/templates"}) {

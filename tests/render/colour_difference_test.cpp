@@ -51,7 +51,7 @@ const Pair k_sharma[] = {
     {{2.0776, 0.0795, -1.1350}, {0.9033, -0.0636, -0.5514}, 0.9082},
 };
 
-TEST(ColourDifference, the_34_published_pairs_come_out) {
+TEST(ColourDifference, The34PublishedPairsComeOut) {
     double sum = 0;
     for (const Pair& pair : k_sharma) {
         // Printed to four places.
@@ -64,12 +64,12 @@ TEST(ColourDifference, the_34_published_pairs_come_out) {
     EXPECT_NEAR(sum, 183.1864, 1e-4);
 }
 
-TEST(ColourDifference, equal_colours_do_not_differ) {
+TEST(ColourDifference, EqualColoursDoNotDiffer) {
     EXPECT_EQ(ciede2000({31, 12, -40}, {31, 12, -40}), 0);
 }
 
 // CIE 15: white is L* = 100 and without chroma; 18 % grey is L* = 49.5; every grey is neutral.
-TEST(ColourDifference, white_and_grey_have_their_lightness) {
+TEST(ColourDifference, WhiteAndGreyHaveTheirLightness) {
     const Lab white = lab_from_linear_srgb(1, 1, 1);
     EXPECT_NEAR(white.L, 100, 1e-9);
     const Lab grey = lab_from_linear_srgb(0.18, 0.18, 0.18);
@@ -83,7 +83,7 @@ TEST(ColourDifference, white_and_grey_have_their_lightness) {
 
 // sRGB red in CIELAB (D65), widely published: 53.24, 80.09, 67.20. Those figures come from a matrix
 // of seven digits; the four digits of IEC 61966-2-1 move them by up to 0.03.
-TEST(ColourDifference, srgb_red_has_its_published_lab) {
+TEST(ColourDifference, SrgbRedHasItsPublishedLab) {
     const Lab red = lab_from_linear_srgb(1, 0, 0);
     EXPECT_NEAR(red.L, 53.24, 0.01);
     EXPECT_NEAR(red.a, 80.09, 0.02);

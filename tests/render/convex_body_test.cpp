@@ -50,14 +50,14 @@ void expect_no_guess_matters(const Solid& solid, std::mt19937_64& random, const 
     }
 }
 
-TEST(ConvexBody, guesses_change_no_answer) {
+TEST(ConvexBody, GuessesChangeNoAnswer) {
     const unsigned seed = 4127;
     std::mt19937_64 random(seed);
     for (int planes : {0, 10, 40})
         expect_no_guess_matters(random_stone(random, planes), random, "random stone");
 }
 
-TEST(ConvexBody, guesses_change_no_answer_in_degenerate_stones) {
+TEST(ConvexBody, GuessesChangeNoAnswerInDegenerateStones) {
     std::mt19937_64 random(97);
     Solid stone = random_stone(random, 20);
     stone.facets.push_back(stone.facets[8]);

@@ -63,7 +63,7 @@ std::vector<double> around(double length, double first = 1e-3, double last = 1e-
     return lengths;
 }
 
-TEST(CrystalFaces, uniaxial_of_either_sign_at_random) {
+TEST(CrystalFaces, UniaxialOfEitherSignAtRandom) {
     RandomAttitudes chance(1);
     FaceJudge judge;
     for (int i = 0; i < 120; ++i) {
@@ -78,7 +78,7 @@ TEST(CrystalFaces, uniaxial_of_either_sign_at_random) {
     EXPECT_LT(judge.excused(), 0.02 * judge.faces());
 }
 
-TEST(CrystalFaces, biaxial_at_random) {
+TEST(CrystalFaces, BiaxialAtRandom) {
     RandomAttitudes chance(2);
     FaceJudge judge;
     for (int i = 0; i < 120; ++i) {
@@ -93,7 +93,7 @@ TEST(CrystalFaces, biaxial_at_random) {
     EXPECT_LT(judge.excused(), 0.02 * judge.faces());
 }
 
-TEST(CrystalFaces, gems_at_random) {
+TEST(CrystalFaces, GemsAtRandom) {
     RandomAttitudes chance(3);
     FaceJudge judge;
     for (const Gem& gem : k_gems)
@@ -105,7 +105,7 @@ TEST(CrystalFaces, gems_at_random) {
     EXPECT_LT(judge.excused(), 0.02 * judge.faces());
 }
 
-TEST(CrystalFaces, grazing_from_outside) {
+TEST(CrystalFaces, GrazingFromOutside) {
     RandomAttitudes chance(4);
     FaceJudge judge;
     for (const Gem& gem : k_gems) {
@@ -116,7 +116,7 @@ TEST(CrystalFaces, grazing_from_outside) {
     }
 }
 
-TEST(CrystalFaces, close_to_normal_incidence) {
+TEST(CrystalFaces, CloseToNormalIncidence) {
     // K as the difference of two long vectors: not quite in the face.
     RandomAttitudes chance(19);
     FaceJudge judge;
@@ -128,7 +128,7 @@ TEST(CrystalFaces, close_to_normal_incidence) {
         }
 }
 
-TEST(CrystalFaces, at_the_critical_angle_of_the_outside) {
+TEST(CrystalFaces, AtTheCriticalAngleOfTheOutside) {
     RandomAttitudes chance(5);
     FaceJudge judge;
     for (const Gem& gem : k_gems) {
@@ -138,7 +138,7 @@ TEST(CrystalFaces, at_the_critical_angle_of_the_outside) {
 }
 
 // Each wave grazes from inside on one side of its critical length and is evanescent on the other.
-TEST(CrystalFaces, grazing_from_inside_uniaxial) {
+TEST(CrystalFaces, GrazingFromInsideUniaxial) {
     RandomAttitudes chance(6);
     FaceJudge judge;
     for (int g = 0; g < 3; ++g) {
@@ -150,7 +150,7 @@ TEST(CrystalFaces, grazing_from_inside_uniaxial) {
     }
 }
 
-TEST(CrystalFaces, grazing_from_inside_biaxial) {
+TEST(CrystalFaces, GrazingFromInsideBiaxial) {
     RandomAttitudes chance(7);
     FaceJudge judge;
     for (int g = 3; g < 6; ++g) {
@@ -162,7 +162,7 @@ TEST(CrystalFaces, grazing_from_inside_biaxial) {
     }
 }
 
-TEST(CrystalFaces, inhibited_reflection) {
+TEST(CrystalFaces, InhibitedReflection) {
     RandomAttitudes chance(8);
     FaceJudge judge;
     for (const Gem& gem : k_gems) {
@@ -173,7 +173,7 @@ TEST(CrystalFaces, inhibited_reflection) {
     }
 }
 
-TEST(CrystalFaces, brewster_from_both_sides) {
+TEST(CrystalFaces, BrewsterFromBothSides) {
     RandomAttitudes chance(9);
     FaceJudge judge;
     for (const Gem& gem : k_gems)
@@ -185,7 +185,7 @@ TEST(CrystalFaces, brewster_from_both_sides) {
         }
 }
 
-TEST(CrystalFaces, principal_axis_along_the_normal_in_the_face_and_along_the_wave) {
+TEST(CrystalFaces, PrincipalAxisAlongTheNormalInTheFaceAndAlongTheWave) {
     FaceJudge judge;
     const std::array<std::array<Vec3, 3>, 3> turns{
         {k_plain, {k_plain[1], k_plain[2], k_plain[0]}, {k_plain[2], k_plain[0], k_plain[1]}}};
@@ -199,7 +199,7 @@ TEST(CrystalFaces, principal_axis_along_the_normal_in_the_face_and_along_the_wav
                     }
 }
 
-TEST(CrystalFaces, wave_along_the_axis_of_a_uniaxial_crystal_and_beside_it) {
+TEST(CrystalFaces, WaveAlongTheAxisOfAUniaxialCrystalAndBesideIt) {
     // N = n_o (axis turned by `off`), the face oblique to it.
     RandomAttitudes chance(10);
     FaceJudge judge;
@@ -219,7 +219,7 @@ TEST(CrystalFaces, wave_along_the_axis_of_a_uniaxial_crystal_and_beside_it) {
         }
 }
 
-TEST(CrystalFaces, uniaxial_of_vanishing_birefringence) {
+TEST(CrystalFaces, UniaxialOfVanishingBirefringence) {
     RandomAttitudes chance(11);
     FaceJudge judge;
     for (double d = 1e-2; d > 5e-15; d *= 0.1)
@@ -234,7 +234,7 @@ TEST(CrystalFaces, uniaxial_of_vanishing_birefringence) {
             }
 }
 
-TEST(CrystalFaces, biaxial_of_vanishing_birefringence) {
+TEST(CrystalFaces, BiaxialOfVanishingBirefringence) {
     RandomAttitudes chance(12);
     FaceJudge judge;
     for (double d = 1e-2; d > 5e-15; d *= 0.1)
@@ -248,7 +248,7 @@ TEST(CrystalFaces, biaxial_of_vanishing_birefringence) {
         }
 }
 
-TEST(CrystalFaces, biaxial_with_two_indices_nearly_equal) {
+TEST(CrystalFaces, BiaxialWithTwoIndicesNearlyEqual) {
     RandomAttitudes chance(13);
     FaceJudge judge;
     for (double d = 1e-4; d > 5e-15; d *= 0.1)
@@ -270,7 +270,7 @@ Vec3 optic_axis(const std::array<Vec3, 3>& axes, const std::array<double, 3>& n)
                           std::sqrt(e1 * (e3 - e2)) * axes[2]);
 }
 
-TEST(CrystalFaces, wave_beside_a_biaxial_optic_axis) {
+TEST(CrystalFaces, WaveBesideABiaxialOpticAxis) {
     RandomAttitudes chance(14);
     FaceJudge judge;
     for (int g = 3; g < 6; ++g)
@@ -284,7 +284,7 @@ TEST(CrystalFaces, wave_beside_a_biaxial_optic_axis) {
             }
 }
 
-TEST(CrystalFaces, wave_on_a_biaxial_optic_axis_to_the_last_digit) {
+TEST(CrystalFaces, WaveOnABiaxialOpticAxisToTheLastDigit) {
     RandomAttitudes chance(15);
     FaceJudge judge;
     for (int g = 3; g < 6; ++g)
@@ -297,7 +297,7 @@ TEST(CrystalFaces, wave_on_a_biaxial_optic_axis_to_the_last_digit) {
         }
 }
 
-TEST(CrystalFaces, wave_exactly_on_a_biaxial_optic_axis) {
+TEST(CrystalFaces, WaveExactlyOnABiaxialOpticAxis) {
     // 1/49^2 + 1/31^2 = 2/41^2: with indices in the ratio of these the optic axes of N are exactly
     // at 45 degrees, and so is a normal with two equal numbers.
     FaceJudge judge;
@@ -310,7 +310,7 @@ TEST(CrystalFaces, wave_exactly_on_a_biaxial_optic_axis) {
     judge.compare({k_plain, n, 1, {n[1] * half, 0, 0}});
 }
 
-TEST(CrystalFaces, other_indices_outside) {
+TEST(CrystalFaces, OtherIndicesOutside) {
     RandomAttitudes chance(16);
     FaceJudge judge;
     for (const Gem& gem : k_gems)
@@ -322,7 +322,7 @@ TEST(CrystalFaces, other_indices_outside) {
             }
 }
 
-TEST(CrystalFaces, total_reflection_from_outside) {
+TEST(CrystalFaces, TotalReflectionFromOutside) {
     // The outside is the denser: no wave enters, all is reflected, s and p mixed by the crystal.
     RandomAttitudes chance(17);
     FaceJudge judge;
@@ -337,7 +337,7 @@ TEST(CrystalFaces, total_reflection_from_outside) {
         }
 }
 
-TEST(CrystalFaces, isotropic_crystal_has_two_waves_of_one_normal) {
+TEST(CrystalFaces, IsotropicCrystalHasTwoWavesOfOneNormal) {
     RandomAttitudes chance(18);
     FaceJudge judge;
     for (int i = 0; i < 6; ++i) {

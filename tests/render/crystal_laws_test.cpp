@@ -29,7 +29,7 @@ Face random_face(RandomAttitudes& chance) {
         chance.frame(), {n, middle[chance.one_of(3)], n + d}, 1, chance.across(normal, K), normal};
 }
 
-TEST(CrystalModes, obey_maxwells_equations) {
+TEST(CrystalModes, ObeyMaxwellsEquations) {
     // Tolerance: some ten roundings of terms of the size n^2 |E|.
     RandomAttitudes chance(101);
     double worst = 0;
@@ -71,7 +71,7 @@ TEST(CrystalModes, obey_maxwells_equations) {
     RecordProperty("worst", std::to_string(worst * 1e16) + "e-16");
 }
 
-TEST(CrystalFaces, scattering_matrix_is_unitary) {
+TEST(CrystalFaces, ScatteringMatrixIsUnitary) {
     // Columns: the two waves from inside, s and p from outside; phases count. s and p turn round
     // with the normal of the face.
     RandomAttitudes chance(102);
@@ -108,7 +108,7 @@ TEST(CrystalFaces, scattering_matrix_is_unitary) {
     RecordProperty("worst", std::to_string(worst * 1e13) + "e-13");
 }
 
-TEST(CrystalFaces, power_is_the_same_with_all_waves_reversed) {
+TEST(CrystalFaces, PowerIsTheSameWithAllWavesReversed) {
     RandomAttitudes chance(103);
     double worst = 0;
     const auto same = [&](double a, double b, const Face& face) {
@@ -141,7 +141,7 @@ TEST(CrystalFaces, power_is_the_same_with_all_waves_reversed) {
     RecordProperty("worst", std::to_string(worst * 1e13) + "e-13");
 }
 
-TEST(CrystalFaces, two_equal_indices_are_uniaxial_in_any_order) {
+TEST(CrystalFaces, TwoEqualIndicesAreUniaxialInAnyOrder) {
     RandomAttitudes chance(104);
     for (int i = 0; i < 100; ++i) {
         const Face face = random_face(chance);
@@ -166,7 +166,7 @@ TEST(CrystalFaces, two_equal_indices_are_uniaxial_in_any_order) {
     }
 }
 
-TEST(CrystalFaces, three_equal_indices_are_fresnels_face) {
+TEST(CrystalFaces, ThreeEqualIndicesAreFresnelsFace) {
     RandomAttitudes chance(105);
     for (int i = 0; i < 300; ++i) {
         const Face face = random_face(chance);
@@ -194,7 +194,7 @@ TEST(CrystalFaces, three_equal_indices_are_fresnels_face) {
     }
 }
 
-TEST(CrystalModes, absorb_as_the_imaginary_wave_vector_says) {
+TEST(CrystalModes, AbsorbAsTheImaginaryWaveVectorSays) {
     // n_i + i kappa_i: K_i = 2 kappa_i per unit of 1/k0. Per length of ray the intensity falls by
     // 2 Im N . ray, the same for a homogeneous wave (Im N along N) and for one that a face drives
     // (Im N along n). The oracle's error is of the second order, 1e-35.

@@ -61,7 +61,7 @@ PathSums traced(const StoneBody& body, const Band& band, const PathLimits& limit
     return sums;
 }
 
-TEST(CrystalPaths, white_furnace_balances_in_every_optical_class) {
+TEST(CrystalPaths, WhiteFurnaceBalancesInEveryOpticalClass) {
     const unsigned seed = 2026;
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> index(1.01, 4), split(0, 0.3);
@@ -109,7 +109,7 @@ TEST(CrystalPaths, white_furnace_balances_in_every_optical_class) {
     EXPECT_LT(worst, 1e-12) << "seed " << seed;
 }
 
-TEST(CrystalPaths, isotropic_stones_give_what_light_paths_give) {
+TEST(CrystalPaths, IsotropicStonesGiveWhatLightPathsGive) {
     // Two tracers with nothing in common but Maxwell: Fresnel's formulas on fields in global
     // coordinates, and the crystal's modes with their boundary system.
     const unsigned seed = 3;
@@ -163,7 +163,7 @@ double between_polarisers(const PathSums& sums, std::size_t inner, double polari
     return seen;
 }
 
-TEST(CrystalPaths, plate_between_crossed_polarisers_follows_the_closed_form) {
+TEST(CrystalPaths, PlateBetweenCrossedPolarisersFollowsTheClosedForm) {
     // I = T_o T_e-weighted sin^2(2 a) sin^2(pi G / lambda): for a plate whose axis lies in it at
     // angle a to the polariser, with amplitudes t_o, t_e through both faces,
     // I = sin^2(2a)/4 |t_o e^{i d_o} - t_e e^{i d_e}|^2 (Born & Wolf 15.4.1 with the faces' own
@@ -196,7 +196,7 @@ TEST(CrystalPaths, plate_between_crossed_polarisers_follows_the_closed_form) {
     }
 }
 
-TEST(CrystalPaths, partial_coherence_is_the_mean_over_the_band) {
+TEST(CrystalPaths, PartialCoherenceIsTheMeanOverTheBand) {
     // The mean of the monochromatic result over a triangular band in 1/wavelength, which is what
     // the factor sinc^2 stands for. 400 steps of the midpoint rule leave some 1e-5.
     const double thickness = 0.4, n_o = 1.544, n_e = 1.553, wavelength = 550e-6;
@@ -232,7 +232,7 @@ TEST(CrystalPaths, partial_coherence_is_the_mean_over_the_band) {
     EXPECT_GT(std::abs(pure - mean), 0.05) << "the band matters here";
 }
 
-TEST(CrystalPaths, waves_far_apart_are_followed_apart) {
+TEST(CrystalPaths, WavesFarApartAreFollowedApart) {
     const StoneBody body(slab(4), true);
     Band band;
     band.crystal = uniaxial_crystal(glm::normalize(Vec3{1, 1, 0.3}), 1.658, 1.486);
@@ -248,7 +248,7 @@ TEST(CrystalPaths, waves_far_apart_are_followed_apart) {
     EXPECT_EQ(sums.modes.size(), 1u + 2u + 4u);
 }
 
-TEST(CrystalPaths, vanishing_birefringence_tends_to_the_isotropic_stone) {
+TEST(CrystalPaths, VanishingBirefringenceTendsToTheIsotropicStone) {
     // Coherent: as n_e -> n_o every leaf becomes the isotropic one, to first order in n_e - n_o
     // times the path in wavelengths.
     const unsigned seed = 12;
@@ -301,7 +301,7 @@ struct Ways {
     void choice_ends(bool) {}
 };
 
-TEST(CrystalPaths, a_path_and_its_reverse_weigh_the_same) {
+TEST(CrystalPaths, APathAndItsReverseWeighTheSame) {
     // Lorentz reciprocity: every leaf, sent back the way it came, finds the same facets and modes
     // in the reverse order with the same weight.
     const unsigned seed = 77;
@@ -346,7 +346,7 @@ TEST(CrystalPaths, a_path_and_its_reverse_weigh_the_same) {
     EXPECT_LT(worst, 1e-13) << "seed " << seed;
 }
 
-TEST(CrystalPaths, biaxial_plate_is_dark_at_its_melatopes_and_along_the_isogyres) {
+TEST(CrystalPaths, BiaxialPlateIsDarkAtItsMelatopesAndAlongTheIsogyres) {
     // Optic axes lie in the plane of alpha and gamma at V from gamma, tan^2 V = (1/a^2 - 1/b^2) /
     // (1/b^2 - 1/c^2) with a, b, c the indices (Born & Wolf 15.3.3); light along one stays as it
     // was polarised. Entering the plate normal to gamma at sin = n_beta sin V.
@@ -388,7 +388,7 @@ TEST(CrystalPaths, biaxial_plate_is_dark_at_its_melatopes_and_along_the_isogyres
     for (double sine = 0; sine < 0.9; sine += 0.1) EXPECT_LT(crossed(sine, 0), 1e-12) << sine;
 }
 
-TEST(CrystalPaths, uniaxial_rings_lie_where_the_retardation_is_a_whole_number_of_waves) {
+TEST(CrystalPaths, UniaxialRingsLieWhereTheRetardationIsAWholeNumberOfWaves) {
     // Plate normal to the axis: G = d (q_e - q_o), q_o^2 = n_o^2 - K^2, q_e^2 = n_o^2 (1 - K^2 /
     // n_e^2) (Born & Wolf 15.3.2). Crossed polarisers at 45 degrees to the plane of incidence: dark
     // (but for the faces' own part) where G is m waves.
@@ -429,7 +429,7 @@ TEST(CrystalPaths, uniaxial_rings_lie_where_the_retardation_is_a_whole_number_of
     }
 }
 
-TEST(CrystalPaths, choices_at_random_are_unbiased_and_know_their_error) {
+TEST(CrystalPaths, ChoicesAtRandomAreUnbiasedAndKnowTheirError) {
     // Against the whole tree: the estimate lies within its own standard error as often as a normal
     // variable would; the sum over 400 rays of squared normalised errors is 400 +- 28 if the
     // variances are right on average. Single variances are far from normal, so the bounds are wide:

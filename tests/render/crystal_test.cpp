@@ -15,7 +15,7 @@ namespace {
 
 using namespace culet;
 
-TEST(Crystal, uniaxial_of_equal_indices_sends_the_power_of_an_isotropic_face) {
+TEST(Crystal, UniaxialOfEqualIndicesSendsThePowerOfAnIsotropicFace) {
     // n_o = n_e: at the first face the entering power is Fresnel's, whatever the axis.
     const double n = 1.76;
     for (const double angle : {0.0, 0.3, 1.0, 1.5}) {
@@ -31,7 +31,7 @@ TEST(Crystal, uniaxial_of_equal_indices_sends_the_power_of_an_isotropic_face) {
     }
 }
 
-TEST(Crystal, uniaxial_face_conserves_power_and_snell_in_every_orientation) {
+TEST(Crystal, UniaxialFaceConservesPowerAndSnellInEveryOrientation) {
     const unsigned seed = 1998;
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
@@ -64,7 +64,7 @@ TEST(Crystal, uniaxial_face_conserves_power_and_snell_in_every_orientation) {
     EXPECT_LT(worst, 1e-10) << "seed " << seed;
 }
 
-TEST(Crystal, extraordinary_ray_follows_eps_times_the_wave_normal) {
+TEST(Crystal, ExtraordinaryRayFollowsEpsTimesTheWaveNormal) {
     // t = eps N / |eps N| (Born & Wolf 15.3) and n(th) = no ne / sqrt(ne^2 + (no^2 - ne^2) sin^2
     // th).
     const Vec3 axis = glm::normalize(Vec3{0.2, 0.5, 0.8});
@@ -78,7 +78,7 @@ TEST(Crystal, extraordinary_ray_follows_eps_times_the_wave_normal) {
     EXPECT_NEAR(glm::length(mode.wave), 1.658 * 1.486 / std::sqrt(ee + (eo - ee) * sin2), 1e-14);
 }
 
-TEST(Crystal, pleochroic_absorption_has_its_closed_forms) {
+TEST(Crystal, PleochroicAbsorptionHasItsClosedForms) {
     // Ordinary: K_o in every direction. Extraordinary across the axis: K_e (notes of this house on
     // Guy & Soler 2004, eq. 7, which gives K_e (n_o/n_e)^2 there).
     const Crystal crystal = uniaxial_crystal({0, 0, 1}, 1.658, 1.486);

@@ -28,7 +28,7 @@ Scene small_scene(const std::vector<std::string>& more = {}) {
     return read_scene(k_scene, settings);
 }
 
-TEST(Engines, can_be_named_by_scenes) {
+TEST(Engines, CanBeNamedByScenes) {
     std::set<std::string> names;
     for (const Engine* engine : engines()) {
         EXPECT_TRUE(names.insert(engine->name()).second) << engine->name() << " is there twice";
@@ -42,7 +42,7 @@ TEST(Engines, can_be_named_by_scenes) {
 }
 
 // A model of the work, not a clock: more of anything never costs less.
-TEST(Engines, ask_more_for_more_work) {
+TEST(Engines, AskMoreForMoreWork) {
     DrawingWork work;
     work.pixels = 1000;
     for (const Engine* engine : engines()) {
@@ -57,7 +57,7 @@ TEST(Engines, ask_more_for_more_work) {
     }
 }
 
-TEST(Engines, draw_what_they_do_not_refuse_and_say_why_they_do) {
+TEST(Engines, DrawWhatTheyDoNotRefuseAndSayWhyTheyDo) {
     for (const Engine* engine : engines()) {
         Scene scene = small_scene();
         scene.settings.engine = engine->name();
@@ -78,7 +78,7 @@ TEST(Engines, draw_what_they_do_not_refuse_and_say_why_they_do) {
 }
 
 // Written to the last digit, so that another run draws the same picture.
-TEST(Settings, read_back_as_they_were_written) {
+TEST(Settings, ReadBackAsTheyWereWritten) {
     const std::vector<std::vector<std::string>> cases{
         {},
         {"effects=[]", "wavelengths=[589.3]"},
@@ -140,7 +140,7 @@ private:
 
 // Conservation of energy: a clear stone in a furnace of radiance 2 shows 2, whatever it reflects
 // and refracts, but for what its paths were left.
-TEST(Surroundings, are_asked_by_every_path_that_leaves_the_stone) {
+TEST(Surroundings, AreAskedByEveryPathThatLeavesTheStone) {
     const Scene scene = small_scene({"render.depth=60", "render.tolerance=0.001"});
     PreparedScene prepared(scene);
     prepared.surroundings = std::make_unique<EvenGlow>(2);
@@ -161,7 +161,7 @@ TEST(Surroundings, are_asked_by_every_path_that_leaves_the_stone) {
 }
 
 // Weights that fall below the smallest number are none, and no division by them.
-TEST(Gather, leaves_out_what_is_absorbed_to_nothing) {
+TEST(Gather, LeavesOutWhatIsAbsorbedToNothing) {
     const EvenGlow glow(2);
     Band band;
     band.count = 2;
@@ -175,7 +175,7 @@ TEST(Gather, leaves_out_what_is_absorbed_to_nothing) {
     EXPECT_EQ(radiance, (std::vector<double>{0, 0.5}));
 }
 
-TEST(Turntable, keeps_the_stone_and_comes_round) {
+TEST(Turntable, KeepsTheStoneAndComesRound) {
     const Scene scene = small_scene();
     const Solid& before = scene.stone.solid;
     const double size = diameter(before);
@@ -191,7 +191,7 @@ TEST(Turntable, keeps_the_stone_and_comes_round) {
         EXPECT_LT(glm::length(round.stone.solid.vertices[v] - before.vertices[v]), 1e-12 * size);
 }
 
-TEST(AsPlanned, another_picture_is_drawn_as_the_first_and_says_so) {
+TEST(AsPlanned, AnotherPictureIsDrawnAsTheFirstAndSaysSo) {
     Scene scene = small_scene({"render.tolerance=0.1"});
     const RenderResult first = render(scene);
     ASSERT_TRUE(first.stats.plan.has_value());
@@ -204,7 +204,7 @@ TEST(AsPlanned, another_picture_is_drawn_as_the_first_and_says_so) {
     EXPECT_NE(again.stats.notes.back().find("earlier picture"), std::string::npos);
 }
 
-TEST(Checks, cost_what_they_say) {
+TEST(Checks, CostWhatTheySay) {
     Scene scene = small_scene({"render.tolerance=0.1"});
     scene.settings.check = Check::none;
     const RenderStats none = render(scene).stats;

@@ -39,7 +39,7 @@ void expect_same_energy(const Rgb& a, const Rgb& b) {
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(b[c] / a[c], 1, 1e-3) << c;
 }
 
-TEST(EnvironmentLayout, solid_angles_fill_the_sphere) {
+TEST(EnvironmentLayout, SolidAnglesFillTheSphere) {
     double lat = 0, cube = 0;
     for (int row = 0; row < 37; ++row) lat += 74 * lat_long_solid_angle(row, 74, 37);
     for (int y = 0; y < 9; ++y)
@@ -49,7 +49,7 @@ TEST(EnvironmentLayout, solid_angles_fill_the_sphere) {
 }
 
 // docs: the top row is +z, the middle column +x, azimuth grows to the left.
-TEST(EnvironmentLayout, lat_long_is_the_renderers) {
+TEST(EnvironmentLayout, LatLongIsTheRenderers) {
     const Vec3 left = lat_long_direction(16, 16, 64, 32);
     EXPECT_NEAR(left.y, 1, 1e-12);
     EXPECT_NEAR(lat_long_direction(32, 16, 64, 32).x, 1, 1e-12);
@@ -63,7 +63,7 @@ TEST(EnvironmentLayout, lat_long_is_the_renderers) {
     }
 }
 
-TEST(EnvironmentLayout, places_and_directions_are_inverse) {
+TEST(EnvironmentLayout, PlacesAndDirectionsAreInverse) {
     std::mt19937_64 random(5);
     std::normal_distribution<double> normal;
     for (int i = 0; i < 2000; ++i) {
@@ -76,7 +76,7 @@ TEST(EnvironmentLayout, places_and_directions_are_inverse) {
 
 // culet's x, y, z are OpenEXR's Z, X, Y: its lat-long maps have their middle at +Z and +X to the
 // left of it, its cube maps are squares in a column.
-TEST(EnvironmentLayout, is_what_openexr_reads) {
+TEST(EnvironmentLayout, IsWhatOpenexrReads) {
     std::mt19937_64 random(6);
     std::normal_distribution<double> normal;
     const int size = 32;
@@ -102,7 +102,7 @@ TEST(EnvironmentLayout, is_what_openexr_reads) {
     }
 }
 
-TEST(EnvironmentLayout, a_constant_stays_that_constant) {
+TEST(EnvironmentLayout, AConstantStaysThatConstant) {
     EnvironmentMap map = lat_long(64);
     for (float& v : map.rgb) v = 0.7f;
     for (const float v : cube_of_lat_long(map, 16).rgb) EXPECT_NEAR(v, 0.7f, 1e-6);
@@ -110,7 +110,7 @@ TEST(EnvironmentLayout, a_constant_stays_that_constant) {
     for (const float v : lat_long_of_cube(cube, 64).rgb) EXPECT_NEAR(v, 0.7f, 1e-6);
 }
 
-TEST(EnvironmentLayout, energy_is_kept_within_a_thousandth) {
+TEST(EnvironmentLayout, EnergyIsKeptWithinAThousandth) {
     for (const unsigned seed : {1u, 2u, 3u}) {
         for (const int suns : {0, 1, 20}) {
             const EnvironmentMap map = busy_map(128, seed, suns);
@@ -124,7 +124,7 @@ TEST(EnvironmentLayout, energy_is_kept_within_a_thousandth) {
 }
 
 // A sun must also be where it was: the light's first moment.
-TEST(EnvironmentLayout, a_sun_stays_in_its_place) {
+TEST(EnvironmentLayout, ASunStaysInItsPlace) {
     EnvironmentMap map = lat_long(256);
     map.rgb[3 * (40 * 256 + 100) + 1] = 1e5f;
     const Vec3 sun = lat_long_direction(100.5, 40.5, 256, 128);

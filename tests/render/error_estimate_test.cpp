@@ -49,7 +49,7 @@ Picture random_picture(unsigned seed, int width, int height) {
 }
 
 // Of every pixel, by its definition.
-TEST(Contrast, of_a_small_stone_is_that_of_each_pixel) {
+TEST(Contrast, OfASmallStoneIsThatOfEachPixel) {
     for (unsigned seed = 0; seed < 4; ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
         const Picture picture = random_picture(seed, 20, 7);
@@ -79,7 +79,7 @@ TEST(Contrast, of_a_small_stone_is_that_of_each_pixel) {
 
 // One pixel in each square of four by four, none in rows or columns: each place of the square has
 // as many as any other, within five of the standard deviations that random places would have.
-TEST(Contrast, of_a_large_stone_is_that_of_pixels_spread_evenly) {
+TEST(Contrast, OfALargeStoneIsThatOfPixelsSpreadEvenly) {
     constexpr int k_side = 1000;
     Picture picture;
     picture.width = picture.height = k_side;
@@ -112,7 +112,7 @@ void light_up(Picture& picture, int x, int y, float light) {
 
 using Pixels = std::vector<std::pair<int, int>>;
 
-TEST(OutstandingPixels, have_more_than_a_share_of_the_light_and_than_30_means) {
+TEST(OutstandingPixels, HaveMoreThanAShareOfTheLightAndThan30Means) {
     Picture picture = grey_picture(100, 100);
     EXPECT_TRUE(outstanding_pixels(picture, 1, 1e-6, 10).empty()) << "all are alike";
     // Of 5000 and what they add themselves.
@@ -130,7 +130,7 @@ TEST(OutstandingPixels, have_more_than_a_share_of_the_light_and_than_30_means) {
 
 // A sun where none is, in a picture that comes after the one by which the estimate's pixels were
 // chosen: one pixel of 2000 that brings half of all light.
-TEST(ErrorEstimate, looks_at_a_false_sun_in_a_later_picture) {
+TEST(ErrorEstimate, LooksAtAFalseSunInALaterPicture) {
     Scene scene = plan_scene_of("spinel", "princess", "daylight", 64).scene;
     scene.settings.tolerance = 0.1;
     Picture picture = render(scene).picture;
@@ -154,7 +154,7 @@ TEST(ErrorEstimate, looks_at_a_false_sun_in_a_later_picture) {
     }
 }
 
-TEST(LightRims, of_a_cap_lie_on_both_sides_of_its_edges) {
+TEST(LightRims, OfACapLieOnBothSidesOfItsEdges) {
     Lights lights;
     lights.sources.push_back(DiscLight{{0, 0, 1}, 0.3, 0.5, {2.0}});
     lights.sources.push_back(DiscLight{{0, 0, 1}, 0, 0.02, {9.0}});
@@ -170,7 +170,7 @@ TEST(LightRims, of_a_cap_lie_on_both_sides_of_its_edges) {
     EXPECT_EQ(std::get<double>(nth_light<DiscLight>(rims, 2).radiance.value), 9.0);
 }
 
-TEST(LightRims, of_dim_lights_are_left_out) {
+TEST(LightRims, OfDimLightsAreLeftOut) {
     Lights lights;
     lights.sources.push_back(HemisphereLight{{0, 1, 0}, {1.0}});
     lights.sources.push_back(DiscLight{{0, 0, 1}, 0, 0.02, {9.0}});
@@ -189,7 +189,7 @@ TEST(LightRims, of_dim_lights_are_left_out) {
               (std::vector<float>{1, 2, 6, 0, 0, 0, 0, 0, 0, 5, 5, 5}));
 }
 
-TEST(LightRims, of_a_hemisphere_lie_about_its_horizon) {
+TEST(LightRims, OfAHemisphereLieAboutItsHorizon) {
     Lights lights;
     lights.constant = 1;
     lights.sources.push_back(HemisphereLight{{0, 1, 0}, {1.0}});
@@ -200,7 +200,7 @@ TEST(LightRims, of_a_hemisphere_lie_about_its_horizon) {
     EXPECT_DOUBLE_EQ(nth_light<DiscLight>(rims, 0).to, std::numbers::pi / 2 + 0.1);
 }
 
-TEST(LightRims, of_a_window_are_its_four_sides) {
+TEST(LightRims, OfAWindowAreItsFourSides) {
     Lights lights;
     lights.sources.push_back(
         PlaneLight{{0, 0, 10}, {0, 0, -1}, Vec3{2, 0, 0}, Vec3{0, 3, 0}, {1.0}});
@@ -217,7 +217,7 @@ TEST(LightRims, of_a_window_are_its_four_sides) {
 
 // An infinite plane has no side, and a ball that is as near as it is wide no rim that would not
 // hold the stone.
-TEST(LightRims, of_endless_planes_and_of_balls_about_the_stone_are_left_out) {
+TEST(LightRims, OfEndlessPlanesAndOfBallsAboutTheStoneAreLeftOut) {
     Lights lights;
     lights.sources.push_back(PlaneLight{{0, 0, 10}, {0, 0, -1}, {}, {}, {1.0}});
     lights.sources.push_back(SphereLight{{0, 0, 5}, 4.9, {1.0}});
@@ -228,7 +228,7 @@ TEST(LightRims, of_endless_planes_and_of_balls_about_the_stone_are_left_out) {
     EXPECT_DOUBLE_EQ(nth_light<SphereLight>(rims, 0).radius, 3.5);
 }
 
-TEST(LightRims, of_a_map_keep_its_brightest_texel) {
+TEST(LightRims, OfAMapKeepItsBrightestTexel) {
     auto map = std::make_shared<EnvironmentMap>();
     map->width = 256;
     map->height = 128;
@@ -252,7 +252,7 @@ class BoundOverAllPixels : public testing::TestWithParam<CheckedScene> {};
 
 // Every pixel of the stone. The truth's few rays make what is measured larger, if anything, and so
 // their noise is taken off as of independent quantities (`hold_against`).
-TEST_P(BoundOverAllPixels, is_not_below_what_is_measured) {
+TEST_P(BoundOverAllPixels, IsNotBelowWhatIsMeasured) {
     const CheckedScene& which = GetParam();
     Scene scene = plan_scene_of(which.material, which.cut, which.light, 100).scene;
     scene.settings.tolerance = which.tolerance;
@@ -278,7 +278,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 // Cubic zirconia in the sun at three wavelengths: the sun's other images are where pixels are off
 // by more than ten times the mean.
-TEST(LightEdgeScan, finds_where_the_sun_is_seen_at_other_wavelengths) {
+TEST(LightEdgeScan, FindsWhereTheSunIsSeenAtOtherWavelengths) {
     Scene scene = plan_scene_of("cubic_zirconia", "oval", "daylight", 200).scene;
     scene.settings.tolerance = 0.03;
     scene.settings.effects_auto = true;
@@ -294,7 +294,7 @@ TEST(LightEdgeScan, finds_where_the_sun_is_seen_at_other_wavelengths) {
 // The sun through a YAG on paths of little weight, next to total reflection: 27 times the mean of
 // R, G and B, by the reference with 64 rays and 57 wavelengths. The sky, whose horizon a third of
 // the stone sees, is not bright.
-TEST(LightEdgeScan, finds_the_sun_on_paths_of_little_weight) {
+TEST(LightEdgeScan, FindsTheSunOnPathsOfLittleWeight) {
     Scene scene = plan_scene_of("yag", "trillion", "daylight", 200).scene;
     scene.settings.tolerance = 0.1;
     scene.settings.effects_auto = true;
@@ -313,7 +313,7 @@ TEST(LightEdgeScan, finds_the_sun_on_paths_of_little_weight) {
 // Next to total reflection the sun's images of 29 wavelengths part in strontium titanate: what such
 // a picture is off by, a truth of the same wavelengths does not show. The pixels that may see the
 // sun, by themselves, may not be off by more than all of them are said to be.
-TEST(ErrorEstimate, knows_of_the_sun_between_the_pictures_wavelengths) {
+TEST(ErrorEstimate, KnowsOfTheSunBetweenThePicturesWavelengths) {
     Scene scene = plan_scene_of("strontium_titanate", "round-brilliant", "daylight", 200).scene;
     scene.settings.tolerance = 0.1;
     const RenderResult result = render(scene);
@@ -340,7 +340,7 @@ TEST(ErrorEstimate, knows_of_the_sun_between_the_pictures_wavelengths) {
 // The sun's colours leave an almandine side by side, over 150 pixels of 57 000 and a thousand times
 // as bright as the rest: more light than all else. A pilot of even pixels does not see them, and
 // without dispersion they are not there.
-TEST(ErrorEstimate, says_what_was_left_out_where_the_pilot_missed_it) {
+TEST(ErrorEstimate, SaysWhatWasLeftOutWhereThePilotMissedIt) {
     Scene scene = plan_scene_of("garnet_almandine", "round-brilliant", "daylight", 400).scene;
     scene.settings.tolerance = 0.1;
     scene.settings.effects_auto = true;
@@ -366,7 +366,7 @@ TEST(ErrorEstimate, says_what_was_left_out_where_the_pilot_missed_it) {
 // A pilot at the estimate's pixels against all pixels of the stone, drawn with the same choice by
 // the very rays: means of few pixels are off by three of their standard errors at most, which the
 // spread of so many checks' pixels tells.
-TEST(CausePilot, finds_what_single_choices_are_off_by) {
+TEST(CausePilot, FindsWhatSingleChoicesAreOffBy) {
     const Progress quiet;
     Scene scene = plan_scene_of("diamond", "princess", "lamp", 100).scene;
     scene.settings.tolerance = 0.1;

@@ -38,7 +38,7 @@ std::vector<std::pair<double, double>> spectrum_in(const std::string& text,
 }
 
 // Peter 1923, wavelengths in micrometres; measured up to 760 nm.
-TEST(ExportedStones, diamond_disperses_as_published) {
+TEST(ExportedStones, DiamondDispersesAsPublished) {
     Scene scene = one_stone();
     scene.stone.material = catalogue_material("diamond");
     int seen = 0;
@@ -56,7 +56,7 @@ TEST(ExportedStones, diamond_disperses_as_published) {
 
 // The first stone is clear, isotropic glass of one index: the others disperse, absorb and split
 // light none the less.
-TEST(ExportedStones, each_has_the_optics_of_its_own_material) {
+TEST(ExportedStones, EachHasTheOpticsOfItsOwnMaterial) {
     Scene scene = one_stone();
     scene.stone.material.index[0].n = 1.5;
     double far = 0;
@@ -96,7 +96,7 @@ TEST(ExportedStones, each_has_the_optics_of_its_own_material) {
 }
 
 // The map of the one has not the shape of the other's: in one folder they must not meet.
-TEST(ExportedStones, files_beside_the_scenes_have_names_of_their_own) {
+TEST(ExportedStones, FilesBesideTheScenesHaveNamesOfTheirOwn) {
     Scene scene = one_stone();
     scene.lights.sources.push_back(HemisphereLight{{0, 0, 1}, {1.0}});
     const ExportedScene pbrt = pbrt_scene(scene, "s"), mitsuba = mitsuba_scene(scene, "s");

@@ -18,7 +18,7 @@ using oracle::Answer;
 
 constexpr std::array<Vec3, 3> k_plain{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
 
-TEST(FaceOracle, isotropic_face_has_fresnels_amplitudes) {
+TEST(FaceOracle, IsotropicFaceHasFresnelsAmplitudes) {
     // Born & Wolf 1.5.2 (21a), r_p with the sign of E along N x s: equal and opposite to r_s at
     // normal incidence.
     for (const double n : {1.5, 2.417})
@@ -33,7 +33,7 @@ TEST(FaceOracle, isotropic_face_has_fresnels_amplitudes) {
         }
 }
 
-TEST(FaceOracle, total_reflection_has_fresnels_phase) {
+TEST(FaceOracle, TotalReflectionHasFresnelsPhase) {
     // Born & Wolf 1.5.4 (61): tan(delta/2) = cos sqrt(sin^2 - n^2) / sin^2 for p against s.
     const double n = 1.5, K = 1.2, sine = K / n, cosine = std::sqrt(1 - sine * sine);
     const Answer a = oracle::solve({k_plain, {n, n, n}, 1, {K, 0, 0}});
@@ -50,7 +50,7 @@ TEST(FaceOracle, total_reflection_has_fresnels_phase) {
                 1e-14);
 }
 
-TEST(FaceOracle, uniaxial_face_across_the_axis_has_lekners_amplitudes) {
+TEST(FaceOracle, UniaxialFaceAcrossTheAxisHasLeknersAmplitudes) {
     // Lekner 1991, J. Phys.: Condens. Matter 3, 6121: optic axis along the normal.
     const double n_o = 1.6584, n_e = 1.4864;
     for (const double sine : {0.0, 0.4, 0.8, 0.99}) {
@@ -71,7 +71,7 @@ TEST(FaceOracle, uniaxial_face_across_the_axis_has_lekners_amplitudes) {
     }
 }
 
-TEST(FaceOracle, axis_across_the_plane_of_incidence_makes_two_isotropic_faces) {
+TEST(FaceOracle, AxisAcrossThePlaneOfIncidenceMakesTwoIsotropicFaces) {
     // s meets n_e, p meets n_o.
     const double n_o = 1.6584, n_e = 1.4864, K = 0.7, q = std::sqrt(1 - K * K);
     const Answer a = oracle::solve({k_plain, {n_o, n_e, n_o}, 1, {K, 0, 0}});
@@ -82,7 +82,7 @@ TEST(FaceOracle, axis_across_the_plane_of_incidence_makes_two_isotropic_faces) {
     EXPECT_LT(std::abs(a.into[0][0]) + std::abs(a.into[1][1]), 1e-30);
 }
 
-TEST(FaceOracle, waves_of_a_tilted_axis_obey_the_index_formula) {
+TEST(FaceOracle, WavesOfATiltedAxisObeyTheIndexFormula) {
     // Born & Wolf 15.3.2 (12): 1/n^2 = cos^2/n_o^2 + sin^2/n_e^2, and the ray along eps N.
     const double n_o = 1.925, n_e = 1.984;
     const Vec3 axis = glm::normalize(Vec3{0.3, -0.5, 0.6}), beside = perpendicular_to(axis);
@@ -99,7 +99,7 @@ TEST(FaceOracle, waves_of_a_tilted_axis_obey_the_index_formula) {
     }
 }
 
-TEST(FaceOracle, waves_of_three_equal_indices_that_do_not_travel_are_those_of_glass) {
+TEST(FaceOracle, WavesOfThreeEqualIndicesThatDoNotTravelAreThoseOfGlass) {
     // Fresnel with an imaginary q inside (Born & Wolf 1.5.4): all is reflected, with the phases of
     // s and p.
     const double n = 1.3, n_outside = 1.4, K = 1.39, q = std::sqrt(n_outside * n_outside - K * K);

@@ -36,7 +36,7 @@ double sum(const std::vector<float>& rgb) {
 // Spencer et al. 1995: each part of the point spread is 1 over the hemisphere. The sharp part,
 // 0.384 f0, is what is left: 0.478 + 0.138 of the light is scattered, within the 3 % that the
 // paper's rounded constants give.
-TEST(Glare, scatters_what_the_paper_says) {
+TEST(Glare, ScattersWhatThePaperSays) {
     const double to_steradian = std::pow(std::numbers::pi / 180, 2);
     double scattered = 0;
     for (double log_degrees = std::log(1e-6); log_degrees < std::log(90.0); log_degrees += 1e-3) {
@@ -48,7 +48,7 @@ TEST(Glare, scatters_what_the_paper_says) {
 }
 
 // Conservation: what one pixel loses others gain.
-TEST(Glare, keeps_the_sum_of_the_light_and_an_even_picture) {
+TEST(Glare, KeepsTheSumOfTheLightAndAnEvenPicture) {
     for (const PictureSize size : {PictureSize{1, 1}, {7, 3}, {33, 20}, {64, 64}}) {
         std::vector<float> rgb = noise(size, 3);
         const double before = sum(rgb);
@@ -61,7 +61,7 @@ TEST(Glare, keeps_the_sum_of_the_light_and_an_even_picture) {
 }
 
 // By the definition, pixel by pixel: far from the light its spread times the pixel's solid angle.
-TEST(Glare, of_one_bright_point_is_its_spread) {
+TEST(Glare, OfOneBrightPointIsItsSpread) {
     const PictureSize size{61, 61};
     std::vector<float> rgb(3 * 61 * 61, 0.0f);
     const auto at = [](int x, int y) { return static_cast<std::size_t>(3 * (61 * y + x)); };
@@ -76,7 +76,7 @@ TEST(Glare, of_one_bright_point_is_its_spread) {
     }
 }
 
-TEST(Sparkle, spreads_what_is_over_white_along_the_diagonals) {
+TEST(Sparkle, SpreadsWhatIsOverWhiteAlongTheDiagonals) {
     const PictureSize size{401, 401};
     std::vector<float> rgb(3 * 401 * 401, 0.5f);
     const auto at = [](int x, int y) { return static_cast<std::size_t>(3 * (401 * y + x)); };
@@ -96,7 +96,7 @@ TEST(Sparkle, spreads_what_is_over_white_along_the_diagonals) {
     EXPECT_EQ(dim, same);
 }
 
-TEST(ToneMaps, rise_from_black_and_stay_below_white) {
+TEST(ToneMaps, RiseFromBlackAndStayBelowWhite) {
     for (const std::string& name : tone_map_names()) {
         PngLook look;
         look.tone_map = *tone_map_named(name);
@@ -117,7 +117,7 @@ TEST(ToneMaps, rise_from_black_and_stay_below_white) {
     EXPECT_FALSE(tone_map_named("sepia").has_value());
 }
 
-TEST(Film, is_read_from_a_scene_and_written_to_its_png) {
+TEST(Film, IsReadFromASceneAndWrittenToItsPng) {
     const test::ScratchFolder folder;
     const auto film = [&](const std::string& text) {
         std::ofstream(folder / "film.toml") << "[film]\n" << text;
@@ -148,7 +148,7 @@ TEST(Film, is_read_from_a_scene_and_written_to_its_png) {
 
 // A display of gamma 2 shows light v for a code of sqrt(v): a quarter of white is code 0.5. The
 // file is encoded as sRGB afterwards, so that its code is the root.
-TEST(ToneMaps, gamma2_writes_the_root_of_the_light) {
+TEST(ToneMaps, Gamma2WritesTheRootOfTheLight) {
     Picture picture;
     picture.width = 3;
     picture.height = 1;
@@ -163,7 +163,7 @@ TEST(ToneMaps, gamma2_writes_the_root_of_the_light) {
 }
 
 // Expectation: the definition, value by value.
-TEST(ShownBytes, are_what_is_shown_encoded_and_rounded) {
+TEST(ShownBytes, AreWhatIsShownEncodedAndRounded) {
     for (const ToneMap map : {ToneMap::none, ToneMap::reinhard, ToneMap::filmic, ToneMap::gamma2}) {
         Picture picture;
         picture.width = 256;

@@ -16,7 +16,7 @@ double reflectance(const std::complex<double>& r) {
     return std::norm(r);
 }
 
-TEST(Fresnel, normal_incidence_is_the_square_of_the_index_contrast) {
+TEST(Fresnel, NormalIncidenceIsTheSquareOfTheIndexContrast) {
     // ((n-1)/(n+1))^2 for diamond, 2.417: 0.17197...
     const double n = 2.417, expected = std::pow((n - 1) / (n + 1), 2);
     for (const auto& [n1, n2] : {std::pair(1.0, n), std::pair(n, 1.0)}) {
@@ -27,7 +27,7 @@ TEST(Fresnel, normal_incidence_is_the_square_of_the_index_contrast) {
     }
 }
 
-TEST(Fresnel, forty_five_degrees_on_glass) {
+TEST(Fresnel, FortyFiveDegreesOnGlass) {
     // r_s = -sin(a-b)/sin(a+b), r_p = tan(a-b)/tan(a+b) (Born & Wolf 1.5.2 (21a)); our p flips the
     // sign of none.
     const double n = 1.5, a = std::acos(-1.0) / 4, b = std::asin(std::sin(a) / n);
@@ -37,14 +37,14 @@ TEST(Fresnel, forty_five_degrees_on_glass) {
     EXPECT_NEAR(reflectance(face.r_s), 0.0920134, 1e-7);  // published: 9.201 %
 }
 
-TEST(Fresnel, brewsters_angle_reflects_no_p) {
+TEST(Fresnel, BrewstersAngleReflectsNoP) {
     for (const double n : {1.0 + 1e-9, 1.33, 1.5, 2.417, 4.0}) {
         const double cosine = 1 / std::sqrt(1 + n * n);  // tan = n
         EXPECT_LT(std::abs(fresnel(1, n, cosine).r_p), 1e-15) << n;
     }
 }
 
-TEST(Fresnel, nothing_is_reflected_between_equal_media) {
+TEST(Fresnel, NothingIsReflectedBetweenEqualMedia) {
     for (const double cosine : {1.0, 0.5, 1e-3, 1e-9}) {
         const FaceAmplitudes face = fresnel(1.7, 1.7, 1.7 * cosine);
         EXPECT_EQ(reflectance(face.r_s), 0);
@@ -53,7 +53,7 @@ TEST(Fresnel, nothing_is_reflected_between_equal_media) {
     }
 }
 
-TEST(Fresnel, reflected_and_transmitted_power_sum_to_one) {
+TEST(Fresnel, ReflectedAndTransmittedPowerSumToOne) {
     const unsigned seed = 20040807;
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -69,7 +69,7 @@ TEST(Fresnel, reflected_and_transmitted_power_sum_to_one) {
     }
 }
 
-TEST(Fresnel, total_reflection_retards_s_against_p_by_the_closed_form) {
+TEST(Fresnel, TotalReflectionRetardsSAgainstPByTheClosedForm) {
     // tan(delta/2) = cos sqrt(sin^2 - n^2)/sin^2 (Born & Wolf 1.5.4 (60)).
     const double index = 2.417, n = 1 / index;
     for (const double degrees : {25.0, 30.0, 45.0, 60.0, 80.0}) {
@@ -85,7 +85,7 @@ TEST(Fresnel, total_reflection_retards_s_against_p_by_the_closed_form) {
     }
 }
 
-TEST(Fresnel, critical_angle_from_both_sides_and_grazing) {
+TEST(Fresnel, CriticalAngleFromBothSidesAndGrazing) {
     const double index = 1.5;
     const double critical = std::sqrt(index * index - 1);  // q1 where q2 = 0
     for (const double step : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15}) {

@@ -29,7 +29,7 @@ struct Sums {
     double total() const { return leaves + left + lost + dropped; }
 };
 
-TEST(LightPaths, isotropic_white_furnace_balances_at_every_depth) {
+TEST(LightPaths, IsotropicWhiteFurnaceBalancesAtEveryDepth) {
     const unsigned seed = 1829;
     std::mt19937_64 random(seed);
     double worst = 0;
@@ -56,7 +56,7 @@ TEST(LightPaths, isotropic_white_furnace_balances_at_every_depth) {
     EXPECT_LT(worst, 1e-12) << "seed " << seed;
 }
 
-TEST(LightPaths, slab_transmits_the_closed_series) {
+TEST(LightPaths, SlabTransmitsTheClosedSeries) {
     // Incoherent plate at normal incidence: T = (1-R)/(1+R), R = ((n-1)/(n+1))^2.
     const ConvexBody body(slab(2));
     const EyeRay ray{{0.3, 0.2, 5}, {0, 0, -1}};
@@ -77,7 +77,7 @@ TEST(LightPaths, slab_transmits_the_closed_series) {
     }
 }
 
-TEST(LightPaths, absorbing_slab_follows_beer_and_lambert_along_the_ray) {
+TEST(LightPaths, AbsorbingSlabFollowsBeerAndLambertAlongTheRay) {
     // Oblique plate: T = (1-R)^2 a / (1 - R^2 a^2) for s and p apart, a = exp(-K d / cos inside).
     const double thickness = 2, n = 1.7, K = 0.4, angle = 0.7;
     const ConvexBody body(slab(thickness));
@@ -103,7 +103,7 @@ TEST(LightPaths, absorbing_slab_follows_beer_and_lambert_along_the_ray) {
     EXPECT_NEAR(through, 0.5 * (T(Rs) + T(Rp)), 1e-14);
 }
 
-TEST(LightPaths, polarisation_is_remembered_from_face_to_face) {
+TEST(LightPaths, PolarisationIsRememberedFromFaceToFace) {
     // At Brewster's angle a plate passes all p at both faces, and s with (1-Rs)^2: the mean of the
     // two products is not the product of the means. First pass only (depth 2).
     const double n = 1.5, angle = std::atan(n);
@@ -127,7 +127,7 @@ TEST(LightPaths, polarisation_is_remembered_from_face_to_face) {
     EXPECT_NEAR(second_leaf(false), std::pow(1 - 0.5 * Rs, 2), 1e-15);
 }
 
-TEST(LightPaths, crossed_plane_reflections_polarise_as_the_product_of_jones_matrices) {
+TEST(LightPaths, CrossedPlaneReflectionsPolariseAsTheProductOfJonesMatrices) {
     // Two Brewster reflections in crossed planes of incidence extinguish: seen from inside, p of
     // the first is s of the second. Built from Jones matrices by hand: cube of n, ray at 45 degrees
     // meets x then y faces.
@@ -161,7 +161,7 @@ TEST(LightPaths, crossed_plane_reflections_polarise_as_the_product_of_jones_matr
     for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(a[i], b[i], 1e-15);
 }
 
-TEST(ConvexBody, ray_along_an_edge_or_through_a_corner_still_leaves) {
+TEST(ConvexBody, RayAlongAnEdgeOrThroughACornerStillLeaves) {
     std::vector<NamedPlane> planes;
     for (int axis = 0; axis < 3; ++axis) {
         for (int sign : {-1, 1}) {

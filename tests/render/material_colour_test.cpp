@@ -16,7 +16,7 @@ double hue_deg(const Lab& c) {
     return std::atan2(c.b, c.a) * 180 / std::numbers::pi;
 }
 
-TEST(MaterialColour, of_a_grey_stone_is_beers_law) {
+TEST(MaterialColour, OfAGreyStoneIsBeersLaw) {
     Material grey = catalogue_material("quartz");
     for (Spectrum& spectrum : grey.absorption_per_mm) spectrum = Spectrum(0.1);
     const StoneColour colour = body_colour(grey, 5);
@@ -27,7 +27,7 @@ TEST(MaterialColour, of_a_grey_stone_is_beers_law) {
     EXPECT_NEAR(std::hypot(colour.lab.a, colour.lab.b), 0, 0.05);
 }
 
-TEST(MaterialColour, adds_up_what_the_rays_let_through) {
+TEST(MaterialColour, AddsUpWhatTheRaysLetThrough) {
     // Opaque along one of two rays: half of the light is left, however thick the stone.
     Material half = catalogue_material("quartz");
     half.absorption_per_mm[0] = Spectrum(1e3);
@@ -35,7 +35,7 @@ TEST(MaterialColour, adds_up_what_the_rays_let_through) {
     EXPECT_NEAR(luminance(body_colour(half).rgb), 0.5, 1e-12);
 }
 
-TEST(MaterialColour, larger_stones_are_deeper_and_colourless_ones_stay_so) {
+TEST(MaterialColour, LargerStonesAreDeeperAndColourlessOnesStaySo) {
     for (const char* name : {"ruby_gem", "emerald", "citrine"}) {
         const Material material = catalogue_material(name);
         EXPECT_GT(body_colour(material, 4).lab.L, body_colour(material, 6.5).lab.L) << name;
@@ -46,7 +46,7 @@ TEST(MaterialColour, larger_stones_are_deeper_and_colourless_ones_stay_so) {
     EXPECT_EQ(display_hex(diamond.rgb), "#ffffff");
 }
 
-TEST(MaterialColour, names_are_those_of_their_blocks) {
+TEST(MaterialColour, NamesAreThoseOfTheirBlocks) {
     // The middle of a block has the block's name: NBS Special Publication 440.
     const std::pair<int, const char*> middles[] = {
         {0xbe0032, "vivid red"},  {0x78184a, "deep purplish red"}, {0x272458, "deep purplish blue"},
@@ -57,7 +57,7 @@ TEST(MaterialColour, names_are_those_of_their_blocks) {
     }
 }
 
-TEST(MaterialColour, is_that_of_the_published_names) {
+TEST(MaterialColour, IsThatOfThePublishedNames) {
     // Hue within 20 degrees and lightness within 20 of the nearest entry of a dictionary of colour;
     // what does not come so near is told in docs/materials.md and not here.
     for (const test::NamedGem& gem : test::named_gems()) {
@@ -74,7 +74,7 @@ TEST(MaterialColour, is_that_of_the_published_names) {
     }
 }
 
-TEST(MaterialColour, ruby_is_red_and_rhodolite_purplish_red) {
+TEST(MaterialColour, RubyIsRedAndRhodolitePurplishRed) {
     const StoneColour ruby = body_colour(catalogue_material("ruby_gem")),
                       rhodolite = body_colour(catalogue_material("garnet_rhodolite"));
     EXPECT_TRUE(ruby.name.ends_with(" red")) << ruby.name;

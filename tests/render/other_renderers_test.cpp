@@ -98,7 +98,7 @@ Vec3 mitsuba_direction(const std::string& text, double x, double y) {
                           side * (film_height / 2 - y) * glm::cross(forward, left));
 }
 
-TEST(OtherRenderers, look_through_the_same_pixels) {
+TEST(OtherRenderers, LookThroughTheSamePixels) {
     Scene scene = garnet();
     for (const bool shifted : {false, true}) {
         if (shifted) scene.camera.principal_point = {{31.5, 60}};
@@ -113,7 +113,7 @@ TEST(OtherRenderers, look_through_the_same_pixels) {
     }
 }
 
-TEST(OtherRenderers, have_the_stone_as_a_closed_mesh_seen_from_outside) {
+TEST(OtherRenderers, HaveTheStoneAsAClosedMeshSeenFromOutside) {
     const Scene scene = garnet();
     const ExportedScene mitsuba = mitsuba_scene(scene, "s");
     ASSERT_EQ(mitsuba.meshes.size(), 1u);
@@ -144,7 +144,7 @@ TEST(OtherRenderers, have_the_stone_as_a_closed_mesh_seen_from_outside) {
     EXPECT_NEAR(volume_of(vertices, triangles) / volume(scene.stone.solid), 1, 1e-12);
 }
 
-TEST(OtherRenderers, have_index_and_absorption_of_the_material) {
+TEST(OtherRenderers, HaveIndexAndAbsorptionOfTheMaterial) {
     Scene scene = garnet();
     scene.stone.unit = LengthUnit::cm;
     scene.immersion = 1.33;
@@ -176,7 +176,7 @@ TEST(OtherRenderers, have_index_and_absorption_of_the_material) {
 
 // Equal areas: the mean over the square is that over the sphere, of 1, x, x^2, xy, ... The midpoint
 // rule of 256 x 256 places is good to about the square of their distance.
-TEST(OtherRenderers, square_map_of_pbrt_has_equal_areas) {
+TEST(OtherRenderers, SquareMapOfPbrtHasEqualAreas) {
     constexpr int n = 256;
     Vec3 mean(0), squares(0);
     for (int y = 0; y < n; ++y) {
@@ -199,7 +199,7 @@ TEST(OtherRenderers, square_map_of_pbrt_has_equal_areas) {
 
 // A cap of half angle a has the solid angle 2 pi (1 - cos a). Texels on its rim count by 4 x 4
 // places: off by a twentieth of the texels there.
-TEST(OtherRenderers, maps_have_the_light_where_it_comes_from) {
+TEST(OtherRenderers, MapsHaveTheLightWhereItComesFrom) {
     Scene scene = garnet();
     const double a = radians(10);
     const Vec3 towards = glm::normalize(Vec3{0.3, -0.8, 0.4});
@@ -269,7 +269,7 @@ void expect_well_formed(const std::string& xml) {
     EXPECT_EQ(covered, std::size_t(std::count(xml.begin(), xml.end(), '<')));
 }
 
-TEST(OtherRenderers, know_every_object_and_light) {
+TEST(OtherRenderers, KnowEveryObjectAndLight) {
     Scene scene = garnet();
     scene.lights.sources = {SphereLight{{9, 0, 9}, 1, {2.0}},
                             PlaneLight{{0, 0, 20}, {0, 0, -1}, {}, {}, {1.0}},
@@ -304,7 +304,7 @@ TEST(OtherRenderers, know_every_object_and_light) {
     EXPECT_EQ(count(pbrt.text, "MakeNamedMedium"), 2);
 }
 
-TEST(OtherRenderers, say_what_they_do_not_carry_and_refuse_instruments) {
+TEST(OtherRenderers, SayWhatTheyDoNotCarryAndRefuseInstruments) {
     Scene scene = garnet();
     scene.stone.material = catalogue_material("quartz");
     scene.camera.aperture_radius = 0.1;
@@ -323,7 +323,7 @@ TEST(OtherRenderers, say_what_they_do_not_carry_and_refuse_instruments) {
     EXPECT_THROW(pbrt_scene(scene, "s"), InputError);
 }
 
-TEST(OtherRenderers, names_beside_the_scene_are_plain) {
+TEST(OtherRenderers, NamesBesideTheSceneArePlain) {
     Scene scene = garnet();
     scene.lights.sources.push_back(HemisphereLight{{0, 0, 1}, {1.0}});
     const ExportedScene mitsuba = mitsuba_scene(scene, "a \"<&> b");

@@ -53,7 +53,7 @@ protected:
     fs::path folder_;
 };
 
-TEST_F(PictureFormats, grey_alpha_and_sixteen_bit_are_decoded_from_srgb) {
+TEST_F(PictureFormats, GreyAlphaAndSixteenBitAreDecodedFromSrgb) {
     const ReadPicture grey = read("grey.png", bytes_of(cv::Mat(2, 3, CV_8U, 128.0), ".png"));
     EXPECT_TRUE(grey.was_encoded);
     EXPECT_FALSE(grey.had_alpha);
@@ -78,7 +78,7 @@ TEST_F(PictureFormats, grey_alpha_and_sixteen_bit_are_decoded_from_srgb) {
     }
 }
 
-TEST_F(PictureFormats, float_tiff_is_linear) {
+TEST_F(PictureFormats, FloatTiffIsLinear) {
     const cv::Mat image(2, 2, CV_32FC3, cv::Scalar(0.25, 3.5, 1e-3));
     const ReadPicture back = read("float.tiff", bytes_of(image, ".tiff"));
     EXPECT_FALSE(back.was_encoded);
@@ -94,7 +94,7 @@ cv::Mat two_halves() {
     return image;
 }
 
-TEST_F(PictureFormats, a_jpeg_is_turned_upright_by_its_exif_tag) {
+TEST_F(PictureFormats, AJpegIsTurnedUprightByItsExifTag) {
     // Orientation 6 (EXIF 2.3, 4.6.4): the stored picture is shown turned clockwise by a quarter.
     const std::string exif(
         "\xff\xe1\0\x22"
@@ -111,7 +111,7 @@ TEST_F(PictureFormats, a_jpeg_is_turned_upright_by_its_exif_tag) {
     EXPECT_GT(shown.picture.at(8, 29)[0], 0.5f);
 }
 
-TEST_F(PictureFormats, cut_off_files_are_refused_rather_than_half_grey) {
+TEST_F(PictureFormats, CutOffFilesAreRefusedRatherThanHalfGrey) {
     for (const char* extension : {".png", ".jpg"}) {
         cv::Mat noise(60, 80, CV_8UC3);
         cv::theRNG().state = 7;
@@ -128,13 +128,13 @@ TEST_F(PictureFormats, cut_off_files_are_refused_rather_than_half_grey) {
     }
 }
 
-TEST_F(PictureFormats, a_damaged_png_is_noticed_by_its_checksum) {
+TEST_F(PictureFormats, ADamagedPngIsNoticedByItsChecksum) {
     std::string bytes = bytes_of(two_halves(), ".png");
     bytes[bytes.size() - 20] = static_cast<char>(bytes[bytes.size() - 20] ^ 1);
     EXPECT_NE(refusal("bad.png", bytes).find("damaged"), std::string::npos);
 }
 
-TEST_F(PictureFormats, sizes_of_hostile_headers_are_refused_before_there_is_room_for_them) {
+TEST_F(PictureFormats, SizesOfHostileHeadersAreRefusedBeforeThereIsRoomForThem) {
     EXPECT_NE(refusal("a.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2000000 +X 2000000\n")
                   .find("2000000 x 2000000"),
               std::string::npos);
@@ -155,7 +155,7 @@ TEST_F(PictureFormats, sizes_of_hostile_headers_are_refused_before_there_is_room
               std::string::npos);
 }
 
-TEST_F(PictureFormats, every_pixel_that_is_no_number_is_written_as_a_colour) {
+TEST_F(PictureFormats, EveryPixelThatIsNoNumberIsWrittenAsAColour) {
     Picture picture;
     picture.width = 2;
     picture.height = 1;
@@ -175,7 +175,7 @@ TEST_F(PictureFormats, every_pixel_that_is_no_number_is_written_as_a_colour) {
 }
 
 // Rows from the bottom, little endian where the scale is negative (Debevec's format).
-TEST_F(PictureFormats, a_pfm_is_read_from_the_bottom_up) {
+TEST_F(PictureFormats, APfmIsReadFromTheBottomUp) {
     const float pixels[2][2][3] = {{{1, 2, 3}, {4, 5, 6}}, {{1e-30f, 0.5f, 7}, {1e30f, 8, 9}}};
     std::string bytes = "PF\n2 2\n-1.0\n";
     bytes.append(reinterpret_cast<const char*>(pixels), sizeof pixels);
@@ -193,7 +193,7 @@ TEST_F(PictureFormats, a_pfm_is_read_from_the_bottom_up) {
     }
 }
 
-TEST_F(PictureFormats, text_beyond_ascii_is_stored_as_utf8) {
+TEST_F(PictureFormats, TextBeyondAsciiIsStoredAsUtf8) {
     Picture picture;
     picture.width = picture.height = 1;
     picture.rgb = {0, 0, 0};
@@ -206,7 +206,7 @@ TEST_F(PictureFormats, text_beyond_ascii_is_stored_as_utf8) {
     EXPECT_EQ(read_picture(folder_ / "a.png").picture.width, 1);
 }
 
-TEST_F(PictureFormats, the_same_picture_gives_the_same_bytes) {
+TEST_F(PictureFormats, TheSamePictureGivesTheSameBytes) {
     Picture picture;
     picture.width = 5;
     picture.height = 4;

@@ -43,7 +43,7 @@ Picture gradient(int width, int height) {
     return picture;
 }
 
-TEST_F(Pictures, exr_keeps_every_bit_and_the_spectral_planes) {
+TEST_F(Pictures, ExrKeepsEveryBitAndTheSpectralPlanes) {
     Picture picture = gradient(7, 5);
     picture.wavelengths_nm = {410, 589.3};
     picture.spectral = {std::vector<float>(35, 0.25f), std::vector<float>(35, 1.5f)};
@@ -59,7 +59,7 @@ TEST_F(Pictures, exr_keeps_every_bit_and_the_spectral_planes) {
     EXPECT_NE(bytes.find("S0.410,000nm"), std::string::npos);
 }
 
-TEST_F(Pictures, png_is_srgb_with_its_exposure_in_a_text_chunk) {
+TEST_F(Pictures, PngIsSrgbWithItsExposureInATextChunk) {
     Picture picture;
     picture.width = 3;
     picture.height = 1;
@@ -77,7 +77,7 @@ TEST_F(Pictures, png_is_srgb_with_its_exposure_in_a_text_chunk) {
     EXPECT_NE(bytes.find(std::string("culet:exposure\0", 15) + "2"), std::string::npos);
 }
 
-TEST_F(Pictures, hdr_is_within_its_one_per_cent) {
+TEST_F(Pictures, HdrIsWithinItsOnePerCent) {
     const Picture picture = gradient(16, 9);
     write_picture(picture, folder_ / "a.hdr");
     const ReadPicture back = read_picture(folder_ / "a.hdr");
@@ -88,7 +88,7 @@ TEST_F(Pictures, hdr_is_within_its_one_per_cent) {
     }
 }
 
-TEST_F(Pictures, what_is_no_picture_ends_in_one_clear_line) {
+TEST_F(Pictures, WhatIsNoPictureEndsInOneClearLine) {
     const auto message = [](const fs::path& file) {
         try {
             read_picture(file);
@@ -148,7 +148,7 @@ TEST_F(Pictures, what_is_no_picture_ends_in_one_clear_line) {
     EXPECT_FALSE(fs::exists(folder_ / "a.gif"));
 }
 
-TEST(Colour, flat_light_is_white_to_the_bit) {
+TEST(Colour, FlatLightIsWhiteToTheBit) {
     for (const int count : {1, 2, 3, 7, 15, 31}) {
         std::vector<double> nm;
         for (int i = 0; i < count; ++i) nm.push_back(420 + 250.0 * i / std::max(1, count - 1));
@@ -160,7 +160,7 @@ TEST(Colour, flat_light_is_white_to_the_bit) {
     }
 }
 
-TEST(Colour, rgb_lights_come_back_through_every_wavelength_set) {
+TEST(Colour, RgbLightsComeBackThroughEveryWavelengthSet) {
     const unsigned seed = 1931;
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(0, 2);
@@ -181,7 +181,7 @@ TEST(Colour, rgb_lights_come_back_through_every_wavelength_set) {
     }
 }
 
-TEST(Colour, spectra_of_lights_are_no_darker_than_black) {
+TEST(Colour, SpectraOfLightsAreNoDarkerThanBlack) {
     // Light cannot be negative; with fewer nodes than about ten the exact inverse is (-1 for
     // three).
     for (const int count : {15, 31, 81, 400}) {
@@ -199,7 +199,7 @@ TEST(Colour, spectra_of_lights_are_no_darker_than_black) {
     }
 }
 
-TEST(Colour, two_wavelengths_tell_red_from_blue) {
+TEST(Colour, TwoWavelengthsTellRedFromBlue) {
     // Three numbers do not fit in two; the order of the colours does.
     const WavelengthSet set({460, 610});
     const std::vector<double> red = set.spectrum_of({1, 0, 0}), blue = set.spectrum_of({0, 0, 1});
@@ -208,7 +208,7 @@ TEST(Colour, two_wavelengths_tell_red_from_blue) {
     for (double v : set.spectrum_of({0.3, 0.3, 0.3})) EXPECT_NEAR(v, 0.3, 1e-15);
 }
 
-TEST(Colour, wavelengths_that_nobody_sees_give_grey_not_garbage) {
+TEST(Colour, WavelengthsThatNobodySeesGiveGreyNotGarbage) {
     for (const std::vector<double>& nm :
          {std::vector<double>{1000, 1100}, std::vector<double>{900, 1000, 1100, 1200}}) {
         const WavelengthSet set(nm);
@@ -221,7 +221,7 @@ TEST(Colour, wavelengths_that_nobody_sees_give_grey_not_garbage) {
     }
 }
 
-TEST(Colour, illuminants_have_their_published_chromaticity) {
+TEST(Colour, IlluminantsHaveTheirPublishedChromaticity) {
     // CIE 15: A at x, y = 0.44757, 0.40745; D65 is this program's white.
     std::vector<double> nm;
     for (int i = 0; i <= 80; ++i) nm.push_back(380 + 5 * i);
@@ -235,7 +235,7 @@ TEST(Colour, illuminants_have_their_published_chromaticity) {
     for (double v : set.illuminant_relative("D65")) EXPECT_NEAR(v, 1, 1e-15);
 }
 
-TEST(Colour, srgb_encoding_has_the_standards_anchors) {
+TEST(Colour, SrgbEncodingHasTheStandardsAnchors) {
     EXPECT_EQ(srgb_encoded(0), 0);
     EXPECT_NEAR(srgb_encoded(1), 1, 1e-15);
     EXPECT_NEAR(srgb_encoded(0.0031308), 0.04045, 1e-5);

@@ -56,7 +56,7 @@ std::set<std::string> effects_on(const ScenePlan& plan) {
     return on;
 }
 
-TEST(ColourError, is_zero_for_equal_pixels_and_relative_to_the_mean) {
+TEST(ColourError, IsZeroForEqualPixelsAndRelativeToTheMean) {
     const std::vector<Rgb> truth{{1, 1, 1}, {3, 3, 3}};
     EXPECT_EQ(colour_error(truth, truth).radiance, 0);
     EXPECT_EQ(colour_error(truth, truth).delta_e, 0);
@@ -73,7 +73,7 @@ TEST(ColourError, is_zero_for_equal_pixels_and_relative_to_the_mean) {
 }
 
 // Closed form: differences are kept that both drawings show, and vanish that they do not.
-TEST(ColourError, in_common_is_what_two_drawings_both_show) {
+TEST(ColourError, InCommonIsWhatTwoDrawingsBothShow) {
     std::mt19937 random(5);
     std::normal_distribution<double> noise(0, 0.3);
     const std::size_t pixels = 4096;
@@ -95,7 +95,7 @@ TEST(ColourError, in_common_is_what_two_drawings_both_show) {
               std::sqrt(7.0 / 64) * colour_error(mean, truth).radiance);
 }
 
-TEST(OpticalSetup, in_the_same_light_from_everywhere_nothing_but_depth_matters) {
+TEST(OpticalSetup, InTheSameLightFromEverywhereNothingButDepthMatters) {
     for (const char* material : {"diamond", "zircon_high", "peridot"}) {
         Scene scene = small_scene(material);
         if (material == std::string("peridot")) {
@@ -116,7 +116,7 @@ TEST(OpticalSetup, in_the_same_light_from_everywhere_nothing_but_depth_matters) 
     }
 }
 
-TEST(OpticalSetup, keeps_its_word) {
+TEST(OpticalSetup, KeepsItsWord) {
     int on = 0, off = 0;
     for (const char* material : {"diamond", "fluorite", "zircon_high"}) {
         for (const double tolerance : {0.2, 0.1, 0.05, 0.02}) {
@@ -140,7 +140,7 @@ TEST(OpticalSetup, keeps_its_word) {
     EXPECT_GT(off, 2) << "and some are not";
 }
 
-TEST(OpticalSetup, a_bound_that_is_too_low_is_found_out) {
+TEST(OpticalSetup, ABoundThatIsTooLowIsFoundOut) {
     Scene scene = small_scene("diamond");
     add_lobes(scene);
     RenderResult result = render(scene);
@@ -148,7 +148,7 @@ TEST(OpticalSetup, a_bound_that_is_too_low_is_found_out) {
     EXPECT_FALSE(verify(scene, result, 24).holds());
 }
 
-TEST(OpticalSetup, its_settings_draw_the_same_picture) {
+TEST(OpticalSetup, ItsSettingsDrawTheSamePicture) {
     for (const char* material : {"garnet_almandine", "corundum"}) {
         Scene scene = small_scene(material);
         add_lobes(scene);
@@ -160,7 +160,7 @@ TEST(OpticalSetup, its_settings_draw_the_same_picture) {
     }
 }
 
-TEST(OpticalSetup, is_the_same_on_any_number_of_threads) {
+TEST(OpticalSetup, IsTheSameOnAnyNumberOfThreads) {
     Scene scene = small_scene("diamond");
     add_lobes(scene);
     scene.settings.threads = 1;
@@ -174,7 +174,7 @@ TEST(OpticalSetup, is_the_same_on_any_number_of_threads) {
     EXPECT_EQ(one.bound_delta_e, three.bound_delta_e);
 }
 
-TEST(OpticalSetup, respects_what_the_scene_says) {
+TEST(OpticalSetup, RespectsWhatTheSceneSays) {
     Scene scene = small_scene("diamond");
     add_lobes(scene);
     scene.settings.effects_auto = false;
@@ -191,7 +191,7 @@ TEST(OpticalSetup, respects_what_the_scene_says) {
     EXPECT_TRUE(effects_on(none).empty());
 }
 
-TEST(OpticalSetup, with_tolerance_0_leaves_nothing_out) {
+TEST(OpticalSetup, WithTolerance0LeavesNothingOut) {
     Scene scene = small_scene("diamond");
     add_lobes(scene);
     scene.settings.tolerance = 0;
@@ -203,7 +203,7 @@ TEST(OpticalSetup, with_tolerance_0_leaves_nothing_out) {
     EXPECT_FALSE(render(scene).stats.plan.has_value());
 }
 
-TEST(OpticalSetup, of_a_picture_without_the_stone_says_so) {
+TEST(OpticalSetup, OfAPictureWithoutTheStoneSaysSo) {
     Scene scene = small_scene("diamond");
     scene.camera.look_at = {100, 0, 12};
     const ScenePlan plan = plan_scene(scene);
@@ -212,7 +212,7 @@ TEST(OpticalSetup, of_a_picture_without_the_stone_says_so) {
     EXPECT_NO_THROW(render(scene));
 }
 
-TEST(OpticalSetup, black_scenes_have_no_error) {
+TEST(OpticalSetup, BlackScenesHaveNoError) {
     Scene scene = small_scene("diamond");
     scene.lights.constant = 0;
     const RenderResult result = render(scene);
@@ -220,7 +220,7 @@ TEST(OpticalSetup, black_scenes_have_no_error) {
     EXPECT_FALSE(std::isnan(result.stats.error_bound));
 }
 
-TEST(OpticalSetup, stops_when_it_is_told_to) {
+TEST(OpticalSetup, StopsWhenItIsToldTo) {
     Scene scene = small_scene("diamond");
     add_lobes(scene);
     int told = 0;
@@ -234,7 +234,7 @@ TEST(OpticalSetup, stops_when_it_is_told_to) {
 
 // In even light a path brings all that it has not lost, so that what a depth leaves out is 1 less
 // the mean radiance, exactly.
-TEST(OpticalSetup, has_a_depth_that_the_scene_names_in_its_bound) {
+TEST(OpticalSetup, HasADepthThatTheSceneNamesInItsBound) {
     Scene scene = small_scene("diamond");
     scene.settings.depth = 3;
     const RenderResult result = render(scene);
@@ -249,7 +249,7 @@ TEST(OpticalSetup, has_a_depth_that_the_scene_names_in_its_bound) {
                             }));
 }
 
-TEST(OpticalSetup, draws_crystals_as_one_wave_where_that_is_near_enough) {
+TEST(OpticalSetup, DrawsCrystalsAsOneWaveWhereThatIsNearEnough) {
     Scene scene = small_scene("quartz");
     add_lobes(scene);
     scene.settings.tolerance = 0.1;
@@ -272,7 +272,7 @@ TEST(OpticalSetup, draws_crystals_as_one_wave_where_that_is_near_enough) {
 
 // A spinel in smooth light: previews are far better than a tenth of the mean, and cost less than
 // pilots of the effects.
-TEST(OpticalSetup, weighs_no_effects_where_that_would_cost_more_than_the_picture) {
+TEST(OpticalSetup, WeighsNoEffectsWhereThatWouldCostMoreThanThePicture) {
     Scene scene = small_scene("spinel");
     add_lobes(scene);
     scene.camera.width = scene.camera.height = 64;
@@ -293,7 +293,7 @@ TEST(OpticalSetup, weighs_no_effects_where_that_would_cost_more_than_the_picture
     EXPECT_FALSE(std::isnan(plan_scene(scene).item("polarization").matters));
 }
 
-TEST(OpticalSetup, pictures_and_checks_are_the_same_on_any_number_of_threads) {
+TEST(OpticalSetup, PicturesAndChecksAreTheSameOnAnyNumberOfThreads) {
     for (const char* material : {"diamond", "quartz"}) {
         Scene scene = small_scene(material);
         add_lobes(scene);
@@ -310,7 +310,7 @@ TEST(OpticalSetup, pictures_and_checks_are_the_same_on_any_number_of_threads) {
 }
 
 // In even light every true pixel is 1.
-TEST(ErrorEstimate, finds_what_a_picture_is_off_by) {
+TEST(ErrorEstimate, FindsWhatAPictureIsOffBy) {
     const Scene scene = small_scene("diamond");
     Picture picture;
     picture.width = scene.camera.width;
@@ -333,7 +333,7 @@ TEST(ErrorEstimate, finds_what_a_picture_is_off_by) {
 
 // Where every other pixel is black, those beside which the picture changes are chosen: the mean
 // counts them for no more than they are.
-TEST(ErrorEstimate, counts_pixels_that_it_chooses_more_often_for_less) {
+TEST(ErrorEstimate, CountsPixelsThatItChoosesMoreOftenForLess) {
     Scene scene = small_scene("diamond");
     scene.settings.tolerance = 0;
     scene.settings.depth = 8;
@@ -378,7 +378,7 @@ double off_at_steps(const std::vector<double>& nm) {
 }
 
 // Dispersion moves the edges of lights and facets over a pixel: steps of its spectrum.
-TEST(Wavelengths, that_are_few_show_steps_of_a_spectrum_better_than_even_ones) {
+TEST(Wavelengths, ThatAreFewShowStepsOfASpectrumBetterThanEvenOnes) {
     EXPECT_LT(off_at_steps(even_wavelengths(3)), off_at_steps({410, 550, 690}));
     EXPECT_LT(off_at_steps(even_wavelengths(5)), 0.75 * off_at_steps({410, 480, 550, 620, 690}));
     double before = 1;
@@ -390,14 +390,14 @@ TEST(Wavelengths, that_are_few_show_steps_of_a_spectrum_better_than_even_ones) {
 }
 
 // Pilots read few wavelengths off their own.
-TEST(Wavelengths, of_five_are_among_those_of_29) {
+TEST(Wavelengths, OfFiveAreAmongThoseOf29) {
     const std::vector<double> many = even_wavelengths(29);
     for (const double nm : even_wavelengths(5))
         EXPECT_NE(std::find(many.begin(), many.end(), nm), many.end()) << nm;
 }
 
 // In even light every wavelength brings the same, however few rays it has.
-TEST(Turns, bring_each_wavelength_its_share) {
+TEST(Turns, BringEachWavelengthItsShare) {
     Scene scene = small_scene("diamond");
     scene.settings.tolerance = 0;
     scene.settings.depth = 6;
@@ -434,7 +434,7 @@ std::set<std::string> verdict(const ScenePlan& plan) {
     return on;
 }
 
-TEST_P(Gallery, calls_for_its_effect) {
+TEST_P(Gallery, CallsForItsEffect) {
     const Scene scene = gallery_scene(GetParam().file);
     const ScenePlan plan = plan_scene(scene);
     EXPECT_EQ(verdict(plan), GetParam().on) << explain(plan);
@@ -471,7 +471,7 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 // Without unequal absorption the two waves of these stones change less than the tolerance.
-TEST(GalleryOfPleochroism, the_split_itself_does_not_show) {
+TEST(GalleryOfPleochroism, TheSplitItselfDoesNotShow) {
     for (const char* file : {"tourmaline-across.toml", "tourmaline-along.toml",
                              "andalusite-across.toml", "andalusite-along.toml"}) {
         Scene scene = gallery_scene(file);
@@ -488,7 +488,7 @@ TEST(GalleryOfPleochroism, the_split_itself_does_not_show) {
 
 // Fresnel's equations: at Brewster's angle light that vibrates in the plane of incidence is not
 // reflected, light across it by ((n^2 - 1) / (n^2 + 1))^2, 15.5 % for n = 1.5168.
-TEST(GalleryOfBrewster, the_table_shines_in_one_vibration_only) {
+TEST(GalleryOfBrewster, TheTableShinesInOneVibrationOnly) {
     const auto table_of = [](const char* file) {
         Scene scene = gallery_scene(file);
         const RenderResult result = render(scene);
@@ -501,7 +501,7 @@ TEST(GalleryOfBrewster, the_table_shines_in_one_vibration_only) {
     EXPECT_LT(dark, 0.15) << "the room's is 0.1";
 }
 
-TEST(Explain, has_a_line_for_every_effect_of_the_catalogue) {
+TEST(Explain, HasALineForEveryEffectOfTheCatalogue) {
     Scene scene = small_scene("garnet_almandine");
     scene.stone.material.absorption_per_mm = {};
     const ScenePlan plan = plan_scene(scene);
@@ -523,7 +523,7 @@ TEST(Explain, has_a_line_for_every_effect_of_the_catalogue) {
     EXPECT_EQ(plan.item("light_edges").why, "no light has an edge");
 }
 
-TEST(Explain, measures_what_the_scene_switches_off) {
+TEST(Explain, MeasuresWhatTheSceneSwitchesOff) {
     Scene scene = gallery_scene("zircon-doubling.toml");
     scene.settings.effects_auto = false;
     scene.settings.effects.fill(false);
@@ -540,7 +540,7 @@ TEST(Explain, measures_what_the_scene_switches_off) {
 
 // physics: powers are added exactly where light comes from all directions alike and nothing is
 // absorbed; else interference near the optic axis changes something.
-TEST(Explain, bounds_what_interference_would_change) {
+TEST(Explain, BoundsWhatInterferenceWouldChange) {
     Scene even = gallery_scene("zircon-doubling.toml");
     even.lights.sources.clear();
     EXPECT_EQ(plan_scene(even).item("coherence").bound, 0);

@@ -15,7 +15,7 @@ namespace {
 using namespace culet;
 using namespace culet::carved;
 
-TEST(PolyhedronBodyHard, starts_on_edges_and_vertices_stay_at_the_stone) {
+TEST(PolyhedronBodyHard, StartsOnEdgesAndVerticesStayAtTheStone) {
     const unsigned seed = 2206;
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform;
@@ -64,7 +64,7 @@ TEST(PolyhedronBodyHard, starts_on_edges_and_vertices_stay_at_the_stone) {
     }
 }
 
-TEST(PolyhedronBodyHard, start_beyond_a_convex_edge_leaves_at_once_and_leaps_over_no_gap) {
+TEST(PolyhedronBodyHard, StartBeyondAConvexEdgeLeavesAtOnceAndLeapsOverNoGap) {
     // The inner wall of the left arm is facet 7 (x = 1), its top end facet 8 (y = 3).
     const Solid solid = u_prism();
     const PolyhedronBody body(solid);
@@ -84,7 +84,7 @@ TEST(PolyhedronBodyHard, start_beyond_a_convex_edge_leaves_at_once_and_leaps_ove
     }
 }
 
-TEST(PolyhedronBodyHard, start_beyond_a_concave_edge_goes_on_inside) {
+TEST(PolyhedronBodyHard, StartBeyondAConcaveEdgeGoesOnInside) {
     // The L's concave edge x = 1, y = 1: facet 4 above y = 1, facet 5 beside x = 1.
     const PolyhedronBody body(l_prism());
     ASSERT_EQ(body.normal(4), (Vec3{0, 1, 0}));
@@ -108,7 +108,7 @@ TEST(PolyhedronBodyHard, start_beyond_a_concave_edge_goes_on_inside) {
     }
 }
 
-TEST(PolyhedronBodyHard, ray_grazing_along_a_concave_edge) {
+TEST(PolyhedronBodyHard, RayGrazingAlongAConcaveEdge) {
     const unsigned seed = 2207;
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(-1, 1);
@@ -134,7 +134,7 @@ TEST(PolyhedronBodyHard, ray_grazing_along_a_concave_edge) {
     }
 }
 
-TEST(PolyhedronBodyHard, start_in_a_facet_seen_edge_on_runs_along_it) {
+TEST(PolyhedronBodyHard, StartInAFacetSeenEdgeOnRunsAlongIt) {
     // Inside by less than rounding along the side x = 3 of the L: out through the top.
     const PolyhedronBody body(l_prism());
     for (const double inwards : {1e-300, 1e-20, 1e-17, 1e-16}) {
@@ -144,7 +144,7 @@ TEST(PolyhedronBodyHard, start_in_a_facet_seen_edge_on_runs_along_it) {
     }
 }
 
-TEST(PolyhedronBodyHard, valley_of_a_notch_is_entered_again_at_once) {
+TEST(PolyhedronBodyHard, ValleyOfANotchIsEnteredAgainAtOnce) {
     const PolyhedronBody body(notched_box());
     // Down through the hole of the top facet onto the apex, which the line goes through.
     const auto apex = body.entry({0, 0, 5}, {0, 0, -1});
@@ -167,7 +167,7 @@ TEST(PolyhedronBodyHard, valley_of_a_notch_is_entered_again_at_once) {
     EXPECT_TRUE(body.contains({0, 0, -1.1}));
 }
 
-TEST(PolyhedronBodyHard, facet_with_a_hole_lets_the_ray_through) {
+TEST(PolyhedronBodyHard, FacetWithAHoleLetsTheRayThrough) {
     const PolyhedronBody body(ring());
     EXPECT_FALSE(body.entry({0, 0, 5}, {0, 0, -1}).has_value());
     EXPECT_FALSE(body.entry({0.9, 0.9, 5}, {0, 0, -1}).has_value());
@@ -189,7 +189,7 @@ TEST(PolyhedronBodyHard, facet_with_a_hole_lets_the_ray_through) {
     EXPECT_FALSE(body.reentry({3, 0, 0.5}, {1, 0, 0}, 3).has_value());
 }
 
-TEST(PolyhedronBodyHard, edge_that_four_facets_share) {
+TEST(PolyhedronBodyHard, EdgeThatFourFacetsShare) {
     const PolyhedronBody body(cubes_on_one_edge());
     // Through the edge: from one cube straight into the other, or out and in at once.
     const BodyHit hit = body.exit({-1, -1, 0.5}, glm::normalize(Vec3{1, 1, 0}), 9);
@@ -201,7 +201,7 @@ TEST(PolyhedronBodyHard, edge_that_four_facets_share) {
     }
 }
 
-TEST(PolyhedronBodyHard, thin_wedge_is_left_where_it_is_entered) {
+TEST(PolyhedronBodyHard, ThinWedgeIsLeftWhereItIsEntered) {
     // A wedge of 1e-9 radians: near its edge, crossings are closer together than their rounding.
     const double thin = 1e-9;
     const PolyhedronBody body(prism({{0, 0}, {1, 0}, {1, thin}}, 0, 1));
@@ -219,7 +219,7 @@ TEST(PolyhedronBodyHard, thin_wedge_is_left_where_it_is_entered) {
     }
 }
 
-TEST(PolyhedronBodyHard, start_outside_by_rounding_in_the_middle_of_a_facet) {
+TEST(PolyhedronBodyHard, StartOutsideByRoundingInTheMiddleOfAFacet) {
     // Above the top by one rounding and running upwards: out at once. Downwards: in and through.
     const PolyhedronBody body(l_prism());
     const Vec3 above{0.5, 0.75, std::nextafter(1.0, 2.0)};
@@ -233,7 +233,7 @@ TEST(PolyhedronBodyHard, start_outside_by_rounding_in_the_middle_of_a_facet) {
     }
 }
 
-TEST(PolyhedronBodyHard, start_off_its_plane_by_rounding_and_grazing_keeps_its_distance) {
+TEST(PolyhedronBodyHard, StartOffItsPlaneByRoundingAndGrazingKeepsItsDistance) {
     // 1e-16 below y = 0 (facet 2) the ray rises by 1e-9 of its length: by the planes alone it would
     // come to its own facet after 1e-7, twice as far as the end at x = 1.
     const PolyhedronBody body(prism({{0, 0}, {1, 0}, {1, 1}}, 0, 1));
@@ -242,7 +242,7 @@ TEST(PolyhedronBodyHard, start_off_its_plane_by_rounding_and_grazing_keeps_its_d
     EXPECT_NEAR(hit.distance, 5e-8, 1e-15);
 }
 
-TEST(PolyhedronBodyHard, ray_that_only_touches_an_edge_or_corner_does_not_enter) {
+TEST(PolyhedronBodyHard, RayThatOnlyTouchesAnEdgeOrCornerDoesNotEnter) {
     const Solid cube = prism({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, -1, 1);
     const PolyhedronBody body(cube);
     for (int axis = 0; axis < 3; ++axis) {
@@ -263,7 +263,7 @@ TEST(PolyhedronBodyHard, ray_that_only_touches_an_edge_or_corner_does_not_enter)
     }
 }
 
-TEST(PolyhedronBodyHard, side_of_an_edge_is_decided_exactly) {
+TEST(PolyhedronBodyHard, SideOfAnEdgeIsDecidedExactly) {
     // With e = 2^-52, the edge from a to b passes the axis at e^2 / 2 on its right or, mirrored, on
     // its left; the two products of the side test are equal once rounded.
     const double e = std::numeric_limits<double>::epsilon();

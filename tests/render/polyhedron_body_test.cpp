@@ -26,7 +26,7 @@ const double k_pi = std::acos(-1);
 
 class PolyhedronBodyConvex : public testing::TestWithParam<const char*> {};
 
-TEST_P(PolyhedronBodyConvex, hits_as_the_convex_body_does) {
+TEST_P(PolyhedronBodyConvex, HitsAsTheConvexBodyDoes) {
     const unsigned seed = 2201;
     std::mt19937_64 random(seed);
     const Solid solid = make_cut(GetParam());
@@ -97,7 +97,7 @@ void expect_closed(const PolyhedronBody& body, const Ray& ray, const std::string
     ASSERT_EQ(depth, 0) << what;
 }
 
-TEST(PolyhedronBody, steps_of_a_line_add_up_to_nothing_wherever_it_passes) {
+TEST(PolyhedronBody, StepsOfALineAddUpToNothingWhereverItPasses) {
     const unsigned seed = 2202;
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(-1, 2);
@@ -203,7 +203,7 @@ double exact_length_inside(const Solid& solid, const Ray& ray) {
     return static_cast<double>(sum);
 }
 
-TEST(PolyhedronBody, lengths_inside_along_a_chain_of_hits_are_exact) {
+TEST(PolyhedronBody, LengthsInsideAlongAChainOfHitsAreExact) {
     const unsigned seed = 2203;
     std::mt19937_64 random(seed);
     for (const auto& [name, solid] : all()) {
@@ -243,7 +243,7 @@ TEST(PolyhedronBody, lengths_inside_along_a_chain_of_hits_are_exact) {
 // Over isotropic uniform lines that meet a ball of radius R, the mean length inside is
 // V / (pi R^2) and the mean number of stretches S / (4 pi R^2), so that the mean stretch is 4 V / S
 // (Cauchy 1841, Crofton 1868; Santalo 1976, ch. 14), convex or not.
-TEST(PolyhedronBody, mean_chords_follow_volume_and_surface) {
+TEST(PolyhedronBody, MeanChordsFollowVolumeAndSurface) {
     const unsigned seed = 2204;
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform;
@@ -288,7 +288,7 @@ TEST(PolyhedronBody, mean_chords_follow_volume_and_surface) {
     }
 }
 
-TEST(PolyhedronBody, contains_what_the_solid_angle_says) {
+TEST(PolyhedronBody, ContainsWhatTheSolidAngleSays) {
     const unsigned seed = 2205;
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(-0.5, 0.5);
@@ -306,7 +306,7 @@ TEST(PolyhedronBody, contains_what_the_solid_angle_says) {
 
 // ---- positions and sizes
 
-TEST(PolyhedronBody, hits_the_same_facets_far_away_small_and_large) {
+TEST(PolyhedronBody, HitsTheSameFacetsFarAwaySmallAndLarge) {
     const unsigned seed = 2209;
     std::mt19937_64 random(seed);
     const glm::dmat3 upright(1);
@@ -342,7 +342,7 @@ TEST(PolyhedronBody, hits_the_same_facets_far_away_small_and_large) {
     }
 }
 
-TEST(PolyhedronBody, length_of_the_direction_does_not_matter) {
+TEST(PolyhedronBody, LengthOfTheDirectionDoesNotMatter) {
     const unsigned seed = 2210;
     std::mt19937_64 random(seed);
     const Solid solid = make_cut("heart");
@@ -360,7 +360,7 @@ TEST(PolyhedronBody, length_of_the_direction_does_not_matter) {
 
 // ---- what is asked by mistake
 
-TEST(PolyhedronBody, open_or_senseless_solids_are_refused) {
+TEST(PolyhedronBody, OpenOrSenselessSolidsAreRefused) {
     Solid open = l_prism();
     open.facets.pop_back();
     EXPECT_THROW(PolyhedronBody{open}, InputError);
@@ -375,7 +375,7 @@ TEST(PolyhedronBody, open_or_senseless_solids_are_refused) {
     EXPECT_THROW(PolyhedronBody{Solid{}}, InputError);
 }
 
-TEST(PolyhedronBody, senseless_rays_still_end) {
+TEST(PolyhedronBody, SenselessRaysStillEnd) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinity = std::numeric_limits<double>::infinity();
     const PolyhedronBody body(l_prism());
@@ -397,7 +397,7 @@ TEST(PolyhedronBody, senseless_rays_still_end) {
     }
 }
 
-TEST(PolyhedronBody, threads_and_other_bodies_change_nothing) {
+TEST(PolyhedronBody, ThreadsAndOtherBodiesChangeNothing) {
     const std::vector<NamedSolid> solids = all();
     const auto run = [&](bool backwards) {
         std::vector<BodyHit> hits;

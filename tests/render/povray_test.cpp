@@ -122,21 +122,21 @@ bool noted(const ExportedScene& scene, const std::string& part) {
                        [&](const std::string& note) { return holds(note, part); });
 }
 
-TEST(Povray, meshes_are_the_stone_and_closed) {
+TEST(Povray, MeshesAreTheStoneAndClosed) {
     const Scene scene = stone_scene();
     const ExportedScene written = povray_scene(scene);
     expect_same_solid(scene.stone.solid, written.text);
     EXPECT_TRUE(written.notes.empty()) << written.notes.front();
 }
 
-TEST(Povray, facets_with_inward_corners_are_cut_into_triangles_inside_them) {
+TEST(Povray, FacetsWithInwardCornersAreCutIntoTrianglesInsideThem) {
     Scene scene = stone_scene();
     scene.stone.solid = corner_bracket();
     scene.stone.convex = false;
     expect_same_solid(scene.stone.solid, povray_scene(scene).text);
 }
 
-TEST(Povray, corners_off_their_planes_are_written_as_the_planes_meet) {
+TEST(Povray, CornersOffTheirPlanesAreWrittenAsThePlanesMeet) {
     Scene scene = stone_scene();
     const Solid exact = scene.stone.solid;
     scene.stone.solid.vertices[0] += Vec3{1e-3, -2e-3, 1e-3};
@@ -151,7 +151,7 @@ TEST(Povray, corners_off_their_planes_are_written_as_the_planes_meet) {
     }
 }
 
-TEST(Povray, level_is_one_more_than_the_depth_and_index_is_relative) {
+TEST(Povray, LevelIsOneMoreThanTheDepthAndIndexIsRelative) {
     Scene scene = stone_scene();
     for (int depth : {1, 2, 9, 255}) {
         scene.settings.depth = depth;
@@ -169,7 +169,7 @@ TEST(Povray, level_is_one_more_than_the_depth_and_index_is_relative) {
     EXPECT_TRUE(holds(povray_scene(scene).text, "ior 1.52 "));
 }
 
-TEST(Povray, says_what_it_leaves_out) {
+TEST(Povray, SaysWhatItLeavesOut) {
     Scene scene = stone_scene();
     scene.settings.effects_auto = true;
     EXPECT_TRUE(noted(povray_scene(scene), "polarisation"));
@@ -186,7 +186,7 @@ TEST(Povray, says_what_it_leaves_out) {
     for (const std::string& note : written.notes) EXPECT_TRUE(holds(written.text, note)) << note;
 }
 
-TEST(Povray, refuses_what_has_no_picture_there) {
+TEST(Povray, RefusesWhatHasNoPictureThere) {
     const Scene good = stone_scene();
     Scene scene = good;
     scene.camera.cone = 0.3;
@@ -211,7 +211,7 @@ TEST(Povray, refuses_what_has_no_picture_there) {
     EXPECT_THROW(povray_scene(scene), InputError);
 }
 
-TEST(Povray, plane_lights_are_left_out_behind_and_clear_from_behind) {
+TEST(Povray, PlaneLightsAreLeftOutBehindAndClearFromBehind) {
     Scene scene = stone_scene();
     scene.lights.sources.push_back(PlaneLight{{0, 0, 20}, {0, 0, 1}, {}, {}, {1.0}});
     EXPECT_TRUE(holds(povray_scene(scene).text, "not there"));
@@ -265,7 +265,7 @@ protected:
 // the other side, stay below this.
 constexpr double k_same_picture = 1e-3;
 
-TEST_F(PovrayPictures, coloured_distant_lights) {
+TEST_F(PovrayPictures, ColouredDistantLights) {
     Scene scene = stone_scene();
     scene.lights.constant = 0.05;
     scene.lights.sources.push_back(
@@ -277,7 +277,7 @@ TEST_F(PovrayPictures, coloured_distant_lights) {
     EXPECT_LT(rmse(scene), k_same_picture);
 }
 
-TEST_F(PovrayPictures, absorption_in_a_dome_with_near_lights) {
+TEST_F(PovrayPictures, AbsorptionInADomeWithNearLights) {
     Scene scene = stone_scene();
     scene.settings.effects[static_cast<std::size_t>(Effects::absorption)] = true;
     scene.stone.material.absorption_per_mm[0] = Spectrum(0.35);
@@ -295,7 +295,7 @@ TEST_F(PovrayPictures, absorption_in_a_dome_with_near_lights) {
 }
 
 // Mirrors and what shines: nothing of that is left to chance.
-TEST_F(PovrayPictures, mirrors_and_things_that_shine) {
+TEST_F(PovrayPictures, MirrorsAndThingsThatShine) {
     Scene scene;
     scene.camera.position = {1, -9, 5};
     scene.camera.up = {0, 0, 1};

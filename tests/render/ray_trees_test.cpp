@@ -31,7 +31,7 @@ Solid solid_of(const Json& planes) {
     return intersect_half_spaces(named).solid;
 }
 
-TEST(RayTrees, radiance_and_remainder_equal_fifty_digit_arithmetic) {
+TEST(RayTrees, RadianceAndRemainderEqualFiftyDigitArithmetic) {
     std::ifstream file(CULET_SOURCE_DIR "/tests/render/oracle/ray_trees.json");
     ASSERT_TRUE(file.is_open());
     const Json oracle = Json::parse(file);

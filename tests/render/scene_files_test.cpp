@@ -62,7 +62,7 @@ protected:
 
 const std::string k_light = "[light]\nconstant = 1\n";
 
-TEST_F(SceneStones, a_stone_file_brings_its_material_axis_and_unit) {
+TEST_F(SceneStones, AStoneFileBringsItsMaterialAxisAndUnit) {
     const Stone stone = read("stone = \"stone.toml\"\n" + k_light).stone;
     EXPECT_EQ(stone.name, "Red");
     EXPECT_EQ(stone.material.id, "corundum");
@@ -70,7 +70,7 @@ TEST_F(SceneStones, a_stone_file_brings_its_material_axis_and_unit) {
     EXPECT_EQ(stone.crystal.axes[0], (Vec3{1, 0, 0}));
 }
 
-TEST_F(SceneStones, the_scene_may_show_the_same_stone_in_another_material) {
+TEST_F(SceneStones, TheSceneMayShowTheSameStoneInAnotherMaterial) {
     const Stone named =
         read("stone = \"stone.toml\"\nmaterial = \"diamond\"\nname = \"White\"\n" + k_light).stone;
     EXPECT_EQ(named.material.id, "diamond");
@@ -85,7 +85,7 @@ TEST_F(SceneStones, the_scene_may_show_the_same_stone_in_another_material) {
     EXPECT_EQ(turned.material.id, "corundum");
 }
 
-TEST_F(SceneStones, a_mesh_takes_a_material_table_unit_and_name) {
+TEST_F(SceneStones, AMeshTakesAMaterialTableUnitAndName) {
     const Stone stone = read("mesh = \"mesh.obj\"\nunit = \"in\"\nname = \"Own\"\n" + k_light +
                              "[material]\noptic = \"isotropic\"\nindex = 1.5\n")
                             .stone;
@@ -94,7 +94,7 @@ TEST_F(SceneStones, a_mesh_takes_a_material_table_unit_and_name) {
     EXPECT_EQ(stone.material.index[0].at(550), 1.5);
 }
 
-TEST_F(SceneStones, a_scene_may_scale_what_the_material_absorbs) {
+TEST_F(SceneStones, ASceneMayScaleWhatTheMaterialAbsorbs) {
     const std::string stone = "stone = \"stone.toml\"\nmaterial = \"sapphire_blue\"\n";
     const auto absorption = [&](const std::string& scale) {
         return read(stone + scale + k_light).stone.material.absorption_per_mm[0].at(580);
@@ -106,7 +106,7 @@ TEST_F(SceneStones, a_scene_may_scale_what_the_material_absorbs) {
     EXPECT_NE(refusal(stone + "absorption_scale = -1\n" + k_light).find(":3:"), std::string::npos);
 }
 
-TEST_F(SceneStones, keys_that_would_be_ignored_are_refused) {
+TEST_F(SceneStones, KeysThatWouldBeIgnoredAreRefused) {
     EXPECT_NE(refusal("stone = \"stone.toml\"\nunit = \"mm\"\n" + k_light).find(":2:"),
               std::string::npos);
     EXPECT_NE(refusal("stone = \"stone.toml\"\nconvex = false\n" + k_light).find(":2:"),
@@ -114,7 +114,7 @@ TEST_F(SceneStones, keys_that_would_be_ignored_are_refused) {
     EXPECT_NE(refusal("stone = \"stone.toml\"\nmesh = \"mesh.obj\"\n" + k_light), "");
 }
 
-TEST_F(SceneStones, notes_of_the_mesh_reach_the_reader) {
+TEST_F(SceneStones, NotesOfTheMeshReachTheReader) {
     std::string inside_out = k_tetrahedron;  // turn every face
     for (const auto& [from, to] :
          {std::pair{"f 1 3 2", "f 1 2 3"}, std::pair{"f 1 2 4", "f 1 4 2"},
@@ -127,7 +127,7 @@ TEST_F(SceneStones, notes_of_the_mesh_reach_the_reader) {
     EXPECT_EQ(read("stone = \"stone.toml\"\n" + k_light).notes.size(), from_mesh);
 }
 
-TEST_F(SceneStones, too_much_is_refused_before_it_is_begun) {
+TEST_F(SceneStones, TooMuchIsRefusedBeforeItIsBegun) {
     const std::string head = "stone = \"stone.toml\"\n" + k_light;
     EXPECT_NE(refusal(head + "[camera]\nsize = [32768, 32768]\n").find("2^28"), std::string::npos);
     std::string list = "[render]\nwavelengths = [300";
@@ -138,7 +138,7 @@ TEST_F(SceneStones, too_much_is_refused_before_it_is_begun) {
 }
 
 // A float ends at 3.4e38 and loses digits below 1.2e-38.
-TEST_F(SceneStones, radiances_that_no_picture_can_hold_are_refused) {
+TEST_F(SceneStones, RadiancesThatNoPictureCanHoldAreRefused) {
     const std::string head = "stone = \"stone.toml\"\n[light]\n";
     for (const char* fits : {"0", "1e-35", "1e35"}) {
         EXPECT_EQ(read(head + "constant = " + fits + "\n").lights.constant, std::stod(fits));
@@ -154,7 +154,7 @@ TEST_F(SceneStones, radiances_that_no_picture_can_hold_are_refused) {
 }
 
 // All of it in one plane: nothing is inside.
-TEST_F(SceneStones, a_flat_stone_is_refused) {
+TEST_F(SceneStones, AFlatStoneIsRefused) {
     std::string flat = k_tetrahedron;
     const std::size_t apex = flat.rfind("v ");
     flat.replace(apex, flat.find('\n', apex) - apex, "v 0.3 0.3 0");
@@ -163,7 +163,7 @@ TEST_F(SceneStones, a_flat_stone_is_refused) {
     EXPECT_THROW(require_renderable(scene), InputError);
 }
 
-TEST_F(SceneStones, environments_of_every_kind) {
+TEST_F(SceneStones, EnvironmentsOfEveryKind) {
     const std::string scene = "stone = \"stone.toml\"\n[light]\nenvironment = \"map.exr\"\n";
     write_picture(map(8, 4, 0.5f), folder_ / "map.exr");
     EXPECT_EQ(read(scene).lights.environment->width, 8);
@@ -192,7 +192,7 @@ TEST_F(SceneStones, environments_of_every_kind) {
 }
 
 // Expectation: a quarter about z takes x to y, and near lights go round the stone's middle.
-TEST_F(SceneStones, lights_are_rotated_about_the_stones_middle) {
+TEST_F(SceneStones, LightsAreRotatedAboutTheStonesMiddle) {
     const Scene scene = read(
         "stone = \"stone.toml\"\n[light]\nrotate = [0, 0, 90]\n[[light.lobe]]\ndirection = [1, 0, "
         "0]\n[[light.sphere]]\ncenter = [5, 0, 0]\nradius = 1\n");
@@ -205,7 +205,7 @@ TEST_F(SceneStones, lights_are_rotated_about_the_stones_middle) {
 }
 
 // A text that comes with its files reads none from the disk.
-TEST_F(SceneStones, a_scene_may_hold_its_files_itself) {
+TEST_F(SceneStones, ASceneMayHoldItsFilesItself) {
     write_picture(map(8, 4, 0.5f), folder_ / "map.exr");
     std::ifstream stream(folder_ / "map.exr", std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
@@ -218,7 +218,7 @@ TEST_F(SceneStones, a_scene_may_hold_its_files_itself) {
     EXPECT_THROW(scene_of(without, &stone), InputError);
 }
 
-TEST_F(SceneStones, half_extents_lie_in_their_plane) {
+TEST_F(SceneStones, HalfExtentsLieInTheirPlane) {
     const std::string head = "stone = \"stone.toml\"\n" + k_light +
                              "[[light.plane]]\npoint = [0, 0, 9]\nnormal = [0, 0, -1]\n";
     EXPECT_NE(refusal(head + "u = [1, 0, 1]\nv = [0, 1, 0]\n").find(":7:"), std::string::npos);
@@ -228,7 +228,7 @@ TEST_F(SceneStones, half_extents_lie_in_their_plane) {
     EXPECT_EQ(*nth_light<PlaneLight>(lights, 0).u, (Vec3{2, 0, 0}));
 }
 
-TEST(Lights, a_dome_shines_on_what_stands_inside) {
+TEST(Lights, ADomeShinesOnWhatStandsInside) {
     Lights lights;
     lights.constant = 0.1;
     lights.sources.push_back(SphereLight{{0, 0, 0}, 10, {2.0}});
@@ -246,7 +246,7 @@ TEST(Lights, a_dome_shines_on_what_stands_inside) {
     EXPECT_EQ(field.name_at({0, 0, 0}, {0, 0, 1}), "sphere 1");
 }
 
-TEST(Lights, no_ray_is_brighter_than_the_bound) {
+TEST(Lights, NoRayIsBrighterThanTheBound) {
     // Fixed directions over the sphere; coloured lights and few nodes, whose spectra exceed 1.
     auto map = std::make_shared<EnvironmentMap>();
     map->width = 8;
@@ -270,7 +270,7 @@ TEST(Lights, no_ray_is_brighter_than_the_bound) {
     }
 }
 
-TEST(Lights, aset_has_the_zones_of_the_ags) {
+TEST(Lights, AsetHasTheZonesOfTheAgs) {
     // AGS Laboratories, Angular Spectrum Evaluation Tool: by elevation, green to 45 degrees, red to
     // 75, blue above.
     const LightField field(*light_preset("aset"), WavelengthSet({450, 540, 620}));
@@ -290,7 +290,7 @@ TEST(Lights, aset_has_the_zones_of_the_ags) {
     EXPECT_FALSE(light_preset("disco").has_value());
 }
 
-TEST(Environment, a_bright_texel_is_seen_where_the_contract_puts_it) {
+TEST(Environment, ABrightTexelIsSeenWhereTheContractPutsIt) {
     // One texel of an asymmetric map: column 6 of 8, row 1 of 4. Its middle lies at 6.5/8 of the
     // width, 5/16 of a turn right of +x, azimuth -112.5 degrees, and 3/8 of the way down, 67.5
     // degrees from +z.

@@ -51,7 +51,7 @@ Scene scene_with(const std::string& material) {
     return scene;
 }
 
-TEST(Camera, centre_looks_at_the_target_and_y_runs_down) {
+TEST(Camera, CentreLooksAtTheTargetAndYRunsDown) {
     Camera camera;
     camera.position = {0, 0, 10};
     camera.width = 200;
@@ -76,7 +76,7 @@ TEST(Camera, centre_looks_at_the_target_and_y_runs_down) {
     EXPECT_NEAR(glm::length(a - b), 0, 1e-13);
 }
 
-TEST(Environment, lat_long_has_the_contracts_frame) {
+TEST(Environment, LatLongHasTheContractsFrame) {
     // 8 x 4 texels, each red with its column, green with its row.
     EnvironmentMap map;
     map.width = 8;
@@ -94,7 +94,7 @@ TEST(Environment, lat_long_has_the_contracts_frame) {
         << "wraps between the last and the first column";
 }
 
-TEST(Lights, each_kind_shines_where_it_should) {
+TEST(Lights, EachKindShinesWhereItShould) {
     const WavelengthSet one({550});
     const auto seen = [&](const Lights& lights, const Vec3& origin, const Vec3& direction) {
         double radiance = 0;
@@ -126,7 +126,7 @@ TEST(Lights, each_kind_shines_where_it_should) {
     EXPECT_EQ(seen(lights, {1.5, 0, 0}, {0, 0, 1}), 0.1) << "beside its half-extent";
 }
 
-TEST(Render, constant_light_of_one_gives_exactly_what_paths_bring_home) {
+TEST(Render, ConstantLightOfOneGivesExactlyWhatPathsBringHome) {
     for (const char* material : {"diamond", "corundum", "calcite"}) {
         Scene scene = scene_with(material);
         scene.settings.wavelengths_nm = {550};  // the balance is one wavelength's
@@ -148,7 +148,7 @@ TEST(Render, constant_light_of_one_gives_exactly_what_paths_bring_home) {
     }
 }
 
-TEST(Render, same_bytes_for_any_number_of_threads) {
+TEST(Render, SameBytesForAnyNumberOfThreads) {
     Scene scene = scene_with("corundum");
     scene.lights.constant = 0;
     scene.lights.sources.push_back(
@@ -163,7 +163,7 @@ TEST(Render, same_bytes_for_any_number_of_threads) {
     }
 }
 
-TEST(Render, splitting_at_random_agrees_with_following_both_waves) {
+TEST(Render, SplittingAtRandomAgreesWithFollowingBothWaves) {
     Scene scene = scene_with("calcite");
     scene.lights.constant = 0;
     scene.lights.sources.push_back(HemisphereLight{glm::normalize(Vec3{1, 0.3, 1}), {1.0}});
@@ -181,7 +181,7 @@ TEST(Render, splitting_at_random_agrees_with_following_both_waves) {
     EXPECT_NEAR(exact, exact_fine, 2e-2);
 }
 
-TEST(Render, effects_can_be_switched_off_and_say_so) {
+TEST(Render, EffectsCanBeSwitchedOffAndSaySo) {
     Scene scene = scene_with("ruby_pale");
     const RenderResult on = render(scene);
     for (const EffectDecision& decision : on.stats.effects) {
@@ -203,7 +203,7 @@ TEST(Render, effects_can_be_switched_off_and_say_so) {
     }
 }
 
-TEST(Render, a_crystals_tree_has_a_budget) {
+TEST(Render, ACrystalsTreeHasABudget) {
     // 2^40 paths would never end: from the budget on one wave is followed, and the balance still
     // holds.
     Scene scene = scene_with("calcite");
@@ -220,7 +220,7 @@ TEST(Render, a_crystals_tree_has_a_budget) {
     EXPECT_THROW(probe(scene, {{0, 0, 0}, {0, 0, 1}}), InputError) << "starts inside";
 }
 
-TEST(Render, a_rough_mesh_is_drawn_by_its_planes_and_says_so) {
+TEST(Render, ARoughMeshIsDrawnByItsPlanesAndSaysSo) {
     Scene scene = scene_with("diamond");
     scene.stone.solid.vertices[0] *= 1.005;
     const RenderResult result = render(scene);
@@ -230,11 +230,11 @@ TEST(Render, a_rough_mesh_is_drawn_by_its_planes_and_says_so) {
     EXPECT_THROW(render(scene), InputError);
 }
 
-TEST(Render, stopping_throws_and_returns_nothing) {
+TEST(Render, StoppingThrowsAndReturnsNothing) {
     EXPECT_THROW(render(scene_with("diamond"), [](double) { return false; }), Interrupted);
 }
 
-TEST(Render, refuses_what_it_cannot_do) {
+TEST(Render, RefusesWhatItCannotDo) {
     Scene inside = scene_with("diamond");
     inside.camera.position = {0.1, 0, 0};
     EXPECT_THROW(render(inside), InputError);
@@ -243,7 +243,7 @@ TEST(Render, refuses_what_it_cannot_do) {
     EXPECT_THROW(render(open), InputError);
 }
 
-TEST(Probe, weights_and_losses_sum_to_one_and_a_miss_has_no_paths) {
+TEST(Probe, WeightsAndLossesSumToOneAndAMissHasNoPaths) {
     for (const char* material : {"diamond", "emerald", "calcite"}) {
         Scene scene = scene_with(material);
         scene.settings.wavelengths_nm = {450, 650};
@@ -283,7 +283,7 @@ protected:
     fs::path folder_;
 };
 
-TEST_F(SceneFiles, the_contracts_keys_are_read) {
+TEST_F(SceneFiles, TheContractsKeysAreRead) {
     std::ofstream(folder_ / "scene.toml") << R"(
 mesh = "stone.obj"
 material = "diamond"
@@ -328,7 +328,7 @@ wavelengths = [650, 450]
     EXPECT_FALSE(scene.settings.effects[1]);
 }
 
-TEST_F(SceneFiles, every_mistake_is_answered_with_its_line) {
+TEST_F(SceneFiles, EveryMistakeIsAnsweredWithItsLine) {
     const std::string head = "mesh = \"stone.obj\"\nmaterial = \"diamond\"\n";
     const std::vector<std::pair<std::string, std::string>> cases{
         {"material = \"diamond\"\n[light]\nconstant = 1\n", "mesh"},

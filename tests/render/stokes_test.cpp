@@ -14,7 +14,7 @@ double distance(const Stokes& a, const Stokes& b) {
 
 // What a projection onto a convex set promises: the result is in the set, what is in it stays, and
 // no member of the set is farther from the result than from what was projected.
-TEST(Stokes, nearest_light_is_light_and_no_farther_from_any_other) {
+TEST(Stokes, NearestLightIsLightAndNoFartherFromAnyOther) {
     std::mt19937_64 random(20261122);
     std::normal_distribution<double> normal;
     const double h = 2.220446049250313e-16;
@@ -30,7 +30,7 @@ TEST(Stokes, nearest_light_is_light_and_no_farther_from_any_other) {
     }
 }
 
-TEST(Stokes, less_light_than_none_is_none) {
+TEST(Stokes, LessLightThanNoneIsNone) {
     EXPECT_EQ(nearest_light({-0.001, 0, 0, 0}), (Stokes{0, 0, 0, 0}));
     EXPECT_EQ(nearest_light({-0.5, 0.3, 0, -0.4}), (Stokes{0, 0, 0, 0}));
     EXPECT_EQ(nearest_light({0, 0, 0, 0}), (Stokes{0, 0, 0, 0}));

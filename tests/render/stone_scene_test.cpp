@@ -68,7 +68,7 @@ std::array<double, 2> spans(const Picture& picture) {
 }
 
 // The coverage comes from the picture, the 85 % from the brief of the command.
-TEST_F(StoneSceneTest, the_stone_spans_85_percent_of_the_tighter_side) {
+TEST_F(StoneSceneTest, TheStoneSpans85PercentOfTheTighterSide) {
     struct Case {
         const char *name, *cut, *size;
         int tight;  // 0: across, 1: down
@@ -88,7 +88,7 @@ TEST_F(StoneSceneTest, the_stone_spans_85_percent_of_the_tighter_side) {
     }
 }
 
-TEST_F(StoneSceneTest, off_centre_meshes_are_framed_too) {
+TEST_F(StoneSceneTest, OffCentreMeshesAreFramedToo) {
     Solid solid = make_cut("step");
     for (Vec3& v : solid.vertices) v += Vec3{12, -7, 30};
     for (Facet& facet : solid.facets)
@@ -99,7 +99,7 @@ TEST_F(StoneSceneTest, off_centre_meshes_are_framed_too) {
     EXPECT_NEAR(std::max(found[0], found[1]), 0.85, 0.012);
 }
 
-TEST_F(StoneSceneTest, a_scene_without_a_camera_is_framed_and_one_with_a_camera_is_not) {
+TEST_F(StoneSceneTest, ASceneWithoutACameraIsFramedAndOneWithACameraIsNot) {
     mesh("stone.obj", make_cut("round-brilliant"));
     const std::string head = "mesh = \"stone.obj\"\nmaterial = \"spinel\"\n";
     const std::string light = "[light]\npreset = \"jeweller\"\n";
@@ -114,7 +114,7 @@ TEST_F(StoneSceneTest, a_scene_without_a_camera_is_framed_and_one_with_a_camera_
     EXPECT_FALSE(with.camera.orthographic_width.has_value());
 }
 
-TEST_F(StoneSceneTest, hearts_are_seen_from_below_and_all_else_from_above) {
+TEST_F(StoneSceneTest, HeartsAreSeenFromBelowAndAllElseFromAbove) {
     const std::string stone = mesh("stone.obj", make_cut("round-brilliant"));
     for (const LightPreset& preset : light_presets()) {
         const Scene scene = read_any_scene(stone, {}, of("diamond", preset.name));
@@ -129,7 +129,7 @@ TEST_F(StoneSceneTest, hearts_are_seen_from_below_and_all_else_from_above) {
 }
 
 // A camera of the scene's own stays where it is.
-TEST_F(StoneSceneTest, hearts_do_not_move_a_camera_that_is_named) {
+TEST_F(StoneSceneTest, HeartsDoNotMoveACameraThatIsNamed) {
     mesh("stone.obj", make_cut("round-brilliant"));
     const Scene scene = read_scene(
         text_file("scene.toml",
@@ -138,7 +138,7 @@ TEST_F(StoneSceneTest, hearts_do_not_move_a_camera_that_is_named) {
     EXPECT_EQ(scene.camera.position.z, 50);
 }
 
-TEST_F(StoneSceneTest, designs_without_a_size_are_drawn_65_mm_wide_and_it_is_said) {
+TEST_F(StoneSceneTest, DesignsWithoutASizeAreDrawn6Point5MmWideAndItIsSaid) {
     Solid unit = make_cut("oval");
     const double width = width_along(unit, {0, 1, 0});
     ASSERT_LT(width, width_along(unit, {1, 0, 0})) << "the narrower side is along y";
@@ -170,7 +170,7 @@ TEST_F(StoneSceneTest, designs_without_a_size_are_drawn_65_mm_wide_and_it_is_sai
     EXPECT_NEAR(width_along(real.stone.solid, {0, 1, 0}), width, 1e-9);
 }
 
-TEST_F(StoneSceneTest, stone_files_keep_their_size_and_material) {
+TEST_F(StoneSceneTest, StoneFilesKeepTheirSizeAndMaterial) {
     mesh("stone.obj", make_cut("step"));
     const std::string stone = text_file(
         "stone.toml", "[stone]\nmesh = \"stone.obj\"\nunit = \"cm\"\nmaterial = \"emerald\"\n");
@@ -181,7 +181,7 @@ TEST_F(StoneSceneTest, stone_files_keep_their_size_and_material) {
     EXPECT_EQ(other.stone.material.id, "diamond");
 }
 
-TEST_F(StoneSceneTest, refusals_are_one_line_that_says_what_to_do) {
+TEST_F(StoneSceneTest, RefusalsAreOneLineThatSaysWhatToDo) {
     const std::string stone = mesh("stone.obj", make_cut("step"));
     const auto one_line = [](const std::string& text) {
         EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 0) << text;
@@ -203,7 +203,7 @@ TEST_F(StoneSceneTest, refusals_are_one_line_that_says_what_to_do) {
 }
 
 // GemCad's SRB design says the index it was drawn for, 1.54: quartz's.
-TEST_F(StoneSceneTest, a_design_that_says_its_index_is_offered_materials_of_it) {
+TEST_F(StoneSceneTest, ADesignThatSaysItsIndexIsOfferedMaterialsOfIt) {
     const std::string quartz = refusal(CULET_SHARED_DATA "/designs/SRB.asc", {});
     if (quartz.find("no such file") != std::string::npos) GTEST_SKIP();
     EXPECT_NE(quartz.find("1.54"), std::string::npos) << quartz;
@@ -212,7 +212,7 @@ TEST_F(StoneSceneTest, a_design_that_says_its_index_is_offered_materials_of_it) 
 
 // Work is counted, not timed: a crystal that uses up what is allowed comes out the same on any
 // number of threads.
-TEST_F(StoneSceneTest, what_work_allows_does_not_hang_on_threads) {
+TEST_F(StoneSceneTest, WhatWorkAllowsDoesNotHangOnThreads) {
     Scene scene = read_any_scene(mesh("stone.obj", make_cut("step")), {"camera.size=[20,20]"},
                                  of("zircon_high"));
     scene.settings.allowed_ns = 3e8;
@@ -228,7 +228,7 @@ TEST_F(StoneSceneTest, what_work_allows_does_not_hang_on_threads) {
 // Beams are drawn to 2 % of the mean. Of 64 rays a pixel, 130 000 on the stone, at least 4 % see a
 // light of one: the mean is sure to 1.4 % (binomial), three times which is 4 %. Previews give each
 // beam one colour, however the light changes in it: they need only be there.
-TEST_F(StoneSceneTest, presets_are_drawn_by_all_engines_and_agree) {
+TEST_F(StoneSceneTest, PresetsAreDrawnByAllEnginesAndAgree) {
     const std::string stone = mesh("stone.obj", make_cut("step"));
     for (const LightPreset& preset : light_presets()) {
         double reference = 0;
@@ -249,7 +249,7 @@ TEST_F(StoneSceneTest, presets_are_drawn_by_all_engines_and_agree) {
 }
 
 // Of 1000 pixels of the stone 30 are bright; the brightest light beside the stone does not count.
-TEST(Exposure, is_that_of_the_stone) {
+TEST(Exposure, IsThatOfTheStone) {
     Picture picture;
     picture.width = 1100;
     picture.height = 1;
@@ -268,7 +268,7 @@ TEST(Exposure, is_that_of_the_stone) {
 }
 
 // Expectation: the definition, by sorting.
-TEST(Exposure, leaves_one_pixel_in_fifty_over_white) {
+TEST(Exposure, LeavesOnePixelInFiftyOverWhite) {
     Picture picture;
     picture.width = 61;
     picture.height = 47;

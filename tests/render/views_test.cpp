@@ -70,7 +70,7 @@ protected:
 const char* const k_quartz =
     "optic_axis = [1, 1, 0]\n[material]\noptic = \"uniaxial\"\nindex = { o = 1.544, e = 1.553 }\n";
 
-TEST_F(Views, polariscope_shows_the_plates_retardation) {
+TEST_F(Views, PolariscopeShowsThePlatesRetardation) {
     // The closed form of crystal_paths_test.cpp, through the whole renderer: 45 degrees, crossed.
     const double t_o = 4 * 1.544 / (2.544 * 2.544), t_e = 4 * 1.553 / (2.553 * 2.553);
     for (const double nm : {450.0, 589.3, 640.0}) {
@@ -89,7 +89,7 @@ TEST_F(Views, polariscope_shows_the_plates_retardation) {
     }
 }
 
-TEST_F(Views, a_view_may_be_named_in_any_table) {
+TEST_F(Views, AViewMayBeNamedInAnyTable) {
     for (const std::string table : {"camera", "light", "render"}) {
         std::string text = plate(k_quartz, "wavelengths = [550]");
         const std::string line = "preset = \"polariscope\"\npolarizer = 45\n";
@@ -103,7 +103,7 @@ TEST_F(Views, a_view_may_be_named_in_any_table) {
     }
 }
 
-TEST_F(Views, crossed_polarisers_without_a_stone_are_dark_and_a_full_wave_plate_colours_them) {
+TEST_F(Views, CrossedPolarisersWithoutAStoneAreDarkAndAFullWavePlateColoursThem) {
     // Crossed, plate at 45 degrees: sin^2(pi G / lambda).
     const std::string away =
         "mesh = \"plate.obj\"\nmaterial = \"diamond\"\n[camera]\nposition = [100, 0, 50]\n"
@@ -118,7 +118,7 @@ TEST_F(Views, crossed_polarisers_without_a_stone_are_dark_and_a_full_wave_plate_
     }
 }
 
-TEST_F(Views, dichroscope_shows_each_waves_absorption) {
+TEST_F(Views, DichroscopeShowsEachWavesAbsorption) {
     // Axis along the picture's x. The left window passes x: the extraordinary wave; the right one
     // the ordinary. Half of unpolarised light each: T exp(-K d) / 2, depth 2.
     const Scene seen =
@@ -136,7 +136,7 @@ TEST_F(Views, dichroscope_shows_each_waves_absorption) {
     EXPECT_NEAR(static_cast<double>(result.picture.at(2, 2)[0]), through(1.642, 1.5), k_float);
 }
 
-TEST_F(Views, conoscope_is_dark_along_its_isogyres_and_outside_all_directions) {
+TEST_F(Views, ConoscopeIsDarkAlongItsIsogyresAndOutsideAllDirections) {
     const Scene seen = scene(
         "preset = \"conoscope\"\ncone = 80\nmesh = \"plate.obj\"\noptic_axis = [0, 0, 1]\n"
         "[material]\noptic = \"uniaxial\"\nindex = { o = 1.658, e = 1.486 }\n"
@@ -154,14 +154,14 @@ TEST_F(Views, conoscope_is_dark_along_its_isogyres_and_outside_all_directions) {
     EXPECT_EQ(result.picture.coverage[0], 0.0f);
 }
 
-TEST_F(Views, a_matching_liquid_hides_the_stone) {
+TEST_F(Views, AMatchingLiquidHidesTheStone) {
     const Scene seen = scene(plate("immersion = 1.5\n[material]\nindex = 1.5\n",
                                    "wavelengths = [550]\n[[light.lobe]]\ndirection = [0, 0, -1]\n"
                                    "exponent = 3"));
     EXPECT_NEAR(middle(seen), 1, k_float);
 }
 
-TEST_F(Views, polarised_light_at_brewsters_angle_is_not_reflected) {
+TEST_F(Views, PolarisedLightAtBrewstersAngleIsNotReflected) {
     // tan B = n: p light enters without loss. Seen by the light's mirror direction, depth 1.
     const double n = 1.5, angle = std::atan(n);
     const Vec3 d{std::sin(angle), 0, -std::cos(angle)};
@@ -180,7 +180,7 @@ TEST_F(Views, polarised_light_at_brewsters_angle_is_not_reflected) {
     }
 }
 
-TEST_F(Views, spectral_pictures_carry_stokes_parameters) {
+TEST_F(Views, SpectralPicturesCarryStokesParameters) {
     Scene seen = scene(
         "mesh = \"plate.obj\"\nmaterial = \"diamond\"\n[camera]\n"
         "position = [30, 0, 20]\nfov = 5\nsize = [6, 6]\n[light]\nconstant = 0\n"
@@ -206,7 +206,7 @@ TEST_F(Views, spectral_pictures_carry_stokes_parameters) {
     EXPECT_EQ(read_picture(folder_ / "s.exr").picture.wavelengths_nm.size(), 2u);
 }
 
-TEST_F(Views, a_heart_balances_and_needs_to_be_said_not_convex) {
+TEST_F(Views, AHeartBalancesAndNeedsToBeSaidNotConvex) {
     write_solid(make_cut("heart"), folder_ / "heart.obj");
     const std::string text =
         "mesh = \"heart.obj\"\n@material = \"corundum\"\n[camera]\nposition = [4, 3, 40]\n"
@@ -226,7 +226,7 @@ TEST_F(Views, a_heart_balances_and_needs_to_be_said_not_convex) {
     EXPECT_EQ(stats.cut, 0);
 }
 
-TEST_F(Views, a_light_before_the_stone_hides_it) {
+TEST_F(Views, ALightBeforeTheStoneHidesIt) {
     const std::string text = plate("[material]\nindex = 1.5\n",
                                    "wavelengths = [550]\n[[light.sphere]]\ncenter = [0, 0, 20]\n"
                                    "radius = 2\nradiance = 3");
@@ -236,7 +236,7 @@ TEST_F(Views, a_light_before_the_stone_hides_it) {
     EXPECT_EQ(result.radiance[0], 3);
 }
 
-TEST_F(Views, more_wavelengths_for_a_finer_tolerance) {
+TEST_F(Views, MoreWavelengthsForAFinerTolerance) {
     std::size_t before = 0;
     for (const char* tolerance : {"0.5", "0.02", "0.0001"}) {
         const RenderStats stats =
@@ -254,7 +254,7 @@ TEST_F(Views, more_wavelengths_for_a_finer_tolerance) {
     EXPECT_GT(before, 8u);
 }
 
-TEST_F(Views, mistakes_are_named) {
+TEST_F(Views, MistakesAreNamed) {
     const auto message = [&](const std::string& text) -> std::string {
         try {
             scene(text);
@@ -282,7 +282,7 @@ TEST_F(Views, mistakes_are_named) {
     EXPECT_NE(message("preset = \"conoscope\"\ncone = 120\n" + rest).find("90"), std::string::npos);
 }
 
-TEST(Sampling, filters_have_their_variance_and_no_offset) {
+TEST(Sampling, FiltersHaveTheirVarianceAndNoOffset) {
     // Box r^2/3, tent r^2/6, gaussian cut off at two deviations: 0.773741 sigma^2 (its closed form,
     // 1 - 4 phi(2)/(2 Phi(2) - 1)). 64 midpoints a side miss some of the warp's steep ends.
     const double phi = std::exp(-2.0) / std::sqrt(2 * std::numbers::pi);

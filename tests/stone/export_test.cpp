@@ -46,7 +46,7 @@ Vec3 point_of(const std::string& text) {
 }
 
 // Every edge is used twice, once each way; the corners of each face bound it; Gauss's theorem.
-TEST(Step, is_a_closed_body_of_the_same_volume) {
+TEST(Step, IsAClosedBodyOfTheSameVolume) {
     for (const char* cut : {"round-brilliant", "emerald", "pear"}) {
         const Solid solid = make_cut(cut);
         const std::map<int, Entity> all = entities_of(step_text(solid, cut).text);
@@ -116,7 +116,7 @@ std::vector<Vec3> vectors_of(const Glb& glb, int accessor) {
 }
 
 // The rules of glTF 2.0 that readers trip over, and the true size in metres.
-TEST(Gltf, keeps_the_rules_and_the_size) {
+TEST(Gltf, KeepsTheRulesAndTheSize) {
     Stone stone;
     stone.solid = make_cut("round-brilliant");
     stone.material = catalogue_material("diamond");
@@ -166,7 +166,7 @@ TEST(Gltf, keeps_the_rules_and_the_size) {
 }
 
 // Planes stand off by the clearance, so that every corner of the stone is inside by as much.
-TEST(Clearance, grows_every_plane) {
+TEST(Clearance, GrowsEveryPlane) {
     const Solid solid = make_cut("emerald"), seat = grown_outward(solid, 0.05);
     ASSERT_EQ(seat.facets.size(), solid.facets.size());
     for (const Facet& facet : seat.facets) {
@@ -180,7 +180,7 @@ TEST(Clearance, grows_every_plane) {
 }
 
 // A cut that lies anywhere stands with its girdle's plane at 0 and its table up.
-TEST(ExportFrame, stands_on_the_girdle) {
+TEST(ExportFrame, StandsOnTheGirdle) {
     Stone stone;
     stone.solid = make_cut("round-brilliant");
     for (Vec3& v : stone.solid.vertices) v = Vec3{v.z, v.x, v.y} + Vec3{3, 0, 0};

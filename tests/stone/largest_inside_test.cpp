@@ -19,7 +19,7 @@ Solid box(const Vec3& middle, const Vec3& half) {
     return intersect_half_spaces(planes).solid;
 }
 
-TEST(LargestInside, of_a_cube_in_a_box_is_as_wide_as_its_narrowest_side) {
+TEST(LargestInside, OfACubeInABoxIsAsWideAsItsNarrowestSide) {
     const LargestInside inside =
         largest_inside(box({0, 0, 0}, {1, 1, 1}), box({3, -2, 5}, {2, 0.5, 4}));
     EXPECT_NEAR(inside.scale, 0.5, 1e-15);
@@ -27,7 +27,7 @@ TEST(LargestInside, of_a_cube_in_a_box_is_as_wide_as_its_narrowest_side) {
     EXPECT_NEAR(inside.shift.y, -2, 1e-14);
 }
 
-TEST(LargestInside, of_a_cube_in_an_octahedron_touches_its_facets_with_its_corners) {
+TEST(LargestInside, OfACubeInAnOctahedronTouchesItsFacetsWithItsCorners) {
     std::vector<NamedPlane> planes;
     for (int i = 0; i < 8; ++i) {
         const Vec3 normal = Vec3{i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1} / std::sqrt(3.0);
@@ -41,7 +41,7 @@ TEST(LargestInside, of_a_cube_in_an_octahedron_touches_its_facets_with_its_corne
     EXPECT_NEAR(volume(moved), 8.0 / 27, 1e-13);
 }
 
-TEST(LargestInside, of_a_solid_in_itself_is_itself) {
+TEST(LargestInside, OfASolidInItselfIsItself) {
     const Solid solid = box({1, 2, 3}, {1, 2, 3});
     const LargestInside inside = largest_inside(solid, solid);
     EXPECT_NEAR(inside.scale, 1, 1e-14);

@@ -16,7 +16,7 @@ namespace {
 // Of a dozen roundings of unit numbers.
 constexpr double k_rounding = 12 * 0x1p-52;
 
-TEST(LeastRotation, is_that_of_a_quaternion) {
+TEST(LeastRotation, IsThatOfAQuaternion) {
     RandomAttitudes random(11);
     for (int draw = 0; draw < 200; ++draw) {
         const Vec3 from = random.direction(), to = random.direction(), v = random.direction();
@@ -32,7 +32,7 @@ TEST(LeastRotation, is_that_of_a_quaternion) {
 
 // Seed 2026006622 of the search for hard cases: an eye ray 1e-15 from opposite to the camera's
 // direction had lost 1.7 % of its polarisation's length.
-TEST(LeastRotation, keeps_lengths_where_directions_are_all_but_opposite) {
+TEST(LeastRotation, KeepsLengthsWhereDirectionsAreAllButOpposite) {
     RandomAttitudes random(12);
     for (int digits = 1; digits <= 18; ++digits) {
         for (int draw = 0; draw < 50; ++draw) {
@@ -52,7 +52,7 @@ TEST(LeastRotation, keeps_lengths_where_directions_are_all_but_opposite) {
     }
 }
 
-TEST(LeastRotation, of_opposite_directions_is_half_a_turn) {
+TEST(LeastRotation, OfOppositeDirectionsIsHalfATurn) {
     RandomAttitudes random(13);
     for (int draw = 0; draw < 50; ++draw) {
         const auto [from, a, b] = random.frame();

@@ -29,7 +29,7 @@ bool has(const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-TEST(NamesLike, begin_with_the_word_else_hold_it_else_are_spelt_alike) {
+TEST(NamesLike, BeginWithTheWordElseHoldItElseAreSpeltAlike) {
     const std::vector<std::string> known{"sapphire_blue", "ruby_gem", "ruby_pale", "topaz_blue"};
     const auto names = [&known](const char* word) { return names_like(word, known); };
     EXPECT_EQ(names("ruby"), (std::vector<std::string>{"ruby_gem", "ruby_pale"}));
@@ -42,14 +42,14 @@ TEST(NamesLike, begin_with_the_word_else_hold_it_else_are_spelt_alike) {
     EXPECT_TRUE(names(std::string(1000000, 'x').c_str()).empty());
 }
 
-TEST(NamesLike, are_listed_in_words) {
+TEST(NamesLike, AreListedInWords) {
     EXPECT_EQ(listed({}), "");
     EXPECT_EQ(listed({"a"}), "\"a\"");
     EXPECT_EQ(listed({"a", "b"}), "\"a\" or \"b\"");
     EXPECT_EQ(listed({"a", "b", "c", "d", "e", "f"}, 3), "\"a\", \"b\", \"c\" or 3 more");
 }
 
-TEST(Catalogue, answers_trade_names_with_what_it_has) {
+TEST(Catalogue, AnswersTradeNamesWithWhatItHas) {
     EXPECT_NE(error_of("sapphire").find("mean \"sapphire_blue\"?"), std::string::npos);
     EXPECT_NE(error_of("ruby").find("mean \"ruby_gem\" or \"ruby_pale\"?"), std::string::npos)
         << error_of("ruby");
@@ -63,7 +63,7 @@ TEST(Catalogue, answers_trade_names_with_what_it_has) {
     EXPECT_LT(for_terminal(error_of(std::string(1 << 20, 'x'))).size(), 400u);
 }
 
-TEST(Catalogue, says_when_the_colour_of_a_stone_is_missing) {
+TEST(Catalogue, SaysWhenTheColourOfAStoneIsMissing) {
     EXPECT_NE(missing_colour(catalogue_material("aquamarine")).find("light greenish blue"),
               std::string::npos);
     // Colourless as they should be; and coloured.
@@ -78,7 +78,7 @@ TEST(Catalogue, says_when_the_colour_of_a_stone_is_missing) {
     }
 }
 
-TEST(Catalogue, absorbs_by_the_table_times_the_depth_of_the_name) {
+TEST(Catalogue, AbsorbsByTheTableTimesTheDepthOfTheName) {
     // Dubinsky et al. 2020: 14.6 /cm at 410 nm for 750 ppma Cr and E across c; the ruby of the
     // catalogue has 2000 ppma. The pale one is as in its table: 2.609 /cm for 134 ppma.
     EXPECT_NEAR(catalogue_material("ruby_gem").absorption_per_mm[0].at(410), 1.46 * 2000 / 750,
@@ -89,13 +89,13 @@ TEST(Catalogue, absorbs_by_the_table_times_the_depth_of_the_name) {
 }
 
 // A gem whose absorption is of other rays than its mineral has would be drawn colourless.
-TEST(Catalogue, has_only_entries_that_can_be_read) {
+TEST(Catalogue, HasOnlyEntriesThatCanBeRead) {
     ASSERT_GT(catalogue_names().size(), 40u);
     for (const std::string& name : catalogue_names())
         EXPECT_NO_THROW(catalogue_material(name)) << name;
 }
 
-TEST(Catalogue, bands_of_garnets_make_their_tables) {
+TEST(Catalogue, BandsOfGarnetsMakeTheirTables) {
     // Gaussians over the wavenumber, half maximum at half the width; strengths in 1/cm.
     struct Band {
         double nm, width, peak;
@@ -125,7 +125,7 @@ TEST(Catalogue, bands_of_garnets_make_their_tables) {
     }
 }
 
-TEST(TomlAdvice, says_what_to_write) {
+TEST(TomlAdvice, SaysWhatToWrite) {
     EXPECT_EQ(toml_advice("name = Dravite, off-standard # mine"),
               "put quotes about a text: name = \"Dravite, off-standard\"");
     EXPECT_EQ(toml_advice("stone = ../a.toml"), "put quotes about a text: stone = \"../a.toml\"");
@@ -150,7 +150,7 @@ TEST(TomlAdvice, says_what_to_write) {
     EXPECT_EQ(without_unit("wide", "mm"), "wide");
 }
 
-TEST(TomlAdvice, stands_in_the_error_with_the_line) {
+TEST(TomlAdvice, StandsInTheErrorWithTheLine) {
     const test::ScratchFolder folder;
     const auto error = [&folder](const std::string& text) -> std::string {
         std::ofstream(folder / "a.toml") << text;
@@ -168,7 +168,7 @@ TEST(TomlAdvice, stands_in_the_error_with_the_line) {
     EXPECT_NE(error("value = \"6.52mm\"\n").find("write 6.52 without \"mm\""), std::string::npos);
 }
 
-TEST(ForTerminal, lets_no_control_character_through_and_shortens_what_is_quoted) {
+TEST(ForTerminal, LetsNoControlCharacterThroughAndShortensWhatIsQuoted) {
     EXPECT_EQ(for_terminal("a\x1b[31m\nb\x7f"), "a [31m b ");
     EXPECT_EQ(for_terminal("a\u009b31m"), "a  31m");
     EXPECT_EQ(for_terminal("\u00e4\u00f6 \"\u00fc\""), "\u00e4\u00f6 \"\u00fc\"");

@@ -88,7 +88,7 @@ Json of_size(int side) {
 }
 
 // Expectation: the program itself, `render()`.
-TEST(ViewerEngine, draws_the_bytes_of_the_command_line) {
+TEST(ViewerEngine, DrawsTheBytesOfTheCommandLine) {
     struct Case {
         const char *cut, *material, *scene;
         std::vector<std::string> keys;
@@ -129,7 +129,7 @@ TEST(ViewerEngine, draws_the_bytes_of_the_command_line) {
 }
 
 // A view by the camera of the call is that of the scene's keys.
-TEST(ViewerEngine, looks_as_a_scenes_camera_does) {
+TEST(ViewerEngine, LooksAsAScenesCameraDoes) {
     const Stone stone = stone_of("round-brilliant", "diamond");
     Opened page(stone, k_jeweller);
     Json view = of_size(90);
@@ -154,7 +154,7 @@ TEST(ViewerEngine, looks_as_a_scenes_camera_does) {
 }
 
 // A quarter about z takes x to y: rows of the matrix, and light.rotate, say the same.
-TEST(ViewerEngine, turns_lights_by_rows_of_a_matrix) {
+TEST(ViewerEngine, TurnsLightsByRowsOfAMatrix) {
     const Stone stone = stone_of("step", "diamond");
     Opened page(stone, k_jeweller);
     page.call("draw", of_size(80));
@@ -174,7 +174,7 @@ TEST(ViewerEngine, turns_lights_by_rows_of_a_matrix) {
 }
 
 // The middle of a convex facet that is seen is on that facet.
-TEST(ViewerEngine, outlines_are_of_the_facets_that_rays_meet) {
+TEST(ViewerEngine, OutlinesAreOfTheFacetsThatRaysMeet) {
     Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
     Json view = of_size(400);
     view["camera"] = {
@@ -200,7 +200,7 @@ TEST(ViewerEngine, outlines_are_of_the_facets_that_rays_meet) {
 }
 
 // Expectation: conservation, as `culet probe` has it: all weights and losses are 1.
-TEST(ViewerEngine, paths_are_those_of_probe) {
+TEST(ViewerEngine, PathsAreThoseOfProbe) {
     const Stone stone = stone_of("round-brilliant", "diamond");
     Opened page(stone, k_jeweller);
     Json place = of_size(200);
@@ -216,7 +216,7 @@ TEST(ViewerEngine, paths_are_those_of_probe) {
 
 // A furnace: light of 1 from everywhere is 1 in every pixel of a stone that absorbs nothing, less
 // what is not followed.
-TEST(ViewerEngine, a_panorama_of_one_is_a_furnace) {
+TEST(ViewerEngine, APanoramaOfOneIsAFurnace) {
     Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
     std::string pfm = "PF\n8 4\n-1.0\n";
     for (int i = 0; i < 8 * 4 * 3; ++i) {
@@ -236,7 +236,7 @@ TEST(ViewerEngine, a_panorama_of_one_is_a_furnace) {
     EXPECT_GT(least, 0.99);
 }
 
-TEST(ViewerEngine, cuts_with_other_proportions) {
+TEST(ViewerEngine, CutsWithOtherProportions) {
     Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
     const Json cut = page.call("cut", {{"kind", "round-brilliant"}, {"values", {{"table", 65.0}}}});
     EXPECT_EQ(cut.at("summary").at("role"), "design");
@@ -251,7 +251,7 @@ TEST(ViewerEngine, cuts_with_other_proportions) {
 }
 
 // What is refused leaves everything as it was.
-TEST(ViewerEngine, says_what_is_wrong_in_one_line) {
+TEST(ViewerEngine, SaysWhatIsWrongInOneLine) {
     Opened page(stone_of("round-brilliant", "diamond"), k_jeweller);
     page.call("draw", of_size(40));
     const std::vector<std::uint8_t> before = page.engine.pixels();
@@ -270,7 +270,7 @@ TEST(ViewerEngine, says_what_is_wrong_in_one_line) {
     EXPECT_NE(page.refusal("draw", of_size(40)).find("denser"), std::string::npos);
 }
 
-TEST(ViewDocument, keeps_every_material_to_the_last_digit) {
+TEST(ViewDocument, KeepsEveryMaterialToTheLastDigit) {
     for (const std::string& name : catalogue_names()) {
         Stone stone = stone_of("round-brilliant", name);
         stone.crystal.axes = {Vec3{0.6, 0, 0.8}, Vec3{0.8, 0, -0.6}, Vec3{0, 1, 0}};
@@ -289,7 +289,7 @@ TEST(ViewDocument, keeps_every_material_to_the_last_digit) {
     }
 }
 
-TEST(ViewDocument, refuses_what_is_none) {
+TEST(ViewDocument, RefusesWhatIsNone) {
     EXPECT_THROW(read_view_item("", 0), InputError);
     EXPECT_THROW(read_view_item("{}", 0), InputError);
     EXPECT_THROW(read_view_item("{\"schema\":\"culet-view-1\",\"items\":[]}", 0), InputError);

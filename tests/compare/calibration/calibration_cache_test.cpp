@@ -34,7 +34,7 @@ protected:
     const TiltVariance tilts_{{0.1f, 1e-20f, -3e9f, 0.25f, 0.0f, 7.0f}, 3};
 };
 
-TEST_F(CalibrationCacheTest, finds_what_it_kept_to_the_last_bit) {
+TEST_F(CalibrationCacheTest, FindsWhatItKeptToTheLastBit) {
     cache_.keep(calibration(), tilts_);
     const auto found = cache_.find("c0ffee");
     ASSERT_TRUE(found.has_value());
@@ -45,7 +45,7 @@ TEST_F(CalibrationCacheTest, finds_what_it_kept_to_the_last_bit) {
     EXPECT_FALSE(cache_.find("tea").has_value());
 }
 
-TEST_F(CalibrationCacheTest, keeps_nothing_without_a_folder_and_nothing_unfinished) {
+TEST_F(CalibrationCacheTest, KeepsNothingWithoutAFolderAndNothingUnfinished) {
     const CalibrationCache none{fs::path()};
     none.keep(calibration(), tilts_);
     EXPECT_FALSE(none.find("c0ffee").has_value());
@@ -56,7 +56,7 @@ TEST_F(CalibrationCacheTest, keeps_nothing_without_a_folder_and_nothing_unfinish
 }
 
 // A stone that is not convex has no such score: then there is nothing to keep.
-TEST_F(CalibrationCacheTest, asks_for_the_tilts_only_where_draws_have_their_score) {
+TEST_F(CalibrationCacheTest, AsksForTheTiltsOnlyWhereDrawsHaveTheirScore) {
     Calibration without = calibration();
     without.draws[0].scores[1].reset();
     cache_.keep(without, TiltVariance());
@@ -65,7 +65,7 @@ TEST_F(CalibrationCacheTest, asks_for_the_tilts_only_where_draws_have_their_scor
     EXPECT_FALSE(found->tilts.usable());
 }
 
-TEST_F(CalibrationCacheTest, does_without_what_is_broken) {
+TEST_F(CalibrationCacheTest, DoesWithoutWhatIsBroken) {
     const auto breaks = [&](const char* extension, const std::string& text) {
         cache_.keep(calibration(), tilts_);
         ASSERT_TRUE(cache_.find("c0ffee").has_value());

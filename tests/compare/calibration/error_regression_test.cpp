@@ -37,7 +37,7 @@ double root_mean_square(const std::vector<double>& values) {
 // Independent witnesses of 0.5 and 0.25 give 1 / sqrt(4 + 16) = 0.224, a little less where the
 // errors drawn (uniform, deviation 1.29) tell something too. Four weights of 72 draws cost 3 %; the
 // root mean square of 2000 is known to 1.6 %, of 72 to 8 %: three of each.
-TEST(ErrorRegression, is_as_good_as_its_independent_scores_and_says_how_good) {
+TEST(ErrorRegression, IsAsGoodAsItsIndependentScoresAndSaysHowGood) {
     std::mt19937_64 random(7);
     const ErrorRegression regression = drawn(72, random);
     std::vector<double> off;
@@ -51,7 +51,7 @@ TEST(ErrorRegression, is_as_good_as_its_independent_scores_and_says_how_good) {
     EXPECT_NEAR(root_mean_square(regression.left_out()) / root_mean_square(off), 1, 0.3);
 }
 
-TEST(ErrorRegression, without_a_score_asks_the_others) {
+TEST(ErrorRegression, WithoutAScoreAsksTheOthers) {
     std::mt19937_64 random(8);
     const ErrorRegression regression = drawn(72, random);
     // The third alone has noise of 0.25, the first of 0.5.
@@ -60,12 +60,12 @@ TEST(ErrorRegression, without_a_score_asks_the_others) {
     EXPECT_FALSE(regression.of({k_missing, k_missing, k_missing}));
 }
 
-TEST(ErrorRegression, of_too_few_draws_has_no_answer) {
+TEST(ErrorRegression, OfTooFewDrawsHasNoAnswer) {
     EXPECT_FALSE(ErrorRegression().of({1}));
     EXPECT_FALSE(ErrorRegression({0, 1}, {{0}, {1}}).of({1}));
 }
 
-TEST(ErrorRegression, of_scores_that_do_not_vary_is_the_mean) {
+TEST(ErrorRegression, OfScoresThatDoNotVaryIsTheMean) {
     EXPECT_NEAR(*ErrorRegression({0, 1, 2}, {{5}, {5}, {5}}).of({5}), 1, 1e-9);
 }
 

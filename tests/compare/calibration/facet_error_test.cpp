@@ -23,7 +23,7 @@ double tilt(const Solid& to, const Facet& facet) {
 
 // By definition; the arc cosine of a rounded 1 is up to sqrt(2 * 2^-52), four millionths of
 // 0.2 degrees at most. A stone that lost a facet is left out.
-TEST(FacetError, is_the_root_mean_square_of_the_stones_tilts) {
+TEST(FacetError, IsTheRootMeanSquareOfTheStonesTilts) {
     const double rms = radians(0.2);
     for (const char* cut : {"round-brilliant", "step"}) {
         const Solid stone = make_cut(cut);
@@ -51,7 +51,7 @@ TEST(FacetError, is_the_root_mean_square_of_the_stones_tilts) {
 // Angles of normal distribution: their mean fourth power is three times the square of their mean
 // square, 3 n / (n + 2) where the n of a stone are brought to one mean square. Over 1460 angles of
 // variance 96 of the fourth power, that is known to 0.26; four of these are 1.03.
-TEST(FacetError, is_of_normal_distribution) {
+TEST(FacetError, IsOfNormalDistribution) {
     const Solid stone = make_cut("round-brilliant");
     const double rms = radians(0.2), n = static_cast<double>(stone.facets.size());
     double fourths = 0, count = 0;
@@ -68,7 +68,7 @@ TEST(FacetError, is_of_normal_distribution) {
     EXPECT_NEAR(fourths / count, 3 * n / (n + 2), 1.03);
 }
 
-TEST(FacetError, of_one_facet_turns_it_about_its_middle_and_leaves_the_others) {
+TEST(FacetError, OfOneFacetTurnsItAboutItsMiddleAndLeavesTheOthers) {
     const Solid stone = make_cut("step");
     const double angle = radians(0.2);
     for (std::size_t f = 0; f < stone.facets.size(); f += 5) {
@@ -94,7 +94,7 @@ TEST(FacetError, of_one_facet_turns_it_about_its_middle_and_leaves_the_others) {
     }
 }
 
-TEST(FacetError, grows_in_proportion_for_one_seed_and_is_none_at_zero) {
+TEST(FacetError, GrowsInProportionForOneSeedAndIsNoneAtZero) {
     const Solid stone = make_cut("step");
     const auto none = with_facet_error(stone, 0, 5), small = with_facet_error(stone, 1e-4, 5),
                large = with_facet_error(stone, 3e-4, 5);
@@ -108,7 +108,7 @@ TEST(FacetError, grows_in_proportion_for_one_seed_and_is_none_at_zero) {
     }
 }
 
-TEST(FacetError, leaves_a_closed_convex_stone) {
+TEST(FacetError, LeavesAClosedConvexStone) {
     for (const char* cut : {"round-brilliant", "step", "pear", "princess"}) {
         const auto wrong = with_facet_error(make_cut(cut), radians(2), 3);
         ASSERT_TRUE(wrong.has_value()) << cut;
@@ -117,13 +117,13 @@ TEST(FacetError, leaves_a_closed_convex_stone) {
     }
 }
 
-TEST(FacetError, is_none_of_a_stone_that_is_not_convex) {
+TEST(FacetError, IsNoneOfAStoneThatIsNotConvex) {
     const Solid heart = make_cut("heart");
     EXPECT_FALSE(with_facet_error(heart, 0.01, 1).has_value());
     EXPECT_FALSE(symmetrised(heart, {0, 0, 1}).has_value());
 }
 
-TEST(TurnsAlike, of_the_standard_cuts) {
+TEST(TurnsAlike, OfTheStandardCuts) {
     const Vec3 up{0, 0, 1};
     EXPECT_EQ(turns_alike(make_cut("round-brilliant"), up), 8);
     EXPECT_EQ(turns_alike(make_cut("princess"), up), 4);
@@ -137,7 +137,7 @@ TEST(TurnsAlike, of_the_standard_cuts) {
 
 // The mean of 16 images (8 turns, and mirrored) of independent tilts of 0.3 degrees: what is left
 // is 0.3 / 4, up to an azimuth of the whole that the group does not see.
-TEST(Symmetrised, comes_nearer_to_the_cut_that_was_spoiled) {
+TEST(Symmetrised, ComesNearerToTheCutThatWasSpoiled) {
     const Solid cut = make_cut("round-brilliant");
     const auto spoiled = with_facet_error(cut, radians(0.3), 7);
     const auto mended = symmetrised(*spoiled, {0, 0, 1});
@@ -152,7 +152,7 @@ TEST(Symmetrised, comes_nearer_to_the_cut_that_was_spoiled) {
     EXPECT_TRUE(is_convex(*mended));
 }
 
-TEST(Symmetrised, of_a_symmetrical_stone_is_nothing_new) {
+TEST(Symmetrised, OfASymmetricalStoneIsNothingNew) {
     EXPECT_FALSE(symmetrised(make_cut("round-brilliant"), {0, 0, 1}).has_value());
 }
 

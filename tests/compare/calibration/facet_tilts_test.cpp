@@ -63,7 +63,7 @@ struct Bench {
 
 // By itself, without a calibration, it is asked for no more than a factor of 1.5: 33 facets'
 // tilts, not all of them seen, scatter by 12 % and more.
-TEST(FacetTilts, are_about_the_facet_error) {
+TEST(FacetTilts, AreAboutTheFacetError) {
     const Bench bench(glass());
     ASSERT_TRUE(bench.tilts.usable());
     double before = 0;
@@ -85,20 +85,20 @@ TEST(FacetTilts, are_about_the_facet_error) {
     EXPECT_LT(*bench.read(bench.model.stone.solid, 9), 0.03);
 }
 
-TEST(FacetTilts, are_the_same_whatever_the_threads) {
+TEST(FacetTilts, AreTheSameWhateverTheThreads) {
     const Bench one(glass(), 1), two(glass(), 2);
     const Solid wrong = *with_facet_error(one.model.stone.solid, radians(0.1), 3);
     EXPECT_EQ(*one.read(wrong, 5), *two.read(wrong, 5));
 }
 
-TEST(FacetTilts, of_a_stone_in_the_dark_are_not_known) {
+TEST(FacetTilts, OfAStoneInTheDarkAreNotKnown) {
     Scene scene = glass();
     scene.lights = {};
     const DraftRenderer renderer(scene, 0.03);
     EXPECT_FALSE(FacetTilts(scene, renderer, camera(), 0).usable());
 }
 
-TEST(FacetTilts, of_a_stone_that_is_not_convex_are_not_known) {
+TEST(FacetTilts, OfAStoneThatIsNotConvexAreNotKnown) {
     Scene scene = glass();
     const DraftRenderer renderer(scene, 0.03);
     for (std::size_t v = 0; v < scene.stone.solid.vertices.size(); v += 3)
@@ -109,7 +109,7 @@ TEST(FacetTilts, of_a_stone_that_is_not_convex_are_not_known) {
     EXPECT_FALSE(tilts.ended_early());
 }
 
-TEST(FacetTilts, end_when_they_are_told_to) {
+TEST(FacetTilts, EndWhenTheyAreToldTo) {
     const Scene scene = glass();
     const DraftRenderer renderer(scene, 0.03);
     const FacetTilts tilts(scene, renderer, camera(), 0, [](double) { return false; });

@@ -51,7 +51,7 @@ Scene lit_scene() {
 
 // The laws of optics do not know which way is up: stone, lights and camera turned together give
 // the same picture, but for pixels at edges that rounding moves.
-TEST(TurnedWorld, as_a_whole_looks_the_same) {
+TEST(TurnedWorld, AsAWholeLooksTheSame) {
     const Scene scene = lit_scene();
     const glm::dmat3 by = rotation_about(glm::normalize(Vec3{1, 2, -0.5}), 1.1);
     const Vec3 about{0.2, -0.1, 0.4};
@@ -67,7 +67,7 @@ TEST(TurnedWorld, as_a_whole_looks_the_same) {
     EXPECT_GT(mean_difference(before, render(light).picture), 0.05);
 }
 
-TEST(TurnedWorld, environment_is_seen_where_it_was_turned_to) {
+TEST(TurnedWorld, EnvironmentIsSeenWhereItWasTurnedTo) {
     EnvironmentMap map{128, 64, {}};
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 128; ++x) {
@@ -97,7 +97,7 @@ TEST(TurnedWorld, environment_is_seen_where_it_was_turned_to) {
     }
 }
 
-TEST(Materials, are_changed_by_what_was_asked) {
+TEST(Materials, AreChangedByWhatWasAsked) {
     for (const char* name : {"diamond", "quartz", "tourmaline_dravite", "glass_bk7", "peridot"}) {
         const Material material = catalogue_material(name);
         const Material higher = with_index_changed(material, 0.02),
@@ -117,7 +117,7 @@ TEST(Materials, are_changed_by_what_was_asked) {
                 1.3 * ruby.absorption_per_mm[0].at(500), 1e-12);
 }
 
-TEST(Materials, neighbours_are_others_and_the_nearest_first) {
+TEST(Materials, NeighboursAreOthersAndTheNearestFirst) {
     const Material diamond = catalogue_material("diamond");
     const auto neighbours = neighbouring_materials(diamond, 3);
     ASSERT_EQ(neighbours.size(), 3u);
@@ -132,7 +132,7 @@ TEST(Materials, neighbours_are_others_and_the_nearest_first) {
 }
 
 // A ray through a pixel of the cut-out is the ray through the same point of the whole picture.
-TEST(CroppedCamera, sees_along_the_same_rays) {
+TEST(CroppedCamera, SeesAlongTheSameRays) {
     Scene scene = test::cube_scene();
     for (const bool orthographic : {false, true}) {
         Camera camera = scene.camera;

@@ -35,7 +35,7 @@ JointDraws drawn_scores(int each, std::mt19937_64& random) {
 // Independent witnesses of 0.5 and 0.25 give 1 / sqrt(4 + 16) = 0.224; taken for four independent
 // ones, the first three would outweigh the better fourth: 0.5 * 12 / 28 and 0.25 * 16 / 28 make
 // 0.258.
-TEST(JointScores, copies_of_a_score_are_one_witness) {
+TEST(JointScores, CopiesOfAScoreAreOneWitness) {
     std::mt19937_64 random(7);
     const JointScores joint(drawn_scores(40, random));
     double squares = 0;
@@ -50,7 +50,7 @@ TEST(JointScores, copies_of_a_score_are_one_witness) {
     EXPECT_LT(std::sqrt(squares / k_trials), 0.224 * 1.08);
 }
 
-TEST(JointScores, scores_that_disagree_as_none_drawn_do_have_a_misfit_over_one) {
+TEST(JointScores, ScoresThatDisagreeAsNoneDrawnDoHaveAMisfitOverOne) {
     std::mt19937_64 random(8);
     const JointScores joint(drawn_scores(40, random));
     EXPECT_GT(joint.of({2, 2, 0, 2})->misfit, 1);  // copies that differ by 100 of their noises
@@ -64,7 +64,7 @@ TEST(JointScores, scores_that_disagree_as_none_drawn_do_have_a_misfit_over_one) 
     EXPECT_NEAR(largest, 1, 1e-9);
 }
 
-TEST(JointScores, a_missing_score_is_left_out_and_none_is_no_answer) {
+TEST(JointScores, AMissingScoreIsLeftOutAndNoneIsNoAnswer) {
     std::mt19937_64 random(9);
     const JointScores joint(drawn_scores(20, random));
     EXPECT_NEAR(joint.of({k_missing, 2, k_missing, 2})->log_error, -2, 0.02);
@@ -72,7 +72,7 @@ TEST(JointScores, a_missing_score_is_left_out_and_none_is_no_answer) {
     EXPECT_FALSE(JointScores().of({}));
 }
 
-TEST(JointScores, of_draws_without_complete_ones_treats_scores_as_independent) {
+TEST(JointScores, OfDrawsWithoutCompleteOnesTreatsScoresAsIndependent) {
     std::mt19937_64 random(10);
     JointDraws draws = drawn_scores(20, random);
     for (auto& level : draws.draws)

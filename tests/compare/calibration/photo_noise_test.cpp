@@ -62,7 +62,7 @@ MatchedPictures pictures_of(double electrons, int bits, int off) {
 // density p(q) = 2 * 0.3792 of |normal| there: 1.79 / sqrt(n) of itself. The filter mixes nine
 // pixels; of 40000 pixels and three colours, some tenth too dark or bright, n is some 10000 or
 // more: 1.8 %, and four of these for the noise, twice that for its square.
-TEST(PhotoNoise, is_that_of_the_electrons) {
+TEST(PhotoNoise, IsThatOfTheElectrons) {
     for (const double electrons : {400.0, 2500.0, 10000.0, 40000.0}) {
         EXPECT_NEAR(photo_electrons(pictures_of(electrons, 16, 0), k_psf_px, 16) / electrons, 1,
                     0.15)
@@ -71,7 +71,7 @@ TEST(PhotoNoise, is_that_of_the_electrons) {
 }
 
 // Facets' edges in other places are no noise.
-TEST(PhotoNoise, is_the_same_where_the_stone_is_not_quite_the_model) {
+TEST(PhotoNoise, IsTheSameWhereTheStoneIsNotQuiteTheModel) {
     for (const int off : {1, 3}) {
         EXPECT_NEAR(photo_electrons(pictures_of(10000, 16, off), k_psf_px, 16) / 10000, 1, 0.15)
             << off;
@@ -79,18 +79,18 @@ TEST(PhotoNoise, is_the_same_where_the_stone_is_not_quite_the_model) {
 }
 
 // Steps of 8 bits are one and a half times the noise of 40000 electrons.
-TEST(PhotoNoise, is_told_from_a_files_steps) {
+TEST(PhotoNoise, IsToldFromAFilesSteps) {
     for (const double electrons : {2500.0, 10000.0, 40000.0}) {
         EXPECT_NEAR(photo_electrons(pictures_of(electrons, 8, 0), k_psf_px, 8) / electrons, 1, 0.15)
             << electrons;
     }
 }
 
-TEST(PhotoNoise, of_a_picture_without_any_is_the_least_there_is) {
+TEST(PhotoNoise, OfAPictureWithoutAnyIsTheLeastThereIs) {
     EXPECT_EQ(photo_electrons(pictures_of(0, 0, 0), k_psf_px, 0), 1e6);
 }
 
-TEST(PhotoNoise, of_a_photograph_that_shows_nothing_is_the_least_there_is) {
+TEST(PhotoNoise, OfAPhotographThatShowsNothingIsTheLeastThereIs) {
     MatchedPictures dark = pictures_of(10000, 8, 0);
     dark.photo *= 1e-3;
     EXPECT_EQ(photo_electrons(dark, k_psf_px, 8), 1e6);
@@ -99,7 +99,7 @@ TEST(PhotoNoise, of_a_photograph_that_shows_nothing_is_the_least_there_is) {
     EXPECT_EQ(photo_electrons(nothing, k_psf_px, 8), 1e6);
 }
 
-TEST(PhotoNoise, and_blur_are_given_to_a_camera_in_steps) {
+TEST(PhotoNoise, AndBlurAreGivenToACameraInSteps) {
     CameraModel camera;
     camera.bits = 16;
     set_blur_and_noise(camera, pictures_of(10000, 16, 0));

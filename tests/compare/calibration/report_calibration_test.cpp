@@ -55,7 +55,7 @@ CalibratedVerdict calibrated_as_match() {
     return verdict;
 }
 
-TEST(CalibrationReport, has_sentence_curves_chance_and_hypotheses) {
+TEST(CalibrationReport, HasSentenceCurvesChanceAndHypotheses) {
     Report report;
     report.comparison = small_comparison();
     report.calibrated = calibrated_as_match();
@@ -69,14 +69,14 @@ TEST(CalibrationReport, has_sentence_curves_chance_and_hypotheses) {
     EXPECT_EQ(page.find("<script>alert"), std::string::npos);
 }
 
-TEST(CalibrationReport, says_that_a_photograph_is_for_geometry_only) {
+TEST(CalibrationReport, SaysThatAPhotographIsForGeometryOnly) {
     Report report;
     report.comparison = small_comparison();
     report.comparison->geometry_only = true;
     EXPECT_NE(report_page(report).find("cannot serve for photometry"), std::string::npos);
 }
 
-TEST(SeveralPage, links_each_photographs_page_and_escapes_names) {
+TEST(SeveralPage, LinksEachPhotographsPageAndEscapesNames) {
     PhotographRow row;
     row.name = k_hostile;
     row.page = "photograph-1.html";

@@ -66,7 +66,7 @@ Photo photograph_of(Scene scene, double facet_error_deg) {
 // Facets known to half a degree: a photograph of a stone that is drawn so is within two sigma of
 // them nearly everywhere, and one of facets two degrees off is not. Shares of one stone scatter
 // (facets are few): 95 and 68 in 100 are those of many.
-TEST(SceneComparison, tells_what_the_readings_leave_open) {
+TEST(SceneComparison, TellsWhatTheReadingsLeaveOpen) {
     const Scene scene = small_scene();
     SceneCompareOptions options = quick();
     options.calibrate = false;
@@ -81,7 +81,7 @@ TEST(SceneComparison, tells_what_the_readings_leave_open) {
     EXPECT_LT(far.comparison.within->within_two, near.comparison.within->within_two - 0.1);
 }
 
-TEST(SceneComparison, of_the_right_stone_is_nearer_than_of_a_wrong_one) {
+TEST(SceneComparison, OfTheRightStoneIsNearerThanOfAWrongOne) {
     const Scene scene = small_scene();
     const SceneComparison right = compare_with_scene(photograph_of(scene, 0), scene, quick());
     const SceneComparison wrong = compare_with_scene(photograph_of(scene, 1.5), scene, quick());
@@ -98,7 +98,7 @@ TEST(SceneComparison, of_the_right_stone_is_nearer_than_of_a_wrong_one) {
 }
 
 // Of a key there is one number: in the table of scores, on its curve and in the verdict.
-TEST(SceneComparison, has_one_value_for_each_score) {
+TEST(SceneComparison, HasOneValueForEachScore) {
     const Scene scene = small_scene();
     const SceneComparison compared = compare_with_scene(photograph_of(scene, 0.2), scene, quick());
     ASSERT_TRUE(compared.calibrated);
@@ -115,7 +115,7 @@ TEST(SceneComparison, has_one_value_for_each_score) {
 }
 
 // A hand-made mesh: its corners are only roughly in their planes. Said, not left out in silence.
-TEST(SceneComparison, of_a_stone_that_is_not_convex_says_that_no_pose_was_sought) {
+TEST(SceneComparison, OfAStoneThatIsNotConvexSaysThatNoPoseWasSought) {
     Scene scene = small_scene();
     const Photo photo = photograph_of(scene, 0);
     for (std::size_t v = 0; v < scene.stone.solid.vertices.size(); v += 3)
@@ -129,7 +129,7 @@ TEST(SceneComparison, of_a_stone_that_is_not_convex_says_that_no_pose_was_sought
     EXPECT_NE(found.comparison.notes.back().find("not convex"), std::string::npos);
 }
 
-TEST(SceneComparison, is_the_same_whatever_the_threads) {
+TEST(SceneComparison, IsTheSameWhateverTheThreads) {
     const Scene scene = small_scene();
     const Photo photo = photograph_of(scene, 0.2);
     SceneCompareOptions options = quick();
@@ -141,7 +141,7 @@ TEST(SceneComparison, is_the_same_whatever_the_threads) {
               scores_json(two.comparison, {}, two.calibrated));
 }
 
-TEST(SceneComparison, keeps_its_calibration_for_the_next_photograph) {
+TEST(SceneComparison, KeepsItsCalibrationForTheNextPhotograph) {
     const fs::path cache = fs::path(testing::TempDir()) / "culet-calibrations";
     fs::remove_all(cache);
     const Scene scene = small_scene();
@@ -167,7 +167,7 @@ TEST(SceneComparison, keeps_its_calibration_for_the_next_photograph) {
     fs::remove_all(cache);
 }
 
-TEST(SceneComparison, a_budget_ends_it_and_says_so) {
+TEST(SceneComparison, ABudgetEndsItAndSaysSo) {
     const Scene scene = small_scene();
     SceneCompareOptions options = quick();
     options.draws = 40;
@@ -178,7 +178,7 @@ TEST(SceneComparison, a_budget_ends_it_and_says_so) {
     EXPECT_NE(ended.calibrated->calibration.notes.back().find("budget"), std::string::npos);
 }
 
-TEST(SceneComparison, of_a_camera_that_does_not_see_the_stone_is_the_users_mistake) {
+TEST(SceneComparison, OfACameraThatDoesNotSeeTheStoneIsTheUsersMistake) {
     Scene scene = small_scene();
     const Photo photo = photograph_of(scene, 0);
     scene.camera.orthographic_width.reset();
@@ -186,14 +186,14 @@ TEST(SceneComparison, of_a_camera_that_does_not_see_the_stone_is_the_users_mista
     EXPECT_THROW(compare_with_scene(photo, scene, quick()), InputError);
 }
 
-TEST(SceneComparison, stops_when_asked) {
+TEST(SceneComparison, StopsWhenAsked) {
     const Scene scene = small_scene();
     const Photo photo = photograph_of(scene, 0);
     EXPECT_THROW(compare_with_scene(photo, scene, quick(), [](double f) { return f < 0.5; }),
                  Interrupted);
 }
 
-TEST(Calibrate, under_the_same_light_from_everywhere_has_no_wrong_light) {
+TEST(Calibrate, UnderTheSameLightFromEverywhereHasNoWrongLight) {
     Scene scene = small_scene();
     scene.lights = {};
     scene.lights.constant = 1;
@@ -211,7 +211,7 @@ TEST(Calibrate, under_the_same_light_from_everywhere_has_no_wrong_light) {
     EXPECT_FALSE(calibration.notes.empty());
 }
 
-TEST(Calibrate, for_several_cameras_is_that_for_each) {
+TEST(Calibrate, ForSeveralCamerasIsThatForEach) {
     Scene scene = small_scene();
     scene.camera = cropped_to_stone(scene.camera, scene.stone.solid, 60, 0.2);
     const DraftRenderer renderer(scene, 0.05);
@@ -260,7 +260,7 @@ struct ChangePart {
 
 // Of every type in the list, so that a new one is held to it, too: a part that it does not name in
 // `each_part` would let a calibration of another light pass for its own.
-TEST(Fingerprint, tells_lights_apart_by_every_part_of_every_type) {
+TEST(Fingerprint, TellsLightsApartByEveryPartOfEveryType) {
     const auto print = [](const Light& light) {
         Scene scene = small_scene();
         scene.lights.sources = {light};
@@ -288,7 +288,7 @@ TEST(Fingerprint, tells_lights_apart_by_every_part_of_every_type) {
     });
 }
 
-TEST(Fingerprint, tells_scenes_apart_by_each_of_their_parts) {
+TEST(Fingerprint, TellsScenesApartByEachOfTheirParts) {
     const auto print = [](const Scene& scene) {
         Fingerprint fingerprint;
         fingerprint.add(scene);

@@ -55,14 +55,14 @@ std::vector<Score> scores_of(const std::vector<std::optional<double>>& values) {
 }
 
 // Barlow et al. (1972), by hand: 3 and 2 pool to 2.5, then 6, 5 and 4 to 5.
-TEST(Monotone, pools_what_runs_the_wrong_way) {
+TEST(Monotone, PoolsWhatRunsTheWrongWay) {
     EXPECT_EQ(monotone({1, 3, 2, 6, 5, 4, 9}), (std::vector<double>{1, 2.5, 2.5, 5, 5, 5, 9}));
     EXPECT_EQ(monotone({3, 2, 1}), (std::vector<double>{2, 2, 2}));
     EXPECT_TRUE(monotone({}).empty());
 }
 
 // The scores scatter by 10 % of the error; curves of 8 draws are off by 4 % more.
-TEST(FacetErrorScale, finds_the_error_that_made_the_scores) {
+TEST(FacetErrorScale, FindsTheErrorThatMadeTheScores) {
     const Calibration calibration = synthetic_calibration();
     const FacetErrorScale scale(calibration, calibration.keys);
     ASSERT_TRUE(scale.usable());
@@ -81,7 +81,7 @@ TEST(FacetErrorScale, finds_the_error_that_made_the_scores) {
     EXPECT_GE(inside, 48) << "of " << all;
 }
 
-TEST(FacetErrorScale, says_when_it_is_at_its_ends) {
+TEST(FacetErrorScale, SaysWhenItIsAtItsEnds) {
     const Calibration calibration = synthetic_calibration();
     const FacetErrorScale scale(calibration, calibration.keys);
     const EquivalentError perfect = scale.of({1.0, 60.0, 0.99}),
@@ -94,7 +94,7 @@ TEST(FacetErrorScale, says_when_it_is_at_its_ends) {
     EXPECT_FALSE(scale.of({std::nullopt, std::nullopt, std::nullopt}).deg.has_value());
 }
 
-TEST(FacetErrorScale, trusts_the_score_that_scatters_less) {
+TEST(FacetErrorScale, TrustsTheScoreThatScattersLess) {
     const Calibration calibration = synthetic_calibration();
     const FacetErrorScale scale(calibration, calibration.keys);
     Chance chance(13);
@@ -109,7 +109,7 @@ TEST(FacetErrorScale, trusts_the_score_that_scatters_less) {
     EXPECT_GT(psnr, 4 * cw_ssim);
 }
 
-TEST(FacetErrorScale, of_too_few_levels_is_not_usable) {
+TEST(FacetErrorScale, OfTooFewLevelsIsNotUsable) {
     Calibration calibration = synthetic_calibration();
     std::erase_if(calibration.draws,
                   [](const CalibrationDraw& d) { return d.facet_error_deg > 0.03; });
@@ -118,7 +118,7 @@ TEST(FacetErrorScale, of_too_few_levels_is_not_usable) {
     EXPECT_FALSE(scale.of({0.9, 30.0, 0.9}).deg.has_value());
 }
 
-TEST(CalibratedVerdict, of_a_right_stone_is_a_match_and_its_sentence_says_so) {
+TEST(CalibratedVerdict, OfARightStoneIsAMatchAndItsSentenceSaysSo) {
     Chance chance(14);
     const CalibratedVerdict verdict =
         calibrated_verdict(scores_of(scores_near(0.2, chance)), synthetic_calibration());
@@ -131,14 +131,14 @@ TEST(CalibratedVerdict, of_a_right_stone_is_a_match_and_its_sentence_says_so) {
     EXPECT_LE(verdict.nulls[0].z, verdict.nulls[1].z);
 }
 
-TEST(CalibratedVerdict, of_chance_is_no_evidence) {
+TEST(CalibratedVerdict, OfChanceIsNoEvidence) {
     const CalibratedVerdict verdict =
         calibrated_verdict(scores_of({0.25, 14.5, 0.4}), synthetic_calibration());
     EXPECT_EQ(verdict.verdict, Verdict::no_evidence);
     EXPECT_GT(verdict.nulls[0].as_good, 0);
 }
 
-TEST(CalibratedVerdict, grows_less_with_the_error) {
+TEST(CalibratedVerdict, GrowsLessWithTheError) {
     const Calibration calibration = synthetic_calibration();
     double before = 1e9;
     for (const double deg : {0.03, 0.1, 0.3, 0.9}) {
@@ -150,7 +150,7 @@ TEST(CalibratedVerdict, grows_less_with_the_error) {
     }
 }
 
-TEST(CalibratedVerdict, without_draws_is_no_evidence) {
+TEST(CalibratedVerdict, WithoutDrawsIsNoEvidence) {
     Calibration empty;
     empty.keys = {"zncc"};
     const CalibratedVerdict verdict = calibrated_verdict(scores_of({0.9, 30.0, 0.9}), empty);
@@ -158,7 +158,7 @@ TEST(CalibratedVerdict, without_draws_is_no_evidence) {
     EXPECT_FALSE(verdict.equivalent.deg.has_value());
 }
 
-TEST(CalibrationJson, comes_back_as_it_was) {
+TEST(CalibrationJson, ComesBackAsItWas) {
     Calibration calibration = synthetic_calibration(2);
     calibration.hash = "abc";
     calibration.notes = {"a note"};
@@ -169,7 +169,7 @@ TEST(CalibrationJson, comes_back_as_it_was) {
     EXPECT_EQ(back->draws[3].scores[1], std::nullopt);
 }
 
-TEST(CalibrationJson, of_rubbish_is_nothing) {
+TEST(CalibrationJson, OfRubbishIsNothing) {
     const std::string good = calibration_json(synthetic_calibration(1));
     for (const std::string& text :
          {std::string(), std::string("[]"), std::string("{\"schema\":1}"), good.substr(0, 200),
@@ -195,7 +195,7 @@ PhotographRow row_with(double deg, Verdict verdict) {
 }
 
 // Equal weights: the geometric mean. 0.1, 0.1 and 0.8: together 0.2; without the last, 0.1.
-TEST(SeveralPhotographs, are_averaged_and_left_out_one_by_one) {
+TEST(SeveralPhotographs, AreAveragedAndLeftOutOneByOne) {
     const std::vector<PhotographRow> rows{row_with(0.1, Verdict::match),
                                           row_with(0.1, Verdict::match),
                                           row_with(0.8, Verdict::partial)};
@@ -209,7 +209,7 @@ TEST(SeveralPhotographs, are_averaged_and_left_out_one_by_one) {
     EXPECT_GT(several.together.high_deg / *several.together.deg, 1.2);
 }
 
-TEST(SeveralPhotographs, of_which_none_could_be_compared_are_refused) {
+TEST(SeveralPhotographs, OfWhichNoneCouldBeComparedAreRefused) {
     PhotographRow refused;
     refused.comparison.verdict = Verdict::refused;
     const SeveralPhotographs several = together({refused, refused});

@@ -23,7 +23,7 @@ Photo grey(float value) {
 
 // Shot noise of a level of 0.4 x 10000 electrons, and 6 of read noise: sqrt(4000 + 36) / 10000. The
 // variance of 12288 samples is known to sqrt(2 / 12288) = 1.3 %; five of them.
-TEST(SimulatedCamera, has_the_noise_of_its_electrons) {
+TEST(SimulatedCamera, HasTheNoiseOfItsElectrons) {
     CameraModel camera;
     camera.bits = 0;
     camera.clips = false;
@@ -41,7 +41,7 @@ TEST(SimulatedCamera, has_the_noise_of_its_electrons) {
     EXPECT_NEAR(variance / (4036.0 / 1e8), 1, 0.065);
 }
 
-TEST(SimulatedCamera, writes_whole_steps_and_clips) {
+TEST(SimulatedCamera, WritesWholeStepsAndClips) {
     CameraModel camera;
     camera.gain = {1, 3, 1};
     const Photo photo = photographed(grey(0.5f), camera, 2);
@@ -53,7 +53,7 @@ TEST(SimulatedCamera, writes_whole_steps_and_clips) {
     }
 }
 
-TEST(SimulatedCamera, is_repeatable_and_keeps_the_coverage_where_asked) {
+TEST(SimulatedCamera, IsRepeatableAndKeepsTheCoverageWhereAsked) {
     CameraModel camera;
     const Photo a = photographed(grey(0.3f), camera, 3), b = photographed(grey(0.3f), camera, 3),
                 c = photographed(grey(0.3f), camera, 4);
@@ -64,7 +64,7 @@ TEST(SimulatedCamera, is_repeatable_and_keeps_the_coverage_where_asked) {
     EXPECT_EQ(photographed(grey(0.3f), camera, 3).coverage.size(), 64u * 64u);
 }
 
-TEST(SimulatedCamera, meters_another_light_like_the_model) {
+TEST(SimulatedCamera, MetersAnotherLightLikeTheModel) {
     const Photo dim = grey(0.1f), model = grey(0.4f);
     EXPECT_NEAR(exposure_like(dim, model), 4, 1e-5);
     EXPECT_EQ(exposure_like(grey(0), model), 1);
@@ -72,7 +72,7 @@ TEST(SimulatedCamera, meters_another_light_like_the_model) {
 
 // Two pictures of cells, the one photographed with a known blur. The cells of the second are moved
 // a little, as those of a stone with facet errors: detail is not moved away.
-TEST(PhotoBlur, is_found_whether_or_not_the_cells_are_in_their_places) {
+TEST(PhotoBlur, IsFoundWhetherOrNotTheCellsAreInTheirPlaces) {
     for (const double shift : {0.0, 0.03}) {
         for (const double sigma : {0.8, 1.5, 2.5}) {
             synthetic::StonePicture drawn;
@@ -99,7 +99,7 @@ TEST(PhotoBlur, is_found_whether_or_not_the_cells_are_in_their_places) {
 
 // A Gaussian of 1.5 pixels spreads one lit pixel of 64 x 64 to a second moment of 1.5^2 a
 // direction; its tails are cut at some four deviations.
-TEST(Softened, spreads_light_by_the_point_spread_and_keeps_it_and_the_coverage) {
+TEST(Softened, SpreadsLightByThePointSpreadAndKeepsItAndTheCoverage) {
     Photo point = grey(0);
     for (std::size_t c = 0; c < 3; ++c) point.rgb[3 * (32 * 64 + 32) + c] = 1;
     const Photo soft = softened(point, 1.5);
@@ -117,7 +117,7 @@ TEST(Softened, spreads_light_by_the_point_spread_and_keeps_it_and_the_coverage) 
     EXPECT_EQ(softened(point, 0).rgb, point.rgb);
 }
 
-TEST(PhotoBlur, of_a_sharper_photo_or_of_a_few_pixels_is_none) {
+TEST(PhotoBlur, OfASharperPhotoOrOfAFewPixelsIsNone) {
     MatchedPictures pictures;
     pictures.photo = cv::Mat(64, 64, CV_32FC3, cv::Scalar(0.5, 0.5, 0.5));
     cv::randu(pictures.photo, 0.0, 1.0);

@@ -43,7 +43,7 @@ void add(Column& to, const Column& column, double times) {
     for (std::size_t i = 0; i < to.size(); ++i) to[i] += times * column[i];
 }
 
-TEST(TiltVariance, of_one_cause_is_its_size) {
+TEST(TiltVariance, OfOneCauseIsItsSize) {
     const TiltVariance variance({{{1, 2, -2}}, {}, {1, 1, 1}});
     EXPECT_NEAR(*variance.rms({0.3, 0.6, -0.6}), 0.3, k_rounding);
     EXPECT_NEAR(*variance.rms({-0.3, -0.6, 0.6}), 0.3, k_rounding);
@@ -52,7 +52,7 @@ TEST(TiltVariance, of_one_cause_is_its_size) {
 }
 
 // Directions of one strength count alike.
-TEST(TiltVariance, of_causes_that_do_not_overlap_is_their_root_mean_square) {
+TEST(TiltVariance, OfCausesThatDoNotOverlapIsTheirRootMeanSquare) {
     const TiltVariance variance({{{2, 0, 0, 0}, {0, 2, 0, 0}, {0, 0, 2, 0}}, {}, {1, 1, 1, 1}});
     EXPECT_NEAR(*variance.rms({2 * 0.1, -2 * 0.2, 2 * 0.2, 7}), std::sqrt(0.09 / 3), k_rounding);
 }
@@ -60,7 +60,7 @@ TEST(TiltVariance, of_causes_that_do_not_overlap_is_their_root_mean_square) {
 // In every direction the mean square of y / s is the causes' variance, whatever the weights. The
 // mean of 2000 squares of one normal number is known to sqrt(2 / 2000) = 3.2 %, of several to less:
 // four of these.
-TEST(TiltVariance, is_right_in_the_mean_for_causes_of_any_strength) {
+TEST(TiltVariance, IsRightInTheMeanForCausesOfAnyStrength) {
     for (unsigned seed = 1; seed <= 5; ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
         RandomModel random(seed);
@@ -86,7 +86,7 @@ TEST(TiltVariance, is_right_in_the_mean_for_causes_of_any_strength) {
 // As well as so many causes of equal strength can tell: 40 normal numbers' root mean square
 // scatters by 1 / sqrt(80) = 11 %, that of 500 draws is itself known to 3 %. Summed squares of the
 // picture instead, of causes of strengths 1 to 1/30, hang on a fourth of them.
-TEST(TiltVariance, scatters_little_more_than_so_many_causes_must) {
+TEST(TiltVariance, ScattersLittleMoreThanSoManyCausesMust) {
     RandomModel random(11);
     const std::size_t samples = 400;
     const TiltModel model{random.columns(40, samples), {}, Column(samples, 1.0)};
@@ -104,7 +104,7 @@ TEST(TiltVariance, scatters_little_more_than_so_many_causes_must) {
     EXPECT_LT(std::sqrt(squares - sum * sum), 1.5 / std::sqrt(80.0));
 }
 
-TEST(TiltVariance, does_not_see_nuisances) {
+TEST(TiltVariance, DoesNotSeeNuisances) {
     for (unsigned seed = 21; seed <= 25; ++seed) {
         SCOPED_TRACE(testing::Message() << "seed " << seed);
         RandomModel random(seed);
@@ -122,7 +122,7 @@ TEST(TiltVariance, does_not_see_nuisances) {
     }
 }
 
-TEST(TiltVariance, hardly_looks_where_the_noise_is) {
+TEST(TiltVariance, HardlyLooksWhereTheNoiseIs) {
     RandomModel random(31);
     TiltModel model{random.columns(8, 50), {}, Column(50, 1.0)};
     model.noise[7] = 1e6;
@@ -136,7 +136,7 @@ TEST(TiltVariance, hardly_looks_where_the_noise_is) {
     EXPECT_NEAR(*TiltVariance(model).rms(difference), before, 10 * k_rounding * before);
 }
 
-TEST(TiltVariance, of_noise_alone_is_small) {
+TEST(TiltVariance, OfNoiseAloneIsSmall) {
     RandomModel random(41);
     const TiltVariance variance({random.columns(20, 300), {}, Column(300, 1.0)});
     // Strengths of 1 to 1/30 of 300 samples: noise of 0.001 looks like 0.001 / sqrt(300) to 30
@@ -144,7 +144,7 @@ TEST(TiltVariance, of_noise_alone_is_small) {
     EXPECT_LT(*variance.rms(random.column(300, 1e-3)), 30 * 1e-3 / std::sqrt(300.0));
 }
 
-TEST(TiltVariance, of_causes_that_change_nothing_of_their_own_is_not_usable) {
+TEST(TiltVariance, OfCausesThatChangeNothingOfTheirOwnIsNotUsable) {
     EXPECT_FALSE(TiltVariance({{}, {}, {1, 1}}).usable());
     EXPECT_FALSE(TiltVariance({{}, {}, {}}).usable());
     const TiltVariance nothing({{{0, 0}, {0, 0}}, {}, {1, 1}});
@@ -156,7 +156,7 @@ TEST(TiltVariance, of_causes_that_change_nothing_of_their_own_is_not_usable) {
     EXPECT_NEAR(*one.rms({1, 5}), 1.0 / 3, k_rounding);
 }
 
-TEST(TiltVariance, of_columns_of_other_sizes_is_our_mistake) {
+TEST(TiltVariance, OfColumnsOfOtherSizesIsOurMistake) {
     EXPECT_THROW(TiltVariance({{{1, 2}}, {}, {1, 1, 1}}), InternalError);
     EXPECT_THROW(TiltVariance({{{1, 2}}, {{1}}, {1, 1}}), InternalError);
     EXPECT_THROW(TiltVariance({{{1, 2}}, {}, {1, 1}}).rms({1}), InternalError);

@@ -26,14 +26,14 @@ Pair pair_of(double level, double half_width) {
     return pair;
 }
 
-TEST(WithinReadings, a_render_without_bands_says_nothing) {
+TEST(WithinReadings, ARenderWithoutBandsSaysNothing) {
     Pair pair = pair_of(1, 0.1);
     pair.render.bands.clear();
     EXPECT_FALSE(compare_with_bands(pair.photo, pair.render).within.has_value());
 }
 
 // The photograph is the render at another exposure: the gain brings them together.
-TEST(WithinReadings, the_render_itself_is_within) {
+TEST(WithinReadings, TheRenderItselfIsWithin) {
     Pair pair = pair_of(1, 0.1);
     for (float& value : pair.photo.rgb) value *= 0.4f;
     const Comparison found = compare_with_bands(pair.photo, pair.render);
@@ -43,7 +43,7 @@ TEST(WithinReadings, the_render_itself_is_within) {
 }
 
 // Bands 1.5 sigma off hold the picture within two only; 4 sigma off, in neither.
-TEST(WithinReadings, bands_elsewhere_do_not_hold_it) {
+TEST(WithinReadings, BandsElsewhereDoNotHoldIt) {
     const Pair near = pair_of(1 / (1 - 1.5 * 0.1), 0.1), far = pair_of(1 / (1 - 4 * 0.1), 0.1);
     const auto found = compare_with_bands(near.photo, near.render).within;
     ASSERT_TRUE(found.has_value());
@@ -55,7 +55,7 @@ TEST(WithinReadings, bands_elsewhere_do_not_hold_it) {
 // Photographs whose pixels are off by their bands' own sigma, independently: 68.3 and 95.4 in 100.
 // Some 20000 pixels tell shares to 0.3; the camera's noise is found as too much, since what is off
 // looks like noise, which widens the bands to root two at most: 84.3 and 99.5.
-TEST(WithinReadings, counts_what_is_off_by_sigma) {
+TEST(WithinReadings, CountsWhatIsOffBySigma) {
     Pair pair = pair_of(1, 0.05);
     Chance chance(3);
     for (std::size_t p = 0; p < pair.photo.rgb.size() / 3; ++p) {

@@ -52,7 +52,7 @@ struct Case {
 
 class Balls : public testing::TestWithParam<Case> {};
 
-TEST_P(Balls, are_found_within_half_a_percent_of_their_radius) {
+TEST_P(Balls, AreFoundWithinHalfAPercentOfTheirRadius) {
     const Case& c = GetParam();
     simulated::BallShot shot;
     shot.width = 420;
@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(Traced, Balls,
 // of a room of even detail the light changes as many times more. Over the ring from 0.93 to 0.99
 // that is 7 to 50; pixels and the lens take most of it. Of a flat picture of the same room there is
 // none.
-TEST(BallFinder, a_mirror_presses_the_room_together_at_its_rim) {
+TEST(BallFinder, AMirrorPressesTheRoomTogetherAtItsRim) {
     simulated::BallShot shot;
     shot.width = 420;
     shot.height = 320;
@@ -124,7 +124,7 @@ TEST(BallFinder, a_mirror_presses_the_room_together_at_its_rim) {
 }
 
 // Two balls in one picture: nothing says which is meant.
-TEST(BallFinder, another_ball_is_a_rival) {
+TEST(BallFinder, AnotherBallIsARival) {
     simulated::BallShot shot;
     shot.width = 300;
     shot.height = 280;
@@ -148,7 +148,7 @@ TEST(BallFinder, another_ball_is_a_rival) {
     EXPECT_NEAR(std::abs(found[0].rival->x - found[0].circle.x), 300, 3);
 }
 
-TEST(BallFinder, a_click_is_enough) {
+TEST(BallFinder, AClickIsEnough) {
     simulated::BallShot shot;
     shot.width = 420;
     shot.height = 320;
@@ -164,7 +164,7 @@ TEST(BallFinder, a_click_is_enough) {
     EXPECT_NEAR(ball->circle.radius, taken.radius, 0.5);
 }
 
-TEST(BallFinder, there_is_no_ball_in_an_empty_picture_or_a_small_one) {
+TEST(BallFinder, ThereIsNoBallInAnEmptyPictureOrASmallOne) {
     Photo photo;
     photo.width = 200;
     photo.height = 150;

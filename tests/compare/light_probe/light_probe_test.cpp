@@ -59,7 +59,7 @@ ProbeOptions chrome() {
 
 // Nothing given but the photographs: balls, distance, turn are found. A photographer stands behind
 // the camera in both.
-TEST(LightProbe, two_views_give_the_panorama_back) {
+TEST(LightProbe, TwoViewsGiveThePanoramaBack) {
     const auto panorama = simulated::room(5);
     std::vector<ProbeView> views;
     for (int v = 0; v < 2; ++v) {
@@ -86,7 +86,7 @@ TEST(LightProbe, two_views_give_the_panorama_back) {
 
 // Blender's panoramas are of real places, with lamps and a sun; made smaller, so that the ball
 // shows every texel. Of more of them: docs/capture.md.
-TEST(LightProbe, two_views_of_a_large_ball_give_a_real_place_back) {
+TEST(LightProbe, TwoViewsOfALargeBallGiveARealPlaceBack) {
     const std::filesystem::path folder = "/usr/share/blender/datafiles/studiolights/world";
     if (!std::filesystem::exists(folder / "sunset.exr"))
         GTEST_SKIP() << "needs the panoramas of Debian's blender-data";
@@ -106,7 +106,7 @@ TEST(LightProbe, two_views_of_a_large_ball_give_a_real_place_back) {
     }
 }
 
-TEST(LightProbe, any_turn_is_found) {
+TEST(LightProbe, AnyTurnIsFound) {
     const auto panorama = simulated::room(11);
     struct Turn {
         double azimuth, elevation;
@@ -131,7 +131,7 @@ TEST(LightProbe, any_turn_is_found) {
 // Random rooms, noise, balls found, and one in three given some two pixels wrong: the turn is as
 // sure as it is said to be. Of 18 normal errors (three axes, six rooms) the squares over their
 // variances sum to 7.0 to 42.3 with a chance of 99 and of 99.9 % (chi squared of 18).
-TEST(LightProbe, the_turn_is_as_sure_as_it_says) {
+TEST(LightProbe, TheTurnIsAsSureAsItSays) {
     double squares = 0;
     int beyond = 0;
     std::mt19937_64 random(77);
@@ -178,7 +178,7 @@ TEST(LightProbe, the_turn_is_as_sure_as_it_says) {
 // All round the ball, in no order: the second camera stands opposite the first, where the two share
 // little, and is placed by one between them. Expectation: where the cameras stood; each link of the
 // chain may be off as one turn between two views (two_views_give_the_panorama_back).
-TEST(LightProbe, views_are_placed_by_their_neighbours) {
+TEST(LightProbe, ViewsArePlacedByTheirNeighbours) {
     const auto panorama = simulated::room(17);
     const std::array azimuths{0.0, 3.1, 1.6};
     std::vector<ProbeView> views;
@@ -201,7 +201,7 @@ TEST(LightProbe, views_are_placed_by_their_neighbours) {
     EXPECT_LT(probe.middle_disagreement, 0.1);
 }
 
-TEST(LightProbe, unequal_exposures_are_brought_together) {
+TEST(LightProbe, UnequalExposuresAreBroughtTogether) {
     const auto panorama = simulated::room(12);
     std::vector<ProbeView> views{view_of(shot_at(0, 0, 80), panorama, "a"),
                                  view_of(shot_at(1.6, 0, 80), panorama, "b")};
@@ -215,7 +215,7 @@ TEST(LightProbe, unequal_exposures_are_brought_together) {
     EXPECT_NEAR(agreement_of(probe.light.map, panorama).energy_ratio, 1, 0.005);
 }
 
-TEST(LightProbe, one_view_says_what_it_lacks) {
+TEST(LightProbe, OneViewSaysWhatItLacks) {
     const auto panorama = simulated::room(13);
     ProbeOptions options = chrome();
     options.distance = 25;
@@ -235,7 +235,7 @@ TEST(LightProbe, one_view_says_what_it_lacks) {
 }
 
 // The first camera looks along --towards; straight down, the picture's top is the azimuth.
-TEST(LightProbe, the_frame_is_the_stones) {
+TEST(LightProbe, TheFrameIsTheStones) {
     const Vec3 lamp = glm::normalize(Vec3(-0.4, 0.8, 0.3));
     const auto panorama = [lamp](const Vec3& d) {
         const double bright = glm::dot(d, lamp) > 0.98 ? 4.0 : 0.1 + 0.05 * d.z;
@@ -258,7 +258,7 @@ TEST(LightProbe, the_frame_is_the_stones) {
 }
 
 // Light without structure fits any way round: that must be said, not guessed.
-TEST(LightProbe, light_without_structure_is_doubted) {
+TEST(LightProbe, LightWithoutStructureIsDoubted) {
     const auto panorama = [](const Vec3&) { return Rgb{0.5, 0.5, 0.5}; };
     std::vector<ProbeView> views{view_of(shot_at(0, 0, 60), panorama, "a", true),
                                  view_of(shot_at(1.6, 0, 60), panorama, "b", true)};
@@ -270,7 +270,7 @@ TEST(LightProbe, light_without_structure_is_doubted) {
     EXPECT_TRUE(light_probe(views, options).usable());
 }
 
-TEST(LightProbe, two_different_rooms_are_doubted) {
+TEST(LightProbe, TwoDifferentRoomsAreDoubted) {
     std::vector<ProbeView> views{view_of(shot_at(0, 0, 60), simulated::room(21), "a", true),
                                  view_of(shot_at(1.6, 0, 60), simulated::room(22), "b", true)};
     ProbeOptions options = chrome();
@@ -280,7 +280,7 @@ TEST(LightProbe, two_different_rooms_are_doubted) {
     EXPECT_FALSE(light_probe(views, options).usable());
 }
 
-TEST(LightProbe, bad_input_is_refused_with_a_way_out) {
+TEST(LightProbe, BadInputIsRefusedWithAWayOut) {
     const auto refusal = [](const std::vector<ProbeView>& views) -> std::string {
         try {
             light_probe(views, ProbeOptions{});
@@ -312,7 +312,7 @@ TEST(LightProbe, bad_input_is_refused_with_a_way_out) {
     EXPECT_FALSE(refusal({}).empty());
 }
 
-TEST(LightProbe, json_and_picture_say_what_was_found) {
+TEST(LightProbe, JsonAndPictureSayWhatWasFound) {
     ProbeOptions options = chrome();
     options.distance = 25;
     options.width = 64;

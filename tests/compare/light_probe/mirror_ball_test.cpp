@@ -19,7 +19,7 @@ namespace {
 constexpr double k_inf = std::numeric_limits<double>::infinity();
 
 // Normal n = (x, y, sqrt(1 - x^2 - y^2)), direction 2 n_z n - z.
-TEST(MirrorBall, a_distant_camera_sees_the_textbooks_formula) {
+TEST(MirrorBall, ADistantCameraSeesTheTextbooksFormula) {
     const MirrorBall ball = MirrorBall::at_distance({200, 150, 100}, {199.5, 149.5}, k_inf);
     for (double x = -0.95; x < 1; x += 0.19) {
         for (double y = -0.95; y < 1; y += 0.19) {
@@ -33,7 +33,7 @@ TEST(MirrorBall, a_distant_camera_sees_the_textbooks_formula) {
     EXPECT_FALSE(ball.direction_of({301, 150}));
 }
 
-TEST(MirrorBall, pixels_and_directions_are_inverse_at_any_distance) {
+TEST(MirrorBall, PixelsAndDirectionsAreInverseAtAnyDistance) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> uniform(-1, 1);
     for (const double distance : {1.5, 3.0, 10.0, 60.0, 1e4, k_inf}) {
@@ -56,7 +56,7 @@ TEST(MirrorBall, pixels_and_directions_are_inverse_at_any_distance) {
 
 // The outline of a ball beside the picture's middle is an ellipse: circle and distance must still
 // give the ball back.
-TEST(MirrorBall, a_ball_beside_the_middle_is_the_traced_one) {
+TEST(MirrorBall, ABallBesideTheMiddleIsTheTracedOne) {
     simulated::BallShot shot;
     shot.width = 400;
     shot.height = 300;
@@ -86,7 +86,7 @@ TEST(MirrorBall, a_ball_beside_the_middle_is_the_traced_one) {
     EXPECT_LT(worst, 0.02);
 }
 
-TEST(MirrorBall, focal_length_and_distance_say_the_same) {
+TEST(MirrorBall, FocalLengthAndDistanceSayTheSame) {
     const BallCircle circle{250, 160, 80};
     const PixelPlace principal{199.5, 149.5};
     const MirrorBall a = MirrorBall::at_distance(circle, principal, 15);
@@ -95,7 +95,7 @@ TEST(MirrorBall, focal_length_and_distance_say_the_same) {
     EXPECT_NEAR(glm::length(a.towards_camera() - b.towards_camera()), 0, 1e-9);
 }
 
-TEST(MirrorBall, a_pixel_in_the_middle_shows_the_stated_solid_angle) {
+TEST(MirrorBall, APixelInTheMiddleShowsTheStatedSolidAngle) {
     const MirrorBall ball = MirrorBall::at_distance({200, 150, 100}, {200, 150}, 10);
     const Vec3 a = *ball.direction_of({200, 150}), b = *ball.direction_of({200.1, 150});
     const double angle = glm::length(a - b) / 0.1;

@@ -130,7 +130,7 @@ NearLightRequest at(const PixelPlace& place) {
     return request;
 }
 
-TEST(MirrorBallOfNearThings, a_points_pixel_reflects_a_line_through_the_point) {
+TEST(MirrorBallOfNearThings, APointsPixelReflectsALineThroughThePoint) {
     const MirrorBall ball = MirrorBall::at_distance({300, 200, 150}, {320, 240}, 20);
     for (const Vec3& point : {Vec3(3, 1, 2), Vec3(-1.5, 0.4, 0.2), Vec3(0.1, 12, -4)}) {
         const auto place = ball.place_of_point(point, 1);
@@ -170,7 +170,7 @@ std::vector<SeenOutline> exact_outlines(const Window& window, const std::vector<
     return outlines;
 }
 
-TEST(WindowFit, exact_lines_give_the_window_back) {
+TEST(WindowFit, ExactLinesGiveTheWindowBack) {
     for (const double tilt : {0.0, 0.5, -0.9}) {
         const Window truth = window_at(2.2, 0.3, 9, 2.5, 1.2, tilt);
         const auto fit = fit_window(exact_outlines(truth, {{0, 0, 0}, {0, 4, 0}}), std::nullopt);
@@ -184,7 +184,7 @@ TEST(WindowFit, exact_lines_give_the_window_back) {
     }
 }
 
-TEST(WindowFit, a_square_has_a_turn_too) {
+TEST(WindowFit, ASquareHasATurnToo) {
     const Window truth = window_at(-1.0, 0.1, 7, 1.5, 1.5, 0.3);
     const auto fit = fit_window(exact_outlines(truth, {{0, 0, 0}, {3, 0, 1}}), std::nullopt);
     ASSERT_TRUE(fit);
@@ -192,7 +192,7 @@ TEST(WindowFit, a_square_has_a_turn_too) {
     EXPECT_NEAR(glm::length(fit->window.u), 1.5, 1e-5);
 }
 
-TEST(WindowFit, infinitely_far_is_a_nearness_of_nothing) {
+TEST(WindowFit, InfinitelyFarIsANearnessOfNothing) {
     const Window truth = window_at(2.2, 0.3, 1e7, 2.5e6, 1.2e6);
     const auto fit = fit_window(exact_outlines(truth, {{0, 0, 0}, {0, 4, 0}}), std::nullopt);
     ASSERT_TRUE(fit);
@@ -200,7 +200,7 @@ TEST(WindowFit, infinitely_far_is_a_nearness_of_nothing) {
     EXPECT_LT(fit->residual, 1e-5);
 }
 
-TEST(WindowFit, one_place_and_a_distance_give_a_window_that_faces_it) {
+TEST(WindowFit, OnePlaceAndADistanceGiveAWindowThatFacesIt) {
     const Window truth = window_at(2.2, 0, 9, 2.5, 1.2);
     const auto fit = fit_window(exact_outlines(truth, {{0, 0, 0}}), 1.0 / 9);
     ASSERT_TRUE(fit);
@@ -212,7 +212,7 @@ TEST(WindowFit, one_place_and_a_distance_give_a_window_that_faces_it) {
     EXPECT_FALSE(fit_window({few}, 1.0));
 }
 
-TEST(Reflex, what_is_no_light_is_told_apart) {
+TEST(Reflex, WhatIsNoLightIsToldApart) {
     Photo photo;
     photo.width = photo.height = 100;
     photo.rgb.assign(3 * 100 * 100, 0.1f);
@@ -245,7 +245,7 @@ TEST(Reflex, what_is_no_light_is_told_apart) {
 }
 
 // One camera; the ball where the stone stood, and four radii to the side.
-TEST(NearLight, a_moved_ball_tells_where_a_window_is) {
+TEST(NearLight, AMovedBallTellsWhereAWindowIs) {
     const double radius = 120;
     const Window truth = window_at(2.3, 0.25, 12, 2.5, 1.6, 0.3);
     BallShot here = first_shot(radius);
@@ -289,7 +289,7 @@ TEST(NearLight, a_moved_ball_tells_where_a_window_is) {
 }
 
 // Two windows that look alike: each finds its own in the second picture.
-TEST(NearLight, windows_that_look_alike_are_not_confused) {
+TEST(NearLight, WindowsThatLookAlikeAreNotConfused) {
     const double radius = 100;
     const std::vector<Window> truth{window_at(2.3, 0.3, 11, 1.2, 1.2),
                                     window_at(1.4, 0.2, 14, 1.5, 1.5)};
@@ -310,7 +310,7 @@ TEST(NearLight, windows_that_look_alike_are_not_confused) {
 }
 
 // Guy & Soler's two views: the camera goes round a quarter, in a room that holds its turn.
-TEST(NearLight, two_cameras_tell_where_a_window_is) {
+TEST(NearLight, TwoCamerasTellWhereAWindowIs) {
     const double radius = 110;
     const Window truth = window_at(-2.4, 0.25, 5, 1.4, 0.9);
     const auto panorama = simulated::room(5);
@@ -334,7 +334,7 @@ TEST(NearLight, two_cameras_tell_where_a_window_is) {
     EXPECT_NEAR(light.radiance[1], 40, 0.01);
 }
 
-TEST(NearLight, a_light_too_far_to_tell_stays_in_the_environment) {
+TEST(NearLight, ALightTooFarToTellStaysInTheEnvironment) {
     const Window truth = window_at(2.3, 0.25, 3000, 600, 400);
     BallShot here = first_shot(80);
     here.near = window_light({truth});
@@ -348,7 +348,7 @@ TEST(NearLight, a_light_too_far_to_tell_stays_in_the_environment) {
     EXPECT_GT(probe.light.map.at(glm::normalize(truth.middle))[0], 5);
 }
 
-TEST(NearLight, one_picture_needs_a_distance) {
+TEST(NearLight, OnePictureNeedsADistance) {
     const Window truth = window_at(2.3, 0, 10, 2, 1.5);  // one that faces the ball
     BallShot here = first_shot(80);
     here.near = window_light({truth});
@@ -384,7 +384,7 @@ TEST(NearLight, one_picture_needs_a_distance) {
 }
 
 // Measured with a ruler: taken as it is, its radiance and place in the map from the ball.
-TEST(NearLight, a_measured_window_is_taken_at_its_word) {
+TEST(NearLight, AMeasuredWindowIsTakenAtItsWord) {
     const Window truth = window_at(2.3, 0.25, 10, 2, 1.5);
     BallShot here = first_shot(80);
     here.near = window_light({truth});

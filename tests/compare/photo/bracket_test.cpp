@@ -87,7 +87,7 @@ Off off(const Photo& photo, double first_exposure, int from = 8, int to = k_widt
     return {sum / n, bias / n};
 }
 
-TEST(Bracket, three_exposures_are_the_scene) {
+TEST(Bracket, ThreeExposuresAreTheScene) {
     const Bracket merged =
         merge_bracket({shot({1.0 / 16}, 1), shot({1.0 / 128}, 2), shot({1.0}, 3)});
     const Off error = off(merged.photo, 1.0 / 16);
@@ -99,7 +99,7 @@ TEST(Bracket, three_exposures_are_the_scene) {
 }
 
 // The variance says how far values are off: the mean of (difference^2 / variance) is 1.
-TEST(Bracket, the_variance_is_the_noise) {
+TEST(Bracket, TheVarianceIsTheNoise) {
     const Bracket merged =
         merge_bracket({shot({1.0 / 16}, 4), shot({1.0 / 128}, 5)}, {Response::as_read, false});
     double sum = 0, n = 0;
@@ -117,7 +117,7 @@ TEST(Bracket, the_variance_is_the_noise) {
     EXPECT_NEAR(sum / n, 1, 0.15);
 }
 
-TEST(Bracket, a_knock_between_shots_is_found_and_put_right) {
+TEST(Bracket, AKnockBetweenShotsIsFoundAndPutRight) {
     Camera second{1.0 / 64, 2.6, -1.4};
     const Bracket merged = merge_bracket({shot({1.0 / 16}, 6), shot(second, 7)});
     EXPECT_NEAR(merged.shifts[1].x, 2.6, 0.15);
@@ -127,7 +127,7 @@ TEST(Bracket, a_knock_between_shots_is_found_and_put_right) {
 }
 
 // Light that only rises to one side looks alike after a shift and a gain: it tells of no shift.
-TEST(Bracket, a_wall_without_structure_moves_nothing) {
+TEST(Bracket, AWallWithoutStructureMovesNothing) {
     std::vector<BracketShot> shots;
     for (unsigned k = 0; k < 2; ++k) {
         const double exposure = std::exp2(-double(k));
@@ -145,7 +145,7 @@ TEST(Bracket, a_wall_without_structure_moves_nothing) {
         EXPECT_LT(std::hypot(shift.x, shift.y), 0.5);
 }
 
-TEST(Bracket, shots_are_read_when_they_are_needed) {
+TEST(Bracket, ShotsAreReadWhenTheyAreNeeded) {
     int read = 0;
     std::vector<BracketShot> shots;
     for (const double exposure : {1.0 / 64, 1.0, 1.0 / 8}) {
@@ -160,7 +160,7 @@ TEST(Bracket, shots_are_read_when_they_are_needed) {
     EXPECT_EQ(read, 3) << "small ones are kept";
 }
 
-TEST(Bracket, what_every_shot_over_exposes_is_marked) {
+TEST(Bracket, WhatEveryShotOverExposesIsMarked) {
     const Bracket merged = merge_bracket({shot({1.0}, 8), shot({0.25}, 9)});
     EXPECT_EQ(merged.photo.saturated[60 * k_width + 5], 0);
     EXPECT_EQ(merged.photo.saturated[60 * k_width + k_width - 2], 1);
@@ -168,7 +168,7 @@ TEST(Bracket, what_every_shot_over_exposes_is_marked) {
 }
 
 // A camera whose curve is not sRGB's: found from seven JPEGs, the ratios of light come out right.
-TEST(Bracket, an_unknown_tone_curve_is_found_from_the_series) {
+TEST(Bracket, AnUnknownToneCurveIsFoundFromTheSeries) {
     std::vector<BracketShot> shots;
     for (int k = 0; k < 7; ++k) {
         Camera camera;
@@ -208,7 +208,7 @@ TEST(Bracket, an_unknown_tone_curve_is_found_from_the_series) {
     EXPECT_LT(spread(found.photo), spread(assumed.photo) / 2);
 }
 
-TEST(Bracket, a_single_jpeg_is_for_shapes_only) {
+TEST(Bracket, ASingleJpegIsForShapesOnly) {
     Photo only = photo_by({1.0 / 64, 0, 0, true}, 30);
     only.photometric = false;
     only.not_photometric = "a JPEG";
@@ -217,7 +217,7 @@ TEST(Bracket, a_single_jpeg_is_for_shapes_only) {
     EXPECT_EQ(merged.photo.not_photometric, "a JPEG");
 }
 
-TEST(Bracket, bad_series_are_refused) {
+TEST(Bracket, BadSeriesAreRefused) {
     const auto refusal = [](const std::vector<BracketShot>& shots) -> std::string {
         try {
             merge_bracket(shots);
@@ -242,7 +242,7 @@ TEST(Bracket, bad_series_are_refused) {
         << "raw files have no response to find";
 }
 
-TEST(Exposures, are_read_as_people_write_them) {
+TEST(Exposures, AreReadAsPeopleWriteThem) {
     EXPECT_DOUBLE_EQ(parse_exposure("1/125"), 1.0 / 125);
     EXPECT_DOUBLE_EQ(parse_exposure("0.008"), 0.008);
     EXPECT_DOUBLE_EQ(parse_exposure("2 s"), 2);
@@ -252,7 +252,7 @@ TEST(Exposures, are_read_as_people_write_them) {
         EXPECT_THROW(parse_exposure(wrong), InputError) << wrong;
 }
 
-TEST(Exposures, damaged_exif_is_none) {
+TEST(Exposures, DamagedExifIsNone) {
     for (const std::string& bytes :
          {std::string("II*\0\xff\xff\xff\x7f", 8), std::string("MM\0*\0\0\0\x08\xff\xff", 10),
           std::string("\xff\xd8\xff\xe1\0\x10"

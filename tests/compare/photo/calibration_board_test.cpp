@@ -48,7 +48,7 @@ protected:
     test::ScratchFolder folder_;
 };
 
-TEST_F(Boards, the_lens_that_took_them_is_found) {
+TEST_F(Boards, TheLensThatTookThemIsFound) {
     const BoardShape shape{7, 5, 20};
     const double scale = 8, width_mm = 7 * 20 + 20, height_mm = 5 * 20 + 26;
     const cv::Mat page = page_of(board_svg(shape), scale, width_mm, height_mm);
@@ -112,7 +112,7 @@ TEST_F(Boards, the_lens_that_took_them_is_found) {
     EXPECT_THROW(lens_for(again, 480, 640, "a.png"), InputError);
 }
 
-TEST_F(Boards, pictures_without_the_board_are_refused) {
+TEST_F(Boards, PicturesWithoutTheBoardAreRefused) {
     const fs::path file = folder_ / "a.png";
     cv::imwrite(file.string(), cv::Mat(120, 160, CV_8UC3, cv::Scalar(40, 80, 120)));
     try {
@@ -127,7 +127,7 @@ TEST_F(Boards, pictures_without_the_board_are_refused) {
 }
 
 // Straight lines that a barrel lens bent are straight again.
-TEST(Lens, distortion_is_taken_out) {
+TEST(Lens, DistortionIsTakenOut) {
     Lens lens;
     lens.width = 200;
     lens.height = 150;

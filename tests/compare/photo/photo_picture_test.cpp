@@ -26,7 +26,7 @@ Photo photo_of(double noise) {
     return photo;
 }
 
-TEST(PhotoPicture, noise_decides_about_half_floats) {
+TEST(PhotoPicture, NoiseDecidesAboutHalfFloats) {
     const auto samples = [](const Photo& photo) { return picture_of(photo).samples; };
     EXPECT_EQ(samples(photo_of(0.005)), Picture::Samples::half);
     EXPECT_EQ(samples(photo_of(1e-5)), Picture::Samples::single);
@@ -43,7 +43,7 @@ TEST(PhotoPicture, noise_decides_about_half_floats) {
     EXPECT_EQ(samples(unknown), Picture::Samples::single);
 }
 
-TEST(PhotoPicture, comes_back_from_its_file) {
+TEST(PhotoPicture, ComesBackFromItsFile) {
     const test::ScratchFolder folder;
     const Photo photo = photo_of(0.005);
     write_picture(picture_of(photo), folder / "photo.exr");

@@ -33,7 +33,7 @@ private:
 };
 
 // A ramp of greys: equal channels, proportional to the light, 1 where green clips.
-TEST_F(RawFiles, values_are_linear_light) {
+TEST_F(RawFiles, ValuesAreLinearLight) {
     const auto dng = synthetic::grey_dng({}, [](int x, int) { return 0.02 + 0.012 * x; });
     const Photo photo = read_photo(file(synthetic::dng_bytes(dng)));
     ASSERT_EQ(photo.width, 64);
@@ -48,7 +48,7 @@ TEST_F(RawFiles, values_are_linear_light) {
     }
 }
 
-TEST_F(RawFiles, over_exposure_is_marked_at_the_sensor) {
+TEST_F(RawFiles, OverExposureIsMarkedAtTheSensor) {
     const auto dng = synthetic::grey_dng({}, [](int x, int) { return x < 32 ? 0.4 : 1.3; });
     const Photo photo = read_photo(file(synthetic::dng_bytes(dng)));
     ASSERT_EQ(photo.saturated.size(), 64u * 48u);
@@ -58,7 +58,7 @@ TEST_F(RawFiles, over_exposure_is_marked_at_the_sensor) {
     EXPECT_NEAR(at(photo, 50, 20)[0], 1.3, 0.01);
 }
 
-TEST_F(RawFiles, exposure_comes_from_the_exact_entry) {
+TEST_F(RawFiles, ExposureComesFromTheExactEntry) {
     const auto dng = synthetic::grey_dng({}, [](int, int) { return 0.3; });
     const Photo photo = read_photo(file(synthetic::dng_bytes(dng)));
     EXPECT_DOUBLE_EQ(photo.shot.seconds, 1.0 / 32);  // not 1/30
@@ -69,7 +69,7 @@ TEST_F(RawFiles, exposure_comes_from_the_exact_entry) {
     EXPECT_DOUBLE_EQ(*exposure_of(photo.shot), 2.0 / 32 / 64);
 }
 
-TEST_F(RawFiles, a_turned_camera_gives_an_upright_picture) {
+TEST_F(RawFiles, ATurnedCameraGivesAnUprightPicture) {
     synthetic::Dng turned;
     turned.orientation = 6;  // shown a quarter turn clockwise: the left column is on top
     const auto dng = synthetic::grey_dng(turned, [](int x, int) { return x < 20 ? 0.8 : 0.1; });
@@ -80,7 +80,7 @@ TEST_F(RawFiles, a_turned_camera_gives_an_upright_picture) {
     EXPECT_NEAR(at(photo, 24, 58)[1], 0.1, 0.01);
 }
 
-TEST_F(RawFiles, what_cannot_be_read_is_named) {
+TEST_F(RawFiles, WhatCannotBeReadIsNamed) {
     const std::string whole =
         synthetic::dng_bytes(synthetic::grey_dng({}, [](int, int) { return 0.3; }));
     for (const std::string& bytes :

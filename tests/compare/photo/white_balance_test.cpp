@@ -34,7 +34,7 @@ void paint(Photo& photo, int x0, int y0, int w, int h, const Rgb& colour) {
                     static_cast<float>(colour[c]);
 }
 
-TEST(WhiteBalance, a_grey_card_becomes_grey) {
+TEST(WhiteBalance, AGreyCardBecomesGrey) {
     Photo photo = flat(60, 40, {0.8, 0.1, 0.1});
     paint(photo, 10, 8, 20, 20, {0.30, 0.20, 0.10});
     const GreyCard card = measure_grey(photo, {12, 10, 16, 16});
@@ -47,7 +47,7 @@ TEST(WhiteBalance, a_grey_card_becomes_grey) {
     EXPECT_NEAR(card.unevenness, 0, 1e-6);
 }
 
-TEST(WhiteBalance, a_card_that_says_nothing_is_refused) {
+TEST(WhiteBalance, ACardThatSaysNothingIsRefused) {
     const auto refusal = [](const Photo& photo, const PixelRectangle& card) -> std::string {
         try {
             measure_grey(photo, card);
@@ -65,7 +65,7 @@ TEST(WhiteBalance, a_card_that_says_nothing_is_refused) {
 }
 
 // The maker's values of the 24 patches, seen through a warm camera.
-TEST(WhiteBalance, a_colour_chart_is_found_and_neutralised) {
+TEST(WhiteBalance, AColourChartIsFoundAndNeutralised) {
     constexpr int values[24][3] = {
         {115, 82, 68},   {194, 150, 130}, {98, 122, 157}, {87, 108, 67},   {133, 128, 177},
         {103, 189, 170}, {214, 126, 44},  {80, 91, 166},  {193, 90, 99},   {94, 60, 108},

@@ -54,7 +54,7 @@ Eigen::VectorXd solved(const MovesTold& told) {
 // Normalised errors of 30 pictures: rows say that each is normal with deviation 1. Of 240 the root
 // mean square is 1 +- 0.046; Bartlett's taper takes a tenth or so off the variance, and eight of
 // some 150 independent samples are taken up by the moves.
-TEST(PictureEquations, say_how_sure_they_are) {
+TEST(PictureEquations, SayHowSureTheyAre) {
     Chance chance(3);
     double squares = 0;
     int count = 0;
@@ -75,7 +75,7 @@ TEST(PictureEquations, say_how_sure_they_are) {
     EXPECT_LT(rms, 1.2);
 }
 
-TEST(PictureEquations, are_blind_to_nuisances) {
+TEST(PictureEquations, AreBlindToNuisances) {
     Chance chance(5);
     PictureEquations e = equations(chance);
     e.difference = e.changes.col(2) + 0.1 * values(blurred_noise(chance));
@@ -91,7 +91,7 @@ TEST(PictureEquations, are_blind_to_nuisances) {
 }
 
 // Of pictures that are equal, sigma is that of the least noise and the moves are none.
-TEST(PictureEquations, of_equal_pictures_are_finite) {
+TEST(PictureEquations, OfEqualPicturesAreFinite) {
     Chance chance(11);
     PictureEquations e = equations(chance);
     e.difference = Eigen::VectorXd::Zero(k_size * k_size);
@@ -103,7 +103,7 @@ TEST(PictureEquations, of_equal_pictures_are_finite) {
 }
 
 // A move that changes nothing is not told.
-TEST(PictureEquations, tell_nothing_of_what_does_not_show) {
+TEST(PictureEquations, TellNothingOfWhatDoesNotShow) {
     Chance chance(7);
     PictureEquations e = equations(chance);
     e.changes.col(4).setZero();
@@ -113,7 +113,7 @@ TEST(PictureEquations, tell_nothing_of_what_does_not_show) {
     EXPECT_LT(told.rows.col(4).norm(), 1e-6 * told.rows.norm());
 }
 
-TEST(PictureMisfit, finds_a_flash_and_none_in_noise) {
+TEST(PictureMisfit, FindsAFlashAndNoneInNoise) {
     Chance chance(9);
     cv::Mat difference = 0.02 * blurred_noise(chance);
     const cv::Mat mask(k_size, k_size, CV_8U, cv::Scalar(255));

@@ -14,7 +14,7 @@ constexpr double k_small = 1e-5;
 // What is of second order in a small move, of a stone about 1 across.
 constexpr double k_second_order = 10 * k_small * k_small;
 
-TEST(PlaneMoves, between_two_stones_are_those_that_were_made) {
+TEST(PlaneMoves, BetweenTwoStonesAreThoseThatWereMade) {
     const Solid solid = make_cut("princess");
     const auto facets = moves_of(solid);
     for (std::size_t f = 0; f < solid.facets.size(); f += 3) {
@@ -31,7 +31,7 @@ TEST(PlaneMoves, between_two_stones_are_those_that_were_made) {
 }
 
 // A number that is linear in the moves changes as much by the planes' slopes.
-TEST(PlaneMoves, have_the_slopes_of_their_planes) {
+TEST(PlaneMoves, HaveTheSlopesOfTheirPlanes) {
     const Solid solid = make_cut("princess");
     const auto facets = moves_of(solid);
     const double by[3] = {0.7, -1.3, 2.1};
@@ -48,7 +48,7 @@ TEST(PlaneMoves, have_the_slopes_of_their_planes) {
 }
 
 // The planes of a stone that is turned about its middle, shifted, or larger.
-TEST(PlaneMoves, of_the_whole_stone_are_a_motion_of_it) {
+TEST(PlaneMoves, OfTheWholeStoneAreAMotionOfIt) {
     const Solid solid = make_cut("princess");
     const Vec3 middle = centroid(solid);
     const auto whole = moves_of_the_whole(solid);

@@ -44,7 +44,7 @@ synthetic::TurntableTruth small() {
 // A straight edge blurred by a Gaussian falls to half where the edge is; noise of a hundredth of
 // the light over its slope, 0.4 of it a pixel, is 0.025 pixels for one point. A hundredth of a
 // pixel for the steps of 8 bits and for what lies between samples of the profile.
-TEST(BackLitOutline, lies_on_the_edges) {
+TEST(BackLitOutline, LiesOnTheEdges) {
     const std::vector<NamedPlane> planes{{"T", {{0, 0, 1}, 1.5}},  {"B", {{0, 0, -1}, 1.5}},
                                          {"E", {{1, 0, 0}, 2.5}},  {"W", {{-1, 0, 0}, 2.5}},
                                          {"N", {{0, 1, 0}, 2.47}}, {"S", {{0, -1, 0}, 2.5}}};
@@ -67,7 +67,7 @@ TEST(BackLitOutline, lies_on_the_edges) {
     EXPECT_NEAR(sum / count, 0, 4 * 0.025 / std::sqrt(count) + 0.01);
 }
 
-TEST(BackLitOutline, says_why_there_is_none) {
+TEST(BackLitOutline, SaysWhyThereIsNone) {
     Photo photo;
     photo.width = photo.height = 50;
     photo.rgb.assign(3 * 2500, 0);
@@ -79,7 +79,7 @@ TEST(BackLitOutline, says_why_there_is_none) {
 // Corners between sides of under 18 pixels stay as the lens rounded them. On the diagonal of a
 // right angle a blur of one pixel comes to half where Phi(x)^2 = 1/2, 0.545 pixels from both sides:
 // 0.77 from the corner. Most corners of a stone are flatter, or their sides longer.
-TEST(Turntable, is_found_from_outlines_alone) {
+TEST(Turntable, IsFoundFromOutlinesAlone) {
     const Solid solid = stone_of_width("pear", 5);
     synthetic::TurntableTruth truth = small();
     truth.axis_px = 7.3;
@@ -92,7 +92,7 @@ TEST(Turntable, is_found_from_outlines_alone) {
     EXPECT_LT(found.residual_px, 0.77);
 }
 
-TEST(Turntable, needs_opposite_pictures) {
+TEST(Turntable, NeedsOppositePictures) {
     const Solid solid = stone_of_width("round-brilliant", 5);
     std::vector<BackLitOutline> outlines = outlines_of(solid, 24, small());
     outlines.resize(10);
@@ -118,7 +118,7 @@ double beyond_shadow(const Solid& solid, const Vec3& direction, const Vec3& poin
 // A point is off by its noise, 0.025 pixels (above), and four times that is not met in 2000; a
 // corner that is flatter than 8 degrees is rounded by a tenth of a pixel; the axis is off by 0.1 at
 // most, and the tilts by 0.1 degrees of the stone's radius, 111 pixels: 0.2.
-TEST(Turntable, places_outlines_around_the_stone) {
+TEST(Turntable, PlacesOutlinesAroundTheStone) {
     const Solid solid = stone_of_width("princess", 5);
     synthetic::TurntableTruth truth = small();
     truth.axis_px = -4.2;
@@ -136,7 +136,7 @@ TEST(Turntable, places_outlines_around_the_stone) {
     EXPECT_GT(points, 24 * 40);
 }
 
-TEST(Turntable, needs_an_outline_in_every_picture) {
+TEST(Turntable, NeedsAnOutlineInEveryPicture) {
     std::vector<BackLitOutline> outlines =
         outlines_of(stone_of_width("round-brilliant", 5), 4, small());
     outlines[1] = BackLitOutline{};

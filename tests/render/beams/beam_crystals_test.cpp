@@ -47,7 +47,7 @@ void give_crystal(Scene& scene, const std::vector<double>& n,
 
 // Single rays carry the same Stokes parameters as the reference, but for single precision: what is
 // off are rays within its rounding of an edge of a facet or of a light.
-TEST(PolarisedBeams, see_what_the_reference_sees_through_the_eyes_optics) {
+TEST(PolarisedBeams, SeeWhatTheReferenceSeesThroughTheEyesOptics) {
     const Scene scene = polarised_scene();
     const Difference d = difference(with_engine(scene, "beams", 1).picture,
                                     with_engine(scene, "reference", 1).picture);
@@ -55,7 +55,7 @@ TEST(PolarisedBeams, see_what_the_reference_sees_through_the_eyes_optics) {
     EXPECT_GT(d.pixels, 3000);
 }
 
-TEST(PolarisedBeams, have_all_four_stokes_parameters) {
+TEST(PolarisedBeams, HaveAllFourStokesParameters) {
     Scene scene = polarised_scene();
     scene.settings.spectral = true;
     const Picture beams = with_engine(scene, "beams", 1).picture,
@@ -84,7 +84,7 @@ struct NamedCrystal {
 // about |n1 - n2| in angle, 1e-5 here: a pixel is 0.02, so that only pixels within 1e-3 of one of
 // an edge may change, and coefficients change by 0.2 |n1 - n2| (notes on physics: Guy & Soler's
 // merging). What is coherent turns by the phase, to which a hundredth of a wave is next to nothing.
-TEST(MergedBeams, are_the_reference_where_the_split_is_small) {
+TEST(MergedBeams, AreTheReferenceWhereTheSplitIsSmall) {
     const std::vector<NamedCrystal> crystals{
         {"positive", {1.76, 1.76001}, {0, 0}, false},
         {"negative, coherent", {1.76, 1.75998}, {0, 0}, true},
@@ -115,7 +115,7 @@ TEST(MergedBeams, are_the_reference_where_the_split_is_small) {
 
 // Parted waves are exact rays at a cell's middle and first order beside it. Powers are added, as in
 // the reference without coherence; nothing is left out but what is cut.
-TEST(PartedBeams, are_the_reference_in_crystals_of_strong_split) {
+TEST(PartedBeams, AreTheReferenceInCrystalsOfStrongSplit) {
     std::mt19937_64 random(20290);
     const std::vector<NamedCrystal> crystals{
         {"zircon", {1.925, 1.984}, {0.05, 0.3}, false},
@@ -142,7 +142,7 @@ TEST(PartedBeams, are_the_reference_in_crystals_of_strong_split) {
     }
 }
 
-TEST(PartedBeams, see_polarised_lights_and_analysers) {
+TEST(PartedBeams, SeePolarisedLightsAndAnalysers) {
     Scene scene = polarised_scene();
     scene.settings.depth = 4;
     give_crystal(scene, {1.925, 1.984}, {0, 0});
@@ -155,7 +155,7 @@ TEST(PartedBeams, see_polarised_lights_and_analysers) {
 }
 
 // In a constant light of 1 a pixel that the stone fills is 1 less what is still inside.
-TEST(PartedBeams, balance_in_a_furnace) {
+TEST(PartedBeams, BalanceInAFurnace) {
     Scene scene = plain_scene(round_brilliant());
     look(scene, {0.21, 0.34, 1}, 10);
     give_crystal(scene, {1.925, 1.984}, {0, 0});
@@ -166,7 +166,7 @@ TEST(PartedBeams, balance_in_a_furnace) {
     EXPECT_NEAR(stats.mean_radiance + stats.remainder, 1, 2e-3);
 }
 
-TEST(CrystalBeams, part_where_the_two_images_are_seen_apart) {
+TEST(CrystalBeams, PartWhereTheTwoImagesAreSeenApart) {
     Scene scene = plain_scene(round_brilliant());
     look(scene, {0.21, 0.34, 1}, 10);
     const auto said = [&] {

@@ -25,7 +25,7 @@ Scene brilliant_scene() {
     return scene;
 }
 
-TEST(Frames, are_the_same_bytes_with_any_number_of_threads) {
+TEST(Frames, AreTheSameBytesWithAnyNumberOfThreads) {
     for (const std::string engine : {"beams", "preview"}) {
         for (const int samples : {1, 16}) {
             Scene scene = brilliant_scene();
@@ -46,7 +46,7 @@ TEST(Frames, are_the_same_bytes_with_any_number_of_threads) {
     }
 }
 
-TEST(Frames, with_other_lights_are_those_of_a_fresh_renderer) {
+TEST(Frames, WithOtherLightsAreThoseOfAFreshRenderer) {
     for (const std::string engine : {"beams", "preview"}) {
         Scene scene = brilliant_scene();
         scene.settings.engine = engine;
@@ -70,7 +70,7 @@ TEST(Frames, with_other_lights_are_those_of_a_fresh_renderer) {
     }
 }
 
-TEST(Frames, with_lights_that_call_for_other_wavelengths_are_those_of_a_fresh_renderer) {
+TEST(Frames, WithLightsThatCallForOtherWavelengthsAreThoseOfAFreshRenderer) {
     Scene scene = brilliant_scene();
     optics()[5].make(scene);
     scene.settings.wavelengths_nm.clear();
@@ -86,7 +86,7 @@ TEST(Frames, with_lights_that_call_for_other_wavelengths_are_those_of_a_fresh_re
     EXPECT_EQ(frames.draw().picture.rgb, FrameRenderer(changed).draw().picture.rgb);
 }
 
-TEST(Frames, of_all_changed_at_once_and_taken_away_are_those_of_a_fresh_renderer) {
+TEST(Frames, OfAllChangedAtOnceAndTakenAwayAreThoseOfAFreshRenderer) {
     const Scene scene = brilliant_scene();
     FrameRenderer frames(scene);
     frames.draw();
@@ -107,7 +107,7 @@ TEST(Frames, of_all_changed_at_once_and_taken_away_are_those_of_a_fresh_renderer
     EXPECT_EQ(again.picture.coverage, first.coverage);
 }
 
-TEST(Frames, from_another_view_and_back_are_the_first) {
+TEST(Frames, FromAnotherViewAndBackAreTheFirst) {
     Scene scene = brilliant_scene();
     scene.settings.samples = 16;
     FrameRenderer frames(scene);
@@ -128,7 +128,7 @@ TEST(Frames, from_another_view_and_back_are_the_first) {
     EXPECT_EQ(back.stats.remainder, first.stats.remainder);
 }
 
-TEST(Frames, from_another_view_in_turned_lights_are_those_of_a_fresh_renderer) {
+TEST(Frames, FromAnotherViewInTurnedLightsAreThoseOfAFreshRenderer) {
     const Scene scene = brilliant_scene();
     FrameRenderer frames(scene);
     frames.draw();
@@ -147,7 +147,7 @@ TEST(Frames, from_another_view_in_turned_lights_are_those_of_a_fresh_renderer) {
     EXPECT_EQ(open.draw().picture.rgb, FrameRenderer(changed).draw().picture.rgb);
 }
 
-TEST(Frames, that_must_be_quick_have_fewer_beams_and_say_what_is_left) {
+TEST(Frames, ThatMustBeQuickHaveFewerBeamsAndSayWhatIsLeft) {
     Scene scene = plain_scene(round_brilliant());
     look(scene, {0.21, 0.34, 1}, 10);
     scene.settings.depth = 14;
@@ -183,7 +183,7 @@ void expect_bound_holds(Scene scene, const std::string& engine, int samples) {
     EXPECT_LE(d.mean, beams.stats.error_bound + exact.stats.sampling_error) << engine << ", " << d;
 }
 
-TEST(ErrorBounds, hold_for_every_refraction_and_engine) {
+TEST(ErrorBounds, HoldForEveryRefractionAndEngine) {
     std::mt19937_64 random(20284);
     for (const Refraction kind :
          {Refraction::astigmatic, Refraction::perspective, Refraction::parallel}) {
@@ -203,7 +203,7 @@ TEST(ErrorBounds, hold_for_every_refraction_and_engine) {
     }
 }
 
-TEST(ErrorBounds, hold_at_small_tolerances) {
+TEST(ErrorBounds, HoldAtSmallTolerances) {
     for (const double tolerance : {0.1, 1e-3}) {
         for (const std::string engine : {"beams", "preview"}) {
             Scene scene = brilliant_scene();
@@ -216,7 +216,7 @@ TEST(ErrorBounds, hold_at_small_tolerances) {
     }
 }
 
-TEST(ErrorBounds, hold_through_a_lens) {
+TEST(ErrorBounds, HoldThroughALens) {
     for (const double aperture : {0.02, 0.2, 1.0}) {
         SCOPED_TRACE(aperture);
         Scene scene = brilliant_scene();
@@ -229,7 +229,7 @@ TEST(ErrorBounds, hold_through_a_lens) {
 }
 
 // Peak to noise over the stone's pixels; the reference's own noise of 256 samples is in it.
-TEST(Averages, are_within_50_dB_of_256_samples_in_smooth_light) {
+TEST(Averages, AreWithin50DBOf256SamplesInSmoothLight) {
     std::mt19937_64 random(20285);
     for (int i = 0; i < 3; ++i) {
         SCOPED_TRACE("seed 20285, stone " + std::to_string(i));
@@ -248,7 +248,7 @@ TEST(Averages, are_within_50_dB_of_256_samples_in_smooth_light) {
 
 // Seen straight through and mirrored in one big facet, where beams have no borders: only the
 // light's own edge needs to be smoothed.
-TEST(Averages, smooth_the_edges_of_lights_within_a_facet) {
+TEST(Averages, SmoothTheEdgesOfLightsWithinAFacet) {
     for (const NamedChange& light : edged_lights()) {
         SCOPED_TRACE(light.name);
         Scene scene = plain_scene(slab(1));
@@ -269,7 +269,7 @@ TEST(Averages, smooth_the_edges_of_lights_within_a_facet) {
 }
 
 // Pixels that several beams share: each sees another part of the lights.
-TEST(Averages, in_pixels_that_beams_share_are_those_of_the_parts) {
+TEST(Averages, InPixelsThatBeamsShareAreThoseOfTheParts) {
     for (const NamedChange& light : edged_lights()) {
         SCOPED_TRACE(light.name);
         Scene scene = brilliant_scene();
@@ -288,7 +288,7 @@ TEST(Averages, in_pixels_that_beams_share_are_those_of_the_parts) {
 }
 
 // A small sun that many pixels see a part of: shares of a circle, from 64 x 64 points each.
-TEST(Averages, of_a_sun_many_pixels_wide_are_parts_of_a_circle) {
+TEST(Averages, OfASunManyPixelsWideArePartsOfACircle) {
     constexpr int k_pixels = 120, k_points = 64;
     constexpr double k_radius = 0.0047, k_fov = 0.012;
     Scene scene = plain_scene(slab(1));
@@ -328,7 +328,7 @@ std::string refusal(const Scene& scene) {
     return "";
 }
 
-TEST(Refusals, are_one_line_that_says_what_to_do) {
+TEST(Refusals, AreOneLineThatSaysWhatToDo) {
     const std::vector<std::pair<std::string, NamedChange>> cases{
         {"convex", {"not convex", [](Scene& s) { s.stone.convex = false; }}},
         {"filter", {"tent", [](Scene& s) { s.settings.filter = PixelFilter::tent; }}},
@@ -362,7 +362,7 @@ TEST(Refusals, are_one_line_that_says_what_to_do) {
     }
 }
 
-TEST(Refusals, of_a_scene_file_name_what_is_known) {
+TEST(Refusals, OfASceneFileNameWhatIsKnown) {
     namespace fs = std::filesystem;
     const fs::path folder = fs::path(testing::TempDir()) / "culet_beam_refusals";
     fs::create_directories(folder);
@@ -391,7 +391,7 @@ TEST(Refusals, of_a_scene_file_name_what_is_known) {
     fs::remove_all(folder);
 }
 
-TEST(Refusals, sixteen_near_lights_are_not_too_many) {
+TEST(Refusals, SixteenNearLightsAreNotTooMany) {
     Scene scene = brilliant_scene();
     scene.lights = {};
     for (int i = 0; i < 16; ++i)
@@ -399,7 +399,7 @@ TEST(Refusals, sixteen_near_lights_are_not_too_many) {
     EXPECT_EQ(refusal(scene), "");
 }
 
-TEST(Refusals, of_a_frame_leave_the_renderer_as_it_was) {
+TEST(Refusals, OfAFrameLeaveTheRendererAsItWas) {
     const Scene scene = brilliant_scene();
     FrameRenderer frames(scene);
     const Picture before = frames.draw().picture;
@@ -413,7 +413,7 @@ TEST(Refusals, of_a_frame_leave_the_renderer_as_it_was) {
     EXPECT_EQ(frames.draw().picture.rgb, before.rgb);
 }
 
-TEST(Progresses, of_no_stops_the_picture) {
+TEST(Progresses, OfNoStopsThePicture) {
     Scene scene = brilliant_scene();
     EXPECT_THROW(render(scene, [](double) { return false; }), Interrupted);
 }

@@ -23,7 +23,7 @@ Scene hard_scene() {
 
 // A ray that met other facets than its beam's is traced anew, with the stone's index over that of
 // what surrounds it.
-TEST(HardCases, retraced_rays_of_an_immersed_stone_are_the_references) {
+TEST(HardCases, RetracedRaysOfAnImmersedStoneAreTheReferences) {
     Scene scene = hard_scene();
     smooth_lights()[1].make(scene);
     scene.immersion = 1.33;
@@ -36,7 +36,7 @@ TEST(HardCases, retraced_rays_of_an_immersed_stone_are_the_references) {
 }
 
 // Voelker & Hamann's maps follow one ray a front facet, which may run outside the unfolded stone.
-TEST(HardCases, maps_of_front_facets_lose_and_double_no_area) {
+TEST(HardCases, MapsOfFrontFacetsLoseAndDoubleNoArea) {
     for (const bool parallel_camera : {true, false}) {
         for (const Refraction kind : {Refraction::perspective, Refraction::parallel}) {
             Scene scene = hard_scene();
@@ -55,7 +55,7 @@ TEST(HardCases, maps_of_front_facets_lose_and_double_no_area) {
 }
 
 // Parallel rays stay parallel: all kinds of map are the same, and exact.
-TEST(HardCases, all_refractions_draw_the_same_orthographic_picture) {
+TEST(HardCases, AllRefractionsDrawTheSameOrthographicPicture) {
     Scene scene = hard_scene();
     smooth_lights()[1].make(scene);
     scene.camera.orthographic_width = 2.2;
@@ -70,7 +70,7 @@ TEST(HardCases, all_refractions_draw_the_same_orthographic_picture) {
 
 // A wrong sequence may lead a ray anywhere; it must not lead to no number, and a bound must not be
 // 0 because of one.
-TEST(HardCases, near_lights_seen_along_wrong_sequences_are_numbers) {
+TEST(HardCases, NearLightsSeenAlongWrongSequencesAreNumbers) {
     std::mt19937_64 random(20286);
     for (int i = 0; i < 12; ++i) {
         for (const Refraction kind :
@@ -92,7 +92,7 @@ TEST(HardCases, near_lights_seen_along_wrong_sequences_are_numbers) {
 }
 
 // Parallel rays have the same direction in every pixel: a distant light's edge has no gradient.
-TEST(HardCases, orthographic_pictures_in_lights_with_edges_are_numbers) {
+TEST(HardCases, OrthographicPicturesInLightsWithEdgesAreNumbers) {
     for (const std::string engine : {"beams", "preview"}) {
         for (const std::size_t light : {0u, 1u, 5u}) {
             Scene scene = hard_scene();
@@ -109,7 +109,7 @@ TEST(HardCases, orthographic_pictures_in_lights_with_edges_are_numbers) {
 
 // In a light of 1 from everywhere nothing is brighter than 1: a pixel that is has been painted
 // twice. Views from near by, and of symmetric stones, whose edges run through middles of pixels.
-TEST(HardCases, nothing_is_brighter_than_the_furnace) {
+TEST(HardCases, NothingIsBrighterThanTheFurnace) {
     for (const int samples : {1, 16}) {
         for (const std::string cut : {"round-brilliant", "step", "princess"}) {
             for (const Vec3& from : {Vec3{0, 0, 1}, Vec3{0, 0, -1}, Vec3{0.2, 0.5, 0.6}}) {
@@ -137,7 +137,7 @@ TEST(HardCases, nothing_is_brighter_than_the_furnace) {
 
 // Where a map does not quite lead a region onto the stone, facets must still share it, not each
 // take all of it; and the facet just left, and what the eye does not see from within, get nothing.
-TEST(HardCases, beams_of_near_views_do_not_overlap) {
+TEST(HardCases, BeamsOfNearViewsDoNotOverlap) {
     std::mt19937_64 random(20287);
     std::uniform_real_distribution<double> unit(0, 1);
     for (int i = 0; i < 60; ++i) {
@@ -158,7 +158,7 @@ TEST(HardCases, beams_of_near_views_do_not_overlap) {
 }
 
 // cos^0 is 1 on the lobe's side and 0 on the other, as in the reference.
-TEST(HardCases, a_lobe_of_exponent_0_shines_from_one_side) {
+TEST(HardCases, ALobeOfExponent0ShinesFromOneSide) {
     Scene scene = hard_scene();
     scene.lights = {};
     scene.lights.sources.push_back(
@@ -169,7 +169,7 @@ TEST(HardCases, a_lobe_of_exponent_0_shines_from_one_side) {
 }
 
 // What hides the stone is not the stone: coverage, and the means over the stone.
-TEST(HardCases, a_light_before_the_stone_is_not_counted_as_the_stone) {
+TEST(HardCases, ALightBeforeTheStoneIsNotCountedAsTheStone) {
     for (const int samples : {1, 16}) {
         Scene scene = hard_scene();
         const Vec3 to_eye = glm::normalize(scene.camera.position);
@@ -191,7 +191,7 @@ TEST(HardCases, a_light_before_the_stone_is_not_counted_as_the_stone) {
 }
 
 // Small pictures have small beams: what is cut of each must still add up to no more than asked for.
-TEST(HardCases, the_tolerance_is_kept_in_small_pictures) {
+TEST(HardCases, TheToleranceIsKeptInSmallPictures) {
     for (const int side : {40, 96, 300}) {
         for (const double tolerance : {0.01, 2e-3}) {
             Scene scene = hard_scene();
@@ -205,7 +205,7 @@ TEST(HardCases, the_tolerance_is_kept_in_small_pictures) {
 }
 
 // A camera is more than a place: what a lens calls for is planned anew.
-TEST(HardCases, a_frame_through_a_lens_is_that_of_a_fresh_renderer) {
+TEST(HardCases, AFrameThroughALensIsThatOfAFreshRenderer) {
     Scene scene = hard_scene();
     smooth_lights()[1].make(scene);
     scene.settings.samples = 16;
@@ -218,7 +218,7 @@ TEST(HardCases, a_frame_through_a_lens_is_that_of_a_fresh_renderer) {
 }
 
 // From far away the cut that keeps the tolerance is another one than from near by.
-TEST(HardCases, a_frame_from_elsewhere_has_the_limits_of_a_fresh_renderer) {
+TEST(HardCases, AFrameFromElsewhereHasTheLimitsOfAFreshRenderer) {
     Scene scene = hard_scene();
     smooth_lights()[1].make(scene);
     scene.settings.samples = 16;
@@ -237,7 +237,7 @@ TEST(HardCases, a_frame_from_elsewhere_has_the_limits_of_a_fresh_renderer) {
 // What a map sends from all directions, by its own resolution: a sun may be one texel. Bilinear
 // look-up spreads a texel over the ones around it with weights that add up to its own area, but
 // for how the sine of the colatitude bends over two rows.
-TEST(HardCases, an_environment_keeps_the_light_of_one_texel) {
+TEST(HardCases, AnEnvironmentKeepsTheLightOfOneTexel) {
     const double pi = std::numbers::pi;
     std::mt19937_64 random(20288);
     for (const int width : {32, 64, 256, 1024}) {
@@ -278,7 +278,7 @@ TEST(HardCases, an_environment_keeps_the_light_of_one_texel) {
 }
 
 // A light smaller than a pixel sees of it: what it brings on the whole must stay.
-TEST(HardCases, a_sun_smaller_than_a_pixel_keeps_its_light) {
+TEST(HardCases, ASunSmallerThanAPixelKeepsItsLight) {
     Scene scene = plain_scene(slab(1));
     scene.camera.width = scene.camera.height = 40;
     scene.camera.position = {0.05, 0.05, 8};
@@ -304,7 +304,7 @@ TEST(HardCases, a_sun_smaller_than_a_pixel_keeps_its_light) {
 // them, it leaves as if the first had mirrored it. So the sun's image is a disc of (f tan a)^2 pi
 // pixels, f the distance of the picture in pixels and a the sun's radius, and of a radiance of
 // R + (1 - R)^2 R (1 + R^2 + ..) = 2 R / (1 + R) of the sun's.
-TEST(HardCases, a_beam_followed_by_one_ray_shows_the_sun_where_it_is) {
+TEST(HardCases, ABeamFollowedByOneRayShowsTheSunWhereItIs) {
     Scene scene = plain_scene(slab(0.5));
     const double n = 1.1, sun = 0.05;
     scene.stone.material.index[0].n = n;
@@ -330,7 +330,7 @@ TEST(HardCases, a_beam_followed_by_one_ray_shows_the_sun_where_it_is) {
 }
 
 // The same of a near light that is small in the picture.
-TEST(HardCases, a_lamp_smaller_than_a_pixel_keeps_its_light) {
+TEST(HardCases, ALampSmallerThanAPixelKeepsItsLight) {
     Scene scene = plain_scene(slab(1));
     scene.camera.width = scene.camera.height = 40;
     scene.camera.position = {0.05, 0.05, 8};

@@ -47,7 +47,7 @@ Scene random_scene(std::mt19937_64& random, int planes) {
     return scene;
 }
 
-TEST(SingleRays, are_the_references_in_every_light) {
+TEST(SingleRays, AreTheReferencesInEveryLight) {
     std::mt19937_64 random(20280);
     for (const auto& lights : {smooth_lights(), edged_lights()}) {
         for (const NamedChange& light : lights) {
@@ -60,7 +60,7 @@ TEST(SingleRays, are_the_references_in_every_light) {
     }
 }
 
-TEST(SingleRays, are_the_references_through_all_optics) {
+TEST(SingleRays, AreTheReferencesThroughAllOptics) {
     std::mt19937_64 random(20281);
     for (const NamedChange& change : optics()) {
         SCOPED_TRACE("seed 20281, " + change.name);
@@ -74,7 +74,7 @@ TEST(SingleRays, are_the_references_through_all_optics) {
     }
 }
 
-TEST(SingleRays, are_the_references_in_an_environment) {
+TEST(SingleRays, AreTheReferencesInAnEnvironment) {
     for (const int width : {8, 64, 512}) {
         for (const bool spectral : {false, true}) {
             SCOPED_TRACE(width);
@@ -94,7 +94,7 @@ TEST(SingleRays, are_the_references_in_an_environment) {
     }
 }
 
-TEST(SingleRays, are_the_references_at_every_depth) {
+TEST(SingleRays, AreTheReferencesAtEveryDepth) {
     for (const int depth : {1, 2, 3, 12, 24}) {
         SCOPED_TRACE(depth);
         Scene scene = shaded_scene();
@@ -105,7 +105,7 @@ TEST(SingleRays, are_the_references_at_every_depth) {
     }
 }
 
-TEST(SingleRays, are_the_references_from_1_01_diameters_and_nearer) {
+TEST(SingleRays, AreTheReferencesFrom101DiametersAndNearer) {
     const Solid solid = round_brilliant();
     for (const Vec3& from : {Vec3{0.21, 0.34, 1}, Vec3{0.1, 0.2, -1}, Vec3{1, 0.2, 0.1}}) {
         for (const double distance : {1.01 * 2, 1.2}) {
@@ -118,7 +118,7 @@ TEST(SingleRays, are_the_references_from_1_01_diameters_and_nearer) {
     }
 }
 
-TEST(SingleRays, are_the_references_of_stones_with_slivers) {
+TEST(SingleRays, AreTheReferencesOfStonesWithSlivers) {
     std::mt19937_64 random(20282);
     for (int i = 0; i < 8; ++i) {
         SCOPED_TRACE("seed 20282, stone " + std::to_string(i));
@@ -129,7 +129,7 @@ TEST(SingleRays, are_the_references_of_stones_with_slivers) {
     }
 }
 
-TEST(SingleRays, are_the_references_where_only_a_part_is_seen) {
+TEST(SingleRays, AreTheReferencesWhereOnlyAPartIsSeen) {
     Scene scene = shaded_scene();
     smooth_lights()[1].make(scene);
     scene.camera.look_at = {0.4, 0.3, 0};
@@ -142,7 +142,7 @@ TEST(SingleRays, are_the_references_where_only_a_part_is_seen) {
 
 // A constant light of 1: what is seen, what was absorbed and what is left add up to 1. The mean
 // radiance is a luminance, the others are means over wavelengths: one wavelength says all.
-TEST(Furnace, sends_back_what_goes_in) {
+TEST(Furnace, SendsBackWhatGoesIn) {
     std::mt19937_64 random(20283);
     for (const std::string engine : {"beams", "preview"}) {
         for (const int samples : {1, 16}) {
@@ -165,7 +165,7 @@ TEST(Furnace, sends_back_what_goes_in) {
     }
 }
 
-TEST(Furnace, counts_what_is_cut) {
+TEST(Furnace, CountsWhatIsCut) {
     for (const std::string engine : {"beams", "preview"}) {
         for (const double tolerance : {0.1, 0.01}) {
             Scene scene = shaded_scene();
@@ -189,7 +189,7 @@ protected:
 // a pixel may see a tenth of a radian there: 3e-3 of the light, for few pixels. The middle of a
 // part of a pixel is off by rounding of its moments over its area, 2e-5 pixels in regions 50 wide,
 // and a map changes by several times its mean over a pixel of what leaves steeply: 1e-4.
-TEST_F(Targets, of_every_instruction_set_draw_the_same_picture) {
+TEST_F(Targets, OfEveryInstructionSetDrawTheSamePicture) {
     std::vector<NamedChange> lights = edged_lights();
     const std::size_t edged = lights.size();
     lights.push_back(smooth_lights()[2]);

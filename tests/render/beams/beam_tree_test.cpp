@@ -104,7 +104,7 @@ double lost_share(const BeamTree& tree) {
     return (tree.front_area - tree.leaf_area()) / tree.front_area;
 }
 
-TEST(BeamTrees, of_hard_views_lose_no_area) {
+TEST(BeamTrees, OfHardViewsLoseNoArea) {
     for (const View& view : hard_views()) {
         SCOPED_TRACE(view.name);
         const FacetNet net(view.solid);
@@ -119,7 +119,7 @@ TEST(BeamTrees, of_hard_views_lose_no_area) {
 
 // Leaves that overlap could hide lost area: a point must be in one leaf if its ray meets the stone,
 // and else in none.
-TEST(BeamTrees, of_hard_views_have_one_leaf_at_each_point) {
+TEST(BeamTrees, OfHardViewsHaveOneLeafAtEachPoint) {
     std::mt19937_64 random(20275);
     for (const View& view : hard_views()) {
         SCOPED_TRACE("seed 20275, " + view.name);
@@ -218,7 +218,7 @@ double wrong_share(const View& view, const BeamTree& tree, const ScreenView& scr
     return all > 0 ? wrong / all : 0;
 }
 
-TEST(BeamTrees, of_parallel_rays_name_the_facets_that_each_ray_meets) {
+TEST(BeamTrees, OfParallelRaysNameTheFacetsThatEachRayMeets) {
     std::mt19937_64 random(20276);
     for (const View& view : hard_views()) {
         View parallel = view;
@@ -240,7 +240,7 @@ TEST(BeamTrees, of_parallel_rays_name_the_facets_that_each_ray_meets) {
 }
 
 // The design's figures for a round brilliant, before verification, of 800 pixels at depth 8.
-TEST(BeamTrees, of_a_round_brilliant_name_the_facets_of_almost_every_ray) {
+TEST(BeamTrees, OfARoundBrilliantNameTheFacetsOfAlmostEveryRay) {
     std::mt19937_64 random(20277);
     for (const auto& [distance, most] : {std::pair{12.0, 0.0015}, {5.0, 0.006}}) {
         SCOPED_TRACE("seed 20277, distance " + std::to_string(distance));
@@ -263,7 +263,7 @@ TEST(BeamTrees, of_a_round_brilliant_name_the_facets_of_almost_every_ray) {
 // Halving by map error keeps the share small in hard views, too. Borders are off by at most
 // `map_error` pixels at the corners of what they bound; a beam of 400-pixel pictures has some
 // hundred square pixels per ten pixels of border.
-TEST(BeamTrees, of_hard_views_name_the_facets_of_most_rays) {
+TEST(BeamTrees, OfHardViewsNameTheFacetsOfMostRays) {
     std::mt19937_64 random(20278);
     for (const View& view : hard_views()) {
         SCOPED_TRACE("seed 20278, " + view.name);
@@ -276,7 +276,7 @@ TEST(BeamTrees, of_hard_views_name_the_facets_of_most_rays) {
     }
 }
 
-TEST(BeamTrees, of_depth_1_are_the_front_facets_and_of_depth_2_meet_one_more) {
+TEST(BeamTrees, OfDepth1AreTheFrontFacetsAndOfDepth2MeetOneMore) {
     const Solid solid = round_brilliant();
     const FacetNet net(solid);
     Scene scene = plain_scene(solid);
@@ -303,7 +303,7 @@ TEST(BeamTrees, of_depth_1_are_the_front_facets_and_of_depth_2_meet_one_more) {
 }
 
 // A beam that is cut stays a leaf, whole.
-TEST(BeamTrees, that_are_cut_keep_their_area) {
+TEST(BeamTrees, ThatAreCutKeepTheirArea) {
     const Solid solid = round_brilliant();
     const FacetNet net(solid);
     Scene scene = plain_scene(solid);
@@ -328,7 +328,7 @@ TEST(BeamTrees, that_are_cut_keep_their_area) {
 }
 
 // What is built into used memory does not know of what was there.
-TEST(BeamTrees, built_into_used_memory_are_the_same) {
+TEST(BeamTrees, BuiltIntoUsedMemoryAreTheSame) {
     std::mt19937_64 random(20279);
     BeamTree used;
     for (int i = 0; i < 6; ++i) {
@@ -350,7 +350,7 @@ TEST(BeamTrees, built_into_used_memory_are_the_same) {
     }
 }
 
-TEST(BeamTrees, of_a_stone_beside_the_picture_are_empty) {
+TEST(BeamTrees, OfAStoneBesideThePictureAreEmpty) {
     const Solid solid = round_brilliant();
     const FacetNet net(solid);
     Scene scene = plain_scene(solid);

@@ -23,7 +23,7 @@ Polygon square_at(double x, double y) {
     return {{x - 1, y - 1}, {x + 1, y - 1}, {x + 1, y + 1}, {x - 1, y + 1}};
 }
 
-TEST(ShareInCircle, of_a_square_has_closed_forms) {
+TEST(ShareInCircle, OfASquareHasClosedForms) {
     const double pi = std::numbers::pi;
     EXPECT_NEAR(share(square_at(0, 0), 0.5), pi * 0.25 / 4, 1e-14) << "the whole circle";
     EXPECT_NEAR(share(square_at(0, 0), 1.5), 1, 1e-14) << "all of the square";
@@ -35,7 +35,7 @@ TEST(ShareInCircle, of_a_square_has_closed_forms) {
     EXPECT_NEAR(share(square_at(0, 0), r), (pi * r * r - 4 * segment) / 4, 1e-14);
 }
 
-TEST(ShareInCircle, of_random_polygons_is_that_of_points_and_of_their_mirror_images) {
+TEST(ShareInCircle, OfRandomPolygonsIsThatOfPointsAndOfTheirMirrorImages) {
     std::mt19937_64 random(20269);
     std::uniform_real_distribution<double> unit(-1, 1), size(0.2, 2);
     for (int i = 0; i < 100; ++i) {
@@ -73,7 +73,7 @@ TEST(ShareInCircle, of_random_polygons_is_that_of_points_and_of_their_mirror_ima
     }
 }
 
-TEST(ShareInCircle, of_no_area_is_nothing) {
+TEST(ShareInCircle, OfNoAreaIsNothing) {
     EXPECT_EQ(share({{0, 0}, {1, 0}, {2, 0}}, 1), 0);
     EXPECT_EQ(share({{0, 0}, {0, 0}, {0, 0}}, 1), 0);
 }

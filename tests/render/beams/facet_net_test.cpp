@@ -65,7 +65,7 @@ void expect_on_planes(const FacetNet& net) {
     }
 }
 
-TEST(Net, of_a_round_brilliant_has_its_corners) {
+TEST(Net, OfARoundBrilliantHasItsCorners) {
     for (const int mains : {8, 16}) {
         SCOPED_TRACE(mains);
         const FacetNet net(round_brilliant(mains));
@@ -78,7 +78,7 @@ TEST(Net, of_a_round_brilliant_has_its_corners) {
     }
 }
 
-TEST(Net, of_every_standard_cut_is_closed) {
+TEST(Net, OfEveryStandardCutIsClosed) {
     for (const CutKind& kind : cut_kinds()) {
         if (!kind.convex) continue;
         SCOPED_TRACE(kind.name);
@@ -88,7 +88,7 @@ TEST(Net, of_every_standard_cut_is_closed) {
     }
 }
 
-TEST(Net, of_random_stones_and_slivers_is_closed) {
+TEST(Net, OfRandomStonesAndSliversIsClosed) {
     std::mt19937_64 random(20268);
     for (int i = 0; i < 40; ++i) {
         SCOPED_TRACE("seed 20268, stone " + std::to_string(i));
@@ -100,7 +100,7 @@ TEST(Net, of_random_stones_and_slivers_is_closed) {
 
 // The same brilliant with every plane moved by up to `miss`: meets become short edges, down to
 // where they are one corner again.
-TEST(Net, of_near_miss_meets_is_closed) {
+TEST(Net, OfNearMissMeetsIsClosed) {
     std::mt19937_64 random(20269);
     std::uniform_real_distribution<double> move(-1, 1);
     for (const double miss : {1e-16, 1e-12, 1e-9, 3e-8, 1e-6, 1e-4, 1e-2}) {
@@ -115,7 +115,7 @@ TEST(Net, of_near_miss_meets_is_closed) {
     }
 }
 
-TEST(Net, a_plane_that_bounds_nothing_has_no_edges) {
+TEST(Net, APlaneThatBoundsNothingHasNoEdges) {
     Solid solid = round_brilliant();
     Facet more = solid.facets.front();
     more.name = "above the table";

@@ -125,7 +125,7 @@ void expect_exact_to_first_order(const Camera& camera, const Solid& solid, const
 
 // Central differences are off by the third derivative times the step squared; beside it there is
 // rounding, of pixels' coordinates and of the path's, over the step.
-TEST(PencilMaps, follow_refracted_and_reflected_rays_to_first_order) {
+TEST(PencilMaps, FollowRefractedAndReflectedRaysToFirstOrder) {
     std::mt19937_64 random(20270);
     std::uniform_real_distribution<double> pixel(150, 250);
     for (int i = 0; i < 60; ++i) {
@@ -139,7 +139,7 @@ TEST(PencilMaps, follow_refracted_and_reflected_rays_to_first_order) {
     }
 }
 
-TEST(PencilMaps, at_1_01_diameters_follow_the_rays_to_first_order) {
+TEST(PencilMaps, At101DiametersFollowTheRaysToFirstOrder) {
     const Solid solid = round_brilliant();
     for (const Vec3& from :
          {Vec3{0, 0, 1}, Vec3{0.3, 0.2, 1}, Vec3{1, 0.2, 0.3}, Vec3{0, 0.1, -1}}) {
@@ -152,7 +152,7 @@ TEST(PencilMaps, at_1_01_diameters_follow_the_rays_to_first_order) {
     }
 }
 
-TEST(PencilMaps, at_normal_incidence_have_no_direction_of_their_own) {
+TEST(PencilMaps, AtNormalIncidenceHaveNoDirectionOfTheirOwn) {
     const Solid solid = round_brilliant();
     Scene scene = plain_scene(solid);
     scene.camera.width = scene.camera.height = 401;
@@ -172,7 +172,7 @@ TEST(PencilMaps, at_normal_incidence_have_no_direction_of_their_own) {
     }
 }
 
-TEST(PencilMaps, at_grazing_incidence_follow_the_rays_to_first_order) {
+TEST(PencilMaps, AtGrazingIncidenceFollowTheRaysToFirstOrder) {
     // A slab seen along its top: the cosine falls to 1e-4.
     const Solid solid = slab(1);
     for (const double height : {1.0, 0.1, 0.01, 1e-3}) {
@@ -191,7 +191,7 @@ TEST(PencilMaps, at_grazing_incidence_follow_the_rays_to_first_order) {
 
 // Parallel rays stay parallel at planes: every kind of map is exact everywhere, not only about its
 // middle ray.
-TEST(PencilMaps, of_a_parallel_camera_are_exact_of_every_kind) {
+TEST(PencilMaps, OfAParallelCameraAreExactOfEveryKind) {
     std::mt19937_64 random(20271);
     std::uniform_real_distribution<double> pixel(150, 250);
     for (int i = 0; i < 30; ++i) {
@@ -219,7 +219,7 @@ TEST(PencilMaps, of_a_parallel_camera_are_exact_of_every_kind) {
 
 // From a distance the eye is as good as parallel: the three kinds differ by a map's depth over the
 // distance, times the offset in pixels.
-TEST(PencilMaps, of_all_kinds_agree_from_far_away) {
+TEST(PencilMaps, OfAllKindsAgreeFromFarAway) {
     std::mt19937_64 random(20272);
     for (int i = 0; i < 10; ++i) {
         SCOPED_TRACE("seed 20272, case " + std::to_string(i));
@@ -245,7 +245,7 @@ TEST(PencilMaps, of_all_kinds_agree_from_far_away) {
 }
 
 // Mirroring is its own inverse, and leaves the mirror's points where they are.
-TEST(Foldings, mirror_back_and_forth) {
+TEST(Foldings, MirrorBackAndForth) {
     std::mt19937_64 random(20273);
     for (int i = 0; i < 20; ++i) {
         const Plane plane{random_direction(random), 0.7};

@@ -183,7 +183,7 @@ void expect_parts(const Polygon& polygon, const CoveredPixels& found, int width,
     ASSERT_GT(looked_at, 0);
 }
 
-TEST_P(Coverage, has_the_middles_and_widths_of_its_parts) {
+TEST_P(Coverage, HasTheMiddlesAndWidthsOfItsParts) {
     std::mt19937_64 random(20268);
     std::uniform_real_distribution<double> x(12, k_width - 12), y(12, k_height - 12), r(0.2, 11);
     for (int i = 0; i < 600; ++i) {
@@ -196,7 +196,7 @@ TEST_P(Coverage, has_the_middles_and_widths_of_its_parts) {
     }
 }
 
-TEST_P(Coverage, of_parts_without_width_stays_in_the_pixel) {
+TEST_P(Coverage, OfPartsWithoutWidthStaysInThePixel) {
     // A diagonal and an upright sliver, of which single precision knows little or nothing.
     for (const double width : {1e-3, 1e-5, 1e-7, 1e-9}) {
         for (const Polygon& sliver : {Polygon{{3.1, 4.2}, {7.1 + width, 8.2}, {7.1, 8.2}},
@@ -218,7 +218,7 @@ TEST_P(Coverage, of_parts_without_width_stays_in_the_pixel) {
     }
 }
 
-TEST_P(Coverage, of_random_polygons_is_what_clipping_says) {
+TEST_P(Coverage, OfRandomPolygonsIsWhatClippingSays) {
     std::mt19937_64 random(20261);
     std::uniform_real_distribution<double> x(12, k_width - 12), y(12, k_height - 12), r(0.05, 11);
     for (int i = 0; i < 1500; ++i) {
@@ -228,7 +228,7 @@ TEST_P(Coverage, of_random_polygons_is_what_clipping_says) {
     }
 }
 
-TEST_P(Coverage, of_slivers_is_what_clipping_says) {
+TEST_P(Coverage, OfSliversIsWhatClippingSays) {
     std::mt19937_64 random(20262);
     std::uniform_real_distribution<double> x(24, k_width - 24), y(23, k_height - 23), r(0.1, 23),
         power(-12, -1);
@@ -240,7 +240,7 @@ TEST_P(Coverage, of_slivers_is_what_clipping_says) {
     }
 }
 
-TEST_P(Coverage, of_polygons_smaller_than_a_pixel_is_what_clipping_says) {
+TEST_P(Coverage, OfPolygonsSmallerThanAPixelIsWhatClippingSays) {
     std::mt19937_64 random(20263);
     std::uniform_real_distribution<double> x(2, k_width - 2), y(2, k_height - 2), power(-9, 0);
     for (int i = 0; i < 1500; ++i) {
@@ -250,7 +250,7 @@ TEST_P(Coverage, of_polygons_smaller_than_a_pixel_is_what_clipping_says) {
     }
 }
 
-TEST_P(Coverage, with_corners_on_pixel_borders_is_what_clipping_says) {
+TEST_P(Coverage, WithCornersOnPixelBordersIsWhatClippingSays) {
     std::mt19937_64 random(20264);
     std::uniform_real_distribution<double> x(12, k_width - 12), y(12, k_height - 12), r(0.5, 11);
     for (int i = 0; i < 1500; ++i) {
@@ -268,7 +268,7 @@ TEST_P(Coverage, with_corners_on_pixel_borders_is_what_clipping_says) {
     }
 }
 
-TEST_P(Coverage, of_some_rows_is_that_of_the_whole) {
+TEST_P(Coverage, OfSomeRowsIsThatOfTheWhole) {
     std::mt19937_64 random(20265);
     std::uniform_real_distribution<double> x(20, k_width - 20), y(0, k_height), r(0.5, 19);
     std::uniform_int_distribution<int> row(0, k_height - 1);
@@ -281,7 +281,7 @@ TEST_P(Coverage, of_some_rows_is_that_of_the_whole) {
 }
 
 // Regions end at the picture's borders, as those of beams do.
-TEST_P(Coverage, at_the_pictures_borders_is_what_clipping_says) {
+TEST_P(Coverage, AtThePicturesBordersIsWhatClippingSays) {
     std::mt19937_64 random(20266);
     std::uniform_real_distribution<double> x(-5, k_width + 5), y(-5, k_height + 5), r(0.5, 19);
     for (int i = 0; i < 1500; ++i) {
@@ -296,7 +296,7 @@ TEST_P(Coverage, at_the_pictures_borders_is_what_clipping_says) {
     }
 }
 
-TEST_P(Coverage, near_the_border_is_within_the_margin) {
+TEST_P(Coverage, NearTheBorderIsWithinTheMargin) {
     std::mt19937_64 random(20269);
     std::uniform_real_distribution<double> x(12, k_width - 12), y(12, k_height - 12), r(0.5, 20),
         margin(0, 3);
@@ -397,7 +397,7 @@ void expect_tiling(const std::vector<Polygon>& cells, int width, int height, boo
     }
 }
 
-TEST(Tiling, by_random_lines_fills_each_pixel_once) {
+TEST(Tiling, ByRandomLinesFillsEachPixelOnce) {
     std::mt19937_64 random(20267);
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> x(0, 40), y(0, 31);
@@ -414,7 +414,7 @@ TEST(Tiling, by_random_lines_fills_each_pixel_once) {
 
 // Upright, level and diagonal lines through middles of pixels, as an odd-sized picture of a
 // symmetric stone has them: crossings and middles are exact in double.
-TEST(Tiling, by_lines_through_pixel_middles_takes_each_middle_once) {
+TEST(Tiling, ByLinesThroughPixelMiddlesTakesEachMiddleOnce) {
     const double m = 20.5;
     std::vector<std::array<double, 3>> lines{{1, 0, -m}, {0, 1, -m}, {1, -1, 0}, {1, 1, -2 * m}};
     for (int k = 1; k < 6; ++k) {
@@ -425,7 +425,7 @@ TEST(Tiling, by_lines_through_pixel_middles_takes_each_middle_once) {
     expect_tiling(subdivision(41, 41, lines), 41, 41, true);
 }
 
-TEST(Tiling, of_no_area_takes_nothing) {
+TEST(Tiling, OfNoAreaTakesNothing) {
     PixelCoverage coverage(20);
     const Polygon point{{3.5, 3.5}, {3.5, 3.5}, {3.5, 3.5}}, level{{1, 4.5}, {9, 4.5}, {4, 4.5}};
     for (const Polygon& p : {point, level}) {

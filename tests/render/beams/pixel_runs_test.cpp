@@ -48,7 +48,7 @@ protected:
     std::vector<float> values_, shares_;
 };
 
-TEST_P(Runs, are_added_to_their_own_pixels_and_to_no_others) {
+TEST_P(Runs, AreAddedToTheirOwnPixelsAndToNoOthers) {
     std::mt19937_64 random(20271);
     for (int i = 0; i < 200; ++i) {
         SCOPED_TRACE("seed 20271, case " + std::to_string(i));
@@ -71,7 +71,7 @@ TEST_P(Runs, are_added_to_their_own_pixels_and_to_no_others) {
     }
 }
 
-TEST_P(Runs, claim_each_pixel_once) {
+TEST_P(Runs, ClaimEachPixelOnce) {
     std::mt19937_64 random(20272);
     std::vector<float> taken(k_pixels, 0.0f);
     std::vector<double> given(k_pixels, 0.0);
@@ -94,7 +94,7 @@ TEST_P(Runs, claim_each_pixel_once) {
     }
 }
 
-TEST_P(Runs, are_summed) {
+TEST_P(Runs, AreSummed) {
     std::mt19937_64 random(20273);
     for (int i = 0; i < 100; ++i) {
         make_runs(random);
@@ -113,7 +113,7 @@ TEST_P(Runs, are_summed) {
     }
 }
 
-TEST_P(Runs, tell_of_whole_pixels_without_a_mark) {
+TEST_P(Runs, TellOfWholePixelsWithoutAMark) {
     for (int count : {0, 1, 5, 16, 17, 40}) {
         const std::size_t size = static_cast<std::size_t>(count + k_shading_room);
         // Beyond the count all would be found.
@@ -130,7 +130,7 @@ TEST_P(Runs, tell_of_whole_pixels_without_a_mark) {
     }
 }
 
-TEST_P(Runs, show_gaps_next_to_what_is_taken) {
+TEST_P(Runs, ShowGapsNextToWhatIsTaken) {
     std::mt19937_64 random(20274);
     for (int i = 0; i < 50; ++i) {
         SCOPED_TRACE("seed 20274, case " + std::to_string(i));
@@ -153,7 +153,7 @@ TEST_P(Runs, show_gaps_next_to_what_is_taken) {
     }
 }
 
-TEST_P(Runs, become_cover_and_colour) {
+TEST_P(Runs, BecomeCoverAndColour) {
     for (int count : {0, 1, 7, 16, 33}) {
         const std::size_t size = static_cast<std::size_t>(count);
         std::vector<float> values, sums(size + 1, 0.5f), rgb(3 * size + 1, -1.0f);

@@ -60,7 +60,7 @@ Scene furnace(const Solid& solid) {
 
 using GpuHard = GpuTest;
 
-TEST_F(GpuHard, a_furnace_shows_nothing_but_itself) {
+TEST_F(GpuHard, AFurnaceShowsNothingButItself) {
     for (const bool polarised : {false, true}) {
         SCOPED_TRACE(polarised);
         Scene scene = furnace(round_brilliant());
@@ -76,7 +76,7 @@ TEST_F(GpuHard, a_furnace_shows_nothing_but_itself) {
     }
 }
 
-TEST_F(GpuHard, light_is_seen_absorbed_or_left) {
+TEST_F(GpuHard, LightIsSeenAbsorbedOrLeft) {
     Scene scene = furnace(round_brilliant());
     scene.stone.material.absorption_per_mm[0] = Spectrum(0.4);
     expect_balance(scene, 3000);
@@ -91,7 +91,7 @@ TEST_F(GpuHard, light_is_seen_absorbed_or_left) {
     expect_balance(scene, 3000);
 }
 
-TEST_F(GpuHard, rays_through_edges_and_corners) {
+TEST_F(GpuHard, RaysThroughEdgesAndCorners) {
     // A cube whose edges and corners lie on the rays of pixels, to the bit: seen along an edge's
     // bisector, the edge is the picture's middle column.
     std::vector<NamedPlane> planes;
@@ -112,7 +112,7 @@ TEST_F(GpuHard, rays_through_edges_and_corners) {
     }
 }
 
-TEST_F(GpuHard, total_reflection_begins_where_it_must) {
+TEST_F(GpuHard, TotalReflectionBeginsWhereItMust) {
     // Seen from within a prism's reach: the far face of a slab at angles about the critical one.
     // Next to the critical angle what passes goes with the root of the distance to it, so that 1e-7
     // turns into 3e-4 of a face's power.
@@ -138,7 +138,7 @@ TEST_F(GpuHard, total_reflection_begins_where_it_must) {
     }
 }
 
-TEST_F(GpuHard, a_stone_lighter_than_what_surrounds_it) {
+TEST_F(GpuHard, AStoneLighterThanWhatSurroundsIt) {
     for (const double outside : {1.501, 1.9, 2.5}) {
         SCOPED_TRACE(outside);
         Scene scene = furnace(round_brilliant());
@@ -153,7 +153,7 @@ TEST_F(GpuHard, a_stone_lighter_than_what_surrounds_it) {
     }
 }
 
-TEST_F(GpuHard, a_stone_of_its_surroundings_index_is_not_there) {
+TEST_F(GpuHard, AStoneOfItsSurroundingsIndexIsNotThere) {
     Scene scene = furnace(round_brilliant());
     scene.stone.material.index[0].n = 1.5;
     scene.immersion = 1.5;
@@ -171,7 +171,7 @@ TEST_F(GpuHard, a_stone_of_its_surroundings_index_is_not_there) {
     }
 }
 
-TEST_F(GpuHard, slivers_and_stones_far_from_the_origin) {
+TEST_F(GpuHard, SliversAndStonesFarFromTheOrigin) {
     std::mt19937_64 random(41);
     for (int i = 0; i < 6; ++i) {
         SCOPED_TRACE(fmt::format("seed 41, stone {}", i));
@@ -189,7 +189,7 @@ TEST_F(GpuHard, slivers_and_stones_far_from_the_origin) {
     expect_balance(scene, 3000);
 }
 
-TEST_F(GpuHard, near_lights_before_and_behind_the_stone) {
+TEST_F(GpuHard, NearLightsBeforeAndBehindTheStone) {
     Scene scene = furnace(round_brilliant());
     scene.lights.sources = {SphereLight{{0.3, 0.5, 2}, 0.4, {3.0}},
                             SphereLight{{0, 0, 9.6}, 0.1, {7.0}},

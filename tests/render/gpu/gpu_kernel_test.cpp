@@ -54,7 +54,7 @@ void expect_near(const PixelErrors& errors, double bound, int pixels) {
 
 using GpuKernel = GpuTest;
 
-TEST_F(GpuKernel, draws_a_round_brilliant_as_the_reference_does) {
+TEST_F(GpuKernel, DrawsARoundBrilliantAsTheReferenceDoes) {
     for (const bool polarised : {false, true}) {
         SCOPED_TRACE(polarised ? "polarised" : "not polarised");
         Scene scene = facing(round_brilliant());
@@ -64,7 +64,7 @@ TEST_F(GpuKernel, draws_a_round_brilliant_as_the_reference_does) {
     }
 }
 
-TEST_F(GpuKernel, takes_every_wavelength_its_own_way) {
+TEST_F(GpuKernel, TakesEveryWavelengthItsOwnWay) {
     Scene scene = facing(round_brilliant());
     scene.stone.material = catalogue_material("diamond");
     for (const std::vector<double>& nm : std::vector<std::vector<double>>{
@@ -85,7 +85,7 @@ void expect_as_reference(const NamedChange& light, const NamedChange& change) {
     expect_near(gpu_against(scene, k_reference_engine), k_bound, 50);
 }
 
-TEST_F(GpuKernel, draws_every_light) {
+TEST_F(GpuKernel, DrawsEveryLight) {
     const std::vector<NamedChange> all = optics();
     for (const std::vector<NamedChange>& lights : {smooth_lights(), edged_lights()}) {
         for (const NamedChange& light : lights) {
@@ -95,11 +95,11 @@ TEST_F(GpuKernel, draws_every_light) {
     }
 }
 
-TEST_F(GpuKernel, draws_every_optics) {
+TEST_F(GpuKernel, DrawsEveryOptics) {
     for (const NamedChange& change : optics()) expect_as_reference(edged_lights().back(), change);
 }
 
-TEST_F(GpuKernel, sees_an_environment) {
+TEST_F(GpuKernel, SeesAnEnvironment) {
     Scene scene = facing(round_brilliant());
     scene.lights = {};
     scene.lights.environment = smooth_environment();
@@ -107,7 +107,7 @@ TEST_F(GpuKernel, sees_an_environment) {
     expect_near(gpu_against(scene, k_reference_engine), k_single_precision, 1000);
 }
 
-TEST_F(GpuKernel, absorbs_as_garnet_does) {
+TEST_F(GpuKernel, AbsorbsAsGarnetDoes) {
     Scene scene = facing(round_brilliant());
     scene.stone.unit = LengthUnit::mm;
     scene.stone.material = catalogue_material("garnet_almandine");
@@ -120,7 +120,7 @@ TEST_F(GpuKernel, absorbs_as_garnet_does) {
     expect_near(gpu_against(scene, k_reference_engine), k_single_precision, 1000);
 }
 
-TEST_F(GpuKernel, draws_random_stones_of_any_view) {
+TEST_F(GpuKernel, DrawsRandomStonesOfAnyView) {
     std::mt19937_64 random(40);
     for (int i = 0; i < 12; ++i) {
         SCOPED_TRACE(fmt::format("seed 40, stone {}", i));
@@ -154,7 +154,7 @@ Scene polarised_scene() {
     return scene;
 }
 
-TEST_F(GpuKernel, sees_polarised_light_through_an_analyser_and_a_plate) {
+TEST_F(GpuKernel, SeesPolarisedLightThroughAnAnalyserAndAPlate) {
     Scene scene = polarised_scene();
     expect_near(gpu_against(scene, k_reference_engine), k_bound, 1000);
     // Every ray along the table's normal: no plane of incidence at the first face.
@@ -163,7 +163,7 @@ TEST_F(GpuKernel, sees_polarised_light_through_an_analyser_and_a_plate) {
     expect_near(gpu_against(scene, k_reference_engine), k_bound, 1000);
 }
 
-TEST_F(GpuKernel, has_all_four_stokes_parameters) {
+TEST_F(GpuKernel, HasAllFourStokesParameters) {
     Scene scene = polarised_scene();
     scene.settings.depth = 5;
     scene.settings.spectral = true;
@@ -190,7 +190,7 @@ TEST_F(GpuKernel, has_all_four_stokes_parameters) {
     EXPECT_LE(difference(gpu, reference, 1e-3).off, 10);
 }
 
-TEST_F(GpuKernel, merges_a_crystals_waves_as_beams_do) {
+TEST_F(GpuKernel, MergesACrystalsWavesAsBeamsDo) {
     struct Crystal {
         const char* name;
         std::vector<double> n, absorption;
@@ -228,7 +228,7 @@ TEST_F(GpuKernel, merges_a_crystals_waves_as_beams_do) {
     }
 }
 
-TEST_F(GpuKernel, averages_samples_and_pupils_as_the_reference_does) {
+TEST_F(GpuKernel, AveragesSamplesAndPupilsAsTheReferenceDoes) {
     Scene scene = facing(round_brilliant());
     scene.camera.width = scene.camera.height = 60;
     scene.settings.depth = 5;

@@ -32,7 +32,7 @@ GpuProgram program_of(const Scene& scene, const GpuOptions& options = {}) {
     return gpu_program(scene, setup, WavelengthSet(setup.wavelengths_nm), options);
 }
 
-TEST(GpuProgram, names_uniforms_that_its_source_has) {
+TEST(GpuProgram, NamesUniformsThatItsSourceHas) {
     Scene scene = lit_scene();
     scene.stone.material = catalogue_material("sapphire_blue");
     scene.lights.environment = smooth_environment();
@@ -63,7 +63,7 @@ TEST(GpuProgram, names_uniforms_that_its_source_has) {
 }
 
 // What a person changes live must not cost a compilation.
-TEST(GpuProgram, is_the_same_source_whatever_changes_live) {
+TEST(GpuProgram, IsTheSameSourceWhateverChangesLive) {
     const Scene scene = lit_scene();
     const std::string source = program_of(scene).kernel;
     Scene other = scene;
@@ -80,7 +80,7 @@ TEST(GpuProgram, is_the_same_source_whatever_changes_live) {
     EXPECT_NE(program_of(other, deeper).kernel, source);
 }
 
-TEST(GpuProgram, covers_all_wavelengths_in_passes_of_what_fits) {
+TEST(GpuProgram, CoversAllWavelengthsInPassesOfWhatFits) {
     Scene scene = lit_scene();
     scene.stone.material = catalogue_material("diamond");
     for (const int count : {1, 3, 8, 29}) {
@@ -100,7 +100,7 @@ TEST(GpuProgram, covers_all_wavelengths_in_passes_of_what_fits) {
     }
 }
 
-TEST(GpuProgram, says_what_it_does_not_draw) {
+TEST(GpuProgram, SaysWhatItDoesNotDraw) {
     const auto refused = [](const Scene& scene, const std::string& words) {
         const std::string why = refused_by_gpu(scene);
         EXPECT_THAT(why, HasSubstr(words));
@@ -130,13 +130,13 @@ protected:
     RenderResult draw(const Scene& scene) { return engine_named(k_gpu_engine).draw(scene, {}); }
 };
 
-TEST_F(GpuEngine, draws_the_same_bytes_again) {
+TEST_F(GpuEngine, DrawsTheSameBytesAgain) {
     Scene scene = lit_scene();
     scene.settings.samples = 4;
     EXPECT_EQ(draw(scene).picture.rgb, draw(scene).picture.rgb);
 }
 
-TEST_F(GpuEngine, says_what_it_did) {
+TEST_F(GpuEngine, SaysWhatItDid) {
     Scene scene = lit_scene();
     scene.settings.depth = 6;
     scene.settings.samples = 4;
@@ -157,7 +157,7 @@ TEST_F(GpuEngine, says_what_it_did) {
 }
 
 // Depth and cut follow from the tolerance as the reference's do.
-TEST_F(GpuEngine, cuts_what_the_tolerance_allows) {
+TEST_F(GpuEngine, CutsWhatTheToleranceAllows) {
     Scene scene = lit_scene();
     scene.settings.depth = 0;
     scene.settings.tolerance = 0.01;
@@ -169,7 +169,7 @@ TEST_F(GpuEngine, cuts_what_the_tolerance_allows) {
     EXPECT_LE(difference(gpu.picture, reference.picture).share_off(), 0.01);
 }
 
-TEST_F(GpuEngine, refuses_a_camera_inside_the_stone_and_too_large_pictures) {
+TEST_F(GpuEngine, RefusesACameraInsideTheStoneAndTooLargePictures) {
     Scene scene = lit_scene();
     scene.camera.position = {0, 0, 0.05};
     scene.camera.look_at = {0, 0, -5};
@@ -180,7 +180,7 @@ TEST_F(GpuEngine, refuses_a_camera_inside_the_stone_and_too_large_pictures) {
     EXPECT_THROW(draw(wide), InputError);
 }
 
-TEST_F(GpuEngine, stops_when_asked_to) {
+TEST_F(GpuEngine, StopsWhenAskedTo) {
     Scene scene = lit_scene();
     scene.settings.samples = 4;
     int asked = 0;
@@ -191,7 +191,7 @@ TEST_F(GpuEngine, stops_when_asked_to) {
 }
 
 // u_light_turn, and lights that stand turned.
-TEST_F(GpuEngine, turns_lights_by_one_uniform) {
+TEST_F(GpuEngine, TurnsLightsByOneUniform) {
     Scene scene = lit_scene();
     scene.lights.environment = smooth_environment();
     scene.lights.sources.push_back(
@@ -237,7 +237,7 @@ TEST_F(GpuEngine, turns_lights_by_one_uniform) {
 }
 
 // The display pass against what a PNG gets.
-TEST_F(GpuEngine, shows_light_as_pngs_do) {
+TEST_F(GpuEngine, ShowsLightAsPngsDo) {
     Picture ramp;
     ramp.width = 64;
     ramp.height = 1;

@@ -45,7 +45,7 @@ Solid block() {
 
 // Straight down into a block, R at every face: out of the bottom goes T (1 + R^2 + ...) T, out of
 // the top T R T (1 + R^2 + ...), and what was reflected first.
-TEST(LightReturn, of_a_block_is_the_geometric_series) {
+TEST(LightReturn, OfABlockIsTheGeometricSeries) {
     const EyeLight light =
         EyeLightTracer(block()).trace({0, 0, 1}, 1.5, {.faces = 20, .cut_weight = 0});
     const LightBalance balance =
@@ -61,7 +61,7 @@ TEST(LightReturn, of_a_block_is_the_geometric_series) {
 
 // GemRay 1.2.0's own output for its sample SRB.asc (Strickland), head 10 degrees, whole stone and
 // (table). It samples pixels: its figures at 100 and 400 pixels differ by 0.1 to 0.9.
-TEST(LightReturn, is_gemrays) {
+TEST(LightReturn, IsGemrays) {
     const std::filesystem::path file = CULET_SHARED_DATA "/designs/SRB.asc";
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "no shared data at " << file;
     const Solid solid = read_gemcad_asc(file).solid;
@@ -96,7 +96,7 @@ TEST(LightReturn, is_gemrays) {
 }
 
 // Conservation of energy, whatever the cut, the index and the tilt.
-TEST(LightReturn, balances_sum_to_one) {
+TEST(LightReturn, BalancesSumToOne) {
     for (const CutKind& kind : cut_kinds()) {
         if (!kind.convex) continue;
         const Solid solid = make_cut(kind.name);
@@ -114,7 +114,7 @@ TEST(LightReturn, balances_sum_to_one) {
 
 // gemstone-optimizer's published sweep of the pavilion (docs/VALIDATION.md), Tolkowsky's crown,
 // 3200 rays: useful return in per cent, the head included, as it counts.
-TEST(LightReturn, follows_the_published_sweep_of_the_pavilion) {
+TEST(LightReturn, FollowsThePublishedSweepOfThePavilion) {
     struct Published {
         double pavilion, useful;
     };
@@ -135,7 +135,7 @@ TEST(LightReturn, follows_the_published_sweep_of_the_pavilion) {
 
 // Its fire of the same stone: 65.08 with 12800 faces' and 3200 spectral rays; a diamond of 2.417
 // and 0.044 between 430.8 and 686.7 nm, by Cauchy's formula.
-TEST(LightReturn, has_the_published_fire) {
+TEST(LightReturn, HasThePublishedFire) {
     const double b = 0.044 / (1 / (430.8 * 430.8) - 1 / (686.7 * 686.7));
     std::array<double, 3> colours{};
     for (std::size_t i = 0; i < 3; ++i)
@@ -151,7 +151,7 @@ TEST(LightReturn, has_the_published_fire) {
 }
 
 // A stone with two mirror planes looks the same tilted either way.
-TEST(LightReturn, of_symmetric_designs_is_symmetric) {
+TEST(LightReturn, OfSymmetricDesignsIsSymmetric) {
     const Grade grade =
         grade_stone(round_brilliant(), {k_diamond, {}}, tilted_by({-30, -17, -3, 0, 3, 17, 30}));
     ASSERT_EQ(grade.curves.size(), 2u);
@@ -172,7 +172,7 @@ TEST(LightReturn, of_symmetric_designs_is_symmetric) {
 
 // GIA's trends (Hemphill et al. 1998): of crowns above 10 degrees 23 is the best, those above 34.5
 // are never high; tables under 57 %; pavilions from 38 to 42 or 43 degrees.
-TEST(LightReturn, weighted_as_gias_follows_its_trends) {
+TEST(LightReturn, WeightedAsGiasFollowsItsTrends) {
     const auto weighted = [](const RoundProportions& p) {
         const EyeLightTracer tracer(round_brilliant(p));
         WeightedReturn sum;
@@ -195,7 +195,7 @@ TEST(LightReturn, weighted_as_gias_follows_its_trends) {
 }
 
 // A figure of exact areas is as smooth as the areas: halving a small step halves its effect.
-TEST(LightReturn, is_continuous_in_the_angles) {
+TEST(LightReturn, IsContinuousInTheAngles) {
     const auto iso = [](double pavilion) {
         const EyeLight light =
             EyeLightTracer(round_brilliant({.pavilion = pavilion})).trace({0, 0, 1}, k_diamond);
@@ -208,7 +208,7 @@ TEST(LightReturn, is_continuous_in_the_angles) {
     EXPECT_NEAR(half / slope, 1, 0.01);
 }
 
-TEST(LightReturn, does_not_depend_on_threads) {
+TEST(LightReturn, DoesNotDependOnThreads) {
     GradeOptions one = tilted_by({-20, 0, 20}), four = one;
     one.threads = 1;
     four.threads = 4;
@@ -220,7 +220,7 @@ TEST(LightReturn, does_not_depend_on_threads) {
     EXPECT_EQ(a.hearts.evenness, b.hearts.evenness);
 }
 
-TEST(LightReturn, refuses_what_cannot_be_graded) {
+TEST(LightReturn, RefusesWhatCannotBeGraded) {
     const Solid solid = round_brilliant();
     EXPECT_THROW(grade_stone(solid, {1.0, {}}, tilted_by({})), InputError);
     EXPECT_THROW(grade_stone(solid, {std::nan(""), {}}, tilted_by({})), InputError);

@@ -39,7 +39,7 @@ Found found_in(const Solid& solid) {
 // Light straight down through the table is reflected by two opposite mains and leaves under
 // n sin(180 - 4 p) to the vertical: 45 degrees, where ASET's red ends, at p = 40.75 of diamond
 // (AGS: 40.76). Steeper mains send it nearer to the vertical, into red.
-TEST(Scopes, the_tables_aset_colour_flips_at_a_pavilion_of_40_76) {
+TEST(Scopes, TheTablesAsetColourFlipsAtAPavilionOf40Point76) {
     const auto reflection_at = [](double pavilion) {
         const Solid solid = round_brilliant({.table = 57, .pavilion = pavilion, .lower = 77});
         const EyeLight light = EyeLightTracer(solid).trace({0, 0, 1}, k_diamond_d);
@@ -62,7 +62,7 @@ TEST(Scopes, the_tables_aset_colour_flips_at_a_pavilion_of_40_76) {
     EXPECT_NEAR(green_at(40.71) - green_at(40.81), share, 0.01);
 }
 
-TEST(Scopes, shares_sum_to_one) {
+TEST(Scopes, SharesSumToOne) {
     for (const double pavilion : {35.0, 41.0, 46.0}) {
         const EyeLight light =
             EyeLightTracer(round_brilliant({.pavilion = pavilion})).trace({0, 0, 1}, 1.77);
@@ -79,7 +79,7 @@ TEST(Scopes, shares_sum_to_one) {
 
 // A stone of eight has eight of each, all alike but for the map's points: an area of 1.3 % of the
 // silhouette is 2800 points, of which the outline's 200 are in or out by half a point each.
-TEST(Scopes, eight_hearts_and_eight_arrows_are_found) {
+TEST(Scopes, EightHeartsAndEightArrowsAreFound) {
     const Found found = found_in(round_brilliant(k_ideal));
     EXPECT_EQ(found.hearts.count, 8);
     EXPECT_EQ(found.arrows.count, 8);
@@ -99,7 +99,7 @@ TEST(Scopes, eight_hearts_and_eight_arrows_are_found) {
 }
 
 // Half a degree on one facet shows in one figure or other, far beyond the map's points (0.005).
-TEST(Scopes, half_a_degree_on_one_facet_is_seen) {
+TEST(Scopes, HalfADegreeOnOneFacetIsSeen) {
     const Solid ideal = round_brilliant(k_ideal);
     for (const char* facet : {"P3", "C3", "L3a", "S3"}) {
         for (const double error : {0.5, -0.5}) {
@@ -116,7 +116,7 @@ TEST(Scopes, half_a_degree_on_one_facet_is_seen) {
     }
 }
 
-TEST(Scopes, no_hearts_are_found_in_a_step_cut_pavilion_without_any) {
+TEST(Scopes, NoHeartsAreFoundInAStepCutPavilionWithoutAny) {
     // Flat mains: no light of the reflector comes back through the pavilion as it would.
     const Found found = found_in(round_brilliant({.pavilion = 25}));
     EXPECT_NE(found.arrows.count, 8);
@@ -141,7 +141,7 @@ Solid plain_eight() {
     return intersect_half_spaces(planes).solid;
 }
 
-TEST(GradeSigma, is_the_slope_times_sigma) {
+TEST(GradeSigma, IsTheSlopeTimesSigma) {
     const Solid solid = plain_eight();
     const GradeIndex index{k_diamond_d, {}};
     GradeOptions options;
@@ -190,7 +190,7 @@ TEST(GradeSigma, is_the_slope_times_sigma) {
 }
 
 // Facets that err together count together: eight mains by the same amount do not average out.
-TEST(GradeSigma, knows_correlated_errors) {
+TEST(GradeSigma, KnowsCorrelatedErrors) {
     const Solid solid = plain_eight();
     StoneUncertainty apart, together;
     const std::size_t size = 3 * solid.facets.size();
@@ -218,7 +218,7 @@ TEST(GradeSigma, knows_correlated_errors) {
     EXPECT_GT(ratio, 1);
 }
 
-TEST(FacetCosts, names_the_facet_that_is_off) {
+TEST(FacetCosts, NamesTheFacetThatIsOff) {
     const Solid ideal = round_brilliant(k_ideal);
     const GradeIndex index{k_diamond_d, {}};
     EXPECT_TRUE(facet_costs(ideal, index, {}).empty());
@@ -230,7 +230,7 @@ TEST(FacetCosts, names_the_facet_that_is_off) {
     EXPECT_NEAR(degrees(costs.front().off), -0.8 * 7 / 8, 1e-6);
 }
 
-TEST(PathSection, shows_the_textbooks_path) {
+TEST(PathSection, ShowsTheTextbooksPath) {
     const PathSection section = path_section(round_brilliant(), k_diamond_d, radians(10));
     EXPECT_GE(section.outline.size(), 7u);
     ASSERT_EQ(section.paths.size(), 13u);
@@ -251,7 +251,7 @@ TEST(PathSection, shows_the_textbooks_path) {
 
 // What a program that adds a facet's error writes: meets that miss, outlines that cross themselves
 // by rounding.
-TEST(Grade, takes_stones_whose_meets_miss) {
+TEST(Grade, TakesStonesWhoseMeetsMiss) {
     Solid flawed = with_error(round_brilliant(k_ideal), "P3", -0.5);
     for (Vec3& v : flawed.vertices) v += 1e-7 * Vec3{std::sin(1e7 * v.x), std::sin(1e7 * v.y), 0};
     GradeOptions options;
@@ -264,7 +264,7 @@ TEST(Grade, takes_stones_whose_meets_miss) {
     EXPECT_THROW(grade_stone(dented, {k_diamond_d, {}}, options), InputError);
 }
 
-TEST(Upright, turns_a_stone_that_lies_on_its_side) {
+TEST(Upright, TurnsAStoneThatLiesOnItsSide) {
     Stone stone;
     stone.solid = round_brilliant();
     for (Facet& facet : stone.solid.facets)

@@ -39,7 +39,7 @@ protected:
     test::ScratchFolder folder_;
 };
 
-TEST_F(ObjectFiles, shapes_and_materials) {
+TEST_F(ObjectFiles, ShapesAndMaterials) {
     const Scene scene = read(
         "[[object]]\nshape = \"sphere\"\ncenter = [1, 2, 3]\nradius = 2\n"
         "material = { kind = \"metal\", f0 = [1, 0.7, 0.3], roughness = 0.2 }\n"
@@ -61,7 +61,7 @@ TEST_F(ObjectFiles, shapes_and_materials) {
 }
 
 // A matrix says the same as its steps.
-TEST_F(ObjectFiles, transforms_are_steps_or_matrices) {
+TEST_F(ObjectFiles, TransformsAreStepsOrMatrices) {
     const auto placed = [&](const std::string& transform) {
         return std::get<SphereShape>(read("[[object]]\nshape = \"sphere\"\ncenter = [1, 0, 0]\n"
                                           "radius = 1\nmaterial = { kind = \"diffuse\" }\n"
@@ -78,7 +78,7 @@ TEST_F(ObjectFiles, transforms_are_steps_or_matrices) {
     EXPECT_NEAR(matrix.radius, 2, 1e-14);
 }
 
-TEST_F(ObjectFiles, what_is_wrong_is_said_with_its_line) {
+TEST_F(ObjectFiles, WhatIsWrongIsSaidWithItsLine) {
     const std::string sphere = "[[object]]\nshape = \"sphere\"\nradius = 1\n";
     const std::string diffuse = "material = { kind = \"diffuse\" }\n";
     const std::vector<std::pair<std::string, std::string>> cases{
@@ -117,7 +117,7 @@ TEST_F(ObjectFiles, what_is_wrong_is_said_with_its_line) {
 const std::string k_tetrahedron =
     "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
 
-TEST_F(ObjectFiles, several_stones_stand_where_they_are_put) {
+TEST_F(ObjectFiles, SeveralStonesStandWhereTheyArePut) {
     write("t.obj", k_tetrahedron);
     const Scene scene = read(
         "[[stone]]\nmesh = \"t.obj\"\nmaterial = \"diamond\"\n"
@@ -144,7 +144,7 @@ TEST_F(ObjectFiles, several_stones_stand_where_they_are_put) {
 }
 
 // All that a picture depends on.
-TEST_F(ObjectFiles, fingerprints_tell_objects_apart) {
+TEST_F(ObjectFiles, FingerprintsTellObjectsApart) {
     write("t.obj", k_tetrahedron);
     const auto print = [&](const std::string& text) {
         Fingerprint of;
@@ -160,7 +160,7 @@ TEST_F(ObjectFiles, fingerprints_tell_objects_apart) {
               print(mesh + "smooth = true\nmaterial = { kind = \"diffuse\", albedo = 0.5 }\n"));
 }
 
-TEST_F(ObjectFiles, a_turntable_turns_everything) {
+TEST_F(ObjectFiles, ATurntableTurnsEverything) {
     write("t.obj", k_tetrahedron);
     const Scene scene = read(
         "[[stone]]\nmesh = \"t.obj\"\nmaterial = \"diamond\"\n[[object]]\nshape = \"sphere\"\n"
@@ -173,7 +173,7 @@ TEST_F(ObjectFiles, a_turntable_turns_everything) {
 }
 
 // A polygon with a notch, from the notch's far side: a fan would cover what is not there.
-TEST_F(ObjectFiles, polygons_with_notches_become_triangles_of_their_area) {
+TEST_F(ObjectFiles, PolygonsWithNotchesBecomeTrianglesOfTheirArea) {
     write("notch.obj", "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 2 3 4 5 1\n");
     const TriangleMesh mesh = read_triangle_mesh(folder_ / "notch.obj");
     double sum = 0;
@@ -200,7 +200,7 @@ std::string gltf(const std::string& node, const std::string& count = "3") {
 }
 
 // +y of glTF is up, and its unit is the metre.
-TEST_F(ObjectFiles, gltf_is_read_with_its_axes_and_unit) {
+TEST_F(ObjectFiles, GltfIsReadWithItsAxesAndUnit) {
     write("a.gltf", gltf("{\"mesh\":0,\"translation\":[0,0,2]}"));
     const TriangleMesh mesh = read_triangle_mesh(folder_ / "a.gltf");
     ASSERT_EQ(mesh.triangles.size(), 1u);
@@ -212,7 +212,7 @@ TEST_F(ObjectFiles, gltf_is_read_with_its_axes_and_unit) {
     EXPECT_EQ(std::get<MeshShape>(scene.objects[0].shape).mesh->vertices[1], Vec3(1000, -2000, 0));
 }
 
-TEST_F(ObjectFiles, damaged_gltf_is_one_line) {
+TEST_F(ObjectFiles, DamagedGltfIsOneLine) {
     const std::string good = gltf("{\"mesh\":0}");
     const std::vector<std::string> bad{gltf("{\"mesh\":3}"),
                                        gltf("{\"mesh\":0,\"children\":[0]}"),

@@ -91,7 +91,7 @@ void expect_same(const std::vector<Estimate>& a, const std::vector<Estimate>& b)
 
 // Conservation of energy: where the same light comes from everywhere and nothing absorbs, all
 // things look like it.
-TEST(ObjectScenes, vanish_in_a_furnace) {
+TEST(ObjectScenes, VanishInAFurnace) {
     Scene scene = empty_scene(48, 64);
     scene.lights.constant = 1;
     std::mt19937_64 random(1);
@@ -117,7 +117,7 @@ TEST(ObjectScenes, vanish_in_a_furnace) {
 }
 
 // Lambert: a cap of half angle a about the normal gives the irradiance pi L sin^2 a.
-TEST(ObjectScenes, a_diffuse_plane_under_a_cap) {
+TEST(ObjectScenes, ADiffusePlaneUnderACap) {
     Scene scene = empty_scene(32, 16);
     scene.lights.sources = {DiscLight{{0, 0, 1}, 0, 0.3, {5.0}}};
     scene.objects = {{PlaneShape{}, DiffuseMaterial{{0.6}}}};
@@ -127,7 +127,7 @@ TEST(ObjectScenes, a_diffuse_plane_under_a_cap) {
 }
 
 // A sphere of radius r at distance d gives pi L (r/d)^2 cos: as a light, and as an emitter.
-TEST(ObjectScenes, a_diffuse_plane_under_a_sphere_that_shines) {
+TEST(ObjectScenes, ADiffusePlaneUnderASphereThatShines) {
     const Vec3 center{3, 0, 4};
     const double wanted = 0.5 * 7 * std::pow(1.5 / 5, 2) * 4 / 5;
     for (const bool emitter : {false, true}) {
@@ -146,7 +146,7 @@ TEST(ObjectScenes, a_diffuse_plane_under_a_sphere_that_shines) {
 }
 
 // In the full shadow of a sphere there is no light.
-TEST(ObjectScenes, things_cast_shadows) {
+TEST(ObjectScenes, ThingsCastShadows) {
     Scene scene = empty_scene(8, 4);
     scene.camera.position = {0, -20, 20};
     scene.camera.orthographic_width = 0.1;
@@ -160,7 +160,7 @@ TEST(ObjectScenes, things_cast_shadows) {
 
 // Polarised at polished surfaces: an analyser across the plane of incidence sees R_s / 2 of an even
 // light, along it R_p / 2 (Born & Wolf, 14.2).
-TEST(ObjectScenes, a_metal_polarises_what_it_reflects) {
+TEST(ObjectScenes, AMetalPolarisesWhatItReflects) {
     const double n = 1.2, k = 7.26, angle = 1.2;
     Scene scene = empty_scene(2, 1);
     scene.camera.position = 20.0 * Vec3{0, -std::sin(angle), std::cos(angle)};
@@ -182,7 +182,7 @@ TEST(ObjectScenes, a_metal_polarises_what_it_reflects) {
 }
 
 // A plate of glass in normal light: (1 - R)^2 a / (1 - R^2 a^2), the sum of all its reflections.
-TEST(ObjectScenes, a_plate_of_coloured_glass) {
+TEST(ObjectScenes, APlateOfColouredGlass) {
     Scene scene = empty_scene(32, 64);
     scene.camera.orthographic_width = 0.1;
     scene.lights.sources = {HemisphereLight{{0, 0, -1}, {1.0}}};
@@ -207,7 +207,7 @@ Scene between_two_lights(int side, int samples) {
 
 // The same cube as a stone, by the tree of all its paths, and as an object, by chance: two
 // implementations of one thing. With an analyser, so that all four Stokes parameters matter.
-TEST(ObjectScenes, a_cube_of_glass_is_a_stone) {
+TEST(ObjectScenes, ACubeOfGlassIsAStone) {
     std::vector<NamedPlane> planes;
     for (int axis = 0; axis < 3; ++axis) {
         for (int sign : {-1, 1}) {
@@ -236,7 +236,7 @@ TEST(ObjectScenes, a_cube_of_glass_is_a_stone) {
 
 // Which of two stones a scene is about changes nothing of what is seen; nor does a thing that
 // nothing sees.
-TEST(ObjectScenes, stones_see_each_other) {
+TEST(ObjectScenes, StonesSeeEachOther) {
     std::mt19937_64 random(5);
     Stone a = stone_of(random_stone(random, 20), 1.7), b = stone_of(random_stone(random, 20), 2.2);
     for (Vec3& v : b.solid.vertices) v += Vec3{2.3, 0, 0};
@@ -249,7 +249,7 @@ TEST(ObjectScenes, stones_see_each_other) {
     expect_same(pixels_of(one, 12), pixels_of(other, 12));
 }
 
-TEST(ObjectScenes, a_thing_out_of_sight_changes_nothing) {
+TEST(ObjectScenes, AThingOutOfSightChangesNothing) {
     std::mt19937_64 random(6);
     Scene alone = between_two_lights(6, 16);
     alone.stone = stone_of(random_stone(random, 20), 1.7);
@@ -260,7 +260,7 @@ TEST(ObjectScenes, a_thing_out_of_sight_changes_nothing) {
 }
 
 // Same input, same bytes.
-TEST(ObjectScenes, are_the_same_whatever_the_threads) {
+TEST(ObjectScenes, AreTheSameWhateverTheThreads) {
     std::mt19937_64 random(7);
     Scene scene = between_two_lights(40, 4);
     scene.stone = stone_of(random_stone(random, 20), 1.7);
@@ -275,7 +275,7 @@ TEST(ObjectScenes, are_the_same_whatever_the_threads) {
 }
 
 // What cannot draw objects says so; nothing is left out in silence.
-TEST(ObjectScenes, are_refused_by_engines_that_do_not_draw_them) {
+TEST(ObjectScenes, AreRefusedByEnginesThatDoNotDrawThem) {
     Scene scene = between_two_lights(8, 1);
     std::mt19937_64 random(8);
     scene.stone = stone_of(random_stone(random, 20), 1.7);
@@ -290,7 +290,7 @@ TEST(ObjectScenes, are_refused_by_engines_that_do_not_draw_them) {
 }
 
 // A stone in glass would be drawn as in air.
-TEST(ObjectScenes, refuse_stones_and_cameras_inside_glass) {
+TEST(ObjectScenes, RefuseStonesAndCamerasInsideGlass) {
     std::mt19937_64 random(9);
     Scene scene = between_two_lights(8, 1);
     scene.stone = stone_of(random_stone(random, 20), 1.7);
@@ -304,7 +304,7 @@ TEST(ObjectScenes, refuse_stones_and_cameras_inside_glass) {
 
 // Through both arms of a U to a light behind them, and a black ball between the arms, which a ray
 // that leaves the first arm meets before the second.
-TEST(ObjectScenes, things_stand_between_a_stone_and_itself) {
+TEST(ObjectScenes, ThingsStandBetweenAStoneAndItself) {
     Scene scene = empty_scene(16, 16);
     scene.stone = stone_of(carved::u_prism(), 1.5);
     scene.stone.convex = false;
@@ -324,7 +324,7 @@ TEST(ObjectScenes, things_stand_between_a_stone_and_itself) {
 }
 
 // What a bound on indirect light takes away is told by the bound: nothing where it is not reached.
-TEST(ObjectScenes, clamped_light_is_at_most_the_bound) {
+TEST(ObjectScenes, ClampedLightIsAtMostTheBound) {
     Scene scene = empty_scene(16, 16);
     scene.camera.position = {0, -20, 20};
     scene.lights.constant = 1;
@@ -338,7 +338,7 @@ TEST(ObjectScenes, clamped_light_is_at_most_the_bound) {
 }
 
 // Alpha is where things stand, where the film asks for it.
-TEST(ObjectScenes, alpha_is_where_things_stand) {
+TEST(ObjectScenes, AlphaIsWhereThingsStand) {
     Scene scene = empty_scene(16, 4);
     scene.camera.orthographic_width = 4;
     scene.lights.constant = 1;

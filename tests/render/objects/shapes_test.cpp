@@ -16,7 +16,7 @@ namespace culet {
 namespace {
 
 // Elementary geometry: from 5 above a unit sphere; from its middle; past it; away from it.
-TEST(Shapes, spheres_are_met_from_outside_and_inside) {
+TEST(Shapes, SpheresAreMetFromOutsideAndInside) {
     const SphereShape sphere{{0, 0, 1}, 2};
     const auto above = nearest_on(sphere, {0, 0, 8}, {0, 0, -1}, -1);
     ASSERT_TRUE(above);
@@ -30,7 +30,7 @@ TEST(Shapes, spheres_are_met_from_outside_and_inside) {
 }
 
 // A start on the surface is not met again, whatever rounding made of it; the far side is.
-TEST(Shapes, a_ray_from_a_sphere_meets_its_far_side_alone) {
+TEST(Shapes, ARayFromASphereMeetsItsFarSideAlone) {
     std::mt19937_64 random(1);
     const SphereShape sphere{{0.3, -0.2, 0.1}, 1.7};
     for (int i = 0; i < 10000; ++i) {
@@ -46,7 +46,7 @@ TEST(Shapes, a_ray_from_a_sphere_meets_its_far_side_alone) {
     }
 }
 
-TEST(Shapes, planes_and_discs) {
+TEST(Shapes, PlanesAndDiscs) {
     const PlaneShape plane{{0, 0, -1}, {0, 0, 1}};
     const Vec3 down = glm::normalize(Vec3{3, 0, -4});
     const auto hit = nearest_on(plane, {0, 0, 3}, down, -1);
@@ -60,7 +60,7 @@ TEST(Shapes, planes_and_discs) {
 }
 
 // An independent method: the same box as a solid of planes, met without an epsilon.
-TEST(Shapes, boxes_are_met_as_the_solid_of_their_planes) {
+TEST(Shapes, BoxesAreMetAsTheSolidOfTheirPlanes) {
     std::mt19937_64 random(2);
     BoxShape box;
     box.center = {0.2, -0.1, 0.4};
@@ -108,7 +108,7 @@ std::shared_ptr<const TriangleMesh> mesh_of(const Solid& solid) {
 
 // An independent method: the same surface as a watertight polyhedron. Single precision finds the
 // triangle: next to an edge it may find its neighbour, as far off as its rounding.
-TEST(Meshes, are_met_as_the_polyhedron_of_their_faces) {
+TEST(Meshes, AreMetAsThePolyhedronOfTheirFaces) {
     std::mt19937_64 random(3);
     const Solid solid = random_stone(random, 40);
     const PolyhedronBody body(solid);
@@ -137,7 +137,7 @@ TEST(Meshes, are_met_as_the_polyhedron_of_their_faces) {
 }
 
 // Convex: no ray that leaves a triangle outwards meets the mesh again.
-TEST(Meshes, are_not_met_where_a_ray_starts) {
+TEST(Meshes, AreNotMetWhereARayStarts) {
     std::mt19937_64 random(4);
     const Solid solid = random_stone(random, 40);
     Scene scene;

@@ -26,7 +26,7 @@ ReadySurface metal_of(double f0, double roughness) {
 }
 
 // Born & Wolf, 14.2: ((n - 1)^2 + k^2) / ((n + 1)^2 + k^2) at normal incidence.
-TEST(Metals, reflect_at_normal_incidence_what_their_index_says) {
+TEST(Metals, ReflectAtNormalIncidenceWhatTheirIndexSays) {
     for (const auto& [n, k] : {std::pair(0.055, 3.32), {1.2, 7.26}, {2.87, 3.36}, {1.5, 0.0}}) {
         const MuellerReflection r = metal(n, k).reflection(0, 1);
         const double wanted = ((n - 1) * (n - 1) + k * k) / ((n + 1) * (n + 1) + k * k);
@@ -41,7 +41,7 @@ TEST(Metals, reflect_at_normal_incidence_what_their_index_says) {
 }
 
 // Without phases: the same by real numbers alone.
-TEST(Metals, reflect_the_mean_of_s_and_p) {
+TEST(Metals, ReflectTheMeanOfSAndP) {
     for (const auto& [n, k] : {std::pair(0.055, 3.32), {1.2, 7.26}, {2.87, 3.36}, {1.5, 0.0}}) {
         const ReadySurface surface = metal(n, k);
         for (double cosine = 0; cosine <= 1; cosine += 0.01) {
@@ -51,7 +51,7 @@ TEST(Metals, reflect_the_mean_of_s_and_p) {
 }
 
 // Without extinction a metal is glass: the same numbers as fresnel.h, which has its own tests.
-TEST(Metals, without_extinction_are_glass) {
+TEST(Metals, WithoutExtinctionAreGlass) {
     for (const double n : {1.2, 1.5, 2.4}) {
         const ReadySurface surface = metal(n, 0);
         for (double cosine = 0.02; cosine < 1; cosine += 0.02) {
@@ -67,7 +67,7 @@ TEST(Metals, without_extinction_are_glass) {
 }
 
 // Abeles' relation (1950): at 45 degrees R_p = R_s^2, whatever the index.
-TEST(Metals, keep_abeles_relation_at_45_degrees) {
+TEST(Metals, KeepAbelesRelationAt45Degrees) {
     for (const auto& [n, k] : {std::pair(0.055, 3.32), {1.2, 7.26}, {2.87, 3.36}}) {
         const MuellerReflection r = metal(n, k).reflection(0, std::sqrt(0.5));
         const double s = r.mean + r.difference, p = r.mean - r.difference;
@@ -78,7 +78,7 @@ TEST(Metals, keep_abeles_relation_at_45_degrees) {
 // Definitions: what a direction sees of the microfacets is its own projection,
 // integral of D G1 max(0, m.v) dm = v.z (Heitz 2014, eq. 15). What a chosen direction weighs is the
 // share of its light that leaves unshadowed, G2 / G1.
-TEST(Microfacets, fill_what_is_seen_of_them) {
+TEST(Microfacets, FillWhatIsSeenOfThem) {
     constexpr int k_heights = 20000, k_azimuths = 200;
     for (const double alpha : {0.1, 0.3, 0.8}) {
         for (const double cosine : {0.2, 0.6, 0.95}) {
@@ -120,7 +120,7 @@ TEST(Microfacets, fill_what_is_seen_of_them) {
 
 // Conservation: a rough metal that reflects all shows an even light as it is. The mean of n samples
 // lies within 5 standard errors, and the table of albedos within 1e-3.
-TEST(Microfacets, lose_nothing_between_them) {
+TEST(Microfacets, LoseNothingBetweenThem) {
     Random random(3);
     for (const double roughness : {0.2, 0.5, 1.0}) {
         const ReadySurface surface = metal_of(1, roughness);
@@ -144,7 +144,7 @@ TEST(Microfacets, lose_nothing_between_them) {
 }
 
 // Flatter than the rounding of directions: polished, and never a number that is none.
-TEST(Microfacets, of_no_slope_are_a_polished_surface) {
+TEST(Microfacets, OfNoSlopeAreAPolishedSurface) {
     for (const double roughness : {1e-200, 1e-80, 1e-9, 1e-4}) {
         const ReadySurface surface = metal_of(0.9, roughness);
         EXPECT_EQ(surface.kind, SurfaceKind::metal) << roughness;
@@ -167,7 +167,7 @@ TEST(Microfacets, of_no_slope_are_a_polished_surface) {
 
 // What is reflected one way is reflected back, but for what is made up for (Turquin's gain is of
 // one direction alone): 4 cos cos f is symmetric.
-TEST(Microfacets, reflect_both_ways_alike) {
+TEST(Microfacets, ReflectBothWaysAlike) {
     const ReadySurface surface = metal(1.2, 7.26, 0.5);
     const Vec3 a = glm::normalize(Vec3{0.3, -0.5, 0.7}), b = glm::normalize(Vec3{-0.8, 0.1, 0.4});
     const RoughSurface from_a(surface, {0, 0, 1}, {0, 0, 1}, a),
@@ -209,7 +209,7 @@ void expect_sampled(const Scene& scene, double solid_angle) {
     EXPECT_NEAR(mean, solid_angle, 5 * error + 1e-6 * solid_angle);
 }
 
-TEST(LightSampler, aims_at_spheres_rings_and_panels) {
+TEST(LightSampler, AimsAtSpheresRingsAndPanels) {
     const Vec3 from{0.1, 0.2, -0.3}, center{2, -1, 3};
     const double radius = 0.7, distance = glm::length(center - from);
     expect_sampled(
@@ -224,7 +224,7 @@ TEST(LightSampler, aims_at_spheres_rings_and_panels) {
         4 * std::asin(a * b / std::sqrt((a * a + h * h) * (b * b + h * h))));
 }
 
-TEST(LightSampler, aims_at_emitters) {
+TEST(LightSampler, AimsAtEmitters) {
     Scene scene;
     const Vec3 from{0.1, 0.2, -0.3};
     scene.objects = {{DiscShape{from + Vec3{0, 0, 2}, {0, 0, 1}, 1.0}, EmitterMaterial{}}};
@@ -233,7 +233,7 @@ TEST(LightSampler, aims_at_emitters) {
 }
 
 // A sky that is bright in one place: aimed at there. The density is one over the sphere.
-TEST(LightSampler, aims_at_what_is_bright_in_an_environment) {
+TEST(LightSampler, AimsAtWhatIsBrightInAnEnvironment) {
     auto map = std::make_shared<EnvironmentMap>();
     map->width = 64;
     map->height = 32;

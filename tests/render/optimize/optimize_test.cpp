@@ -41,7 +41,7 @@ double highest(const Solid& solid) {
     return z;
 }
 
-TEST(TierDesign, of_a_double_pyramid_keeps_its_apexes) {
+TEST(TierDesign, OfADoublePyramidKeepsItsApexes) {
     const TierDesign design(double_pyramid(radians(35), radians(42), 0.05));
     ASSERT_EQ(design.tiers().size(), 2u);
     for (const double more : {-10.0, -1.0, 0.0, 3.0, 12.0}) {
@@ -56,7 +56,7 @@ TEST(TierDesign, of_a_double_pyramid_keeps_its_apexes) {
     }
 }
 
-TEST(TierDesign, of_a_brilliant_keeps_meets_azimuths_and_girdle) {
+TEST(TierDesign, OfABrilliantKeepsMeetsAzimuthsAndGirdle) {
     const Solid start = make_cut("round-brilliant");
     const TierDesign design(start);
     std::vector<double> steeper;
@@ -91,7 +91,7 @@ TEST(TierDesign, of_a_brilliant_keeps_meets_azimuths_and_girdle) {
     }
 }
 
-TEST(TierDesign, is_refused_where_facets_would_vanish) {
+TEST(TierDesign, IsRefusedWhereFacetsWouldVanish) {
     const Solid start = make_cut("round-brilliant");
     const TierDesign design(start);
     for (std::size_t t = 0; t < design.tiers().size(); ++t) {
@@ -112,7 +112,7 @@ OptimizeOptions quick(double n) {
     return options;
 }
 
-TEST(Optimize, is_at_least_its_start_and_the_search_with_two_factors) {
+TEST(Optimize, IsAtLeastItsStartAndTheSearchWithTwoFactors) {
     const Solid start = make_cut("round-brilliant");
     const OptimizeOptions options = quick(1.54);
     const Optimized result = optimize_cut(start, options);
@@ -132,7 +132,7 @@ TEST(Optimize, is_at_least_its_start_and_the_search_with_two_factors) {
     EXPECT_NEAR(result.at_better.total, 100 * sum / 7, 1e-9);
 }
 
-TEST(Optimize, is_the_same_on_any_number_of_threads) {
+TEST(Optimize, IsTheSameOnAnyNumberOfThreads) {
     const Solid start = double_pyramid(radians(35), radians(42), 0.05);
     OptimizeOptions options = quick(1.76);
     options.merit.threads = 1;
@@ -144,7 +144,7 @@ TEST(Optimize, is_the_same_on_any_number_of_threads) {
         EXPECT_EQ(one.better.vertices[v], three.better.vertices[v]);
 }
 
-TEST(Optimize, keeps_its_limits) {
+TEST(Optimize, KeepsItsLimits) {
     const Solid start = make_cut("round-brilliant");
     OptimizeOptions options = quick(1.54);
     options.limits.range = radians(1);
@@ -159,7 +159,7 @@ TEST(Optimize, keeps_its_limits) {
         EXPECT_LE(std::abs(tier.to - tier.from), radians(1.2)) << tier.tier.name;
 }
 
-TEST(Optimize, cuts_a_stone_anew_inside_what_is_there) {
+TEST(Optimize, CutsAStoneAnewInsideWhatIsThere) {
     const Solid stone = double_pyramid(radians(30), radians(38), 0.05);
     OptimizeOptions options = quick(1.76);
     options.recut = Recut{.gain = 0, .most_loss = 0.2};
@@ -173,7 +173,7 @@ TEST(Optimize, cuts_a_stone_anew_inside_what_is_there) {
     EXPECT_GE(result.at_better.total, result.at_start.total);
 }
 
-TEST(Optimize, refuses_words_that_it_does_not_know) {
+TEST(Optimize, RefusesWordsThatItDoesNotKnow) {
     EXPECT_EQ(merit_weights("brilliance=2,tilt"), (std::array<double, 4>{2, 0, 0, 1}));
     for (const char* text : {"", "glitter", "fire=", "fire=x", "fire=-1", "fire=0", "fire,,tilt"})
         EXPECT_THROW(merit_weights(text), InputError) << text;

@@ -68,7 +68,7 @@ void expect_equal(std::span<const T> a, std::span<const T> b) {
     EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size_bytes()), 0);
 }
 
-TEST_F(RayTableFile, comes_back_as_it_was_written) {
+TEST_F(RayTableFile, ComesBackAsItWasWritten) {
     Scene scene = test::in_material(test::brilliant(12), "sapphire_blue");
     scene.settings.wavelengths_nm = {450, 550, 650};
     const RayTable table = test::table_of(scene);
@@ -94,7 +94,7 @@ TEST_F(RayTableFile, comes_back_as_it_was_written) {
     for (std::size_t k = 0; k < 3; ++k) expect_equal(a.length[k], b.length[k]);
 }
 
-TEST_F(RayTableFile, starts_as_the_documentation_says) {
+TEST_F(RayTableFile, StartsAsTheDocumentationSays) {
     const std::string content = bytes();
     const auto u32 = [&](std::size_t at) {
         std::uint32_t value = 0;
@@ -111,7 +111,7 @@ TEST_F(RayTableFile, starts_as_the_documentation_says) {
     EXPECT_EQ(with_checksum(content), content);
 }
 
-TEST_F(RayTableFile, tells_any_flipped_bit) {
+TEST_F(RayTableFile, TellsAnyFlippedBit) {
     const std::string content = bytes();
     ASSERT_EQ(refusal(content), "");
     std::mt19937_64 random(1);
@@ -127,7 +127,7 @@ TEST_F(RayTableFile, tells_any_flipped_bit) {
     }
 }
 
-TEST_F(RayTableFile, tells_what_is_cut_off_or_too_long) {
+TEST_F(RayTableFile, TellsWhatIsCutOffOrTooLong) {
     const std::string content = bytes();
     std::vector<std::size_t> lengths{0, 1, 7, 8, 11, 15, 16, 100, 255, 256, 257};
     for (std::size_t length = 300; length < content.size(); length += 1009)
@@ -140,7 +140,7 @@ TEST_F(RayTableFile, tells_what_is_cut_off_or_too_long) {
     EXPECT_NE(refusal(content.substr(0, 300)).find("cut off"), std::string::npos);
 }
 
-TEST_F(RayTableFile, tells_what_is_no_table) {
+TEST_F(RayTableFile, TellsWhatIsNoTable) {
     EXPECT_NE(refusal("\x89PNG\r\n\x1a\n and so on").find("no ray table"), std::string::npos);
     EXPECT_NE(refusal("").find("no ray table"), std::string::npos);
     EXPECT_NE(refusal(std::string(100000, '\0')).find("no ray table"), std::string::npos);
@@ -152,7 +152,7 @@ TEST_F(RayTableFile, tells_what_is_no_table) {
 }
 
 // As somebody might make it who knows the checksum.
-TEST_F(RayTableFile, is_checked_whole_though_its_checksum_is_right) {
+TEST_F(RayTableFile, IsCheckedWholeThoughItsChecksumIsRight) {
     const std::string content = bytes();
     using Change = std::function<void(RayTableHeader&)>;
     const std::vector<Change> changes{[](RayTableHeader& h) { h.width = 0; },
@@ -206,7 +206,7 @@ TEST_F(RayTableFile, is_checked_whole_though_its_checksum_is_right) {
     EXPECT_EQ(put(parts.point[0], 7, std::uint16_t{65535}), "");
 }
 
-TEST(OctahedralCodes, keep_directions_to_a_billionth) {
+TEST(OctahedralCodes, KeepDirectionsToABillionth) {
     std::mt19937_64 random(3);
     std::vector<Vec3> directions{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}};
     for (int i = 0; i < 100000; ++i) directions.push_back(random_direction(random));

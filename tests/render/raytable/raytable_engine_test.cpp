@@ -39,7 +39,7 @@ protected:
     std::filesystem::path file_;
 };
 
-TEST_F(RayTableEngine, writes_its_table_where_there_is_none_and_reads_it_afterwards) {
+TEST_F(RayTableEngine, WritesItsTableWhereThereIsNoneAndReadsItAfterwards) {
     const RenderResult first = render(scene());
     EXPECT_EQ(first.stats.engine, k_raytable_engine);
     EXPECT_GT(first.stats.seconds_build, 0);
@@ -61,7 +61,7 @@ TEST_F(RayTableEngine, writes_its_table_where_there_is_none_and_reads_it_afterwa
     EXPECT_EQ(render(other).picture.rgb, relit.picture.rgb);
 }
 
-TEST_F(RayTableEngine, says_what_of_another_scene_does_not_fit) {
+TEST_F(RayTableEngine, SaysWhatOfAnotherSceneDoesNotFit) {
     (void)render(scene());
     const auto expect = [&](const Scene& other, const std::string& words) {
         const std::string found = refusal(other);
@@ -94,7 +94,7 @@ TEST_F(RayTableEngine, says_what_of_another_scene_does_not_fit) {
     EXPECT_EQ(refusal(scene()), "");
 }
 
-TEST_F(RayTableEngine, takes_the_wavelengths_of_a_table_with_dispersion) {
+TEST_F(RayTableEngine, TakesTheWavelengthsOfATableWithDispersion) {
     Scene scene = this->scene(12);
     scene.settings.wavelengths_nm.clear();
     const RenderResult first = render(scene);
@@ -102,7 +102,7 @@ TEST_F(RayTableEngine, takes_the_wavelengths_of_a_table_with_dispersion) {
     EXPECT_EQ(render(scene).picture.rgb, first.picture.rgb);
 }
 
-TEST_F(RayTableEngine, leaves_a_damaged_table_alone_and_says_so) {
+TEST_F(RayTableEngine, LeavesADamagedTableAloneAndSaysSo) {
     std::ofstream(file_) << "not a table";
     EXPECT_NE(refusal(scene()).find("no ray table"), std::string::npos);
     EXPECT_EQ(read_text(file_), "not a table");
@@ -111,7 +111,7 @@ TEST_F(RayTableEngine, leaves_a_damaged_table_alone_and_says_so) {
     EXPECT_NE(refusal(nowhere).find("no folder"), std::string::npos);
 }
 
-TEST_F(RayTableEngine, refuses_in_one_line) {
+TEST_F(RayTableEngine, RefusesInOneLine) {
     const auto expect = [](const Scene& refused, const std::string& words) {
         const std::string found = refusal(refused);
         EXPECT_NE(found.find(words), std::string::npos) << found;
@@ -139,7 +139,7 @@ TEST_F(RayTableEngine, refuses_in_one_line) {
     EXPECT_FALSE(std::filesystem::exists(file_));
 }
 
-TEST_F(RayTableEngine, refuses_tables_beyond_its_limit_before_memory_runs_out) {
+TEST_F(RayTableEngine, RefusesTablesBeyondItsLimitBeforeMemoryRunsOut) {
     Scene large = scene(3000);
     large.settings.samples = 16;
     large.settings.wavelengths_nm = {450, 500, 550, 600, 650};
@@ -147,7 +147,7 @@ TEST_F(RayTableEngine, refuses_tables_beyond_its_limit_before_memory_runs_out) {
     EXPECT_FALSE(std::filesystem::exists(file_));
 }
 
-TEST_F(RayTableEngine, stops_when_it_is_told) {
+TEST_F(RayTableEngine, StopsWhenItIsTold) {
     EXPECT_THROW((void)render(scene(), [](double) { return false; }), Interrupted);
     EXPECT_FALSE(std::filesystem::exists(file_));
 }

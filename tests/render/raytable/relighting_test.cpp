@@ -30,7 +30,7 @@ using test::k_rounding;
 using test::lit;
 using test::slope_of_lobes;
 
-TEST(Relighting, in_smooth_light_is_the_reference_within_the_bound) {
+TEST(Relighting, InSmoothLightIsTheReferenceWithinTheBound) {
     const Scene scene = brilliant();
     const RayTable table = table_of(scene);
     const Picture truth = by_reference(scene).picture;
@@ -43,7 +43,7 @@ TEST(Relighting, in_smooth_light_is_the_reference_within_the_bound) {
     EXPECT_LT(fast.mean, 1e-3);
 }
 
-TEST(Relighting, of_one_table_is_drawing_anew_in_every_preset) {
+TEST(Relighting, OfOneTableIsDrawingAnewInEveryPreset) {
     Scene scene = brilliant();
     scene.settings.wavelengths_nm = {450, 550, 610};
     scene.settings.effects[static_cast<std::size_t>(Effects::dispersion)] = false;
@@ -62,7 +62,7 @@ TEST(Relighting, of_one_table_is_drawing_anew_in_every_preset) {
 }
 
 // Every instruction set of this processor keeps the bounds.
-TEST(Relighting, keeps_the_bounds_whatever_the_processor_has) {
+TEST(Relighting, KeepsTheBoundsWhateverTheProcessorHas) {
     Scene scene = brilliant();
     scene.settings.wavelengths_nm = {450, 550, 610};
     scene.settings.effects[static_cast<std::size_t>(Effects::dispersion)] = false;
@@ -78,7 +78,7 @@ TEST(Relighting, keeps_the_bounds_whatever_the_processor_has) {
     use_shading_target(shading_targets().front());
 }
 
-TEST(Relighting, sees_near_lights_one_before_the_other_and_before_the_stone) {
+TEST(Relighting, SeesNearLightsOneBeforeTheOtherAndBeforeTheStone) {
     const Scene scene = brilliant();
     const RayTable table = table_of(scene);
     const double size = diameter(scene.stone.solid);
@@ -105,7 +105,7 @@ TEST(Relighting, sees_near_lights_one_before_the_other_and_before_the_stone) {
 }
 
 // Lights that are too many for the vectors are asked for one by one.
-TEST(Relighting, sees_any_number_of_near_lights) {
+TEST(Relighting, SeesAnyNumberOfNearLights) {
     const Scene scene = brilliant(24);
     const RayTable table = table_of(scene);
     Lights lights;
@@ -117,7 +117,7 @@ TEST(Relighting, sees_any_number_of_near_lights) {
     expect_equal_but_for_rounding(lit(scene, lights), table, 3);
 }
 
-TEST(Relighting, sees_an_environment_as_the_reference_does) {
+TEST(Relighting, SeesAnEnvironmentAsTheReferenceDoes) {
     Scene scene = brilliant();
     scene.settings.wavelengths_nm = {450, 550, 610};
     scene.settings.effects[static_cast<std::size_t>(Effects::dispersion)] = false;
@@ -141,7 +141,7 @@ TEST(Relighting, sees_an_environment_as_the_reference_does) {
                              (2 * std::numbers::pi) / std::sin(std::numbers::pi / 64));
 }
 
-TEST(Relighting, is_the_same_whatever_the_threads) {
+TEST(Relighting, IsTheSameWhateverTheThreads) {
     for (Scene scene : {brilliant(40), in_material(brilliant(12), "zircon_high")}) {
         scene.settings.threads = 1;
         const RayTable one = table_of(scene);

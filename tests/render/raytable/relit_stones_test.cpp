@@ -26,7 +26,7 @@ using test::relit_by;
 using test::table_of;
 
 // Conservation of energy.
-TEST(RelitStones, furnace_shows_one_but_for_what_the_table_leaves_out) {
+TEST(RelitStones, FurnaceShowsOneButForWhatTheTableLeavesOut) {
     Lights furnace;
     furnace.constant = 1;
     std::vector<Scene> scenes{brilliant(), in_material(brilliant(16), "zircon_high"),
@@ -47,7 +47,7 @@ TEST(RelitStones, furnace_shows_one_but_for_what_the_table_leaves_out) {
     EXPECT_LT(result.stats.remainder, 1e-6);
 }
 
-TEST(RelitStones, takes_another_body_colour_without_tracing) {
+TEST(RelitStones, TakesAnotherBodyColourWithoutTracing) {
     Scene clear = brilliant();
     clear.settings.wavelengths_nm = {450, 550, 610};
     clear.settings.effects[static_cast<std::size_t>(Effects::dispersion)] = false;
@@ -68,7 +68,7 @@ TEST(RelitStones, takes_another_body_colour_without_tracing) {
                 truth.stats.remainder + truth.stats.absorbed, 1e-5);
 }
 
-TEST(RelitStones, of_a_crystal_takes_the_absorption_of_each_wave) {
+TEST(RelitStones, OfACrystalTakesTheAbsorptionOfEachWave) {
     Scene scene = in_material(brilliant(20), "sapphire_blue");
     scene.settings.wavelengths_nm = {589.3};
     Scene clear = scene;
@@ -90,7 +90,7 @@ TEST(RelitStones, of_a_crystal_takes_the_absorption_of_each_wave) {
     }
 }
 
-TEST(RelitStones, of_trees_is_the_reference) {
+TEST(RelitStones, OfTreesIsTheReference) {
     Lights lights = *light_preset("jeweller");
     const std::vector<Scene> scenes{in_material(brilliant(20), "zircon_high"),
                                     in_material(brilliant(20), "topaz_imperial"),
@@ -107,7 +107,7 @@ TEST(RelitStones, of_trees_is_the_reference) {
 }
 
 // What a table leaves out of a big tree is bounded by what it says.
-TEST(RelitStones, of_trees_that_were_cut_is_within_the_bound_that_it_states) {
+TEST(RelitStones, OfTreesThatWereCutIsWithinTheBoundThatItStates) {
     Scene scene = in_material(brilliant(16), "zircon_high");
     scene.settings.depth = 9;
     const Picture truth = by_reference(scene).picture;
@@ -124,7 +124,7 @@ TEST(RelitStones, of_trees_that_were_cut_is_within_the_bound_that_it_states) {
     }
 }
 
-TEST(RelitStones, with_dispersion_keeps_each_wavelength_apart) {
+TEST(RelitStones, WithDispersionKeepsEachWavelengthApart) {
     Scene scene = brilliant(32);
     scene.settings.wavelengths_nm = {430, 520, 589.3, 660};
     scene.settings.spectral = true;
@@ -144,7 +144,7 @@ TEST(RelitStones, with_dispersion_keeps_each_wavelength_apart) {
     }
 }
 
-TEST(RelitStones, goes_by_every_camera) {
+TEST(RelitStones, GoesByEveryCamera) {
     std::vector<Scene> scenes{brilliant(24), brilliant(24), brilliant(24), brilliant(24)};
     scenes[0].settings.samples = 9;
     scenes[0].settings.filter = PixelFilter::gaussian;
@@ -165,7 +165,7 @@ TEST(RelitStones, goes_by_every_camera) {
 
 // Lee's factors: a ray with m leaves sends R out at once, T T R^(k - 1) at its k-th inner face that
 // lets light out; with R + T = 1 the whole series sums to R + T T / (1 - R) = 1.
-TEST(RelitStones, takes_constant_factors_for_fresnels) {
+TEST(RelitStones, TakesConstantFactorsForFresnels) {
     Scene scene = lit(brilliant(32), {});
     scene.lights.constant = 1;
     const RayTable table = table_of(scene);

@@ -45,7 +45,7 @@ RenderResult between(const Scene& scene, double step) {
     return test::relit_by(table, scene);
 }
 
-TEST(StoredViews, lie_about_the_view_at_whole_steps) {
+TEST(StoredViews, LieAboutTheViewAtWholeSteps) {
     for (const double polar : {0.0, 0.02, 0.33, 1.3, 3.1, k_pi}) {
         for (const double azimuth : {-3.0, -0.05, 0.0, 0.31, 3.1}) {
             const Scene scene = seen_from(polar, azimuth, 8);
@@ -78,7 +78,7 @@ TEST(StoredViews, lie_about_the_view_at_whole_steps) {
     EXPECT_THROW(stored_views(seen_from(k_pi / 2, k_pi / 2, 8).camera, k_pi / 32), InputError);
 }
 
-TEST(ScreenPlace, is_where_the_eye_ray_came_from) {
+TEST(ScreenPlace, IsWhereTheEyeRayCameFrom) {
     Scene scene = seen_from(0.4, 0.9, 40);
     scene.camera.principal_point = {{13.5, 22}};
     for (const bool parallel : {false, true}) {
@@ -96,7 +96,7 @@ TEST(ScreenPlace, is_where_the_eye_ray_came_from) {
 
 // Rounded twice: weights are floats both times, points and lengths go from one rectangle to another
 // and matter for near lights and body colours alone.
-TEST(ViewInterpolation, of_a_stored_view_is_that_view) {
+TEST(ViewInterpolation, OfAStoredViewIsThatView) {
     const Scene scene = seen_from(4 * k_pi / 32, 2 * k_pi * 3 / 63);
     ASSERT_EQ(stored_views(scene.camera, 0.1).size(), 1u);
     const Picture picture = between(scene, 0.1).picture;
@@ -107,7 +107,7 @@ TEST(ViewInterpolation, of_a_stored_view_is_that_view) {
     EXPECT_LT(off.mean, 1e-4);
 }
 
-TEST(ViewInterpolation, keeps_the_energy) {
+TEST(ViewInterpolation, KeepsTheEnergy) {
     Scene scene = seen_from(0.37, 0.47);
     scene.lights = {};
     scene.lights.constant = 1;
@@ -120,7 +120,7 @@ TEST(ViewInterpolation, keeps_the_energy) {
     EXPECT_NEAR(result.stats.mean_radiance + result.stats.cut, 1, 1e-4);
 }
 
-TEST(ViewInterpolation, comes_nearer_with_smaller_steps) {
+TEST(ViewInterpolation, ComesNearerWithSmallerSteps) {
     const Scene scene = seen_from(0.37, 0.47, 96);
     const Picture truth = test::by_reference(scene).picture;
     const double coarse = test::apart(between(scene, 0.2).picture, truth).mean;
@@ -130,7 +130,7 @@ TEST(ViewInterpolation, comes_nearer_with_smaller_steps) {
     EXPECT_LT(fine, 0.75 * middle);
 }
 
-TEST(ViewInterpolation, is_the_same_whatever_the_threads) {
+TEST(ViewInterpolation, IsTheSameWhateverTheThreads) {
     Scene scene = seen_from(0.37, 0.47, 32);
     scene.settings.threads = 1;
     const std::vector<ViewTable> tables = tables_about(scene, 0.1);
@@ -140,7 +140,7 @@ TEST(ViewInterpolation, is_the_same_whatever_the_threads) {
               one.header().checksum);
 }
 
-TEST(ViewInterpolation, keeps_its_views_in_a_folder) {
+TEST(ViewInterpolation, KeepsItsViewsInAFolder) {
     const test::ScratchFolder folder;
     Scene scene = seen_from(0.37, 0.47, 24);
     scene.settings.engine = k_raytable_engine;

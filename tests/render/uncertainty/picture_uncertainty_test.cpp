@@ -63,7 +63,7 @@ constexpr std::size_t k_middle = 4 * 8 + 4;
 // A plate of thickness d that absorbs a per length and reflects R at each face: incoherent
 // reflections sum to L = (1 - R)^2 t / (1 - R^2 t^2), t = exp(-a d), whose logarithm falls by
 // a (1 + R^2 t^2) / (1 - R^2 t^2) per length. A table off by sigma makes that times L times sigma.
-TEST(PictureUncertainty, of_a_plate_is_slope_times_sigma) {
+TEST(PictureUncertainty, OfAPlateIsSlopeTimesSigma) {
     const Scene scene = plate_scene();
     StoneUncertainty uncertainty = exact(scene.stone.solid);
     const double sigma = 0.01;
@@ -90,7 +90,7 @@ TEST(PictureUncertainty, of_a_plate_is_slope_times_sigma) {
 // The light falls evenly with the thickness, so that its levels are those of a normal distribution.
 // The standard error of a level is sqrt(p (1 - p) / n) over the density there: 0.107 sigma for one
 // sigma and 0.195 for two of 200 draws.
-TEST(PictureUncertainty, bands_of_a_normal_distribution) {
+TEST(PictureUncertainty, BandsOfANormalDistribution) {
     const Scene scene = plate_scene();
     StoneUncertainty uncertainty = exact(scene.stone.solid);
     facet(uncertainty, scene.stone.solid, "T").offset = 0.01;
@@ -106,7 +106,7 @@ TEST(PictureUncertainty, bands_of_a_normal_distribution) {
 
 // Table and floor that move together leave the thickness: their sum's variance is
 // 2 sigma^2 (1 + correlation).
-TEST(PictureUncertainty, knows_correlated_facets) {
+TEST(PictureUncertainty, KnowsCorrelatedFacets) {
     const Scene scene = plate_scene();
     const Solid& solid = scene.stone.solid;
     const std::size_t size = 3 * solid.facets.size();
@@ -129,7 +129,7 @@ TEST(PictureUncertainty, knows_correlated_facets) {
 }
 
 // In light that is the same from everywhere every stone without absorption looks the same.
-TEST(PictureUncertainty, is_nothing_in_a_furnace) {
+TEST(PictureUncertainty, IsNothingInAFurnace) {
     Scene scene = plate_scene();
     scene.lights = {};
     scene.lights.constant = 1;
@@ -145,7 +145,7 @@ TEST(PictureUncertainty, is_nothing_in_a_furnace) {
 
 // The table of a stone that lies on its side is turned about its own up direction: the picture of
 // the turned scene is that of the upright one.
-TEST(PictureUncertainty, goes_with_the_stones_own_up) {
+TEST(PictureUncertainty, GoesWithTheStonesOwnUp) {
     const Scene upright = plate_scene();
     Scene lying = upright;
     const auto laid = [](const Vec3& v) { return Vec3{v.z, v.y, -v.x}; };
@@ -162,7 +162,7 @@ TEST(PictureUncertainty, goes_with_the_stones_own_up) {
                 1e-3 * double(one.sigma_luminance[k_middle]));
 }
 
-TEST(PictureUncertainty, is_the_same_on_any_number_of_threads) {
+TEST(PictureUncertainty, IsTheSameOnAnyNumberOfThreads) {
     Scene scene = plate_scene();
     StoneUncertainty uncertainty = exact(scene.stone.solid);
     facet(uncertainty, scene.stone.solid, "T") = {0.01, 0, 0.01};
@@ -181,7 +181,7 @@ TEST(PictureUncertainty, is_the_same_on_any_number_of_threads) {
     EXPECT_EQ(picture.planes[7].values[k_middle], one.bands[4 * k_middle]);
 }
 
-TEST(PictureUncertainty, refuses_what_it_cannot_draw) {
+TEST(PictureUncertainty, RefusesWhatItCannotDraw) {
     Scene scene = plate_scene();
     const StoneUncertainty uncertainty = exact(scene.stone.solid);
     scene.stone.convex = false;

@@ -35,7 +35,7 @@ int count_of(const Solid& solid, char letter) {
     return count;
 }
 
-TEST(Cuts, every_cut_is_closed_planar_and_right_side_out_at_its_defaults) {
+TEST(Cuts, EveryCutIsClosedPlanarAndRightSideOutAtItsDefaults) {
     for (const CutKind& kind : cut_kinds()) {
         const Solid solid = make_cut(kind.name);
         EXPECT_EQ(faults_of(solid, kind.convex), "") << kind.name;
@@ -48,7 +48,7 @@ TEST(Cuts, every_cut_is_closed_planar_and_right_side_out_at_its_defaults) {
     }
 }
 
-TEST(Cuts, facet_counts_are_the_trades) {
+TEST(Cuts, FacetCountsAreTheTrades) {
     const auto facets = [](const char* name) { return make_cut(name).facets.size(); };
     // 33 crown and 24 pavilion facets, and the girdle's own (Tolkowsky's brilliant without a culet
     // facet).
@@ -72,7 +72,7 @@ TEST(Cuts, facet_counts_are_the_trades) {
     EXPECT_EQ(facets("princess"), 1u + 8 + 4 + 4 + 2 * 8);
 }
 
-TEST(Cuts, round_brilliant_has_the_published_proportions) {
+TEST(Cuts, RoundBrilliantHasThePublishedProportions) {
     const Solid solid = make_cut("round-brilliant", {{"diameter", 10},
                                                      {"table", 57},
                                                      {"crown-angle", 34.5},
@@ -103,7 +103,7 @@ TEST(Cuts, round_brilliant_has_the_published_proportions) {
     EXPECT_NEAR(lower, 41.9, 0.1);
 }
 
-TEST(Cuts, a_round_girdle_has_scallops_and_touches_the_mains_at_its_hills) {
+TEST(Cuts, ARoundGirdleHasScallopsAndTouchesTheMainsAtItsHills) {
     for (const int segments : {2, 4, 7}) {
         const Solid solid = make_cut(
             "round-brilliant",
@@ -128,13 +128,13 @@ TEST(Cuts, a_round_girdle_has_scallops_and_touches_the_mains_at_its_hills) {
     }
 }
 
-TEST(Cuts, a_round_girdle_that_closes_in_its_valleys_is_refused) {
+TEST(Cuts, ARoundGirdleThatClosesInItsValleysIsRefused) {
     EXPECT_THROW(make_cut("round-brilliant", {{"girdle", 0.5}, {"girdle-segments", 4}}),
                  InputError);
     EXPECT_NO_THROW(make_cut("round-brilliant", {{"girdle", 0.5}}));
 }
 
-TEST(Cuts, an_oval_with_scallops_is_the_stretched_round_brilliant) {
+TEST(Cuts, AnOvalWithScallopsIsTheStretchedRoundBrilliant) {
     const std::map<std::string, double> shape{{"table", 56},          {"crown-angle", 33},
                                               {"pavilion-angle", 41}, {"star", 52},
                                               {"lower-half", 75},     {"girdle-segments", 4}};
@@ -150,7 +150,7 @@ TEST(Cuts, an_oval_with_scallops_is_the_stretched_round_brilliant) {
     }
 }
 
-TEST(Cuts, a_published_design_follows_from_its_proportions) {
+TEST(Cuts, APublishedDesignFollowsFromItsProportions) {
     // "Choosing the Best Angles for Your SRB" (usfacetersguild.org): mains 28 and 41 degrees,
     // halves 32 and 43, stars 13, table at 0.13317 over the girdle's middle, girdle facets 0.5 from
     // the axis. Table, star and lower half lengths follow from the mains, the halves and the
@@ -185,7 +185,7 @@ TEST(Cuts, a_published_design_follows_from_its_proportions) {
     EXPECT_NEAR(solid.facets[find_facet(solid, "S1")].plane.offset, 0.18756531, 1e-4);
 }
 
-TEST(Cuts, turning_a_round_brilliant_by_an_eighth_maps_facets_to_facets) {
+TEST(Cuts, TurningARoundBrilliantByAnEighthMapsFacetsToFacets) {
     const Solid solid = make_cut("round-brilliant");
     const double c = std::sqrt(0.5);
     for (const Facet& facet : solid.facets) {
@@ -200,7 +200,7 @@ TEST(Cuts, turning_a_round_brilliant_by_an_eighth_maps_facets_to_facets) {
     }
 }
 
-TEST(Cuts, a_culet_facet_is_as_wide_as_asked) {
+TEST(Cuts, ACuletFacetIsAsWideAsAsked) {
     const Solid solid = make_cut("round-brilliant", {{"culet", 2}, {"diameter", 10}});
     EXPECT_EQ(faults_of(solid, true), "");
     EXPECT_EQ(solid.facets.size(), 74u);
@@ -211,7 +211,7 @@ TEST(Cuts, a_culet_facet_is_as_wide_as_asked) {
     EXPECT_NEAR(width_along(culet, {1, 0, 0}), 0.2, 1e-12);
 }
 
-TEST(Cuts, random_proportions_give_a_sound_stone_or_a_clear_error) {
+TEST(Cuts, RandomProportionsGiveASoundStoneOrAClearError) {
     const unsigned seed = 1919;
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -241,7 +241,7 @@ TEST(Cuts, random_proportions_give_a_sound_stone_or_a_clear_error) {
     }
 }
 
-TEST(Cuts, extreme_proportions_give_a_sound_stone_or_a_clear_error) {
+TEST(Cuts, ExtremeProportionsGiveASoundStoneOrAClearError) {
     // Half of the parameters at their defaults, the others anywhere in their ranges.
     const unsigned seed = 2718;
     std::mt19937_64 random(seed);
@@ -271,7 +271,7 @@ TEST(Cuts, extreme_proportions_give_a_sound_stone_or_a_clear_error) {
     }
 }
 
-TEST(Cuts, steps_that_cannot_be_cut_are_answered_with_the_range) {
+TEST(Cuts, StepsThatCannotBeCutAreAnsweredWithTheRange) {
     const auto message = [](const std::map<std::string, double>& values) {
         try {
             make_cut("step", values);
@@ -292,7 +292,7 @@ TEST(Cuts, steps_that_cannot_be_cut_are_answered_with_the_range) {
               std::string::npos);
 }
 
-TEST(Cuts, every_cut_comes_back_from_a_mesh_file) {
+TEST(Cuts, EveryCutComesBackFromAMeshFile) {
     const test::ScratchFolder folder;
     for (const CutKind& kind : cut_kinds()) {
         const Solid solid = make_cut(kind.name);
@@ -310,7 +310,7 @@ TEST(Cuts, every_cut_comes_back_from_a_mesh_file) {
     }
 }
 
-TEST(Cuts, wrong_names_and_values_are_answered_with_what_to_do) {
+TEST(Cuts, WrongNamesAndValuesAreAnsweredWithWhatToDo) {
     const auto message = [](const auto& call) {
         try {
             call();
