@@ -112,9 +112,11 @@ std::string words_of(const OptimizedTier& tier, const Solid& solid) {
 }
 
 void print_result(const Optimized& result, const OptimizeCommand& command) {
-    std::string text =
-        fmt::format("{}: {:.2f}, two factors {:.2f}, all tiers {:.2f}\n", command.objective,
-                    result.at_start.total, result.by_two_factors.total, result.at_better.total);
+    std::string text = fmt::format(
+        "{}: {:.2f} before, {:.2f} now ({:.2f} where crown and pavilion are each "
+        "scaled as a whole)\n",
+        command.objective, result.at_start.total, result.at_better.total,
+        result.by_two_factors.total);
     for (const OptimizedTier& tier : result.tiers)
         text += fmt::format("  {:<16}{:>8.2f} -> {:.2f} degrees\n", words_of(tier, result.start),
                             degrees(tier.from), degrees(tier.to));
