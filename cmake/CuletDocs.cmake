@@ -9,5 +9,6 @@ endif()
 add_custom_target(docs ALL
   COMMAND ${CMAKE_COMMAND} -E make_directory ${CMAKE_SOURCE_DIR}/build/docs
   COMMAND ${CULET_DOXYGEN} docs/site/Doxyfile
+  COMMAND ${CMAKE_COMMAND} -E copy_directory docs/sources build/docs/site/sources
   COMMAND ${CMAKE_COMMAND} -E echo "Site: ${CMAKE_SOURCE_DIR}/build/docs/site/index.html"
   WORKING_DIRECTORY ${CMAKE_SOURCE_DIR} VERBATIM)

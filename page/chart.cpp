@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "page/html.h"
+#include "page/label_room.h"
 
 namespace culet {
 
@@ -21,13 +22,15 @@ constexpr std::array k_colours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b
 /// One axis: from values to the page.
 class Axis {
 public:
-    Axis(std::vector<double> values, bool logarithmic, double from, double to)
+    /// `least_share`: length of a plain axis at least, over its largest value.
+    Axis(std::vector<double> values, bool logarithmic, double from, double to, double least_share)
         : logarithmic_(logarithmic), from_(from), to_(to) {
         const auto [low, high] = std::minmax_element(values.begin(), values.end());
         low_ = shown(*low);
         high_ = shown(*high);
         // At least a factor of two, or a plain axis of some length, and air at both ends.
-        const double least = logarithmic_ ? std::log10(2.0) : std::max(1e-12, std::abs(high_));
+        const double least =
+            logarithmic_ ? std::log10(2.0) : std::max(1e-12, least_share * std::abs(high_));
         const double wanted = std::max(least, high_ - low_);
         const double middle = 0.5 * (low_ + high_);
         low_ = middle - 0.56 * wanted;
@@ -91,58 +94,8 @@ private:
 std::string tick_text(double value) {
     const double size = std::abs(value);
     if (size != 0 && (size < 1e-4 || size >= 1e6)) return fmt::format("{:.0e}", value);
-    return fmt::format("{:g}", std::round(value * 1e9) / 1e9);
+    return fmt::format("{:g}", std::round(value * 1e9) / 1e9 + 0.0);  // no -0
 }
-
-struct Box {
-    double x0, y0, x1, y1;
-    bool meets(const Box& o) const { return x0 < o.x1 && o.x0 < x1 && y0 < o.y1 && o.y0 < y1; }
-};
-
-/// Finds room for names beside points.
-class Room {
-public:
-    void take(const Box& box) { taken_.push_back(box); }
-    /// Names keep off lines, too.
-    void take_line(double x0, double y0, double x1, double y1) {
-        const int pieces = 1 + static_cast<int>(std::hypot(x1 - x0, y1 - y0) / 6);
-        for (int i = 0; i <= pieces; ++i) {
-            const double t = static_cast<double>(i) / pieces, x = x0 + t * (x1 - x0),
-                         y = y0 + t * (y1 - y0);
-            take({x - 2, y - 2, x + 2, y + 2});
-        }
-    }
-    /// Middle of the text's box, or nothing when every place is taken.
-    std::optional<Box> find(double x, double y, double width, double height) {
-        for (const double away : {9.0, 20.0, 34.0}) {
-            const double w = 0.5 * width, h = 0.5 * height;
-            const std::array<std::pair<double, double>, 8> places{{{away + w, 0},
-                                                                   {-away - w, 0},
-                                                                   {0, -away - h},
-                                                                   {0, away + h},
-                                                                   {away + w, -away},
-                                                                   {-away - w, -away},
-                                                                   {away + w, away},
-                                                                   {-away - w, away}}};
-            for (const auto& [dx, dy] : places) {
-                const Box box{x + dx - w, y + dy - h, x + dx + w, y + dy + h};
-                if (box.x0 < k_left || box.x1 > k_width - 4 || box.y0 < k_top - 16 ||
-                    box.y1 > k_height - k_bottom) {
-                    continue;
-                }
-                if (std::none_of(taken_.begin(), taken_.end(),
-                                 [&](const Box& t) { return t.meets(box); })) {
-                    taken_.push_back(box);
-                    return box;
-                }
-            }
-        }
-        return std::nullopt;
-    }
-
-private:
-    std::vector<Box> taken_;
-};
 
 std::string marker(std::size_t series, double x, double y, const char* colour, bool hollow) {
     const std::string style = fmt::format("fill=\"{}\" stroke=\"{}\" stroke-width=\"2\"",
@@ -193,6 +146,48 @@ std::string frame(const Chart& chart, const Axis& x, const Axis& y) {
     return svg;
 }
 
+// A series without a name goes with the one before it.
+const char* colour_of(const Chart& chart, std::size_t series) {
+    std::size_t named = 0;
+    for (std::size_t s = 1; s <= series; ++s) named += !chart.series[s].name.empty();
+    return k_colours[named % k_colours.size()];
+}
+
+const char* dash_of(const ChartSeries& series) {
+    return series.dashed ? " stroke-dasharray=\"7 5\"" : "";
+}
+
+// Above the chart, in two lines where one is too short.
+std::string key_of(const Chart& chart) {
+    const auto width_of = [](const ChartSeries& series) {
+        return 33 + 0.55 * k_text * static_cast<double>(series.name.size()) + 26;
+    };
+    double whole = 0;
+    for (const ChartSeries& series : chart.series)
+        if (!series.name.empty()) whole += width_of(series);
+    const double room = k_width - k_left;
+    const bool two = whole > room + 26;
+    std::string key;
+    double x = k_left, y = two ? 16 : 28;
+    for (std::size_t s = 0; s < chart.series.size(); ++s) {
+        const ChartSeries& series = chart.series[s];
+        if (series.name.empty()) continue;
+        if (two && y < 28 && x + width_of(series) - 26 > k_width) {
+            x = k_left;
+            y = 38;
+        }
+        const char* colour = colour_of(chart, s);
+        if (series.line)
+            key += fmt::format("<path d=\"M{:.1f} {:.0f}h26\" stroke=\"{}\" stroke-width=\"2\"{}/>",
+                               x, y, colour, dash_of(series));
+        if (series.markers) key += marker(s, x + 13, y, colour, false);
+        key += fmt::format("<text x=\"{:.1f}\" y=\"{:.0f}\">{}</text>\n", x + 33, y + 5,
+                           escaped(series.name));
+        x += width_of(series);
+    }
+    return key;
+}
+
 }  // namespace
 
 std::string draw_chart_svg(const Chart& chart) {
@@ -208,8 +203,9 @@ std::string draw_chart_svg(const Chart& chart) {
         }
     }
     if (xs.empty()) return {};
-    const Axis x(std::move(xs), chart.log_x, k_left, k_width - k_right);
-    const Axis y(std::move(ys), chart.log_y, k_height - k_bottom, k_top);
+    // Small differences in height are not made to look large.
+    const Axis x(std::move(xs), chart.log_x, k_left, k_width - k_right, 0.01);
+    const Axis y(std::move(ys), chart.log_y, k_height - k_bottom, k_top, 1);
     std::string svg = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
         "role=\"img\" font-family=\"{2}\" font-size=\"{3:.0f}\" fill=\"#1d2327\">\n"
@@ -218,9 +214,8 @@ std::string draw_chart_svg(const Chart& chart) {
         k_width, k_height, k_svg_font, k_text, escaped(chart.title), escaped(chart.about));
     svg += frame(chart, x, y);
 
-    Room room;
-    std::string lines, points, names, key;
-    double key_x = k_left;
+    LabelRoom room({k_left, k_top - 16, k_width - 4, k_height - k_bottom});
+    std::string lines, points, names;
     for (const ChartSeries& series : chart.series) {
         for (const ChartPoint& p : series.points) {
             if (shows(chart, p) && series.markers) {
@@ -240,7 +235,7 @@ std::string draw_chart_svg(const Chart& chart) {
     }
     for (std::size_t s = 0; s < chart.series.size(); ++s) {
         const ChartSeries& series = chart.series[s];
-        const char* colour = k_colours[s % k_colours.size()];
+        const char* colour = colour_of(chart, s);
         std::string path;
         for (const ChartPoint& p : series.points) {
             if (!shows(chart, p)) continue;
@@ -265,22 +260,13 @@ std::string draw_chart_svg(const Chart& chart) {
                     0.5 * (box->x0 + box->x1), box->y1 - 4, k_text - 1, colour, escaped(p.label));
             }
         }
-        const char* dash = series.dashed ? " stroke-dasharray=\"7 5\"" : "";
         if (series.line && !path.empty()) {
             lines +=
                 fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"{}/>\n",
-                            path, colour, dash);
+                            path, colour, dash_of(series));
         }
-        if (series.line) {
-            key += fmt::format("<path d=\"M{:.1f} 28h26\" stroke=\"{}\" stroke-width=\"2\"{}/>",
-                               key_x, colour, dash);
-        }
-        if (series.markers) key += marker(s, key_x + 13, 28, colour, false);
-        key += fmt::format("<text x=\"{:.1f}\" y=\"33\">{}</text>\n", key_x + 33,
-                           escaped(series.name));
-        key_x += 33 + 0.55 * k_text * static_cast<double>(series.name.size()) + 26;
     }
-    return svg + lines + points + names + key + "</svg>\n";
+    return svg + lines + points + names + key_of(chart) + "</svg>\n";
 }
 
 }  // namespace culet

@@ -18,7 +18,7 @@ struct ChartPoint {
 };
 
 struct ChartSeries {
-    std::string name;  ///< for the key
+    std::string name;  ///< for the key; empty: goes with the series before it, in its colour
     std::vector<ChartPoint> points;
     bool line = true;     ///< points are joined in their order
     bool markers = true;  ///< else only the line is drawn

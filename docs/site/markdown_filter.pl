@@ -51,6 +51,8 @@ sub link_to {
     my ($label, $target) = @_;
     return "[$label]($target)" if $target =~ /^[a-z]+:/;
     my ($path, $anchor) = $target =~ /^([^#]*)(?:#(.*))?$/s;
+    # Pages that are HTML already are copied beside the site's own.
+    return "[$label](" . (from_root($path) =~ s{^docs/}{}r) . ')' if $path =~ /\.html$/;
     my $to = $path eq '' ? $page : $path =~ /\.md$/ ? page_of(from_root($path)) : undef;
     return $label unless defined $to;
     return "[$label](\@ref " . (defined $anchor ? "$to-$anchor" : $to) . ')';

@@ -64,8 +64,8 @@ ScopeBands reflector_bands(bool hearts) {
     return {eye, eye, radians(k_scope_rim_deg)};
 }
 
-AsetShares aset_shares(const EyeLight& light, int facet) {
-    const BandSum sum = sum_of(light, aset_bands(), facet);
+AsetShares aset_shares(const EyeLight& light, int facet, const ScopeBands& bands) {
+    const BandSum sum = sum_of(light, bands, facet);
     return {at(sum, ScopeBand::inner), at(sum, ScopeBand::middle) + at(sum, ScopeBand::rim),
             at(sum, ScopeBand::eye), at(sum, ScopeBand::below) + sum.left};
 }

@@ -31,8 +31,9 @@ struct AsetShares {
     double dark = 0;  ///< from below, or not followed to the end
 };
 /// `table`: a facet, for what is seen through it alone; -1: the whole stone. The reflection of the
-/// outside counts, as in the instrument.
-AsetShares aset_shares(const EyeLight& light, int facet = -1);
+/// outside counts, as in the instrument. `bands`: others than AGS's, for what other programs draw.
+AsetShares aset_shares(const EyeLight& light, int facet = -1,
+                       const ScopeBands& bands = aset_bands());
 
 /// Light that goes in through the table, is reflected by two facets of the pavilion and comes out
 /// through the table again: the table's reflection, whose colour in ASET tells a pavilion's angle.

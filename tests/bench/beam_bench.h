@@ -5,28 +5,16 @@
 #include <filesystem>
 #include <string>
 
-#include "render/beams/frame_renderer.h"
 #include "render/render.h"
 #include "tests/bench/bench_scenes.h"
 #include "tests/bench/bench_table.h"
-#include "tests/bench/cpu_time.h"
+#include "tests/bench/frame_time.h"
 #include "tests/bench/reference_pictures.h"
 
 namespace culet {
 
 /// Samples of the reference that errors are against: in the base case, and elsewhere.
 constexpr int k_full = 256, k_finest = 1024, k_side = 64;
-
-enum class Drawing {
-    preview,  ///< one colour a beam
-    exact,    ///< each pixel's middle
-    averaged  ///< over the pixel
-};
-Scene drawn_as(Scene scene, Drawing drawing, int threads);
-
-/// Of a frame whose camera moved by too little to see, so that all of it is drawn anew; the
-/// quickest of as many as `seconds` hold.
-Clocks frame_time(FrameRenderer& frames, const Camera& camera, double seconds = 0.25);
 
 std::string milliseconds(double seconds);
 

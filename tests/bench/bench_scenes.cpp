@@ -10,11 +10,20 @@ namespace culet {
 
 namespace {
 
-// A ring of planes tangent to a half ellipsoid with semi-axes 1 and `height`.
-struct Ring {
-    int facets;
-    double latitude_deg;  ///< of the normal: 90 up, -90 down
-};
+Solid round_brilliant() {
+    return read_solid(CULET_SOURCE_DIR "/tests/stone/designs/srb_class_angles.asc").solid;
+}
+
+Solid without_girdle(const Solid& solid) {
+    std::vector<NamedPlane> planes;
+    for (const Facet& facet : solid.facets) {
+        if (std::abs(facet.plane.normal.z) > 1e-9) planes.push_back({facet.name, facet.plane});
+    }
+    const Solid whole = intersect_half_spaces(planes).solid;
+    return contract_near_meets(whole, 1e-6 * diameter(whole)).solid;
+}
+
+}  // namespace
 
 Solid ringed_stone(const std::vector<Ring>& rings, double crown, double pavilion) {
     std::vector<NamedPlane> planes{{"table", {{0, 0, 1}, crown}}};
@@ -35,21 +44,6 @@ Solid ringed_stone(const std::vector<Ring>& rings, double crown, double pavilion
     check(solid.facets.size() == planes.size(), "every tangent plane holds a facet");
     return solid;
 }
-
-Solid round_brilliant() {
-    return read_solid(CULET_SOURCE_DIR "/tests/stone/designs/srb_class_angles.asc").solid;
-}
-
-Solid without_girdle(const Solid& solid) {
-    std::vector<NamedPlane> planes;
-    for (const Facet& facet : solid.facets) {
-        if (std::abs(facet.plane.normal.z) > 1e-9) planes.push_back({facet.name, facet.plane});
-    }
-    const Solid whole = intersect_half_spaces(planes).solid;
-    return contract_near_meets(whole, 1e-6 * diameter(whole)).solid;
-}
-
-}  // namespace
 
 std::vector<BenchStone> bench_stones() {
     const Solid brilliant = round_brilliant();

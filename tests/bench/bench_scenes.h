@@ -18,9 +18,17 @@ struct BenchStone {
     Solid solid;
 };
 
-/// 57, 73 (the base case's), 121 and 304 facets. The last two are planes tangent to two half
-/// ellipsoids, in rings of 8, 16 or 24 turned against each other by half a facet.
+/// 57, 73 (the base case's), 121 and 304 facets. The last two are ringed stones.
 std::vector<BenchStone> bench_stones();
+
+/// A table, and rings of planes tangent to two half ellipsoids with the semi-axes 1 and `crown` or
+/// `pavilion`; each ring is turned against the one before by half a facet. Every plane must hold a
+/// facet: else InternalError.
+struct Ring {
+    int facets;
+    double latitude_deg;  ///< of the normals: 90 up, -90 down
+};
+Solid ringed_stone(const std::vector<Ring>& rings, double crown, double pavilion);
 
 /// From `diameters` away, in direction `towards_eye` from the stone's middle.
 Camera bench_camera(const Solid& solid, double diameters, const Vec3& towards_eye, int pixels);

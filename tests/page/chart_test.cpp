@@ -83,6 +83,29 @@ TEST(Chart, HasAFewTicksAtAnyRange) {
     }
 }
 
+TEST(Chart, SeriesWithoutANameGoWithTheOneBefore) {
+    Chart chart;
+    chart.series = {{"exact", {{1, 1, {}, {}}, {2, 2, {}, {}}}, true, false, false},
+                    {"", {{1, 2, {}, {}}, {2, 3, {}, {}}}, true, false, true},
+                    {"other", {{1, 3, {}, {}}, {2, 4, {}, {}}}, true, false, false}};
+    const std::string svg = draw_chart_svg(chart);
+    // Its line in the chart, no entry in the key, and the next colour for the next name.
+    EXPECT_EQ(count_of(svg, "stroke-dasharray"), 1u);
+    EXPECT_NE(svg.find("#d55e00"), std::string::npos);
+    EXPECT_EQ(svg.find("#009e73"), std::string::npos);
+}
+
+// Names that are wider than the chart together.
+TEST(Chart, ALongKeyHasTwoLines) {
+    Chart chart;
+    for (const char* name : {"a rather long name", "another rather long name", "a third long name",
+                             "the fourth of the names"})
+        chart.series.push_back({name, {{1, 1, {}, {}}, {2, 2, {}, {}}}, true, true, false});
+    const std::string svg = draw_chart_svg(chart);
+    EXPECT_NE(svg.find("y=\"21\""), std::string::npos);
+    EXPECT_NE(svg.find("y=\"43\""), std::string::npos);
+}
+
 TEST(Chart, EscapesHostileWords) {
     const std::string hostile = "<script>&\"\xff";
     Chart chart = two_points(1, 1, 2, 2);

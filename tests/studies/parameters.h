@@ -1,0 +1,36 @@
+#pragma once
+// The parameters of a study, one table of parameters.toml; remembers what was asked for, so that
+// its page can tell.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stone/toml_file.h"
+
+namespace culet {
+
+class Parameters {
+public:
+    explicit Parameters(TomlTable table) : table_(std::move(table)) {}
+
+    /// Each throws InputError where the key is missing or of another type.
+    double number(const std::string& key);
+    int count(const std::string& key);  ///< at least 1
+    std::vector<double> numbers(const std::string& key);
+    std::vector<std::string> texts(const std::string& key);
+    /// A path as seen from the file's folder.
+    std::filesystem::path path(const std::string& key);
+
+    /// Key and value, in the order in which they were first asked for.
+    const std::vector<std::vector<std::string>>& used() const { return used_; }
+
+private:
+    template <class Value>
+    Value needed(const std::string& key, std::optional<Value> value, const std::string& text);
+
+    TomlTable table_;
+    std::vector<std::vector<std::string>> used_;
+};
+
+}  // namespace culet

@@ -1,0 +1,26 @@
+#pragma once
+// The noise of pictures by random rays.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "render/image/picture.h"
+
+namespace culet {
+
+struct SamplingNoise {
+    int samples = 0;     ///< rays a pixel
+    double rms = 0;      ///< standard deviation of a pixel's colour, over all pixels and colours
+    double seconds = 0;  ///< processor time of one picture
+    Picture picture;
+};
+
+/// Of a scene file by the reference renderer, that many pixels wide: two pictures with other random
+/// numbers for each number of samples; their difference has twice the variance of either.
+/// `overrides`: keys of the scene.
+std::vector<SamplingNoise> sampling_noise(const std::filesystem::path& scene, int width,
+                                          const std::vector<int>& samples,
+                                          const std::vector<std::string>& overrides = {});
+
+}  // namespace culet
