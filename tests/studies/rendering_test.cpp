@@ -7,6 +7,7 @@
 
 #include "render/beams/beam_tree.h"
 #include "render/beams/screen_view.h"
+#include "render/grade/scope_shares.h"
 #include "render/raytable/ray_table.h"
 #include "stone/cuts/cuts.h"
 #include "tests/bench/bench_scenes.h"
@@ -63,6 +64,41 @@ TEST(VoelkerHamann, BeamsDoNotGrowExponentiallyWithTheDepth) {
     }
 }
 
+// What is cut would have seen the brightest light at most: lobes of 4.7, 2 and 1 and 0.1 from all
+// around, together less than 7.8.
+TEST(GuySoler, ATreeCutAtFourPerCentLosesNoMoreThanItReports) {
+    const auto drawn = [](double cut) {
+        Scene scene = tree_scene(stone_of_facets(115), catalogue_material("diamond"), 6, 120, 8);
+        scene.settings.tolerance = cut > 0 ? 1e-9 : 0;  // with 0 nothing is cut
+        scene.settings.cut_weight = cut;
+        FrameRenderer frames(drawn_as(scene, Drawing::averaged, 0));
+        frames.draw();
+        return frames.take();
+    };
+    const RenderResult whole = drawn(0), cut = drawn(0.04);
+    EXPECT_LT(cut.stats.beams, whole.stats.beams);
+    const double lost = whole.stats.mean_radiance - cut.stats.mean_radiance;
+    EXPECT_GE(lost, 0);
+    EXPECT_LE(lost, 7.8 * (cut.stats.remainder - whole.stats.remainder));
+}
+
+// Without dispersion three trees are three times the same one.
+TEST(GuySoler, OneTreeServesThreeWavelengthsOfOneIndex) {
+    Material glass;
+    glass.index[0].n = 1.7;
+    Scene scene = tree_scene(stone_of_facets(93), glass, 6, 80, 6);
+    scene.settings.wavelengths_nm = k_three_wavelengths;
+    scene = drawn_as(scene, Drawing::averaged, 0);
+    const Picture three = FrameRenderer(scene).draw().picture;
+    scene.settings.effects[static_cast<std::size_t>(Effects::dispersion)] = false;
+    EXPECT_EQ(FrameRenderer(scene).draw().picture.rgb, three.rgb);
+}
+
+TEST(GuySoler, TheirStonesHaveAsManyFacets) {
+    for (const int facets : {93, 115})
+        EXPECT_EQ(stone_of_facets(facets).facets.size(), static_cast<std::size_t>(facets));
+}
+
 // docs/ray-tables.md: a picture from a table is the reference's but for rounding in single
 // precision and 4e-7 radians of direction; the light changes by less than 20 of its peak a radian
 // (lobes of exponent 16).
@@ -90,6 +126,19 @@ TEST(Lee, ATableOfAConvexStoneHasAtMostOneExitAFace) {
 TEST(DiamondWebgl, TheTablesColourFlipsWhereTheLawOfRefractionSays) {
     for (const double n : {2.2, 2.4175, 2.65})
         EXPECT_NEAR(table_flip_deg(n), closed_form_table_flip_deg(n), 2e-6) << n;
+}
+
+// Light is neither made nor lost where a boundary moves; a smaller head is less blue.
+TEST(DiamondWebgl, ItsBoundariesMoveLightFromOneColourToAnother) {
+    const EyeLight light = EyeLightTracer(make_cut("round-brilliant")).trace({0, 0, 1}, 2.4175);
+    ScopeBands theirs = aset_bands();
+    theirs.eye = std::acos(0.98);
+    theirs.inner = std::acos(0.70);
+    const AsetShares ags = aset_shares(light), other = aset_shares(light, -1, theirs);
+    EXPECT_NEAR(other.red + other.green + other.blue + other.dark, 1, 1e-9);
+    EXPECT_NEAR(other.dark, ags.dark, 1e-12);
+    EXPECT_LT(other.blue, ags.blue);
+    EXPECT_LT(other.green, ags.green);
 }
 
 // Across a stone of diameter 1 the direction to a window turns by 1 / distance: an edge of light is

@@ -217,13 +217,15 @@ double tier_deg(const Optimized& found, const char* name) {
 
 void write_objectives(SourcePage& page, Parameters& parameters) {
     page.section("Brilliance and fire as objectives (section 5)");
-    page.words(
-        "The paper proposes to use brilliance and fire to search for better cuts. culet "
-        "optimize does: all tiers' angles change, meets are kept. From a brilliant whose "
-        "pavilion is too flat, in diamond; per cent.");
+    const double crown = parameters.number("poor_crown_deg"),
+                 pavilion = parameters.number("poor_pavilion_deg");
+    page.words(fmt::format(
+        "The paper proposes to search for better cuts by brilliance and fire. culet optimize does: "
+        "all tiers' angles change by up to 8 degrees, meets are kept. From a brilliant of diamond "
+        "with a crown of {} and a pavilion of {} degrees.",
+        crown, pavilion));
     const Solid start =
-        make_cut("round-brilliant", {{"pavilion-angle", parameters.number("poor_pavilion_deg")},
-                                     {"crown-angle", parameters.number("poor_crown_deg")}});
+        make_cut("round-brilliant", {{"pavilion-angle", pavilion}, {"crown-angle", crown}});
     const Material diamond = catalogue_material("diamond");
     std::vector<std::vector<std::string>> rows;
     for (const char* objective : {"brilliance", "fire", "brilliance=1,fire=1"}) {
@@ -246,8 +248,11 @@ void write_objectives(SourcePage& page, Parameters& parameters) {
                 "crown and pavilion angle, degrees", "evaluations", "ms an evaluation"},
                rows);
     page.learned(
-        "Both are smooth enough to search by, because beams integrate exactly. Brilliance and "
-        "fire ask for different angles; a cutter has to weigh them.");
+        "Both are smooth enough to search by, because beams integrate exactly. They ask for "
+        "different "
+        "angles, and a cutter has to weigh them. The search is local: from a pavilion of 38 "
+        "degrees "
+        "brilliance ends lower, at another pavilion.");
 }
 
 }  // namespace
