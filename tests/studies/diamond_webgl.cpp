@@ -110,7 +110,7 @@ void write_proportions(SourcePage& page, Parameters& parameters) {
         "points: what is seen through the table changes as a whole, not little by little.");
 }
 
-void write_costs(SourcePage& page, Parameters& parameters) {
+void write_cost_model(SourcePage& page, Parameters& parameters) {
     page.section("Cost: fragments x bounces x facets");
     page.words(
         "A shader that tests every plane at every bounce takes time in proportion to pixels, "
@@ -175,7 +175,7 @@ SourcePage diamond_webgl_page(Parameters& parameters) {
         "piellardj, diamond-webgl: real-time diamonds in a browser by half-space tracing");
     write_scopes(page, parameters);
     write_proportions(page, parameters);
-    write_costs(page, parameters);
+    write_cost_model(page, parameters);
     write_cube_map(page, parameters);
     return page;
 }

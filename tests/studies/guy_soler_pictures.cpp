@@ -135,10 +135,10 @@ void write_facet_trees(SourcePage& page, Parameters& parameters) {
     page.table("Beams, time of a picture on one thread, difference to the whole tree",
                {"Tree", "beams", "ms", "light not followed", "mean difference"}, rows);
     page.learned(
-        "Cutting at 4 % takes away four fifths of the beams and about a hundredth of the light. "
-        "The "
-        "whole tree takes less than a tenth of a second today, so culet cuts only as far as a "
-        "tolerance allows and reports what was cut.");
+        "Cutting at 4 % takes away nearly half of the beams and a hundredth of the light. The "
+        "whole "
+        "tree takes less than a tenth of a second today, so culet cuts only as far as a tolerance "
+        "allows and reports what was cut.");
 }
 
 void write_stones(SourcePage& page, Parameters& parameters) {

@@ -91,7 +91,7 @@ void write_variations(SourcePage& page, Parameters& parameters) {
         "thesis make another stone.");
 }
 
-void write_costs(SourcePage& page, Parameters& parameters) {
+void write_table_costs(SourcePage& page, Parameters& parameters) {
     page.section("Pre-computation and frame rate (figs. 8.9 to 8.15)");
     page.words(
         "One ray a pixel, one thread, clear diamond in smooth light. Making the table is the "
@@ -170,7 +170,7 @@ SourcePage lee_page(Parameters& parameters) {
                     "thesis, The Chinese University of Hong Kong, 2004");
     write_cuts(page, parameters);
     write_variations(page, parameters);
-    write_costs(page, parameters);
+    write_table_costs(page, parameters);
     write_colours(page, parameters);
     return page;
 }

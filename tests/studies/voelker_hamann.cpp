@@ -239,20 +239,20 @@ void write_objectives(SourcePage& page, Parameters& parameters) {
                         fmt::format("{:.1f}", found.by_two_factors.total),
                         fmt::format("{:.1f}", found.at_better.total),
                         fmt::format("{:.1f}, {:.1f}", tier_deg(found, "C"), tier_deg(found, "P")),
+                        fmt::format("{:.0f}", 100 * table_share(found.better)),
                         fmt::format("{}", found.evaluations),
                         fmt::format("{:.0f}", 1e3 * (clocks().cpu - before.cpu) /
                                                   std::max(1, found.evaluations))});
     }
     page.table("Merit before and after, per cent",
                {"Objective", "before", "crown and pavilion scaled", "all tiers",
-                "crown and pavilion angle, degrees", "evaluations", "ms an evaluation"},
+                "crown and pavilion angle, degrees", "table, %", "evaluations", "ms an evaluation"},
                rows);
     page.learned(
-        "Both are smooth enough to search by, because beams integrate exactly. They ask for "
-        "different "
-        "angles, and a cutter has to weigh them. The search is local: from a pavilion of 38 "
-        "degrees "
-        "brilliance ends lower, at another pavilion.");
+        "Both are smooth enough to search by, because beams integrate exactly. Here they agree on "
+        "crown and pavilion and differ in the table: brilliance wants a large one, fire a small "
+        "one. "
+        "The search is local: from a pavilion of 38 degrees brilliance ends lower, at 38 degrees.");
 }
 
 }  // namespace
