@@ -135,7 +135,6 @@ std::optional<GradeInput> fit_job(JobInWork& work) {
     const std::vector<WrittenReading> readings = read_readings(file, work.choices.overrides);
     if (readings.empty()) return {};
     StoneFile stone = read_stone(file, work.choices.overrides);
-    if (stone.density_g_cm3) stone.stone.material.density_g_cm3 = stone.density_g_cm3;
     FitResult result = [&] {
         try {
             return fit_stone(fit_input(stone.stone, readings),

@@ -52,7 +52,6 @@ int run_fit(const FitCommand& command) {
     StoneFile file = read_stone(command.stone, command.common.set);
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
     for (const std::string& detail : file.details) say(detail, !command.common.verbose);
-    if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
     const FitInput input = fit_input(file.stone, read_readings(command.stone, command.common.set));
     FitOptions options = read_fit_options(command.stone, command.common.set);
     if (command.iterations > 0) options.iterations = command.iterations;

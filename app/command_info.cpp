@@ -57,7 +57,6 @@ std::vector<std::string> form_of(const InfoOptions& options) {
     if (!options.form.stone.empty())
         throw InputError(file, "--stone: this is a stone file already");
     StoneFile read = read_stone(file, options.common.set);
-    if (read.density_g_cm3) read.stone.material.density_g_cm3 = read.density_g_cm3;
     return write_form(options.form, read.stone, read.has_material, read.mesh_file);
 }
 

@@ -81,7 +81,6 @@ int run_refine(const RefineArguments& a) {
     require_writable(a.report);
     StoneFile file = read_stone(a.files.front());
     require_material(file, a.files.front());
-    if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
     const FitInput input = fit_input(file.stone, read_readings(a.files.front()));
     RefineOptions options;
     options.fit = read_fit_options(a.files.front());

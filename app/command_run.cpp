@@ -100,7 +100,6 @@ JobInput read_input(const Job& job, const CommonOptions& common) {
     if (!job.stone.empty()) {
         StoneFile& file = input.file = read_stone(job.stone);
         if (!job.scene.empty()) require_material(file, job.stone);
-        if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
         input.fit = fit_input(file.stone, read_readings(job.stone));
         file.stone = input.fit.stone;
         input.fit_options = read_fit_options(job.stone);

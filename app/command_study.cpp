@@ -54,7 +54,6 @@ int run_study(const StudyCommand& command) {
     StoneFile file = read_stone(command.input, command.common.set);
     for (const std::string& note : file.notes) say(note, !command.common.verbose);
     for (const std::string& detail : file.details) say(detail, !command.common.verbose);
-    if (file.density_g_cm3) file.stone.material.density_g_cm3 = file.density_g_cm3;
     const FitInput input = fit_input(file.stone, read_readings(command.input, command.common.set));
     for (const std::string& note : input.notes) say(note, command.common.quiet);
     if (input.readings.empty()) {

@@ -88,11 +88,10 @@ Description describe_stone_file(const DescribeOptions& options) {
     }
     const double mm = mm_per(stone.unit), volume_mm3 = volume(stone.solid) * mm * mm * mm;
     object["volume_mm3"] = volume_mm3;
-    if (file.density_g_cm3) {
-        object["carat"] = carat(volume_mm3, *file.density_g_cm3);
+    if (const auto density = stone.material.density_g_cm3) {
+        object["carat"] = carat(volume_mm3, *density);
         about.lines.push_back(fmt::format("volume {:.5g} mm3, {:.4g} ct at {:g} g/cm3", volume_mm3,
-                                          carat(volume_mm3, *file.density_g_cm3),
-                                          *file.density_g_cm3));
+                                          carat(volume_mm3, *density), *density));
     }
     describe_solid(stone.solid, stone.convex && !options.may_be_concave, options.facet_table,
                    about);

@@ -23,7 +23,6 @@ ExportInput drawn_stone_file(const std::filesystem::path& file, const ExportChoi
     StoneFile read = read_stone(file, choices.overrides);
     ExportInput input;
     input.stone = std::move(read.stone);
-    if (read.density_g_cm3) input.stone.material.density_g_cm3 = read.density_g_cm3;
     input.has_material = read.has_material;
     input.notes = std::move(read.notes);
     input.details = std::move(read.details);

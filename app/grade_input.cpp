@@ -48,7 +48,6 @@ std::vector<GradeInput> load_stone_file(const fs::path& file, const GradeChoices
     input.stone = read.stone;
     const std::vector<WrittenReading> readings = read_readings(file, choices.overrides);
     if (readings.empty()) return {input};
-    if (read.density_g_cm3) read.stone.material.density_g_cm3 = read.density_g_cm3;
     std::vector<GradeInput> both;
     try {
         const FitInput problem = fit_input(read.stone, readings);

@@ -17,7 +17,6 @@ namespace culet {
 namespace {
 
 constexpr std::size_t k_most_tilts = 361;
-constexpr double k_most_tilt_deg = 85;
 
 // "FROM:TO:STEP", or angles with commas between them; radians.
 std::vector<double> tilts_in(const std::string& text) {
@@ -73,13 +72,9 @@ Graded grade_input(GradeInput input, const GradeOptions& options, int draws, boo
         graded.sigma = grade_sigma(solid, index, options, *input.uncertainty, draws,
                                    progress_line("uncertainty", quiet));
     graded.costs = facet_costs(solid, index, options);
-    GradeContext context;
+    GradeContext context = grade_context(solid, material, options);
     context.name = input.name;
     context.file = input.file;
-    context.material = material ? material->id : "";
-    context.crystal = material && material->optic != OpticCharacter::isotropic;
-    for (const Facet& facet : solid.facets) context.facets.push_back(facet.name);
-    context.options = options;
     if (input.uncertainty) context.sigma = &graded.sigma;
     context.costs = graded.costs;
     context.notes = input.notes;

@@ -119,12 +119,12 @@ StoneFile stone_of(const TomlTable& root) {
 
     result.has_material = table->has("material") || root.has("material");
     if (result.has_material) stone.material = material_named_in(*table, root);
-    result.density_g_cm3 = table->number("density");
-    if (result.density_g_cm3 && !(*result.density_g_cm3 > 0.1 && *result.density_g_cm3 < 30)) {
-        table->fail("density", fmt::format("density is {}; expected g/cm3 between 0.1 and 30",
-                                           *result.density_g_cm3));
+    if (const auto own = table->number("density")) {
+        if (!(*own > 0.1 && *own < 30))
+            table->fail("density",
+                        fmt::format("density is {}; expected g/cm3 between 0.1 and 30", *own));
+        stone.material.density_g_cm3 = own;
     }
-    if (!result.density_g_cm3) result.density_g_cm3 = stone.material.density_g_cm3;
     if (result.has_material) stone.crystal = crystal_frame_in(*table, stone.material.optic);
     stone.convex = table->boolean("convex").value_or(true);
 

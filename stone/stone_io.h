@@ -14,10 +14,10 @@ namespace culet {
 
 struct StoneFile {
     Stone stone;
-    bool has_material = true;  ///< else `stone.material` says nothing: a fit may do without
+    /// Else `stone.material` says nothing but a density, where the file does: a fit may do without.
+    bool has_material = true;
     std::filesystem::path mesh_file;
     std::filesystem::path readings_file;  ///< empty: none named
-    std::optional<double> density_g_cm3;  ///< the stone's own when given, else its material's
     std::vector<std::string> notes;       ///< from reading the mesh
     std::vector<std::string> details;     ///< the same, said on request
 };

@@ -37,8 +37,9 @@ std::string grade_of(const PythonStone& python, const std::optional<double>& ind
     GradeOptions options;
     options.head = radians(head_deg);
     for (const double tilt : tilts_deg) {
-        if (!(std::abs(tilt) <= 85))
-            throw InputError(fmt::format("tilts are within 85 degrees, found {:g}", tilt));
+        if (!(std::abs(tilt) <= k_most_tilt_deg))
+            throw InputError(
+                fmt::format("tilts are within {:g} degrees, found {:g}", k_most_tilt_deg, tilt));
         options.tilts.push_back(radians(tilt));
     }
     options.seed = seed;
@@ -51,13 +52,9 @@ std::string grade_of(const PythonStone& python, const std::optional<double>& ind
         GradeSigma sigma;
         if (with_sigma)
             sigma = grade_sigma(stone.solid, indices, options, *python.uncertainty, draws, told);
-        GradeContext context;
+        GradeContext context = grade_context(stone.solid, material, options);
         context.name = stone.name;
         context.file = python.file;
-        context.material = material ? material->id : "";
-        context.crystal = material && material->optic != OpticCharacter::isotropic;
-        for (const Facet& facet : stone.solid.facets) context.facets.push_back(facet.name);
-        context.options = options;
         if (with_sigma) context.sigma = &sigma;
         context.costs = facet_costs(stone.solid, indices, options);
         context.notes = python.notes;

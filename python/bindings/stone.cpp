@@ -42,7 +42,6 @@ PythonStone load_stone(const fs::path& file, const std::vector<std::string>& ove
         result.has_material = read.has_material;
         result.notes = std::move(read.notes);
         result.stone = std::move(read.stone);
-        if (read.density_g_cm3) result.stone.material.density_g_cm3 = read.density_g_cm3;
         result.readings = read_readings(file, overrides);
         result.options = read_fit_options(file, overrides);
     }

@@ -23,6 +23,8 @@ namespace culet {
 
 /// Sodium's line, at which the trade states indices.
 inline constexpr double k_grade_nm = 589.3;
+/// People may ask for tilts to this; nearer to 90 degrees nothing is seen through the crown.
+inline constexpr double k_most_tilt_deg = 85;
 
 struct GradeIndex {
     double n = 1.5;                             ///< at k_grade_nm

@@ -113,6 +113,18 @@ Json sigma_json(const GradeSigma* sigma) {
 
 }  // namespace
 
+GradeContext grade_context(const Solid& solid, const Material* material,
+                           const GradeOptions& options) {
+    GradeContext context;
+    if (material != nullptr) {
+        context.material = material->id;
+        context.crystal = material->optic != OpticCharacter::isotropic;
+    }
+    for (const Facet& facet : solid.facets) context.facets.push_back(facet.name);
+    context.options = options;
+    return context;
+}
+
 std::string grade_json(const Grade& grade, const GradeContext& context) {
     Json json;
     json["schema"] = 1;

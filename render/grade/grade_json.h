@@ -22,6 +22,10 @@ struct GradeContext {
     std::vector<std::string> notes;
 };
 
+/// What is known of the stone itself; the rest is left to be filled in. `material`: none, nullptr.
+GradeContext grade_context(const Solid& solid, const Material* material,
+                           const GradeOptions& options);
+
 std::string grade_json(const Grade& grade, const GradeContext& context);
 
 }  // namespace culet
