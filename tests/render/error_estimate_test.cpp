@@ -10,6 +10,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <ostream>
 #include <random>
 
 #include "render/beams/frame_renderer.h"
@@ -247,6 +248,7 @@ struct CheckedScene {
     const char *material, *cut, *light;
     double tolerance;
     std::string name;
+    friend void PrintTo(const CheckedScene& one, std::ostream* out) { *out << one.name; }
 };
 class BoundOverAllPixels : public testing::TestWithParam<CheckedScene> {};
 

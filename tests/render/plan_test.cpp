@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ostream>
 #include <random>
 #include <set>
 
@@ -419,6 +420,7 @@ TEST(Turns, BringEachWavelengthItsShare) {
 struct GalleryScene {
     const char* file;
     std::set<std::string> on;  // of all lines but samples, which the engine decides
+    friend void PrintTo(const GalleryScene& one, std::ostream* out) { *out << one.file; }
 };
 class Gallery : public testing::TestWithParam<GalleryScene> {};
 

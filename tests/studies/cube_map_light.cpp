@@ -48,7 +48,7 @@ double cube_map_error(const Scene& given, const Lights& lights, int map_width) {
     Lights mapped;
     mapped.environment = std::make_shared<EnvironmentMap>(light_at_origin(lights, map_width));
     scene.lights = mapped;
-    return difference_between(FrameRenderer(scene).draw().picture, truth).mean;
+    return mean_difference(FrameRenderer(scene).draw().picture, truth);
 }
 
 }  // namespace culet

@@ -91,9 +91,8 @@ void write_dispersion_trees(SourcePage& page, Parameters& parameters) {
         const auto three = timed_picture(scene);
         scene.settings.effects[static_cast<std::size_t>(Effects::dispersion)] = false;
         const auto one = timed_picture(scene);
-        rows.push_back(
-            {name, milliseconds_of(one.time.cpu), milliseconds_of(three.time.cpu),
-             percent(difference_between(one.result.picture, three.result.picture).mean)});
+        rows.push_back({name, milliseconds_of(one.time.cpu), milliseconds_of(three.time.cpu),
+                        percent(mean_difference(one.result.picture, three.result.picture))});
         const PngLook look = exposed_for(three.result.picture);
         shown.push_back({fmt::format("{}, one tree", name), one.result.picture, look});
         shown.push_back({fmt::format("{}, three trees", name), three.result.picture, look});
@@ -129,7 +128,7 @@ void write_facet_trees(SourcePage& page, Parameters& parameters) {
                              cut == 0 ? "whole" : fmt::format("cut at {:.0f} %", 100 * cut)),
                  fmt::format("{}", tree.result.stats.beams), milliseconds_of(tree.time.cpu),
                  percent(tree.result.stats.remainder),
-                 percent(difference_between(tree.result.picture, whole.result.picture).mean)});
+                 percent(mean_difference(tree.result.picture, whole.result.picture))});
         }
     }
     page.table("Beams, time of a picture on one thread, difference to the whole tree",

@@ -147,8 +147,8 @@ TEST(DiamondWebgl, ItsBoundariesMoveLightFromOneColourToAnother) {
 TEST(DiamondWebgl, ACubeMapsErrorFallsWithTheDistanceOfTheLight) {
     Scene scene = brilliant(6, 120, 6);
     const double size = diameter(scene.stone.solid);
-    const double near = cube_map_error(scene, windows_at(6 * size), 2048),
-                 far = cube_map_error(scene, windows_at(12 * size), 2048);
+    const double near = cube_map_error(scene, windows_at(6 * size), 1024),
+                 far = cube_map_error(scene, windows_at(12 * size), 1024);
     EXPECT_NEAR(near / far, 2, 2 * 2 / 6.0);
 }
 

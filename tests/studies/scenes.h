@@ -21,11 +21,8 @@ inline const std::vector<double> k_three_wavelengths{445, 540, 620};
 Scene tree_scene(const Solid& solid, const Material& material, double diameters, int pixels,
                  int depth);
 
-struct PictureDifference {
-    double mean = 0;  ///< of |luminance|'s difference over the stone's pixels, over their mean
-    double off = 0;   ///< share of the stone's pixels that differ by over a hundredth of the peak
-};
-PictureDifference difference_between(const Picture& picture, const Picture& truth);
+/// Mean of |luminance|'s difference over the stone's pixels, over their mean.
+double mean_difference(const Picture& picture, const Picture& truth);
 
 /// |difference| of each pixel, in grey.
 Picture difference_picture(const Picture& picture, const Picture& truth);

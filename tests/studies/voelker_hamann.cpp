@@ -67,9 +67,9 @@ void write_times(SourcePage& page, Parameters& parameters) {
         const TimedPicture preview = timed_picture(drawn_as(scene, Drawing::preview, 1));
         const TimedPicture averaged = timed_picture(drawn_as(scene, Drawing::averaged, 1));
         rows.push_back({kind.what, kind.reported, milliseconds_of(preview.time.cpu),
-                        percent(difference_between(preview.result.picture, exact).mean),
+                        percent(mean_difference(preview.result.picture, exact)),
                         milliseconds_of(averaged.time.cpu),
-                        percent(difference_between(averaged.result.picture, exact).mean)});
+                        percent(mean_difference(averaged.result.picture, exact))});
     }
     page.table("Milliseconds a picture, and mean difference to the exact picture",
                {"Drawing", "reported, ms", "preview, ms", "off by", "exact, ms", "off by"}, rows);
@@ -131,7 +131,7 @@ void write_rivals(SourcePage& page, Parameters& parameters) {
     const auto row = [&](const std::string& what, double seconds, const Picture& picture) {
         rows.push_back({what, milliseconds_of(seconds),
                         povray > 0 ? significant(povray / seconds, 2) : "–",
-                        percent(difference_between(picture, exact).mean)});
+                        percent(mean_difference(picture, exact))});
     };
     if (povray_is_installed()) {
         Scene theirs = scene;

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <ostream>
 
 #include "compare/light_probe/rim_compression.h"
 #include "compare/photo/pixels.h"
@@ -48,6 +49,7 @@ struct Case {
     double radius, x, y, reflectance;
     int ground;  // 0: the room itself behind the ball, 1: black, 2: clutter
     bool noisy;
+    friend void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 };
 
 class Balls : public testing::TestWithParam<Case> {};

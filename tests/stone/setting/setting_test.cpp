@@ -11,6 +11,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <ostream>
 
 #include "stone/cuts/cuts.h"
 #include "stone/errors.h"
@@ -87,6 +88,7 @@ struct Mounting {
     std::string cut;
     SettingStyle style = SettingStyle::prong;
     std::map<std::string, double> values = {};
+    friend void PrintTo(const Mounting& one, std::ostream* out) { *out << one.cut; }
 };
 
 class EveryMounting : public testing::TestWithParam<Mounting> {
