@@ -28,7 +28,6 @@ const char* word_for(OpticCharacter optic) {
 
 void describe_material(const Material& material, Description& about) {
     // The sodium line, by which the trade states indices.
-    constexpr double k_d_line_nm = 589.3;
     Json object{{"id", material.id}, {"name", material.name}, {"optic", word_for(material.optic)}};
     std::string line =
         fmt::format("material {}: {}", material.name.empty() ? material.id : material.name,

@@ -21,9 +21,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The sodium line, by which the trade states indices.
-constexpr double k_d_line_nm = 589.3;
-
 double birefringence(const Material& material) {
     double least = material.index[0].at(k_d_line_nm), largest = least;
     for (int ray = 1; ray < ray_count(material.optic); ++ray) {

@@ -100,7 +100,7 @@ RefractiveIndex index_of(const TomlTable& table, const std::string& key) {
         default:
             table.fail(key, fmt::format("index {} must be a number or a table", key));
     }
-    for (const double nm : {380.0, 589.3, 780.0}) {
+    for (const double nm : {380.0, k_d_line_nm, 780.0}) {
         const double n = index.at(nm);
         if (!(n >= k_least_index && n <= k_largest_index)) {
             table.fail(key,

@@ -28,6 +28,9 @@ private:
     std::vector<double> values_{0.0};
 };
 
+/// Sodium's line, at which handbooks and the trade state indices.
+inline constexpr double k_d_line_nm = 589.3;
+
 /// CIE 1931 2-degree observer, 360-830 nm in steps of 1 nm (CIE 15 tables).
 const Spectrum& cie_x();
 const Spectrum& cie_y();

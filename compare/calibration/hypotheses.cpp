@@ -10,8 +10,6 @@ namespace culet {
 
 namespace {
 
-constexpr double k_sodium_nm = 589.3;
-
 Spectrum raised(const Spectrum& spectrum, double by) {
     std::vector<double> values = spectrum.values();
     for (double& value : values) value += by;
@@ -25,7 +23,7 @@ double mean_index(const Material& material) {
     for (int r = 0; r < rays; ++r) {
         // Two of a uniaxial crystal's three axes are ordinary.
         const double weight = material.optic == OpticCharacter::uniaxial && r == 0 ? 2 : 1;
-        sum += weight * material.index[static_cast<std::size_t>(r)].at(k_sodium_nm);
+        sum += weight * material.index[static_cast<std::size_t>(r)].at(k_d_line_nm);
     }
     return sum / (material.optic == OpticCharacter::uniaxial ? 3 : rays);
 }
@@ -62,7 +60,7 @@ Material with_index_changed(const Material& material, double by) {
                 break;
             case RefractiveIndex::Form::sellmeier: {
                 // To first order n^2 rises by 2 n dn at every wavelength alike.
-                index.a0 += 2 * index.at(k_sodium_nm) * by + by * by;
+                index.a0 += 2 * index.at(k_d_line_nm) * by + by * by;
                 break;
             }
             case RefractiveIndex::Form::table:
@@ -79,7 +77,7 @@ Material without_dispersion(const Material& material) {
         RefractiveIndex& index = result.index[static_cast<std::size_t>(r)];
         RefractiveIndex flat;
         flat.form = RefractiveIndex::Form::constant;
-        flat.n = index.at(k_sodium_nm);
+        flat.n = index.at(k_d_line_nm);
         index = flat;
     }
     return result;

@@ -36,7 +36,7 @@ std::vector<std::vector<double>> wavelength_sets(const StudyGround& ground) {
     const std::vector<double>& finest = ground.exact.wavelengths_nm;
     std::vector<std::vector<double>> sets;
     if (ground.scene.settings.wavelengths_nm.size() == 1 || finest.size() < 2) return sets;
-    sets.push_back({589.3});
+    sets.push_back({k_d_line_nm});
     if (finest.size() > 3) sets.push_back({450, 550, 610});
     for (const int count : k_node_counts) {
         Scene scene = ground.scene;

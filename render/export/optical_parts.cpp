@@ -12,9 +12,8 @@ namespace culet {
 
 namespace {
 
-// The sodium line, and where red, green and blue are read off a spectrum of absorption (as
+// Where red, green and blue are read off a spectrum of absorption (as
 // Material::absorption_from_rgb has them).
-constexpr double k_d_line_nm = 589.3;
 constexpr std::array<double, 3> k_rgb_nm{610, 545, 465};
 
 }  // namespace

@@ -11,9 +11,9 @@
 namespace culet {
 
 struct StoneOptics {
-    double index_nm = 589.3;  ///< the sodium line, or the scene's one wavelength
-    double index = 1.5;       ///< there; of crystals the mean
-    bool disperses = false;   ///< and the scene calls for it; likewise
+    double index_nm = k_d_line_nm;  ///< the sodium line, or the scene's one wavelength
+    double index = 1.5;             ///< there; of crystals the mean
+    bool disperses = false;         ///< and the scene calls for it; likewise
     bool birefringent = false, pleochroic = false;
     Rgb absorption{};  ///< Napierian, per stone's unit; 0: none, or the scene has none
 };

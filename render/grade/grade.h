@@ -21,8 +21,8 @@
 
 namespace culet {
 
-/// Sodium's line, at which the trade states indices.
-inline constexpr double k_grade_nm = 589.3;
+/// At which the trade states indices.
+inline constexpr double k_grade_nm = k_d_line_nm;
 /// People may ask for tilts to this; nearer to 90 degrees nothing is seen through the crown.
 inline constexpr double k_most_tilt_deg = 85;
 

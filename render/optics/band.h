@@ -4,6 +4,7 @@
 #include <array>
 
 #include "render/optics/crystal.h"
+#include "stone/spectrum.h"
 
 namespace culet {
 
@@ -22,7 +23,7 @@ struct Band {
     /// Per unit of length, by principal axis of the crystal. All equal for isotropic absorption.
     std::array<NodeWeights, 3> absorption{};
     /// Vacuum wavelength in the stone's unit of length.
-    double wavelength = 589.3e-6;
+    double wavelength = 1e-6 * k_d_line_nm;
     /// Retardation, in the stone's unit of length, from which the two waves of a crystal are
     /// followed apart: wavelength^2 / bandwidth. 0: always; infinite: monochromatic light.
     double coherence_length = 0;

@@ -21,7 +21,6 @@ namespace {
 
 // Designs are 1 or 2 wide (a radius of 1), cut stones hardly ever under 2 mm.
 constexpr double k_widest_of_no_size = 2 + 1e-6;
-constexpr double k_d_line_nm = 589.3;
 constexpr std::size_t k_suggestions = 3;
 
 enum class Kind { scene, stone, mesh, cut };

@@ -3,8 +3,6 @@
 
 namespace culet {
 
-// The wavelength of refractive indices in handbooks: the sodium D line.
-inline constexpr double k_d_line_nm = 589.3;
 // Where the eye's response is, and how many wavelengths, evenly spread there, a material is asked
 // at.
 inline constexpr double k_first_nm = 410, k_last_nm = 690;

@@ -13,7 +13,6 @@ namespace culet {
 
 namespace {
 
-constexpr double k_d_line_nm = 589.3;
 constexpr double k_least_weight = 1.0 / 2048;  // below what 8 bits of a picture show
 
 double mean_index(const Material& material) {

@@ -15,8 +15,12 @@ namespace culet {
 
 namespace {
 
+std::string listed_file(const char* name) {
+    return fmt::format("{}/tests/studies/guy-soler/{}.toml", CULET_SOURCE_DIR, name);
+}
+
 Material listed(const char* name) {
-    return read_material(fmt::format("{}/tests/studies/guy-soler/{}.toml", CULET_SOURCE_DIR, name));
+    return read_material(listed_file(name));
 }
 
 }  // namespace
@@ -147,9 +151,9 @@ void write_stones(SourcePage& page, Parameters& parameters) {
     page.words(
         "Drawn from the paper's table of materials (tests/studies/guy-soler/*.toml): indices, "
         "dispersion, and absorption for red, green and blue of the ordinary and the "
-        "extraordinary ray. A peridot in a ring is samples/peridot-ring; samples/dravite-step "
-        "holds a "
-        "dravite with the paper's absorption against a simulated photograph.");
+        "extraordinary ray. samples/dravite-step holds a dravite with the paper's absorption "
+        "against "
+        "a simulated photograph.");
     std::vector<CaptionedPicture> garnets;
     const Solid brilliant = make_cut("round-brilliant", {{"diameter", 8}});
     Scene garnet = face_up(brilliant, listed("garnet"), "daylight", pixels);
@@ -180,6 +184,10 @@ void write_stones(SourcePage& page, Parameters& parameters) {
                    drawn("step", "tourmaline", z, "towards the eye"),
                    drawn("oval", "peridot", x, "along its length"),
                    drawn("oval", "sapphire", z, "towards the eye")});
+    Scene ring = in_ring(make_cut("oval", {{"width", 6}}), listed_file("peridot"), pixels);
+    ring.settings.engine = "whitted";
+    const Picture picture = render(ring).picture;
+    page.pictures({{"peridot in a ring (engine whitted)", picture, exposed_for(picture)}});
     page.learned(
         "A cut stone lives by its inner reflections: without them a garnet is a dark window. "
         "The axis of a pleochroic stone decides its colour, and a cutter can see it here before "

@@ -153,10 +153,13 @@ void write_colours(SourcePage& page, Parameters& parameters) {
         const Picture picture = render(scene).picture;
         beside.push_back({"sapphire, " + scene.settings.engine, picture, exposed_for(picture)});
     }
+    Scene ring = in_ring(make_cut("round-brilliant"), "sapphire_blue", phong.camera.width);
+    ring.settings.engine = "whitted";
+    const Picture in_gold = render(ring).picture;
+    beside.push_back({"sapphire in a ring, whitted", in_gold, exposed_for(in_gold)});
     page.pictures(beside);
     page.words(
-        "A stone in a ring: samples/peridot-ring. Ray tables draw a stone alone; what stands "
-        "around it would have to be in the table.");
+        "Ray tables draw a stone alone: what stands around it would have to be in the table.");
     page.learned(
         "Phong's stone is a painted pebble. The colour of a real one lies in how far its light "
         "travelled inside.");

@@ -1,13 +1,21 @@
 #include "tests/studies/scenes.h"
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 
 #include "render/colour/colour.h"
+#include "render/scene/scene_io.h"
+#include "render/scene/setting_scene.h"
 #include "render/scene/stone_scene.h"
 #include "stone/errors.h"
+#include "stone/mesh_io.h"
+#include "stone/output_file.h"
 #include "tests/bench/bench_scenes.h"
 
 namespace culet {
+
+namespace fs = std::filesystem;
 
 Scene face_up(const Solid& solid, const Material& material, const std::string& light, int pixels) {
     Stone stone;
@@ -28,6 +36,31 @@ Scene tree_scene(const Solid& solid, const Material& material, double diameters,
     scene.stone.material = material;
     scene.camera = bench_camera(solid, diameters, bench_view(), pixels);
     scene.settings.depth = depth;
+    return scene;
+}
+
+Scene in_ring(const Solid& solid, const std::string& material, int pixels) {
+    // A scene names its meshes by files.
+    std::string name = (fs::temp_directory_path() / "culet-study-XXXXXX").string();
+    check(mkdtemp(name.data()) != nullptr, "a folder of its own");
+    const fs::path folder = name;
+    SettingOptions options;
+    options.prongs = 4;
+    const Setting setting = make_setting(solid, {0, 0, 1}, options);
+    write_solid(solid, folder / "stone.obj");
+    write_surface(mesh_of(setting), folder / "ring.obj");
+    SettingScene files;
+    files.scene = folder / "scene.toml";
+    files.stone = folder / "stone.obj";
+    files.material = material;
+    files.setting = folder / "ring.obj";
+    files.metal = metal_named("gold");
+    write_text(files.scene, setting_scene(files, setting));
+    Scene scene = read_scene(files.scene);
+    fs::remove_all(folder);
+    scene.camera.height = pixels;
+    scene.camera.width = pixels;
+    scene.settings.check = Check::none;
     return scene;
 }
 

@@ -21,6 +21,10 @@ inline const std::vector<double> k_three_wavelengths{445, 540, 620};
 Scene tree_scene(const Solid& solid, const Material& material, double diameters, int pixels,
                  int depth);
 
+/// A stone in four prongs of a gold ring, as `culet setting` makes it. `material`: of the
+/// catalogue, or a file.
+Scene in_ring(const Solid& solid, const std::string& material, int pixels);
+
 /// Mean of |luminance|'s difference over the stone's pixels, over their mean.
 double mean_difference(const Picture& picture, const Picture& truth);
 

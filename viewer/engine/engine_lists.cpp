@@ -15,9 +15,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The sodium line, by which the trade states indices.
-constexpr double k_d_line_nm = 589.3;
-
 const char* name_of(OpticCharacter optic) {
     switch (optic) {
         case OpticCharacter::isotropic:
