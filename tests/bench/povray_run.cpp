@@ -28,17 +28,6 @@ bool povray_is_installed() {
     return std::system("command -v povray >/dev/null 2>&1") == 0;
 }
 
-PovrayFolder::PovrayFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "culet-povray-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw InputError("no temporary folder");
-    folder_ = name;
-}
-
-PovrayFolder::~PovrayFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-}
-
 PovrayRun PovrayFolder::draw(const Scene& scene, const std::string& sampling, int runs) const {
     const std::string in = (folder_ / "scene.pov").string(),
                       out = (folder_ / "picture.png").string(),

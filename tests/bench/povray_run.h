@@ -1,11 +1,11 @@
 #pragma once
 // POV-Ray 3.7, where it is installed, as a second renderer.
 
-#include <filesystem>
 #include <string>
 
 #include "render/image/picture.h"
 #include "render/scene/scene.h"
+#include "tests/scratch_folder.h"
 
 namespace culet {
 
@@ -21,17 +21,12 @@ struct PovrayRun {
 /// A folder of its own for POV-Ray's files, gone at the end.
 class PovrayFolder {
 public:
-    PovrayFolder();
-    ~PovrayFolder();
-    PovrayFolder(const PovrayFolder&) = delete;
-    PovrayFolder& operator=(const PovrayFolder&) = delete;
-
     /// `sampling`: POV-Ray's options, "-A" or "+A0.1 +AM2 +R3". Throws InputError with what POV-Ray
     /// said.
     PovrayRun draw(const Scene& scene, const std::string& sampling, int runs) const;
 
 private:
-    std::filesystem::path folder_;
+    test::ScratchFolder folder_;
 };
 
 }  // namespace culet

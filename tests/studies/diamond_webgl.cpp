@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "page/html.h"
 #include "render/grade/grade.h"
 #include "render/render.h"
@@ -52,15 +50,12 @@ void write_scopes(SourcePage& page, Parameters& parameters) {
     page.pictures({aset, channel_of(aset, 0, "its red: light from 45 to 75 degrees of elevation"),
                    channel_of(aset, 1, "its green: below 45 degrees"),
                    channel_of(aset, 2, "its blue: above 75 degrees, the viewer's head")});
-    // diamond-webgl divides the sky at heights of 0.70 and 0.98 on the unit sphere.
-    ScopeBands theirs = aset_bands();
-    theirs.eye = std::acos(0.98);
-    theirs.inner = std::acos(0.70);
     const EyeLight light =
         EyeLightTracer(make_cut("round-brilliant")).trace({0, 0, 1}, index_of_diamond());
     std::vector<std::vector<std::string>> rows;
-    for (const auto& [name, bands] : {std::pair{"AGS: 45 and 75 degrees", aset_bands()},
-                                      {"diamond-webgl: 44.4 and 78.5 degrees", theirs}}) {
+    for (const auto& [name, bands] :
+         {std::pair{"AGS: 45 and 75 degrees", aset_bands()},
+          {"diamond-webgl: 44.4 and 78.5 degrees", diamond_webgl_bands()}}) {
         const AsetShares shares = aset_shares(light, -1, bands);
         rows.push_back({name, percent(shares.red), percent(shares.green), percent(shares.blue),
                         percent(shares.dark)});

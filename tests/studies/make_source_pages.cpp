@@ -1,13 +1,11 @@
 // make_source_pages [NAME ...] [-o FOLDER] [--set KEY=VALUE ...]: the pages on culet's sources.
 
-#include <fmt/format.h>
-
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 
-#include "stone/errors.h"
 #include "stone/output_file.h"
 #include "tests/bench/cpu_time.h"
 #include "tests/studies/source_studies.h"

@@ -7,7 +7,6 @@
 
 #include "render/beams/beam_tree.h"
 #include "render/beams/screen_view.h"
-#include "render/grade/scope_shares.h"
 #include "render/raytable/ray_table.h"
 #include "stone/cuts/cuts.h"
 #include "tests/bench/bench_scenes.h"
@@ -131,10 +130,8 @@ TEST(DiamondWebgl, TheTablesColourFlipsWhereTheLawOfRefractionSays) {
 // Light is neither made nor lost where a boundary moves; a smaller head is less blue.
 TEST(DiamondWebgl, ItsBoundariesMoveLightFromOneColourToAnother) {
     const EyeLight light = EyeLightTracer(make_cut("round-brilliant")).trace({0, 0, 1}, 2.4175);
-    ScopeBands theirs = aset_bands();
-    theirs.eye = std::acos(0.98);
-    theirs.inner = std::acos(0.70);
-    const AsetShares ags = aset_shares(light), other = aset_shares(light, -1, theirs);
+    const AsetShares ags = aset_shares(light),
+                     other = aset_shares(light, -1, diamond_webgl_bands());
     EXPECT_NEAR(other.red + other.green + other.blue + other.dark, 1, 1e-9);
     EXPECT_NEAR(other.dark, ags.dark, 1e-12);
     EXPECT_LT(other.blue, ags.blue);

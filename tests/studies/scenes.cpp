@@ -1,8 +1,6 @@
 #include "tests/studies/scenes.h"
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 
 #include "render/colour/colour.h"
 #include "render/scene/scene_io.h"
@@ -12,10 +10,9 @@
 #include "stone/mesh_io.h"
 #include "stone/output_file.h"
 #include "tests/bench/bench_scenes.h"
+#include "tests/scratch_folder.h"
 
 namespace culet {
-
-namespace fs = std::filesystem;
 
 Scene face_up(const Solid& solid, const Material& material, const std::string& light, int pixels) {
     Stone stone;
@@ -40,10 +37,7 @@ Scene tree_scene(const Solid& solid, const Material& material, double diameters,
 }
 
 Scene in_ring(const Solid& solid, const std::string& material, int pixels) {
-    // A scene names its meshes by files.
-    std::string name = (fs::temp_directory_path() / "culet-study-XXXXXX").string();
-    check(mkdtemp(name.data()) != nullptr, "a folder of its own");
-    const fs::path folder = name;
+    const test::ScratchFolder folder;  // a scene names its meshes by files
     SettingOptions options;
     options.prongs = 4;
     const Setting setting = make_setting(solid, {0, 0, 1}, options);
@@ -57,9 +51,7 @@ Scene in_ring(const Solid& solid, const std::string& material, int pixels) {
     files.metal = metal_named("gold");
     write_text(files.scene, setting_scene(files, setting));
     Scene scene = read_scene(files.scene);
-    fs::remove_all(folder);
-    scene.camera.height = pixels;
-    scene.camera.width = pixels;
+    scene.camera.width = scene.camera.height = pixels;
     scene.settings.check = Check::none;
     return scene;
 }

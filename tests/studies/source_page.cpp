@@ -48,16 +48,6 @@ View table_of(const std::string& caption, const std::vector<std::string>& column
     return {{"caption", caption}, {"columns", cells_of(columns)}, {"rows", std::move(lines)}};
 }
 
-// What a block has none of is empty.
-View block(std::string words, std::string learned, std::vector<View> tables, std::string chart,
-           std::vector<View> pictures) {
-    return {{"words", std::move(words)},
-            {"learned", std::move(learned)},
-            {"tables", std::move(tables)},
-            {"chart_html", std::move(chart)},
-            {"pictures", std::move(pictures)}};
-}
-
 }  // namespace
 
 SourcePage::SourcePage(std::string name, std::string title, std::string source)
@@ -67,47 +57,57 @@ void SourcePage::section(const std::string& heading) {
     sections_.push_back({heading, {}});
 }
 
-void SourcePage::add(View part) {
+View SourcePage::Part::view() const {
+    return {{"words", words},
+            {"learned", learned},
+            {"tables", tables},
+            {"chart_html", chart_html},
+            {"pictures", pictures}};
+}
+
+View SourcePage::Section::view(std::size_t number) const {
+    std::vector<View> blocks;
+    for (const Part& part : parts) blocks.push_back(part.view());
+    return {{"id", fmt::format("section-{}", number)},
+            {"heading", heading},
+            {"blocks", std::move(blocks)}};
+}
+
+void SourcePage::add(Part part) {
     check(!sections_.empty(), "a part stands in a section");
     sections_.back().parts.push_back(std::move(part));
 }
 
 void SourcePage::words(const std::string& paragraph) {
-    add(block(paragraph, {}, {}, {}, {}));
+    add({.words = paragraph});
 }
 
 void SourcePage::learned(const std::string& sentence) {
-    add(block({}, sentence, {}, {}, {}));
+    add({.learned = sentence});
 }
 
 void SourcePage::table(const std::string& caption, const std::vector<std::string>& columns,
                        const std::vector<std::vector<std::string>>& rows) {
-    add(block({}, {}, {table_of(caption, columns, rows)}, {}, {}));
+    add({.tables = {table_of(caption, columns, rows)}});
 }
 
 void SourcePage::chart(const Chart& chart) {
-    add(block({}, {}, {}, chart_figure(draw_chart_svg(chart)), {}));
+    add({.chart_html = chart_figure(draw_chart_svg(chart))});
 }
 
 void SourcePage::pictures(const std::vector<CaptionedPicture>& row) {
     std::vector<View> views;
     for (const CaptionedPicture& one : row)
         views.push_back({{"caption", one.caption}, {"uri_html", jpeg_uri(one)}});
-    add(block({}, {}, {}, {}, {View{{"row", std::move(views)}}}));
+    add({.pictures = {View{{"row", std::move(views)}}}});
 }
 
 std::string SourcePage::html(const std::vector<std::vector<std::string>>& parameters) const {
+    SourcePage whole = *this;
+    whole.section("Parameters");
+    whole.table("As used for this page", {"Parameter", "Value"}, parameters);
     std::vector<View> sections;
-    const auto view_of = [&](const Section& one) {
-        return View{{"id", fmt::format("section-{}", sections.size() + 1)},
-                    {"heading", one.heading},
-                    {"blocks", one.parts}};
-    };
-    for (const Section& one : sections_) sections.push_back(view_of(one));
-    sections.push_back(view_of(
-        {"Parameters",
-         {block({}, {}, {table_of("As used for this page", {"Parameter", "Value"}, parameters)}, {},
-                {})}}));
+    for (const Section& one : whole.sections_) sections.push_back(one.view(sections.size() + 1));
     return html_page(title_, filled(templates::source_page, {{"title", title_},
                                                              {"source", source_},
                                                              {"name", name_},

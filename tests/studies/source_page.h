@@ -39,11 +39,17 @@ public:
     std::string html(const std::vector<std::vector<std::string>>& parameters) const;
 
 private:
+    struct Part {  // one of them
+        std::string words = {}, learned = {}, chart_html = {};
+        std::vector<View> tables = {}, pictures = {};
+        View view() const;
+    };
     struct Section {
         std::string heading;
-        std::vector<View> parts;
+        std::vector<Part> parts;
+        View view(std::size_t number) const;
     };
-    void add(View part);
+    void add(Part part);
 
     std::string name_, title_, source_;
     std::vector<Section> sections_;

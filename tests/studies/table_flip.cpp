@@ -2,12 +2,18 @@
 
 #include <cmath>
 
-#include "render/grade/scope_shares.h"
 #include "render/scene/light_presets.h"
 #include "stone/cuts/cuts.h"
 #include "stone/units.h"
 
 namespace culet {
+
+ScopeBands diamond_webgl_bands() {
+    ScopeBands bands = aset_bands();
+    bands.eye = std::acos(0.98);
+    bands.inner = std::acos(0.70);
+    return bands;
+}
 
 double table_flip_deg(double n) {
     // Red where the pavilion is steep.

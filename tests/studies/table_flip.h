@@ -1,7 +1,13 @@
 #pragma once
-// The pavilion angle at which the reflection of a brilliant's table in ASET changes its colour.
+// ASET: where diamond-webgl divides the sky, and the pavilion angle at which the reflection of a
+// brilliant's table changes its colour.
+
+#include "render/grade/scope_shares.h"
 
 namespace culet {
+
+/// At heights of 0.70 and 0.98 on the unit sphere: 44.4 and 78.5 degrees of elevation.
+ScopeBands diamond_webgl_bands();
 
 /// Found by bisection over round brilliants of index `n`, in degrees.
 double table_flip_deg(double n);
