@@ -7,8 +7,8 @@
 #include <functional>
 #include <memory>
 
+#include "render/optimize/largest_inside.h"
 #include "stone/errors.h"
-#include "stone/largest_inside.h"
 
 namespace culet {
 
