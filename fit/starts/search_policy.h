@@ -1,6 +1,6 @@
 #pragma once
 // How long the search for a start goes on, and how its stages lead to the stone. Private to the
-// room. The corpus (tests/bench/corpus_bench.cpp) tells what a change of these costs.
+// room. The corpus (bench/corpus_bench.cpp) tells what a change of these costs.
 
 #include <array>
 

@@ -177,7 +177,7 @@ void Starts::find_sides() {
         if (std::abs(as_up - as_down) > 6 * rough->tilt(f)) sides_[f] = as_up < as_down ? 1 : -1;
     }
     // Scanned girdles need it: without, 3 of 10 rough meshes of such were lost, and the others took
-    // four times as long (tests/bench/corpus_bench.cpp). Not where facets follow each other: those
+    // four times as long (bench/corpus_bench.cpp). Not where facets follow each other: those
     // that were not read have the sides of others.
     if (system_.exact_motions().empty())
         sides_ = closing_sides(system_, std::move(sides_), rough->corner());

@@ -23,7 +23,7 @@ constexpr double k_usual_width_mm = 6.5;
 /// Down through a brilliant of that width and up again, a little aslant: 2.2 times its depth of
 /// 0.61 widths. A convention: there are longer ways as well (13 to 19 mm in the mean where nothing
 /// absorbs, at 6.5 mm), but in coloured stones they bring little light, and one way of this length
-/// is near the mean of a picture face up (tests/bench/stone_colours.cpp).
+/// is near the mean of a picture face up (bench/stone_colours.cpp).
 double light_path_mm(double width_mm);
 
 struct StoneColour {

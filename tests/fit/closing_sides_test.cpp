@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "stone/checks.h"
-#include "tests/bench/fit_trials.h"
+#include "tests/fit/fit_trials.h"
 
 namespace culet {
 namespace {

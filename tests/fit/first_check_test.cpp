@@ -11,7 +11,7 @@
 
 #include "fit/findings/tier_findings.h"
 #include "stone/cuts/cuts.h"
-#include "tests/bench/cutters.h"
+#include "tests/fit/cutters.h"
 
 namespace culet {
 namespace {

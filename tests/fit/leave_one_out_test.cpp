@@ -8,7 +8,7 @@
 
 #include "stone/checks.h"
 #include "stone/units.h"
-#include "tests/bench/fit_trials.h"
+#include "tests/fit/fit_trials.h"
 
 namespace culet {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "stone/checks.h"
 #include "stone/cuts/cuts.h"
-#include "tests/bench/cutters.h"
-#include "tests/bench/fit_truth.h"
+#include "tests/fit/cutters.h"
+#include "tests/fit/fit_truth.h"
 
 namespace culet {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "fit/model/orbits.h"
 #include "fit/solve/caliper_turn.h"
-#include "tests/bench/fit_trials.h"
+#include "tests/fit/fit_trials.h"
 
 namespace culet {
 namespace {

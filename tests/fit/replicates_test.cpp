@@ -13,7 +13,7 @@
 #include "fit/starts/refit.h"
 #include "fit/uncertainty/diagnostics.h"
 #include "stone/units.h"
-#include "tests/bench/fit_truth.h"
+#include "tests/fit/fit_truth.h"
 
 namespace culet {
 namespace {

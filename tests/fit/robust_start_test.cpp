@@ -1,4 +1,4 @@
-// How far the fit may begin from the stone, in a quick form; tests/bench/fit_bench.cpp has the long
+// How far the fit may begin from the stone, in a quick form; bench/fit_bench.cpp has the long
 // one. Expected is what the fit finds when it begins from the truth itself.
 
 #include <gmock/gmock.h>
@@ -12,7 +12,7 @@
 #include "fit/model/canonical.h"
 #include "fit/starts/starts.h"
 #include "stone/checks.h"
-#include "tests/bench/fit_trials.h"
+#include "tests/fit/fit_trials.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {

@@ -6,7 +6,7 @@
 
 #include "fit/readings/measurement.h"
 #include "fit/solve/predicted_reduction.h"
-#include "tests/bench/fit_trials.h"
+#include "tests/fit/fit_trials.h"
 
 namespace culet {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "stone/checks.h"
-#include "tests/bench/fit_trials.h"
+#include "tests/fit/fit_trials.h"
 #include "tests/fit/test_stones.h"
 
 namespace culet {

@@ -55,7 +55,7 @@ TEST(CgalHeaders, AreOfTheAllowedList) {
     const fs::path source(CULET_SOURCE_DIR);
     int found = 0;
     for (const std::string room : {"stone", "page", "fit", "render", "viewer", "compare", "refine",
-                                   "app", "python", "tests", "examples", "samples"}) {
+                                   "app", "python", "tests", "bench", "examples", "samples"}) {
         for (const auto& entry : fs::recursive_directory_iterator(source / room)) {
             const auto extension = entry.path().extension();
             if (extension != ".h" && extension != ".cpp") continue;

@@ -136,6 +136,18 @@ TEST(Rooms, HaveFoldersThatIncludeEachOtherOneWay) {
     }
 }
 
+// Benches are built on demand: they may use the tests' helper files, and no test needs them.
+TEST(Rooms, AndTheirTestsNeedNoBench) {
+    const fs::path source(CULET_SOURCE_DIR);
+    for (const std::string folder : {"tests", "examples"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(source / folder)) {
+            if (!is_source(entry.path())) continue;
+            for (const std::string& header : includes_of(entry.path()))
+                EXPECT_FALSE(header.starts_with("bench/")) << entry.path() << ": " << header;
+        }
+    }
+}
+
 // Pages are made from template files (templates/*.html.mustache), which escape by default: no tag
 // stands in a string of the program. Drawings are SVG, made where they are computed; Mitsuba's
 // scenes are XML.

@@ -14,7 +14,7 @@
 #include "render/scene/settings_io.h"
 #include "render/scene/turntable.h"
 #include "stone/checks.h"
-#include "tests/bench/bench_scenes.h"
+#include "tests/render/bench_scenes.h"
 #include "tests/render/gpu/gpu_scenes.h"
 
 namespace culet {

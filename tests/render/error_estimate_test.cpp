@@ -25,7 +25,7 @@
 #include "render/planner/wavelengths.h"
 #include "render/render.h"
 #include "render/scene/light_presets.h"
-#include "tests/bench/plan_scenes.h"
+#include "tests/render/plan_scenes.h"
 
 namespace culet {
 

@@ -10,7 +10,7 @@
 #include "render/setup/optical_setup.h"
 #include "stone/errors.h"
 #include "stone/material_io.h"
-#include "tests/bench/bench_scenes.h"
+#include "tests/render/bench_scenes.h"
 #include "tests/render/carved_solids.h"
 
 namespace culet::test {
