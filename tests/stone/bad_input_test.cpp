@@ -42,26 +42,8 @@ std::vector<Format> formats() {
     }
     all.push_back({"asc", [](const std::string& bytes) { return parse_gemcad_asc(bytes).solid; },
                    read_text(committed_designs().front())});
-    // A cube as a .gem file: unit normals at distance 1, no corners.
-    std::string gem;
-    const auto add = [&](const auto& value) {
-        gem.append(reinterpret_cast<const char*>(&value), sizeof value);
-    };
-    for (const NamedPlane& p : cube_planes()) {
-        for (int axis = 0; axis < 3; ++axis) add(p.plane.normal[axis]);
-        add(std::int32_t{1});
-        gem.push_back(static_cast<char>(p.name.size()));
-        gem += p.name;
-        add(std::int32_t{0});
-    }
-    add(-99999.0);
-    for (const std::int32_t word : {4, 1, 96}) add(word);
-    add(1.54);
-    add(std::int32_t{32767});
-    add(0.0);
-    gem.append(8, '\0');
-    all.push_back(
-        {"gem", [](const std::string& bytes) { return parse_gemcad_gem(bytes).solid; }, gem});
+    all.push_back({"gem", [](const std::string& bytes) { return parse_gemcad_gem(bytes).solid; },
+                   gem_bytes(cube(), 96, 1.54)});
     return all;
 }
 

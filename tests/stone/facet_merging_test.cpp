@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "stone/checks.h"
+#include "stone/cuts/cuts.h"
 #include "stone/mesh_io.h"
 #include "stone/units.h"
 #include "tests/stone/synthetic_solids.h"
@@ -198,19 +199,24 @@ TEST(FacetMerging, SingleFacesOfAFlatSheetMergeToOneOutline) {
     EXPECT_NEAR(area(read.solid, read.solid.facets[0]), n * n * std::hypot(1, 0.25), 1e-6);
 }
 
-// Two files of another hand: planar to 5e-6 of the size, as their notes say, with these counts.
-TEST(FacetMerging, ForeignStl) {
-    const std::filesystem::path folder = CULET_SHARED_DATA "/meshes";
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no shared data at " << folder;
-    struct Case {
-        const char* name;
-        std::size_t planes, vertices;
-    };
-    for (const Case& c : {Case{"pc01346.stl", 91, 73}, Case{"simple_example.stl", 18, 32}}) {
-        const ReadSolid read = read_mesh(folder / c.name);
-        EXPECT_EQ(read.solid.facets.size(), c.planes) << c.name;
-        EXPECT_EQ(read.solid.vertices.size(), c.vertices) << c.name;
-        EXPECT_TRUE(is_closed(read.solid)) << c.name;
+// As other programs write a cut design: ASCII STL, six digits, every triangle by itself.
+TEST(FacetMerging, CutsInSixDigitsOfAsciiStl) {
+    for (const char* name : {"round-brilliant", "oval", "step", "princess"}) {
+        SCOPED_TRACE(name);
+        const Solid cut = make_cut(name);
+        std::string text = "solid design\n";
+        for (const Facet& facet : triangulated(cut).facets) {
+            text += "facet normal 0 0 0\nouter loop\n";
+            for (const int corner : facet.corners) {
+                const Vec3& v = cut.vertices[static_cast<std::size_t>(corner)];
+                text += fmt::format("vertex {:.5e} {:.5e} {:.5e}\n", v.x, v.y, v.z);
+            }
+            text += "endloop\nendfacet\n";
+        }
+        const ReadSolid read = parse_mesh(text + "endsolid design\n", MeshFormat::stl);
+        EXPECT_EQ(read.solid.facets.size(), cut.facets.size());
+        EXPECT_EQ(read.solid.vertices.size(), cut.vertices.size());
+        EXPECT_TRUE(is_closed(read.solid));
     }
 }
 

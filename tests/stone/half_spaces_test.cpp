@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <random>
 #include <set>
-#include <sstream>
+#include <tuple>
 
 #include "stone/checks.h"
+#include "stone/cuts/cuts.h"
 #include "stone/errors.h"
 #include "stone/solid.h"
 #include "tests/stone/synthetic_solids.h"
@@ -230,52 +230,45 @@ TEST(HalfSpaces, BadPlanesAreRefused) {
     EXPECT_THROW(intersect_half_spaces(planes), InputError);
 }
 
-// Two polished diamonds as a scanner's own program found their polyhedra: from its planes the same
-// counts of vertices, edges and facets must come, and the vertices that it states to 1e-12.
-TEST(HalfSpaces, PolyhedraOfAScanner) {
-    const std::filesystem::path folder = CULET_SHARED_DATA "/scans";
-    if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no shared data at " << folder;
-    for (const char* name : {"1_GIA", "Pear63"}) {
+// A cut as a scanner finds it: every plane off by microns, so that no four meet in one point. Then
+// three edges end at each corner (Euler: V = 2F - 4, E = 3F - 6), no plane cuts a corner off, and
+// each corner is where its three planes meet by Cramer's rule.
+TEST(HalfSpaces, CutsWhoseMeetsMissByMicrons) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> micron(-1e-4, 1e-4);
+    for (const char* name : {"round-brilliant", "pear"}) {
         SCOPED_TRACE(name);
-        std::ifstream file(folder / name / "polyhedron.dat");
-        std::stringstream text;
-        for (std::string line; std::getline(file, line);) {
-            if (line.empty() || line[0] != '#') text << line << '\n';
-        }
-        std::size_t vertex_count = 0, facet_count = 0, sides = 0;
-        text >> vertex_count >> facet_count >> sides;
-        std::vector<Vec3> vertices(vertex_count);
-        for (Vec3& v : vertices) {
-            int index = 0;
-            text >> index >> v.x >> v.y >> v.z;
-        }
         std::vector<NamedPlane> planes;
-        for (std::size_t f = 0; f < facet_count; ++f) {
-            int index = 0, corners = 0;
-            double d = 0;
-            NamedPlane plane;
-            Vec3& n = plane.plane.normal;
-            text >> index >> corners >> n.x >> n.y >> n.z >> d;
-            plane.name = numbered("s", index);
-            plane.plane.offset = -d;
-            planes.push_back(plane);
-            // The corners, and the first one again in brackets.
-            std::string word;
-            for (int k = 0; k <= corners; ++k) text >> word;
+        for (const Facet& facet : make_cut(name).facets) {
+            Plane plane = facet.plane;
+            for (int axis = 0; axis < 3; ++axis) plane.normal[axis] += micron(random);
+            plane.normal = glm::normalize(plane.normal);
+            plane.offset += micron(random);
+            planes.push_back({facet.name, plane});
         }
-        ASSERT_TRUE(text);
         const HalfSpaceSolid result = intersect_half_spaces(planes);
-        EXPECT_EQ(result.solid.vertices.size(), vertex_count);
-        EXPECT_EQ(result.solid.facets.size(), facet_count);
-        EXPECT_EQ(edge_count(result.solid), static_cast<int>(sides / 2));
+        const std::size_t facets = planes.size();
+        ASSERT_EQ(result.solid.facets.size(), facets);
+        EXPECT_EQ(result.solid.vertices.size(), 2 * facets - 4);
+        EXPECT_EQ(edge_count(result.solid), static_cast<int>(3 * facets - 6));
         EXPECT_TRUE(is_convex(result.solid));
-        for (const Vec3& v : result.solid.vertices) {
-            double nearest = 1;
-            for (const Vec3& stated : vertices) {
-                nearest = std::min(nearest, glm::length(v - stated));
-            }
-            // Nearly parallel planes spread the rounding of their coefficients (1e-12).
-            EXPECT_LT(nearest, 1e-7);
+        std::vector<std::vector<Plane>> of_corner(result.solid.vertices.size());
+        for (const Facet& facet : result.solid.facets) {
+            for (const int corner : facet.corners)
+                of_corner[static_cast<std::size_t>(corner)].push_back(facet.plane);
+        }
+        for (std::size_t i = 0; i < of_corner.size(); ++i) {
+            const Vec3& v = result.solid.vertices[i];
+            for (const NamedPlane& p : planes)
+                EXPECT_LT(glm::dot(p.plane.normal, v) - p.plane.offset, 1e-9) << p.name;
+            ASSERT_EQ(of_corner[i].size(), 3u);
+            const auto& [a, b, c] = std::tie(of_corner[i][0], of_corner[i][1], of_corner[i][2]);
+            const Vec3 bc = glm::cross(b.normal, c.normal);
+            const Vec3 meet = (a.offset * bc + b.offset * glm::cross(c.normal, a.normal) +
+                               c.offset * glm::cross(a.normal, b.normal)) /
+                              glm::dot(a.normal, bc);
+            // Nearly parallel planes spread the rounding of their coefficients (1e-16).
+            EXPECT_LT(glm::length(v - meet), 1e-9);
         }
     }
 }

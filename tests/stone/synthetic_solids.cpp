@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <random>
 
 namespace culet::test {
-
-namespace {
 
 std::vector<std::filesystem::path> designs_in(const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> files;
@@ -20,8 +19,6 @@ std::vector<std::filesystem::path> designs_in(const std::filesystem::path& folde
     std::sort(files.begin(), files.end());
     return files;
 }
-
-}  // namespace
 
 std::string numbered(const char* word, int number) {
     std::string name = word;
@@ -120,8 +117,24 @@ std::vector<std::filesystem::path> committed_designs() {
     return designs_in(CULET_SOURCE_DIR "/tests/stone/designs");
 }
 
-std::vector<std::filesystem::path> shared_designs() {
-    return designs_in(CULET_SHARED_DATA "/designs");
+std::string gem_bytes(const Solid& solid, int gear, double refractive_index) {
+    std::string gem;
+    const auto add = [&](const auto& value) {
+        gem.append(reinterpret_cast<const char*>(&value), sizeof value);
+    };
+    for (const Facet& facet : solid.facets) {
+        for (int axis = 0; axis < 3; ++axis) add(facet.plane.normal[axis] / facet.plane.offset);
+        add(std::int32_t{1});
+        gem.push_back(static_cast<char>(facet.name.size()));
+        gem += facet.name;
+        add(std::int32_t{0});
+    }
+    add(-99999.0);
+    for (const std::int32_t word : {4, 1, gear}) add(word);
+    add(refractive_index);
+    add(std::int32_t{32767});
+    add(0.0);
+    return gem.append(8, '\0');
 }
 
 void write_bytes(const std::filesystem::path& file, const std::string& bytes) {

@@ -36,9 +36,12 @@ Solid turned_inside_out(const Solid& solid);
 /// same name; infinite when the names differ.
 double plane_difference(const Solid& a, const Solid& b);
 
-/// `.asc` designs of the repository, and those beside it where they are.
+/// The `.asc` designs in a folder, and those of the repository.
+std::vector<std::filesystem::path> designs_in(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> committed_designs();
-std::vector<std::filesystem::path> shared_designs();
+
+/// A GemCad `.gem` file of the solid's planes, without corners; mirrored, of order 4.
+std::string gem_bytes(const Solid& solid, int gear, double refractive_index);
 
 void write_bytes(const std::filesystem::path& file, const std::string& bytes);
 
